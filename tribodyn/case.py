@@ -58,7 +58,7 @@ class BodyMass:
 
 @dataclass(frozen=True)
 class LubricantData:
-    """What the mixed-EHL friction law needs to know of the lubricant (and of its contact with the asperities).
+    """What the mixed-EHL friction law needs to know of the lubricant and of its asperities.
 
     Parameters
     ----------
@@ -215,7 +215,7 @@ class FrictionData:
 
 @dataclass(frozen=True)
 class SolverData:
-    """How the equations are solved: method, relative tolerance, mesh cycles, steps allowed per cycle, start."""
+    """Method, relative tolerance, mesh cycles to run, steps allowed per cycle, and where the run starts."""
 
     method: str = "auto"
     rtol: float = 1e-6
