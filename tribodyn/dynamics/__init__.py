@@ -1,0 +1,1 @@
+"""Equations of motion over a mesh cycle, and what is recorded of them."""

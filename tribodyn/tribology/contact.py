@@ -1,0 +1,58 @@
+"""What the closures need to know of the two surfaces and the lubricant, and the Hertz line contact."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.elementary import law, sqrt
+
+
+class Contact(NamedTuple):
+    """Surfaces, lubricant and the parameters of the friction law in use; floats, SI.
+
+    Attributes
+    ----------
+    effective_modulus : E', 1/E' = ½[(1 − ν1²)/E1 + (1 − ν2²)/E2], Pa
+    hardness : Vickers hardness H_v of the softer surface, Pa
+    roughness : composite rms roughness σ, m
+    asperity_friction : friction coefficient f_c of touching asperities
+    limiting_shear_coefficient : Λ_lim, limiting shear stress over pressure
+    inlet_viscosity : η0, Pa·s
+    pressure_viscosity : α_PV, 1/Pa
+    viscosity_pressure_index : Roelands' z
+    temperature_viscosity : K_T, 1/K
+    pinion_conductivity, gear_conductivity : W/(m K)
+    pinion_heat_capacity, gear_heat_capacity : per volume ρ_s c_p of the solids, J/(m³ K)
+    coulomb_coefficient : friction coefficient of the Coulomb law
+    asperity_log_factor : the factor inside the logarithm of the asperity load ratio, 4470
+    limiting_share : 1: the limiting shear stress follows the pressure on the fluid, p(1 − λ); 0: the whole p
+    """
+
+    effective_modulus: Any
+    hardness: Any
+    roughness: Any
+    asperity_friction: Any
+    limiting_shear_coefficient: Any
+    inlet_viscosity: Any
+    pressure_viscosity: Any
+    viscosity_pressure_index: Any
+    temperature_viscosity: Any
+    pinion_conductivity: Any
+    gear_conductivity: Any
+    pinion_heat_capacity: Any
+    gear_heat_capacity: Any
+    coulomb_coefficient: Any
+    asperity_log_factor: Any
+    limiting_share: Any
+
+
+@law
+def hertz_half_width(line_load, curvature, effective_modulus):
+    """Half width a_H = √(8 w' ρ/(π E')) of a line contact, m (Johnson, Contact Mechanics, ch. 4)."""
+    return sqrt(8.0 * line_load / (np.pi * effective_modulus * curvature))
+
+
+@law
+def hertz_pressure(line_load, curvature, effective_modulus):
+    """Greatest Hertz pressure p_H = √(w' E'/(2π ρ)), Pa."""
+    return sqrt(line_load * effective_modulus * curvature / (2.0 * np.pi))

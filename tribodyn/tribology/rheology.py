@@ -1,0 +1,27 @@
+"""Viscosity and limiting shear stress of the lubricant in the contact."""
+
+from tribodyn.elementary import exp, law, log, log1p, maximum, minimum
+
+#: Above this the exponential overflows; 1 − exp(−η …) has long reached 1.
+GREATEST_EXPONENT = 600.0
+
+
+@law
+def roelands_viscosity(pressure, temperature_rise, inlet_viscosity, index, temperature_coefficient):
+    """Average viscosity in the contact, Pa·s.
+
+    η = η0 exp{(ln η0 + 9.67) [−1 + (1 + 5.1e-9 p)^z] − K_T ΔT}, Roelands (1966); Liu & Ni (21). The exponent is
+    clipped (near a cycloid's pitch point the Hertz pressure diverges).
+    """
+    rise = exp(index * log1p(5.1e-9 * pressure)) - 1.0
+    exponent = (log(inlet_viscosity) + 9.67) * rise - temperature_coefficient * temperature_rise
+    return inlet_viscosity * exp(maximum(minimum(exponent, GREATEST_EXPONENT), -GREATEST_EXPONENT))
+
+
+@law
+def limiting_shear_stress(pressure, asperity_share, coefficient, limiting_share):
+    """Shear stress that the fluid cannot exceed, τ_lim = Λ_lim p (1 − λ), Pa; Liu & Ni (20).
+
+    With `limiting_share` 0 it is Λ_lim p: the variant that brings Liu & Ni's friction levels closest.
+    """
+    return coefficient * pressure * (1.0 - limiting_share * asperity_share)
