@@ -1,0 +1,266 @@
+"""State of every tooth contact: approach, elastic and normal load, film, friction.
+
+Written once for all compilers: `work` is whatever takes `work[quantity, slot] = value`: a 2-D array in the
+native kernel, a dict everywhere else, so that the same lines run on floats, on arrays over time and under
+JAX tracing.
+"""
+
+from tribodyn.dynamics.parameters import (
+    HERTZ_POWER_LAW,
+    SLIDING_DYNAMIC,
+    SLIP,
+    VX_G,
+    VX_P,
+    VY_G,
+    VY_P,
+    X_G,
+    X_P,
+    XI,
+    XI_RATE,
+    Y_G,
+    Y_P,
+)
+from tribodyn.dynamics.smooth import positive_part, positive_part_integral, power_law_force, ramp, sign
+from tribodyn.elementary import cos, law, maximum, sin, sqrt, where
+from tribodyn.tribology.friction import friction
+
+# Quantities of one contact, rows of `work`.
+ANGLE = 0  # pressure angle α, rad
+DISTANCE = 1  # signed distance r from the pitch point, m
+CURVATURE = 2  # relative curvature 1/ρ, 1/m
+PINION_SPEED = 3  # speed along the pinion flank, m/s
+GEAR_SPEED = 4
+COMPLIANCE = 5  # of the pair, without the load-dependent Hertz contact, m/N
+APPROACH = 6  # δ, m
+APPROACH_RATE = 7  # dδ/dt, m/s
+APPROACH_SLOPE = 8  # ∂δ/∂φ at fixed coordinates, m/rad
+COMPLIANCE_SLOPE = 9  # dC/dφ, m/(N rad)
+EFFECTIVE_APPROACH = 10  # δ less what the loads on neighbouring pairs deflect, m
+ELASTIC_LOAD = 11  # N
+NORMAL_LOAD = 12  # elastic and damping, N
+STIFFNESS = 13  # of one pair at its load, N/m
+SLIDING = 14  # sliding velocity, pinion less gear, along t, m/s
+RELATIVE_VELOCITY = 15  # the same with the vibration, m/s
+FRICTION_FORCE = 16  # on the pinion along +t, N
+FRICTION_COEFFICIENT = 17
+ASPERITY_SHARE = 18
+FILM = 19  # central film thickness, m
+TEMPERATURE_RISE = 20  # K
+PRESSURE = 21  # greatest Hertz pressure, Pa
+IN_RANGE = 22
+COS = 23
+SIN = 24
+TRANSMISSION_ERROR = 25  # along the pair's normal, gap not subtracted, m
+QUANTITIES = 26
+
+# Channels of mesh_cycle.Polynomials.channel.
+_ANGLE, _DISTANCE, _CURVATURE, _SPEED, _COMPLIANCE, _GAP = range(6)
+
+
+@law
+def cubic(c, segment, cell, slot, channel, u):
+    """Value at u ∈ [0, 1] of one channel's spline in a cell."""
+    return c[segment, cell, slot, channel, 0] + u * (
+        c[segment, cell, slot, channel, 1]
+        + u * (c[segment, cell, slot, channel, 2] + u * c[segment, cell, slot, channel, 3])
+    )
+
+
+@law
+def cubic_slope(c, segment, cell, slot, channel, u):
+    """Its derivative with respect to u."""
+    return c[segment, cell, slot, channel, 1] + u * (
+        2.0 * c[segment, cell, slot, channel, 2] + 3.0 * u * c[segment, cell, slot, channel, 3]
+    )
+
+
+@law
+def approach(segment, cell, u, cells_per_radian, y, model, work):
+    """Fill `work` with geometry, approach and its rates for every slot.
+
+    δ = (ξ + x_p − x_g) cos α + (y_p − y_g) sin α − gap; back flanks live in the mirrored world, where x
+    and rotations change sign.
+    """
+    table = model.table
+    pinion_speed = model.mechanics.nominal_speed + y[SLIP]
+    ratio = table.pinion_pitch_radius / table.gear_pitch_radius
+    for i in range(table.side.shape[0]):
+        side = table.side[i]
+        c = table.channel
+        angle = cubic(c, segment, cell, i, _ANGLE, u)
+        cosine = cos(angle)
+        sine = sin(angle)
+        along = side * (y[XI] + y[X_P] - y[X_G])
+        across = y[Y_P] - y[Y_G]
+        along_rate = side * (y[XI_RATE] + y[VX_P] - y[VX_G])
+        across_rate = y[VY_P] - y[VY_G]
+        error = along * cosine + across * sine
+        slope = (across * cosine - along * sine) * cubic_slope(c, segment, cell, i, _ANGLE, u)
+        slope = (slope - cubic_slope(c, segment, cell, i, _GAP, u)) * cells_per_radian
+        distance = cubic(c, segment, cell, i, _DISTANCE, u)
+        flank_speed = cubic(c, segment, cell, i, _SPEED, u)
+        lever_p = distance + table.pinion_pitch_radius * sine
+        lever_g = table.gear_pitch_radius * sine - distance
+        gear_speed = ratio * pinion_speed - y[XI_RATE] / table.gear_pitch_radius
+
+        work[ANGLE, i] = angle
+        work[COS, i] = cosine
+        work[SIN, i] = sine
+        work[DISTANCE, i] = distance
+        work[CURVATURE, i] = cubic(c, segment, cell, i, _CURVATURE, u)
+        work[PINION_SPEED, i] = side * pinion_speed * flank_speed
+        work[GEAR_SPEED, i] = side * pinion_speed * (flank_speed - (1.0 + ratio) * distance)
+        work[COMPLIANCE, i] = cubic(c, segment, cell, i, _COMPLIANCE, u)
+        work[COMPLIANCE_SLOPE, i] = cubic_slope(c, segment, cell, i, _COMPLIANCE, u) * cells_per_radian
+        work[TRANSMISSION_ERROR, i] = error
+        work[APPROACH, i] = error - cubic(c, segment, cell, i, _GAP, u)
+        work[APPROACH_SLOPE, i] = slope
+        work[APPROACH_RATE, i] = along_rate * cosine + across_rate * sine + slope * pinion_speed
+        work[SLIDING, i] = side * pinion_speed * (1.0 + ratio) * distance
+        work[RELATIVE_VELOCITY, i] = (
+            side * (pinion_speed * lever_p - gear_speed * lever_g)
+            + sine * side * (y[VX_P] - y[VX_G])
+            - cosine * across_rate
+        )
+
+
+@law
+def coupling(segment, cell, u, i, j, model):
+    """Deflection of the pair in slot i per load on slot j, m/N."""
+    return cubic(model.table.coupling, segment, cell, i, j, u)
+
+
+@law
+def elastic_loads(segment, cell, u, model, work):
+    """Elastic load of every pair, never tensile, with the pairs coupled through the bodies.
+
+    Solves δ_i = C_ii F_i + Σ_j C_ij F_j, F ≥ 0 by projected Gauss-Seidel sweeps; the coupling is weak
+    (each sweep reduces the error by (C_ij/C_ii)²), so `options.sweeps` of them reach rounding.
+    """
+    pairs = model.table.side.shape[0]
+    mechanics = model.mechanics
+    coefficient = model.table.hertz_coefficient
+    for i in range(pairs):
+        work[ELASTIC_LOAD, i] = 0.0 * work[APPROACH, i]
+    for _ in range(model.options.sweeps):
+        for i in range(pairs):
+            free = work[APPROACH, i]
+            for j in range(pairs):
+                if j != i:
+                    free = free - coupling(segment, cell, u, i, j, model) * work[ELASTIC_LOAD, j]
+            deflection = positive_part(free, mechanics.contact_width)
+            compliance = work[COMPLIANCE, i]
+            if model.options.hertz == HERTZ_POWER_LAW:
+                load = power_law_force(deflection, compliance, coefficient)
+                root = (maximum(load, 1e-6)) ** -0.1
+                work[STIFFNESS, i] = 1.0 / (compliance + 0.9 * coefficient * root)
+            else:
+                load = deflection / compliance
+                work[STIFFNESS, i] = 1.0 / compliance
+            work[EFFECTIVE_APPROACH, i] = free
+            work[ELASTIC_LOAD, i] = model.table.in_contact[segment, i] * load
+
+
+@law
+def contact_forces(segment, cell, u, cells_per_radian, y, model, work):
+    """Fill `work` with everything about every contact.
+
+    Parameters
+    ----------
+    segment, cell : int
+        Where in the mesh cycle's table; the segment is given, never derived from the phase.
+    u : float
+        Position in the cell, 0 … 1.
+    cells_per_radian : float
+        Cells of the table per radian of pinion rotation in this segment.
+    y : (STATES,)
+        State, see `parameters`.
+    model : Model
+    work : mapping
+        Receives `work[quantity, slot]`.
+    """
+    approach(segment, cell, u, cells_per_radian, y, model, work)
+    elastic_loads(segment, cell, u, model, work)
+    mechanics = model.mechanics
+    table = model.table
+    ratio = table.pinion_pitch_radius / table.gear_pitch_radius
+    reversal_speed = (1.0 + ratio) * mechanics.reversal_width * mechanics.nominal_speed
+    for i in range(table.side.shape[0]):
+        stiffness = work[STIFFNESS, i]
+        engaged = ramp(work[EFFECTIVE_APPROACH, i] / mechanics.contact_width)
+        damping = mechanics.mesh_damping * sqrt(stiffness) * work[APPROACH_RATE, i]
+        load = work[ELASTIC_LOAD, i] + table.in_contact[segment, i] * engaged * damping
+        load = positive_part(load, mechanics.contact_width * stiffness)
+        if model.options.sliding == SLIDING_DYNAMIC:
+            sliding = work[RELATIVE_VELOCITY, i]
+        else:
+            sliding = work[SLIDING, i]
+        speed_p = work[PINION_SPEED, i]
+        speed_g = work[GEAR_SPEED, i]
+        coefficient, share, film, temperature, pressure, valid = friction(
+            model.options.friction_law,
+            load / table.face_width,
+            work[CURVATURE, i],
+            0.5 * (speed_p + speed_g),
+            sliding,
+            speed_p,
+            speed_g,
+            model.contact,
+        )
+        work[NORMAL_LOAD, i] = load
+        work[FRICTION_COEFFICIENT, i] = coefficient
+        work[FRICTION_FORCE, i] = coefficient * load * sign(sliding / reversal_speed)
+        work[ASPERITY_SHARE, i] = share
+        work[FILM, i] = film
+        work[TEMPERATURE_RISE, i] = temperature
+        work[PRESSURE, i] = pressure
+        work[IN_RANGE, i] = valid
+
+
+@law
+def pair_energy(i, model, work):
+    """Strain energy of one pair without the coupling, J."""
+    compliance = work[COMPLIANCE, i]
+    load = work[ELASTIC_LOAD, i]
+    if model.options.hertz == HERTZ_POWER_LAW:
+        coefficient = model.table.hertz_coefficient
+        energy = 0.5 * compliance * load * load + coefficient * 0.9 / 1.9 * maximum(load, 1e-9) ** 1.9
+    else:
+        width = model.mechanics.contact_width
+        energy = positive_part_integral(work[EFFECTIVE_APPROACH, i], width) / compliance
+    return where(load > 0.0, energy, 0.0)
+
+
+@law
+def mesh_energy(segment, cell, u, model, work):
+    """Strain energy V of all contacts, J, after `elastic_loads`."""
+    pairs = model.table.side.shape[0]
+    energy = 0.0
+    for i in range(pairs):
+        energy = energy + pair_energy(i, model, work)
+        for j in range(i):
+            cross = coupling(segment, cell, u, i, j, model)
+            energy = energy + cross * work[ELASTIC_LOAD, i] * work[ELASTIC_LOAD, j]
+    return energy
+
+
+@law
+def parametric_torque(segment, cell, u, cells_per_radian, model, work):
+    """Torque ∂V/∂φ at fixed coordinates that the classical equations leave out, N m.
+
+    Σ (½ k_i' δ_i² + F_i ∂δ_i/∂φ) with the coupling's share (Oh, Grosh & Barber 2005); the damping part of
+    F_i belongs to it, so that damping dissipates c_i δ_i'² and nothing else.
+    """
+    pairs = model.table.side.shape[0]
+    torque = 0.0
+    for i in range(pairs):
+        load = work[ELASTIC_LOAD, i]
+        if model.options.hertz == HERTZ_POWER_LAW:
+            stored = 0.5 * load * load
+        else:
+            stored = pair_energy(i, model, work) / work[COMPLIANCE, i]
+        torque = torque - stored * work[COMPLIANCE_SLOPE, i] + work[NORMAL_LOAD, i] * work[APPROACH_SLOPE, i]
+        for j in range(i):
+            slope = cubic_slope(model.table.coupling, segment, cell, i, j, u) * cells_per_radian
+            torque = torque - slope * load * work[ELASTIC_LOAD, j]
+    return torque

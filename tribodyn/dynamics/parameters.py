@@ -1,0 +1,120 @@
+"""State layout and parameters of the six-degree-of-freedom model.
+
+The independent variable is the phase of the mesh in mesh cycles, i.e. the pinion's actual rotation over its
+pitch angle, so that engagement falls on exactly known values whatever the speed does. The state holds
+coordinates that stay small: the pinion's rotation is replaced by the time lag it takes, the gear's by the
+rotational transmission error. Five more states integrate the works of the energy audit.
+"""
+
+from typing import Any, NamedTuple
+
+#: Translations of pinion and gear, m: x along the pitch tangent in the direction of motion at the pitch
+#: point, y along the line of centres from pinion to gear.
+X_P, Y_P, X_G, Y_G = 0, 1, 2, 3
+#: Time less nominal time at this phase, s.
+LAG = 4
+#: Rotational transmission error r_p θ_p − r_g θ_g, m.
+XI = 5
+#: Twist of the drive shaft, motor less pinion, rad.
+TWIST = 6
+#: Translational velocities, m/s.
+VX_P, VY_P, VX_G, VY_G = 7, 8, 9, 10
+#: Pinion speed less nominal speed, rad/s.
+SLIP = 11
+#: Rate of the rotational transmission error, m/s.
+XI_RATE = 12
+#: Motor speed less nominal speed, rad/s.
+MOTOR_SLIP = 13
+#: Works since the start, J: by the drive, on the load, lost to tooth friction, lost to damping, and done by
+#: the change of stiffness and geometry with phase.
+WORK_IN, WORK_OUT, WORK_FRICTION, WORK_DAMPING, WORK_PARAMETRIC = 14, 15, 16, 17, 18
+STATES = 19
+#: States that the mechanics depend on; the rest are the audit's.
+MECHANICAL = 14
+
+DRIVE_SPEED = 0
+DRIVE_TORQUE = 1
+DRIVE_SHAFT = 2
+
+CLASSICAL = 0
+ENERGY_CONSISTENT = 1
+
+SLIDING_KINEMATIC = 0
+SLIDING_DYNAMIC = 1
+
+HERTZ_IN_TABLE = 0
+HERTZ_POWER_LAW = 1
+
+
+class Options(NamedTuple):
+    """What is switched, as integers: static for JAX, read at run time by the native kernel."""
+
+    friction_law: int
+    sliding: int = SLIDING_KINEMATIC
+    formulation: int = CLASSICAL
+    drive: int = DRIVE_SPEED
+    hertz: int = HERTZ_IN_TABLE
+    sweeps: int = 1
+
+
+class Mechanics(NamedTuple):
+    """Numbers of the mechanical model, SI; a pytree, so that no number is compiled in.
+
+    Attributes
+    ----------
+    pinion_mass, gear_mass : kg
+    pinion_inertia, gear_inertia : kg m², with whatever turns rigidly with the body
+    *_stiffness_x, *_stiffness_y : shaft and bearing stiffness, N/m
+    *_damping_x, *_damping_y : shaft and bearing damping, N s/m
+    mesh_damping : 2 ζ √J_e', so that c_i = mesh_damping √k_i; √kg
+    contact_width : approach over which contact force and damping set in, m
+    reversal_width : distance along the path about the pitch point over which friction reverses, m
+    nominal_speed : pinion, rad/s
+    drive_torque : motor torque at nominal speed, N m
+    speed_regulation : fall of the motor torque per speed above nominal, N m s/rad
+    drive_inertia : motor side of the shaft, kg m² (with `DRIVE_SHAFT`; else part of pinion_inertia)
+    shaft_stiffness, shaft_damping : N m/rad, N m s/rad
+    load_torque : constant part of the torque on the gear, N m
+    load_damping : rise of the load torque per gear speed above nominal, N m s/rad
+    load_times, load_torques, load_slopes : (T,) knots of a C1 load torque over time, added to load_torque
+    load_amplitudes, load_frequencies, load_phases : (H,) harmonics of the load torque, N m, rad/s, rad
+    """
+
+    pinion_mass: Any
+    gear_mass: Any
+    pinion_inertia: Any
+    gear_inertia: Any
+    pinion_stiffness_x: Any
+    pinion_stiffness_y: Any
+    gear_stiffness_x: Any
+    gear_stiffness_y: Any
+    pinion_damping_x: Any
+    pinion_damping_y: Any
+    gear_damping_x: Any
+    gear_damping_y: Any
+    mesh_damping: Any
+    contact_width: Any
+    reversal_width: Any
+    nominal_speed: Any
+    drive_torque: Any
+    speed_regulation: Any
+    drive_inertia: Any
+    shaft_stiffness: Any
+    shaft_damping: Any
+    load_torque: Any
+    load_damping: Any
+    load_times: Any
+    load_torques: Any
+    load_slopes: Any
+    load_amplitudes: Any
+    load_frequencies: Any
+    load_phases: Any
+
+
+class Model(NamedTuple):
+    """All that the right-hand side needs: table, mechanics, contact, and what is switched."""
+
+    table: Any  # mesh_cycle.Polynomials
+    mechanics: Mechanics
+    contact: Any  # tribology.contact.Contact
+    options: Options
