@@ -1,0 +1,83 @@
+"""A gear drive as numbers: module, pressure angle and two bodies."""
+
+from typing import Any, Literal, NamedTuple
+
+Side = Literal["pinion", "gear"]
+SIDES: tuple[Side, Side] = ("pinion", "gear")
+
+# Every field may be a float or a JAX tracer; a drive is a pytree.
+Number = Any
+
+
+class GearBody(NamedTuple):
+    """One gear of the drive, external and spur.
+
+    Parameters
+    ----------
+    teeth : float
+        Number of teeth.
+    profile_shift : float
+        Shift of the rack away from the axis, in modules (involute only).
+    addendum, dedendum : float
+        Tooth height above and below the shifted reference line, in modules.
+    fillet_radius : float
+        Radius of the rack's rounded tip, in modules.
+    face_width : float
+        Width of the teeth along the axis, m.
+    bore_radius : float
+        Radius of the bore, m; 0 for a solid body.
+    tip_radius : float, optional
+        Radius of the tip circle, m, where it is not r + (addendum + profile shift) × module.
+    """
+
+    teeth: Number
+    profile_shift: Number
+    addendum: Number
+    dedendum: Number
+    fillet_radius: Number
+    face_width: Number
+    bore_radius: Number
+    tip_radius: Number = None
+
+
+class Drive(NamedTuple):
+    """A gear pair.
+
+    Parameters
+    ----------
+    module : float
+        Reference pitch diameter over number of teeth, m.
+    pressure_angle : float
+        rad; of the rack for the involute, at the pitch point for the CRC family.
+    pinion, gear : GearBody
+        The driver and the driven gear.
+    """
+
+    module: Number
+    pressure_angle: Number
+    pinion: GearBody
+    gear: GearBody
+
+
+def body_of(drive: Drive, side: Side) -> GearBody:
+    """Return the pinion or the gear of the drive."""
+    return drive.pinion if side == "pinion" else drive.gear
+
+
+def reference_radius(drive: Drive, side: Side) -> Number:
+    """Radius of the circle that rolls with the rack: module × teeth / 2, m."""
+    return drive.module * body_of(drive, side).teeth / 2
+
+
+def tip_radius(drive: Drive, side: Side) -> Number:
+    """Radius of the tip circle, m: m (z/2 + x + h_a*) unless the body overrides it."""
+    body = body_of(drive, side)
+    if body.tip_radius is not None:
+        return body.tip_radius
+    return reference_radius(drive, side) + drive.module * (body.addendum + body.profile_shift)
+
+
+def root_radius(drive: Drive, side: Side) -> Number:
+    """Radius of the root circle that the rack's tip line leaves, m: m (z/2 + x − h_f*)."""
+    body = body_of(drive, side)
+    return reference_radius(drive, side) + drive.module * (body.profile_shift - body.dedendum)

@@ -1,0 +1,237 @@
+"""The path of contact, and everything about a gear pair that follows from it alone.
+
+Frame: origin P, the pitch point; x along the common pitch tangent, the way both flanks move at P; y along
+the line of centres, the pinion's axis at (0, −r_p), the gear's at (0, +r_g). A contact point is
+C = r (cos α, sin α) with the signed distance r (r < 0 approach, r > 0 recess) and the pressure angle α(r) in
+(0, π/2). The pinion turns by φ from φ = 0 at P, and meshing demands dr/dφ = r_p cos α.
+"""
+
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+
+from tribodyn.elementary import cos, namespace, sin, sqrt
+from tribodyn.geometry.drive import Side
+
+Array = Any
+
+# Twenty Gauss-Legendre points resolve 1/(r_p cos α) from P to any contact to rounding (test_geometry_path).
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)
+_NODES, _WEIGHTS = (1 + _NODES) / 2, _WEIGHTS / 2
+# Newton starts within a few per cent of the root, so that the error is at rounding after five steps.
+_NEWTON_STEPS = 8
+
+
+class Path(Protocol):
+    """A path of contact: α as a function of r, and the pinion angle that belongs to it."""
+
+    @property
+    def pinion_pitch_radius(self) -> Any:
+        """Working pitch radius of the pinion, m."""
+        ...
+
+    @property
+    def gear_pitch_radius(self) -> Any:
+        """Working pitch radius of the gear, m."""
+        ...
+
+    def pressure_angle(self, r: Array) -> Array:
+        """Pressure angle α at the signed distance r (m), rad."""
+        ...
+
+    def pressure_angle_slope(self, r: Array) -> Array:
+        """Slope dα/dr, rad/m."""
+        ...
+
+    def rotation(self, r: Array) -> Array:
+        """Pinion angle φ at the signed distance r, rad; 0 at the pitch point."""
+        ...
+
+    def signed_distance(self, rotation: Array) -> Array:
+        """Signed distance r (m) at the pinion angle φ (rad): the inverse of `rotation`."""
+        ...
+
+
+class Kinematics(NamedTuple):
+    """State of the contact at each signed distance; every field is shaped like r.
+
+    Parameters
+    ----------
+    signed_distance, pressure_angle : array
+        r (m) and α (rad).
+    pinion_normal_arm, gear_normal_arm : array
+        Arms of the normal load about the axes, r_p cos α and r_g cos α, m.
+    pinion_friction_arm, gear_friction_arm : array
+        Arms of the friction force, r + r_p sin α and r_g sin α − r, m.
+    pinion_curvature, gear_curvature : array
+        Curvatures of the flanks, 1/m, convex > 0. Curvature and not radius, because a radius is infinite
+        where a flank is straight.
+    relative_curvature : array
+        Their sum, one over the equivalent radius, 1/m.
+    pinion_speed, gear_speed : array
+        Speeds of the contact along each flank, m per radian of pinion rotation.
+    entrainment, sliding : array
+        Half the sum and the difference of the two, m per radian.
+    """
+
+    signed_distance: Array
+    pressure_angle: Array
+    pinion_normal_arm: Array
+    gear_normal_arm: Array
+    pinion_friction_arm: Array
+    gear_friction_arm: Array
+    pinion_curvature: Array
+    gear_curvature: Array
+    relative_curvature: Array
+    pinion_speed: Array
+    gear_speed: Array
+    entrainment: Array
+    sliding: Array
+
+
+def kinematics(path: Path, r: Array) -> Kinematics:
+    """Lever arms, curvatures and speeds at the signed distances r (m).
+
+    With κ = dα/dφ and w = r_p/r_g: ρ_p = r + r_p sin α/(1 + κ), ρ_g = r_p sin α/(w − κ) − r,
+    u_p = ω_p (rκ + r + r_p sin α), u_g = ω_p (rκ + w (r_g sin α − r)), so that u_p = ω_p ρ_p (1 + κ) and
+    u_g = ω_p ρ_g (w − κ). The r κ term is the motion of the contact itself and vanishes for the involute.
+    """
+    alpha = path.pressure_angle(r)
+    pinion_normal_arm = path.pinion_pitch_radius * cos(alpha)
+    ratio = path.pinion_pitch_radius / path.gear_pitch_radius
+    kappa = pinion_normal_arm * path.pressure_angle_slope(r)
+    pinion_friction_arm = r + path.pinion_pitch_radius * sin(alpha)
+    gear_friction_arm = path.gear_pitch_radius * sin(alpha) - r
+    pinion_speed = pinion_friction_arm + r * kappa
+    gear_speed = ratio * gear_friction_arm + r * kappa
+    pinion_curvature = (1 + kappa) / pinion_speed
+    gear_curvature = (ratio - kappa) / gear_speed
+    return Kinematics(
+        signed_distance=r,
+        pressure_angle=alpha,
+        pinion_normal_arm=pinion_normal_arm,
+        gear_normal_arm=path.gear_pitch_radius * cos(alpha),
+        pinion_friction_arm=pinion_friction_arm,
+        gear_friction_arm=gear_friction_arm,
+        pinion_curvature=pinion_curvature,
+        gear_curvature=gear_curvature,
+        relative_curvature=pinion_curvature + gear_curvature,
+        pinion_speed=pinion_speed,
+        gear_speed=gear_speed,
+        entrainment=(pinion_speed + gear_speed) / 2,
+        sliding=pinion_speed - gear_speed,
+    )
+
+
+def position(path: Path, r: Array) -> tuple[Array, Array]:
+    """Contact point (x, y) in the fixed frame, m."""
+    alpha = path.pressure_angle(r)
+    return r * cos(alpha), r * sin(alpha)
+
+
+def radius(path: Path, r: Array) -> Array:
+    """Distance of the contact point from the pinion's axis, m."""
+    r_p = path.pinion_pitch_radius
+    return sqrt(r**2 + 2 * r_p * r * sin(path.pressure_angle(r)) + r_p**2)
+
+
+def distance_at_radius(path: Path, pinion_radius: Array) -> Array:
+    """Signed distance r (m) at which the contact is at `pinion_radius` (m) from the pinion's axis.
+
+    The derivative of the squared radius is 2 u_p/ω_p, so the root is unique where the flank is not undercut.
+    """
+    xp = namespace(path, pinion_radius)
+    r_p = path.pinion_pitch_radius
+    arm = r_p * sin(path.pressure_angle(xp.zeros_like(xp.asarray(pinion_radius, dtype=float))))
+    # Start on the straight path with the pitch point's pressure angle.
+    r = sqrt(xp.maximum(arm**2 + pinion_radius**2 - r_p**2, (1e-3 * arm) ** 2)) - arm
+    for _ in range(_NEWTON_STEPS):
+        alpha = path.pressure_angle(r)
+        residual = r**2 + 2 * r_p * r * sin(alpha) + r_p**2 - pinion_radius**2
+        slope = 2 * (r + r_p * sin(alpha) + r * r_p * cos(alpha) * path.pressure_angle_slope(r))
+        r = r - residual / slope
+    return r
+
+
+def contact_limits(path: Path, pinion_tip_radius: Array, gear_tip_radius: Array) -> tuple[Array, Array]:
+    """Signed distances r_start < 0 < r_end (m) at which the tip circles cut the path.
+
+    Contact begins at the gear's tip and ends at the pinion's.
+    """
+    return (
+        -distance_at_radius(mirrored(path), gear_tip_radius),
+        distance_at_radius(path, pinion_tip_radius),
+    )
+
+
+def contact_ratio(path: Path, r_start: Array, r_end: Array, pinion_teeth: Array) -> Array:
+    """Pinion angle from first to last contact over the pitch angle 2π/Z_p."""
+    return (path.rotation(r_end) - path.rotation(r_start)) * pinion_teeth / (2 * np.pi)
+
+
+def integrated_rotation(path: Path, r: Array) -> Array:
+    """φ(r) = ∫ dr/(r_p cos α) from 0 to r: `rotation` for a family without a closed form.
+
+    The quadrature never crosses P, so α(r) may have a kink there.
+    """
+    xp = namespace(path, r)
+    r = xp.asarray(r)
+    integrand = 1 / (path.pinion_pitch_radius * cos(path.pressure_angle(r[..., None] * _NODES)))
+    return r * (integrand @ _WEIGHTS)
+
+
+def inverted_rotation(path: Path, rotation: Array) -> Array:
+    """r(φ) by Newton's method: `signed_distance` for a family without a closed form."""
+    xp = namespace(path, rotation)
+    rotation = xp.asarray(rotation)
+    r = rotation * path.pinion_pitch_radius * cos(path.pressure_angle(xp.zeros_like(rotation)))
+    for _ in range(_NEWTON_STEPS):
+        residual = path.rotation(r) - rotation
+        r = r - residual * path.pinion_pitch_radius * cos(path.pressure_angle(r))
+    return r
+
+
+class MirroredPath(NamedTuple):
+    """The same path looked at from the gear: the gear is this path's pinion, and time runs backwards.
+
+    The frame is turned by half a turn, r' = −r and α'(r') = α(−r'), so that the body is below, its tooth
+    left of the contact and the flank moving to +x, exactly as the pinion's in its own frame.
+    """
+
+    path: Any
+
+    @property
+    def pinion_pitch_radius(self) -> Any:
+        """Working pitch radius of the body, m."""
+        return self.path.gear_pitch_radius
+
+    @property
+    def gear_pitch_radius(self) -> Any:
+        """Working pitch radius of its mate, m."""
+        return self.path.pinion_pitch_radius
+
+    def pressure_angle(self, r: Array) -> Array:
+        """Pressure angle α(−r), rad."""
+        return self.path.pressure_angle(-r)
+
+    def pressure_angle_slope(self, r: Array) -> Array:
+        """Slope dα/dr, rad/m."""
+        return -self.path.pressure_angle_slope(-r)
+
+    def rotation(self, r: Array) -> Array:
+        """Angle of the body, rad."""
+        return -self.path.rotation(-r) * (self.gear_pitch_radius / self.pinion_pitch_radius)
+
+    def signed_distance(self, rotation: Array) -> Array:
+        """Signed distance r (m) at the body's angle."""
+        return -self.path.signed_distance(-rotation * (self.pinion_pitch_radius / self.gear_pitch_radius))
+
+
+def mirrored(path: Path) -> Path:
+    """Look at the path from its gear."""
+    return path.path if isinstance(path, MirroredPath) else MirroredPath(path)
+
+
+def seen_from(path: Path, side: Side) -> Path:
+    """Look at the path from one body, which is that path's pinion."""
+    return path if side == "pinion" else mirrored(path)
