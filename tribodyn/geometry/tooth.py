@@ -1,0 +1,234 @@
+"""A tooth as its rack cuts it: flank conjugate to the generating path, root fillet from the rounded tip.
+
+Everything is said in the frame of one body whose tooth lies left of the contact (see `path.MirroredPath`),
+then carried to the tooth's own frame: x along the tooth's symmetry axis from the body's axis outwards, y the
+half thickness. A point at (X, Y) from the pitch point, touched when the body has turned by φ, has the half
+thickness angle χ = ψ + atan2(X, r_p + Y) − φ, where ψ is the half thickness angle on the pitch circle.
+The rack moves by r_p φ to +x, so its flank is x_c = r cos α − r_p φ, y_c = r sin α.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.elementary import arctan2, cos, namespace, sin, sqrt, tan
+from tribodyn.geometry.drive import Drive, Side, body_of, tip_radius
+from tribodyn.geometry.family import Family
+from tribodyn.geometry.path import Path, distance_at_radius, position, radius
+
+Array = Any
+
+_NEWTON_STEPS = 8
+
+
+class Tooth(NamedTuple):
+    """One tooth as two curves: `flank_point` over r, `fillet_point` over the angle of the rack's normal.
+
+    Parameters
+    ----------
+    path : Path
+        Generating path of contact, seen from the body.
+    half_angle : float
+        Half thickness angle of the tooth on the generating pitch circle, rad.
+    form_distance, tip_distance : float
+        Signed distances r (m) on the generating path where the flank begins (at the fillet) and ends.
+    form_angle : float
+        Angle of the rack's normal at the flank's beginning, rad; it grows to π/2 at the root.
+    corner_x, corner_y : float
+        Centre of the rack's rounded tip in the rack's frame at φ = 0, m.
+    corner_radius : float
+        Radius of the rack's rounded tip, m.
+    corner_limit : float
+        Symmetry axis of the rack's tooth, m: with corner_x beyond it the two rounded corners would overlap.
+    root_radius, form_radius, tip_radius : float
+        Radii of the root circle, of the junction of fillet and flank and of the tip circle, m.
+    """
+
+    path: Any
+    half_angle: Any
+    form_distance: Any
+    tip_distance: Any
+    form_angle: Any
+    corner_x: Any
+    corner_y: Any
+    corner_radius: Any
+    corner_limit: Any
+    root_radius: Any
+    form_radius: Any
+    tip_radius: Any
+
+
+class ToothOutline(NamedTuple):
+    """Half a tooth as points, from the root circle over the fillet and the flank to the tip circle.
+
+    Parameters
+    ----------
+    fillet_x, fillet_y, flank_x, flank_y : array
+        Points (m) in the tooth's frame; the fillet's last point is the flank's first.
+    root_radius, form_radius, tip_radius : float
+        Radii of the root circle, of the junction and of the tip circle, m.
+    root_half_angle : float
+        Angle between the tooth's axis and the point where the fillet meets the root circle, rad.
+    tip_half_thickness : float
+        Half thickness at the tip circle, m; negative where the tooth would be pointed.
+    """
+
+    fillet_x: Array
+    fillet_y: Array
+    flank_x: Array
+    flank_y: Array
+    root_radius: Any
+    form_radius: Any
+    tip_radius: Any
+    root_half_angle: Any
+    tip_half_thickness: Any
+
+
+class ToothContact(NamedTuple):
+    """Where the mate touches a tooth and how its normal load stands to the tooth's axis.
+
+    Parameters
+    ----------
+    x, y : array
+        Contact point in the tooth's frame, m.
+    load_angle : array
+        Angle α_1 (rad) from the perpendicular of the tooth's axis to the normal load F: F cos α_1 bends the
+        tooth towards its axis, F sin α_1 presses it along the axis into the body.
+    """
+
+    x: Array
+    y: Array
+    load_angle: Array
+
+
+def cut_tooth(family: Family, drive: Drive, side: Side) -> Tooth:
+    """Cut a tooth of one body by its rack."""
+    body = body_of(drive, side)
+    path, shift = family.generating_path(drive, side)
+    pitch_radius = path.pinion_pitch_radius
+    # The shifted rack's tooth is thinner on the rolling line by the shift's share of both its flanks; for
+    # families whose rack is not straight the shift is zero.
+    widening = shift * tan(drive.pressure_angle)
+    half_angle = (np.pi * drive.module / 4 + widening) / pitch_radius
+    depth = drive.module * body.dedendum - shift
+    rounding = drive.module * body.fillet_radius
+    form_distance = _tangent_distance(path, depth, rounding)
+    form_angle = path.pressure_angle(form_distance)
+    form_x, form_y = position(path, form_distance)
+    corner_x = form_x - pitch_radius * path.rotation(form_distance) + rounding * cos(form_angle)
+    tip = tip_radius(drive, side)
+    return Tooth(
+        path=path,
+        half_angle=half_angle,
+        form_distance=form_distance,
+        tip_distance=distance_at_radius(path, tip),
+        form_angle=form_angle,
+        corner_x=corner_x,
+        corner_y=form_y + rounding * sin(form_angle),
+        corner_radius=rounding,
+        corner_limit=np.pi * drive.module / 4 - widening,
+        root_radius=pitch_radius - depth,
+        form_radius=radius(path, form_distance),
+        tip_radius=tip,
+    )
+
+
+def _tangent_distance(path: Path, depth: Any, rounding: Any) -> Any:
+    """Signed distance at which the rack's flank runs into the rounding of its tip.
+
+    The centre of the rounding lies on the flank's normal and `rounding` above the tip line y = −depth, hence
+    r sin α + ρ_f sin α = ρ_f − depth.
+    """
+    xp = namespace(path, depth, rounding)
+    alpha = path.pressure_angle(xp.zeros_like(xp.asarray(depth, dtype=float)))
+    r = (rounding - depth) / sin(alpha) - rounding
+    for _ in range(_NEWTON_STEPS):
+        alpha = path.pressure_angle(r)
+        residual = (r + rounding) * sin(alpha) + depth - rounding
+        slope = sin(alpha) + (r + rounding) * cos(alpha) * path.pressure_angle_slope(r)
+        r = r - residual / slope
+    return r
+
+
+def flank_point(tooth: Tooth, r: Array) -> tuple[Array, Array]:
+    """Point (x, y) of the flank (m) that the rack touches at the signed distance r (m)."""
+    return _in_tooth_frame(tooth, *position(tooth.path, r), tooth.path.rotation(r))
+
+
+def fillet_point(tooth: Tooth, normal_angle: Array) -> tuple[Array, Array]:
+    """Point (x, y) of the fillet (m) cut where the normal of the rack's rounding has this angle (rad).
+
+    The rack's point touches the body when its normal passes through the pitch point; the angle runs from
+    π/2 (root circle) to `tooth.form_angle` (junction with the flank).
+    """
+    rack_x = tooth.corner_x - tooth.corner_radius * cos(normal_angle)
+    y = tooth.corner_y - tooth.corner_radius * sin(normal_angle)
+    x = y * cos(normal_angle) / sin(normal_angle)
+    return _in_tooth_frame(tooth, x, y, (x - rack_x) / tooth.path.pinion_pitch_radius)
+
+
+def _in_tooth_frame(tooth: Tooth, x: Array, y: Array, rotation: Array) -> tuple[Array, Array]:
+    pitch_radius = tooth.path.pinion_pitch_radius
+    distance = sqrt(x**2 + (pitch_radius + y) ** 2)
+    chi = tooth.half_angle + arctan2(x, pitch_radius + y) - rotation
+    return distance * cos(chi), distance * sin(chi)
+
+
+def thickness_half_angle(tooth: Tooth, at_radius: Array) -> Array:
+    """Half thickness angle of the tooth (rad) on the circle of this radius (m), above the form radius."""
+    r = distance_at_radius(tooth.path, at_radius)
+    x, y = position(tooth.path, r)
+    return tooth.half_angle + arctan2(x, tooth.path.pinion_pitch_radius + y) - tooth.path.rotation(r)
+
+
+def contact_in_tooth_frame(body_path: Path, pitch_half_angle: Any, r: Array) -> ToothContact:
+    """Contact point and direction of the normal load on a tooth, while it works with its mate.
+
+    Parameters
+    ----------
+    body_path : Path
+        Working path seen from the body: `path.seen_from(family.working_path(drive), side)`.
+    pitch_half_angle : float
+        Half thickness angle on the working pitch circle, rad:
+        `thickness_half_angle(tooth, body_path.pinion_pitch_radius)`.
+    r : array
+        Signed distance in the body's own view, m: r of the drive for the pinion, −r for the gear.
+    """
+    pitch_radius = body_path.pinion_pitch_radius
+    x, y = position(body_path, r)
+    rotation = body_path.rotation(r)
+    distance = sqrt(x**2 + (pitch_radius + y) ** 2)
+    chi = pitch_half_angle + arctan2(x, pitch_radius + y) - rotation
+    load_angle = body_path.pressure_angle(r) - pitch_half_angle + rotation
+    return ToothContact(distance * cos(chi), distance * sin(chi), load_angle)
+
+
+def tooth_outline(tooth: Tooth, flank_points: int = 60, fillet_points: int = 30) -> ToothOutline:
+    """Points of half a tooth: even steps of r along the flank, of the rack's normal along the fillet.
+
+    The fillet starts at the root circle; its last point is the flank's first.
+    """
+    along = np.linspace(0.0, 1.0, flank_points)
+    flank_x, flank_y = flank_point(
+        tooth, tooth.form_distance + along * (tooth.tip_distance - tooth.form_distance)
+    )
+    along = np.linspace(0.0, 1.0, fillet_points)
+    fillet_x, fillet_y = fillet_point(tooth, np.pi / 2 + along * (tooth.form_angle - np.pi / 2))
+    return ToothOutline(
+        fillet_x=fillet_x,
+        fillet_y=fillet_y,
+        flank_x=flank_x,
+        flank_y=flank_y,
+        root_radius=tooth.root_radius,
+        form_radius=tooth.form_radius,
+        tip_radius=tooth.tip_radius,
+        root_half_angle=tooth.half_angle + tooth.corner_x / tooth.path.pinion_pitch_radius,
+        tip_half_thickness=flank_y[-1],
+    )
+
+
+def outline(
+    family: Family, drive: Drive, side: Side, flank_points: int = 60, fillet_points: int = 30
+) -> ToothOutline:
+    """Half a tooth of one body of the drive as points; see `tooth_outline`."""
+    return tooth_outline(cut_tooth(family, drive, side), flank_points, fillet_points)
