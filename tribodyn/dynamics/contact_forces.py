@@ -51,7 +51,8 @@ IN_RANGE = 22
 COS = 23
 SIN = 24
 TRANSMISSION_ERROR = 25  # along the pair's normal, gap not subtracted, m
-QUANTITIES = 26
+COUPLING = 26  # deflection per load on slot 0, and on from here per load on the other slots, m/N
+QUANTITIES = 26  # and one more for every slot
 
 # Channels of mesh_cycle.Polynomials.channel.
 _ANGLE, _DISTANCE, _CURVATURE, _SPEED, _COMPLIANCE, _GAP = range(6)
@@ -125,12 +126,6 @@ def approach(segment, cell, u, cells_per_radian, y, model, work):
 
 
 @law
-def coupling(segment, cell, u, i, j, model):
-    """Deflection of the pair in slot i per load on slot j, m/N."""
-    return cubic(model.table.coupling, segment, cell, i, j, u)
-
-
-@law
 def elastic_loads(segment, cell, u, model, work):
     """Elastic load of every pair, never tensile, with the pairs coupled through the bodies.
 
@@ -142,12 +137,14 @@ def elastic_loads(segment, cell, u, model, work):
     coefficient = model.table.hertz_coefficient
     for i in range(pairs):
         work[ELASTIC_LOAD, i] = 0.0 * work[APPROACH, i]
+        for j in range(pairs):
+            work[COUPLING + j, i] = cubic(model.table.coupling, segment, cell, i, j, u)
     for _ in range(model.options.sweeps):
         for i in range(pairs):
             free = work[APPROACH, i]
             for j in range(pairs):
                 if j != i:
-                    free = free - coupling(segment, cell, u, i, j, model) * work[ELASTIC_LOAD, j]
+                    free = free - work[COUPLING + j, i] * work[ELASTIC_LOAD, j]
             deflection = positive_part(free, mechanics.contact_width)
             compliance = work[COMPLIANCE, i]
             if model.options.hertz == HERTZ_POWER_LAW:
@@ -232,15 +229,14 @@ def pair_energy(i, model, work):
 
 
 @law
-def mesh_energy(segment, cell, u, model, work):
+def mesh_energy(model, work):
     """Strain energy V of all contacts, J, after `elastic_loads`."""
     pairs = model.table.side.shape[0]
     energy = 0.0
     for i in range(pairs):
         energy = energy + pair_energy(i, model, work)
         for j in range(i):
-            cross = coupling(segment, cell, u, i, j, model)
-            energy = energy + cross * work[ELASTIC_LOAD, i] * work[ELASTIC_LOAD, j]
+            energy = energy + work[COUPLING + j, i] * work[ELASTIC_LOAD, i] * work[ELASTIC_LOAD, j]
     return energy
 
 

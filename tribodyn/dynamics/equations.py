@@ -214,7 +214,7 @@ def strain_energy(phase, segment, y, model, work):
     cell, u, cells_per_radian = locate(phase, segment, model.table)
     approach(segment, cell, u, cells_per_radian, y, model, work)
     elastic_loads(segment, cell, u, model, work)
-    return mesh_energy(segment, cell, u, model, work)
+    return mesh_energy(model, work)
 
 
 @law
@@ -240,13 +240,12 @@ def engagement(before, phase_before, after, phase_after, y, model, work):
 
 
 @law
-def stored_energy(phase, segment, y, model, work):
+def stored_energy(y, model, work):
     """Kinetic and strain energy of the whole model, J; `work` as `contact_forces` left it."""
     mechanics, table = model.mechanics, model.table
-    cell, u, _ = locate(phase, segment, table)
     pinion_speed = mechanics.nominal_speed + y[SLIP]
     gear_speed = (table.pinion_pitch_radius * pinion_speed - y[XI_RATE]) / table.gear_pitch_radius
-    energy = mesh_energy(segment, cell, u, model, work)
+    energy = mesh_energy(model, work)
     energy = energy + 0.5 * (
         mechanics.pinion_mass * (y[VX_P] * y[VX_P] + y[VY_P] * y[VY_P])
         + mechanics.gear_mass * (y[VX_G] * y[VX_G] + y[VY_G] * y[VY_G])

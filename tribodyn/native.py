@@ -1,0 +1,91 @@
+"""numba's versions of the elementary functions, registration of the laws, and where compiled code is kept.
+
+Importing this module is what makes the laws callable from `@njit` functions. Modules that hold kernels
+import `kernel` from here and nothing else of numba.
+"""
+
+import hashlib
+import math
+import os
+from pathlib import Path
+
+import numba
+import numpy as np
+from numba.extending import overload, register_jitable
+
+import tribodyn
+from tribodyn import elementary
+from tribodyn.dynamics import equations  # noqa: F401  (its import registers every law)
+
+
+def _source_digest() -> str:
+    """Digest of the package's source and numba's version: numba's own check sees one file only."""
+    digest = hashlib.sha256(numba.__version__.encode())
+    for file in sorted(Path(tribodyn.__file__).parent.rglob("*.py")):
+        digest.update(file.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def _cache_folder() -> Path:
+    if given := os.environ.get("TRIBODYN_CACHE"):
+        return Path(given)
+    from platformdirs import user_cache_path
+
+    return user_cache_path("tribodyn")
+
+
+numba.config.CACHE_DIR = str(_cache_folder() / f"kernels-{_source_digest()}")  # pyright: ignore[reportAttributeAccessIssue]
+
+#: Decorator of a compiled kernel: cached between processes, IEEE division, no reordering.
+kernel = numba.njit(cache=True, error_model="numpy")
+
+
+def _unary(function, implementation):
+    @overload(function)
+    def _(x):
+        return implementation
+
+
+_unary(elementary.sqrt, lambda x: math.sqrt(x))
+_unary(elementary.exp, lambda x: math.exp(x))
+_unary(elementary.log, lambda x: math.log(x))
+_unary(elementary.log1p, lambda x: math.log1p(x))
+_unary(elementary.expm1, lambda x: math.expm1(x))
+_unary(elementary.sin, lambda x: math.sin(x))
+_unary(elementary.cos, lambda x: math.cos(x))
+_unary(elementary.tan, lambda x: math.tan(x))
+_unary(elementary.absolute, lambda x: abs(x))
+_unary(elementary.truncate, lambda x: int(x))
+
+
+@overload(elementary.arctan2)
+def _arctan2(y, x):
+    return lambda y, x: math.atan2(y, x)
+
+
+@overload(elementary.where)
+def _where(condition, a, b):
+    return lambda condition, a, b: a if condition else b
+
+
+@overload(elementary.minimum)
+def _minimum(a, b):
+    return lambda a, b: a if a < b else b
+
+
+@overload(elementary.maximum)
+def _maximum(a, b):
+    return lambda a, b: a if a > b else b
+
+
+@overload(elementary.last_at_or_below)
+def _last_at_or_below(grid, x):
+    def implementation(grid, x):
+        index = np.searchsorted(grid, x, side="right") - 1
+        return min(max(index, 0), grid.shape[0] - 2)
+
+    return implementation
+
+
+for _law in elementary.LAWS:
+    register_jitable(_law)

@@ -1,0 +1,106 @@
+"""What every integration engine takes and returns, and how a failure is told."""
+
+from typing import NamedTuple, Protocol
+
+import numpy as np
+
+from tribodyn.dynamics.parameters import (
+    LAG,
+    MOTOR_SLIP,
+    SLIP,
+    STATES,
+    TWIST,
+    VX_G,
+    VX_P,
+    VY_G,
+    VY_P,
+    WORK_DAMPING,
+    WORK_FRICTION,
+    WORK_IN,
+    WORK_OUT,
+    WORK_PARAMETRIC,
+    X_G,
+    X_P,
+    XI,
+    XI_RATE,
+    Y_G,
+    Y_P,
+    Model,
+)
+
+DONE, STEP_TOO_SMALL, TOO_MANY_STEPS, NOT_FINITE, STALLED, GAVE_UP = range(6)
+
+REASONS = {
+    STEP_TOO_SMALL: "the step size fell below 1e-13 mesh cycles",
+    TOO_MANY_STEPS: "the limit of steps in one mesh cycle was reached; raise solver.max_steps or choose a "
+    "stiff solver.method",
+    NOT_FINITE: "the solution stopped being finite",
+    STALLED: "the pinion came to rest; integration in mesh phase needs it to turn forwards",
+    GAVE_UP: "the solver gave up",
+}
+
+
+class Tolerances(NamedTuple):
+    """Error control: relative tolerance and absolute ones for every state."""
+
+    rtol: float
+    atol: np.ndarray
+    max_steps: int
+
+
+class Block(NamedTuple):
+    """A run of whole mesh cycles.
+
+    Attributes
+    ----------
+    samples : (n, STATES)
+        States at phases k/samples_per_cycle, first one included, last one not; fewer on a failure.
+    state : (STATES,)
+        State at the end, before the next engagement.
+    status : int
+        DONE or the kind of failure.
+    reached : float
+        Mesh cycles done in this block.
+    steps, evaluations : int
+    message : str
+        The solver's own words, if any.
+    """
+
+    samples: np.ndarray
+    state: np.ndarray
+    status: int
+    reached: float
+    steps: int
+    evaluations: int
+    message: str = ""
+
+
+class Engine(Protocol):
+    """Integrates blocks of whole mesh cycles one after the other."""
+
+    def block(self, state: np.ndarray, first_cycle: int, cycles: int) -> Block:
+        """Integrate `cycles` cycles; `state` stands before the engagement that opens the block."""
+        ...
+
+
+def absolute_tolerances(model: Model, rtol: float, deflection: float) -> np.ndarray:
+    """rtol times the scale of every state, from the static deflection of the mesh (m).
+
+    Displacements scale with the deflection, velocities with the deflection times the mesh's natural
+    frequency, works with the energy transmitted in one mesh cycle.
+    """
+    mechanics, table = model.mechanics, model.table
+    pinion_radius, gear_radius = float(table.pinion_pitch_radius), float(table.gear_pitch_radius)
+    mass = 1.0 / (pinion_radius**2 / mechanics.pinion_inertia + gear_radius**2 / mechanics.gear_inertia)
+    stiffness = 1.0 / float(np.mean(np.asarray(table.channel)[..., 4, 0]))
+    frequency = np.sqrt(stiffness / mass)
+    velocity = deflection * frequency
+    scale = np.empty(STATES)
+    scale[[X_P, Y_P, X_G, Y_G, XI]] = deflection
+    scale[[VX_P, VY_P, VX_G, VY_G, XI_RATE]] = velocity
+    scale[[SLIP, MOTOR_SLIP]] = velocity / pinion_radius
+    scale[TWIST] = deflection / pinion_radius
+    scale[LAG] = deflection / pinion_radius / mechanics.nominal_speed
+    energy = stiffness * deflection * pinion_radius * float(table.pitch_angle)
+    scale[[WORK_IN, WORK_OUT, WORK_FRICTION, WORK_DAMPING, WORK_PARAMETRIC]] = energy
+    return rtol * scale
