@@ -1,0 +1,78 @@
+"""Whatever is written into a record, in whatever blocks, comes back."""
+
+import tempfile
+from pathlib import Path
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as arrays
+from tests.record_samples import block, geometry, mesh_cycle
+from tribodyn.mesh_cycle import as_arrays, from_arrays
+from tribodyn.record.reader import open_record
+from tribodyn.record.writer import RecordWriter
+
+NUMBERS = st.floats(allow_nan=True, allow_infinity=True)
+SCALARS = st.one_of(
+    st.booleans(),
+    st.integers(-(2**62), 2**62),
+    st.floats(allow_nan=False),
+    st.text(st.characters(codec="utf-8", exclude_characters="\0")),
+)
+NAMES = st.text("abcdefghij_", min_size=1, max_size=12)
+SUMMARIES = st.dictionaries(
+    NAMES, st.one_of(SCALARS, st.dictionaries(NAMES, SCALARS, min_size=1)), max_size=6
+)
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.lists(st.integers(1, 7), max_size=6), st.data())
+def test_samples_come_back(lengths: list[int], data: st.DataObject):
+    total = sum(lengths)
+    load = data.draw(arrays.arrays(float, (total, 2), elements=NUMBERS))
+    with tempfile.TemporaryDirectory() as folder:
+        with RecordWriter(
+            Path(folder) / "run.h5",
+            scenario_toml="",
+            sha256="",
+            samples=total,
+            mesh_cycle=mesh_cycle(),
+            geometry=geometry(),
+        ) as record:
+            start = 0
+            for length in lengths:
+                stop = start + length
+                record.write(start, block(start, stop) | {"normal_load": load[start:stop]})
+                start = stop
+            path = record.finish({})
+        with open_record(path) as record:
+            np.testing.assert_array_equal(record["normal_load"], load)
+            np.testing.assert_array_equal(record["velocity"], block(0, total)["velocity"])
+
+
+@settings(max_examples=30, deadline=None)
+@given(SUMMARIES, st.text(st.characters(codec="utf-8", exclude_characters="\0"), max_size=200))
+def test_summary_and_scenario_come_back(summary: dict, scenario: str):
+    with tempfile.TemporaryDirectory() as folder:
+        with RecordWriter(
+            Path(folder) / "run.h5", scenario_toml=scenario, sha256="", samples=1, mesh_cycle=mesh_cycle()
+        ) as record:
+            record.write(0, block(0, 1))
+            path = record.finish(summary)
+        with open_record(path) as record:
+            assert record.summary == summary
+            assert record.attrs["scenario"] == scenario
+
+
+def test_the_mesh_cycle_comes_back_as_it_was():
+    cycle = from_arrays(mesh_cycle())
+    with tempfile.TemporaryDirectory() as folder:
+        with RecordWriter(
+            Path(folder) / "run.h5", scenario_toml="", sha256="", samples=1, mesh_cycle=as_arrays(cycle)
+        ) as record:
+            record.write(0, block(0, 1))
+            path = record.finish({})
+        with open_record(path) as record:
+            found = from_arrays(record.mesh_cycle)
+    for name, value in cycle._asdict().items():
+        np.testing.assert_array_equal(getattr(found, name), value, err_msg=name)

@@ -1,0 +1,70 @@
+"""Records with known contents for the tests of writer, reader and plots."""
+
+from typing import Any
+
+import numpy as np
+from tribodyn.record.schema import DOF, SAMPLES
+
+
+def mesh_cycle(contact_ratio: float = 1.5, nodes: int = 9) -> dict[str, Any]:
+    """A two-pair mesh cycle whose numbers are easy to recognise."""
+    boundary = np.array([0.0, contact_ratio - 1, 1.0])
+    phase = np.concatenate([np.linspace(*ends, nodes) for ends in ((0.0, boundary[1]), (boundary[1], 1.0))])
+    rows = np.arange(2 * nodes, dtype=float)
+    table = {
+        name: rows[:, None] + factor * np.array([[1.0, 2.0]])
+        for factor, name in enumerate(
+            (
+                "pressure_angle",
+                "signed_distance",
+                "relative_curvature",
+                "pinion_speed",
+                "gear_speed",
+                "compliance",
+                "gap",
+            )
+        )
+    }
+    contact = np.ones((2 * nodes, 2))
+    contact[nodes:, 0] = 0.0
+    return {
+        "boundary": boundary,
+        "in_contact": contact,
+        "side": np.ones(2),
+        "phase": phase,
+        **table,
+        "coupling": np.zeros((2 * nodes, 2, 2)),
+        "hertz_coefficient": 0.0,
+        "pinion_pitch_radius": 0.0345,
+        "gear_pitch_radius": 0.0705,
+        "pinion_teeth": 23.0,
+        "face_width": 0.02,
+        "contact_ratio": contact_ratio,
+        "pitch_point_phase": 0.8,
+        "roll_start": -0.2,
+        "roll_end": 0.2,
+    }
+
+
+def geometry() -> dict[str, Any]:
+    """Outlines of a few points."""
+    return {
+        "pinion_outline": np.arange(10.0).reshape(5, 2),
+        "gear_outline": np.arange(14.0).reshape(7, 2),
+        "path_of_contact": np.arange(6.0).reshape(3, 2),
+        "pinion_tip_radius": 0.0375,
+    }
+
+
+def block(start: int, stop: int, pairs: int = 2) -> dict[str, np.ndarray]:
+    """Samples `start` … `stop`, each value told by its dataset, sample and column."""
+    index = np.arange(start, stop, dtype=float)
+    size = {"pair": pairs, "dof": len(DOF)}
+    values: dict[str, np.ndarray] = {"time": index}
+    for number, (name, variable) in enumerate(SAMPLES.items()):
+        columns = [size[dim] for dim in variable.dims[1:]]
+        values[name] = index.reshape(-1, *[1] * len(columns)) * 100 + number
+        if columns:
+            values[name] = values[name] + np.arange(columns[0]) / 10
+    values["closure_in_range"] = values["closure_in_range"].astype(int) % 2 == 0
+    return values

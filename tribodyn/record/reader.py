@@ -1,0 +1,202 @@
+"""Reads a record: arrays by name, units, scenario, summary, mesh cycle and geometry."""
+
+import tomllib
+from collections.abc import Iterator
+from functools import cached_property
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
+
+import h5py
+import numpy as np
+
+from tribodyn.errors import InputError
+from tribodyn.record import schema
+
+
+class Record:
+    """A record, open for reading; a context manager.
+
+    Samples that an unfinished run never wrote are left out everywhere.
+
+    Parameters
+    ----------
+    path : Path
+        An HDF5 file that tribodyn wrote.
+
+    Raises
+    ------
+    InputError
+        If the file is missing, damaged, not a record, or of a newer format.
+    """
+
+    def __init__(self, path: str | Path) -> None:
+        self.path = Path(path)
+        self._file = _open(self.path)
+        try:
+            self._check()
+        except InputError:
+            self._file.close()
+            raise
+        except (OSError, KeyError, RuntimeError, ValueError) as error:
+            self._file.close()
+            raise self._damaged(error) from error
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Let go of the file."""
+        self._file.close()
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        """Return one dataset in SI units, first axis time; `pair` and `dof` give the other axes' labels."""
+        dataset = self._dataset(name)
+        try:
+            values = dataset[: self.samples] if _over_time(name) else dataset[...]
+        except (OSError, RuntimeError) as error:
+            raise self._damaged(error) from error
+        return values.astype(str) if values.dtype.kind == "S" else values
+
+    def __contains__(self, name: object) -> bool:
+        return name in schema.SAMPLES or name in ("time", "pair", "dof")
+
+    def __iter__(self) -> Iterator[str]:
+        yield from ("time", *schema.SAMPLES)
+
+    def units(self, name: str) -> str:
+        """Return the SI unit of a dataset."""
+        return str(self._dataset(name).attrs["units"])
+
+    def long_name(self, name: str) -> str:
+        """Return what a dataset means."""
+        return str(self._dataset(name).attrs["long_name"])
+
+    @property
+    def status(self) -> str:
+        """`complete`, `partial` (being written, or its process was killed) or `failed`."""
+        return str(self.attrs["status"])
+
+    @property
+    def message(self) -> str:
+        """Why the record is not complete."""
+        return str(self.attrs["message"])
+
+    @cached_property
+    def attrs(self) -> dict[str, Any]:
+        """Attributes of the file's root."""
+        return _attributes(self._file)
+
+    @cached_property
+    def samples(self) -> int:
+        """Number of samples that hold results."""
+        return int(self._file["samples_written"][()])
+
+    @cached_property
+    def pairs(self) -> tuple[int, ...]:
+        """Numbers of the pair slots, in the order of the pair axis."""
+        return tuple(int(number) for number in self._file["pair"][...])
+
+    @cached_property
+    def scenario(self) -> dict[str, Any]:
+        """The resolved scenario."""
+        return tomllib.loads(str(self.attrs["scenario"]))
+
+    @cached_property
+    def summary(self) -> dict[str, Any]:
+        """What the run found; names that hold `/` become nested dictionaries."""
+        nested: dict[str, Any] = {}
+        for name, value in _attributes(self._file["summary"]).items():
+            *parents, leaf = name.split("/")
+            place = nested
+            for parent in parents:
+                place = place.setdefault(parent, {})
+            place[leaf] = value
+        return nested
+
+    @cached_property
+    def mesh_cycle(self) -> dict[str, Any]:
+        """The table the run was made from; `tribodyn.mesh_cycle.from_arrays` takes it."""
+        return self._group("mesh_cycle", schema.MESH_CYCLE)
+
+    @cached_property
+    def geometry(self) -> dict[str, Any]:
+        """Outlines and path of contact (points, 2), radii and other lengths, m."""
+        return self._group("geometry", schema.GEOMETRY)
+
+    def _group(self, name: str, table: dict[str, schema.Variable]) -> dict[str, Any]:
+        try:
+            group = self._file[name]
+            numbers = {key: value for key, value in _attributes(group).items() if not key.endswith("_units")}
+            return {**{key: group[key][...] for key in table if key in group}, **numbers}
+        except (OSError, KeyError, RuntimeError) as error:
+            raise self._damaged(error) from error
+
+    def _dataset(self, name: str) -> h5py.Dataset:
+        if name not in self:
+            raise InputError("dataset", name, "no such dataset", f"one of {', '.join(self)}")
+        try:
+            return self._file[name]
+        except (KeyError, RuntimeError) as error:
+            raise self._damaged(error) from error
+
+    def _check(self) -> None:
+        if self._file.attrs.get("format") != schema.FORMAT:
+            raise InputError(
+                "record", str(self.path), "an HDF5 file, but not a record", "name a file of tribodyn run"
+            )
+        version = int(self.attrs["format_version"])
+        if version > schema.FORMAT_VERSION:
+            raise InputError(
+                "record",
+                str(self.path),
+                f"its format is version {version}, this program reads up to {schema.FORMAT_VERSION}",
+                f"use tribodyn {self.attrs['tribodyn_version']} or newer",
+            )
+        if self.status not in (schema.PARTIAL, schema.COMPLETE, schema.FAILED):
+            raise ValueError(f"unknown status {self.status}")
+        for name in ("time", "pair", "dof", *schema.SAMPLES):
+            if _over_time(name) and self._file[name].shape[0] < self.samples:
+                raise ValueError(f"{name} is too short")
+        for name in ("mesh_cycle", "geometry", "summary"):
+            _attributes(self._file[name])
+
+    def _damaged(self, error: Exception) -> InputError:
+        reason = str(error).strip("'\"")
+        return InputError(
+            "record", str(self.path), f"the record is damaged: {reason}", "run the scenario again"
+        )
+
+
+def open_record(path: str | Path) -> Record:
+    """Open a record for reading; see `Record`."""
+    return Record(path)
+
+
+def _open(path: Path) -> h5py.File:
+    if not path.is_file():
+        raise InputError("record", str(path), "no such file", "name a file of tribodyn run")
+    try:
+        return h5py.File(path, "r")
+    except PermissionError as error:
+        raise InputError("record", str(path), "may not be read", "change its permissions") from error
+    except OSError as error:
+        if h5py.is_hdf5(path):
+            raise InputError("record", str(path), f"damaged: {error}", "run the scenario again") from error
+        raise InputError("record", str(path), "not an HDF5 file", "name a file of tribodyn run") from error
+
+
+def _attributes(item: h5py.HLObject) -> dict[str, Any]:
+    """Attributes as Python and NumPy values."""
+    return {
+        name: value.item() if isinstance(value, np.generic) else value for name, value in item.attrs.items()
+    }
+
+
+def _over_time(name: str) -> bool:
+    return name not in ("pair", "dof")

@@ -1,0 +1,175 @@
+"""The layout of a record: every dataset's dimensions, unit and meaning, in one place.
+
+`docs/record.md` explains the conventions to the people who read such files; `writer` and `reader` are the
+only modules that use this one.
+"""
+
+from pathlib import Path
+from typing import NamedTuple
+
+FORMAT = "tribodyn-record"
+#: Raised when a reader of the previous version would misread the file.
+FORMAT_VERSION = 1
+
+#: States of a record. A file that says `partial` is being written, or its process was killed.
+PARTIAL, COMPLETE, FAILED = "partial", "complete", "failed"
+STATUS_NOTES = {
+    PARTIAL: "the run is going on, or was killed: only the first samples_written samples are results",
+    COMPLETE: "",
+}
+
+DOF = ("x_p", "y_p", "x_g", "y_g", "theta_p", "theta_g")
+
+#: `closure_in_range` where there is no contact to speak of, or nothing was written yet.
+NO_CONTACT = -1
+
+
+class Variable(NamedTuple):
+    """One dataset: its dimensions, SI unit (as xarray and pint read it) and meaning."""
+
+    dims: tuple[str, ...]
+    units: str
+    long_name: str
+
+
+#: What a run records over time. `time` itself is the dimension scale of the first axis.
+SAMPLES: dict[str, Variable] = {
+    "pinion_angle": Variable(("time",), "rad", "rotation of the pinion"),
+    "displacement": Variable(
+        ("time", "dof"),
+        "m or rad",
+        "generalised coordinates: x_p, y_p, x_g, y_g in m, theta_p, theta_g in rad",
+    ),
+    "velocity": Variable(
+        ("time", "dof"), "m/s or rad/s", "generalised velocities, in the order of the coordinates"
+    ),
+    "transmission_error": Variable(
+        ("time", "pair"),
+        "m",
+        "dynamic transmission error along the pair's normal; NaN where the pair is out of contact",
+    ),
+    "transmission_error_rotational": Variable(
+        ("time",), "m", "rotational dynamic transmission error r_p theta_p - r_g theta_g"
+    ),
+    "normal_load": Variable(("time", "pair"), "N", "normal load of the pair"),
+    "friction_force": Variable(
+        ("time", "pair"), "N", "sliding friction on the pinion's flank along the tangent, positive in recess"
+    ),
+    "friction_coefficient": Variable(("time", "pair"), "1", "friction coefficient of the pair"),
+    "asperity_load_ratio": Variable(("time", "pair"), "1", "share of the load that asperities carry"),
+    "film_parameter": Variable(
+        ("time", "pair"), "1", "film parameter: central film thickness over composite roughness"
+    ),
+    "central_film_thickness": Variable(("time", "pair"), "m", "central film thickness"),
+    "equivalent_radius": Variable(("time", "pair"), "m", "equivalent radius of curvature of the two flanks"),
+    "hertz_pressure": Variable(("time", "pair"), "Pa", "greatest Hertz pressure"),
+    "flash_temperature_rise": Variable(("time", "pair"), "K", "flash temperature rise in the contact"),
+    "entrainment_speed": Variable(
+        ("time", "pair"), "m/s", "entrainment speed, mean of both flanks' rolling speeds"
+    ),
+    "sliding_speed": Variable(
+        ("time", "pair"), "m/s", "sliding speed, pinion's less gear's; negative in approach"
+    ),
+    "pressure_angle": Variable(
+        ("time", "pair"), "rad", "angle of the pair's common normal to the pitch tangent"
+    ),
+    "mesh_stiffness": Variable(("time", "pair"), "N/m", "stiffness of the pair along its normal"),
+    "closure_in_range": Variable(
+        ("time", "pair"), "1", "film regression inside its fitted range: 1 yes, 0 no, -1 out of contact"
+    ),
+    "power_in": Variable(("time",), "W", "power the motor gives to the pinion"),
+    "power_out": Variable(("time",), "W", "power the gear gives to the load"),
+    "power_friction": Variable(("time",), "W", "power lost to sliding friction"),
+    "power_damping": Variable(("time",), "W", "power lost to mesh and bearing damping"),
+    "power_parametric": Variable(
+        ("time",), "W", "power that enters through the varying stiffness and geometry at fixed coordinates"
+    ),
+    "stored_energy": Variable(("time",), "J", "kinetic and strain energy"),
+    "efficiency": Variable(("time",), "1", "instantaneous efficiency"),
+}
+
+TIME = Variable(("time",), "s", "time")
+PAIR = Variable(
+    ("pair",), "1", "pair of teeth: 1 entered last, 0 the one before it; numbers above 1 are back flanks"
+)
+DOF_SCALE = Variable(
+    ("dof",), "1", "degree of freedom; p pinion, g gear; x along the pitch tangent, y along the centres"
+)
+SAMPLES_WRITTEN = Variable((), "1", "number of samples, from the first, that hold results")
+
+#: Arrays of the mesh cycle; its numbers are attributes of the group.
+MESH_CYCLE: dict[str, Variable] = {
+    "boundary": Variable(
+        ("boundary",), "1", "phases, in mesh cycles, at which the set of contacting pairs changes"
+    ),
+    "phase": Variable(
+        ("phase",),
+        "1",
+        "phase of the mesh in mesh cycles; boundaries of segments stand twice, before and after",
+    ),
+    "side": Variable(("pair",), "1", "+1 driving flanks, -1 back flanks"),
+    "in_contact": Variable(
+        ("phase", "pair"),
+        "1",
+        "1 where the pair is on the theoretical path of contact; elsewhere its values mean nothing",
+    ),
+    "pressure_angle": Variable(("phase", "pair"), "rad", "angle of the common normal to the pitch tangent"),
+    "signed_distance": Variable(
+        ("phase", "pair"), "m", "distance from pitch point to contact, negative in approach"
+    ),
+    "relative_curvature": Variable(("phase", "pair"), "1/m", "sum of the flanks' curvatures"),
+    "pinion_speed": Variable(
+        ("phase", "pair"), "m/rad", "speed of the contact along the pinion's flank per pinion speed"
+    ),
+    "gear_speed": Variable(
+        ("phase", "pair"), "m/rad", "speed of the contact along the gear's flank per pinion speed"
+    ),
+    "compliance": Variable(
+        ("phase", "pair"), "m/N", "deflection of one pair along its normal per normal load"
+    ),
+    "gap": Variable(("phase", "pair"), "m", "static transmission error; for back flanks the normal backlash"),
+    "coupling": Variable(
+        ("phase", "pair", "other_pair"),
+        "m/N",
+        "deflection of a pair per load on the other pair, through the gear bodies",
+    ),
+}
+
+#: Units of the mesh cycle's numbers, told in the group's attribute `<name>_units`.
+MESH_CYCLE_SCALARS: dict[str, str] = {
+    "hertz_coefficient": "m/N^0.9",
+    "pinion_pitch_radius": "m",
+    "gear_pitch_radius": "m",
+    "pinion_teeth": "1",
+    "face_width": "m",
+    "contact_ratio": "1",
+    "pitch_point_phase": "1",
+    "roll_start": "rad",
+    "roll_end": "rad",
+}
+
+#: Curves of the geometry; lengths such as radii are attributes of the group, in m.
+GEOMETRY: dict[str, Variable] = {
+    "pinion_outline": Variable(
+        ("pinion_point", "axis"), "m", "outline of the pinion in its own frame, x along a tooth"
+    ),
+    "gear_outline": Variable(
+        ("gear_point", "axis"), "m", "outline of the gear in its own frame, x along a tooth"
+    ),
+    "path_of_contact": Variable(
+        ("path_point", "axis"), "m", "path of contact, origin at the pitch point, x along the pitch tangent"
+    ),
+}
+
+#: Further dimensions that only count; xarray wants each to exist.
+COUNTED = ("other_pair", "pinion_point", "gear_point", "path_point", "axis")
+
+
+def pair_numbers(front_pairs: int, pairs: int) -> list[int]:
+    """Numbers of the pair slots: the driving flanks end with 1, the back flanks go on from 2."""
+    return [slot + 2 - front_pairs for slot in range(pairs)]
+
+
+def partial_path(path: Path) -> Path:
+    """Where the record lies until it is complete."""
+    return path.with_name(path.stem + ".partial.h5")

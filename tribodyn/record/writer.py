@@ -1,0 +1,225 @@
+"""Writes a record while the run goes on, so that it is a valid file whenever the process dies.
+
+The whole file is laid out and closed before the first sample: every dataset at full length, contiguous,
+filled with NaN, the status `partial`. From then on the HDF5 library has no file open and no state to lose;
+a block of samples is plain bytes put in their place in the file, and the count `samples_written` follows
+last. What ends the run (summary, status) goes into a copy that replaces the record in one rename.
+"""
+
+import os
+import shutil
+from collections.abc import Mapping
+from datetime import UTC, datetime
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
+
+import h5py
+import numpy as np
+
+from tribodyn.errors import InputError
+from tribodyn.record import layout
+from tribodyn.record.schema import COMPLETE, FAILED, SAMPLES, STATUS_NOTES, partial_path
+
+
+def check_target(path: Path, force: bool = False) -> None:
+    """Whether a record may be written to `path`; touches nothing, so it can be asked before any work.
+
+    Raises
+    ------
+    InputError
+        If the folder is missing or unwritable, or if the record or the remains of an earlier run are
+        there and `force` is not given.
+    """
+    path = Path(path)
+    folder = path.parent
+    if not os.path.isdir(folder):
+        raise InputError("output", str(path), "the folder does not exist", f"create {folder} first")
+    if os.path.isdir(path):
+        raise InputError("output", str(path), "is a folder", "name a file in it")
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise InputError(
+            "output", str(path), "the folder cannot be written to", "choose another with --output"
+        )
+    if force:
+        return
+    if os.path.exists(path):
+        raise InputError(
+            "output", str(path), "the file exists", "choose another name, or --force to replace it"
+        )
+    if os.path.exists(partial_path(path)):
+        raise InputError(
+            "output",
+            str(path),
+            f"{partial_path(path).name} holds what an unfinished run left",
+            "move it away, or --force to replace it",
+        )
+
+
+class RecordWriter:
+    """Streams samples into `<name>.partial.h5`, which becomes `<name>.h5` when the run is complete.
+
+    A context manager: leaving it without `finish` marks the record failed and keeps what was written.
+
+    Parameters
+    ----------
+    path : Path
+        Final name of the record.
+    scenario_toml, sha256 : str
+        The resolved scenario and its SHA-256.
+    samples : int
+        Number of samples that a complete run has, the first at phase 0 and the last at a whole cycle.
+    mesh_cycle : dict
+        The table the run is made from: arrays over (phase, pair) and numbers, as
+        `tribodyn.mesh_cycle.as_arrays` gives them. Its `side` also says how many pair slots there are.
+    geometry : dict
+        `pinion_outline`, `gear_outline`, `path_of_contact`, each (points, 2), and lengths, m.
+    force : bool
+        Replace an existing record, and the remains of an unfinished run.
+
+    Raises
+    ------
+    InputError
+        See `check_target`; also where the file system refuses the file or has no room for it.
+    """
+
+    def __init__(
+        self,
+        path: str | Path,
+        *,
+        scenario_toml: str,
+        sha256: str,
+        samples: int,
+        mesh_cycle: Mapping[str, Any],
+        geometry: Mapping[str, Any] | None = None,
+        force: bool = False,
+    ) -> None:
+        self.path = Path(path)
+        self.partial = partial_path(self.path)
+        self.samples = samples
+        self.written = 0
+        self._open = False
+        self._head = layout.Head(
+            scenario_toml, sha256, datetime.now(UTC), dict(mesh_cycle), dict(geometry or {})
+        )
+        check_target(self.path, force)
+        scratch = self._scratch()
+        try:
+            self._place = layout.create(scratch, self._head, samples)
+            os.replace(scratch, self.partial)
+            self._file = self.partial.open("r+b", buffering=0)
+        except OSError as error:
+            if os.path.exists(scratch):
+                scratch.unlink()
+            reason = error.strerror or str(error)
+            raise InputError(
+                "output", str(path), f"cannot be written: {reason}", "choose another file"
+            ) from error
+        self._open = True
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if self._open:
+            if isinstance(error, KeyboardInterrupt):
+                self.fail("interrupted by the user")
+            else:
+                self.fail(f"{kind.__name__}: {error}" if kind else "the run ended without a summary")
+
+    def write(self, start: int, block: Mapping[str, Any]) -> None:
+        """Put samples `start`, `start + 1`, … in their place.
+
+        Parameters
+        ----------
+        start : int
+            Index of the first sample: blocks follow each other without a gap.
+        block : dict
+            Arrays (samples of the block, …) in SI units for any of the record's datasets, `time` included;
+            a dataset that no block names stays NaN. `closure_in_range` takes booleans, −1 or NaN standing
+            for "out of contact".
+
+        Raises
+        ------
+        KeyError, ValueError
+            For a name the schema does not know or a shape that does not fit: errors of the program.
+        """
+        length = len(block["time"])
+        if start != self.written or start + length > self.samples:
+            raise ValueError(
+                f"block {start}…{start + length} does not follow {self.written} of {self.samples}"
+            )
+        pieces = []
+        for name, values in block.items():
+            place = self._place[name]
+            array = layout.encode(name, values)
+            if array.shape != (length, *place.row):
+                raise ValueError(f"{name}: shape {array.shape}, not {(length, *place.row)}")
+            pieces.append((place.offset + start * place.stride, array))
+        for offset, array in pieces:
+            self._put(offset, array)
+        # last, so that whatever moment the process dies at, the count covers only what is there
+        self._put(self._place["samples_written"].offset, np.array(start + length, dtype="<i8"))
+        self.written = start + length
+
+    def finish(self, summary: Mapping[str, Any]) -> Path:
+        """Add the summary, mark the record complete and give it its final name, which is returned.
+
+        Raises
+        ------
+        ValueError
+            If samples are missing.
+        """
+        if self.written != self.samples:
+            raise ValueError(f"{self.written} of {self.samples} samples written")
+        self._close()
+        scratch = self._scratch()
+        shutil.copyfile(self.partial, scratch)
+        self._conclude(scratch, COMPLETE, STATUS_NOTES[COMPLETE], summary)
+        os.replace(scratch, self.path)
+        self.partial.unlink()
+        return self.path
+
+    def fail(self, message: str, summary: Mapping[str, Any] | None = None) -> Path:
+        """Trim the record to what was written and mark it failed; it keeps the name `<name>.partial.h5`.
+
+        Parameters
+        ----------
+        message : str
+            When and why the run stopped.
+        summary : dict, optional
+            What can be said of the part that was done.
+        """
+        self._close()
+        scratch = self._scratch()
+        layout.create(scratch, self._head, self.written)
+        with h5py.File(self.partial, "r") as source, h5py.File(scratch, "r+") as target:
+            for name in ("time", *SAMPLES):
+                target[name][...] = source[name][: self.written]
+            target["samples_written"][...] = self.written
+        self._conclude(scratch, FAILED, message, summary or {})
+        os.replace(scratch, self.partial)
+        return self.partial
+
+    def _conclude(self, path: Path, status: str, message: str, summary: Mapping[str, Any]) -> None:
+        with h5py.File(path, "r+", libver=layout.LIBVER) as file:
+            layout.write_summary(file, summary)
+            file.attrs["status"] = status
+            file.attrs["message"] = message
+
+    def _put(self, offset: int, array: np.ndarray) -> None:
+        self._file.seek(offset)
+        rest = memoryview(array.tobytes())
+        while rest:  # an unbuffered file may take less than it is given
+            rest = rest[self._file.write(rest) :]
+
+    def _close(self) -> None:
+        if not self._open:
+            raise ValueError("the record is closed")
+        self._open = False
+        self._file.close()
+
+    def _scratch(self) -> Path:
+        return self.path.with_name(f"{self.path.stem}.{os.getpid()}.tmp")
