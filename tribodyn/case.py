@@ -120,8 +120,8 @@ class OperatingData:
     speed_regulation : float
         The source's torque falls by this per rad/s above `pinion_speed`, N m s/rad.
     torque_table : Table or None
-        Load torque over time (s, N m), added to nothing: it takes the place of `gear_torque`. Held constant
-        before its first and after its last point.
+        Torque over time (s, N m) added to `gear_torque`; held constant before its first and after its last
+        point.
     torque_harmonics : tuple of (float, float, float)
         (amplitude N m, angular frequency rad/s, phase rad) of cosines added to the load.
     load_inertia : float

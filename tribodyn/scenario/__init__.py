@@ -1,0 +1,1 @@
+"""From TOML, written in engineers' units, to a `Case` in SI."""

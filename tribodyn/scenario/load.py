@@ -1,0 +1,207 @@
+"""From a scenario's name or path to a `Case`, and the registries that give names in TOML their meaning."""
+
+import hashlib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import tomli_w
+from pydantic import ValidationError
+
+from tribodyn.case import Case
+from tribodyn.errors import InputError
+from tribodyn.scenario.messages import InputErrors, Origins, explain
+from tribodyn.scenario.resolve import resolve
+from tribodyn.scenario.rules import broken_rules
+from tribodyn.scenario.schema import Friction, Scenario
+from tribodyn.scenario.sources import find_scenario, near_name, quoted
+from tribodyn.scenario.to_case import case_of
+from tribodyn.tribology.friction import COULOMB, MASJEDI_KHONSARI, NONE
+
+if TYPE_CHECKING:
+    from tribodyn.geometry.family import Family
+
+
+class FrictionLaw(NamedTuple):
+    """What a friction law's name in TOML stands for.
+
+    Parameters
+    ----------
+    code : int
+        The law's code in `tribodyn.tribology.friction`.
+    about : str
+        What it is, in a line.
+    coefficient : bool
+        Whether the scenario gives a friction coefficient.
+    asperity_log_factor : float
+        Factor inside the logarithm of the asperity load ratio; 4470 in Masjedi & Khonsari (2012).
+    limiting_share : float
+        1: the limiting shear stress follows the pressure carried by the fluid; 0: the whole mean pressure.
+    heat_capacity : bool
+        Whether the Péclet numbers contain ρ_s c_p of the solids, as they must to be numbers.
+    """
+
+    code: int
+    about: str
+    coefficient: bool = False
+    asperity_log_factor: float = 4470.0
+    limiting_share: float = 1.0
+    heat_capacity: bool = True
+
+
+FRICTION_LAWS = {
+    "none": FrictionLaw(NONE, "frictionless flanks; the film is still reported"),
+    "coulomb": FrictionLaw(COULOMB, "a constant coefficient, friction.coefficient", coefficient=True),
+    "masjedi-khonsari": FrictionLaw(
+        MASJEDI_KHONSARI, "mixed elastohydrodynamic line contact, Masjedi & Khonsari (2012, 2015)"
+    ),
+    "masjedi-khonsari-mean-pressure": FrictionLaw(
+        MASJEDI_KHONSARI,
+        "the same, limiting shear stress from the whole mean pressure instead of the fluid's share",
+        limiting_share=0.0,
+    ),
+    "masjedi-khonsari-as-printed": FrictionLaw(
+        MASJEDI_KHONSARI,
+        "the same with Liu & Ni's misprints: 447 for 4470, Péclet numbers without ρ c_p",
+        asperity_log_factor=447.0,
+        heat_capacity=False,
+    ),
+}
+
+FAMILIES = {
+    "involute": "standard or profile-shifted involute; pressure_angle is the rack's",
+    "crc": "constant relative curvature (Liu & Ni); pressure_angle is the one at the pitch point",
+}
+
+SOLVERS = {
+    "auto": "explicit or stiff by an estimate; the record says which and why",
+    "dopri5": "Dormand-Prince 5(4), native kernel",
+    "tsit5": "Tsitouras 5(4), diffrax",
+    "dopri8": "Dormand-Prince 8(7), diffrax",
+    "kvaerno5": "Kvaerno 5(4), implicit, diffrax",
+    "radau": "Radau IIA 5, implicit, SciPy",
+    "bdf": "backward differentiation, implicit, SciPy",
+    "lsoda": "Adams/BDF with switching, SciPy",
+    "dop853": "Dormand-Prince 8(5,3), SciPy",
+}
+
+
+def friction_law(name: str) -> FrictionLaw:
+    """Return what a friction law's name stands for."""
+    _known("friction.law", name, FRICTION_LAWS, "friction law")
+    return FRICTION_LAWS[name]
+
+
+def family(name: str) -> "Family":
+    """Return the family of paths of contact of that name."""
+    _known("drive.family", name, FAMILIES, "family of paths of contact")
+    if name == "crc":
+        from tribodyn.geometry import crc
+
+        return crc.FAMILY
+    from tribodyn.geometry import involute
+
+    return involute.FAMILY
+
+
+def solver(name: str) -> str:
+    """Return the solver's name if there is one of that name."""
+    _known("solver.method", name, SOLVERS, "solver")
+    return name
+
+
+def _known(key: str, name: str, registry: Mapping[str, Any], what: str) -> None:
+    if name not in registry:
+        near = near_name(name, registry)
+        mean = f'did you mean "{near}"? ' if near else ""
+        raise InputError(key, quoted(name), f"no such {what}", f"{mean}there is: {', '.join(registry)}")
+
+
+class Loaded(NamedTuple):
+    """A case, the file it was read from, and where each of its values stands."""
+
+    case: Case
+    path: Path
+    origins: Origins
+
+
+def load_scenario(scenario: str | Path, overrides: Mapping[str, Any] | None = None) -> Case:
+    """Read a scenario.
+
+    Parameters
+    ----------
+    scenario : str or Path
+        Path of a scenario file, or the name of a shipped one: "crc-23-47".
+    overrides : mapping, optional
+        Dotted key to value, ``{"operating.gear_torque": "600 N*m"}``; keys reach through references.
+
+    Raises
+    ------
+    InputError
+        Anything that is wrong with it; `InputErrors`, one a line, where there is more than one mistake.
+    """
+    return load(scenario, overrides).case
+
+
+def load(scenario: str | Path, overrides: Mapping[str, Any] | None = None) -> Loaded:
+    """Read a scenario as `load_scenario` does, and say where its values stand."""
+    path = find_scenario(str(scenario))
+    data, origins, unresolved = resolve(path, overrides or {})
+    data.setdefault("name", path.stem)
+    try:
+        table = Scenario.model_validate(data)
+    except ValidationError as error:
+        # a reference that could not be followed has been complained of already
+        known = {one.key for one in unresolved}
+        found = [one for one in explain(error, Scenario) if one.key not in known]
+        raise _located([*unresolved, *found], origins) from None
+    errors = broken_rules(table) + _unknown_names(table) + _coefficient(table.friction)
+    if errors:
+        raise _located(errors, origins)
+    toml = tomli_w.dumps(data)
+    return Loaded(case_of(table, toml, hashlib.sha256(toml.encode()).hexdigest()), path, origins)
+
+
+def _located(errors: list[InputError], origins: Origins) -> InputError:
+    located = [origins.locate(error) for error in errors]
+    return InputErrors(located) if len(located) > 1 else located[0]
+
+
+def _unknown_names(table: Scenario) -> list[InputError]:
+    errors = []
+    lookups = (
+        (family, table.drive.family),
+        (friction_law, table.friction.law),
+        (solver, table.solver.method),
+    )
+    for lookup, name in lookups:
+        try:
+            lookup(name)
+        except InputError as error:
+            errors.append(error)
+    return errors
+
+
+def _coefficient(friction: Friction) -> list[InputError]:
+    law = FRICTION_LAWS.get(friction.law)
+    if law is None or law.coefficient == (friction.coefficient is not None):
+        return []
+    key = "friction.coefficient"
+    if law.coefficient:
+        rule = f'missing: law = "{friction.law}" needs it'
+        return [InputError(key, rule=rule, remedy="add coefficient = 0.05")]
+    rule = f'contradicts law = "{friction.law}", which needs none'
+    return [InputError(key, friction.coefficient, rule, "leave coefficient out")]
+
+
+def json_schema() -> dict[str, Any]:
+    """Return the JSON schema of a scenario file, the registries' names included."""
+    schema = Scenario.model_json_schema()
+    parts = schema["$defs"]
+    for table, key, known in (
+        ("DriveTable", "family", FAMILIES),
+        ("Friction", "law", FRICTION_LAWS),
+        ("Solver", "method", SOLVERS),
+    ):
+        parts[table]["properties"][key]["enum"] = list(known)
+    return schema

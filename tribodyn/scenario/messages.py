@@ -1,0 +1,144 @@
+"""One clear line for every mistake: pydantic's findings, and where the value at fault stands."""
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+
+from tribodyn.errors import InputError
+from tribodyn.scenario.quantity import Reference
+from tribodyn.scenario.sources import near_name, quoted
+
+Key = tuple[str | int, ...]
+
+
+class InputErrors(InputError):
+    """Several mistakes found at once, one a line; the first stands for them where only one is looked at."""
+
+    def __init__(self, errors: Sequence[InputError]):
+        first = errors[0]
+        super().__init__(first.key, first.value, first.rule, first.remedy, first.file)
+        self.errors = tuple(errors)
+
+    def __str__(self) -> str:
+        return "\n".join(map(str, self.errors))
+
+
+class Origins:
+    """Which file each part of a scenario came from: the longest key that begins the one asked for tells.
+
+    Parameters
+    ----------
+    file : str
+        The scenario's own file.
+    """
+
+    def __init__(self, file: str):
+        self._files: dict[Key, str] = {(): file}
+
+    def put(self, key: Key, file: str) -> None:
+        """Remember that what stands at and below `key` came from `file`, whatever was known before."""
+        for known in [known for known in self._files if known[: len(key)] == key]:
+            del self._files[known]
+        self._files[key] = file
+
+    def of(self, key: Key) -> str:
+        """Return the file that `key` came from."""
+        return next(self._files[key[:n]] for n in range(len(key), -1, -1) if key[:n] in self._files)
+
+    def locate(self, error: InputError) -> InputError:
+        """Return the error with its file, if it had none."""
+        if isinstance(error, InputErrors):
+            return InputErrors([self.locate(one) for one in error.errors])
+        if error.file:
+            return error
+        key = tuple(int(part) if part.isdecimal() else part for part in error.key.split("."))
+        return InputError(error.key, error.value, error.rule, error.remedy, self.of(key))
+
+
+def explain(error: ValidationError, model: type[BaseModel]) -> list[InputError]:
+    """Return what pydantic found as our errors, in the order of the file."""
+    return [_explain_one(dict(one), model) for one in error.errors(include_url=False)]
+
+
+def _explain_one(one: dict[str, Any], model: type[BaseModel]) -> InputError:
+    key: Key = one["loc"]
+    dotted = ".".join(map(str, key))
+    context = one.get("ctx", {})
+    given = quoted(one["input"])
+    match one["type"]:
+        case "rule":
+            return InputError(dotted, given, context["rule"], context["remedy"])
+        case "missing":
+            return InputError(dotted, None, "missing", _how_to_write(model, key))
+        case "extra_forbidden":
+            return InputError(dotted, given, "unknown key", _near_key(model, key))
+        case "literal_error":
+            expected = context["expected"].replace("'", '"')
+            near = near_name(str(one["input"]), expected.replace('"', "").replace(" or ", ", ").split(", "))
+            mean = f'did you mean "{near}"? ' if near else ""
+            return InputError(dotted, given, "not one of the choices", f"{mean}write {expected}")
+        case "finite_number":
+            return InputError(dotted, given, "not a finite number", "write a plain number, such as 1.0")
+    rule, remedy = _PLAIN.get(one["type"], (one["msg"].lower(), ""))
+    return InputError(dotted, given, rule.format(**context), remedy.format(**context))
+
+
+_PLAIN = {
+    "float_type": ("not a plain number", "write a number without quotes and unit, such as 1.0"),
+    "int_type": ("not a whole number", "write a whole number without quotes and point, such as 20"),
+    "int_from_float": ("not a whole number", "write a whole number, such as 20"),
+    "bool_type": ("not true or false", "write true or false, without quotes"),
+    "string_type": ("not text", "write text in quotes"),
+    "model_type": ("not a table", "write a table, or see the keys with: tribodyn schema"),
+    "tuple_type": ("not a list", "write a list: [ … ]"),
+    "too_short": ("fewer than {min_length} values", "write at least {min_length}"),
+    "greater_than": ("must be greater than {gt}", "write a greater number"),
+    "greater_than_equal": ("must be at least {ge}", "write {ge} or more"),
+    "less_than": ("must be less than {lt}", "write a lesser number"),
+    "less_than_equal": ("must be at most {le}", "write {le} or less"),
+}
+
+
+def _table_at(model: type[BaseModel], key: Iterable[str | int]) -> type[BaseModel] | None:
+    """Return the table type that `key` leads to."""
+    for part in key:
+        if isinstance(part, int):
+            continue
+        field = model.model_fields.get(part)
+        inner = _table_in(field.annotation) if field else None
+        if inner is None:
+            return None
+        model = inner
+    return model
+
+
+def _table_in(annotation: Any) -> type[BaseModel] | None:
+    """Return the table type inside an annotation such as ``Table | None`` or ``tuple[Table, ...]``."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return annotation
+    inner = (_table_in(part) for part in getattr(annotation, "__args__", ()))
+    return next((table for table in inner if table), None)
+
+
+def _near_key(model: type[BaseModel], key: Key) -> str:
+    table = _table_at(model, key[:-1])
+    known = list(table.model_fields) if table else []
+    near = near_name(str(key[-1]), known)
+    return f'did you mean "{near}"?' if near else f"known keys: {', '.join(known)}"
+
+
+def _how_to_write(model: type[BaseModel], key: Key) -> str:
+    """Return how to write the missing `key`, from its example in the schema."""
+    table = _table_at(model, key[:-1])
+    field = table.model_fields.get(str(key[-1])) if table else None
+    if table is None or field is None:
+        return "write it"
+    if _table_in(field.annotation) and not any(isinstance(mark, Reference) for mark in field.metadata):
+        return f"add the table [{'.'.join(map(str, key))}]"
+    shape = table.model_json_schema()["properties"][str(key[-1])]
+    if any(isinstance(mark, Reference) for mark in field.metadata):
+        return f"give the {shape['anyOf'][0]['description']}"
+    example = shape.get("examples", [None])[0]
+    wanted = {"integer": "a whole number", "number": "a number", "string": "text"}
+    return f"add {key[-1]} = " + (quoted(example) if example else wanted.get(shape.get("type", ""), "…"))

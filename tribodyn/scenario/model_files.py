@@ -1,0 +1,96 @@
+"""The tables of `models/`: what drives, materials, lubricants and bearings are."""
+
+from typing import Annotated
+
+from pydantic import Field
+
+from tribodyn.scenario import units
+from tribodyn.scenario.quantity import NotNegative, Number, Positive, Quantity, Reference, Table, Text
+
+Length = Annotated[float, Quantity(units.positive(units.LENGTH))]
+Angle = Annotated[float, Quantity(units.positive(units.ANGLE_KIND))]
+Mass = Annotated[float, Quantity(units.positive(units.MASS))]
+Inertia = Annotated[float, Quantity(units.positive(units.INERTIA))]
+Pressure = Annotated[float, Quantity(units.positive(units.PRESSURE))]
+Stiffness = Annotated[float, Quantity(units.positive(units.STIFFNESS))]
+
+
+class Described(Table):
+    """What every model file begins with."""
+
+    title: Text = Field(description="what it is, in a line")
+    source: Text = Field(description="where the numbers come from")
+    assumptions: Text = Field("", description="what the source does not give and was chosen here")
+
+
+class Material(Described):
+    """A solid (`models/materials/`)."""
+
+    youngs_modulus: Pressure
+    poisson_ratio: Annotated[float, Field(strict=True, ge=0, lt=0.5)]
+    density: Annotated[float, Quantity(units.positive(units.DENSITY))]
+    thermal_conductivity: Annotated[float, Quantity(units.positive(units.CONDUCTIVITY))]
+    specific_heat: Annotated[float, Quantity(units.positive(units.SPECIFIC_HEAT))]
+    hardness: Pressure = Field(description="Vickers hardness as a pressure")
+
+
+MaterialReference = Annotated[Material, Reference("name of a file in models/materials, or a path")]
+
+
+class Gear(Table):
+    """One gear of a drive."""
+
+    teeth: Annotated[int, Field(strict=True, ge=4)]
+    face_width: Length
+    bore_radius: Length = Field(description="radius of the bore, where the body is held")
+    profile_shift: Number = Field(0.0, description="x, times the module")
+    addendum: Positive = Field(1.0, description="h_a*, times the module (ISO 53)")
+    dedendum: Positive = Field(1.25, description="h_f*, times the module (ISO 53)")
+    fillet_radius: NotNegative = Field(
+        0.25, description="radius of the cutter's tip, times the module (Diez-Ibarbia et al.)"
+    )
+    tip_radius: Length | None = Field(None, description="takes the place of the addendum")
+    mass: Mass | None = Field(None, description="default: from outline, bore and width")
+    inertia: Inertia | None = Field(None, description="polar; default: from outline, bore and width")
+    material: MaterialReference | None = Field(None, description="default: the drive's")
+
+
+class DriveTable(Described):
+    """A gear pair (`models/drives/`)."""
+
+    family: Text = Field(description="family of the path of contact")
+    module: Length
+    pressure_angle: Angle = Field(description="of the rack for involutes; at the pitch point for CRC")
+    roughness: Length = Field(description="composite rms roughness of the flanks")
+    material: MaterialReference | None = None
+    pinion: Gear
+    gear: Gear
+
+
+class Lubricant(Described):
+    """A lubricant as the mixed-EHL friction law sees it (`models/lubricants/`)."""
+
+    asperity_friction: NotNegative = Field(description="f_c")
+    limiting_shear_coefficient: Positive = Field(description="Λ_lim")
+    inlet_viscosity: Annotated[float, Quantity(units.positive(units.VISCOSITY))]
+    pressure_viscosity: Annotated[float, Quantity(units.positive(units.PRESSURE_VISCOSITY))]
+    viscosity_pressure_index: Positive = Field(description="z of Roelands' law")
+    temperature_viscosity: Annotated[float, Quantity(units.not_negative(units.PER_KELVIN))]
+    density: Annotated[float, Quantity(units.positive(units.DENSITY))]
+
+
+class Bearing(Table):
+    """Shaft and bearing of one gear."""
+
+    stiffness_x: Stiffness = Field(description="along the pitch tangent")
+    stiffness_y: Stiffness = Field(description="along the line of centres")
+    damping_ratio: NotNegative | None = Field(None, description="of both axes")
+    damping_ratio_x: NotNegative | None = None
+    damping_ratio_y: NotNegative | None = None
+
+
+class Bearings(Described):
+    """Shafts and bearings of both gears (`models/bearings/`)."""
+
+    pinion: Bearing
+    gear: Bearing

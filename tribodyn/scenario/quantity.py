@@ -1,0 +1,123 @@
+"""Field types of the scenario's tables: quantities with units, plain numbers, columns of numbers with a unit.
+
+The types here speak pydantic; what a unit is stands in `units`.
+"""
+
+from typing import Annotated, Any
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import BaseModel, ConfigDict, Field
+from pydantic_core import PydanticCustomError, core_schema
+
+from tribodyn.scenario.units import Kind, NotAQuantity, factor_to_si, to_si
+
+
+class Table(BaseModel):
+    """A TOML table: frozen, no unknown keys, defaults held to the same rules as what the user writes."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True)
+
+
+class Quantity:
+    """Marks a field as written with a unit: ``Annotated[float, Quantity(LENGTH)]`` reads "3 mm" as 0.003.
+
+    Parameters
+    ----------
+    kind : Kind
+        What it is a quantity of.
+    """
+
+    def __init__(self, kind: Kind):
+        self.kind = kind
+
+    def __get_pydantic_core_schema__(self, _source: Any, _handler: Any) -> core_schema.CoreSchema:
+        return core_schema.no_info_plain_validator_function(self.read)
+
+    def __get_pydantic_json_schema__(self, _schema: Any, _handler: Any) -> dict[str, Any]:
+        sign = "" if self.kind.allowed == "any" else f", {self.kind.allowed}"
+        return {
+            "type": "string",
+            "description": f"a quantity with a unit of {self.kind.name}{sign}",
+            "examples": [self.kind.example],
+        }
+
+    def read(self, value: Any) -> float:
+        """Convert what stands in TOML to SI."""
+        try:
+            return to_si(value, self.kind)
+        except NotAQuantity as error:
+            raise broken(error.rule, error.remedy) from None
+
+
+class Reference:
+    """Marks a field that may name a file instead of being written out; the loader puts the content in.
+
+    Parameters
+    ----------
+    what : str
+        What the name stands for.
+    """
+
+    def __init__(self, what: str):
+        self.what = what
+
+    def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
+        return {"anyOf": [{"type": "string", "description": self.what}, handler(schema)]}
+
+
+def broken(rule: str, remedy: str) -> PydanticCustomError:
+    """Return the error that a validator raises for a broken rule; the braces of a template are escaped."""
+    return PydanticCustomError("rule", "{rule}; {remedy}", {"rule": rule, "remedy": remedy})
+
+
+Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
+"""A plain number without a unit."""
+Positive = Annotated[float, Field(strict=True, allow_inf_nan=False, gt=0)]
+NotNegative = Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0)]
+Count = Annotated[int, Field(strict=True, gt=0)]
+Switch = Annotated[bool, Field(strict=True)]
+Text = Annotated[str, Field(strict=True)]
+
+
+class Column(Table):
+    """One column of a table of numbers, with its unit."""
+
+    unit: Text = Field(description="unit of every value", examples=["s"])
+    values: tuple[Number, ...] = Field(min_length=2, description="the numbers")
+
+    def in_si(self, kind: Kind) -> NDArray[np.float64]:
+        """Return the values in the SI unit of `kind`."""
+        return np.array(self.values, dtype=float) * factor_to_si(self.unit, kind)
+
+
+class Curve(Table):
+    """A function given by points; a scenario names a CSV file instead, whose header carries names and units.
+
+    The first field is the abscissa, which must increase; the second the ordinate.
+    """
+
+    def in_si(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return abscissae and ordinates in SI units."""
+        columns = [
+            getattr(self, name).in_si(field.metadata[0]) for name, field in type(self).model_fields.items()
+        ]
+        return columns[0], columns[1]
+
+    def model_post_init(self, _: Any) -> None:
+        """Hold units, lengths and order to the rules."""
+        columns: dict[str, Column] = {name: getattr(self, name) for name in type(self).model_fields}
+        for name, field in type(self).model_fields.items():
+            try:
+                factor_to_si(columns[name].unit, field.metadata[0])
+            except NotAQuantity as error:
+                raise broken(f'{name} is in "{columns[name].unit}": {error.rule}', error.remedy) from None
+        (first, x), (second, y) = columns.items()
+        if len(x.values) != len(y.values):
+            raise broken(
+                f"{len(x.values)} values of {first} and {len(y.values)} of {second}", "write as many of each"
+            )
+        steps = np.diff(np.array(x.values))
+        if not (steps > 0).all():
+            row = int(np.argmin(steps > 0)) + 2
+            raise broken(f"{first} does not increase at point {row}", f"sort the points by {first}")

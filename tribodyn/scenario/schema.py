@@ -1,0 +1,192 @@
+"""The tables of a scenario file: what is done with a drive.
+
+Field names are the interface of the command line (`--set operating.gear_torque="600 N*m"`). Defaults stand
+as they would be written in TOML. Rules that tie fields together stand in `rules`; names of laws, families and
+solvers in the registries of `load`.
+"""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from tribodyn.scenario import units
+from tribodyn.scenario.model_files import Bearings, DriveTable, Length, Lubricant, Stiffness
+from tribodyn.scenario.quantity import (
+    Column,
+    Count,
+    Curve,
+    NotNegative,
+    Quantity,
+    Reference,
+    Switch,
+    Table,
+    Text,
+)
+
+Torque = Annotated[float, Quantity(units.TORQUE)]
+Inertia = Annotated[float, Quantity(units.not_negative(units.INERTIA))]
+TorsionalDamping = Annotated[float, Quantity(units.not_negative(units.TORSIONAL_DAMPING))]
+Angle = Annotated[float, Quantity(units.ANGLE_KIND)]
+SignedLength = Annotated[float, Quantity(units.LENGTH)]
+RollAngles = Annotated[Column, units.ANGLE_KIND]
+
+
+class TorqueCurve(Curve):
+    """Torque over time that is added to the load; held constant outside the points."""
+
+    time: Annotated[Column, units.TIME]
+    torque: Annotated[Column, units.TORQUE]
+
+
+class StiffnessCurve(Curve):
+    """Stiffness of a single pair over the pinion's roll angle from the pitch point."""
+
+    roll_angle: RollAngles
+    stiffness: Annotated[Column, units.positive(units.STIFFNESS)]
+
+
+class ErrorCurve(Curve):
+    """Static transmission error of a pair over the pinion's roll angle from the pitch point."""
+
+    roll_angle: RollAngles
+    error: Annotated[Column, units.LENGTH]
+
+
+class TorqueHarmonic(Table):
+    """A cosine in the load torque."""
+
+    amplitude: Torque
+    frequency: Annotated[float, Quantity(units.positive(units.ANGULAR_FREQUENCY))]
+    phase: Angle = Field("0 deg")
+
+
+class ErrorHarmonic(Table):
+    """A cosine in the static transmission error, over the mesh cycle."""
+
+    order: Count = Field(description="1: mesh frequency, 2: twice that, …")
+    amplitude: SignedLength
+    phase: Angle = Field("0 deg")
+
+
+class Operating(Table):
+    """How the drive is driven and loaded."""
+
+    source: Literal["speed", "torque"] = Field(
+        "speed", description="speed: the pinion's rotation is prescribed; torque: a motor with inertia"
+    )
+    pinion_speed: Annotated[float, Quantity(units.positive(units.ANGULAR_SPEED))] = Field(
+        description="nominal; with a torque source also the speed at the start"
+    )
+    gear_torque: Torque = Field(description="constant part of the load")
+    gear_torque_table: Annotated[TorqueCurve, Reference("CSV file with columns time and torque")] | None = (
+        Field(None, description="over time, added to the load")
+    )
+    gear_torque_harmonics: tuple[TorqueHarmonic, ...] = Field((), description="added to the load")
+    load_inertia: Inertia = Field("0 kg*m**2")
+    load_damping: TorsionalDamping = Field(
+        "0 N*m*s/rad", description="load that grows with speed above nominal"
+    )
+    pinion_torque: Torque | None = Field(
+        None, description="of the motor at nominal speed; default: balances the load without losses"
+    )
+    drive_inertia: Inertia = Field("0 kg*m**2", description="of the motor")
+    shaft_stiffness: Annotated[float, Quantity(units.positive(units.TORSIONAL_STIFFNESS))] | None = Field(
+        None, description="between motor and pinion; default: rigid"
+    )
+    shaft_damping: TorsionalDamping = Field("0 N*m*s/rad")
+    speed_regulation: TorsionalDamping = Field(
+        "0 N*m*s/rad", description="the motor's torque falls by this with speed above nominal"
+    )
+
+
+class TransmissionError(Table):
+    """Static transmission error e of a pair, positive where material is missing."""
+
+    harmonics: tuple[ErrorHarmonic, ...] = ()
+    table: Annotated[ErrorCurve, Reference("CSV file with columns roll_angle and error")] | None = None
+
+
+class Mesh(Table):
+    """How the teeth in contact give way, damp, separate and err."""
+
+    damping_ratio: NotNegative
+    compliance: Literal["energy", "constant", "table"] = "energy"
+    hertz: Literal["linear", "load-dependent"] = Field(
+        "linear", description="contact part of the energy method's compliance"
+    )
+    foundation_coupling: Switch = Field(True, description="pairs that share a body share its foundation")
+    stiffness: Stiffness | None = Field(None, description='of a single pair, with compliance = "constant"')
+    table: Annotated[StiffnessCurve, Reference("CSV file with columns roll_angle and stiffness")] | None = (
+        Field(None, description='of a single pair, with compliance = "table"')
+    )
+    formulation: Literal["classical", "energy-consistent"] = Field(
+        "classical", description="whether the varying stiffness acts on the rotations"
+    )
+    contact_width: Length = Field("0.1 um", description="deflection over which contact sets in")
+    backlash: Annotated[float, Quantity(units.not_negative(units.LENGTH))] | None = Field(
+        None, description="normal backlash; default: back flanks never touch"
+    )
+    points: Annotated[int, Field(strict=True, ge=5)] = Field(65, description="nodes a segment of the table")
+    transmission_error: TransmissionError = Field(default_factory=dict)
+
+
+class Friction(Table):
+    """Which law acts between the flanks."""
+
+    law: Text
+    coefficient: NotNegative | None = Field(None, description="of Coulomb's law")
+    sliding: Literal["kinematic", "dynamic"] = Field(
+        "kinematic", description="sliding speed from nominal rotation or from the vibrating bodies"
+    )
+    reversal_width: Length = Field("20 um", description="along the path, over which friction turns at P")
+
+
+class Solver(Table):
+    """How the equations are solved."""
+
+    method: Text = "auto"
+    rtol: Annotated[float, Field(strict=True, ge=1e-13, le=1e-2)] = 1e-6
+    cycles: Count = Field(20, description="mesh cycles to run")
+    max_steps: Count = Field(1_000_000, description="steps allowed in one mesh cycle")
+    initial: Literal["static", "unloaded"] = Field("static", description="state at the start")
+
+
+class Output(Table):
+    """What is recorded."""
+
+    samples_per_cycle: Annotated[int, Field(strict=True, ge=8)] = 200
+
+
+class Scenario(Table):
+    """A scenario file."""
+
+    title: Text = Field(description="what it shows, in a line")
+    name: Text | None = Field(None, description="names the record; default: the file's own name")
+    kind: Literal["gear-pair"] = "gear-pair"
+    drive: Annotated[DriveTable, Reference("name of a file in models/drives, or a path")]
+    lubricant: Annotated[Lubricant, Reference("name of a file in models/lubricants, or a path")]
+    bearings: Annotated[Bearings, Reference("name of a file in models/bearings, or a path")] = Field(
+        "rigid-1e9"
+    )
+    operating: Operating
+    mesh: Mesh
+    friction: Friction
+    solver: Solver = Field(default_factory=dict)
+    output: Output = Field(default_factory=dict)
+
+
+def defaults_written_out(raw: dict[str, Any], table: type[Table] = Scenario) -> dict[str, Any]:
+    """Return the TOML data `raw` with every default of the schema written where a key is missing.
+
+    Keys that the schema does not know stay as they are, for the validation to name.
+    """
+    full = dict(raw)
+    for key, field in table.model_fields.items():
+        if key not in full and not field.is_required():
+            default = field.get_default(call_default_factory=True)
+            if default is not None:
+                full[key] = list(default) if isinstance(default, tuple) else default
+        inner = field.annotation
+        if isinstance(inner, type) and issubclass(inner, Table) and isinstance(full.get(key), dict):
+            full[key] = defaults_written_out(full[key], inner)
+    return full

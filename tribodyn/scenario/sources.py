@@ -1,0 +1,169 @@
+"""Finding and reading what a scenario is made of: TOML files, the model files they name, CSV tables."""
+
+import csv
+import re
+import tomllib
+from collections.abc import Iterable
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any
+
+from tribodyn.errors import InputError
+
+_PACKAGE = Path(__file__).resolve().parents[1]
+_HEADER = re.compile(r"\s*(?P<name>\w+)\s*\[(?P<unit>[^\]]*)\]\s*$")
+
+
+def shipped(folder: str) -> Path:
+    """Return the shipped folder "models" or "scenarios": in the wheel, or at the root of a checkout."""
+    inside = _PACKAGE / "data" / folder
+    return inside if inside.is_dir() else _PACKAGE.parent / folder
+
+
+def names(folder: Path) -> list[str]:
+    """Return the names that may be used for the TOML files of a folder, sorted."""
+    return sorted(path.stem for path in folder.glob("*.toml"))
+
+
+def find_scenario(name: str) -> Path:
+    """Return the file of a scenario that is given by path or by the name of a shipped one."""
+    path = Path(name)
+    if path.suffix == ".toml" or path.is_file():
+        if path.is_file():
+            return path
+        near = near_name(path.name, [p.name for p in path.parent.glob("*.toml")])
+        remedy = f'did you mean "{path.with_name(near)}"?' if near else "check the path"
+        raise InputError("scenario", quoted(name), "no such file", remedy)
+    folder = shipped("scenarios")
+    if (folder / f"{name}.toml").is_file():
+        return folder / f"{name}.toml"
+    raise _not_found("scenario", name, "scenario", [folder])
+
+
+def find_model(name: str, kind: str, key: str, referring: Path) -> Path:
+    """Return the file of a model that `referring` names.
+
+    Parameters
+    ----------
+    name : str
+        A path (it ends in .toml) relative to the referring file, or a name.
+    kind : str
+        Folder of `models/`: "drives", "materials", …
+    key : str
+        Where the name stands, for messages.
+    referring : Path
+        The file that it stands in.
+    """
+    if name.endswith(".toml"):
+        path = referring.parent / name
+        if path.is_file():
+            return path
+        near = near_name(path.name, [p.name for p in path.parent.glob("*.toml")])
+        remedy = f'did you mean "{Path(name).with_name(near)}"?' if near else "check the path"
+        raise InputError(key, quoted(name), f"no such file: {path}", remedy)
+    folders = [referring.resolve().parent.parent / "models" / kind, shipped("models") / kind]
+    for folder in folders:
+        if (folder / f"{name}.toml").is_file():
+            return folder / f"{name}.toml"
+    raise _not_found(key, name, f"file in models/{kind}", folders)
+
+
+def _not_found(key: str, name: str, what: str, folders: Iterable[Path]) -> InputError:
+    looked = list(dict.fromkeys(folder.resolve() for folder in folders))
+    known = sorted({known for folder in looked for known in names(folder)})
+    near = near_name(name, known)
+    remedy = f'did you mean "{near}"? ' if near else ""
+    there = ", ".join(known) or "nothing"
+    places = " and ".join(map(str, looked))
+    return InputError(key, quoted(name), f"no such {what}; looked in {places}", f"{remedy}there is: {there}")
+
+
+def near_name(name: str, known: Iterable[str]) -> str:
+    """Return the known name that looks most like `name`, or ""."""
+    known = list(known)
+    close = get_close_matches(name, known, n=1, cutoff=0.6)
+    close = close or [other for other in known if name and (name in other or other in name)]
+    return close[0] if close else ""
+
+
+def quoted(value: Any) -> str:
+    """Return a value as TOML would write it, on one line and cut where it is long."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        text = '"' + value.encode("unicode_escape").decode().replace("\\xb0", "°").replace("\\xb5", "µ") + '"'
+    elif isinstance(value, dict):
+        text = "{" + ", ".join(f"{key} = {quoted(item)}" for key, item in value.items()) + "}"
+    elif isinstance(value, (list, tuple)):
+        text = "[" + ", ".join(map(quoted, value)) + "]"
+    else:
+        text = str(value)
+    return text if len(text) <= 80 else text[:77] + "..."
+
+
+def read_text(path: Path) -> str:
+    """Return the text of a file; an unreadable one is bad input."""
+    try:
+        return path.read_text(encoding="utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise InputError(
+            f"byte {error.start}", rule="not UTF-8 text", remedy="save it as UTF-8", file=str(path)
+        ) from None
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise InputError("file", rule=f"cannot be read: {reason}", file=str(path)) from None
+
+
+def read_toml(path: Path) -> dict[str, Any]:
+    """Return the data of a TOML file; a syntax error names its line."""
+    text = read_text(path)
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        what, _, place = str(error).partition(" (at ")
+        line = re.match(r"line (\d+)", place)
+        number = int(line[1]) if line else len(text.splitlines())
+        lines = text.splitlines()
+        given = lines[number - 1].strip() if 0 < number <= len(lines) else ""
+        raise InputError(
+            f"line {number}",
+            rule=f"not TOML: {what[0].lower()}{what[1:]}" + (f" in {quoted(given)}" if given else ""),
+            remedy='write key = value, with quotes round text and quantities: module = "3 mm"',
+            file=str(path),
+        ) from None
+
+
+def read_curve(path: Path, key: str, columns: Iterable[str]) -> dict[str, Any]:
+    """Return the columns of a CSV file as the scenario would write them out.
+
+    The first line names the columns and their units, ``time [s],torque [N*m]``; lines that begin with # are
+    comments. `columns` are the names that are due, in order.
+    """
+    due = list(columns)
+    example = ",".join(f"{name} [unit]" for name in due)
+    numbered = [
+        (number, line)
+        for number, line in enumerate(read_text(path).splitlines(), start=1)
+        if line.strip() and not line.lstrip().startswith("#")
+    ]
+
+    def bad(number: int, rule: str, remedy: str) -> InputError:
+        return InputError(key, rule=f"line {number}: {rule}", remedy=remedy, file=str(path))
+
+    if not numbered:
+        raise bad(1, "the file is empty", f"begin it with {example}")
+    rows = list(csv.reader(line for _, line in numbered))
+    heads = [_HEADER.match(cell) for cell in rows[0]]
+    found = {head["name"]: (head["unit"], index) for index, head in enumerate(heads) if head}
+    for name in due:
+        if name not in found:
+            raise bad(numbered[0][0], f'no column "{name} [unit]" in the header', f"write {example}")
+    values: dict[str, list[float]] = {name: [] for name in due}
+    for (number, _), row in zip(numbered[1:], rows[1:], strict=True):
+        for name in due:
+            cell = row[found[name][1]] if found[name][1] < len(row) else ""
+            try:
+                values[name].append(float(cell))
+            except ValueError:
+                raise bad(number, f"{quoted(cell)} is not a number ({name})", "write numbers only") from None
+    return {name: {"unit": found[name][0], "values": values[name]} for name in due}

@@ -1,0 +1,183 @@
+"""Quantities with units: the border between TOML ("3 mm") and SI floats.
+
+A quantity in TOML is a string of a number and a unit. Pint reads it; what leaves this module is a float in
+the SI unit of its `Kind`. A bare number, a wrong dimension, NaN and infinity are refused with a sentence that
+says which unit is due.
+"""
+
+import re
+from functools import cache
+from math import isfinite, pi
+from typing import Any, NamedTuple
+
+
+class Kind(NamedTuple):
+    """A kind of quantity.
+
+    Parameters
+    ----------
+    name : str
+        What it is called in messages: "length".
+    si : str
+        The SI unit it is converted to, as pint writes it.
+    example : str
+        A good way to write one.
+    allowed : str
+        "any", "not negative" or "positive".
+    """
+
+    name: str
+    si: str
+    example: str
+    allowed: str = "any"
+
+
+class NotAQuantity(ValueError):
+    """A value that is not a quantity of the kind that is due; carries the broken rule and the remedy."""
+
+    def __init__(self, rule: str, remedy: str):
+        super().__init__(f"{rule}; {remedy}")
+        self.rule = rule
+        self.remedy = remedy
+
+
+_NUMBER = re.compile(
+    r"\s*(?P<number>[+-]?(?:\d+\.?\d*(?:[eE][+-]?\d+)?|\.\d+(?:[eE][+-]?\d+)?|nan|inf(?:inity)?))\s*(?P<unit>.*?)\s*$",
+    re.ASCII,
+)
+_ONE_OVER = re.compile(r"^1(?=\s*/)")
+_NM = re.compile(r"\bNm\b")
+
+SPEED = "angular speed"
+FREQUENCY = "frequency"
+ANGLE = "angle"
+
+
+@cache
+def registry() -> Any:
+    """Pint's registry, made on first use; its parsed definitions are kept on disk where that is allowed."""
+    import pint
+
+    try:
+        return pint.UnitRegistry(cache_folder=":auto:")
+    except OSError:  # no home folder, or one that cannot be written
+        return pint.UnitRegistry()
+
+
+def to_si(value: Any, kind: Kind) -> float:
+    """Convert the quantity `value`, written as TOML has it, to the SI unit of `kind`.
+
+    Raises
+    ------
+    NotAQuantity
+        No unit, an unknown unit, a unit of something else, not finite, or of a sign that is not allowed.
+    """
+    write = f'write a quantity with a unit of {kind.name}, such as "{kind.example}"'
+    if isinstance(value, (bool, dict, list)) or not isinstance(value, (int, float, str)):
+        raise NotAQuantity(f"not a quantity but {_toml_name(value)}", write)
+    if not isinstance(value, str):
+        raise NotAQuantity("a number without a unit", write)
+    number = _NUMBER.match(value)
+    if number is None:
+        raise NotAQuantity("not a number and a unit", write)
+    magnitude = _scaled(float(number["number"]), _factor(number["unit"], kind, write))
+    if not isfinite(magnitude):
+        raise NotAQuantity("not a finite number", write)
+    if (kind.allowed == "positive" and magnitude <= 0) or (kind.allowed == "not negative" and magnitude < 0):
+        raise NotAQuantity(f"must be {_sign(kind.allowed)}", f'write it like "{kind.example}"')
+    return magnitude
+
+
+def factor_to_si(unit: str, kind: Kind) -> float:
+    """Return the factor from `unit` to the SI unit of `kind`; raises as `to_si` does."""
+    return _factor(unit, kind, f'write a unit of {kind.name}, such as "{kind.example.split(" ", 1)[1]}"')
+
+
+def _scaled(number: float, factor: float) -> float:
+    """Multiply; "9 mm" becomes 0.009 m to the last digit, which 9 × 0.001 is not."""
+    divisor = round(1 / factor) if factor < 1 else 0
+    return number / divisor if divisor and abs(1 / factor - divisor) < 1e-9 * divisor else number * factor
+
+
+def _units(text: str, write: str) -> Any:
+    """Text to pint's units."""
+    import pint
+
+    try:
+        return registry().parse_units(_spelling(text))
+    except pint.UndefinedUnitError as error:
+        names = error.unit_names
+        name = names if isinstance(names, str) else ", ".join(names)
+        raise NotAQuantity(f'unknown unit "{name}"', write) from None
+    except Exception:  # pint's parser raises whatever Python's tokenizer and arithmetic do
+        raise NotAQuantity("not a number and a unit", write) from None
+
+
+def _spelling(text: str) -> str:
+    """Engineers' spelling to pint's: "Nm" (a nautical mile to pint), "·", and the 1 of "1/K"."""
+    return _NM.sub("N*m", _ONE_OVER.sub("dimensionless", text).replace("·", "*"))
+
+
+def _factor(text: str, kind: Kind, write: str) -> float:
+    """Factor from the unit `text` to the SI unit of `kind`; one with a shifted zero, °C, has none."""
+    import pint
+
+    if not text.strip():
+        raise NotAQuantity("a number without a unit", write)
+    units = _units(text, write)
+    if kind.name in (SPEED, FREQUENCY) and not _has_angle(units):
+        if kind.name == SPEED and units.is_compatible_with("1/s"):
+            raise NotAQuantity("a frequency, which leaves open whether turns or radians are meant", write)
+        if kind.name == FREQUENCY and units.is_compatible_with("1/s"):
+            return 2 * pi * float(registry().Quantity(1.0, units).to("1/s").magnitude)
+    try:
+        return float(registry().Quantity(1.0, units).to(kind.si).magnitude)
+    except pint.DimensionalityError:
+        raise NotAQuantity(f'"{text}" is not a unit of {kind.name}', write) from None
+    except pint.OffsetUnitCalculusError:
+        raise NotAQuantity(f'"{text}" has a shifted zero', write) from None
+
+
+def _has_angle(units: Any) -> bool:
+    """Whether an angle stands in the unit; pint itself treats the radian as the number 1."""
+    return "radian" in dict(registry().Quantity(1, units).to_root_units().unit_items())
+
+
+def _sign(allowed: str) -> str:
+    return "greater than zero" if allowed == "positive" else "zero or more"
+
+
+def _toml_name(value: Any) -> str:
+    names = {bool: "a true/false value", dict: "a table", list: "a list"}
+    return names.get(type(value), "a date")
+
+
+def positive(kind: Kind) -> Kind:
+    """Return the same kind, greater than zero."""
+    return kind._replace(allowed="positive")
+
+
+def not_negative(kind: Kind) -> Kind:
+    """Return the same kind, zero or more."""
+    return kind._replace(allowed="not negative")
+
+
+LENGTH = Kind("length", "m", "3 mm")
+ROUGHNESS = Kind("length", "m", "0.3 um")
+ANGLE_KIND = Kind(ANGLE, "rad", "20 deg")
+ANGULAR_SPEED = Kind(SPEED, "rad/s", "10 rad/s")
+ANGULAR_FREQUENCY = Kind(FREQUENCY, "rad/s", "30 Hz")
+TIME = Kind("time", "s", "0.1 s")
+TORQUE = Kind("torque", "N*m", "500 N*m")
+MASS = Kind("mass", "kg", "0.7 kg")
+INERTIA = Kind("moment of inertia", "kg*m**2", "4e-4 kg*m**2")
+STIFFNESS = Kind("stiffness", "N/m", "2.8e8 N/m")
+TORSIONAL_STIFFNESS = Kind("torsional stiffness", "N*m/rad", "5e4 N*m/rad")
+TORSIONAL_DAMPING = Kind("torsional damping", "N*m*s/rad", "0.5 N*m*s/rad")
+PRESSURE = Kind("pressure", "Pa", "206 GPa")
+DENSITY = Kind("density", "kg/m**3", "7850 kg/m**3")
+CONDUCTIVITY = Kind("thermal conductivity", "W/(m*K)", "60.5 W/(m*K)")
+SPECIFIC_HEAT = Kind("specific heat", "J/(kg*K)", "434 J/(kg*K)")
+VISCOSITY = Kind("dynamic viscosity", "Pa*s", "0.35 Pa*s")
+PRESSURE_VISCOSITY = Kind("pressure-viscosity coefficient", "1/Pa", "25 1/GPa")
+PER_KELVIN = Kind("temperature coefficient", "1/K", "0.045 1/K")
