@@ -179,4 +179,4 @@ def check(drive: Drive) -> None:
         )
 
 
-FAMILY = Family("crc", working_path, generating_path, check)
+FAMILY = Family("crc", working_path, generating_path, False, check)

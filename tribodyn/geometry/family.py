@@ -20,6 +20,8 @@ class Family(NamedTuple):
         (drive, side) -> (path, shift): the path of contact of that body with its rack, seen from the
         body (the body is the path's pinion and rolls on the circle of `path.pinion_pitch_radius`), and the
         distance x m (m) by which the rack is shifted away from the axis.
+    shiftable : bool
+        Whether a gear of this family can be profile-shifted.
     check : callable
         drive -> None; raises InputError for numbers that this family in particular cannot use.
     """
@@ -27,4 +29,5 @@ class Family(NamedTuple):
     name: str
     working_path: Callable[[Drive], Path]
     generating_path: Callable[[Drive, Side], tuple[Path, Any]]
+    shiftable: bool
     check: Callable[[Drive], None]

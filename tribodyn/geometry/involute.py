@@ -119,4 +119,4 @@ def check(drive: Drive) -> None:
         )
 
 
-FAMILY = Family("involute", working_path, generating_path, check)
+FAMILY = Family("involute", working_path, generating_path, True, check)

@@ -1,0 +1,90 @@
+"""The whole gear from one tooth: its polygon, its mass and its inertia about the axis."""
+
+from typing import Any
+
+import numpy as np
+
+from tribodyn.elementary import arctan2, cos, namespace, sin, sqrt
+from tribodyn.geometry.drive import Drive, Side, body_of
+from tribodyn.geometry.family import Family
+from tribodyn.geometry.path import seen_from
+from tribodyn.geometry.tooth import ToothOutline, cut_tooth, outline, thickness_half_angle, tooth_outline
+
+Array = Any
+
+_ARC_POINTS = 5
+# The chords of this many points leave a relative error below 1e-7 in area and inertia.
+_INTEGRATION_POINTS = 400
+
+
+def gear_polygon(family: Family, drive: Drive, side: Side, flank_points: int = 40) -> Array:
+    """Draw all teeth as a closed polygon, m, shape (points, 2); the first point is repeated at the end.
+
+    The frame is the body's own: origin on its axis, x and y parallel to the drive's frame (`path`) while a
+    pair touches at the pitch point. At a pinion angle φ the pinion's polygon is turned clockwise by φ and
+    carried to (0, −r_p), the gear's counter-clockwise by φ r_p/r_g and carried to (0, r_g). The teeth have
+    no backlash. The number of teeth must be a plain number.
+    """
+    tooth = cut_tooth(family, drive, side)
+    shape = tooth_outline(tooth, flank_points, max(flank_points // 2, 8))
+    xp = namespace(tooth)
+    half_radius, half_angle = _half_tooth(shape, body_of(drive, side).teeth)
+    # The middle of the gap belongs to the next tooth.
+    radius = xp.concatenate([half_radius, half_radius[:0:-1]])
+    angle = xp.concatenate([-half_angle, half_angle[:0:-1]])
+    body_path = seen_from(family.working_path(drive), side)
+    pitch_half_angle = thickness_half_angle(tooth, body_path.pinion_pitch_radius)
+    teeth = round(float(body_of(drive, side).teeth))
+    index = np.arange(teeth)[:, None]
+    # Angles from the line of centres, counter-clockwise, with the tooth left of the pitch point.
+    turned = (pitch_half_angle + angle + index * (2 * np.pi / teeth)).reshape(-1)
+    radius = xp.concatenate([radius] * teeth)
+    upwards = 1.0 if side == "pinion" else -1.0
+    points = xp.stack([-upwards * radius * sin(turned), upwards * radius * cos(turned)], axis=-1)
+    return xp.concatenate([points, points[:1]])
+
+
+def _half_tooth(shape: ToothOutline, teeth: Any) -> tuple[Array, Array]:
+    """Polar coordinates of half a tooth, from the middle of the gap to the middle of the tip."""
+    xp = namespace(shape, teeth)
+    x = xp.concatenate([shape.fillet_x, shape.flank_x[1:]])
+    y = xp.concatenate([shape.fillet_y, shape.flank_y[1:]])
+    radius, angle = sqrt(x**2 + y**2), arctan2(y, x)
+    along = np.linspace(0.0, 1.0, _ARC_POINTS)[:-1]
+    root = np.pi / teeth + along * (shape.root_half_angle - np.pi / teeth)
+    tip = angle[-1] * (1 - np.linspace(0.0, 1.0, _ARC_POINTS)[1:-1])
+    return (
+        xp.concatenate([shape.root_radius + 0 * root, radius, shape.tip_radius + 0 * tip]),
+        xp.concatenate([root, angle, tip]),
+    )
+
+
+def section_area_and_inertia(shape: ToothOutline, teeth: Any, bore_radius: Any) -> tuple[Any, Any]:
+    """Area (m²) and polar second moment of area about the axis (m⁴) of the gear's cross-section.
+
+    Chords of the outline's points, exact arcs at root, tip and bore.
+    """
+    xp = namespace(shape, teeth)
+    x = xp.concatenate([shape.fillet_x, shape.flank_x[1:]])
+    y = xp.concatenate([shape.fillet_y, shape.flank_y[1:]])
+    # The outline runs towards the tooth's axis, clockwise, so the signed triangles change their sign.
+    cross = y[:-1] * x[1:] - x[:-1] * y[1:]
+    square = x[:-1] ** 2 + y[:-1] ** 2 + x[1:] ** 2 + y[1:] ** 2 + x[:-1] * x[1:] + y[:-1] * y[1:]
+    tip_angle = arctan2(shape.flank_y[-1], shape.flank_x[-1])
+    root_angle = np.pi / teeth - shape.root_half_angle
+    arcs_area = (shape.tip_radius**2 * tip_angle + shape.root_radius**2 * root_angle) / 2
+    arcs_inertia = (shape.tip_radius**4 * tip_angle + shape.root_radius**4 * root_angle) / 4
+    area = 2 * teeth * (cross.sum() / 2 + arcs_area) - np.pi * bore_radius**2
+    inertia = 2 * teeth * ((cross * square).sum() / 12 + arcs_inertia) - np.pi / 2 * bore_radius**4
+    return area, inertia
+
+
+def mass_and_inertia(family: Family, drive: Drive, side: Side, density: Any) -> tuple[Any, Any]:
+    """Mass (kg) and moment of inertia about the axis (kg m²) of a body without hub, web or shaft.
+
+    The toothed section less the bore, as wide as the teeth.
+    """
+    body = body_of(drive, side)
+    shape = outline(family, drive, side, _INTEGRATION_POINTS, _INTEGRATION_POINTS)
+    area, inertia = section_area_and_inertia(shape, body.teeth, body.bore_radius)
+    return density * body.face_width * area, density * body.face_width * inertia
