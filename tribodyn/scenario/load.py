@@ -1,7 +1,8 @@
 """From a scenario's name or path to a `Case`, and the registries that give names in TOML their meaning."""
 
 import hashlib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -123,6 +124,17 @@ class Loaded(NamedTuple):
     case: Case
     path: Path
     origins: Origins
+
+    @contextmanager
+    def naming(self) -> Iterator[None]:
+        """Put the file into the errors that the physics raises inside the block."""
+        try:
+            yield
+        except InputError as error:
+            # "output" and the like are options of the command, not keys of a file
+            if error.file or "." not in error.key:  # a key without a point is an option of the command
+                raise
+            raise self.origins.locate(error) from None
 
 
 def load_scenario(scenario: str | Path, overrides: Mapping[str, Any] | None = None) -> Case:

@@ -1,0 +1,46 @@
+"""The typer application: its verbs in the order that a newcomer needs them."""
+
+import sys
+from typing import Annotated
+
+import typer
+
+from tribodyn.cli import check, init, plot, run, schema, show, validate
+from tribodyn.cli import list as list_
+from tribodyn.cli.outcome import verb
+
+app = typer.Typer(
+    help="From tooth shape to transmission error, loads, film thickness and efficiency.",
+    epilog="\b\nBegin with:\n"
+    "  tribodyn list                what there is to run\n"
+    "  tribodyn run crc-23-47       run a scenario: record, summary, picture\n"
+    "  tribodyn init my-drive       write a scenario of your own to edit\n"
+    "\b\nExit status: 0 done; 1 a bug in tribodyn; 2 bad input; 3 the simulation\n"
+    "failed, partial record kept; 4 a validation outside its tolerance;\n130 interrupted.",
+    no_args_is_help=True,
+    add_completion=False,
+    # plain help: half the start-up time, and it pipes well
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+)
+
+for module in (run, check, show, plot, list_, init, schema, validate):
+    function = getattr(module, module.__name__.rpartition(".")[2])
+    app.command(epilog=module.EXAMPLES)(verb(function))
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        from tribodyn import __version__
+
+        sys.stdout.write(f"tribodyn {__version__}\n")
+        raise typer.Exit
+
+
+@app.callback()
+def _options(
+    _version: Annotated[
+        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version.")
+    ] = False,
+) -> None:
+    pass

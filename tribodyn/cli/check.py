@@ -1,0 +1,86 @@
+"""`tribodyn check`: is the scenario sound, what gears does it describe, how stiff are they."""
+
+import math
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from tribodyn.cli.overrides import SetOption, overrides
+
+if TYPE_CHECKING:
+    from tribodyn.case import Case
+    from tribodyn.mesh_cycle import MeshCycle
+
+EXAMPLES = (
+    "\b\nExamples:\n"
+    "  tribodyn check involute-18-36\n"
+    "  tribodyn check my-drive.toml --set drive.pinion.profile_shift=0.3 --json"
+)
+
+
+def check(
+    scenario: Annotated[str, typer.Argument(help="A scenario file, or the name of a shipped scenario.")],
+    settings: SetOption = None,
+    json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+) -> None:
+    """Check a scenario; print geometry and stiffness."""
+    from tribodyn.cli.printing import print_json, print_table
+    from tribodyn.geometry.sheet import geometry_sheet
+    from tribodyn.scenario.load import family, load
+    from tribodyn.simulate import prepare
+
+    loaded = load(scenario, overrides(settings))
+    case = loaded.case
+    with loaded.naming():
+        model = prepare(case)
+        sheet = geometry_sheet(family(case.family), case.drive)
+    stiffness = _stiffness(case, model.mesh_cycle)
+    if json:
+        print_json(
+            {"scenario": str(loaded.path), "title": case.title, "geometry": sheet, "stiffness": stiffness}
+        )
+        return
+    typer.echo(f"{loaded.path}: {case.title}: sound")
+    bodies = {name: sheet[name] for name in ("pinion", "gear")}
+    pair = {name: value for name, value in sheet.items() if name not in bodies}
+    print_table("Pair", ("quantity", "value"), [(name, _written(*value)) for name, value in pair.items()])
+    print_table(
+        "Gears",
+        ("quantity", *bodies),
+        [
+            (name, *(_written(*body[name]) if name in body else "" for body in bodies.values()))
+            for name in bodies["pinion"]
+        ],
+    )
+    print_table(
+        f"Stiffness of a single pair at the pitch point, at {stiffness['line_load'] * 1e-3:.0f} N/mm",
+        ("by", "N/(mm um)", "N/m"),
+        [
+            (name, f"{value['per_width'] * 1e-9:.2f}", f"{value['stiffness']:.4g}")
+            for name, value in stiffness["by"].items()
+        ],
+    )
+
+
+def _written(value: Any, unit: str) -> str:
+    number = f"{value:.6g}" if isinstance(value, float) else str(value)
+    return f"{number} {unit}".strip()
+
+
+def _stiffness(case: "Case", cycle: "MeshCycle") -> dict[str, Any]:
+    """Return the line load (N/m), and by method the single-pair stiffness at P: N/m, and per width in Pa."""
+    from tribodyn.compliance.iso6336 import single_pair_stiffness as iso6336
+    from tribodyn.summary import single_pair_stiffness
+
+    pinion, gear = case.drive.pinion, case.drive.gear
+    width = min(pinion.face_width, gear.face_width)
+    load = abs(case.operating.gear_torque) / (
+        float(cycle.gear_pitch_radius) * math.cos(case.drive.pressure_angle)
+    )
+    per_width = {f'compliance = "{case.mesh.compliance}"': single_pair_stiffness(cycle, load) / width}
+    if case.family == "involute":
+        iso = iso6336(pinion.teeth, gear.teeth, pinion.profile_shift, gear.profile_shift)
+        per_width["ISO 6336 c', which contains the measured correction 0.8"] = iso.single_pair
+        per_width["ISO 6336 c'_th, theory"] = iso.theoretical
+    by = {name: {"per_width": value, "stiffness": value * width} for name, value in per_width.items()}
+    return {"line_load": load / width, "by": by}

@@ -1,0 +1,67 @@
+"""`tribodyn list`: what is shipped, and which names a scenario may use."""
+
+from enum import StrEnum
+from typing import Annotated, Any
+
+import typer
+
+EXAMPLES = "\b\nExamples:\n  tribodyn list\n  tribodyn list laws\n  tribodyn list models --json"
+
+
+class What(StrEnum):
+    """What can be listed."""
+
+    scenarios = "scenarios"
+    models = "models"
+    laws = "laws"
+    families = "families"
+    solvers = "solvers"
+    plots = "plots"
+
+
+def list(
+    what: Annotated[What | None, typer.Argument(help="What to list; everything if left out.")] = None,
+    json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+) -> None:
+    """List scenarios, models, laws, solvers, plots."""
+    from tribodyn.cli.printing import print_json, print_table
+
+    listed: dict[str, dict[str, Any]] = {one.value: _about(one) for one in ([what] if what else What)}
+    if json:
+        print_json(listed)
+        return
+    for title, entries in listed.items():
+        print_table(title, ("name", "what it is"), entries.items())
+
+
+def _about(what: What) -> dict[str, str]:
+    """Return name and description of everything of one sort."""
+    from tribodyn.scenario import load
+    from tribodyn.scenario.sources import shipped
+
+    match what:
+        case What.scenarios:
+            return _titles(shipped("scenarios"))
+        case What.models:
+            folders = sorted(path for path in shipped("models").iterdir() if path.is_dir())
+            return {
+                f"{folder.name}/{name}": title
+                for folder in folders
+                for name, title in _titles(folder).items()
+            }
+        case What.laws:
+            return {name: law.about for name, law in load.FRICTION_LAWS.items()}
+        case What.families:
+            return dict(load.FAMILIES)
+        case What.solvers:
+            return dict(load.SOLVERS)
+        case What.plots:
+            from tribodyn.post.plots import NAMES
+
+            return {name: name.replace("-", " ") for name in NAMES}
+
+
+def _titles(folder: Any) -> dict[str, str]:
+    from tribodyn.scenario.sources import names, read_toml
+
+    return {name: str(read_toml(folder / f"{name}.toml").get("title", "")) for name in names(folder)}

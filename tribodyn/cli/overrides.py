@@ -1,0 +1,28 @@
+"""The --set option: key=value, through references."""
+
+from typing import Annotated
+
+import typer
+
+from tribodyn.errors import InputError
+
+SetOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        metavar="KEY=VALUE",
+        help='Set a key of the scenario, also inside what it refers to: operating.gear_torque="600 N*m".',
+    ),
+]
+
+
+def overrides(settings: list[str] | None) -> dict[str, str]:
+    """Return key and value of each ``KEY=VALUE``; the last of a key wins."""
+    parsed: dict[str, str] = {}
+    for setting in settings or []:
+        key, equals, value = setting.partition("=")
+        key = key.strip()
+        if not equals or not all(key.split(".")):
+            raise InputError("--set", f'"{setting}"', "not KEY=VALUE", "write it like --set solver.cycles=40")
+        parsed[key] = value.strip()
+    return parsed

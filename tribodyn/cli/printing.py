@@ -1,0 +1,60 @@
+"""What verbs print: JSON for programs, tables for people."""
+
+import json
+import math
+import shlex
+import sys
+from collections.abc import Iterable
+from typing import Any
+
+WIDTH_OF_A_PIPE = 160
+
+
+def print_json(data: Any) -> None:
+    """Write `data` to stdout as JSON; NumPy numbers and arrays become plain ones, NaN becomes null."""
+    sys.stdout.write(json.dumps(plain(data), indent=2, ensure_ascii=False, allow_nan=False) + "\n")
+
+
+def plain(data: Any) -> Any:
+    """Return `data` as JSON can hold it."""
+    if isinstance(data, dict):
+        return {str(key): plain(value) for key, value in data.items()}
+    if isinstance(data, (list, tuple)):
+        return [plain(value) for value in data]
+    if hasattr(data, "tolist"):
+        return plain(data.tolist())
+    if isinstance(data, float) and not math.isfinite(data):
+        return None
+    return data if data is None or isinstance(data, (bool, int, float, str)) else str(data)
+
+
+def print_table(title: str, columns: Iterable[str], rows: Iterable[Iterable[str]]) -> None:
+    """Write a table to stdout, as wide as it needs to be where stdout is not a terminal."""
+    from rich.box import SIMPLE_HEAD
+    from rich.table import Table
+
+    table = Table(title=title, title_justify="left", title_style="bold", box=SIMPLE_HEAD, pad_edge=False)
+    for column in columns:
+        table.add_column(column, overflow="fold")
+    for row in rows:
+        table.add_row(*row)
+    print_rich(table)
+
+
+def print_rich(renderable: Any) -> None:
+    """Write something that rich can draw to stdout."""
+    from rich.console import Console
+
+    console = Console(markup=False, highlight=False)
+    if console.is_terminal:
+        console.print(renderable)
+        return
+    console = Console(markup=False, highlight=False, width=WIDTH_OF_A_PIPE)
+    with console.capture() as captured:
+        console.print(renderable)
+    sys.stdout.writelines(line.rstrip() + "\n" for line in captured.get().splitlines())
+
+
+def quoted_path(path: Any) -> str:
+    """Return a path as it may be pasted into a shell."""
+    return shlex.quote(str(path))

@@ -1,0 +1,81 @@
+"""`tribodyn run`: from a scenario to a record, a summary and pictures."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from tribodyn.cli.overrides import SetOption, overrides
+
+EXAMPLES = (
+    "\b\nExamples:\n"
+    "  tribodyn run crc-23-47\n"
+    "  tribodyn run my-drive.toml -o results/heavy.h5 --force\n"
+    '  tribodyn run crc-23-47 --set operating.gear_torque="600 N*m" --set solver.cycles=40\n'
+    "  tribodyn run crc-23-47 --json --no-plot"
+)
+
+
+def run(
+    scenario: Annotated[str, typer.Argument(help="A scenario file, or the name of a shipped scenario.")],
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", help="The record; default: the scenario's name, in this folder."),
+    ] = None,
+    settings: SetOption = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace a record of that name.")] = False,
+    plot: Annotated[
+        bool | None,
+        typer.Option("--plot/--no-plot", help="All pictures, or none; default: one overview picture."),
+    ] = None,
+    json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
+) -> None:
+    """Run a scenario: record, summary, picture."""
+    from tribodyn.cli.outcome import SIMULATION_FAILED, complain
+    from tribodyn.cli.printing import print_json, quoted_path
+    from tribodyn.cli.progress import progress_bar
+    from tribodyn.scenario.load import load
+    from tribodyn.simulate import run as simulate
+
+    loaded = load(scenario, overrides(settings))
+    case = loaded.case
+    record = output or Path(f"{case.name}.h5")
+    with loaded.naming(), progress_bar(case.name) as progress:
+        result = simulate(case, record, force=force, progress=progress)
+    failed = result.status != "complete"
+    pictures = [] if failed or plot is False else _draw(result.path, everything=plot is True)
+    if json:
+        print_json(
+            {
+                "record": str(result.path),
+                "status": result.status,
+                "message": result.message,
+                "pictures": [str(path) for path in pictures],
+                "summary": result.summary,
+            }
+        )
+    else:
+        _print_summary(result.path)
+        typer.echo(f"record   {quoted_path(result.path)}")
+        for picture in pictures:
+            typer.echo(f"picture  {quoted_path(picture)}")
+    if failed:
+        complain(f"{loaded.path}: the simulation failed: {result.message}; partial record: {result.path}")
+        raise typer.Exit(SIMULATION_FAILED)
+
+
+def _print_summary(path: Path) -> None:
+    from tribodyn.cli.show import print_summary
+    from tribodyn.record.reader import open_record
+
+    with open_record(path) as record:
+        print_summary(record)
+
+
+def _draw(path: Path, *, everything: bool) -> list[Path]:
+    from tribodyn.cli.plot import draw
+    from tribodyn.post.plots import NAMES
+    from tribodyn.record.reader import open_record
+
+    with open_record(path) as record:
+        return draw([record], ["overview", *NAMES] if everything else ["overview"], path.with_suffix(".png"))
