@@ -129,6 +129,7 @@ class Polynomials(NamedTuple):
     side: Any  # (Q,)
     channel: Any  # (S, N − 1, Q, channels, 4)
     coupling: Any  # (S, N − 1, Q, Q, 4)
+    stiffness: Any  # (S, N − 1, Q, Q, 4), inverse of the compliance matrix of the pairs in contact
     hertz_coefficient: Any
     pinion_pitch_radius: Any
     gear_pitch_radius: Any
@@ -162,6 +163,16 @@ def _cubic(values: Any) -> Any:
     return xp.stack([values[:, :-1], start, 3 * rise - 2 * start - end, start + end - 2 * rise], axis=-1)
 
 
+def _stiffness(cycle: MeshCycle, xp: Any) -> Any:
+    """Inverse of the compliance matrix of the pairs in contact (S, N, Q, Q), 0 for the others, N/m."""
+    inside = cycle.in_contact[:, None, :]
+    # a pair out of contact is left alone on the diagonal, so that the others are inverted without it
+    both = inside[..., :, None] * inside[..., None, :]
+    matrix = cycle.coupling * both + xp.eye(cycle.pairs) * cycle.compliance[..., None, :]
+    scale = xp.mean(cycle.compliance)
+    return xp.linalg.inv(matrix / scale) / scale * both
+
+
 def polynomials(cycle: MeshCycle) -> Polynomials:
     """Coefficients of the mesh cycle's splines.
 
@@ -180,6 +191,7 @@ def polynomials(cycle: MeshCycle) -> Polynomials:
         side=cycle.side,
         channel=_cubic(channels),
         coupling=_cubic(cycle.coupling),
+        stiffness=_cubic(_stiffness(cycle, xp)),
         hertz_coefficient=cycle.hertz_coefficient,
         pinion_pitch_radius=cycle.pinion_pitch_radius,
         gear_pitch_radius=cycle.gear_pitch_radius,

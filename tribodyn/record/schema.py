@@ -77,6 +77,9 @@ SAMPLES: dict[str, Variable] = {
     "closure_in_range": Variable(
         ("time", "pair"), "1", "film regression inside its fitted range: 1 yes, 0 no, -1 out of contact"
     ),
+    "drive_torque": Variable(
+        ("time",), "N*m", "torque of the drive: on the pinion, with a compliant shaft on its motor side"
+    ),
     "power_in": Variable(("time",), "W", "power the motor gives to the pinion"),
     "power_out": Variable(("time",), "W", "power the gear gives to the load"),
     "power_friction": Variable(("time",), "W", "power lost to sliding friction"),

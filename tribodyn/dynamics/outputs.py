@@ -1,0 +1,125 @@
+"""What is recorded, recomputed from the states alone by the very functions the right-hand side uses."""
+
+from typing import Any
+
+import numpy as np
+
+from tribodyn.dynamics import contact_forces as contact
+from tribodyn.dynamics.equations import derivatives, stored_energy
+from tribodyn.dynamics.parameters import (
+    LAG,
+    SLIP,
+    VX_G,
+    VX_P,
+    VY_G,
+    VY_P,
+    X_G,
+    X_P,
+    XI,
+    XI_RATE,
+    Y_G,
+    Y_P,
+    Model,
+)
+
+#: Record name -> row of the contacts' quantities, for everything that means something only in contact.
+PAIR_QUANTITIES = {
+    "transmission_error": contact.TRANSMISSION_ERROR,
+    "friction_coefficient": contact.FRICTION_COEFFICIENT,
+    "asperity_load_ratio": contact.ASPERITY_SHARE,
+    "central_film_thickness": contact.FILM,
+    "hertz_pressure": contact.PRESSURE,
+    "flash_temperature_rise": contact.TEMPERATURE_RISE,
+    "pressure_angle": contact.ANGLE,
+}
+
+
+def segment_of(phase: np.ndarray, boundary: np.ndarray) -> np.ndarray:
+    """Segment of each phase in [0, 1); a phase on a boundary belongs to the segment that begins there."""
+    return np.clip(np.searchsorted(boundary, phase, side="right") - 1, 0, len(boundary) - 2)
+
+
+def outputs(cycles: np.ndarray, states: np.ndarray, model: Model) -> dict[str, np.ndarray]:
+    """All datasets of a record at the given samples.
+
+    Parameters
+    ----------
+    cycles : (n,)
+        Mesh cycles since the start, whole and fraction.
+    states : (n, STATES)
+    model : Model
+        With NumPy arrays.
+
+    Returns
+    -------
+    dict
+        Name -> array (n,), (n, pairs) or (n, dof) in SI, as `record.schema` lists them. Quantities of a
+        pair that carries no load are NaN where they mean nothing then (film, pressure, …) and 0 where the
+        loss of contact itself is the answer (loads, stiffness).
+    """
+    table, mechanics = model.table, model.mechanics
+    whole = np.floor(cycles + 1e-12)
+    phase = np.maximum(cycles - whole, 0.0)
+    y = np.ascontiguousarray(states.T)
+    segment = segment_of(phase, np.asarray(table.boundary))
+    work: dict[tuple[int, int], Any] = {}
+    rates: dict[int, Any] = {}
+    with np.errstate(over="ignore", under="ignore"):
+        powers = derivatives(phase, whole, segment, y, model, work, rates)
+    count, pairs = len(cycles), table.side.shape[0]
+
+    def per_pair(row: int) -> np.ndarray:
+        return np.stack([np.broadcast_to(work[row, i], count) for i in range(pairs)], axis=-1)
+
+    load = per_pair(contact.NORMAL_LOAD)
+    inside = table.in_contact[segment] > 0
+    touching = inside & (load > 0.0)
+    pinion_speed = mechanics.nominal_speed + y[SLIP]
+    ratio = table.pinion_pitch_radius / table.gear_pitch_radius
+    time = cycles * table.pitch_angle / mechanics.nominal_speed + y[LAG]
+    pinion_angle = cycles * table.pitch_angle
+    gear_angle = (table.pinion_pitch_radius * pinion_angle - y[XI]) / table.gear_pitch_radius
+    gear_speed = ratio * pinion_speed - y[XI_RATE] / table.gear_pitch_radius
+    film = per_pair(contact.FILM)
+    speed_p, speed_g = per_pair(contact.PINION_SPEED), per_pair(contact.GEAR_SPEED)
+    power_in, power_out, power_friction, power_damping, power_parametric, drive_torque = (
+        np.broadcast_to(power, count) for power in powers
+    )
+
+    def contacting(values: np.ndarray, mask: np.ndarray = touching) -> np.ndarray:
+        return np.where(mask, values, np.nan)
+
+    result = {name: contacting(per_pair(row)) for name, row in PAIR_QUANTITIES.items()}
+    # geometry exists on the whole path of contact, loaded or not
+    result["transmission_error"] = contacting(per_pair(contact.TRANSMISSION_ERROR), inside)
+    result["pressure_angle"] = contacting(per_pair(contact.ANGLE), inside)
+    result |= {
+        "time": time,
+        "pinion_angle": pinion_angle,
+        "displacement": np.stack([y[X_P], y[Y_P], y[X_G], y[Y_G], pinion_angle, gear_angle], axis=-1),
+        "velocity": np.stack([y[VX_P], y[VY_P], y[VX_G], y[VY_G], pinion_speed, gear_speed], axis=-1),
+        "transmission_error_rotational": y[XI],
+        "normal_load": np.where(inside, load, 0.0),
+        "friction_force": np.where(inside, per_pair(contact.FRICTION_FORCE), 0.0),
+        "film_parameter": contacting(film / model.contact.roughness),
+        "equivalent_radius": contacting(1.0 / per_pair(contact.CURVATURE), inside),
+        "entrainment_speed": contacting(0.5 * (speed_p + speed_g), inside),
+        "sliding_speed": contacting(per_pair(contact.SLIDING), inside),
+        "mesh_stiffness": np.where(touching, per_pair(contact.STIFFNESS), 0.0),
+        "closure_in_range": np.where(touching, per_pair(contact.IN_RANGE), 1.0) > 0.5,
+        "drive_torque": drive_torque,
+        "power_in": power_in,
+        "power_out": power_out,
+        "power_friction": power_friction,
+        "power_damping": power_damping,
+        "power_parametric": power_parametric,
+        "stored_energy": np.broadcast_to(stored_energy(y, model, work), count),
+        "efficiency": efficiency(power_in, power_friction),
+    }
+    return result
+
+
+def efficiency(power_in: np.ndarray, power_friction: np.ndarray) -> np.ndarray:
+    """Instantaneous 1 − Σ μ F_n |v_s|/(T_p ω_p); NaN where the drive delivers nothing."""
+    driven = power_in > 0.0
+    return np.where(driven, 1.0 - power_friction / np.where(driven, power_in, 1.0), np.nan)

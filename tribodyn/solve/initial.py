@@ -1,0 +1,108 @@
+"""Where a run starts: the static equilibrium under load, or the unloaded position."""
+
+import numpy as np
+
+from tribodyn.dynamics.equations import derivatives
+from tribodyn.dynamics.parameters import (
+    DRIVE_SHAFT,
+    MOTOR_SLIP,
+    SLIP,
+    STATES,
+    TWIST,
+    VX_G,
+    VX_P,
+    VY_G,
+    VY_P,
+    X_G,
+    X_P,
+    XI,
+    XI_RATE,
+    Y_G,
+    Y_P,
+    Model,
+)
+from tribodyn.errors import SimulationError
+
+
+def accelerations(y: np.ndarray, phase: float, segment: int, model: Model) -> np.ndarray:
+    """Derivatives of the state per mesh cycle, as an array; plain Python, for a few evaluations."""
+    work: dict = {}
+    rates: dict = {}
+    derivatives(phase, 0.0, segment, y, model, work, rates)
+    return np.array([float(rates[i]) for i in range(STATES)])
+
+
+def static_deflection(model: Model, torque: float) -> float:
+    """Deflection of the mesh under a gear torque, all on the first segment's pairs, m; a scale."""
+    table = model.table
+    stiffness = float(np.sum(1.0 / np.asarray(table.channel)[-1, 0, :, 4, 0] * np.asarray(table.in_contact)[-1]))
+    angle = float(np.asarray(table.channel)[-1, 0, -1, 0, 0])
+    return abs(torque) / (float(table.gear_pitch_radius) * np.cos(angle)) / stiffness
+
+
+def static_equilibrium(model: Model, phase: float = 0.0, segment: int = 0) -> np.ndarray:
+    """State at which nothing accelerates relative to the pinion, at one phase of the mesh.
+
+    Solved by damped Newton steps on the equations of motion themselves, friction included, for the
+    translations, ξ and (with a shaft) its twist; all relative velocities are zero.
+
+    Raises
+    ------
+    SimulationError
+        If no equilibrium is found, e.g. because the load does not press the flanks together.
+    """
+    torque = float(model.mechanics.load_torque)
+    if model.mechanics.load_times.shape[0]:
+        torque += float(model.mechanics.load_torques[0])
+    deflection = static_deflection(model, max(abs(torque), 1e-3))
+    unknown = [X_P, Y_P, X_G, Y_G, XI]
+    equation = [VX_P, VY_P, VX_G, VY_G, XI_RATE]
+    shaft = model.options.drive == DRIVE_SHAFT
+    scale = np.full(len(unknown), deflection)
+    y = np.zeros(STATES)
+    y[XI] = 2.0 * deflection
+    if shaft:
+        unknown.append(TWIST)
+        scale = np.append(scale, model.mechanics.drive_torque / model.mechanics.shaft_stiffness)
+        y[TWIST] = scale[-1]
+
+    def residual(values: np.ndarray) -> np.ndarray:
+        state = y.copy()
+        state[unknown] = values
+        rate = accelerations(state, phase, segment, model)
+        out = rate[equation]
+        return np.append(out, rate[MOTOR_SLIP] - rate[SLIP]) if shaft else out
+
+    values = y[unknown]
+    start = np.linalg.norm(residual(values))
+    value = residual(values)
+    for _ in range(60):
+        size = np.linalg.norm(value)
+        jacobian = np.stack(
+            [(residual(values + 1e-5 * s * unit) - value) / (1e-5 * s) for s, unit in zip(scale, np.eye(len(values)), strict=True)],
+            axis=1,
+        )
+        change = np.linalg.solve(jacobian, -value)
+        factor = 1.0
+        while factor > 1e-4:
+            trial = residual(values + factor * change)
+            if np.all(np.isfinite(trial)) and np.linalg.norm(trial) < size:
+                break
+            factor *= 0.5
+        else:
+            break
+        values, value = values + factor * change, trial
+        if np.linalg.norm(factor * change / scale) < 1e-12:
+            break
+    if not np.linalg.norm(value) <= 1e-6 * start + 1e-30:
+        raise SimulationError(
+            "no static equilibrium was found under the load at the start; check the sign of "
+            'operating.gear_torque or start with solver.initial = "unloaded"'
+        )
+    y[unknown] = values
+    return y
+
+
+def initial_state(model: Model, kind: str) -> np.ndarray:
+    """State at the start of a run: "static" equilibrium, or "unloaded" with the flanks just touching."""
+    return static_equilibrium(model) if kind == "static" else np.zeros(STATES)

@@ -1,0 +1,223 @@
+"""Transient runs: choice of the method, blocks of whole mesh cycles, and what happens on a failure."""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from tribodyn.dynamics.equations import engagement
+from tribodyn.dynamics.parameters import (
+    LAG,
+    MECHANICAL,
+    SLIP,
+    STATES,
+    WORK_IN,
+    WORK_PARAMETRIC,
+    XI_RATE,
+    Model,
+)
+from tribodyn.solve.engine import DONE, REASONS, Block, Engine, Tolerances, absolute_tolerances
+from tribodyn.solve.initial import accelerations, static_deflection
+
+EXPLICIT, STIFF = "dopri5", "kvaerno5"
+
+#: Explicit steps per mesh cycle, by stability alone, above which the stiff solver is the cheaper one:
+#: a native explicit step costs about 7 µs, a Kvaerno5 cycle of the shipped scenarios about 25 ms.
+STIFF_ABOVE = 4000
+#: Stability limit of Dormand-Prince 5(4) on the negative real axis.
+REAL_STABILITY = 3.3
+
+
+class Settings(NamedTuple):
+    """What the user chooses about the integration; see `case.SolverData`."""
+
+    method: str
+    rtol: float
+    cycles: int
+    max_steps: int
+    samples: int
+
+
+class Choice(NamedTuple):
+    """A method and the reason for it."""
+
+    method: str
+    reason: str
+
+
+class Chunk(NamedTuple):
+    """Samples as they come: phases in mesh cycles since the start, and states."""
+
+    cycles: np.ndarray
+    states: np.ndarray
+    evaluations: int
+    steps: int
+
+
+class Stop(NamedTuple):
+    """The end of a run: the state, what it cost, and on a failure when and why."""
+
+    state: np.ndarray
+    reached: float
+    steps: int
+    evaluations: int
+    reason: str
+    time: float
+
+
+def stability_steps(model: Model, state: np.ndarray) -> float:
+    """Steps per mesh cycle that an explicit method needs for stability, the greatest over the segments.
+
+    The spectral radius of the mechanics' Jacobian (central differences) over the stability limit, at the middle
+    and both ends of each segment and where each pair passes the pitch point.
+    """
+    table = model.table
+    boundary = np.asarray(table.boundary)
+    scale = absolute_tolerances(model, 1.0, max(abs(state[5]), 1e-9))[:MECHANICAL]
+    greatest = 0.0
+    for segment in range(len(boundary) - 1):
+        start, end = boundary[segment], boundary[segment + 1]
+        phases = [start, 0.5 * (start + end), end]
+        distance = np.asarray(table.channel)[segment, :, :, 1, 0]
+        nodes = np.linspace(start, end, distance.shape[0] + 1)[:-1]
+        for slot in np.flatnonzero(np.asarray(table.in_contact)[segment]):
+            if distance[0, slot] * distance[-1, slot] < 0.0:
+                phases.append(float(np.interp(0.0, *np.sort([distance[:, slot], nodes], axis=-1))))
+        for phase in phases:
+            columns = []
+            for i in range(MECHANICAL):
+                shift = np.zeros(STATES)
+                shift[i] = 1e-4 * scale[i]
+                rise = accelerations(state + shift, phase, segment, model) - accelerations(
+                    state - shift, phase, segment, model
+                )
+                columns.append(rise[:MECHANICAL] / (2 * shift[i]))
+            greatest = max(greatest, float(np.max(np.abs(np.linalg.eigvals(np.stack(columns, axis=1))))))
+    return greatest / REAL_STABILITY
+
+
+def choose(method: str, model: Model, state: np.ndarray) -> Choice:
+    """The method to use: the user's, or explicit unless stability makes it dear."""
+    if method != "auto":
+        return Choice(method, "chosen in the scenario")
+    steps = stability_steps(model, state)
+    if steps > STIFF_ABOVE:
+        return Choice(
+            STIFF, f"stiff: stability would ask {steps:.0f} explicit steps a mesh cycle, above {STIFF_ABOVE}"
+        )
+    return Choice(
+        EXPLICIT, f"not stiff: stability asks {steps:.0f} explicit steps a mesh cycle, below {STIFF_ABOVE}"
+    )
+
+
+class NativeEngine:
+    """The compiled Dormand-Prince kernel behind the `engine.Engine` interface."""
+
+    def __init__(self, model: Model, samples: int, tolerances: Tolerances):
+        from tribodyn.solve.dopri5 import march
+
+        self._march = march
+        self.model = model
+        self.samples = samples
+        self.tolerances = tolerances
+        self.step = 1e-3
+        self.started = False
+
+    def block(self, state: np.ndarray, first_cycle: int, cycles: int) -> Block:
+        """See `engine.Engine`."""
+        y = state.copy()
+        out = np.empty((cycles * self.samples, STATES))
+        status, reached, self.step, steps, evaluations, written = self._march(
+            self.model,
+            y,
+            float(first_cycle),
+            cycles,
+            self.started,
+            self.samples,
+            self.tolerances.rtol,
+            self.tolerances.atol,
+            self.step,
+            self.tolerances.max_steps,
+            out,
+        )
+        self.started = True
+        return Block(out[:written], y, status, reached, steps, evaluations)
+
+
+def make_engine(method: str, model: Model, samples: int, tolerances: Tolerances) -> Engine:
+    """The engine that a method's name stands for."""
+    if method == EXPLICIT:
+        return NativeEngine(model, samples, tolerances)
+    if method in ("tsit5", "dopri8", "kvaerno5"):
+        from tribodyn.solve.diffrax_engine import DiffraxEngine
+
+        return DiffraxEngine(method, model, samples, tolerances)
+    from tribodyn.solve.scipy_engine import ScipyEngine
+
+    return ScipyEngine(method, model, samples, tolerances)
+
+
+def cycles_per_block(method: str, cycles: int) -> int:
+    """Whole mesh cycles between two writes: a quarter of the run, at most 50; one where a cycle is slow."""
+    return max(1, min(cycles // 4, 50)) if method == EXPLICIT else 1
+
+
+def transient(
+    model: Model, state: np.ndarray, settings: Settings, method: str
+) -> Iterator[Chunk | Stop]:
+    """Integrate from `state`; yields chunks of samples as they are done, and a `Stop` last.
+
+    Parameters
+    ----------
+    model : Model
+    state : (STATES,)
+        Start, at phase 0 with the pairs of the first segment in contact.
+    settings : Settings
+    method : str
+        A definite method, see `choose`.
+
+    Notes
+    -----
+    A complete run has cycles × samples + 1 samples, the last one at the start of the next mesh cycle, after
+    its engagement. A run that stops early yields what it has and says why in `Stop.reason`.
+    """
+    deflection = max(abs(float(state[5])), static_deflection(model, float(model.mechanics.load_torque)), 1e-9)
+    tolerances = Tolerances(
+        settings.rtol, absolute_tolerances(model, settings.rtol, deflection), settings.max_steps
+    )
+    engine = make_engine(method, model, settings.samples, tolerances)
+    size = cycles_per_block(method, settings.cycles)
+    steps = evaluations = done = 0
+    while done < settings.cycles:
+        count = min(size, settings.cycles - done)
+        block = engine.block(state, done, count)
+        steps += block.steps
+        evaluations += block.evaluations
+        at = done + np.arange(len(block.samples)) / settings.samples
+        finite = np.all(np.isfinite(block.samples), axis=1)
+        kept = len(finite) if finite.all() else int(np.argmin(finite))
+        yield Chunk(at[:kept], block.samples[:kept], block.evaluations, block.steps)
+        if block.status != DONE or kept < len(finite):
+            reached = done + block.reached
+            reason = REASONS[block.status] if block.status != DONE else REASONS[3]
+            reason = f"{reason} ({block.message})" if block.message else reason
+            time = reached * float(model.table.pitch_angle) / model.mechanics.nominal_speed
+            last = block.samples[kept - 1] if kept else state
+            yield Stop(last, reached, steps, evaluations, reason, time + float(last[LAG]))
+            return
+        state = block.state
+        done += count
+    state = state.copy()
+    _engage_next(state, model)
+    yield Chunk(np.array([float(done)]), state[None], 0, 0)
+    time = done * float(model.table.pitch_angle) / model.mechanics.nominal_speed + float(state[LAG])
+    yield Stop(state, float(done), steps, evaluations, "", time)
+
+
+def _engage_next(state: np.ndarray, model: Model) -> None:
+    last = len(np.asarray(model.table.boundary)) - 2
+    slip, xi_rate, work_in, parametric = engagement(last, 1.0, 0, 0.0, state, model, {})
+    state[SLIP] += slip
+    state[XI_RATE] += xi_rate
+    state[WORK_IN] += work_in
+    state[WORK_PARAMETRIC] += parametric
