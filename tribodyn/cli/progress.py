@@ -1,7 +1,7 @@
 """A progress bar for what takes more than a second; silent when stderr is not a terminal."""
 
 import sys
-import time
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, Protocol
@@ -23,26 +23,24 @@ def progress_bar(label: str) -> Iterator[Report]:
     if not sys.stderr.isatty():
         yield lambda _fraction: None
         return
-    start = time.monotonic()
-    shown: list[Any] = []
-
-    def report(fraction: float) -> None:
-        if not shown and time.monotonic() - start > PATIENCE:
-            shown.append(_start(label))
-        for bar, task in shown:
-            bar.update(task, completed=fraction)
-
+    bar = _bar()
+    task = bar.add_task(label, total=1.0)
+    # a timer, so that the bar also comes up while code is compiled and no progress is reported
+    patience = threading.Timer(PATIENCE, bar.start)
+    patience.daemon = True
+    patience.start()
     try:
-        yield report
+        yield lambda fraction: bar.update(task, completed=fraction)
     finally:
-        for bar, _ in shown:
-            bar.stop()
+        patience.cancel()
+        patience.join()
+        bar.stop()
 
 
-def _start(label: str) -> tuple[Any, Any]:
+def _bar() -> Any:
     from rich.console import Console
-    from rich.progress import Progress
+    from rich.progress import Progress, SpinnerColumn
 
-    bar = Progress(console=Console(stderr=True), transient=True)
-    bar.start()
-    return bar, bar.add_task(label, total=1.0)
+    return Progress(
+        SpinnerColumn(), *Progress.get_default_columns(), console=Console(stderr=True), transient=True
+    )

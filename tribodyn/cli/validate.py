@@ -4,7 +4,11 @@ from typing import Annotated, Any
 
 import typer
 
-EXAMPLES = "\b\nExit status 4 if a value is outside its tolerance.\nExamples:\n  tribodyn validate liu-ni-2022\n  tribodyn validate liu-ni-2022 --json"
+EXAMPLES = (
+    "\b\nExit status 4 if a value is outside its tolerance. Examples:\n"
+    "  tribodyn validate liu-ni-2022\n"
+    "  tribodyn validate liu-ni-2022 --json"
+)
 
 
 def validate(

@@ -1,6 +1,7 @@
 """From a scenario's name or path to a `Case`, and the registries that give names in TOML their meaning."""
 
 import hashlib
+import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -159,7 +160,7 @@ def load(scenario: str | Path, overrides: Mapping[str, Any] | None = None) -> Lo
     """Read a scenario as `load_scenario` does, and say where its values stand."""
     path = find_scenario(str(scenario))
     data, origins, unresolved = resolve(path, overrides or {})
-    data.setdefault("name", path.stem)
+    data.setdefault("name", re.sub(r"[^\w .-]", "-", path.stem).lstrip(" .-") or "scenario")
     try:
         table = Scenario.model_validate(data)
     except ValidationError as error:

@@ -90,6 +90,10 @@ _PLAIN = {
     "int_from_float": ("not a whole number", "write a whole number, such as 20"),
     "bool_type": ("not true or false", "write true or false, without quotes"),
     "string_type": ("not text", "write text in quotes"),
+    "string_pattern_mismatch": (
+        "a character that is not allowed here",
+        "use letters, digits, space, - _ and .",
+    ),
     "model_type": ("not a table", "write a table, or see the keys with: tribodyn schema"),
     "tuple_type": ("not a list", "write a list: [ … ]"),
     "too_short": ("fewer than {min_length} values", "write at least {min_length}"),

@@ -66,6 +66,13 @@ class Reference:
         return {"anyOf": [{"type": "string", "description": self.what}, handler(schema)]}
 
 
+def written(default: Any, description: str | None = None) -> Any:
+    """Return a field whose default stands as it would be written in TOML and is read like it."""
+    if isinstance(default, dict):
+        return Field(default_factory=default.copy, description=description)
+    return Field(default, description=description)
+
+
 def broken(rule: str, remedy: str) -> PydanticCustomError:
     """Return the error that a validator raises for a broken rule; the braces of a template are escaped."""
     return PydanticCustomError("rule", "{rule}; {remedy}", {"rule": rule, "remedy": remedy})

@@ -21,6 +21,7 @@ from tribodyn.scenario.quantity import (
     Switch,
     Table,
     Text,
+    written,
 )
 
 Torque = Annotated[float, Quantity(units.TORQUE)]
@@ -57,7 +58,7 @@ class TorqueHarmonic(Table):
 
     amplitude: Torque
     frequency: Annotated[float, Quantity(units.positive(units.ANGULAR_FREQUENCY))]
-    phase: Angle = Field("0 deg")
+    phase: Angle = written("0 deg")
 
 
 class ErrorHarmonic(Table):
@@ -65,7 +66,7 @@ class ErrorHarmonic(Table):
 
     order: Count = Field(description="1: mesh frequency, 2: twice that, …")
     amplitude: SignedLength
-    phase: Angle = Field("0 deg")
+    phase: Angle = written("0 deg")
 
 
 class Operating(Table):
@@ -82,19 +83,19 @@ class Operating(Table):
         Field(None, description="over time, added to the load")
     )
     gear_torque_harmonics: tuple[TorqueHarmonic, ...] = Field((), description="added to the load")
-    load_inertia: Inertia = Field("0 kg*m**2")
-    load_damping: TorsionalDamping = Field(
+    load_inertia: Inertia = written("0 kg*m**2")
+    load_damping: TorsionalDamping = written(
         "0 N*m*s/rad", description="load that grows with speed above nominal"
     )
     pinion_torque: Torque | None = Field(
         None, description="of the motor at nominal speed; default: balances the load without losses"
     )
-    drive_inertia: Inertia = Field("0 kg*m**2", description="of the motor")
+    drive_inertia: Inertia = written("0 kg*m**2", description="of the motor")
     shaft_stiffness: Annotated[float, Quantity(units.positive(units.TORSIONAL_STIFFNESS))] | None = Field(
         None, description="between motor and pinion; default: rigid"
     )
-    shaft_damping: TorsionalDamping = Field("0 N*m*s/rad")
-    speed_regulation: TorsionalDamping = Field(
+    shaft_damping: TorsionalDamping = written("0 N*m*s/rad")
+    speed_regulation: TorsionalDamping = written(
         "0 N*m*s/rad", description="the motor's torque falls by this with speed above nominal"
     )
 
@@ -122,12 +123,12 @@ class Mesh(Table):
     formulation: Literal["classical", "energy-consistent"] = Field(
         "classical", description="whether the varying stiffness acts on the rotations"
     )
-    contact_width: Length = Field("0.1 um", description="deflection over which contact sets in")
+    contact_width: Length = written("0.1 um", description="deflection over which contact sets in")
     backlash: Annotated[float, Quantity(units.not_negative(units.LENGTH))] | None = Field(
         None, description="normal backlash; default: back flanks never touch"
     )
     points: Annotated[int, Field(strict=True, ge=5)] = Field(65, description="nodes a segment of the table")
-    transmission_error: TransmissionError = Field(default_factory=dict)
+    transmission_error: TransmissionError = written({})
 
 
 class Friction(Table):
@@ -138,7 +139,7 @@ class Friction(Table):
     sliding: Literal["kinematic", "dynamic"] = Field(
         "kinematic", description="sliding speed from nominal rotation or from the vibrating bodies"
     )
-    reversal_width: Length = Field("20 um", description="along the path, over which friction turns at P")
+    reversal_width: Length = written("20 um", description="along the path, over which friction turns at P")
 
 
 class Solver(Table):
@@ -161,18 +162,20 @@ class Scenario(Table):
     """A scenario file."""
 
     title: Text = Field(description="what it shows, in a line")
-    name: Text | None = Field(None, description="names the record; default: the file's own name")
+    name: Annotated[str, Field(strict=True, pattern=r"^\w[\w .-]*$")] | None = Field(
+        None, description="names the record; default: the file's own name"
+    )
     kind: Literal["gear-pair"] = "gear-pair"
     drive: Annotated[DriveTable, Reference("name of a file in models/drives, or a path")]
     lubricant: Annotated[Lubricant, Reference("name of a file in models/lubricants, or a path")]
-    bearings: Annotated[Bearings, Reference("name of a file in models/bearings, or a path")] = Field(
+    bearings: Annotated[Bearings, Reference("name of a file in models/bearings, or a path")] = written(
         "rigid-1e9"
     )
     operating: Operating
     mesh: Mesh
     friction: Friction
-    solver: Solver = Field(default_factory=dict)
-    output: Output = Field(default_factory=dict)
+    solver: Solver = written({})
+    output: Output = written({})
 
 
 def defaults_written_out(raw: dict[str, Any], table: type[Table] = Scenario) -> dict[str, Any]:
