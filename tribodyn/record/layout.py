@@ -97,7 +97,7 @@ def _write_head(file: h5py.File, head: Head) -> None:
 
 
 def _empty(file: h5py.File, name: str, variable: Variable, shape: tuple[int, ...]) -> h5py.Dataset:
-    """Create a contiguous dataset whose bytes are in the file from the start, so that they have an address."""
+    """Create a contiguous dataset whose bytes are in the file, at an address, from the start."""
     flag = name == "closure_in_range"
     count = name == "samples_written"
     kind, fill = ("i1", schema.NO_CONTACT) if flag else ("<i8", 0) if count else ("<f8", np.nan)
@@ -135,7 +135,7 @@ def _scale(group: h5py.Group, name: str, variable: Variable, values: np.ndarray)
     dataset.make_scale(name)
 
 
-def _attach(file: h5py.File, group: h5py.Group, dataset: h5py.Dataset, variable: Variable) -> None:
+def _attach(file: h5py.File, group: h5py.Group, dataset: Any, variable: Variable) -> None:
     for axis, dim in enumerate(variable.dims):
         dataset.dims[axis].attach_scale(group[dim] if dim in group else file[dim])
 

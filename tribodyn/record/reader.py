@@ -32,7 +32,7 @@ class Record:
 
     def __init__(self, path: str | Path) -> None:
         self.path = Path(path)
-        self._file = _open(self.path)
+        self._file: Any = _open(self.path)  # h5py types no item of a file
         try:
             self._check()
         except InputError:
@@ -64,10 +64,11 @@ class Record:
         return values.astype(str) if values.dtype.kind == "S" else values
 
     def __contains__(self, name: object) -> bool:
-        return name in schema.SAMPLES or name in ("time", "pair", "dof")
+        return (name in schema.SAMPLES or name in ("time", "pair", "dof")) and name in self._file
 
     def __iter__(self) -> Iterator[str]:
-        yield from ("time", *schema.SAMPLES)
+        """Go through the names of the datasets over time."""
+        yield from (name for name in ("time", *schema.SAMPLES) if name in self._file)
 
     def units(self, name: str) -> str:
         """Return the SI unit of a dataset."""
@@ -160,8 +161,9 @@ class Record:
             )
         if self.status not in (schema.PARTIAL, schema.COMPLETE, schema.FAILED):
             raise ValueError(f"unknown status {self.status}")
-        for name in ("time", "pair", "dof", *schema.SAMPLES):
-            if _over_time(name) and self._file[name].shape[0] < self.samples:
+        _ = self.pairs, self["dof"]
+        for name in (*schema.NEEDED, *self):
+            if self._file[name].shape[0] < self.samples:
                 raise ValueError(f"{name} is too short")
         for name in ("mesh_cycle", "geometry", "summary"):
             _attributes(self._file[name])
@@ -191,7 +193,7 @@ def _open(path: Path) -> h5py.File:
         raise InputError("record", str(path), "not an HDF5 file", "name a file of tribodyn run") from error
 
 
-def _attributes(item: h5py.HLObject) -> dict[str, Any]:
+def _attributes(item: Any) -> dict[str, Any]:
     """Attributes as Python and NumPy values."""
     return {
         name: value.item() if isinstance(value, np.generic) else value for name, value in item.attrs.items()

@@ -32,6 +32,9 @@ class Variable(NamedTuple):
     long_name: str
 
 
+#: Datasets that every record of this version holds; others may be missing in one of an earlier release.
+NEEDED = ("time", "pinion_angle", "transmission_error", "transmission_error_rotational", "normal_load")
+
 #: What a run records over time. `time` itself is the dimension scale of the first axis.
 SAMPLES: dict[str, Variable] = {
     "pinion_angle": Variable(("time",), "rad", "rotation of the pinion"),

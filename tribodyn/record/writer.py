@@ -195,6 +195,8 @@ class RecordWriter:
         self._close()
         scratch = self._scratch()
         layout.create(scratch, self._head, self.written)
+        source: Any
+        target: Any
         with h5py.File(self.partial, "r") as source, h5py.File(scratch, "r+") as target:
             for name in ("time", *SAMPLES):
                 target[name][...] = source[name][: self.written]

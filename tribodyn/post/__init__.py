@@ -1,0 +1,1 @@
+"""What is made from records: spectra, figures and the summary on the terminal."""

@@ -1,0 +1,120 @@
+"""Mesh cycles in a record: phase, whole cycles at the end of the run, curves of pairs, key points."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from tribodyn.errors import InputError
+from tribodyn.record.reader import Record
+
+
+class Window(NamedTuple):
+    """Whole mesh cycles of a record.
+
+    Attributes
+    ----------
+    part : slice
+        The samples, both ends of the cycles included.
+    phase : (samples,)
+        Phase in mesh cycles, 0 at the first of these cycles.
+    time : (samples,)
+        Time, s, as recorded.
+    samples_per_cycle : int
+        Samples in one cycle.
+    """
+
+    part: slice
+    phase: np.ndarray
+    time: np.ndarray
+    samples_per_cycle: int
+
+    @property
+    def mesh_frequency(self) -> float:
+        """Mean number of mesh cycles a second in the window, Hz."""
+        return float((self.phase[-1] - self.phase[0]) / (self.time[-1] - self.time[0]))
+
+
+class KeyPoint(NamedTuple):
+    """A phase at which pairs enter, leave or pass the pitch point, named as Liu & Ni name the points.
+
+    Attributes
+    ----------
+    phase : float
+        0 … 1, mesh cycles.
+    newest, before : str
+        Where pair 1 and where pair 0 then is; empty where the point concerns the other one only.
+    """
+
+    phase: float
+    newest: str
+    before: str
+
+
+def samples_per_cycle(record: Record) -> int:
+    """Find the number of samples in one mesh cycle from the pinion's rotation between samples.
+
+    Raises
+    ------
+    InputError
+        If the record holds less than two samples.
+    """
+    if record.samples < 2:
+        raise InputError("record", str(record.path), "holds no samples to draw", "run the scenario again")
+    angle = record["pinion_angle"]
+    step = (angle[-1] - angle[0]) / (angle.size - 1)
+    return max(1, round(2 * np.pi / record.mesh_cycle["pinion_teeth"] / step))
+
+
+def last_cycles(record: Record, cycles: int | None = 2) -> Window:
+    """Take the last `cycles` whole mesh cycles, all of them for None; what there is where there are fewer."""
+    per_cycle = samples_per_cycle(record)
+    whole = (record.samples - 1) // per_cycle
+    stop = whole * per_cycle + 1 if whole else record.samples
+    count = whole if cycles is None else min(whole, cycles)
+    start = stop - 1 - count * per_cycle if count else 0
+    phase = np.arange(stop - start) / per_cycle
+    return Window(slice(start, stop), phase, record["time"][start:stop], per_cycle)
+
+
+def pair_curve(
+    record: Record, values: np.ndarray, pair: int, window: Window, abscissa: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Cut out the curve of one pair number, broken where the number passes to the next teeth.
+
+    In the sample that ends a cycle, the teeth that were pair 1 are already pair 0: their last point is taken
+    from there, so that each piece reaches its end. Out of contact (transmission error NaN) the curve breaks.
+
+    Parameters
+    ----------
+    values : (samples of the record, pairs)
+        Dataset over time and pair.
+    pair : int
+        Number of the pair.
+    abscissa : (samples of the window,)
+        Phase or time.
+    """
+    numbers = record.pairs
+    values = np.where(np.isnan(record["transmission_error"]), np.nan, values)[window.part]
+    column = values[:, numbers.index(pair)]
+    older = values[:, numbers.index(pair - 1)] if pair - 1 in numbers and pair <= 1 else None
+    pieces_x, pieces_y = [], []
+    for start in range(0, column.size - 1, window.samples_per_cycle):
+        end = min(start + window.samples_per_cycle, column.size - 1)
+        last = older[end] if older is not None else np.nan
+        pieces_x += [abscissa[start : end + 1], [np.nan]]
+        pieces_y += [column[start:end], [last, np.nan]]
+    return np.concatenate(pieces_x), np.concatenate(pieces_y)
+
+
+def key_points(record: Record) -> list[KeyPoint]:
+    """Key points of one mesh cycle, by phase; C_p and C_g only where one and two pairs alternate."""
+    table = record.mesh_cycle
+    fronts = int(np.sum(table["side"] > 0))
+    ratio = float(table["contact_ratio"])
+    two = fronts == 2
+    points = [
+        KeyPoint(0.0, "B_g", "C_g" if two else ""),
+        KeyPoint(ratio - fronts + 1, "C_p" if two else "", "B_p"),
+        KeyPoint(float(table["pitch_point_phase"]) % 1.0, "P", ""),
+    ]
+    return sorted(points)

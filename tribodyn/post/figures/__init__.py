@@ -1,0 +1,1 @@
+"""The figures, one subject a file; `tribodyn.post.plots` names them."""

@@ -1,0 +1,153 @@
+"""The summary of a record: a table for people, a dictionary for programs."""
+
+import math
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+from rich.console import Group
+from rich.table import Table
+from rich.text import Text
+
+from tribodyn.record.reader import Record
+
+
+class Line(NamedTuple):
+    """A line of the table: summary name, what it is called, factor from SI, unit, format of the number."""
+
+    name: str
+    label: str
+    factor: float = 1.0
+    unit: str = ""
+    form: str = ".4g"
+
+
+#: Groups of the table, in order. Names that a summary lacks are left out.
+GROUPS: dict[str, tuple[Line, ...]] = {
+    "Geometry": (
+        Line("contact_ratio", "Contact ratio", form=".4f"),
+        Line(
+            "stiffness_single_pair_at_pitch_point", "Stiffness of one pair at the pitch point", 1e-6, "N/µm"
+        ),
+    ),
+    "Dynamics": (
+        Line("mesh_frequency", "Mesh frequency", 1.0, "Hz"),
+        Line("transmission_error_mean", "Transmission error, mean", 1e6, "µm"),
+        Line("transmission_error_peak_to_peak", "Transmission error, peak to peak", 1e6, "µm"),
+        Line("normal_load_max", "Greatest normal load", 1.0, "N", ",.0f"),
+        Line("dynamic_factor", "Dynamic factor", form=".3f"),
+        Line("contact_loss_fraction", "Time without contact", 100.0, "%", ".3g"),
+    ),
+    "Tribology": (
+        Line("film_min", "Least film thickness", 1e6, "µm", ".3g"),
+        Line("film_parameter_min", "Least film parameter", form=".3g"),
+        Line("hertz_pressure_max", "Greatest Hertz pressure", 1e-9, "GPa", ".3g"),
+        Line("flash_temperature_max", "Greatest flash temperature rise", 1.0, "K", ".3g"),
+        Line("friction_coefficient_mean", "Friction coefficient, mean", form=".4f"),
+        Line("friction_force_mean", "Friction force, mean over the cycle", 1.0, "N", ".1f"),
+    ),
+    "Energy": (
+        Line("power_in_mean", "Power in, mean", 1.0, "W", ",.1f"),
+        Line("power_friction_mean", "Friction loss, mean", 1.0, "W", ".3g"),
+        Line("efficiency", "Efficiency", 100.0, "%", ".2f"),
+    ),
+    "Solver": (
+        Line("solver", "Method"),
+        Line("solver_reason", "because"),
+        Line("steps", "Steps", form=",d"),
+        Line("rhs_evaluations", "Right-hand sides", form=",d"),
+        Line("wall_time", "Wall time", 1.0, "s", ".3g"),
+    ),
+}
+
+
+def summary_table(record: Record) -> Group:
+    """Lay out the summary of a record for the terminal (a rich renderable), in engineers' units."""
+    title = Text(str(record.scenario.get("title", record.path.stem)), style="bold")
+    parts: list[Any] = [title]
+    if record.status != "complete":
+        parts.append(Text(f"{record.status}: {record.message}", style="bold red"))
+    table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2, 0, 0))
+    table.add_column(no_wrap=True)
+    table.add_column(justify="right")
+    table.add_column(no_wrap=True)
+    for group, lines in GROUPS.items():
+        present = [line for line in lines if record.summary.get(line.name) is not None]
+        if not present:
+            continue
+        table.add_row(Text(group, style="bold cyan"), "", "")
+        for line in present:
+            label, unit = line.label, line.unit
+            if np.ndim(record.summary[line.name]):
+                label += f", pairs {', '.join(str(pair) for pair in reversed(record.pairs))}"
+            table.add_row(f"  {label}", shown(line, record.summary[line.name]), unit)
+    parts.append(table)
+    parts.append(Text("How far to trust it", style="bold cyan"))
+    parts += [Text(f"  {sentence}") for sentence in trust(record)]
+    return Group(*parts)
+
+
+def shown(line: Line, value: Any) -> str:
+    """Write one value in its unit; the values of pairs from pair 1 on."""
+    if isinstance(value, str):
+        return value
+    if np.ndim(value):
+        return " / ".join(shown(line, item) for item in reversed(np.asarray(value).tolist()))
+    if isinstance(value, float) and not math.isfinite(value):
+        return "–"
+    number = value * line.factor if line.factor != 1.0 else value
+    return format(int(number) if line.form.endswith("d") else number, line.form)
+
+
+def trust(record: Record) -> list[str]:
+    """Say how well the run satisfies what can be checked: range of the film law, balance of energy."""
+    summary = record.summary
+    sentences = []
+    cycles = summary.get("averaging_cycles")
+    if cycles is not None:
+        sentences.append(f"Means are over the last {cycles} mesh cycle{'s' if cycles != 1 else ''}.")
+    fraction = summary.get("closure_in_range_fraction")
+    if fraction is not None:
+        outside = "" if fraction >= 1 else "; the rest is extrapolated, see closure_in_range"
+        sentences.append(
+            f"The film law is inside its fitted range in {_percent(fraction)} of the contact{outside}."
+        )
+    residual = summary.get("energy_residual")
+    if residual is not None and math.isfinite(residual):
+        sentences.append(f"The energy balance closes within {abs(residual):.1e} of the work put in.")
+    if record.status != "complete":
+        sentences.append(f"The run is {record.status}: {record.samples} samples were written.")
+    return sentences or ["The record has no summary."]
+
+
+def _percent(fraction: float) -> str:
+    """Write a share in per cent, 100 only when it is whole."""
+    percent = 100 * fraction
+    return f"{math.floor(percent * 10) / 10:.1f} %" if fraction < 1 else "100 %"
+
+
+def as_json(record: Record) -> dict[str, Any]:
+    """Turn a record's head and summary, SI units, into what `json.dumps` takes; NaN becomes None."""
+    head = ("created", "tribodyn_version", "scenario_sha256")
+    return {
+        "record": str(record.path),
+        "title": record.scenario.get("title", ""),
+        "status": record.status,
+        "message": record.message,
+        **{name: record.attrs[name] for name in head},
+        "samples": record.samples,
+        "pairs": list(record.pairs),
+        "summary": _plain(record.summary),
+    }
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, (np.ndarray, np.generic)):
+        value = value.tolist()
+    if isinstance(value, (list, tuple)):
+        return [_plain(item) for item in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value
