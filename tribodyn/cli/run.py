@@ -1,7 +1,7 @@
 """`tribodyn run`: from a scenario to a record, a summary and pictures."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -45,15 +45,7 @@ def run(
     failed = result.status != "complete"
     pictures = [] if failed or plot is False else _draw(result.path, everything=plot is True)
     if json:
-        print_json(
-            {
-                "record": str(result.path),
-                "status": result.status,
-                "message": result.message,
-                "pictures": [str(path) for path in pictures],
-                "summary": result.summary,
-            }
-        )
+        print_json({**_as_json(result.path), "pictures": [str(path) for path in pictures]})
     else:
         _print_summary(result.path)
         typer.echo(f"record   {quoted_path(result.path)}")
@@ -70,6 +62,14 @@ def _print_summary(path: Path) -> None:
 
     with open_record(path) as record:
         print_summary(record)
+
+
+def _as_json(path: Path) -> dict[str, Any]:
+    from tribodyn.post.report import as_json
+    from tribodyn.record.reader import open_record
+
+    with open_record(path) as record:
+        return as_json(record)
 
 
 def _draw(path: Path, *, everything: bool) -> list[Path]:

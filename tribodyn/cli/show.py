@@ -17,14 +17,14 @@ def show(
 ) -> None:
     """Print the summary of a record."""
     from tribodyn.cli.printing import print_json
+    from tribodyn.post.report import as_json
     from tribodyn.record.reader import open_record
 
     with open_record(record) as opened:
-        if not json:
+        if json:
+            print_json({**as_json(opened), "scenario": opened.scenario})
+        else:
             print_summary(opened)
-            return
-        attributes = {name: value for name, value in opened.attrs.items() if name != "scenario"}
-        print_json({**attributes, "scenario": opened.scenario, "summary": opened.summary})
 
 
 def print_summary(record: "Record") -> None:
