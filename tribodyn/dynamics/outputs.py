@@ -86,6 +86,9 @@ def outputs(cycles: np.ndarray, states: np.ndarray, model: Model) -> dict[str, n
         np.broadcast_to(power, count) for power in powers
     )
 
+    # loss by the nominal sliding, as efficiency is defined; power_friction is the work on the vibrating bodies
+    sliding_loss = sum(work[contact.FRICTION_FORCE, i] * work[contact.SLIDING, i] for i in range(pairs))
+
     def contacting(values: np.ndarray, mask: np.ndarray = touching) -> np.ndarray:
         return np.where(mask, values, np.nan)
 
@@ -114,12 +117,12 @@ def outputs(cycles: np.ndarray, states: np.ndarray, model: Model) -> dict[str, n
         "power_damping": power_damping,
         "power_parametric": power_parametric,
         "stored_energy": np.broadcast_to(stored_energy(y, model, work), count),
-        "efficiency": efficiency(power_in, power_friction),
+        "efficiency": efficiency(power_in, sliding_loss),
     }
     return result
 
 
-def efficiency(power_in: np.ndarray, power_friction: np.ndarray) -> np.ndarray:
+def efficiency(power_in: np.ndarray, loss: np.ndarray) -> np.ndarray:
     """Instantaneous 1 − Σ μ F_n |v_s|/(T_p ω_p); NaN where the drive delivers nothing."""
     driven = power_in > 0.0
-    return np.where(driven, 1.0 - power_friction / np.where(driven, power_in, 1.0), np.nan)
+    return np.where(driven, 1.0 - loss / np.where(driven, power_in, 1.0), np.nan)

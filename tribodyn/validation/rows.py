@@ -1,0 +1,62 @@
+"""One row of a validation: a published number or claim beside ours."""
+
+import json
+from importlib.resources import files
+from typing import Any, NamedTuple
+
+PASS, FAIL, REPORTED = "pass", "fail", "reported"
+
+
+class Row(NamedTuple):
+    """A published value, ours, and how they compare.
+
+    Attributes
+    ----------
+    id, quantity, unit : str
+    published, computed : float, bool or None
+    difference : float or None
+        Computed less published: relative to the published value where the tolerance is.
+    tolerance : float or None
+    tolerance_kind : str
+    verdict : {"pass", "fail", "reported"}
+        "reported": the published value is not reproducible, or a claim does not hold in our physics.
+    note : str
+    """
+
+    id: str
+    quantity: str
+    unit: str
+    published: Any
+    computed: Any
+    difference: float | None
+    tolerance: float | None
+    tolerance_kind: str
+    verdict: str
+    note: str
+
+
+def published(paper: str) -> dict[str, dict[str, Any]]:
+    """The published rows of a paper by id, in order."""
+    text = files("tribodyn.validation").joinpath("published.json").read_text(encoding="utf-8")
+    return {row["id"]: row for row in json.loads(text) if row["paper"] == paper}
+
+
+def compare(row: dict[str, Any], computed: Any, note: str = "") -> Row:
+    """Judge a computed value against a published row; `note` is put before the row's own."""
+    value, tolerance, kind = row["published"], row["tolerance"], row["tolerance_kind"]
+    difference = None
+    if kind == "claim":
+        verdict = PASS if bool(computed) == bool(value) else REPORTED
+    elif tolerance is None:
+        verdict = REPORTED
+        if isinstance(value, (int, float)):
+            difference = float(computed) - value
+    else:
+        difference = float(computed) - value
+        if kind == "relative":
+            difference /= abs(value)
+        verdict = PASS if abs(difference) <= tolerance else FAIL
+    notes = "; ".join(text for text in (note, row["note"]) if text)
+    return Row(
+        row["id"], row["quantity"], row["unit"], value, computed, difference, tolerance, kind, verdict, notes
+    )
