@@ -64,15 +64,6 @@ def assemble(family: Family, drive: Drive) -> Assembly:
     return Assembly(family, drive, path, pinion, gear, float(limits[0]), float(limits[1]))
 
 
-def least_flank_speed(tooth: Tooth) -> float:
-    """Least speed of the contact along the flank while the rack cuts it, m per rad; negative: undercut.
-
-    The speed is ρ (1 + κ), so its zero is the zero-velocity condition of undercutting.
-    """
-    r = np.linspace(tooth.form_distance, tooth.tip_distance, _SAMPLES)
-    return float(np.min(kinematics(tooth.path, r).pinion_speed))
-
-
 def tip_clearance(assembly: Assembly, side: Side) -> float:
     """Distance between this body's tip circle and its mate's root circle on the line of centres, m."""
     centre_distance = assembly.path.pinion_pitch_radius + assembly.path.gear_pitch_radius

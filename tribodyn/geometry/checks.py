@@ -10,7 +10,6 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import (
     Assembly,
     assemble,
-    least_flank_speed,
     lowest_contact_radius,
     lowest_contact_speed,
     mate_of,
@@ -141,14 +140,19 @@ def _check_rack_corners(assembly: Assembly, side: Side) -> None:
 
 
 def _check_undercut(assembly: Assembly, side: Side) -> None:
+    """Refuse undercut that reaches the active flank; below the lowest contact it does no harm."""
     family, drive, body = assembly.family, assembly.drive, body_of(assembly.drive, side)
+    tooth = assembly.tooth(side)
+    below = lowest_contact_speed(assembly, side) > 0
+    if not tooth.overrun > 0 or (below and lowest_contact_radius(assembly, side) >= tooth.form_radius):
+        return
 
     def sound(shift: float) -> bool:
-        return least_flank_speed(cut_tooth(family, replaced(drive, side, profile_shift=shift), side)) > 0
+        return bool(cut_tooth(family, replaced(drive, side, profile_shift=shift), side).overrun <= 0)
 
-    if least_flank_speed(assembly.tooth(side)) > 0:
-        return
-    rule = "the rack undercuts the flank"
+    rule = (
+        f"the rack undercuts the working part of the flank up to the radius {_millimetres(tooth.form_radius)}"
+    )
     otherwise = "use more teeth, a larger pressure angle or a smaller dedendum"
     if family.shiftable:
         least = boundary(sound, body.profile_shift, body.profile_shift + 2)

@@ -52,6 +52,7 @@ def geometry_sheet(family: Family, drive: Drive) -> dict[str, Any]:
             "tip diameter": _millimetres(2 * tooth.tip_radius),
             "lowest contact diameter": _millimetres(2 * lowest_contact_radius(assembly, side)),
             "form diameter": _millimetres(2 * tooth.form_radius),
+            "undercut by the rack": (float(tooth.overrun > 0), ""),
             "root diameter": _millimetres(2 * tooth.root_radius),
             "bore diameter": _millimetres(2 * body.bore_radius),
             "face width": _millimetres(body.face_width),

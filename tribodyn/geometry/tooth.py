@@ -5,6 +5,9 @@ then carried to the tooth's own frame: x along the tooth's symmetry axis from th
 half thickness. A point at (X, Y) from the pitch point, touched when the body has turned by φ, has the half
 thickness angle χ = ψ + atan2(X, r_p + Y) − φ, where ψ is the half thickness angle on the pitch circle.
 The rack moves by r_p φ to +x, so its flank is x_c = r cos α − r_p φ, y_c = r sin α.
+
+Where the rack's flank reaches beyond the point of zero velocity (u_p = 0), the fillet undercuts the flank:
+the two then end where they cross, in a corner.
 """
 
 from typing import Any, NamedTuple
@@ -14,7 +17,7 @@ import numpy as np
 from tribodyn.elementary import arctan2, cos, namespace, sin, sqrt, tan
 from tribodyn.geometry.drive import Drive, Side, body_of, tip_radius
 from tribodyn.geometry.family import Family
-from tribodyn.geometry.path import Path, distance_at_radius, position, radius
+from tribodyn.geometry.path import Path, distance_at_radius, kinematics, position, radius
 
 Array = Any
 
@@ -33,7 +36,9 @@ class Tooth(NamedTuple):
     form_distance, tip_distance : float
         Signed distances r (m) on the generating path where the flank begins (at the fillet) and ends.
     form_angle : float
-        Angle of the rack's normal at the flank's beginning, rad; it grows to π/2 at the root.
+        Angle of the rack's normal where the fillet ends at the flank, rad; it grows to π/2 at the root.
+    overrun : float
+        How far the rack's flank reaches beyond the point of zero velocity, m; positive: undercut.
     corner_x, corner_y : float
         Centre of the rack's rounded tip in the rack's frame at φ = 0, m.
     corner_radius : float
@@ -49,6 +54,7 @@ class Tooth(NamedTuple):
     form_distance: Any
     tip_distance: Any
     form_angle: Any
+    overrun: Any
     corner_x: Any
     corner_y: Any
     corner_radius: Any
@@ -112,25 +118,28 @@ def cut_tooth(family: Family, drive: Drive, side: Side) -> Tooth:
     half_angle = (np.pi * drive.module / 4 + widening) / pitch_radius
     depth = drive.module * body.dedendum - shift
     rounding = drive.module * body.fillet_radius
-    form_distance = _tangent_distance(path, depth, rounding)
-    form_angle = path.pressure_angle(form_distance)
-    form_x, form_y = position(path, form_distance)
-    corner_x = form_x - pitch_radius * path.rotation(form_distance) + rounding * cos(form_angle)
+    tangent_distance = _tangent_distance(path, depth, rounding)
+    tangent_angle = path.pressure_angle(tangent_distance)
+    tangent_x, tangent_y = position(path, tangent_distance)
+    corner_x = tangent_x - pitch_radius * path.rotation(tangent_distance) + rounding * cos(tangent_angle)
+    flank = kinematics(path, tangent_distance)
     tip = tip_radius(drive, side)
-    return Tooth(
+    tangent = Tooth(
         path=path,
         half_angle=half_angle,
-        form_distance=form_distance,
+        form_distance=tangent_distance,
         tip_distance=distance_at_radius(path, tip),
-        form_angle=form_angle,
+        form_angle=tangent_angle,
+        overrun=-1 / flank.pinion_curvature,
         corner_x=corner_x,
-        corner_y=form_y + rounding * sin(form_angle),
+        corner_y=tangent_y + rounding * sin(tangent_angle),
         corner_radius=rounding,
         corner_limit=np.pi * drive.module / 4 - widening,
         root_radius=pitch_radius - depth,
-        form_radius=radius(path, form_distance),
+        form_radius=radius(path, tangent_distance),
         tip_radius=tip,
     )
+    return _ended_by_undercut(tangent)
 
 
 def _tangent_distance(path: Path, depth: Any, rounding: Any) -> Any:
@@ -148,6 +157,60 @@ def _tangent_distance(path: Path, depth: Any, rounding: Any) -> Any:
         slope = sin(alpha) + (r + rounding) * cos(alpha) * path.pressure_angle_slope(r)
         r = r - residual / slope
     return r
+
+
+def _ended_by_undercut(tooth: Tooth) -> Tooth:
+    """End fillet and flank where they cross, if the tooth is undercut; else leave it as it is.
+
+    For a small overrun d the flank is the cusp of an involute, which the fillet crosses where the radius of
+    curvature is d/2 (and 0.3 d for six teeth). Newton's method from there, in both curves' parameters.
+    A sound tooth goes through the same bounded steps and discards them, for there is no branching on values.
+    """
+    xp = namespace(tooth)
+    undercut = tooth.overrun > 0
+    overrun = xp.where(undercut, tooth.overrun, -0.1 * tooth.form_distance)
+    lowest = tooth.form_distance + overrun
+    r, normal = lowest + 0.4 * overrun, tooth.form_angle
+    # The fillet's point at the radius of the flank's first: R² falls by (1 − 0.4²) d².
+    rate, _ = _fillet_tangent(tooth, normal)
+    normal = normal - 0.42 * overrun**2 / (rate * tooth.path.pinion_pitch_radius * cos(normal))
+    for _ in range(_NEWTON_STEPS):
+        flank_rate, flank_angle = _flank_tangent(tooth, r)
+        fillet_rate, fillet_angle = _fillet_tangent(tooth, normal)
+        gap_x, gap_y = (
+            a - b for a, b in zip(flank_point(tooth, r), fillet_point(tooth, normal), strict=True)
+        )
+        crossing = sin(flank_angle - fillet_angle)
+        crossing = xp.where(xp.abs(crossing) > 1e-12, crossing, 1e-12)
+        r = r - (gap_x * sin(fillet_angle) + gap_y * cos(fillet_angle)) / (-crossing * flank_rate)
+        normal = normal + (gap_x * sin(flank_angle) + gap_y * cos(flank_angle)) / (crossing * fillet_rate)
+        r = xp.clip(r, lowest + 0.01 * overrun, lowest + overrun)
+        normal = xp.clip(normal, tooth.form_angle, np.pi / 2)
+    r = xp.where(undercut, r, tooth.form_distance)
+    return tooth._replace(
+        form_distance=r,
+        form_angle=xp.where(undercut, normal, tooth.form_angle),
+        form_radius=radius(tooth.path, r),
+    )
+
+
+def _flank_tangent(tooth: Tooth, r: Array) -> tuple[Array, Array]:
+    """Differentiate the flank's point by r along its tangent (cos λ, −sin λ), and λ = α − ψ + φ."""
+    flank = kinematics(tooth.path, r)
+    return (
+        flank.pinion_speed / flank.pinion_normal_arm,
+        flank.pressure_angle - tooth.half_angle + tooth.path.rotation(r),
+    )
+
+
+def _fillet_tangent(tooth: Tooth, normal_angle: Array) -> tuple[Array, Array]:
+    """Differentiate the fillet's point by the normal's angle along (cos λ, −sin λ), m per rad, and λ."""
+    pitch_radius = tooth.path.pinion_pitch_radius
+    r = tooth.corner_y / sin(normal_angle) - tooth.corner_radius
+    rotation = (tooth.corner_y * cos(normal_angle) / sin(normal_angle) - tooth.corner_x) / pitch_radius
+    turning = -tooth.corner_y / (pitch_radius * sin(normal_angle) ** 2)
+    rate = r + (r + pitch_radius * sin(normal_angle)) * turning
+    return rate, normal_angle - tooth.half_angle + rotation
 
 
 def flank_point(tooth: Tooth, r: Array) -> tuple[Array, Array]:
