@@ -25,8 +25,12 @@ def approach_and_recess() -> tuple[float, float]:
     return -lengths[1] / base, lengths[0] / base
 
 
-def outline(teeth: int) -> np.ndarray:
-    """Full gear with involute flanks above its base circle and radial ones below."""
+def outline(teeth: int, upwards: float) -> np.ndarray:
+    """Full gear with involute flanks above its base circle and radial ones below.
+
+    A tooth axis lies a quarter pitch beside the line of centres, so that a flank passes through the pitch
+    point: left of it above the pinion's axis, right of it below the gear's.
+    """
     pitch, tip, root = MODULE * teeth / 2, MODULE * (teeth / 2 + 1), MODULE * (teeth / 2 - 1.25)
     base = pitch * np.cos(PRESSURE_ANGLE)
     involute = np.tan(PRESSURE_ANGLE) - PRESSURE_ANGLE
@@ -37,6 +41,7 @@ def outline(teeth: int) -> np.ndarray:
     flank = np.concatenate([-half, half[::-1]])
     polar = np.concatenate([flank + 2 * np.pi * tooth / teeth for tooth in range(teeth)])
     radii = np.tile(np.concatenate([radius, radius[::-1]]), teeth)
+    polar = polar + upwards * np.pi / 2 + np.pi / (2 * teeth)
     return np.stack([radii * np.cos(polar), radii * np.sin(polar)], axis=1)
 
 
@@ -95,8 +100,8 @@ def geometry() -> dict:
     start, end = approach_and_recess()
     distance = PITCH_RADII[0] * np.cos(PRESSURE_ANGLE) * np.linspace(start, end, 20)
     return {
-        "pinion_outline": outline(TEETH[0]),
-        "gear_outline": outline(TEETH[1]),
+        "pinion_outline": outline(TEETH[0], 1),
+        "gear_outline": outline(TEETH[1], -1),
         "path_of_contact": np.stack(
             [distance * np.cos(PRESSURE_ANGLE), distance * np.sin(PRESSURE_ANGLE)], axis=1
         ),

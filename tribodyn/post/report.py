@@ -53,7 +53,6 @@ GROUPS: dict[str, tuple[Line, ...]] = {
     ),
     "Solver": (
         Line("solver", "Method"),
-        Line("solver_reason", "because"),
         Line("steps", "Steps", form=",d"),
         Line("rhs_evaluations", "Right-hand sides", form=",d"),
         Line("wall_time", "Wall time", 1.0, "s", ".3g"),
@@ -103,6 +102,8 @@ def trust(record: Record) -> list[str]:
     """Say how well the run satisfies what can be checked: range of the film law, balance of energy."""
     summary = record.summary
     sentences = []
+    if "solver" in summary and "solver_reason" in summary:
+        sentences.append(f"Solved by {summary['solver']}: {summary['solver_reason']}.")
     cycles = summary.get("averaging_cycles")
     if cycles is not None:
         sentences.append(f"Means are over the last {cycles} mesh cycle{'s' if cycles != 1 else ''}.")

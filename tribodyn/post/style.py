@@ -9,6 +9,7 @@ from typing import Any
 import matplotlib
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 #: Okabe & Ito (2008), the colours that stay apart for every kind of colour vision; yellow is left out, too
 #: pale for a line on white.
@@ -41,7 +42,7 @@ STYLE: dict[Any, Any] = {
     "axes.formatter.useoffset": False,
     "grid.color": GRID,
     "grid.linewidth": 0.6,
-    "lines.linewidth": 1.4,
+    "lines.linewidth": 1.1,
     "lines.solid_capstyle": "round",
     "xtick.labelsize": 7.5,
     "ytick.labelsize": 7.5,
@@ -70,7 +71,7 @@ def house_style() -> Iterator[None]:
 
 def new_figure(width: float = WIDTH, height: float = PANEL_HEIGHT) -> Figure:
     """Make an empty figure, inch, that keeps its labels apart by itself."""
-    return Figure(figsize=(width, height), layout="constrained")
+    return Figure(figsize=(width, height), layout=ConstrainedLayoutEngine(w_pad=0.06, h_pad=0.06))
 
 
 def save(figure: Figure, path: str | Path) -> Path:

@@ -157,10 +157,14 @@ MESH_CYCLE_SCALARS: dict[str, str] = {
 #: Curves of the geometry; lengths such as radii are attributes of the group, in m.
 GEOMETRY: dict[str, Variable] = {
     "pinion_outline": Variable(
-        ("pinion_point", "axis"), "m", "outline of the pinion in its own frame, x along a tooth"
+        ("pinion_point", "axis"),
+        "m",
+        "outline of the pinion about its axis, turned as when a pair touches at the pitch point",
     ),
     "gear_outline": Variable(
-        ("gear_point", "axis"), "m", "outline of the gear in its own frame, x along a tooth"
+        ("gear_point", "axis"),
+        "m",
+        "outline of the gear about its axis, turned as when a pair touches at the pitch point",
     ),
     "path_of_contact": Variable(
         ("path_point", "axis"), "m", "path of contact, origin at the pitch point, x along the pitch tangent"

@@ -77,20 +77,32 @@ def draw(
         values = record[quantity.dataset] * quantity.factor
         if values.ndim == 1:
             color = PALETTE[number % len(PALETTE)] if several else PALETTE[0]
-            axes.plot(x, values[window.part], color=color, label=record_label(record))
+            axes.plot(x, values[window.part], color=color)
             continue
-        for position, pair in enumerate(sorted(record.pairs, reverse=True)):
+        for position, pair in enumerate(drawn_pairs(record, window)):
             curve = pair_curve(record, values, pair, window, x)
             color = PALETTE[(number if several else position) % len(PALETTE)]
             style = PAIR_STYLES[position % len(PAIR_STYLES)]
-            label = f"{record_label(record)}, pair {pair}" if several else f"pair {pair}"
-            axes.plot(*curve, color=color, linestyle=style, label=label)
+            axes.plot(*curve, color=color, linestyle=style, label=pair_label(pair))
     axes.set_ylabel(quantity.label)
     if quantity.from_zero:
         axes.set_ylim(bottom=0)
     if last:
         axes.set_xlabel(abscissa_label(view))
     mark_key_points(axes, records, view, first)
+
+
+def drawn_pairs(record: Record, window: Window) -> list[int]:
+    """List the pairs to draw: driving flanks from the newest on, then back flanks that carry load."""
+    load = record["normal_load"][window.part]
+    front = [pair for pair in record.pairs if pair <= 1]
+    touching = [pair for slot, pair in enumerate(record.pairs) if pair > 1 and np.any(load[:, slot] > 0)]
+    return front[::-1] + touching
+
+
+def pair_label(pair: int) -> str:
+    """Name a pair in a legend."""
+    return f"pair {pair}" if pair <= 1 else f"back flanks {pair - 1}"
 
 
 def abscissa_label(view: View) -> str:
@@ -123,7 +135,7 @@ def mark_key_points(axes: Axes, records: Sequence[Record], view: View, named: bo
         for phase, point in points:
             place = float(np.interp(phase, window.phase, x))
             color = PALETTE[number % len(PALETTE)] if several else QUIET
-            axes.axvline(place, color=color, linewidth=0.6, linestyle=":", zorder=0.5)
+            axes.axvline(place, color=color, linewidth=0.6, linestyle=":", zorder=0.9)
             if named and several:
                 _name(axes, place, len(records) - 1 - number, point.newest, color)
             elif named:
@@ -167,16 +179,12 @@ def _name(axes: Axes, place: float, row: int, name: str, color: str) -> None:
 def legend(figure: Figure, axes: Axes, records: Sequence[Record]) -> None:
     """Put one legend below the figure: records by colour, pairs by line."""
     handles, labels = axes.get_legend_handles_labels()
-    pairs = sorted({pair for record in records for pair in record.pairs}, reverse=True)
     if len(records) > 1:
+        # a pair has the same line style in every record
+        pairs = {str(line.get_label()): line for line in axes.lines if line.get_label() in labels}
         handles = [Line2D([], [], color=PALETTE[i % len(PALETTE)]) for i in range(len(records))]
-        labels = [record_label(record) for record in records]
-        if any("pair" in str(line.get_label()) for line in axes.lines):
-            handles += [
-                Line2D([], [], color=QUIET, linestyle=PAIR_STYLES[i % len(PAIR_STYLES)])
-                for i in range(len(pairs))
-            ]
-            labels += [f"pair {pair}" for pair in pairs]
+        handles += [Line2D([], [], color=QUIET, linestyle=line.get_linestyle()) for line in pairs.values()]
+        labels = [*map(record_label, records), *pairs]
     if len(labels) > 1:
         figure.legend(
             handles, labels, loc="outside lower center", ncols=min(4, len(labels)), handlelength=2.6

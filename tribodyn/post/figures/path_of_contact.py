@@ -46,34 +46,18 @@ def contact_position(record: Record, roll: float) -> tuple[float, float]:
     return float(distance * np.cos(angle)), float(distance * np.sin(angle))
 
 
-def half_tooth_angle(outline: np.ndarray, radius: float) -> float:
-    """Measure the angle between a tooth's axis (the outline's x axis) and its flank at `radius`, rad."""
-    distance = np.hypot(outline[:, 0], outline[:, 1])
-    angle = np.arctan2(outline[:, 1], outline[:, 0])
-    first = np.argmin(np.where(angle >= 0, angle, np.inf))
-    # from the tip of the tooth on the x axis along its flank until the circle is crossed
-    inside = np.roll(distance, -first) < radius
-    crossing = int(np.argmax(inside))
-    outer, inner = (first + crossing - 1) % angle.size, (first + crossing) % angle.size
-    share = (distance[outer] - radius) / (distance[outer] - distance[inner])
-    return float(abs(angle[outer] + share * (angle[inner] - angle[outer])))
-
-
 def gears_in_mesh(record: Record, phase: float) -> tuple[np.ndarray, np.ndarray]:
     """Place the outlines of pinion and gear at a phase of the mesh, (points, 2) from the pitch point, m.
 
-    The driving flanks of the pinion are its right ones: at the top it moves to the right, and so does the
-    gear's bottom. Where the roll angle is 0, a flank of each passes through the pitch point.
+    The record holds them as they stand while a pair touches at the pitch point, each about its own axis;
+    the pinion turns clockwise, the gear counter-clockwise.
     """
     table, geometry = record.mesh_cycle, record.geometry
     radii = table["pinion_pitch_radius"], table["gear_pitch_radius"]
     roll = table["roll_start"] + phase * 2 * np.pi / table["pinion_teeth"]
-    pinion, gear = geometry["pinion_outline"], geometry["gear_outline"]
-    pinion_turn = np.pi / 2 + half_tooth_angle(pinion, radii[0]) - roll
-    gear_turn = -np.pi / 2 + half_tooth_angle(gear, radii[1]) + roll * radii[0] / radii[1]
-    return _turn(pinion, pinion_turn) - np.array([0.0, radii[0]]), _turn(gear, gear_turn) + np.array(
-        [0.0, radii[1]]
-    )
+    pinion = _turn(geometry["pinion_outline"], -roll) - np.array([0.0, radii[0]])
+    gear = _turn(geometry["gear_outline"], roll * radii[0] / radii[1]) + np.array([0.0, radii[1]])
+    return pinion, gear
 
 
 def _turn(points: np.ndarray, angle: float) -> np.ndarray:

@@ -45,14 +45,16 @@ def draw_spectrum(axes: Axes, records: Sequence[Record]) -> None:
         harmonics = spectrum.harmonics(HARMONICS) * 1e6
         places = np.arange(1, HARMONICS + 1) * mesh
         tiny = np.finfo(float).tiny
-        axes.vlines(places, tiny, harmonics, color=color, linewidth=1.2)
+        # of later records larger and hollow, so that equal amplitudes still show both
+        axes.vlines(places, tiny, harmonics, color=color, linewidth=1.2, zorder=2.5 - 0.1 * number)
         axes.plot(
             places,
             harmonics,
             linestyle="none",
             marker="os^Dv"[number % 5],
-            markersize=4,
-            color=color,
+            markersize=4 + 2.5 * number,
+            markeredgecolor=color,
+            markerfacecolor="none" if number else color,
             label=f"{record_label(record)}, mesh frequency {mesh:.4g} Hz",
         )
         highest, width = max(highest, harmonics.max()), max(width, (HARMONICS + 0.5) * mesh)
