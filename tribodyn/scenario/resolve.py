@@ -53,11 +53,10 @@ def resolve(path: Path, overrides: Mapping[str, Any]) -> Resolved:
     overrides : mapping
         Dotted key to value; a string is read as TOML where it is TOML, else taken as it stands.
     """
-    data = read_toml(path)
+    data = defaults_written_out(read_toml(path))
     origins = Origins(str(path))
     for dotted, value in sorted(overrides.items(), key=lambda item: item[0].count(".")):
         _override(data, origins, path, dotted, value)
-    data = defaults_written_out(data)
     errors: list[InputError] = []
     for key in (*MODEL_FILES, *CURVES):
         try:
