@@ -31,8 +31,8 @@ def find_scenario(name: str) -> Path:
     if path.suffix == ".toml" or path.is_file():
         if path.is_file():
             return path
-        near = near_name(path.name, [p.name for p in path.parent.glob("*.toml")])
-        remedy = f'did you mean "{path.with_name(near)}"?' if near else "check the path"
+        near = near_name(path.stem, names(path.parent))
+        remedy = f'did you mean "{path.with_name(near + ".toml")}"?' if near else "check the path"
         raise InputError("scenario", quoted(name), "no such file", remedy)
     folder = shipped("scenarios")
     if (folder / f"{name}.toml").is_file():
@@ -58,8 +58,8 @@ def find_model(name: str, kind: str, key: str, referring: Path) -> Path:
         path = referring.parent / name
         if path.is_file():
             return path
-        near = near_name(path.name, [p.name for p in path.parent.glob("*.toml")])
-        remedy = f'did you mean "{Path(name).with_name(near)}"?' if near else "check the path"
+        near = near_name(path.stem, names(path.parent))
+        remedy = f'did you mean "{Path(name).with_name(near + ".toml")}"?' if near else "check the path"
         raise InputError(key, quoted(name), f"no such file: {path}", remedy)
     folders = [referring.resolve().parent.parent / "models" / kind, shipped("models") / kind]
     for folder in folders:

@@ -1,0 +1,61 @@
+"""Help comes quickly, for every verb, with an example that parses."""
+
+import re
+import shlex
+import subprocess
+import sys
+
+import pytest
+from tribodyn.cli.app import app
+from typer.main import get_command
+from typer.testing import CliRunner
+
+VERBS = ("run", "check", "show", "plot", "list", "init", "schema", "validate")
+HEAVY = ("numpy", "scipy", "jax", "diffrax", "numba", "pydantic", "pint", "h5py", "matplotlib", "rich")
+
+
+def test_help_imports_nothing_heavy():
+    program = (
+        "import sys\nfrom tribodyn.cli import main\nsys.argv = ['tribodyn', '--help']\n"
+        "try:\n    main()\nexcept SystemExit as end:\n    assert not end.code\n"
+        f"print('heavy:', *[name for name in {HEAVY} if name in sys.modules])"
+    )
+    ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert ended.stdout.splitlines()[-1] == "heavy:"
+
+
+def test_help_names_every_verb():
+    shown = CliRunner().invoke(app, ["--help"])
+    assert shown.exit_code == 0
+    for verb in VERBS:
+        assert re.search(rf"^  {verb} ", shown.stdout, re.MULTILINE)
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_every_verb_shows_an_example_that_parses(verb: str):
+    shown = CliRunner().invoke(app, [verb, "--help"])
+    assert shown.exit_code == 0
+    examples = re.findall(rf"^ +tribodyn ({verb}\b.*)$", shown.stdout, re.MULTILINE)
+    assert examples
+    command = get_command(app)
+    for example in examples:
+        words = shlex.split(example.partition(" > ")[0])[1:]
+        command.commands[verb].make_context(verb, words)  # type: ignore[attr-defined]
+
+
+@pytest.mark.parametrize("verb", ["run", "check", "show", "plot", "list", "validate"])
+def test_verbs_that_print_results_have_json(verb: str):
+    assert "--json" in CliRunner().invoke(app, [verb, "--help"]).stdout
+
+
+def test_no_verb_is_help_and_an_unknown_one_is_refused():
+    assert "Usage" in CliRunner().invoke(app, []).output
+    refused = CliRunner().invoke(app, ["rnu"])
+    assert refused.exit_code == 2
+    assert "rnu" in refused.stderr
+
+
+def test_the_version_is_the_package_s():
+    from tribodyn import __version__
+
+    assert CliRunner().invoke(app, ["--version"]).stdout == f"tribodyn {__version__}\n"

@@ -1,0 +1,86 @@
+"""Every shipped scenario runs as a user would run it, shortened; and what it leaves behind can be used."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from tribodyn.record.reader import open_record
+from tribodyn.scenario.sources import names, shipped
+
+
+def tribodyn(*arguments: str, folder: Path) -> str:
+    ended = subprocess.run(
+        [sys.executable, "-W", "error", "-m", "tribodyn", *arguments],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        timeout=600,
+        env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])},
+        check=False,
+    )
+    assert ended.returncode == 0, ended.stderr
+    assert ended.stderr == ""  # no progress bar where nobody watches
+    return ended.stdout
+
+
+@pytest.mark.parametrize("name", names(shipped("scenarios")))
+def test_it_runs(name: str, tmp_path: Path):
+    said = tribodyn("run", name, "--set", "solver.cycles=2", "--json", folder=tmp_path)
+    result = json.loads(said)
+    assert result["status"] == "complete"
+    assert abs(result["summary"]["energy_residual"]) < 1e-5  # 10 × rtol
+    (picture,) = result["pictures"]
+    assert (tmp_path / picture).read_bytes().startswith(b"\x89PNG")
+    with open_record(tmp_path / result["record"]) as record:
+        assert record.status == "complete"
+        assert record.scenario["name"] == name
+        assert record["normal_load"].max() > 0
+
+
+def test_the_story_of_a_newcomer(tmp_path: Path):
+    tribodyn("init", "mine", folder=tmp_path)
+    checked = json.loads(tribodyn("check", "mine.toml", "--json", folder=tmp_path))
+    assert checked["geometry"]["contact ratio"][0] == pytest.approx(1.5233, abs=5e-4)
+    said = tribodyn("run", "mine.toml", "--set", "solver.cycles=2", folder=tmp_path)
+    assert said.splitlines()[-2:] == ["record   mine.h5", "picture  mine-overview.png"]
+    assert "Contact ratio" in tribodyn("show", "mine.h5", folder=tmp_path)
+    drawn = json.loads(tribodyn("plot", "mine.h5", "film", "-o", "pictures", "--json", folder=tmp_path))
+    assert [Path(picture).name for picture in drawn["pictures"]] == ["mine-film.png"]
+    shown = json.loads(tribodyn("show", "mine.h5", "--json", folder=tmp_path))
+    assert shown["scenario"]["operating"]["gear_torque"] == "500 N*m"
+
+
+def test_the_resolved_scenario_of_a_record_runs_again_to_the_same_numbers(tmp_path: Path):
+    short = ("--set", "solver.cycles=1", "--no-plot")
+    tribodyn("run", "crc-23-47-300", *short, "-o", "first.h5", folder=tmp_path)
+    with open_record(tmp_path / "first.h5") as record:
+        (tmp_path / "again.toml").write_text(record.attrs["scenario"], encoding="utf-8")
+        first = record["normal_load"]
+        digest = record.attrs["scenario_sha256"]
+    tribodyn("run", "again.toml", "--no-plot", "-o", "again.h5", folder=tmp_path)
+    with open_record(tmp_path / "again.h5") as record:
+        assert record.attrs["scenario_sha256"] == digest
+        assert (record["normal_load"] == first).all()
+
+
+def test_what_is_listed(tmp_path: Path):
+    listed = json.loads(tribodyn("list", "--json", folder=tmp_path))
+    assert set(listed["scenarios"]) == set(names(shipped("scenarios")))
+    assert "drives/liu-ni-crc-23-47" in listed["models"]
+    assert "film" in listed["plots"]
+    schema = json.loads(tribodyn("schema", folder=tmp_path))
+    assert schema["title"] == "Scenario"
+
+
+def test_stiffness_is_printed_beside_iso_6336(tmp_path: Path):
+    checked = json.loads(tribodyn("check", "involute-18-36", "--json", folder=tmp_path))
+    by = {name: value["per_width"] * 1e-9 for name, value in checked["stiffness"]["by"].items()}
+    ours, single, theory = by.values()
+    # ISO 6336-1 for 18/36 teeth without profile shift, N/(mm um)
+    assert single == pytest.approx(12.7, abs=0.05)
+    assert theory == pytest.approx(15.9, abs=0.05)
+    # finite elements of the same pair give 13.8
+    assert ours == pytest.approx(13.8, rel=0.1)

@@ -1,0 +1,141 @@
+"""Bad input to the verbs, in processes of their own: one line, exit status 2, nothing written or lost."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from tribodyn.record.reader import open_record
+
+SHORT = ("--set", "solver.cycles=1", "--set", "output.samples_per_cycle=16", "--no-plot")
+
+
+def tribodyn(*arguments: str, folder: Path, **environment: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-W", "error", "-m", "tribodyn", *arguments],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        timeout=300,
+        env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2]), **environment},
+        check=False,
+    )
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+COMMANDS = {
+    "bad value": (
+        ("run", "crc-23-47", "--set", "operating.pinion_speed=10", *SHORT),
+        ("--set: operating.pinion_speed = 10:", '"10 rad/s"'),
+    ),
+    "geometry": (
+        ("run", "crc-23-47", "--set", "drive.pinion.bore_radius=34 mm", *SHORT),
+        ("--set: drive.pinion.bore_radius = 34 mm:", "use less"),
+    ),
+    "unknown scenario": (("run", "crc-23-48", *SHORT), ('scenario = "crc-23-48":', '"crc-23-47"?')),
+    "record exists": (("run", "crc-23-47", "-o", "there.h5", *SHORT), ("output = there.h5:", "--force")),
+    "remains of a run": (("run", "crc-23-47", "-o", "dead.h5", *SHORT), ("output = dead.h5:", "--force")),
+    "no such folder": (("run", "crc-23-47", "-o", "no/such.h5", *SHORT), ("output = no/such.h5:", "create")),
+    "record is a folder": (("run", "crc-23-47", "-o", "folder", *SHORT), ("output = folder:", "name a file")),
+    "folder is a file": (
+        ("run", "crc-23-47", "-o", "there.h5/a.h5", *SHORT),
+        ("output = there.h5/a.h5:", "create"),
+    ),
+    "show nothing": (("show", "nothing.h5"), ("record = nothing.h5: no such file",)),
+    "show text": (("show", "text.h5"), ("record = text.h5: not an HDF5 file",)),
+    "plot nothing": (("plot", "nothing.h5"), ("record = nothing.h5: no such file",)),
+    "plot no record": (("plot", "film"), ('record = "film": no such file',)),
+    "init over a file": (("init", "mine"), ('name = "mine.toml": the file exists', "--force")),
+    "init into nowhere": (("init", "no/where"), ('name = "no/where.toml": the folder does not exist',)),
+    "validate nothing": (("validate", "liu-ni-2202"), ("liu-ni-2022",)),
+}
+
+
+@pytest.mark.parametrize(("arguments", "said"), COMMANDS.values(), ids=list(COMMANDS))
+def test_one_line_and_nothing_touched(tmp_path: Path, arguments: tuple[str, ...], said: tuple[str, ...]):
+    (tmp_path / "folder").mkdir()
+    for name in ("there.h5", "dead.partial.h5", "text.h5", "mine.toml"):
+        (tmp_path / name).write_text("precious", encoding="utf-8")
+    before = contents(tmp_path)
+    ended = tribodyn(*arguments, folder=tmp_path)
+    assert ended.returncode == 2, ended.stderr
+    assert ended.stdout == ""
+    (line,) = ended.stderr.splitlines()
+    for part in said:
+        assert part in line
+    assert contents(tmp_path) == before
+
+
+@pytest.mark.skipif(hasattr(os, "geteuid") and os.geteuid() == 0, reason="root may write anywhere")
+def test_a_folder_that_cannot_be_written_to(tmp_path: Path):
+    folder = tmp_path / "closed"
+    folder.mkdir(mode=0o555)
+    ended = tribodyn("run", "crc-23-47", "-o", "closed/a.h5", *SHORT, folder=tmp_path)
+    assert ended.returncode == 2
+    (line,) = ended.stderr.splitlines()
+    assert line.startswith("output = closed/a.h5: the folder cannot be written to")
+    assert contents(tmp_path) == {}
+
+
+def test_a_simulation_that_gives_up_says_when_and_keeps_what_it_has(tmp_path: Path):
+    ended = tribodyn(
+        "run",
+        "crc-23-47",
+        *SHORT,
+        "--set",
+        "solver.cycles=3",
+        "--set",
+        "solver.max_steps=100",
+        folder=tmp_path,
+    )
+    assert ended.returncode == 3, ended.stderr
+    (line,) = ended.stderr.splitlines()
+    assert "the simulation failed: stopped at t = " in line
+    assert "crc-23-47.partial.h5" in line
+    assert set(contents(tmp_path)) == {"crc-23-47.partial.h5"}
+    shown = tribodyn("show", "crc-23-47.partial.h5", folder=tmp_path)
+    assert shown.returncode == 0
+    assert "failed" in shown.stdout
+
+
+def test_an_interrupted_run_keeps_what_it_has(tmp_path: Path):
+    process = subprocess.Popen(
+        [sys.executable, "-m", "tribodyn", "run", "crc-23-47", "--set", "solver.cycles=100000", "--no-plot"],
+        cwd=tmp_path,
+        stderr=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])},
+    )
+    partial = tmp_path / "crc-23-47.partial.h5"
+    started = time.monotonic()
+    while not partial.exists() or open_record(partial).samples == 0:
+        assert process.poll() is None
+        assert time.monotonic() - started < 300
+        time.sleep(0.1)
+    process.send_signal(signal.SIGINT)
+    _, said = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert said.startswith("interrupted")
+    assert len(said.splitlines()) == 1
+    with open_record(partial) as record:
+        assert record.status != "complete"
+        assert record.samples > 0
+        assert (record["normal_load"] >= 0).all()
+
+
+def test_a_bug_is_one_line_unless_the_traceback_is_asked_for(tmp_path: Path):
+    (tmp_path / "h5py.py").write_text("raise RuntimeError('broken\\ninstallation')", encoding="utf-8")
+    broken = f"{tmp_path}{os.pathsep}{Path(__file__).parents[2]}"
+    ended = tribodyn("show", "a.h5", folder=tmp_path, PYTHONPATH=broken)
+    assert ended.returncode == 1
+    (line,) = ended.stderr.splitlines()
+    assert line.startswith("a bug in tribodyn: RuntimeError: broken installation; set TRIBODYN_TRACEBACK=1")
+    asked = tribodyn("show", "a.h5", folder=tmp_path, PYTHONPATH=broken, TRIBODYN_TRACEBACK="1")
+    assert asked.returncode == 1
+    assert "Traceback" in asked.stderr

@@ -1,0 +1,347 @@
+"""Every mistake in a scenario gives one clear line: file, full key, value, rule, remedy; exit status 2."""
+
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+from tribodyn.cli.app import app
+from typer.testing import CliRunner
+
+SCENARIO = """\
+title = "a scenario"
+kind = "gear-pair"
+drive = "liu-ni-involute-23-47"
+lubricant = "liu-ni-2022"
+
+[operating]
+pinion_speed = "10 rad/s"
+gear_torque = "500 N*m"
+
+[mesh]
+compliance = "energy"
+damping_ratio = 0.05
+
+[friction]
+law = "none"
+
+[solver]
+cycles = 2
+"""
+
+
+class Mistake(NamedTuple):
+    """What is replaced in the scenario by what, and what the message must say."""
+
+    old: str
+    new: str
+    key: str
+    rule: str
+    remedy: str
+
+
+SPEED = '"10 rad/s"'
+TORQUE = 'gear_torque = "500 N*m"'
+ENERGY = 'compliance = "energy"'
+IN_TEXT = {
+    "unknown key": Mistake(
+        TORQUE, TORQUE + "\ngear_torqe = 5", "operating.gear_torqe = 5", "unknown key", '"gear_torque"?'
+    ),
+    "unknown key, nothing near": Mistake(
+        TORQUE, TORQUE + "\nzzz = 5", "operating.zzz = 5", "unknown key", "known keys: source, pinion_speed"
+    ),
+    "unknown table": Mistake("[solver]", "[solvr]", "solvr = {cycles = 2}", "unknown key", '"solver"?'),
+    "missing key": Mistake(TORQUE, "", "operating.gear_torque", "missing", 'add gear_torque = "500 N*m"'),
+    "missing table": Mistake('[friction]\nlaw = "none"', "", "friction", "missing", "table [friction]"),
+    "missing reference": Mistake(
+        'lubricant = "liu-ni-2022"', "", "lubricant", "missing", "a file in models/lubricants"
+    ),
+    "bare number": Mistake(
+        SPEED,
+        "10",
+        "operating.pinion_speed = 10",
+        "a number without a unit",
+        'write a quantity with a unit of angular speed, such as "10 rad/s"',
+    ),
+    "no unit": Mistake(
+        SPEED, '"10"', 'operating.pinion_speed = "10"', "a number without a unit", '"10 rad/s"'
+    ),
+    "wrong unit": Mistake(
+        SPEED, '"10 kg"', "operating.pinion_speed", '"kg" is not a unit of angular speed', '"10 rad/s"'
+    ),
+    "unknown unit": Mistake(
+        SPEED, '"10 parsnips/s"', "operating.pinion_speed", 'unknown unit "parsnips"', '"10 rad/s"'
+    ),
+    "turns or radians": Mistake(SPEED, '"10 Hz"', "operating.pinion_speed", "turns or radians", '"10 rad/s"'),
+    "nan with unit": Mistake(
+        SPEED, '"nan rad/s"', 'operating.pinion_speed = "nan rad/s"', "not a finite number", '"10 rad/s"'
+    ),
+    "inf with unit": Mistake(
+        SPEED, '"inf rad/s"', 'operating.pinion_speed = "inf rad/s"', "not a finite number", '"10 rad/s"'
+    ),
+    "nan": Mistake("0.05", "nan", "mesh.damping_ratio = nan", "not a finite number", "a plain number"),
+    "inf": Mistake("0.05", "inf", "mesh.damping_ratio = inf", "not a finite number", "a plain number"),
+    "negative number": Mistake(
+        "0.05", "-0.05", "mesh.damping_ratio = -0.05", "must be at least 0", "write 0 or more"
+    ),
+    "number as text": Mistake(
+        "0.05", '"0.05"', 'mesh.damping_ratio = "0.05"', "not a plain number", "without quotes"
+    ),
+    "zero speed": Mistake(
+        SPEED, '"0 rpm"', 'operating.pinion_speed = "0 rpm"', "must be greater than zero", '"10 rad/s"'
+    ),
+    "zero torque": Mistake(
+        '"500 N*m"', '"0 N*m"', "operating.gear_torque = 0 N*m", "must be greater than zero", "backlash"
+    ),
+    "fraction of a cycle": Mistake(
+        "cycles = 2", "cycles = 2.5", "solver.cycles = 2.5", "not a whole number", "such as 20"
+    ),
+    "no cycles": Mistake(
+        "cycles = 2", "cycles = 0", "solver.cycles = 0", "must be greater than 0", "greater"
+    ),
+    "rtol": Mistake("cycles = 2", "rtol = 0.5", "solver.rtol = 0.5", "must be at most 0.01", "or less"),
+    "unknown choice": Mistake(
+        '"energy"', '"enrgy"', 'mesh.compliance = "enrgy"', "not one of the choices", 'mean "energy"?'
+    ),
+    "unknown kind": Mistake(
+        '"gear-pair"', '"irefc"', 'kind = "irefc"', "not one of the choices", 'write "gear-pair"'
+    ),
+    "unknown law": Mistake(
+        '"none"', '"masjedi"', 'friction.law = "masjedi"', "no such friction law", '"masjedi-khonsari"?'
+    ),
+    "unknown solver": Mistake(
+        "cycles = 2", 'method = "rado"', 'solver.method = "rado"', "no such solver", 'did you mean "radau"?'
+    ),
+    "missing model": Mistake(
+        "liu-ni-involute-23-47",
+        "liu-ni-involute-23-74",
+        'drive = "liu-ni-involute-23-74"',
+        "models/drives",
+        'did you mean "liu-ni-involute-23-47"?',
+    ),
+    "missing model by path": Mistake(
+        "liu-ni-2022", "oil.toml", 'lubricant = "oil.toml"', "no such file", "check the path"
+    ),
+    "list for a table": Mistake(
+        '"liu-ni-2022"', "[1, 2]", "lubricant = [1, 2]", "not a table", "write a table"
+    ),
+    "table of text": Mistake(
+        "damping_ratio = 0.05",
+        "damping_ratio = {a = 1}",
+        "mesh.damping_ratio = {a = 1}",
+        "not a plain",
+        "1.0",
+    ),
+    "motor without torque source": Mistake(
+        TORQUE,
+        TORQUE + '\npinion_torque = "5 N*m"',
+        "operating.pinion_torque",
+        'contradicts source = "speed"',
+        'write source = "torque"',
+    ),
+    "shaft without motor inertia": Mistake(
+        TORQUE,
+        TORQUE + '\nsource = "torque"\nshaft_stiffness = "1e4 N*m/rad"',
+        "operating.drive_inertia",
+        "needs a motor with inertia",
+        "leave shaft_stiffness out",
+    ),
+    "damping of a rigid shaft": Mistake(
+        TORQUE,
+        TORQUE + '\nsource = "torque"\nshaft_damping = "1 N*m*s/rad"',
+        "operating.shaft_damping",
+        "a rigid shaft has no damping",
+        "add shaft_stiffness",
+    ),
+    "constant without stiffness": Mistake(
+        ENERGY, 'compliance = "constant"', "mesh.stiffness", "missing", 'stiffness = "2.8e8 N/m"'
+    ),
+    "table without table": Mistake(
+        ENERGY, 'compliance = "table"', "mesh.table", "missing", "columns roll_angle and stiffness"
+    ),
+    "stiffness beside energy": Mistake(
+        ENERGY,
+        ENERGY + '\nstiffness = "2.8e8 N/m"',
+        "mesh.stiffness",
+        'contradicts compliance = "energy"',
+        "leave stiffness out",
+    ),
+    "Hertz beside constant": Mistake(
+        ENERGY,
+        'compliance = "constant"\nstiffness = "2.8e8 N/m"\nhertz = "load-dependent"',
+        "mesh.hertz",
+        'contradicts compliance = "constant"',
+        "leave hertz out",
+    ),
+    "Coulomb without coefficient": Mistake(
+        '"none"', '"coulomb"', "friction.coefficient", "missing", "add coefficient = "
+    ),
+    "coefficient without Coulomb": Mistake(
+        '"none"',
+        '"none"\ncoefficient = 0.1',
+        "friction.coefficient = 0.1",
+        'contradicts law = "none"',
+        "leave",
+    ),
+    "missing CSV": Mistake(
+        TORQUE,
+        TORQUE + '\ngear_torque_table = "none.csv"',
+        'operating.gear_torque_table = "none.csv"',
+        "no such file",
+        "time [unit],torque [unit]",
+    ),
+    "TOML syntax": Mistake(SPEED, "10 rad/s", "line 7", "not TOML", "with quotes round text and quantities"),
+    "key twice": Mistake(
+        TORQUE, f"{TORQUE}\n{TORQUE}", "line 9", "not TOML: cannot overwrite a value", "key ="
+    ),
+}
+
+WITH_SET = {
+    "pinion without teeth": ("drive.pinion.teeth=0", "drive.pinion.teeth = 0", "must be at least 4"),
+    "half a tooth": ("drive.gear.teeth=20.5", "drive.gear.teeth = 20.5", "not a whole number"),
+    "zero module": ("drive.module=0 mm", 'drive.module = "0 mm"', "must be greater than zero"),
+    "negative width": (
+        "drive.gear.face_width=-20 mm",
+        'drive.gear.face_width = "-20 mm"',
+        "must be greater than zero",
+    ),
+    "nan shift": ("drive.gear.profile_shift=nan", "drive.gear.profile_shift = nan", "not a finite number"),
+    "no material": ("drive.material=stel", 'drive.material = "stel"', "no such file in models/materials"),
+    "unknown family": ("drive.family=involut", 'drive.family = "involut"', 'did you mean "involute"?'),
+    "Poisson's ratio": (
+        "drive.material.poisson_ratio=0.5",
+        "drive.material.poisson_ratio = 0.5",
+        "must be less than 0.5",
+    ),
+    "bearing twice": (
+        "bearings.gear.damping_ratio_x=0.1",
+        "bearings.gear.damping_ratio = 0.05",
+        "contradicts damping_ratio_x and damping_ratio_y",
+    ),
+    "through a number": ("solver.cycles.more=1", "solver.cycles.more", "is not a table"),
+    "no value": ("solver.cycles", '--set = "solver.cycles"', "not KEY=VALUE"),
+    "no key": ("=3", '--set = "=3"', "not KEY=VALUE"),
+}
+
+GEOMETRY = {
+    "undercut": ("drive.pinion.teeth=13", "drive.pinion.profile_shift", "undercut", "use at least"),
+    "pointed tip": ("drive.pinion.profile_shift=1.4", "drive.pinion.", "pointed", "at most"),
+    "contact ratio": (
+        "drive.pinion.addendum=0.05",
+        "drive.pinion.addendum",
+        "contact ratio",
+        "larger addenda",
+    ),
+    "bore": ("drive.pinion.bore_radius=34 mm", "drive.pinion.bore_radius", "", ""),
+    "tip below the root": ("drive.gear.tip_radius=60 mm", "drive.gear.tip_radius", "", ""),
+    "cutter's corner": ("drive.pinion.fillet_radius=0.9", "drive.pinion.fillet_radius", "", ""),
+    "pressure angle": ("drive.pressure_angle=60 deg", "drive.pressure_angle", "45°", ""),
+}
+
+
+def run(*arguments: str) -> tuple[int, list[str]]:
+    result = CliRunner().invoke(app, list(arguments))
+    assert result.stdout == ""
+    assert "Traceback" not in result.stderr
+    return result.exit_code, result.stderr.splitlines()
+
+
+@pytest.fixture
+def scenario(tmp_path: Path) -> Path:
+    path = tmp_path / "mine.toml"
+    path.write_text(SCENARIO, encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize("mistake", IN_TEXT.values(), ids=list(IN_TEXT))
+def test_a_mistake_in_the_file(scenario: Path, mistake: Mistake):
+    assert mistake.old in SCENARIO
+    scenario.write_text(SCENARIO.replace(mistake.old, mistake.new, 1), encoding="utf-8")
+    code, lines = run("check", str(scenario))
+    assert code == 2
+    (line,) = lines
+    assert line.startswith(f"{scenario}: {mistake.key}")
+    rule, _, remedy = line.removeprefix(f"{scenario}: ").partition("; ")
+    assert mistake.rule in rule
+    assert mistake.remedy in remedy
+
+
+@pytest.mark.parametrize(("setting", "key", "rule"), WITH_SET.values(), ids=list(WITH_SET))
+def test_a_mistake_on_the_command_line(scenario: Path, setting: str, key: str, rule: str):
+    code, lines = run("check", str(scenario), "--set", setting)
+    assert code == 2
+    (line,) = lines
+    assert key in line
+    assert rule in line
+    assert ";" in line
+
+
+@pytest.mark.parametrize(("setting", "key", "rule", "remedy"), GEOMETRY.values(), ids=list(GEOMETRY))
+def test_gears_that_cannot_be(scenario: Path, setting: str, key: str, rule: str, remedy: str):
+    code, lines = run("check", str(scenario), "--set", setting)
+    assert code == 2
+    (line,) = lines
+    file, _, rest = line.partition(": ")
+    assert file == "--set" or Path(file).is_file()
+    assert rest.startswith(key)
+    assert rule in rest
+    assert remedy in rest
+
+
+CURVES = {
+    "empty": ("# nothing\n", "line 1", "the file is empty"),
+    "no units": ("time,torque\n0,1\n1,2\n", "line 1", 'no column "time [unit]"'),
+    "no column": ("time [s],load [N*m]\n0,1\n1,2\n", "line 1", 'no column "torque [unit]"'),
+    "not a number": ("time [s],torque [N*m]\n0,1\n1,x\n", "line 3", '"x" is not a number (torque)'),
+    "short row": ("time [s],torque [N*m]\n\n0\n", "line 3", "is not a number (torque)"),
+    "one point": ("time [s],torque [N*m]\n0,1\n", "time.values", "fewer than 2 values"),
+    "not finite": ("time [s],torque [N*m]\n0,1\n1,nan\n", "torque.values.1 = nan", "not a finite number"),
+    "wrong unit": ("time [s],torque [N]\n0,1\n1,2\n", "operating.gear_torque_table", "not a unit of torque"),
+    "not sorted": ("time [s],torque [N*m]\n0,1\n0,2\n", "operating.gear_torque_table", "does not increase"),
+}
+
+
+@pytest.mark.parametrize(("text", "place", "rule"), CURVES.values(), ids=list(CURVES))
+def test_a_mistake_in_a_csv_file(scenario: Path, text: str, place: str, rule: str):
+    curve = scenario.with_name("load.csv")
+    curve.write_text(text, encoding="utf-8")
+    code, lines = run("check", str(scenario), "--set", "operating.gear_torque_table=load.csv")
+    assert code == 2
+    assert lines
+    for line in lines:
+        assert line.startswith(f"{curve}: operating.gear_torque_table")
+    assert place in lines[0]
+    assert rule in lines[0]
+
+
+def test_all_mistakes_are_listed_one_a_line_each_with_its_own_file(scenario: Path):
+    text = SCENARIO.replace(SPEED, "10").replace('"none"', '"none"\nlaws = 1').replace("cycles", "cycels")
+    scenario.write_text(text, encoding="utf-8")
+    code, lines = run("check", str(scenario), "--set", "drive.pinion.teeth=-1", "--set", "lubricant=oil")
+    assert code == 2
+    assert [line.split(" = ")[0] for line in lines] == [
+        f"{scenario}: --set: lubricant".removeprefix(f"{scenario}: "),
+        "--set: drive.pinion.teeth",
+        f"{scenario}: operating.pinion_speed",
+        f"{scenario}: friction.laws",
+        f"{scenario}: solver.cycels",
+    ]
+
+
+def test_a_scenario_that_is_not_there(tmp_path: Path, scenario: Path):
+    for name, near in (("crc-23-74", "crc-23-47"), (str(tmp_path / "mime.toml"), str(scenario))):
+        code, lines = run("run", name)
+        assert code == 2
+        (line,) = lines
+        assert line.startswith(f'scenario = "{name}": no such')
+        assert f'did you mean "{near}"?' in line
+
+
+def test_a_scenario_that_cannot_be_read(tmp_path: Path):
+    folder, binary = tmp_path / "folder.toml", tmp_path / "binary.toml"
+    folder.mkdir()
+    binary.write_bytes(b'title = "\xff\xfe"')
+    for path, rule in ((folder, "no such file"), (binary, "not UTF-8 text")):
+        code, lines = run("check", str(path))
+        assert code == 2
+        assert len(lines) == 1
+        assert rule in lines[0]
