@@ -56,7 +56,7 @@ def test_it_says_how_far_to_trust_it(record: Record):
     text = printed(record)
     assert "inside its fitted range in 93.0 % of the contact" in text
     assert "closes within 3.0e-08 of the work" in text
-    assert "Solved by dopri5: not stiff" in text
+    assert "Solved by dopri5 (not stiff" in text
 
 
 def test_a_share_short_of_all_is_never_called_all(tmp_path: Path):

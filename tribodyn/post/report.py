@@ -103,7 +103,7 @@ def trust(record: Record) -> list[str]:
     summary = record.summary
     sentences = []
     if "solver" in summary and "solver_reason" in summary:
-        sentences.append(f"Solved by {summary['solver']}: {summary['solver_reason']}.")
+        sentences.append(f"Solved by {summary['solver']} ({summary['solver_reason']}).")
     cycles = summary.get("averaging_cycles")
     if cycles is not None:
         sentences.append(f"Means are over the last {cycles} mesh cycle{'s' if cycles != 1 else ''}.")

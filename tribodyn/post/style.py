@@ -18,8 +18,15 @@ INK = "#202020"
 QUIET = "#7a7a7a"
 GRID = "#e4e4e4"
 
-#: Line styles of pairs 1, 0, −1, …
-PAIR_STYLES = ("-", (0, (4, 1.6)), (0, (1, 1.2)), (0, (5, 1.2, 1, 1.2)))
+#: Line styles of pairs 1, 0, −1 and of back flanks 2, 3, 4.
+PAIR_STYLES = {
+    1: "-",
+    0: (0, (4, 1.6)),
+    -1: (0, (1, 1.2)),
+    2: (0, (6, 1.2, 1, 1.2)),
+    3: (0, (6, 1.2, 1, 1.2, 1, 1.2)),
+    4: (0, (2, 1.2)),
+}
 
 #: Width of a figure over both columns of a paper, and of a panel's height, inch.
 WIDTH, PANEL_HEIGHT = 6.7, 2.5

@@ -82,7 +82,7 @@ def draw(
         for position, pair in enumerate(drawn_pairs(record, window)):
             curve = pair_curve(record, values, pair, window, x)
             color = PALETTE[(number if several else position) % len(PALETTE)]
-            style = PAIR_STYLES[position % len(PAIR_STYLES)]
+            style = PAIR_STYLES.get(pair, "-")
             axes.plot(*curve, color=color, linestyle=style, label=pair_label(pair))
     axes.set_ylabel(quantity.label)
     if quantity.from_zero:
@@ -180,11 +180,13 @@ def legend(figure: Figure, axes: Axes, records: Sequence[Record]) -> None:
     """Put one legend below the figure: records by colour, pairs by line."""
     handles, labels = axes.get_legend_handles_labels()
     if len(records) > 1:
-        # a pair has the same line style in every record
-        pairs = {str(line.get_label()): line for line in axes.lines if line.get_label() in labels}
+        numbers = sorted(
+            {pair for record in records for pair in record.pairs}, key=lambda pair: (pair > 1, -pair)
+        )
+        pairs = [pair for pair in numbers if pair_label(pair) in labels]
         handles = [Line2D([], [], color=PALETTE[i % len(PALETTE)]) for i in range(len(records))]
-        handles += [Line2D([], [], color=QUIET, linestyle=line.get_linestyle()) for line in pairs.values()]
-        labels = [*map(record_label, records), *pairs]
+        handles += [Line2D([], [], color=QUIET, linestyle=PAIR_STYLES.get(pair, "-")) for pair in pairs]
+        labels = [*map(record_label, records), *map(pair_label, pairs)]
     if len(labels) > 1:
         figure.legend(
             handles, labels, loc="outside lower center", ncols=min(4, len(labels)), handlelength=2.6
