@@ -1,8 +1,7 @@
 """What the closures need to know of the two surfaces and the lubricant, and the Hertz line contact."""
 
+import math
 from typing import Any, NamedTuple
-
-import numpy as np
 
 from tribodyn.elementary import law, sqrt
 
@@ -49,10 +48,10 @@ class Contact(NamedTuple):
 @law
 def hertz_half_width(line_load, curvature, effective_modulus):
     """Half width a_H = √(8 w' ρ/(π E')) of a line contact, m (Johnson, Contact Mechanics, ch. 4)."""
-    return sqrt(8.0 * line_load / (np.pi * effective_modulus * curvature))
+    return sqrt(8.0 * line_load / (math.pi * effective_modulus * curvature))
 
 
 @law
 def hertz_pressure(line_load, curvature, effective_modulus):
     """Greatest Hertz pressure p_H = √(w' E'/(2π ρ)), Pa."""
-    return sqrt(line_load * effective_modulus * curvature / (2.0 * np.pi))
+    return sqrt(line_load * effective_modulus * curvature / (2.0 * math.pi))

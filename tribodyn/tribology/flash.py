@@ -1,8 +1,11 @@
 """Flash temperature of the sliding contact."""
 
-import numpy as np
+import math
 
 from tribodyn.elementary import absolute, law, sqrt
+
+
+ROOT_PI = math.sqrt(math.pi)
 
 
 @law
@@ -24,4 +27,4 @@ def flash_temperature_rise(
     pinion_peclet = half_width * absolute(pinion_speed) * pinion_heat_capacity / (2.0 * pinion_conductivity)
     gear_peclet = half_width * absolute(gear_speed) * gear_heat_capacity / (2.0 * gear_conductivity)
     conducted = pinion_conductivity * sqrt(1.0 + pinion_peclet) + gear_conductivity * sqrt(1.0 + gear_peclet)
-    return 2.0 * half_width * heat_flux / (np.sqrt(np.pi) * conducted)
+    return 2.0 * half_width * heat_flux / (ROOT_PI * conducted)

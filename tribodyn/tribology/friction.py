@@ -4,7 +4,7 @@ Every law takes the same state of one contact and returns the same quantities, s
 and temperature are known whatever law makes the friction.
 """
 
-import numpy as np
+import math
 
 from tribodyn.elementary import absolute, expm1, law, log, maximum, minimum
 from tribodyn.tribology.contact import hertz_half_width, hertz_pressure
@@ -110,7 +110,7 @@ def friction(law_code, line_load, curvature, entrainment, sliding, pinion_speed,
     elif law_code == COULOMB:
         half_width = hertz_half_width(maximum(line_load, LEAST_LINE_LOAD), curvature, contact.effective_modulus)
         coefficient = 0.0 * coefficient + contact.coulomb_coefficient
-        heat_flux = contact.coulomb_coefficient * absolute(sliding) * pressure * np.pi / 4.0
+        heat_flux = contact.coulomb_coefficient * absolute(sliding) * pressure * math.pi / 4.0
         temperature = flash_temperature_rise(
             heat_flux,
             half_width,
