@@ -29,6 +29,11 @@ def contents(folder: Path) -> dict[str, bytes]:
     return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
 
+def samples(path: Path) -> int:
+    with open_record(path) as record:
+        return record.samples
+
+
 COMMANDS = {
     "bad value": (
         ("run", "crc-23-47", "--set", "operating.pinion_speed=10", *SHORT),
@@ -114,7 +119,7 @@ def test_an_interrupted_run_keeps_what_it_has(tmp_path: Path):
     )
     partial = tmp_path / "crc-23-47.partial.h5"
     started = time.monotonic()
-    while not partial.exists() or open_record(partial).samples == 0:
+    while not partial.exists() or samples(partial) == 0:
         assert process.poll() is None
         assert time.monotonic() - started < 300
         time.sleep(0.1)
