@@ -1,0 +1,58 @@
+import numpy as np
+import pytest
+
+from tribodyn.dynamics.smooth import positive_part, positive_part_integral, power_law_force, ramp, sign
+from tribodyn.tribology.film import CAP_WIDTH, asperity_load_ratio
+
+X = np.linspace(-3.0, 3.0, 60001)
+
+
+@pytest.mark.parametrize(
+    ("function", "exact"),
+    [
+        (lambda x: positive_part(x, 0.5), lambda x: np.maximum(x, 0.0)),
+        (sign, np.sign),
+        (ramp, lambda x: np.heaviside(x - 0.5, 0.5)),
+    ],
+    ids=["positive_part", "sign", "ramp"],
+)
+def test_smoothed_functions_are_c1_and_exact_outside_their_width(function, exact):
+    slope = np.gradient(function(X), X)
+    assert np.max(np.abs(np.diff(slope))) < 5e-3  # no jump: curvature × step
+    outside = np.abs(X) > 1.0001
+    np.testing.assert_allclose(function(X)[outside], exact(X)[outside], atol=1e-14)
+    assert np.all(np.diff(function(X)) >= -1e-15)
+
+
+def test_positive_part_has_no_force_without_contact():
+    assert positive_part(0.0, 1e-7) == 0.0
+    assert positive_part(-1e-9, 1e-7) == 0.0
+
+
+def test_positive_part_integral_is_the_integral():
+    integral = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(X) * (positive_part(X, 0.5)[1:] + positive_part(X, 0.5)[:-1]))])
+    np.testing.assert_allclose(positive_part_integral(X, 0.5), integral, atol=1e-7)
+
+
+def test_power_law_force_inverts_the_deflection():
+    force = np.geomspace(1e-2, 1e6, 200)
+    compliance, coefficient = 2.5e-9, 4e-9
+    deflection = compliance * force + coefficient * force**0.9
+    np.testing.assert_allclose(power_law_force(deflection, compliance, coefficient), force, rtol=1e-9)
+    assert power_law_force(0.0, compliance, coefficient) == 0.0
+
+
+def test_asperity_load_ratio_is_capped_smoothly():
+    """The formula as printed (with 4470) where it is well below 1; at most 1; C1 across the cap."""
+    W, G, V, S = 2e-4, 5650.0, 0.0102, 3.3e-5
+    U = np.geomspace(1e-15, 1e-10, 4001)
+    logarithm = np.log1p(4470 * S**6.015 * V**1.168 * W**0.485 * U**-3.741 * G**-2.898)
+    printed = 0.005 * W**-0.408 * U**-0.088 * G**0.103 * logarithm / 100
+    ours = asperity_load_ratio(np.log(W), np.log(U), np.log(G), np.log(S), np.log(V), 4470.0)
+    low = printed < 1 - CAP_WIDTH
+    np.testing.assert_allclose(ours[low], printed[low], rtol=1e-10)
+    high = printed > 1 + CAP_WIDTH
+    assert high.any()
+    np.testing.assert_allclose(ours[high], 1.0, rtol=1e-14)
+    slope = np.gradient(ours, np.log(U))
+    assert np.max(np.abs(np.diff(slope))) < 0.02 * np.max(np.abs(slope))
