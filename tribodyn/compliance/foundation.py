@@ -6,8 +6,9 @@ shear and a linear normal traction, and fit polynomials to the answer for one to
 evaluates those; `ring_compliance` solves the same ring exactly, as a Fourier series in Michell's plane
 solutions, which gives what the polynomials leave out: how far a load on one tooth moves its neighbour.
 
-Root loads of a tooth are ordered (N, T, M): N along the tooth's axis, positive outwards; T across it, positive
-counter-clockwise; M a counter-clockwise moment about the point where the axis meets the root circle.
+Root loads of a tooth are ordered (N, T, M): N along the tooth's axis, positive outwards; T across it,
+positive counter-clockwise; M a counter-clockwise moment about the point where the tooth's axis meets the
+root circle.
 """
 
 from typing import Any

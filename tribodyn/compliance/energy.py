@@ -1,0 +1,244 @@
+"""Compliance of a pair of teeth by the energy method, on the outline that the rack really cuts.
+
+A tooth is a beam of varying depth from the root circle, over the generated fillet and the flank, to the
+point of contact, bent, sheared and pressed by the normal load (D. C. H. Yang, J. Y. Lin, J. Mech. Trans.
+Autom. Des. 109 (1987) 189-196; X. Tian, MSc thesis, Univ. of Alberta 2004, added the shear). Under it the
+body gives way (`foundation`), between the teeth the Hertz contact does. Plane stress, small deflections.
+
+Widths: the teeth and the contact carry over the common face width only, which leaves out the help of a
+tooth's free ends (on the soft side); each body gives way with its own face width.
+"""
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.compliance.foundation import foundation_compliance, ring_compliance
+from tribodyn.elementary import cos, namespace, sin, tan
+from tribodyn.geometry.drive import Drive, GearBody, Side, body_of
+from tribodyn.geometry.family import Family
+from tribodyn.geometry.path import Path, distance_at_radius, seen_from
+from tribodyn.geometry.tooth import (
+    Tooth,
+    contact_in_tooth_frame,
+    cut_tooth,
+    fillet_point,
+    thickness_half_angle,
+)
+
+if TYPE_CHECKING:
+    from tribodyn.case import MaterialData
+
+Array = Any
+
+SHEAR_FACTOR = 1.2  # rectangular section (Timoshenko)
+
+# Outline pieces are sampled at Chebyshev points and integrated as Chebyshev series; the nearest singularity
+# of 1/y³ is where the flanks would meet beyond the tip: this degree leaves 1e-8 or less (test_energy).
+_DEGREE = 24
+_POINTS = -np.cos(np.pi * np.arange(_DEGREE + 1) / _DEGREE)
+_TO_SERIES = np.linalg.inv(np.polynomial.chebyshev.chebvander(_POINTS, _DEGREE))
+_EYE = np.eye(_DEGREE + 1)
+_SLOPE = np.polynomial.chebyshev.chebvander(_POINTS, _DEGREE - 1) @ np.polynomial.chebyshev.chebder(
+    _TO_SERIES
+)
+_INTEGRAL = np.polynomial.chebyshev.chebint(_EYE, lbnd=-1) @ _TO_SERIES
+
+
+class ToothCompliance(NamedTuple):
+    """What one tooth and its body give way along the load, per newton; arrays like r.
+
+    Parameters
+    ----------
+    bending, shear, axial : array
+        Strain energy of the beam, m/N.
+    foundation : array
+        Body under the tooth, alone on it, m/N.
+    root_load : array, (..., 3)
+        Load on the root circle per unit normal load, (N, T, M/root radius) in the sense of `foundation`, up
+        to a common sign, with the body turned over so that the loaded flank lies counter-clockwise.
+    """
+
+    bending: Array
+    shear: Array
+    axial: Array
+    foundation: Array
+    root_load: Array
+
+    @property
+    def total(self) -> Array:
+        """Sum of the parts, m/N."""
+        return self.bending + self.shear + self.axial + self.foundation
+
+
+def section_integrals(x: Array, y: Array, origin: Any) -> Array:
+    """Series of the beam's integrals from the start of a piece of outline up to a point of it.
+
+    Parameters
+    ----------
+    x, y : array, (25,)
+        Position along the tooth's axis and half thickness at the piece's Chebyshev points, m.
+    origin : float
+        Where s = x − origin is counted from.
+
+    Returns
+    -------
+    array, (26, 4)
+        Chebyshev coefficients of ∫ (1, s, s²)/(2y³/3) dx and ∫ dx/(2y): second moment and area of the section
+        per width. Their sum is the integral over the whole piece.
+    """
+    xp = namespace(x, y)
+    s = x - origin
+    moment = 1.5 / y**3
+    integrand = xp.stack([moment, moment * s, moment * s**2, 0.5 / y], axis=-1)
+    return _INTEGRAL @ (integrand * (_SLOPE @ x)[:, None])
+
+
+def beam_compliance(
+    integrals: Array, lever: Array, load_angle: Array, poisson_ratio: Any
+) -> tuple[Any, Any, Any]:
+    """Bending, shear and axial compliance of a tooth, times Young's modulus and width.
+
+    The bending moment at s is F cos α_1 (u − s): the line of the load cuts the tooth's axis at u.
+
+    Parameters
+    ----------
+    integrals : array, (..., 4)
+        See `section_integrals`, from the root to the contact.
+    lever : array
+        u, m, from the same origin as s.
+    load_angle : array
+        α_1 between load and the perpendicular of the axis, rad.
+    poisson_ratio : float
+        ν.
+    """
+    across, along = cos(load_angle) ** 2, sin(load_angle) ** 2
+    area = integrals[..., 3]
+    bending = across * (lever**2 * integrals[..., 0] - 2.0 * lever * integrals[..., 1] + integrals[..., 2])
+    return bending, SHEAR_FACTOR * 2.0 * (1.0 + poisson_ratio) * across * area, along * area
+
+
+class LoadedTooth(NamedTuple):
+    """A tooth with what its compliance needs to know of the drive; made once by `loaded_tooth`.
+
+    Parameters
+    ----------
+    tooth : Tooth
+        As its rack cuts it.
+    path : Path
+        Working path, seen from the body.
+    pitch_half_angle, root_half_angle : float
+        Half thickness angle on the working pitch circle and on the root circle, rad.
+    body : GearBody
+        Bore and face width.
+    side : {"pinion", "gear"}
+        Which of the two.
+    """
+
+    tooth: Tooth
+    path: Any
+    pitch_half_angle: Any
+    root_half_angle: Any
+    body: GearBody
+    side: Side
+
+
+def loaded_tooth(family: Family, drive: Drive, side: Side, working_path: Path) -> LoadedTooth:
+    """Cut a tooth and put it to work on the drive's working path."""
+    tooth = cut_tooth(family, drive, side)
+    path = seen_from(working_path, side)
+    return LoadedTooth(
+        tooth=tooth,
+        path=path,
+        pitch_half_angle=thickness_half_angle(tooth, path.pinion_pitch_radius),
+        root_half_angle=tooth.half_angle + tooth.corner_x / tooth.path.pinion_pitch_radius,
+        body=body_of(drive, side),
+        side=side,
+    )
+
+
+def tooth_compliance(loaded: LoadedTooth, material: "MaterialData", width: Any, r: Array) -> ToothCompliance:
+    """Compliance of one tooth that is loaded at the signed distances r of the drive.
+
+    Parameters
+    ----------
+    loaded : LoadedTooth
+        The tooth of the pinion or the gear.
+    material : MaterialData
+        Its E (Pa) and ν.
+    width : float
+        Width over which the teeth touch, m.
+    r : array
+        Signed distance of the contact from the pitch point, m.
+    """
+    tooth, path, root = loaded.tooth, loaded.path, loaded.tooth.root_radius
+    unit = 0.5 + 0.5 * _POINTS
+    fillet = fillet_point(tooth, np.pi / 2 + unit * (tooth.form_angle - np.pi / 2))
+    first = distance_at_radius(path, tooth.form_radius)
+    last = distance_at_radius(path, tooth.tip_radius)
+    flank = contact_in_tooth_frame(path, loaded.pitch_half_angle, first + unit * (last - first))
+
+    own = r if loaded.side == "pinion" else -r
+    x, y, load_angle = contact_in_tooth_frame(path, loaded.pitch_half_angle, own)
+    lever = x - y * tan(load_angle) - root
+    along = 2.0 * (own - first) / (last - first) - 1.0
+    to_form = section_integrals(*fillet, root).sum(axis=0)
+    integrals = to_form + _series(section_integrals(flank.x, flank.y, root), along)
+    bending, shear, axial = beam_compliance(integrals, lever, load_angle, material.poisson_ratio)
+    foundation = foundation_compliance(
+        load_angle,
+        lever,
+        root,
+        loaded.body.bore_radius,
+        loaded.root_half_angle,
+        material.youngs_modulus,
+        loaded.body.face_width,
+    )
+    scale = 1.0 / (material.youngs_modulus * width)
+    across = cos(load_angle)
+    root_load = namespace(x, lever).stack([sin(load_angle), across, across * lever / root], axis=-1)
+    return ToothCompliance(scale * bending, scale * shear, scale * axial, foundation, root_load)
+
+
+def _series(coefficients: Array, at: Array) -> Array:
+    """Chebyshev series (n, 4) at points in −1 … 1, by Clenshaw's recurrence; (..., 4)."""
+    at = at[..., None]
+    later, latest = 0.0 * at, 0.0 * at
+    for row in range(coefficients.shape[0] - 1, 0, -1):
+        later, latest = latest, 2.0 * at * latest - later + coefficients[row]
+    return at * latest - later + coefficients[0]
+
+
+def neighbour_coupling(loaded: LoadedTooth, material: "MaterialData", pitches: int) -> Array:
+    """Compliance (3, 3) between the root loads of two teeth of one body, per newton.
+
+    Entry [i, j]: displacement i of the tooth that entered later from load j on the one that entered `pitches`
+    pitches before it; in the units of `ToothCompliance.root_load`. The pinion drives: its loaded flanks face
+    ahead; those of the gear face back, so that the earlier tooth stands on the other side.
+    """
+    ring = ring_compliance(
+        2.0 * np.pi * pitches / loaded.body.teeth,
+        loaded.root_half_angle,
+        loaded.tooth.root_radius / loaded.body.bore_radius,
+        material.poisson_ratio,
+    )
+    earlier_to_later = ring if loaded.side == "pinion" else ring.T
+    return earlier_to_later / (material.youngs_modulus * loaded.body.face_width)
+
+
+def hertz_linear(first: "MaterialData", second: "MaterialData", width: Any) -> Any:
+    """Linear compliance of a line contact, m/N: Σ 2(1 − ν²)/(π E b), independent of load and curvature.
+
+    For one material 4(1 − ν²)/(π E b) (Yang & Lin 1987, after Hertz); here each body brings its half of it.
+    """
+    return sum(2.0 * (1.0 - m.poisson_ratio**2) / (np.pi * m.youngs_modulus * width) for m in (first, second))
+
+
+def hertz_coefficient(first: "MaterialData", second: "MaterialData", width: Any) -> Any:
+    """Coefficient A = 1.275/(E^0.9 b^0.8), m/N^0.9, of the load-dependent deflection δ = A F^0.9.
+
+    Palmgren's power law for rollers in the form usual with the energy method; for two materials E is their
+    harmonic mean.
+    """
+    modulus = 2.0 / (1.0 / first.youngs_modulus + 1.0 / second.youngs_modulus)
+    return 1.275 / (modulus**0.9 * width**0.8)
