@@ -49,6 +49,10 @@ def test_the_story_of_a_newcomer(tmp_path: Path):
     assert "Contact ratio" in tribodyn("show", "mine.h5", folder=tmp_path)
     drawn = json.loads(tribodyn("plot", "mine.h5", "film", "-o", "pictures", "--json", folder=tmp_path))
     assert [Path(picture).name for picture in drawn["pictures"]] == ["mine-film.png"]
+    tribodyn(
+        "plot", "mine.h5", "film", "--format", "svg", "--cycles", "0", "--against", "time", folder=tmp_path
+    )
+    assert (tmp_path / "mine-film.svg").is_file()
     shown = json.loads(tribodyn("show", "mine.h5", "--json", folder=tmp_path))
     assert shown["scenario"]["operating"]["gear_torque"] == "500 N*m"
 

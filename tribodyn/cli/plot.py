@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from tribodyn.cli.output import make_folder, unwritable
+
 if TYPE_CHECKING:
     from tribodyn.record.reader import Record
 
@@ -87,21 +89,18 @@ def draw(
 ) -> list[Path]:
     """Draw figures by name into files named after `beside`: ``crc.png`` becomes ``crc-film.png``."""
     from tribodyn.cli.progress import progress_bar
-    from tribodyn.errors import InputError
     from tribodyn.post.plots import figure, save
 
     names = list(names)
-    try:
-        beside.parent.mkdir(parents=True, exist_ok=True)
-        pictures = []
-        with progress_bar("drawing") as progress:
-            for done, name in enumerate(names, start=1):
-                picture = beside.with_name(f"{beside.stem}-{name}{beside.suffix}")
-                pictures.append(save(figure(name, records, cycles=cycles, against=against), picture))
-                progress(done / len(names))
-    except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        raise InputError(
-            "output", f'"{beside.parent}"', f"cannot be written to: {reason}", "choose another folder with -o"
-        ) from None
+    pictures = []
+    with progress_bar("drawing") as progress:
+        for done, name in enumerate(names, start=1):
+            picture = beside.with_name(f"{beside.stem}-{name}{beside.suffix}")
+            drawn = figure(name, records, cycles=cycles, against=against)
+            make_folder(beside.parent)
+            try:
+                pictures.append(save(drawn, picture))
+            except OSError as error:
+                raise unwritable(beside.parent, error) from None
+            progress(done / len(names))
     return pictures
