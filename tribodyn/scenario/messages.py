@@ -7,7 +7,7 @@ from pydantic import BaseModel, ValidationError
 
 from tribodyn.errors import InputError
 from tribodyn.scenario.quantity import Reference
-from tribodyn.scenario.sources import near_name, quoted
+from tribodyn.scenario.sources import near_name, printable, quoted
 
 Key = tuple[str | int, ...]
 
@@ -63,7 +63,7 @@ def explain(error: ValidationError, model: type[BaseModel]) -> list[InputError]:
 
 def _explain_one(one: dict[str, Any], model: type[BaseModel]) -> InputError:
     key: Key = one["loc"]
-    dotted = ".".join(map(str, key))
+    dotted = printable(".".join(map(str, key)))
     context = one.get("ctx", {})
     given = quoted(one["input"])
     match one["type"]:

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 from tribodyn.errors import InputError
 from tribodyn.scenario.messages import Key, Origins
 from tribodyn.scenario.schema import defaults_written_out
-from tribodyn.scenario.sources import find_model, quoted, read_curve, read_toml
+from tribodyn.scenario.sources import find_model, is_file, printable, quoted, read_curve, read_toml
 
 #: Keys whose string names a file of `models/`, and the folder there; a drive comes before what it names.
 MODEL_FILES: dict[Key, str] = {
@@ -56,7 +56,10 @@ def resolve(path: Path, overrides: Mapping[str, Any]) -> Resolved:
     data = defaults_written_out(read_toml(path))
     origins = Origins(str(path))
     for dotted, value in sorted(overrides.items(), key=lambda item: item[0].count(".")):
-        _override(data, origins, path, dotted, value)
+        try:
+            _override(data, origins, path, dotted, value)
+        except InputError as error:
+            raise origins.locate(error) from None
     errors: list[InputError] = []
     for key in (*MODEL_FILES, *CURVES):
         try:
@@ -115,10 +118,13 @@ def _put_content(data: dict[str, Any], origins: Origins, path: Path, key: Key) -
         holder[key[-1]] = read_toml(file)
     elif key in CURVES:
         file = referring.parent / name
-        if not file.is_file():
+        if not is_file(file):
             columns = ",".join(f"{column} [unit]" for column in CURVES[key])
             raise InputError(
-                dotted, quoted(name), f"no such file: {file}", f"give a CSV file that begins with {columns}"
+                dotted,
+                quoted(name),
+                f"no such file: {printable(str(file))}",
+                f"give a CSV file that begins with {columns}",
             )
         holder[key[-1]] = read_curve(file, dotted, CURVES[key])
     else:

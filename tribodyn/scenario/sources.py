@@ -20,6 +20,14 @@ def shipped(folder: str) -> Path:
     return inside if inside.is_dir() else _PACKAGE.parent / folder
 
 
+def is_file(path: Path) -> bool:
+    """Whether a file is there; a name that no file can have is none."""
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False
+
+
 def names(folder: Path) -> list[str]:
     """Return the names that may be used for the TOML files of a folder, sorted."""
     return sorted(path.stem for path in folder.glob("*.toml"))
@@ -28,14 +36,14 @@ def names(folder: Path) -> list[str]:
 def find_scenario(name: str) -> Path:
     """Return the file of a scenario that is given by path or by the name of a shipped one."""
     path = Path(name)
-    if path.suffix == ".toml" or path.is_file():
-        if path.is_file():
+    if path.suffix == ".toml" or is_file(path):
+        if is_file(path):
             return path
         near = near_name(path.stem, names(path.parent))
         remedy = f'did you mean "{path.with_name(near + ".toml")}"?' if near else "check the path"
         raise InputError("scenario", quoted(name), "no such file", remedy)
     folder = shipped("scenarios")
-    if (folder / f"{name}.toml").is_file():
+    if is_file(folder / f"{name}.toml"):
         return folder / f"{name}.toml"
     raise _not_found("scenario", name, "scenario", [folder])
 
@@ -56,14 +64,14 @@ def find_model(name: str, kind: str, key: str, referring: Path) -> Path:
     """
     if name.endswith(".toml"):
         path = referring.parent / name
-        if path.is_file():
+        if is_file(path):
             return path
         near = near_name(path.stem, names(path.parent))
         remedy = f'did you mean "{Path(name).with_name(near + ".toml")}"?' if near else "check the path"
-        raise InputError(key, quoted(name), f"no such file: {path}", remedy)
+        raise InputError(key, quoted(name), f"no such file: {printable(str(path))}", remedy)
     folders = [referring.resolve().parent.parent / "models" / kind, shipped("models") / kind]
     for folder in folders:
-        if (folder / f"{name}.toml").is_file():
+        if is_file(folder / f"{name}.toml"):
             return folder / f"{name}.toml"
     raise _not_found(key, name, f"file in models/{kind}", folders)
 
@@ -91,14 +99,22 @@ def quoted(value: Any) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, str):
-        text = '"' + value.encode("unicode_escape").decode().replace("\\xb0", "°").replace("\\xb5", "µ") + '"'
+        text = f'"{printable(value)}"'
     elif isinstance(value, dict):
-        text = "{" + ", ".join(f"{key} = {quoted(item)}" for key, item in value.items()) + "}"
+        text = "{" + ", ".join(f"{printable(key)} = {quoted(item)}" for key, item in value.items()) + "}"
     elif isinstance(value, (list, tuple)):
         text = "[" + ", ".join(map(quoted, value)) + "]"
     else:
         text = str(value)
     return text if len(text) <= 80 else text[:77] + "..."
+
+
+def printable(text: str) -> str:
+    """Return text with line ends and other invisible characters escaped, so that it stays on one line."""
+    return "".join(
+        character if character.isprintable() else character.encode("unicode_escape").decode()
+        for character in text
+    )
 
 
 def read_text(path: Path) -> str:

@@ -1,0 +1,62 @@
+"""Whatever stands at whatever key, a scenario is read or refused with an `InputError` that names it."""
+
+from datetime import date
+from typing import Any
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from tribodyn.errors import InputError
+from tribodyn.scenario.load import load_scenario
+from tribodyn.scenario.messages import InputErrors
+from tribodyn.scenario.resolve import CURVES, MODEL_FILES
+from tribodyn.scenario.schema import Scenario
+
+
+def keys(table: Any = Scenario, above: str = "") -> list[str]:
+    found = []
+    for name, field in table.model_fields.items():
+        found.append(above + name)
+        inner = field.annotation
+        if isinstance(inner, type) and hasattr(inner, "model_fields"):
+            found += keys(inner, f"{above}{name}.")
+    return found
+
+
+REFERENCES = [".".join(map(str, key)) for key in (*MODEL_FILES, *CURVES)]
+KEYS = [*keys(), *REFERENCES, "nonsense", "mesh.nonsense.more"]
+QUANTITY = r"-?[0-9]{1,3}(\.[0-9])? ?(mm|N\*m|rad/s|deg|kg|Pa|1/K|%|m\*\*[0-9]|/)"
+SCALARS = st.one_of(
+    st.text(st.characters(codec="utf-8"), max_size=8),
+    st.integers(),
+    st.floats(),
+    st.booleans(),
+    st.just(date(2022, 4, 1)),
+    st.from_regex(QUANTITY, fullmatch=True),
+    st.sampled_from(["..", "/", "../../etc", "a.toml", "\0", "a.csv", "none", "coulomb", "torque", "energy"]),
+)
+NAMES = st.one_of(st.sampled_from(sorted({key.rpartition(".")[2] for key in KEYS})), st.text(max_size=4))
+VALUES = st.recursive(
+    SCALARS,
+    lambda inner: st.one_of(st.lists(inner, max_size=3), st.dictionaries(NAMES, inner, max_size=3)),
+    max_leaves=5,
+)
+
+
+@settings(max_examples=150, deadline=None)
+@given(st.dictionaries(st.sampled_from(KEYS), VALUES, min_size=1, max_size=3))
+def test_no_value_at_any_key_escapes(overrides: dict[str, Any]):
+    for one in refusals(overrides):
+        assert one.key
+        assert one.rule
+        assert one.file
+        assert len(str(one).splitlines()) == 1
+
+
+def refusals(overrides: dict[str, Any]) -> tuple[InputError, ...]:
+    try:
+        load_scenario("crc-23-47", overrides)
+    except InputErrors as error:
+        return error.errors
+    except InputError as error:
+        return (error,)
+    return ()
