@@ -1,17 +1,18 @@
 """Fixtures that several test folders share: the shipped drives, prepared once."""
 
+import json
 from functools import lru_cache
 
 import numpy as np
 import pytest
 
+from tribodyn.prepare import Prepared, prepare
 from tribodyn.scenario.load import load_scenario
-from tribodyn.simulate import Prepared, prepare
 
 
 @lru_cache(maxsize=32)
-def _prepared(name: str, overrides: tuple[tuple[str, object], ...]) -> Prepared:
-    return prepare(load_scenario(name, dict(overrides)))
+def _prepared(name: str, overrides: str) -> Prepared:
+    return prepare(load_scenario(name, json.loads(overrides)))
 
 
 @pytest.fixture(scope="session")
@@ -19,7 +20,7 @@ def prepared():
     """Prepare a shipped scenario with overrides: prepared("crc-23-47", **{"mesh.damping_ratio": 0.1})."""
 
     def make(name: str = "crc-23-47", **overrides) -> Prepared:
-        return _prepared(name, tuple(sorted(overrides.items())))
+        return _prepared(name, json.dumps(overrides, sort_keys=True))
 
     return make
 

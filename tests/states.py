@@ -10,9 +10,9 @@ from tribodyn.dynamics.parameters import (
     STATES,
     TWIST,
     VX_P,
+    X_P,
     XI,
     XI_RATE,
-    X_P,
     Y_G,
 )
 

@@ -202,7 +202,7 @@ def polynomials(cycle: MeshCycle) -> Polynomials:
 
 def as_arrays(cycle: MeshCycle) -> dict[str, Any]:
     """Flat arrays for a record: dims (phase,), (phase, pair) and (phase, pair, pair); scalars as floats."""
-    segments, nodes, pairs = cycle.compliance.shape
+    segments, nodes, _ = cycle.compliance.shape
     arrays: dict[str, Any] = {}
     for name, value in cycle._asdict().items():
         array = np.asarray(value, dtype=float)

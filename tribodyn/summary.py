@@ -43,7 +43,8 @@ class RunningExtremes:
 def energy_residual(first: np.ndarray, last: np.ndarray, stored: float) -> float:
     """What the energy balance misses over a run, as a share of the work done by the drive.
 
-    W_in + W_parametric − W_out − W_friction − W_damping − ΔE from the first to the last state; `stored` is ΔE, J.
+    W_in + W_parametric − W_out − W_friction − W_damping − ΔE from the first to the last state; `stored` is
+    ΔE, J.
     """
     work = last - first
     missing = (
@@ -62,7 +63,7 @@ def single_pair_stiffness(cycle: MeshCycle, load: float) -> float:
     roll = np.asarray(cycle.signed_distance)[:, :, : cycle.front_pairs]
     inside = np.asarray(cycle.in_contact)[:, None, : cycle.front_pairs] > 0
     distance = np.where(inside, np.abs(roll), np.inf)
-    segment, node, slot = np.unravel_index(np.argmin(distance), distance.shape)
+    segment, _, slot = np.unravel_index(np.argmin(distance), distance.shape)
     near = roll[segment, :, slot]
     order = np.argsort(near)
     compliance = np.interp(0.0, near[order], np.asarray(cycle.compliance)[segment, order, slot])

@@ -3,7 +3,14 @@ import pytest
 
 from tests.states import random_place, random_state
 from tribodyn.dynamics import contact_forces as contact
-from tribodyn.dynamics.equations import derivatives, engagement, load_torque, locate, stored_energy, strain_energy
+from tribodyn.dynamics.equations import (
+    derivatives,
+    engagement,
+    load_torque,
+    locate,
+    stored_energy,
+    strain_energy,
+)
 from tribodyn.dynamics.parameters import (
     CLASSICAL,
     DRIVE_SHAFT,
@@ -67,7 +74,9 @@ def test_pair_forces_cancel_between_the_bodies(model, rng):
             on_pinion = m.pinion_mass * dy[vp] / rate + kp * y[p] + cp * y[vp]
             on_gear = m.gear_mass * dy[vg] / rate + kg * y[g] + cg * y[vg]
             loads = sum(work[contact.NORMAL_LOAD, i] for i in range(model.table.side.shape[0]))
-            assert on_pinion + on_gear == pytest.approx(0.0, abs=1e-9 * (loads + abs(kp * y[p]) + abs(kg * y[g])))
+            assert on_pinion + on_gear == pytest.approx(
+                0.0, abs=1e-9 * (loads + abs(kp * y[p]) + abs(kg * y[g]))
+            )
 
 
 def test_contacts_give_the_bodies_the_power_they_lose(model, rng):
@@ -96,7 +105,7 @@ def test_contacts_give_the_bodies_the_power_they_lose(model, rng):
 
 
 def test_friction_power_is_minus_mu_load_times_sliding(model, rng):
-    """F_f ω_p (−L_p + w L_g) = −μ F_n |v_s| outside the width of reversal (physics of the pair, rigid rotation)."""
+    """F_f ω_p (−L_p + w L_g) = −μ F_n |v_s| outside the width of reversal, in rigid rotation."""
     t, m = model.table, model.mechanics
     ratio = t.pinion_pitch_radius / t.gear_pitch_radius
     checked = 0
@@ -218,11 +227,11 @@ def test_parametric_torque_is_the_energy_slope_at_fixed_coordinates(model, rng):
 @pytest.mark.parametrize("formulation", [CLASSICAL, ENERGY_CONSISTENT])
 @pytest.mark.parametrize("drive", [DRIVE_SPEED, DRIVE_TORQUE, DRIVE_SHAFT])
 def test_instantaneous_powers_balance(model, rng, formulation, drive):
-    """P_in + P_parametric − P_out − P_friction − P_damping = d(stored energy)/dt, along the derivative itself."""
-    m = model.mechanics._replace(drive_inertia=0.02, shaft_stiffness=3e3, shaft_damping=0.4, speed_regulation=0.3)
-    model = model._replace(
-        mechanics=m, options=model.options._replace(formulation=formulation, drive=drive)
+    """P_in + P_parametric − P_out − P_friction − P_damping = d(stored energy)/dt, along the derivative."""
+    m = model.mechanics._replace(
+        drive_inertia=0.02, shaft_stiffness=3e3, shaft_damping=0.4, speed_regulation=0.3
     )
+    model = model._replace(mechanics=m, options=model.options._replace(formulation=formulation, drive=drive))
     for _ in range(20):
         y = random_state(rng)
         if drive == DRIVE_SPEED:
@@ -258,7 +267,9 @@ def test_engagement_keeps_the_energy_with_a_free_pinion(prepared, rng):
         work: dict = {}
         derivatives(phase_before, 0.0, before, y, model, work, {})
         energy = stored_energy(y, model, work)
-        slip, xi_rate, work_in, parametric = engagement(before, phase_before, after, phase_after, y, model, {})
+        slip, xi_rate, work_in, parametric = engagement(
+            before, phase_before, after, phase_after, y, model, {}
+        )
         z = y.copy()
         z[SLIP] += slip
         z[XI_RATE] += xi_rate

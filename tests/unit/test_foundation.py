@@ -5,6 +5,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+
 from tribodyn.compliance.foundation import (
     HARMONICS,
     _ring_receptance,

@@ -4,6 +4,7 @@ import math
 import re
 
 import pytest
+
 from tribodyn.errors import InputError
 from tribodyn.geometry import crc, involute
 from tribodyn.geometry.checks import check, check_sizes

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
+
 from tribodyn.geometry import crc, involute
 from tribodyn.geometry.drive import Drive, GearBody, reference_radius, tip_radius
 from tribodyn.geometry.path import (

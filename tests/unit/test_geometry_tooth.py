@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+
 from tribodyn.geometry import crc, involute
 from tribodyn.geometry.assembly import assemble, tip_clearance, tip_corner_gap
 from tribodyn.geometry.body import gear_polygon, mass_and_inertia, section_area_and_inertia

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
+
 from tests import record_samples, synthetic_record
 from tests.synthetic_record import PITCH_ANGLE, SPEED, approach_and_recess
 from tribodyn.errors import InputError

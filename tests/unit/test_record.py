@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
 from tests.record_samples import block, geometry, mesh_cycle
 from tribodyn.errors import InputError
 from tribodyn.record.reader import open_record

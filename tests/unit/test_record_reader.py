@@ -6,6 +6,7 @@ import h5py
 import numpy as np
 import pytest
 import xarray
+
 from tests.record_samples import block, geometry, mesh_cycle
 from tribodyn.errors import InputError
 from tribodyn.record.reader import Record, open_record

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 from rich.console import Console
+
 from tests import synthetic_record
 from tests.record_samples import block, geometry, mesh_cycle
 from tribodyn.post.report import as_json, summary_table

@@ -4,6 +4,7 @@ from math import pi, radians
 
 import numpy as np
 import pytest
+
 from tribodyn.errors import InputError
 from tribodyn.scenario.load import (
     FAMILIES,

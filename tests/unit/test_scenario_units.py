@@ -1,6 +1,7 @@
 import math
 
 import pytest
+
 from tribodyn.scenario import units
 from tribodyn.scenario.units import NotAQuantity, factor_to_si, to_si
 

@@ -30,7 +30,9 @@ def test_positive_part_has_no_force_without_contact():
 
 
 def test_positive_part_integral_is_the_integral():
-    integral = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(X) * (positive_part(X, 0.5)[1:] + positive_part(X, 0.5)[:-1]))])
+    integral = np.concatenate(
+        [[0.0], np.cumsum(0.5 * np.diff(X) * (positive_part(X, 0.5)[1:] + positive_part(X, 0.5)[:-1]))]
+    )
     np.testing.assert_allclose(positive_part_integral(X, 0.5), integral, atol=1e-7)
 
 
@@ -54,5 +56,11 @@ def test_asperity_load_ratio_is_capped_smoothly():
     high = printed > 1 + CAP_WIDTH
     assert high.any()
     np.testing.assert_allclose(ours[high], 1.0, rtol=1e-14)
-    slope = np.gradient(ours, np.log(U))
-    assert np.max(np.abs(np.diff(slope))) < 0.02 * np.max(np.abs(slope))
+
+    def greatest_jump_of_slope(points):
+        log_u = np.linspace(np.log(1e-13), np.log(1e-11), points)
+        value = asperity_load_ratio(np.log(W), log_u, np.log(G), np.log(S), np.log(V), 4470.0)
+        return np.max(np.abs(np.diff(np.gradient(value, log_u))))
+
+    # a kink would keep its jump under refinement; a C1 function halves it
+    assert greatest_jump_of_slope(80001) < 0.6 * greatest_jump_of_slope(40001)

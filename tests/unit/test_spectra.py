@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+
 from tribodyn.post.spectra import amplitude_spectrum
 
 

@@ -27,7 +27,14 @@ LIU_NI = Contact(
     asperity_log_factor=4470.0,
     limiting_share=1.0,
 )
-POINT = dict(line_load=3.85e5, curvature=1 / 8.98e-3, entrainment=0.134, sliding=0.0447, pinion_speed=0.156, gear_speed=0.112)
+POINT = dict(
+    line_load=3.85e5,
+    curvature=1 / 8.98e-3,
+    entrainment=0.134,
+    sliding=0.0447,
+    pinion_speed=0.156,
+    gear_speed=0.112,
+)
 
 
 def by_hand(w, rho, u, v, u1, u2, c):
@@ -45,8 +52,22 @@ def by_hand(w, rho, u, v, u1, u2, c):
     ph = p * (1 - lam)
     tau = c.limiting_shear_coefficient * ph
     q = abs(v) * p * (c.asperity_friction * lam + c.limiting_shear_coefficient * (1 - lam))
-    pe = [a * uj * hc / (2 * k) for uj, hc, k in ((u1, c.pinion_heat_capacity, c.pinion_conductivity), (u2, c.gear_heat_capacity, c.gear_conductivity))]
-    dT = 2 * a * q / (math.sqrt(math.pi) * (c.pinion_conductivity * math.sqrt(1 + pe[0]) + c.gear_conductivity * math.sqrt(1 + pe[1])))
+    pe = [
+        a * uj * hc / (2 * k)
+        for uj, hc, k in (
+            (u1, c.pinion_heat_capacity, c.pinion_conductivity),
+            (u2, c.gear_heat_capacity, c.gear_conductivity),
+        )
+    ]
+    dT = (
+        2
+        * a
+        * q
+        / (
+            math.sqrt(math.pi)
+            * (c.pinion_conductivity * math.sqrt(1 + pe[0]) + c.gear_conductivity * math.sqrt(1 + pe[1]))
+        )
+    )
     eta = c.inlet_viscosity * math.exp(
         (math.log(c.inlet_viscosity) + 9.67) * (-1 + (1 + 5.1e-9 * ph) ** c.viscosity_pressure_index)
         - c.temperature_viscosity * dT
@@ -87,7 +108,9 @@ def test_friction_is_between_nothing_and_its_limits(rng):
     for _ in range(300):
         u = 10 ** rng.uniform(-3, 1.5)
         v = u * rng.uniform(0, 1)
-        mu, share, *_ = mixed_film(10 ** rng.uniform(3, 6.3), rng.uniform(50, 400), u, v, u + v / 2, u - v / 2, LIU_NI)
+        mu, share, *_ = mixed_film(
+            10 ** rng.uniform(3, 6.3), rng.uniform(50, 400), u, v, u + v / 2, u - v / 2, LIU_NI
+        )
         limit = share * LIU_NI.asperity_friction + LIU_NI.limiting_shear_coefficient * (1 - share)
         assert 0.0 <= mu <= limit * (1 + 1e-12)
 
@@ -128,9 +151,7 @@ def test_laws_dispatch():
     # the mean heat of a Coulomb contact: μ v p with p = w/(2a), the same conduction as every law's
     half = hertz_half_width(POINT["line_load"], POINT["curvature"], LIU_NI.effective_modulus)
     heat = 0.06 * POINT["sliding"] * POINT["line_load"] / (2 * half)
-    rise = flash_temperature_rise(
-        heat, half, POINT["pinion_speed"], POINT["gear_speed"], *LIU_NI[9:13]
-    )
+    rise = flash_temperature_rise(heat, half, POINT["pinion_speed"], POINT["gear_speed"], *LIU_NI[9:13])
     assert coulomb[3] == pytest.approx(rise, rel=1e-12)
 
 

@@ -129,8 +129,8 @@ def approach(segment, cell, u, cells_per_radian, y, model, work):
 def elastic_loads(segment, cell, u, model, work):
     """Elastic load of every pair, never tensile, with the pairs coupled through the bodies.
 
-    Solves δ_i = C_ii F_i + Σ_j C_ij F_j, F ≥ 0: from the tabulated inverse, with tension cut off, by projected
-    Gauss-Seidel sweeps. With all pairs loaded the start is the answer up to interpolation, and each
+    Solves δ_i = C_ii F_i + Σ_j C_ij F_j, F ≥ 0: from the tabulated inverse, with tension cut off, by
+    projected Gauss-Seidel sweeps. With all pairs loaded the start is the answer up to interpolation, and each
     sweep reduces an error by (C_ij/C_ii)² ≈ 0.1; a pair that separates is out after the first.
     """
     pairs = model.table.side.shape[0]

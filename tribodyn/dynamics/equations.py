@@ -1,7 +1,7 @@
 """The right-hand side: contact forces to generalised forces to derivatives. One for every solver.
 
-Six degrees of freedom after Liu & Ni, Mechanics & Industry 23 (2022) 10, (12)-(17) with the signs restored: pair
-forces on the two bodies are equal and opposite in every component.
+Six degrees of freedom after Liu & Ni, Mechanics & Industry 23 (2022) 10, (12)-(17) with the signs restored:
+pair forces on the two bodies are equal and opposite in every component.
 """
 
 from tribodyn.dynamics.contact_forces import (
@@ -72,7 +72,9 @@ def load_torque(time, gear_slip, mechanics):
         start, end = mechanics.load_torques[i], mechanics.load_torques[i + 1]
         out, back = mechanics.load_slopes[i] * width, mechanics.load_slopes[i + 1] * width
         rise = end - start
-        torque = torque + start + u * (out + u * (3.0 * rise - 2.0 * out - back + u * (out + back - 2.0 * rise)))
+        torque = (
+            torque + start + u * (out + u * (3.0 * rise - 2.0 * out - back + u * (out + back - 2.0 * rise)))
+        )
     return torque
 
 
@@ -219,7 +221,7 @@ def strain_energy(phase, segment, y, model, work):
 
 @law
 def engagement(before, phase_before, after, phase_after, y, model, work):
-    """Changes of (pinion slip, gear-side rate ξ', work in, parametric work) where the contacting pairs change.
+    """Changes of (pinion slip, ξ', work in, parametric work) where the set of contacting pairs changes.
 
     The strain energy that appears or vanishes there is the parametric work of an impulse. The classical
     equations leave it unbalanced and the audit books it; the energy-consistent ones take it from the drive

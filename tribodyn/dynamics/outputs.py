@@ -86,7 +86,7 @@ def outputs(cycles: np.ndarray, states: np.ndarray, model: Model) -> dict[str, n
         np.broadcast_to(power, count) for power in powers
     )
 
-    # loss by the nominal sliding, as efficiency is defined; power_friction is the work on the vibrating bodies
+    # efficiency is defined by the nominal sliding; power_friction is the work on the vibrating bodies
     sliding_loss = sum(work[contact.FRICTION_FORCE, i] * work[contact.SLIDING, i] for i in range(pairs))
 
     def contacting(values: np.ndarray, mask: np.ndarray = touching) -> np.ndarray:

@@ -7,6 +7,7 @@ explicitly, so that no number of the scenario is compiled in.
 
 import os
 from functools import lru_cache, partial
+from itertools import pairwise
 from typing import Any
 
 # the error branch of equinox cannot be cached between processes; NaNs are checked for below instead
@@ -59,7 +60,14 @@ def _engaged(y: Any, before: Any, segment: Any, model: Model) -> Any:
         before, boundary[before + 1], segment, boundary[segment], y, model, {}
     )
     return (
-        y.at[SLIP].add(slip).at[XI_RATE].add(xi_rate).at[WORK_IN].add(work_in).at[WORK_PARAMETRIC].add(parametric)
+        y.at[SLIP]
+        .add(slip)
+        .at[XI_RATE]
+        .add(xi_rate)
+        .at[WORK_IN]
+        .add(work_in)
+        .at[WORK_PARAMETRIC]
+        .add(parametric)
     )
 
 
@@ -133,11 +141,10 @@ class DiffraxEngine:
         self.numbers = jax.tree.map(jnp.asarray, (model.table, model.mechanics, model.contact))
         boundary = np.asarray(model.table.boundary)
         phases = np.arange(samples) / samples
-        groups = [
-            phases[(phases >= a) & (phases < b)] for a, b in zip(boundary[:-1], boundary[1:], strict=True)
-        ]
+        groups = [phases[(phases >= a) & (phases < b)] for a, b in pairwise(boundary)]
         self.counts = [len(group) for group in groups]
-        self.most = max(self.counts)
+        # padded to the whole cycle, so that another contact ratio compiles nothing again
+        self.most = samples
         self.at = jnp.asarray(
             [np.append(g, np.full(self.most - len(g), b)) for g, b in zip(groups, boundary[1:], strict=True)]
         )

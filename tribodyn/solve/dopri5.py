@@ -42,9 +42,7 @@ D = np.array(
 
 @kernel
 def _engage(before, phase_before, after, phase_after, y, model, work):
-    slip, xi_rate, work_in, parametric = engagement(
-        before, phase_before, after, phase_after, y, model, work
-    )
+    slip, xi_rate, work_in, parametric = engagement(before, phase_before, after, phase_after, y, model, work)
     y[SLIP] += slip
     y[XI_RATE] += xi_rate
     y[WORK_IN] += work_in

@@ -84,7 +84,7 @@ class Engine(Protocol):
 
 
 def absolute_tolerances(model: Model, rtol: float, deflection: float) -> np.ndarray:
-    """rtol times the scale of every state, from the static deflection of the mesh (m).
+    """Rtol times the scale of every state, from the static deflection of the mesh (m).
 
     Displacements scale with the deflection, velocities with the deflection times the mesh's natural
     frequency, works with the energy transmitted in one mesh cycle.

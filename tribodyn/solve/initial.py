@@ -35,7 +35,9 @@ def accelerations(y: np.ndarray, phase: float, segment: int, model: Model) -> np
 def static_deflection(model: Model, torque: float) -> float:
     """Deflection of the mesh under a gear torque, all on the first segment's pairs, m; a scale."""
     table = model.table
-    stiffness = float(np.sum(1.0 / np.asarray(table.channel)[-1, 0, :, 4, 0] * np.asarray(table.in_contact)[-1]))
+    stiffness = float(
+        np.sum(1.0 / np.asarray(table.channel)[-1, 0, :, 4, 0] * np.asarray(table.in_contact)[-1])
+    )
     angle = float(np.asarray(table.channel)[-1, 0, -1, 0, 0])
     return abs(torque) / (float(table.gear_pitch_radius) * np.cos(angle)) / stiffness
 
@@ -60,7 +62,7 @@ def static_equilibrium(model: Model, phase: float = 0.0, segment: int = 0) -> np
     shaft = model.options.drive == DRIVE_SHAFT
     scale = np.full(len(unknown), deflection)
     y = np.zeros(STATES)
-    y[XI] = 2.0 * deflection
+    y[XI] = 3.0 * deflection + _greatest_gap(model, segment)
     if shaft:
         unknown.append(TWIST)
         scale = np.append(scale, model.mechanics.drive_torque / model.mechanics.shaft_stiffness)
@@ -79,9 +81,14 @@ def static_equilibrium(model: Model, phase: float = 0.0, segment: int = 0) -> np
     for _ in range(60):
         size = np.linalg.norm(value)
         jacobian = np.stack(
-            [(residual(values + 1e-5 * s * unit) - value) / (1e-5 * s) for s, unit in zip(scale, np.eye(len(values)), strict=True)],
+            [
+                (residual(values + 1e-5 * s * unit) - value) / (1e-5 * s)
+                for s, unit in zip(scale, np.eye(len(values)), strict=True)
+            ],
             axis=1,
         )
+        if np.linalg.matrix_rank(jacobian) < len(values):
+            break  # the flanks are apart: nothing resists
         change = np.linalg.solve(jacobian, -value)
         factor = 1.0
         while factor > 1e-4:
@@ -101,6 +108,14 @@ def static_equilibrium(model: Model, phase: float = 0.0, segment: int = 0) -> np
         )
     y[unknown] = values
     return y
+
+
+def _greatest_gap(model: Model, segment: int) -> float:
+    """What the static transmission error can keep the front flanks apart, as ξ; m."""
+    table = model.table
+    front = (np.asarray(table.side) > 0) & (np.asarray(table.in_contact)[segment] > 0)
+    channel = np.asarray(table.channel)[segment][:, front]
+    return float(max(0.0, np.max(channel[..., 5, 0])) / np.cos(np.max(channel[..., 0, 0])))
 
 
 def initial_state(model: Model, kind: str) -> np.ndarray:

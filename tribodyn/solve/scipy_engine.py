@@ -60,7 +60,7 @@ class ScipyEngine:
                     engage(segments - 1, 1.0, 0, 0.0, y, model, work)
                 self.started = True
 
-                def fun(phase, y, whole=whole, segment=segment):
+                def fun(phase, y, whole=whole, segment=segment, limit=limit):
                     nonlocal calls
                     calls += 1
                     if calls > limit:
@@ -87,7 +87,9 @@ class ScipyEngine:
                             dense_output=True,
                         )
                     except _Stop as stop:
-                        return self._end(found, y, stop.status, cycle + stop.phase, steps, evaluations + calls)
+                        return self._end(
+                            found, y, stop.status, cycle + stop.phase, steps, evaluations + calls
+                        )
                 steps += len(solution.t) - 1
                 if solution.status != 0:
                     reached = solution.t[-1]

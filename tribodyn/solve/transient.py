@@ -21,8 +21,8 @@ from tribodyn.solve.initial import accelerations, static_deflection
 
 EXPLICIT, STIFF = "dopri5", "radau"
 
-#: Explicit steps per mesh cycle, by stability alone, above which the stiff solver is the cheaper one: measured
-#: on the CRC drive, where native Dormand-Prince and Radau cost the same at 0.1 rad/s.
+#: Explicit steps per mesh cycle, by stability alone, above which the stiff solver is the cheaper one:
+#: measured on the CRC drive, where native Dormand-Prince and Radau cost the same at 0.1 rad/s.
 STIFF_ABOVE = 50_000
 #: Stability limit of Dormand-Prince 5(4) on the negative real axis.
 REAL_STABILITY = 3.3
@@ -68,8 +68,8 @@ class Stop(NamedTuple):
 def stability_steps(model: Model, state: np.ndarray) -> float:
     """Steps per mesh cycle that an explicit method needs for stability, the greatest over the segments.
 
-    The spectral radius of the mechanics' Jacobian (central differences) over the stability limit, at the middle
-    and both ends of each segment and where each pair passes the pitch point.
+    The spectral radius of the mechanics' Jacobian (central differences) over the stability limit, at the
+    middle and both ends of each segment and where each pair passes the pitch point.
     """
     table = model.table
     boundary = np.asarray(table.boundary)
@@ -162,9 +162,7 @@ def cycles_per_block(method: str, cycles: int) -> int:
     return max(1, min(cycles // 4, 50)) if method == EXPLICIT else 1
 
 
-def transient(
-    model: Model, state: np.ndarray, settings: Settings, method: str
-) -> Iterator[Chunk | Stop]:
+def transient(model: Model, state: np.ndarray, settings: Settings, method: str) -> Iterator[Chunk | Stop]:
     """Integrate from `state`; yields chunks of samples as they are done, and a `Stop` last.
 
     Parameters

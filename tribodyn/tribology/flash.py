@@ -4,7 +4,6 @@ import math
 
 from tribodyn.elementary import absolute, law, sqrt
 
-
 ROOT_PI = math.sqrt(math.pi)
 
 
@@ -21,8 +20,8 @@ def flash_temperature_rise(
 ):
     """Average temperature rise ΔT in the contact, K.
 
-    ΔT = 2 a_H q/{√π [K_1 √(1 + Pe_1) + K_2 √(1 + Pe_2)]}, Pe_j = a_H |u_j| (ρ_s c_p)_j/(2 K_j): Tian & Kennedy (1994);
-    Liu & Ni (22), who leave the solid's heat capacity per volume ρ_s c_p out of Pe.
+    ΔT = 2 a_H q/{√π [K_1 √(1 + Pe_1) + K_2 √(1 + Pe_2)]}, Pe_j = a_H |u_j| (ρ_s c_p)_j/(2 K_j): Tian &
+    Kennedy (1994); Liu & Ni (22), who leave the solid's heat capacity per volume ρ_s c_p out of Pe.
     """
     pinion_peclet = half_width * absolute(pinion_speed) * pinion_heat_capacity / (2.0 * pinion_conductivity)
     gear_peclet = half_width * absolute(gear_speed) * gear_heat_capacity / (2.0 * gear_conductivity)

@@ -82,7 +82,7 @@ def mixed_film(line_load, curvature, entrainment, sliding, pinion_speed, gear_sp
         contact.viscosity_pressure_index,
         contact.temperature_viscosity,
     )
-    # where asperities carry everything the fluid has no shear limit left: the ratio goes to 1, its weight to 0
+    # where asperities carry everything the fluid has no shear limit left, and no weight either
     newtonian = minimum(viscosity * sliding / (maximum(shear_limit, 1.0) * film), 600.0)
     coefficient = contact.asperity_friction * share - shear_limit / pressure * expm1(-newtonian)
     return (
@@ -108,7 +108,9 @@ def friction(law_code, line_load, curvature, entrainment, sliding, pinion_speed,
         coefficient = 0.0 * coefficient
         temperature = 0.0 * temperature
     elif law_code == COULOMB:
-        half_width = hertz_half_width(maximum(line_load, LEAST_LINE_LOAD), curvature, contact.effective_modulus)
+        half_width = hertz_half_width(
+            maximum(line_load, LEAST_LINE_LOAD), curvature, contact.effective_modulus
+        )
         coefficient = 0.0 * coefficient + contact.coulomb_coefficient
         heat_flux = contact.coulomb_coefficient * absolute(sliding) * pressure * math.pi / 4.0
         temperature = flash_temperature_rise(

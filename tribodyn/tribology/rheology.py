@@ -10,8 +10,8 @@ GREATEST_EXPONENT = 600.0
 def roelands_viscosity(pressure, temperature_rise, inlet_viscosity, index, temperature_coefficient):
     """Average viscosity in the contact, Pa·s.
 
-    η = η0 exp{(ln η0 + 9.67) [−1 + (1 + 5.1e-9 p)^z] − K_T ΔT}, Roelands (1966); Liu & Ni (21). The exponent is
-    clipped (near a cycloid's pitch point the Hertz pressure diverges).
+    η = η0 exp{(ln η0 + 9.67) [−1 + (1 + 5.1e-9 p)^z] − K_T ΔT}, Roelands (1966); Liu & Ni (21). The exponent
+    is clipped (near a cycloid's pitch point the Hertz pressure diverges).
     """
     rise = exp(index * log1p(5.1e-9 * pressure)) - 1.0
     exponent = (log(inlet_viscosity) + 9.67) * rise - temperature_coefficient * temperature_rise

@@ -117,7 +117,7 @@ def _above(name: str, upper: Steady, lower: Steady) -> tuple[float, str]:
 
 
 def _jump(wet: Steady, dry: Steady) -> tuple[float, float]:
-    """What friction adds to the DTE across the pitch point, and the greatest such step elsewhere in STCP, m."""
+    """What friction adds to the DTE across the pitch point, and at most elsewhere in single contact, m."""
     added = wet.data["transmission_error_rotational"] - dry.data["transmission_error_rotational"]
 
     def step(at: float) -> float:
@@ -140,7 +140,10 @@ def _claims(
     error = {name: s.data["transmission_error_rotational"] for name, s in (("crc", crc), ("inv", involute))}
     share = float(np.mean(error["crc"] > error["inv"]))
     stiffness = [s.summary["stiffness_single_pair_at_pitch_point"] / 1e6 for s in (crc, involute)]
-    ranges = [float(np.ptp(s.data["transmission_error_rotational"])) * 1e6 for s in (crc, crc_dry, involute, involute_dry)]
+    ranges = [
+        float(np.ptp(s.data["transmission_error_rotational"])) * 1e6
+        for s in (crc, crc_dry, involute, involute_dry)
+    ]
     jumps = [_jump(crc, crc_dry), _jump(involute, involute_dry)]
     film, film_note = _above("central_film_thickness", crc, involute)
     speed, speed_note = _above("entrainment_speed", crc, involute)
@@ -159,8 +162,9 @@ def _claims(
     return {
         f"{prefix}dte-of-the-crc-drive-above-the-involute-s-lower": (
             bool(np.mean(error["crc"]) > np.mean(error["inv"])),
-            f"rotational DTE, mean {np.mean(error['crc']) * 1e6:.1f} against {np.mean(error['inv']) * 1e6:.1f} µm, "
-            f"above at {share:.0%} of the phases; through the lower contact ratio: a single CRC pair is the "
+            f"rotational DTE, mean {np.mean(error['crc']) * 1e6:.1f} against "
+            f"{np.mean(error['inv']) * 1e6:.1f} µm, above at {share:.0%} of the phases; "
+            f"through the lower contact ratio: a single CRC pair is the "
             f"stiffer, {stiffness[0]:.0f} against {stiffness[1]:.0f} N/µm",
         ),
         f"{prefix}friction-widens-the-range-of-the-dte": (
@@ -170,8 +174,9 @@ def _claims(
         ),
         f"{prefix}a-jump-of-the-dte-at-the-pitch-point": (
             all(abs(at) > 2.0 * elsewhere for at, elsewhere in jumps),
-            f"friction's step at P, CRC {jumps[0][0] * 1e6:+.2f} µm (at most {jumps[0][1] * 1e6:.2f} elsewhere in single "
-            f"contact), involute {jumps[1][0] * 1e6:+.2f} ({jumps[1][1] * 1e6:.2f})",
+            f"friction's step at P, CRC {jumps[0][0] * 1e6:+.2f} µm "
+            f"(at most {jumps[0][1] * 1e6:.2f} elsewhere in single contact), "
+            f"involute {jumps[1][0] * 1e6:+.2f} ({jumps[1][1] * 1e6:.2f})",
         ),
         f"{prefix}film-of-the-crc-drive-above-the-involute-s-at-ev": (film == 1.0, film_note),
         f"{prefix}entrainment-speed-of-the-crc-drive-above-the-inv": (speed == 1.0, speed_note),

@@ -1,0 +1,102 @@
+"""Speed as ratios to other programs in the same run, never as a time.
+
+The case is the CRC drive at 300 rad/s over 20 mesh cycles at rtol 1e-6, kernel only: compilation, table and
+files are outside.
+"""
+
+from time import perf_counter
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from tribodyn.dynamics.equations import derivatives, engagement
+from tribodyn.dynamics.parameters import MECHANICAL, SLIP, STATES, WORK_IN, WORK_PARAMETRIC, XI, XI_RATE
+from tribodyn.solve.engine import Tolerances, absolute_tolerances
+from tribodyn.solve.initial import static_equilibrium
+from tribodyn.solve.transient import NativeEngine
+
+pytestmark = pytest.mark.bench
+
+SAMPLES, RTOL = 200, 1e-6
+
+
+@pytest.fixture(scope="module")
+def case(prepared):
+    model = prepared("crc-23-47-300").model
+    state = static_equilibrium(model)
+    return model, state, Tolerances(RTOL, absolute_tolerances(model, RTOL, state[XI]), 10**6)
+
+
+def native(model, state, tolerances, cycles):
+    return NativeEngine(model, SAMPLES, tolerances).block(state, 0, cycles).samples
+
+
+def scipy_bdf(model, state, tolerances, cycles):
+    """What a user would write: SciPy BDF, the right-hand side on NumPy numbers, restarted at engagement."""
+    boundary = np.asarray(model.table.boundary)
+    y = state.copy()
+    found = []
+    for cycle in range(cycles):
+        for segment in range(len(boundary) - 1):
+            before = (segment - 1) % (len(boundary) - 1)
+            if cycle or segment:
+                jumps = engagement(before, boundary[before + 1], segment, boundary[segment], y, model, {})
+                y[[SLIP, XI_RATE, WORK_IN, WORK_PARAMETRIC]] += jumps
+
+            def fun(phase, mechanical, cycle=cycle, segment=segment):
+                full = np.zeros(STATES)
+                full[:MECHANICAL] = mechanical
+                rates = {}
+                derivatives(phase, cycle, segment, full, model, {}, rates)
+                return np.array([rates[i] for i in range(MECHANICAL)])  # the audit costs it nothing
+
+            at = np.arange(SAMPLES) / SAMPLES
+            at = at[(at >= boundary[segment]) & (at < boundary[segment + 1])]
+            solution = solve_ivp(
+                fun,
+                boundary[segment : segment + 2],
+                y[:MECHANICAL],
+                method="BDF",
+                rtol=RTOL,
+                atol=tolerances.atol[:MECHANICAL],
+                t_eval=np.append(at, boundary[segment + 1]),
+            )
+            found.append(solution.y.T[:-1])
+            y[:MECHANICAL] = solution.y[:, -1]
+    return np.concatenate(found)
+
+
+def seconds(function, *arguments, repeats):
+    times = []
+    for _ in range(repeats):
+        begun = perf_counter()
+        function(*arguments)
+        times.append(perf_counter() - begun)
+    return float(np.median(times))
+
+
+def test_native_run_is_30_times_faster_than_scipy_bdf(case, record_property, capsys):
+    """Both on 20 cycles; the peer once, since it takes seconds and the bound is far away."""
+    exact = native(case[0], case[1], Tolerances(1e-11, case[2].atol * 1e-5, 10**6), 20)[:, XI]
+    ours = native(*case, 20)[:, XI]
+    begun = perf_counter()
+    theirs = scipy_bdf(*case, 20)[:, XI]
+    peer = perf_counter() - begun
+    own = seconds(native, *case, 20, repeats=9)
+    errors = [float(np.max(np.abs(x - exact)) / np.ptp(exact)) for x in (ours, theirs)]
+    ratio = peer / own
+    record_property("ratio", ratio)
+    with capsys.disabled():
+        print(
+            f"\nCRC at 300 rad/s, 20 cycles: native {own * 1e3:.2f} ms (DTE error {errors[0]:.1e}), "
+            f"SciPy BDF on NumPy {peer * 1e3:.0f} ms ({errors[1]:.1e}): {ratio:.0f} times"
+        )
+    assert errors[0] < 2e-4
+    assert ratio >= 30.0
+
+
+def test_native_kernel(case, benchmark):
+    """For comparison over time with pytest-benchmark; asserts nothing about the clock."""
+    samples = benchmark(native, *case, 20)
+    assert samples.shape == (20 * SAMPLES, STATES)

@@ -1,0 +1,156 @@
+"""Refinement: tolerance, table, smoothing widths; and the energy balance at every tolerance."""
+
+import numpy as np
+import pytest
+
+from tribodyn.dynamics.outputs import outputs
+from tribodyn.dynamics.parameters import XI
+from tribodyn.solve.initial import initial_state
+from tribodyn.solve.transient import Chunk, Settings, transient
+from tribodyn.summary import energy_residual
+
+SAMPLES = 100
+
+
+def solve(model, rtol=1e-9, cycles=4, method="dopri5", initial="static"):
+    state = initial_state(model, initial)
+    parts = transient(model, state, Settings(method, rtol, cycles, 200000, SAMPLES), method)
+    chunks = [part for part in parts if isinstance(part, Chunk)]
+    return np.concatenate([c.cycles for c in chunks]), np.concatenate([c.states for c in chunks])
+
+
+def error(states, reference):
+    return np.max(np.abs(states[:, XI] - reference[:, XI])) / np.ptp(reference[:, XI])
+
+
+def test_native_solver_converges_with_its_tolerance(prepared):
+    """Fifth order: the work grows as tol^(−1/5), the error falls in proportion to the tolerance."""
+    model = prepared("crc-23-47", **{"operating.pinion_speed": "300 rad/s"}).model
+    _, reference = solve(model, 1e-12)
+    tolerances = np.array([1e-4, 1e-5, 1e-6, 1e-7, 1e-8])
+    errors = np.array([error(solve(model, rtol)[1], reference) for rtol in tolerances])
+    slope = np.polyfit(np.log(tolerances), np.log(errors), 1)[0]
+    assert 0.8 < slope < 1.3
+    assert errors[2] < 2e-4
+
+
+def _closes(case, rtol, **options):
+    cycles, states = solve(case.model, rtol, cycles=6, **options)
+    found = outputs(cycles, states, case.model)
+    stored = found["stored_energy"][-1] - found["stored_energy"][0]
+    return abs(energy_residual(states[0], states[-1], stored))
+
+
+DRIVES = [
+    {},
+    {"friction.sliding": "dynamic"},
+    {"operating.source": "torque", "operating.drive_inertia": "0.02 kg*m**2"},
+    {
+        "operating.source": "torque",
+        "operating.drive_inertia": "0.02 kg*m**2",
+        "operating.shaft_stiffness": "3000 N*m/rad",
+        "operating.shaft_damping": "0.5 N*m*s/rad",
+        "operating.speed_regulation": "0.5 N*m*s/rad",
+    },
+    {"mesh.hertz": "load-dependent"},
+    {"mesh.backlash": "15 um", "operating.gear_torque": "20 N*m"},
+]
+
+
+@pytest.mark.parametrize("formulation", ["classical", "energy-consistent"])
+@pytest.mark.parametrize(
+    "overrides", DRIVES, ids=["speed", "sliding", "torque", "shaft", "hertz", "backlash"]
+)
+@pytest.mark.parametrize("rtol", [1e-5, 1e-7])
+def test_energy_balance_closes_within_ten_tolerances(prepared, formulation, overrides, rtol):
+    case = prepared(
+        "crc-23-47", **overrides, **{"operating.pinion_speed": "300 rad/s", "mesh.formulation": formulation}
+    )
+    assert _closes(case, rtol) < 10 * rtol
+
+
+@pytest.mark.parametrize("formulation", ["classical", "energy-consistent"])
+def test_energy_balance_closes_at_the_published_speed(prepared, formulation):
+    case = prepared("crc-23-47", **{"mesh.formulation": formulation})
+    assert _closes(case, 1e-6) < 1e-5
+
+
+def test_parametric_work_is_there_only_in_the_classical_formulation(prepared):
+    """Sizes of the prototype: 0.04 J a cycle in engagement, of 68 J transmitted."""
+    work = {}
+    for formulation in ("classical", "energy-consistent"):
+        case = prepared("crc-23-47", **{"mesh.formulation": formulation})
+        _, states = solve(case.model, 1e-7)
+        work[formulation] = states[-1] - states[0]
+    assert np.all(work["energy-consistent"][18] == 0.0)
+    per_cycle = work["classical"][18] / 4
+    assert 0.01 < abs(per_cycle) < 0.1
+    # the motion is the same, only the drive's work differs, by exactly that
+    assert work["energy-consistent"][14] - work["classical"][14] == pytest.approx(
+        work["classical"][18], rel=1e-6
+    )
+
+
+@pytest.mark.parametrize(
+    ("key", "widths"),
+    [
+        ("friction.reversal_width", ["160 um", "80 um", "40 um", "20 um"]),
+        ("mesh.contact_width", ["1.6 um", "0.8 um", "0.4 um", "0.2 um"]),
+    ],
+)
+def test_answer_converges_as_a_smoothing_width_shrinks(prepared, key, widths):
+    overrides = {"operating.pinion_speed": "300 rad/s"}
+    if key == "mesh.contact_width":
+        # a light load, so that teeth separate
+        overrides |= {
+            "operating.gear_torque": "30 N*m",
+            "mesh.transmission_error.harmonics": [{"order": 1, "amplitude": "8 um", "phase": "0 deg"}],
+        }
+    found = [solve(prepared("crc-23-47", **overrides, **{key: width}).model)[1] for width in widths]
+    changes = [error(a, found[-1]) for a in found[:-1]]
+    assert changes[0] > changes[1] > changes[2]
+    assert changes[2] < 5e-3
+
+
+def test_contact_is_lost_and_found(prepared):
+    """The case of the test above does separate: otherwise it would prove nothing."""
+    case = prepared(
+        "crc-23-47",
+        **{
+            "operating.pinion_speed": "300 rad/s",
+            "operating.gear_torque": "30 N*m",
+            "mesh.transmission_error.harmonics": [{"order": 1, "amplitude": "8 um", "phase": "0 deg"}],
+        },
+    )
+    found = outputs(*solve(case.model), case.model)
+    total = found["normal_load"].sum(axis=1)
+    assert np.any(total == 0.0)
+    assert np.any(total > 100.0)
+
+
+def test_table_converges_with_its_nodes(prepared):
+    found = [
+        solve(
+            prepared("crc-23-47", **{"operating.pinion_speed": "300 rad/s", "mesh.points": n}).model, 1e-11
+        )[1]
+        for n in (5, 9, 17, 65)
+    ]
+    errors = [error(states, found[-1]) for states in found[:-1]]
+    assert errors[0] > errors[1] > errors[2]
+    assert errors[2] < 1e-6
+
+
+def test_start_is_at_rest_in_equilibrium(prepared):
+    """Just after a static start nothing moves but with the mesh: accelerations vanish at the first sample."""
+    case = prepared("crc-23-47")
+    cycles, states = solve(case.model, cycles=1)
+    found = outputs(cycles[:1], states[:1], case.model)
+    arm = case.cycle.gear_pitch_radius * np.cos(found["pressure_angle"][0])
+    moment = np.sum(found["normal_load"][0] * arm) + np.sum(
+        found["friction_force"][0]
+        * (
+            case.cycle.gear_pitch_radius * np.sin(found["pressure_angle"][0])
+            - case.cycle.signed_distance[0, 0]
+        )
+    )
+    assert moment == pytest.approx(500.0, rel=1e-9)

@@ -1,0 +1,103 @@
+"""The same law under every compiler: plain floats, NumPy arrays, numba, JAX."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+from tests.states import random_place, random_state
+from tests.unit.test_tribology import LIU_NI
+from tribodyn.dynamics.contact_forces import QUANTITIES
+from tribodyn.dynamics.equations import derivatives
+from tribodyn.dynamics.parameters import STATES
+from tribodyn.native import kernel
+from tribodyn.solve.diffrax_engine import right_hand_side
+from tribodyn.solve.dopri5 import rhs
+from tribodyn.tribology.friction import mixed_film
+
+
+@kernel
+def _films(loads, curvatures, speeds, slidings, contact, out):
+    for i in range(len(loads)):
+        u, v = speeds[i], slidings[i]
+        out[i] = mixed_film(loads[i], curvatures[i], u, v, u + 0.5 * v, u - 0.5 * v, contact)[0]
+
+
+def test_friction_agrees_between_numpy_numba_and_jax(rng):
+    n = 20000
+    load = 10 ** rng.uniform(2, 6.5, n)
+    curvature = 10 ** rng.uniform(1, 3.5, n)
+    speed = 10 ** rng.uniform(-3, 2, n)
+    sliding = speed * rng.uniform(-1, 1, n)
+    numpy = mixed_film(load, curvature, speed, sliding, speed + sliding / 2, speed - sliding / 2, LIU_NI)[0]
+    native = np.empty(n)
+    _films(load, curvature, speed, sliding, LIU_NI, native)
+    traced = jax.jit(lambda *a: mixed_film(*a, LIU_NI)[0])(
+        *(jnp.asarray(x) for x in (load, curvature, speed, sliding, speed + sliding / 2, speed - sliding / 2))
+    )
+    np.testing.assert_allclose(native, numpy, rtol=2e-12, atol=1e-300)
+    np.testing.assert_allclose(traced, numpy, rtol=2e-12, atol=1e-300)
+
+
+def test_friction_has_a_gradient():
+    slope = jax.grad(lambda u: mixed_film(3.85e5, 111.0, u, 0.05, 0.2, 0.15, LIU_NI)[0])(0.134)
+    step = 1e-6
+    values = [mixed_film(3.85e5, 111.0, 0.134 + s, 0.05, 0.2, 0.15, LIU_NI)[0] for s in (step, -step)]
+    assert float(slope) == pytest.approx((values[0] - values[1]) / (2 * step), rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    "overrides",
+    [
+        {},
+        {"friction.sliding": "dynamic", "mesh.formulation": "energy-consistent"},
+        {"mesh.hertz": "load-dependent"},
+        {"mesh.backlash": "12 um", "friction.law": "masjedi-khonsari-as-printed"},
+        {"friction.law": "none"},
+    ],
+    ids=["default", "dynamic", "hertz", "backlash", "frictionless"],
+)
+def test_right_hand_sides_agree_over_random_states(prepared, rng, overrides):
+    model = prepared("crc-23-47", **overrides).model
+    pairs = model.table.side.shape[0]
+    work = np.zeros((QUANTITIES + pairs, pairs))
+    numbers = jax.tree.map(jnp.asarray, (model.table, model.mechanics, model.contact))
+    traced = jax.jit(
+        lambda phase, y, cycle, segment: right_hand_side(
+            phase, y, (cycle, segment, model._replace(table=numbers[0]))
+        )
+    )
+    for _ in range(40):
+        y = random_state(rng)
+        phase, segment = random_place(rng, model.table.boundary)
+        plain: dict = {}
+        derivatives(phase, 2.0, segment, y, model, {}, plain)
+        expected = np.array([plain[i] for i in range(STATES)])
+        native = np.empty(STATES)
+        rhs(phase, 2.0, segment, y, model, work, native)
+        scale = 1e-12 * np.abs(expected).max()
+        np.testing.assert_allclose(native, expected, rtol=1e-12, atol=scale)
+        np.testing.assert_allclose(traced(phase, y, 2.0, segment), expected, rtol=1e-12, atol=scale)
+
+
+def test_a_changed_number_compiles_nothing_again(prepared):
+    """JAX's right-hand side is traced once for all speeds, torques and drives of the same family and size."""
+    traces = 0
+
+    @jax.jit
+    def f(y, numbers):
+        nonlocal traces
+        traces += 1
+        table, mechanics, contact = numbers
+        model = base._replace(table=table, mechanics=mechanics, contact=contact)
+        return right_hand_side(0.3, y, (0.0, 0, model))
+
+    base = prepared("crc-23-47").model
+    others = [
+        prepared("crc-23-47", **{"operating.pinion_speed": "33 rad/s", "mesh.damping_ratio": 0.11}).model,
+        prepared("crc-23-47", **{"drive.pressure_angle": "23 deg"}).model,
+    ]
+    for model in (base, *others):
+        numbers = jax.tree.map(jnp.asarray, (model.table, model.mechanics, model.contact))
+        f(jnp.zeros(STATES), numbers)
+    assert traces == 1

@@ -1,0 +1,44 @@
+"""All solvers on the same right-hand side: one answer."""
+
+import numpy as np
+import pytest
+
+from tribodyn.dynamics.parameters import XI
+from tribodyn.scenario.load import SOLVERS
+from tribodyn.solve.initial import static_equilibrium
+from tribodyn.solve.transient import Chunk, Settings, Stop, transient
+
+CYCLES, SAMPLES = 6, 100
+
+
+def solve(model, method, rtol):
+    parts = list(
+        transient(model, static_equilibrium(model), Settings(method, rtol, CYCLES, 100000, SAMPLES), method)
+    )
+    assert isinstance(parts[-1], Stop)
+    assert parts[-1].reason == ""
+    states = np.concatenate([part.states for part in parts if isinstance(part, Chunk)])
+    assert states.shape[0] == CYCLES * SAMPLES + 1
+    return states
+
+
+@pytest.fixture(scope="module", params=["10 rad/s", "300 rad/s"])
+def reference(request, prepared):
+    model = prepared("crc-23-47", **{"operating.pinion_speed": request.param}).model
+    return model, solve(model, "dop853", 1e-11)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("method", sorted(set(SOLVERS) - {"auto"}))
+def test_dte_agrees_to_1e_4_of_its_range_at_rtol_1e_7(reference, method):
+    model, exact = reference
+    ours = solve(model, method, 1e-7)
+    error = np.max(np.abs(ours[:, XI] - exact[:, XI])) / np.ptp(exact[:, XI])
+    assert error < 1e-4
+
+
+def test_native_and_scipy_agree(prepared):
+    """The quick part of the same: two independent codes at a tight tolerance."""
+    model = prepared("crc-23-47", **{"operating.pinion_speed": "300 rad/s"}).model
+    native, scipy = solve(model, "dopri5", 1e-9), solve(model, "dop853", 1e-9)
+    assert np.max(np.abs(native[:, XI] - scipy[:, XI])) / np.ptp(scipy[:, XI]) < 1e-6

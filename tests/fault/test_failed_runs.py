@@ -1,0 +1,67 @@
+"""A solver that gives up leaves a partial record, says when and why, and exits with 3."""
+
+import numpy as np
+import pytest
+
+from tribodyn import simulate
+from tribodyn.errors import SimulationError
+from tribodyn.record.reader import open_record
+from tribodyn.scenario.load import load_scenario
+from tribodyn.solve.initial import static_equilibrium
+
+
+def run(folder, **overrides):
+    return simulate.run(load_scenario("crc-23-47", overrides), folder / "out.h5")
+
+
+@pytest.mark.parametrize("method", ["dopri5", "lsoda", "radau"])
+def test_too_many_steps(tmp_path, method):
+    result = run(tmp_path, **{"solver.method": method, "solver.max_steps": 40, "solver.cycles": 3})
+    assert result.status == "failed"
+    assert "solver.max_steps" in result.message
+    assert "t = " in result.message
+    assert result.path == tmp_path / "out.partial.h5"
+    assert not (tmp_path / "out.h5").exists()
+    record = open_record(result.path)
+    assert record.status == "failed"
+    assert record.message == result.message
+    assert np.all(np.isfinite(record["time"]))
+
+
+def test_a_pinion_that_stalls(tmp_path):
+    """A motor far too weak: the pinion comes to rest, and what was done until then is kept."""
+    result = run(
+        tmp_path,
+        **{
+            "operating.source": "torque",
+            "operating.pinion_torque": "1 N*m",
+            "operating.drive_inertia": "0.05 kg*m**2",
+            "solver.cycles": 20,
+        },
+    )
+    assert result.status == "failed"
+    assert "came to rest" in result.message
+    record = open_record(result.path)
+    assert 1 < record.samples < 20 * 200
+    speed = np.asarray(record["velocity"])[:, 4]
+    assert np.all(speed > 0)
+    assert speed[-1] < speed[0]
+    for name in ("pinion_angle", "transmission_error_rotational", "power_in"):
+        assert np.all(np.isfinite(record[name]))
+
+
+def test_no_equilibrium_at_the_start(prepared):
+    """A load that pulls the flanks apart, without back flanks to catch it."""
+    model = prepared("crc-23-47").model
+    model = model._replace(mechanics=model.mechanics._replace(load_torque=-100.0))
+    with pytest.raises(SimulationError, match="equilibrium"):
+        static_equilibrium(model)
+
+
+def test_failures_name_the_time_they_happen_at(tmp_path):
+    result = run(tmp_path, **{"solver.max_steps": 500, "solver.cycles": 3})
+    record = open_record(result.path)
+    assert result.status == "failed"
+    stated = float(result.message.split("t = ")[1].split(" s")[0])
+    assert stated >= record["time"][-1] - 1e-12
+    assert stated < record["time"][-1] + 2 * (record["time"][1] - record["time"][0])

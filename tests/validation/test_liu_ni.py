@@ -1,0 +1,76 @@
+"""Liu & Ni (2022): every row of the published table, from runs of the shipped scenarios."""
+
+import pytest
+
+from tribodyn.validation import validate
+from tribodyn.validation.rows import compare, published
+
+
+@pytest.fixture(scope="module")
+def rows(tmp_path_factory):
+    return {row.id: row for row in validate("liu-ni-2022", folder=tmp_path_factory.mktemp("liu-ni"))}
+
+
+def test_every_row_is_there_and_none_fails(rows):
+    assert set(rows) == set(published("liu-ni-2022"))
+    assert [row.id for row in rows.values() if row.verdict == "fail"] == []
+
+
+def test_every_number_is_within_its_published_tolerance(rows):
+    for row in rows.values():
+        if row.tolerance is None:
+            continue
+        off = row.computed - row.published
+        if row.tolerance_kind == "relative":
+            off /= row.published
+        assert abs(off) <= row.tolerance, row.id
+
+
+#: Check values of physics.md from separate prototypes of the restored equations: 6-DOF, pair 1 / pair 0.
+INDEPENDENT = {
+    "liu-ni/load-stcp-6dof": (7694.0, 0.003),
+    "liu-ni/friction-pair1-crc": (531.0, 0.03),
+    "liu-ni/friction-pair0-crc": (192.0, 0.03),
+    "liu-ni/friction-pair1-involute": (474.0, 0.03),
+    "liu-ni/friction-pair0-involute": (240.0, 0.03),
+    "liu-ni/efficiency-crc": (0.9882, 0.0005),
+    "liu-ni/efficiency-involute": (0.9867, 0.0005),
+}
+
+
+@pytest.mark.parametrize("key", INDEPENDENT)
+def test_numbers_agree_with_an_independent_prototype(rows, key):
+    expected, relative = INDEPENDENT[key]
+    assert rows[key].computed == pytest.approx(expected, rel=relative)
+
+
+def test_claims_carry_their_figures(rows):
+    claims = [row for row in rows.values() if row.tolerance_kind == "claim"]
+    assert len(claims) == 7
+    for row in claims:
+        assert row.verdict in ("pass", "reported")
+        assert row.note
+
+
+@pytest.mark.parametrize(
+    ("computed", "kind", "tolerance", "verdict"),
+    [
+        (1.02, "relative", 0.03, "pass"),
+        (1.05, "relative", 0.03, "fail"),
+        (1.02, "absolute", 0.01, "fail"),
+        (1.02, "absolute", None, "reported"),
+        (True, "claim", None, "pass"),
+        (False, "claim", None, "reported"),
+    ],
+)
+def test_verdicts(computed, kind, tolerance, verdict):
+    row = {
+        "id": "x",
+        "quantity": "",
+        "unit": "1",
+        "published": True if kind == "claim" else 1.0,
+        "tolerance": tolerance,
+        "tolerance_kind": kind,
+        "note": "",
+    }
+    assert compare(row, computed).verdict == verdict

@@ -1,0 +1,218 @@
+"""From a case to a model ready to integrate: geometry checked, mesh cycle tabulated, numbers assembled."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.case import Case
+from tribodyn.dynamics.parameters import (
+    CLASSICAL,
+    DRIVE_SHAFT,
+    DRIVE_SPEED,
+    DRIVE_TORQUE,
+    ENERGY_CONSISTENT,
+    HERTZ_IN_TABLE,
+    HERTZ_POWER_LAW,
+    SLIDING_DYNAMIC,
+    SLIDING_KINEMATIC,
+    Mechanics,
+    Model,
+    Options,
+)
+from tribodyn.mesh_cycle import MeshCycle, polynomials
+from tribodyn.tribology.contact import Contact
+
+#: Gauss-Seidel sweeps from the tabulated inverse: only pairs about to separate need more than one.
+SWEEPS = 3
+#: With a load-dependent Hertz contact the inverse is no more than a guess, wrong by about a tenth.
+SWEEPS_NONLINEAR = 12
+
+
+class Prepared(NamedTuple):
+    """A case made ready to integrate.
+
+    Attributes
+    ----------
+    case : Case
+    cycle : MeshCycle
+    model : Model
+    masses : tuple of (mass kg, inertia kg m²)
+        Of pinion and gear alone, without what is attached to them.
+    """
+
+    case: Case
+    cycle: MeshCycle
+    model: Model
+    masses: tuple[tuple[float, float], tuple[float, float]]
+
+    @property
+    def mesh_cycle(self) -> MeshCycle:
+        """The table that the model was made from."""
+        return self.cycle
+
+
+def prepare(case: Case) -> Prepared:
+    """Check the geometry, tabulate the mesh cycle and assemble the model.
+
+    Raises
+    ------
+    InputError
+        Where the teeth cannot be made or cannot run together, or a table does not cover the contact.
+    """
+    from tribodyn.geometry.body import mass_and_inertia
+    from tribodyn.geometry.checks import check
+    from tribodyn.scenario.load import family
+    from tribodyn.tabulate import pair_slots, tabulate
+
+    teeth = family(case.family)
+    check(teeth, case.drive)
+    cycle = tabulate(
+        teeth,
+        case.drive,
+        case.materials,
+        case.mesh,
+        pairs=pair_slots(teeth, case.drive),
+        back=case.mesh.backlash is not None,
+    )
+    masses = []
+    for given, side, material in zip(case.masses, ("pinion", "gear"), case.materials, strict=True):
+        mass, inertia = given.mass, given.inertia
+        if mass is None or inertia is None:
+            computed = mass_and_inertia(teeth, case.drive, side, material.density)
+            mass = computed[0] if mass is None else mass
+            inertia = computed[1] if inertia is None else inertia
+        masses.append((float(mass), float(inertia)))
+    pinion, gear = masses
+    model = Model(
+        polynomials(cycle),
+        _mechanics(case, pinion, gear, cycle),
+        _contact(case),
+        _options(case, cycle),
+    )
+    return Prepared(case, cycle, model, (pinion, gear))
+
+
+def _options(case: Case, cycle: MeshCycle) -> Options:
+    from tribodyn.scenario.load import friction_law
+
+    drive = DRIVE_SPEED
+    if case.operating.source == "torque":
+        drive = DRIVE_TORQUE if case.operating.shaft_stiffness is None else DRIVE_SHAFT
+    coupled = bool(np.any(np.asarray(cycle.coupling) != 0.0))
+    linear = float(cycle.hertz_coefficient) == 0.0
+    return Options(
+        friction_law=friction_law(case.friction.law).code,
+        sliding=SLIDING_DYNAMIC if case.friction.sliding == "dynamic" else SLIDING_KINEMATIC,
+        formulation=ENERGY_CONSISTENT if case.mesh.formulation == "energy-consistent" else CLASSICAL,
+        drive=drive,
+        hertz=HERTZ_IN_TABLE if linear else HERTZ_POWER_LAW,
+        sweeps=1 if not coupled else SWEEPS if linear else SWEEPS_NONLINEAR,
+    )
+
+
+def _contact(case: Case) -> Contact:
+    from tribodyn.scenario.load import friction_law
+
+    law = friction_law(case.friction.law)
+    pinion, gear = case.materials
+    compliance = [(1 - m.poisson_ratio**2) / m.youngs_modulus for m in case.materials]
+    # the printed Peclet number has no heat capacity in it; 1 J/(m³ K) is what that amounts to
+    heat = [m.density * m.specific_heat if law.heat_capacity else 1.0 for m in case.materials]
+    lubricant = case.lubricant
+    return Contact(
+        effective_modulus=2.0 / sum(compliance),
+        hardness=min(pinion.hardness, gear.hardness),
+        roughness=case.roughness,
+        asperity_friction=lubricant.asperity_friction,
+        limiting_shear_coefficient=lubricant.limiting_shear_coefficient,
+        inlet_viscosity=lubricant.inlet_viscosity,
+        pressure_viscosity=lubricant.pressure_viscosity,
+        viscosity_pressure_index=lubricant.viscosity_pressure_index,
+        temperature_viscosity=lubricant.temperature_viscosity,
+        pinion_conductivity=pinion.thermal_conductivity,
+        gear_conductivity=gear.thermal_conductivity,
+        pinion_heat_capacity=heat[0],
+        gear_heat_capacity=heat[1],
+        coulomb_coefficient=float(case.friction.coefficient or 0.0),
+        asperity_log_factor=law.asperity_log_factor,
+        limiting_share=law.limiting_share,
+    )
+
+
+def _mechanics(
+    case: Case, pinion: tuple[float, float], gear: tuple[float, float], cycle: MeshCycle
+) -> Mechanics:
+    operating, bearings = case.operating, case.bearings
+    pinion_radius, gear_radius = float(cycle.pinion_pitch_radius), float(cycle.gear_pitch_radius)
+    equivalent_mass = pinion[1] * gear[1] / (pinion[1] * gear_radius**2 + gear[1] * pinion_radius**2)
+
+    def damping(ratio: float, stiffness: float, mass: float) -> float:
+        return 2.0 * ratio * float(np.sqrt(stiffness * mass))
+
+    rigid = 0.0 if operating.shaft_stiffness is not None else operating.drive_inertia
+    balance = operating.gear_torque * pinion_radius / gear_radius
+    times, torques = operating.torque_table or (np.empty(0), np.empty(0))
+    harmonics = np.array(operating.torque_harmonics, dtype=float).reshape(-1, 3)
+    return Mechanics(
+        pinion_mass=pinion[0],
+        gear_mass=gear[0],
+        pinion_inertia=pinion[1] + rigid,
+        gear_inertia=gear[1] + operating.load_inertia,
+        pinion_stiffness_x=bearings[0].stiffness_x,
+        pinion_stiffness_y=bearings[0].stiffness_y,
+        gear_stiffness_x=bearings[1].stiffness_x,
+        gear_stiffness_y=bearings[1].stiffness_y,
+        pinion_damping_x=damping(bearings[0].damping_ratio_x, bearings[0].stiffness_x, pinion[0]),
+        pinion_damping_y=damping(bearings[0].damping_ratio_y, bearings[0].stiffness_y, pinion[0]),
+        gear_damping_x=damping(bearings[1].damping_ratio_x, bearings[1].stiffness_x, gear[0]),
+        gear_damping_y=damping(bearings[1].damping_ratio_y, bearings[1].stiffness_y, gear[0]),
+        mesh_damping=2.0 * case.mesh.damping_ratio * float(np.sqrt(equivalent_mass)),
+        contact_width=case.mesh.contact_width,
+        reversal_width=case.friction.reversal_width,
+        nominal_speed=operating.pinion_speed,
+        drive_torque=balance if operating.pinion_torque is None else operating.pinion_torque,
+        speed_regulation=operating.speed_regulation,
+        drive_inertia=operating.drive_inertia,
+        shaft_stiffness=operating.shaft_stiffness or 0.0,
+        shaft_damping=operating.shaft_damping,
+        load_torque=operating.gear_torque,
+        load_damping=operating.load_damping,
+        load_times=np.asarray(times, dtype=float),
+        load_torques=np.asarray(torques, dtype=float),
+        load_slopes=_monotone_slopes(np.asarray(times, dtype=float), np.asarray(torques, dtype=float)),
+        load_amplitudes=np.ascontiguousarray(harmonics[:, 0]),
+        load_frequencies=np.ascontiguousarray(harmonics[:, 1]),
+        load_phases=np.ascontiguousarray(harmonics[:, 2]) + np.pi / 2.0,  # cosines, as a scenario gives them
+    )
+
+
+def _monotone_slopes(times: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Slopes of the C1 curve through the points that never overshoots; flat at both ends."""
+    if len(times) < 2:
+        return np.zeros_like(times)
+    from scipy.interpolate import PchipInterpolator
+
+    slopes = PchipInterpolator(times, values)(times, 1)
+    slopes[[0, -1]] = 0.0  # the torque is constant outside the table
+    return slopes
+
+
+def geometry_arrays(case: Case, cycle: MeshCycle) -> dict[str, Any]:
+    """Outlines, path and circles for a record's pictures, in each body's own frame, m."""
+    from tribodyn.geometry.body import gear_polygon
+    from tribodyn.geometry.drive import root_radius, tip_radius
+    from tribodyn.geometry.path import position
+    from tribodyn.scenario.load import family
+
+    teeth = family(case.family)
+    path = teeth.working_path(case.drive)
+    roll = np.linspace(float(cycle.roll_start), float(cycle.roll_end), 201)
+    x, y = position(path, path.signed_distance(roll))
+    arrays: dict[str, Any] = {"path_of_contact": np.stack([x, y], axis=-1)}
+    for side, body in (("pinion", case.drive.pinion), ("gear", case.drive.gear)):
+        arrays[f"{side}_outline"] = np.asarray(gear_polygon(teeth, case.drive, side))
+        arrays[f"{side}_tip_radius"] = float(tip_radius(case.drive, side))
+        arrays[f"{side}_root_radius"] = float(root_radius(case.drive, side))
+        arrays[f"{side}_pitch_radius"] = float(getattr(path, f"{side}_pitch_radius"))
+        arrays[f"{side}_bore_radius"] = float(body.bore_radius)
+    return arrays
