@@ -1,0 +1,50 @@
+# make demo   run the CRC drive of Liu & Ni (2022): record, summary and picture in ./demo
+# make test   lint, types and all tests, the slow ones and the speed ratios included
+# make quick  the tests that take seconds
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+# the constraints also hold for what builds the package
+INSTALL := PIP_CONSTRAINT=$(CURDIR)/constraints.txt $(BIN)/python -m pip install --quiet --disable-pip-version-check
+
+.PHONY: demo test quick lint types tests wheel clean
+
+demo: $(VENV)/.installed
+	@mkdir -p demo
+	$(BIN)/tribodyn run crc-23-47 --force --output demo/crc-23-47.h5
+
+test: lint types tests
+
+lint: $(VENV)/.testing
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+
+types: $(VENV)/.testing
+	$(BIN)/basedpyright
+
+tests: $(VENV)/.testing
+	$(BIN)/python -m pytest -n 2 --dist loadfile --benchmark-disable -m "not bench"
+	$(BIN)/python -m pytest -m bench
+
+quick: $(VENV)/.testing
+	$(BIN)/python -m pytest -n 2 --dist loadfile --benchmark-disable -m "not bench and not slow"
+
+wheel: $(VENV)/.testing
+	$(BIN)/python -m build --outdir dist
+
+$(VENV)/.created:
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' \
+	  || { echo "tribodyn needs Python 3.11 or newer: make PYTHON=python3.12 ..."; exit 1; }
+	$(PYTHON) -m venv $(VENV)
+	@touch $@
+
+$(VENV)/.installed: $(VENV)/.created pyproject.toml constraints.txt
+	$(INSTALL) --editable .
+	@touch $@
+
+$(VENV)/.testing: $(VENV)/.installed
+	$(INSTALL) --editable ".[test]"
+	@touch $@
+
+clean:
+	rm -rf $(VENV) demo dist .pytest_cache .ruff_cache .hypothesis
