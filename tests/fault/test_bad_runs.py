@@ -8,6 +8,7 @@ import time
 from pathlib import Path
 
 import pytest
+
 from tribodyn.record.reader import open_record
 
 SHORT = ("--set", "solver.cycles=1", "--set", "output.samples_per_cycle=16", "--no-plot")
@@ -86,6 +87,15 @@ def test_a_folder_that_cannot_be_written_to(tmp_path: Path):
     (line,) = ended.stderr.splitlines()
     assert line.startswith("output = closed/a.h5: the folder cannot be written to")
     assert contents(tmp_path) == {}
+
+
+@pytest.mark.skipif(not Path("/proc/self").is_dir(), reason="no folder that even root may not write to")
+def test_a_folder_in_which_no_file_can_be_made(tmp_path: Path):
+    ended = tribodyn("run", "crc-23-47", "-o", "/proc/a.h5", *SHORT, folder=tmp_path)
+    assert ended.returncode == 2
+    (line,) = ended.stderr.splitlines()
+    assert line.startswith("output = /proc/a.h5: ")
+    assert "choose another" in line
 
 
 def test_a_simulation_that_gives_up_says_when_and_keeps_what_it_has(tmp_path: Path):

@@ -1,0 +1,49 @@
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from tribodyn.cli.app import app
+
+SCENARIO = """\
+title = "a scenario"
+kind = "gear-pair"
+drive = "liu-ni-involute-23-47"
+lubricant = "liu-ni-2022"
+
+[operating]
+pinion_speed = "10 rad/s"
+gear_torque = "500 N*m"
+
+[mesh]
+compliance = "energy"
+damping_ratio = 0.05
+
+[friction]
+law = "none"
+
+[solver]
+cycles = 2
+"""
+
+
+@pytest.fixture
+def scenario(tmp_path: Path) -> Path:
+    """A sound scenario of the user's own, for mistakes to be put into."""
+    path = tmp_path / "mine.toml"
+    path.write_text(SCENARIO, encoding="utf-8")
+    return path
+
+
+@pytest.fixture
+def refused() -> Callable[..., tuple[int, list[str]]]:
+    """Run a command line in this process that prints no result; exit status and lines of stderr."""
+
+    def run(*arguments: str) -> tuple[int, list[str]]:
+        result = CliRunner().invoke(app, list(arguments))
+        assert result.stdout == ""
+        assert "Traceback" not in result.stderr
+        return result.exit_code, result.stderr.splitlines()
+
+    return run

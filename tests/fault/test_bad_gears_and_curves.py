@@ -1,0 +1,63 @@
+"""Gears that cannot be made or cannot run, and CSV files that cannot be read: one clear line each."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+Refused = Callable[..., tuple[int, list[str]]]
+
+GEOMETRY = {
+    "undercut": ("drive.pinion.teeth=13", "drive.pinion.profile_shift", "undercut", "use at least"),
+    "pointed tip": ("drive.pinion.profile_shift=1.4", "drive.pinion.", "pointed", "at most"),
+    "contact ratio": (
+        "drive.pinion.addendum=0.05",
+        "drive.pinion.addendum",
+        "contact ratio",
+        "larger addenda",
+    ),
+    "bore": ("drive.pinion.bore_radius=34 mm", "drive.pinion.bore_radius", "", ""),
+    "tip below the root": ("drive.gear.tip_radius=60 mm", "drive.gear.tip_radius", "", ""),
+    "cutter's corner": ("drive.pinion.fillet_radius=0.9", "drive.pinion.fillet_radius", "", ""),
+    "pressure angle": ("drive.pressure_angle=60 deg", "drive.pressure_angle", "45°", ""),
+}
+
+
+@pytest.mark.parametrize(("setting", "key", "rule", "remedy"), GEOMETRY.values(), ids=list(GEOMETRY))
+def test_gears_that_cannot_be(
+    refused: Refused, scenario: Path, setting: str, key: str, rule: str, remedy: str
+):
+    code, lines = refused("check", str(scenario), "--set", setting)
+    assert code == 2
+    (line,) = lines
+    file, _, rest = line.partition(": ")
+    assert file == "--set" or Path(file).is_file()
+    assert rest.startswith(key)
+    assert rule in rest
+    assert remedy in rest
+
+
+CURVES = {
+    "empty": ("# nothing\n", "line 1", "the file is empty"),
+    "no units": ("time,torque\n0,1\n1,2\n", "line 1", 'no column "time [unit]"'),
+    "no column": ("time [s],load [N*m]\n0,1\n1,2\n", "line 1", 'no column "torque [unit]"'),
+    "not a number": ("time [s],torque [N*m]\n0,1\n1,x\n", "line 3", '"x" is not a number (torque)'),
+    "short row": ("time [s],torque [N*m]\n\n0\n", "line 3", "is not a number (torque)"),
+    "one point": ("time [s],torque [N*m]\n0,1\n", "time.values", "fewer than 2 values"),
+    "not finite": ("time [s],torque [N*m]\n0,1\n1,nan\n", "torque.values.1 = nan", "not a finite number"),
+    "wrong unit": ("time [s],torque [N]\n0,1\n1,2\n", "operating.gear_torque_table", "not a unit of torque"),
+    "not sorted": ("time [s],torque [N*m]\n0,1\n0,2\n", "operating.gear_torque_table", "does not increase"),
+}
+
+
+@pytest.mark.parametrize(("text", "place", "rule"), CURVES.values(), ids=list(CURVES))
+def test_a_mistake_in_a_csv_file(refused: Refused, scenario: Path, text: str, place: str, rule: str):
+    curve = scenario.with_name("load.csv")
+    curve.write_text(text, encoding="utf-8")
+    code, lines = refused("check", str(scenario), "--set", "operating.gear_torque_table=load.csv")
+    assert code == 2
+    assert lines
+    for line in lines:
+        assert line.startswith(f"{curve}: operating.gear_torque_table")
+    assert place in lines[0]
+    assert rule in lines[0]
