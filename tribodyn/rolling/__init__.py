@@ -1,0 +1,1 @@
+"""The cycloid gear with intermediate rolling elements and a free cage (IREFC)."""
