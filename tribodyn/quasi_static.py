@@ -5,6 +5,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.elementary import namespace
+from tribodyn.iteration import iterate
 from tribodyn.mesh_cycle import MeshCycle, derivative_matrix
 
 Array = Any
@@ -51,10 +52,9 @@ def quasi_static(cycle: MeshCycle, gear_torque: Any) -> QuasiStatic:
     arms = xp.cos(cycle.pressure_angle)
     force = gear_torque / cycle.gear_pitch_radius
     identity = np.eye(cycle.compliance.shape[-1])
-    load = present * force / (present * arms).sum(axis=-1, keepdims=True)
-    active = present
-    total = stiffness = 0.0
-    for _ in range(_STEPS):
+
+    def share(state: tuple[Array, Array, Array, Array]) -> tuple[Array, Array, Array, Array]:
+        load, active, *_ = state
         contact = cycle.hertz_coefficient * xp.maximum(load, 1e-9 * force) ** -0.1
         diagonal = identity * (cycle.compliance + contact)[..., None]
         loaded = active[..., None] * active[..., None, :]
@@ -67,7 +67,11 @@ def quasi_static(cycle: MeshCycle, gear_torque: Any) -> QuasiStatic:
         load = active * (per_deflection * total[..., None] - by_gap)
         overlap = arms * total[..., None] - cycle.gap - xp.einsum("...ij,...j->...i", cycle.coupling, load)
         active = present * xp.where(xp.where(active > 0, load, overlap) > 0, 1.0, 0.0)
-    return QuasiStatic(load, total, stiffness)
+        return load, active, total, stiffness
+
+    equal = present * force / (present * arms).sum(axis=-1, keepdims=True)
+    load, _, deflection, stiffness = iterate(share, (equal, present, equal, equal), _STEPS)
+    return QuasiStatic(load, deflection, stiffness)
 
 
 def cycle_mean(cycle: MeshCycle, values: Array) -> Array:

@@ -24,6 +24,7 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.drive import SIDES, Drive, tip_radius
 from tribodyn.geometry.family import Family
 from tribodyn.geometry.path import Path, contact_limits, contact_ratio, kinematics
+from tribodyn.iteration import chebyshev_basis
 from tribodyn.mesh_cycle import MeshCycle
 
 if TYPE_CHECKING:
@@ -199,11 +200,8 @@ class _RollCurve(NamedTuple):
         """Values (…, k) at the roll angles (…), from values (2, 17, k) at the nodes; k may be missing."""
         xp = namespace(values, roll)
         approach = roll < 0
-        at = xp.where(approach, 1.0 - 2.0 * roll / self.start, 2.0 * roll / self.end - 1.0)[..., None]
-        columns = [xp.ones_like(at), at]
-        for _ in range(_DEGREE - 1):
-            columns.append(2.0 * at * columns[-1] - columns[-2])
-        basis = xp.concatenate(columns, axis=-1) @ _TO_SERIES
+        at = xp.where(approach, 1.0 - 2.0 * roll / self.start, 2.0 * roll / self.end - 1.0)
+        basis = chebyshev_basis(at, _DEGREE) @ _TO_SERIES
         if values.ndim == 3:
             approach = approach[..., None]
         return xp.where(approach, basis @ values[0], basis @ values[1])
@@ -277,7 +275,7 @@ def _coupling(
 
 
 def _transmission_error(mesh: "MeshData", phase: Array, roll: Array, curve: _RollCurve) -> Array:
-    """Static transmission error (S, N, Q), m: harmonics of the mesh phase plus the table over roll angle."""
+    """Compute the transmission error (S, N, Q), m: harmonics of the mesh phase, table over roll angle."""
     gap = 0.0 * roll
     for order, amplitude, angle in mesh.error_harmonics:
         gap = gap + (amplitude * cos(2.0 * np.pi * order * phase + angle))[..., None]

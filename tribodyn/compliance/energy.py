@@ -25,6 +25,7 @@ from tribodyn.geometry.tooth import (
     fillet_point,
     thickness_half_angle,
 )
+from tribodyn.iteration import chebyshev_basis
 
 if TYPE_CHECKING:
     from tribodyn.case import MaterialData
@@ -183,7 +184,7 @@ def tooth_compliance(loaded: LoadedTooth, material: "MaterialData", width: Any, 
     lever = x - y * tan(load_angle) - root
     along = 2.0 * (own - first) / (last - first) - 1.0
     to_form = section_integrals(*fillet, root).sum(axis=0)
-    integrals = to_form + _series(section_integrals(flank.x, flank.y, root), along)
+    integrals = to_form + chebyshev_basis(along, _DEGREE + 1) @ section_integrals(flank.x, flank.y, root)
     bending, shear, axial = beam_compliance(integrals, lever, load_angle, material.poisson_ratio)
     foundation = foundation_compliance(
         load_angle,
@@ -198,15 +199,6 @@ def tooth_compliance(loaded: LoadedTooth, material: "MaterialData", width: Any, 
     across = cos(load_angle)
     root_load = namespace(x, lever).stack([sin(load_angle), across, across * lever / root], axis=-1)
     return ToothCompliance(scale * bending, scale * shear, scale * axial, foundation, root_load)
-
-
-def _series(coefficients: Array, at: Array) -> Array:
-    """Chebyshev series (n, 4) at points in −1 … 1, by Clenshaw's recurrence; (..., 4)."""
-    at = at[..., None]
-    later, latest = 0.0 * at, 0.0 * at
-    for row in range(coefficients.shape[0] - 1, 0, -1):
-        later, latest = latest, 2.0 * at * latest - later + coefficients[row]
-    return at * latest - later + coefficients[0]
 
 
 def neighbour_coupling(loaded: LoadedTooth, material: "MaterialData", pitches: int) -> Array:
