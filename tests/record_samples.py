@@ -3,6 +3,7 @@
 from typing import Any
 
 import numpy as np
+
 from tribodyn.record.schema import DOF, SAMPLES
 
 

@@ -6,6 +6,7 @@ Loads are shared by halves, friction is Coulomb's; nothing here is meant to be e
 from pathlib import Path
 
 import numpy as np
+
 from tribodyn.record.schema import DOF, SAMPLES
 from tribodyn.record.writer import RecordWriter
 

@@ -10,6 +10,7 @@ import os
 from pathlib import Path
 
 import numba
+import numba.core.config
 import numpy as np
 from numba.extending import overload, register_jitable
 
@@ -34,7 +35,8 @@ def _cache_folder() -> Path:
     return user_cache_path("tribodyn")
 
 
-numba.config.CACHE_DIR = str(_cache_folder() / f"kernels-{_source_digest()}")  # pyright: ignore[reportAttributeAccessIssue]
+_CACHE = _cache_folder() / f"kernels-{_source_digest()}"
+numba.core.config.CACHE_DIR = str(_CACHE)  # pyright: ignore[reportAttributeAccessIssue]
 
 #: Decorator of a compiled kernel: cached between processes, IEEE division, no reordering.
 kernel = numba.njit(cache=True, error_model="numpy")

@@ -200,7 +200,7 @@ def _monotone_slopes(times: np.ndarray, values: np.ndarray) -> np.ndarray:
 def geometry_arrays(case: Case, cycle: MeshCycle) -> dict[str, Any]:
     """Outlines, path and circles for a record's pictures, in each body's own frame, m."""
     from tribodyn.geometry.body import gear_polygon
-    from tribodyn.geometry.drive import root_radius, tip_radius
+    from tribodyn.geometry.drive import SIDES, body_of, root_radius, tip_radius
     from tribodyn.geometry.path import position
     from tribodyn.scenario.load import family
 
@@ -209,7 +209,8 @@ def geometry_arrays(case: Case, cycle: MeshCycle) -> dict[str, Any]:
     roll = np.linspace(float(cycle.roll_start), float(cycle.roll_end), 201)
     x, y = position(path, path.signed_distance(roll))
     arrays: dict[str, Any] = {"path_of_contact": np.stack([x, y], axis=-1)}
-    for side, body in (("pinion", case.drive.pinion), ("gear", case.drive.gear)):
+    for side in SIDES:
+        body = body_of(case.drive, side)
         arrays[f"{side}_outline"] = np.asarray(gear_polygon(teeth, case.drive, side))
         arrays[f"{side}_tip_radius"] = float(tip_radius(case.drive, side))
         arrays[f"{side}_root_radius"] = float(root_radius(case.drive, side))

@@ -13,7 +13,8 @@ from tribodyn.errors import SimulationError
 from tribodyn.mesh_cycle import as_arrays
 from tribodyn.prepare import Prepared, geometry_arrays, prepare
 from tribodyn.solve.initial import initial_state
-from tribodyn.solve.transient import Settings, Stop, choose, transient
+from tribodyn.solve.transient import Chunk, Settings, Stop, choose, transient
+from tribodyn.summary import RunningExtremes, energy_residual, single_pair_stiffness, steady_figures
 
 __all__ = ["Prepared", "RunResult", "prepare", "run"]
 
@@ -56,7 +57,6 @@ def run(
         Before anything is written.
     """
     from tribodyn.record.writer import RecordWriter, check_target
-    from tribodyn.summary import RunningExtremes, energy_residual, single_pair_stiffness, steady_figures
 
     path = Path(output) if output is not None else Path(f"{case.name}.h5")
     check_target(path, force)
@@ -89,57 +89,59 @@ def run(
         choice = choose(case.solver.method, model, state)
         summary |= {"solver": choice.method, "solver_reason": choice.reason}
         settings = Settings(choice.method, case.solver.rtol, cycles, case.solver.max_steps, samples)
-        extremes = RunningExtremes()
-        window = _Window(max(1, cycles // 4), samples, cycles)
-        first_stored = last_stored = 0.0
-        written = 0
+        follower = _Follower(max(1, cycles // 4), cycles)
+        stop = Stop(state, 0.0, 0, 0, "", 0.0)
         for part in transient(model, state, settings, choice.method):
             if isinstance(part, Stop):
-                break
-            if len(part.cycles) == 0:
-                continue
-            block = outputs(part.cycles, part.states, model)
-            record.write(written, block)
-            if written == 0:
-                first_stored, first_state = block["stored_energy"][0], part.states[0]
-            last_stored, last_state = block["stored_energy"][-1], part.states[-1]
-            written += len(part.cycles)
-            extremes.add(block)
-            window.add(part.cycles, block)
-            if progress:
-                progress(min(1.0, written / (cycles * samples)))
-        assert isinstance(part, Stop)
-        summary |= extremes.values
-        if written:
-            summary["energy_residual"] = energy_residual(first_state, last_state, last_stored - first_stored)
-        summary |= {
-            "steps": part.steps,
-            "rhs_evaluations": part.evaluations,
+                stop = part
+            elif len(part.cycles):
+                block = outputs(part.cycles, part.states, model)
+                record.write(follower.written, block)
+                follower.add(part, block)
+                if progress:
+                    progress(min(1.0, follower.written / (cycles * samples)))
+        summary |= follower.figures() | {
+            "steps": stop.steps,
+            "rhs_evaluations": stop.evaluations,
             "wall_time": perf_counter() - begun,
-            "simulated_time": part.time,
-            "cycles_done": part.reached,
+            "simulated_time": stop.time,
+            "cycles_done": stop.reached,
         }
-        if part.reason:
-            message = str(SimulationError(part.reason, part.time))
+        if stop.reason:
+            message = str(SimulationError(stop.reason, stop.time))
             return RunResult(record.fail(message, summary), "failed", message, summary)
-        summary |= steady_figures(
-            window.arrays(), cycle, samples, case.operating.gear_torque, case.operating.pinion_speed
-        )
+        summary |= steady_figures(follower.window(), cycle, samples)
         return RunResult(record.finish(summary), "complete", "", summary)
 
 
-class _Window:
-    """Keeps the last whole mesh cycles of a run that arrives in blocks."""
+class _Follower:
+    """What the summary needs of a run that arrives in blocks: extremes, both ends, the last cycles."""
 
-    def __init__(self, cycles: int, samples: int, total: int):
+    def __init__(self, cycles: int, total: int):
         self.start = total - cycles
         self.stop = total
+        self.written = 0
+        self.extremes = RunningExtremes()
         self.blocks: list[dict[str, np.ndarray]] = []
+        self.ends: list[tuple[np.ndarray, float]] = []
 
-    def add(self, cycles: np.ndarray, block: dict[str, np.ndarray]) -> None:
-        inside = (cycles >= self.start - 1e-9) & (cycles < self.stop - 1e-9)
+    def add(self, part: Chunk, block: dict[str, np.ndarray]) -> None:
+        self.written += len(part.cycles)
+        self.extremes.add(block)
+        if not self.ends:
+            self.ends.append((part.states[0], block["stored_energy"][0]))
+        self.ends[1:] = [(part.states[-1], block["stored_energy"][-1])]
+        inside = (part.cycles >= self.start - 1e-9) & (part.cycles < self.stop - 1e-9)
         if inside.any():
             self.blocks.append({name: values[inside] for name, values in block.items()})
 
-    def arrays(self) -> dict[str, np.ndarray]:
+    def figures(self) -> dict[str, float]:
+        if not self.ends:
+            return {}
+        (first, stored_first), (last, stored_last) = self.ends
+        return self.extremes.values | {
+            "energy_residual": energy_residual(first, last, stored_last - stored_first)
+        }
+
+    def window(self) -> dict[str, np.ndarray]:
         return {name: np.concatenate([b[name] for b in self.blocks]) for name in self.blocks[0]}

@@ -71,9 +71,7 @@ def single_pair_stiffness(cycle: MeshCycle, load: float) -> float:
     return float(1.0 / (compliance + 0.9 * coefficient * max(load, 1.0) ** -0.1))
 
 
-def steady_figures(
-    window: dict[str, np.ndarray], cycle: MeshCycle, samples: int, gear_torque: float, speed: float
-) -> dict[str, Any]:
+def steady_figures(window: dict[str, np.ndarray], cycle: MeshCycle, samples: int) -> dict[str, Any]:
     """Figures of the last whole mesh cycles of a run.
 
     Parameters
@@ -83,10 +81,6 @@ def steady_figures(
     cycle : MeshCycle
     samples : int
         Samples per mesh cycle.
-    gear_torque : float
-        Load, for the dynamic factor, N m.
-    speed : float
-        Nominal pinion speed, rad/s.
     """
     front = cycle.front_pairs
     error = window["transmission_error_rotational"]
@@ -97,10 +91,13 @@ def steady_figures(
     slid = np.sum(friction * np.abs(np.nan_to_num(window["sliding_speed"][:, :front])))
     loaded = np.sum(load * np.abs(np.nan_to_num(window["sliding_speed"][:, :front])))
     touching = window["normal_load"] > 0.0
-    frequency = speed / float(cycle.pitch_angle)
+    # by the actual rotation: a driven pinion need not turn at its nominal speed
+    steps = max(len(error) - 1, 1)
+    frequency = float(steps / samples / (window["time"][-1] - window["time"][0]))
     orders, amplitudes = amplitude_spectrum(error, samples)
     power_in, power_friction = np.mean(window["power_in"]), np.mean(window["power_friction"])
-    static = abs(gear_torque) / float(cycle.gear_pitch_radius)
+    load_torque = abs(np.mean(window["power_out"]) / np.mean(window["velocity"][:, -1]))
+    static = float(load_torque / cycle.gear_pitch_radius)
     keep = orders <= 20.0 + 1e-9
     return {
         "averaging_cycles": len(error) // samples,

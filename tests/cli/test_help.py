@@ -6,9 +6,10 @@ import subprocess
 import sys
 
 import pytest
-from tribodyn.cli.app import app
 from typer.main import get_command
 from typer.testing import CliRunner
+
+from tribodyn.cli.app import app
 
 VERBS = ("run", "check", "show", "plot", "list", "init", "schema", "validate")
 HEAVY = ("numpy", "scipy", "jax", "diffrax", "numba", "pydantic", "pint", "h5py", "matplotlib", "rich")

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
+
 from tribodyn.record.reader import open_record
 from tribodyn.scenario.sources import names, shipped
 

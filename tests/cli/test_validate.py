@@ -3,10 +3,11 @@
 import json
 
 import pytest
+from typer.testing import CliRunner
+
 import tribodyn.validation
 from tribodyn.cli.app import app
 from tribodyn.validation.rows import Row
-from typer.testing import CliRunner
 
 ROW = Row("a/load", "normal load", "N", 100.0, 101.0, 0.01, 0.02, "relative", "pass", "a note")
 ROWS = [ROW, ROW._replace(id="a/claim", published=True, computed=False, difference=None, verdict="reported")]

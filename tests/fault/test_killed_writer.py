@@ -6,6 +6,7 @@ from pathlib import Path
 
 import h5py
 import numpy as np
+
 from tests.record_samples import block
 from tribodyn.record.reader import open_record
 

@@ -5,6 +5,7 @@ from typing import Any
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
 from tribodyn.errors import InputError
 from tribodyn.scenario.load import load_scenario
 from tribodyn.scenario.messages import InputErrors

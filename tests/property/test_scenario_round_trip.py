@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
 from tribodyn.scenario.load import load_scenario
 
 POSITIVE = st.floats(1e-3, 1e3)

@@ -87,7 +87,7 @@ def outputs(cycles: np.ndarray, states: np.ndarray, model: Model) -> dict[str, n
     )
 
     # efficiency is defined by the nominal sliding; power_friction is the work on the vibrating bodies
-    sliding_loss = sum(work[contact.FRICTION_FORCE, i] * work[contact.SLIDING, i] for i in range(pairs))
+    sliding_loss = np.sum(per_pair(contact.FRICTION_FORCE) * per_pair(contact.SLIDING), axis=1)
 
     def contacting(values: np.ndarray, mask: np.ndarray = touching) -> np.ndarray:
         return np.where(mask, values, np.nan)

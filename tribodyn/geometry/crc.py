@@ -19,6 +19,7 @@ from tribodyn.elementary import namespace, sin, sqrt
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, Side, reference_radius, tip_radius
 from tribodyn.geometry.family import Family
+from tribodyn.geometry.iteration import newton
 from tribodyn.geometry.path import Path, integrated_rotation, inverted_rotation, mirrored
 
 Array = Any
@@ -36,19 +37,17 @@ _SLOPE = _VALUE[:, :DEGREE] @ _DERIVATIVE
 
 
 def chebyshev_basis(x: Array) -> Array:
-    """T_0(x) … T_DEGREE(x) along a new last axis, by doubling: T_(n+j) = 2 T_n T_j − T_(n−j)."""
+    """Evaluate T_0(x) … T_DEGREE(x) along a new last axis, as cos(k arccos x); constant beyond −1 … 1."""
     xp = namespace(x)
-    x = xp.asarray(x)[..., None]
-    basis = xp.concatenate([xp.ones_like(x), x], axis=-1)
-    while (n := basis.shape[-1] - 1) < DEGREE:
-        count = min(n, DEGREE - n)
-        higher = 2 * basis[..., n:] * basis[..., 1 : count + 1] - basis[..., n - count : n][..., ::-1]
-        basis = xp.concatenate([basis, higher], axis=-1)
-    return basis
+    # One rounding error inside, so that the derivative of arccos stays finite.
+    angle = xp.arccos(xp.clip(xp.asarray(x), -1 + 1e-15, 1 - 1e-15))
+    return xp.cos(angle[..., None] * np.arange(DEGREE + 1))
 
 
 class CRCPath(NamedTuple):
     """Path of contact whose equivalent radius is the same everywhere.
+
+    It is known from `lower` to `upper` only; beyond them α keeps its last value and nothing else holds.
 
     Parameters
     ----------
@@ -92,22 +91,22 @@ class CRCPath(NamedTuple):
 
 def solve(ratio: Any, lower: Any, upper: Any) -> Array:
     """Chebyshev coefficients of a(ξ) over lower … upper for w = `ratio`, by fixed Newton steps."""
-    xp = namespace(ratio, lower, upper)
     half = (upper - lower) / 2
-    xi = (lower + upper) / 2 + half * _POINTS
-    slope = _SLOPE / half
-    product = xi[:, None] * slope + _VALUE
     # Start on the first two terms of the series about the pitch point.
     kappa = (ratio - 1) / 3
-    start = np.zeros(DEGREE + 1)
     constant, linear = np.eye(DEGREE + 1)[:2]
-    coefficients = start + (1 + kappa * (lower + upper) / 2) * constant + kappa * half * linear
-    for _ in range(_NEWTON_STEPS):
-        p = product @ coefficients
-        residual = p**2 + (1 - ratio) * xi * p - ratio * xi**2 - _VALUE @ coefficients
-        jacobian = (2 * p + (1 - ratio) * xi)[:, None] * product - _VALUE
-        coefficients = coefficients - xp.linalg.solve(jacobian, residual)
-    return coefficients
+    start = (1 + kappa * (lower + upper) / 2) * constant + kappa * half * linear
+    return newton(_step, start, _NEWTON_STEPS, ratio, (lower + upper) / 2, half)
+
+
+def _step(coefficients: Array, ratio: Any, middle: Any, half: Any) -> Array:
+    xp = namespace(coefficients, ratio, middle, half)
+    xi = middle + half * _POINTS
+    product = xi[:, None] * _SLOPE / half + _VALUE
+    p = product @ coefficients
+    residual = p**2 + (1 - ratio) * xi * p - ratio * xi**2 - _VALUE @ coefficients
+    jacobian = (2 * p + (1 - ratio) * xi)[:, None] * product - _VALUE
+    return coefficients - xp.linalg.solve(jacobian, residual)
 
 
 def reach(ratio: Any, height: Any) -> Any:
@@ -116,7 +115,7 @@ def reach(ratio: Any, height: Any) -> Any:
     The height rises monotonically with ξ at the rate p > 0; a coarse fourth-order march is enough, for the
     result only bounds the interval of the solution.
     """
-    steps = 16
+    steps = 4
     step = height / steps
 
     def rate(h: Any, xi: Any) -> Any:

@@ -7,6 +7,7 @@ from tribodyn.elementary import cos, namespace, sin, sqrt, tan
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, Side, body_of, reference_radius, tip_radius
 from tribodyn.geometry.family import Family
+from tribodyn.geometry.iteration import newton
 from tribodyn.geometry.path import Path
 
 Array = Any
@@ -55,10 +56,8 @@ def inverse_involute(value: Array) -> Array:
     value = xp.asarray(value)
     root = value ** (1 / 3)
     # Inverse of the power series tan α − α = α³/3 + 2α⁵/15 + …
-    angle = 3 ** (1 / 3) * root - 0.4 * value
-    for _ in range(6):
-        angle = angle - (tan(angle) - angle - value) / tan(angle) ** 2
-    return angle
+    start = 3 ** (1 / 3) * root - 0.4 * value
+    return newton(lambda a, inv: a - (tan(a) - a - inv) / tan(a) ** 2, start, 6, value)
 
 
 def working_pressure_angle(drive: Drive) -> Any:

@@ -12,14 +12,15 @@ import numpy as np
 
 from tribodyn.elementary import cos, namespace, sin, sqrt
 from tribodyn.geometry.drive import Side
+from tribodyn.geometry.iteration import newton
 
 Array = Any
 
-# Twenty Gauss-Legendre points resolve 1/(r_p cos α) from P to any contact to rounding (test_geometry_path).
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)
+# Twelve Gauss-Legendre points resolve 1/(r_p cos α) from P to any contact to rounding (test_geometry_path).
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
 _NODES, _WEIGHTS = (1 + _NODES) / 2, _WEIGHTS / 2
-# Newton starts within a few per cent of the root, so that the error is at rounding after five steps.
-_NEWTON_STEPS = 8
+# Newton starts within a few per cent of the root: the error is at rounding after four steps.
+_NEWTON_STEPS = 6
 
 
 class Path(Protocol):
@@ -144,13 +145,16 @@ def distance_at_radius(path: Path, pinion_radius: Array) -> Array:
     r_p = path.pinion_pitch_radius
     arm = r_p * sin(path.pressure_angle(xp.zeros_like(xp.asarray(pinion_radius, dtype=float))))
     # Start on the straight path with the pitch point's pressure angle.
-    r = sqrt(xp.maximum(arm**2 + pinion_radius**2 - r_p**2, (1e-3 * arm) ** 2)) - arm
-    for _ in range(_NEWTON_STEPS):
-        alpha = path.pressure_angle(r)
-        residual = r**2 + 2 * r_p * r * sin(alpha) + r_p**2 - pinion_radius**2
-        slope = 2 * (r + r_p * sin(alpha) + r * r_p * cos(alpha) * path.pressure_angle_slope(r))
-        r = r - residual / slope
-    return r
+    start = sqrt(xp.maximum(arm**2 + pinion_radius**2 - r_p**2, (1e-3 * arm) ** 2)) - arm
+    return newton(_step_to_radius, start, _NEWTON_STEPS, path, pinion_radius)
+
+
+def _step_to_radius(r: Array, path: Path, pinion_radius: Array) -> Array:
+    r_p = path.pinion_pitch_radius
+    alpha = path.pressure_angle(r)
+    residual = r**2 + 2 * r_p * r * sin(alpha) + r_p**2 - pinion_radius**2
+    slope = 2 * (r + r_p * sin(alpha) + r * r_p * cos(alpha) * path.pressure_angle_slope(r))
+    return r - residual / slope
 
 
 def contact_limits(path: Path, pinion_tip_radius: Array, gear_tip_radius: Array) -> tuple[Array, Array]:
@@ -184,11 +188,13 @@ def inverted_rotation(path: Path, rotation: Array) -> Array:
     """r(φ) by Newton's method: `signed_distance` for a family without a closed form."""
     xp = namespace(path, rotation)
     rotation = xp.asarray(rotation)
-    r = rotation * path.pinion_pitch_radius * cos(path.pressure_angle(xp.zeros_like(rotation)))
-    for _ in range(_NEWTON_STEPS):
-        residual = path.rotation(r) - rotation
-        r = r - residual * path.pinion_pitch_radius * cos(path.pressure_angle(r))
-    return r
+    start = rotation * path.pinion_pitch_radius * cos(path.pressure_angle(xp.zeros_like(rotation)))
+    return newton(_step_to_rotation, start, _NEWTON_STEPS, path, rotation)
+
+
+def _step_to_rotation(r: Array, path: Path, rotation: Array) -> Array:
+    residual = path.rotation(r) - rotation
+    return r - residual * path.pinion_pitch_radius * cos(path.pressure_angle(r))
 
 
 class MirroredPath(NamedTuple):

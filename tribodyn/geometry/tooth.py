@@ -17,6 +17,7 @@ import numpy as np
 from tribodyn.elementary import arctan2, cos, namespace, sin, sqrt, tan
 from tribodyn.geometry.drive import Drive, Side, body_of, tip_radius
 from tribodyn.geometry.family import Family
+from tribodyn.geometry.iteration import newton
 from tribodyn.geometry.path import Path, distance_at_radius, kinematics, position, radius
 
 Array = Any
@@ -38,7 +39,8 @@ class Tooth(NamedTuple):
     form_angle : float
         Angle of the rack's normal where the fillet ends at the flank, rad; it grows to π/2 at the root.
     overrun : float
-        How far the rack's flank reaches beyond the point of zero velocity, m; positive: undercut.
+        −u_p where the rack's flank ends, m per rad: positive if it reaches beyond the point of zero velocity,
+        by this distance for the involute, and undercuts the tooth.
     corner_x, corner_y : float
         Centre of the rack's rounded tip in the rack's frame at φ = 0, m.
     corner_radius : float
@@ -122,7 +124,6 @@ def cut_tooth(family: Family, drive: Drive, side: Side) -> Tooth:
     tangent_angle = path.pressure_angle(tangent_distance)
     tangent_x, tangent_y = position(path, tangent_distance)
     corner_x = tangent_x - pitch_radius * path.rotation(tangent_distance) + rounding * cos(tangent_angle)
-    flank = kinematics(path, tangent_distance)
     tip = tip_radius(drive, side)
     tangent = Tooth(
         path=path,
@@ -130,7 +131,7 @@ def cut_tooth(family: Family, drive: Drive, side: Side) -> Tooth:
         form_distance=tangent_distance,
         tip_distance=distance_at_radius(path, tip),
         form_angle=tangent_angle,
-        overrun=-1 / flank.pinion_curvature,
+        overrun=-kinematics(path, tangent_distance).pinion_speed,
         corner_x=corner_x,
         corner_y=tangent_y + rounding * sin(tangent_angle),
         corner_radius=rounding,
@@ -150,13 +151,15 @@ def _tangent_distance(path: Path, depth: Any, rounding: Any) -> Any:
     """
     xp = namespace(path, depth, rounding)
     alpha = path.pressure_angle(xp.zeros_like(xp.asarray(depth, dtype=float)))
-    r = (rounding - depth) / sin(alpha) - rounding
-    for _ in range(_NEWTON_STEPS):
-        alpha = path.pressure_angle(r)
-        residual = (r + rounding) * sin(alpha) + depth - rounding
-        slope = sin(alpha) + (r + rounding) * cos(alpha) * path.pressure_angle_slope(r)
-        r = r - residual / slope
-    return r
+    start = (rounding - depth) / sin(alpha) - rounding
+    return newton(_step_to_tangency, start, _NEWTON_STEPS, path, depth, rounding)
+
+
+def _step_to_tangency(r: Array, path: Path, depth: Any, rounding: Any) -> Array:
+    alpha = path.pressure_angle(r)
+    residual = (r + rounding) * sin(alpha) + depth - rounding
+    slope = sin(alpha) + (r + rounding) * cos(alpha) * path.pressure_angle_slope(r)
+    return r - residual / slope
 
 
 def _ended_by_undercut(tooth: Tooth) -> Tooth:
@@ -170,27 +173,35 @@ def _ended_by_undercut(tooth: Tooth) -> Tooth:
     undercut = tooth.overrun > 0
     overrun = xp.where(undercut, tooth.overrun, -0.1 * tooth.form_distance)
     lowest = tooth.form_distance + overrun
-    r, normal = lowest + 0.4 * overrun, tooth.form_angle
     # The fillet's point at the radius of the flank's first: R² falls by (1 − 0.4²) d².
-    rate, _ = _fillet_tangent(tooth, normal)
-    normal = normal - 0.42 * overrun**2 / (rate * tooth.path.pinion_pitch_radius * cos(normal))
-    for _ in range(_NEWTON_STEPS):
-        flank_rate, flank_angle = _flank_tangent(tooth, r)
-        fillet_rate, fillet_angle = _fillet_tangent(tooth, normal)
-        gap_x, gap_y = (
-            a - b for a, b in zip(flank_point(tooth, r), fillet_point(tooth, normal), strict=True)
-        )
-        crossing = sin(flank_angle - fillet_angle)
-        crossing = xp.where(xp.abs(crossing) > 1e-12, crossing, 1e-12)
-        r = r - (gap_x * sin(fillet_angle) + gap_y * cos(fillet_angle)) / (-crossing * flank_rate)
-        normal = normal + (gap_x * sin(flank_angle) + gap_y * cos(flank_angle)) / (crossing * fillet_rate)
-        r = xp.clip(r, lowest + 0.01 * overrun, lowest + overrun)
-        normal = xp.clip(normal, tooth.form_angle, np.pi / 2)
+    rate, _ = _fillet_tangent(tooth, tooth.form_angle)
+    arm = tooth.path.pinion_pitch_radius * cos(tooth.form_angle)
+    start = (lowest + 0.4 * overrun, tooth.form_angle - 0.42 * overrun**2 / (rate * arm))
+
+    r, normal = newton(_step_to_crossing, start, _NEWTON_STEPS, tooth, overrun)
     r = xp.where(undercut, r, tooth.form_distance)
     return tooth._replace(
         form_distance=r,
         form_angle=xp.where(undercut, normal, tooth.form_angle),
         form_radius=radius(tooth.path, r),
+    )
+
+
+def _step_to_crossing(state: tuple[Array, Array], tooth: Tooth, overrun: Any) -> tuple[Array, Array]:
+    xp = namespace(state, tooth)
+    r, normal = state
+    flank_rate, flank_angle = _flank_tangent(tooth, r)
+    fillet_rate, fillet_angle = _fillet_tangent(tooth, normal)
+    flank, fillet = flank_point(tooth, r), fillet_point(tooth, normal)
+    gap_x, gap_y = flank[0] - fillet[0], flank[1] - fillet[1]
+    crossing = sin(flank_angle - fillet_angle)
+    crossing = xp.where(xp.abs(crossing) > 1e-12, crossing, 1e-12)
+    r = r + (gap_x * sin(fillet_angle) + gap_y * cos(fillet_angle)) / (crossing * flank_rate)
+    normal = normal + (gap_x * sin(flank_angle) + gap_y * cos(flank_angle)) / (crossing * fillet_rate)
+    lowest = tooth.form_distance + overrun
+    return (
+        xp.clip(r, lowest + 0.01 * overrun, lowest + overrun),
+        xp.clip(normal, tooth.form_angle, np.pi / 2),
     )
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError
+from tribodyn.scenario.kinds import table_of
 from tribodyn.scenario.messages import Key, Origins
 from tribodyn.scenario.schema import defaults_written_out
 from tribodyn.scenario.sources import find_model, is_file, printable, quoted, read_curve, read_toml
@@ -66,7 +67,7 @@ def resolve(path: Path, overrides: Mapping[str, Any]) -> Resolved:
             _put_content(data, origins, path, key)
         except InputError as error:
             errors.append(origins.locate(error))
-    return Resolved(defaults_written_out(data), origins, errors)
+    return Resolved(defaults_written_out(data, table_of(data)), origins, errors)
 
 
 def toml_value(text: str) -> Any:

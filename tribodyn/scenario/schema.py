@@ -30,6 +30,8 @@ TorsionalDamping = Annotated[float, Quantity(units.not_negative(units.TORSIONAL_
 Angle = Annotated[float, Quantity(units.ANGLE_KIND)]
 SignedLength = Annotated[float, Quantity(units.LENGTH)]
 RollAngles = Annotated[Column, units.ANGLE_KIND]
+Name = Annotated[str, Field(strict=True, pattern=r"^\w[\w .-]*$")]
+"""A scenario's name, which also names its record."""
 
 
 class TorqueCurve(Curve):
@@ -162,9 +164,7 @@ class Scenario(Table):
     """A scenario file."""
 
     title: Text = Field(description="what it shows, in a line")
-    name: Annotated[str, Field(strict=True, pattern=r"^\w[\w .-]*$")] | None = Field(
-        None, description="names the record; default: the file's own name"
-    )
+    name: Name | None = Field(None, description="names the record; default: the file's own name")
     kind: Literal["gear-pair"] = "gear-pair"
     drive: Annotated[DriveTable, Reference("name of a file in models/drives, or a path")]
     lubricant: Annotated[Lubricant, Reference("name of a file in models/lubricants, or a path")]

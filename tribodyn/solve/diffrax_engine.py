@@ -103,7 +103,7 @@ def _march(method, options, cycles, most, numbers, y, first_cycle, restart, at, 
             throw=False,
             event=diffrax.Event(lambda t, y, args, **kwargs: mechanics.nominal_speed + y[SLIP] <= 0.0),
         )
-        states = solution.ys
+        states: Any = solution.ys
         reached = solution.stats["num_steps"]
         failed = (
             (solution.result != diffrax.RESULTS.successful)

@@ -85,7 +85,7 @@ def _numbers(crc: Steady, involute: Steady, crc_dry: Steady) -> dict[str, tuple[
     spectrum = crc_dry.summary["spectrum_amplitudes"], crc_dry.summary["spectrum_frequencies"]
     first = 1 + int(np.argmax(spectrum[0][1:]))
     friction_crc, friction_involute = (s.summary["friction_force_mean"] for s in (crc, involute))
-    weak = "bearings 1e9 N/m; variants and sensitivities: docs/validation.md"
+    weak = "bearings 1e9 N/m"
     return {
         "liu-ni/contact-ratio-crc": (crc.contact_ratio, ""),
         "liu-ni/contact-ratio-involute": (involute.contact_ratio, ""),
