@@ -1,5 +1,7 @@
 """Where a run starts: the static equilibrium under load, or the unloaded position."""
 
+from typing import Any
+
 import numpy as np
 
 from tribodyn.dynamics.equations import derivatives
@@ -24,12 +26,18 @@ from tribodyn.dynamics.parameters import (
 from tribodyn.errors import SimulationError
 
 
-def accelerations(y: np.ndarray, phase: float, segment: int, model: Model) -> np.ndarray:
-    """Derivatives of the state per mesh cycle, as an array; plain Python, for a few evaluations."""
-    work: dict = {}
-    rates: dict = {}
-    derivatives(phase, 0.0, segment, y, model, work, rates)
-    return np.array([float(rates[i]) for i in range(STATES)])
+def accelerations(states: np.ndarray, phase: Any, segment: Any, model: Model) -> np.ndarray:
+    """Derivatives of states per mesh cycle, many at once and without compiled code.
+
+    Parameters
+    ----------
+    states : (..., STATES)
+    phase, segment : float and int, or (...)
+        Where in the mesh cycle each state stands.
+    """
+    rates: dict[int, Any] = {}
+    derivatives(phase, 0.0, segment, np.moveaxis(states, -1, 0), model, {}, rates)
+    return np.stack([np.broadcast_to(rates[i], states.shape[:-1]) for i in range(STATES)], axis=-1)
 
 
 def static_deflection(model: Model, torque: float) -> float:
@@ -69,24 +77,21 @@ def static_equilibrium(model: Model, phase: float = 0.0, segment: int = 0) -> np
         y[TWIST] = scale[-1]
 
     def residual(values: np.ndarray) -> np.ndarray:
-        state = y.copy()
-        state[unknown] = values
-        rate = accelerations(state, phase, segment, model)
-        out = rate[equation]
-        return np.append(out, rate[MOTOR_SLIP] - rate[SLIP]) if shaft else out
+        states = np.broadcast_to(y, (*values.shape[:-1], STATES)).copy()
+        states[..., unknown] = values
+        rate = accelerations(states, phase, segment, model)
+        if not shaft:
+            return rate[..., equation]
+        twisting = rate[..., MOTOR_SLIP] - rate[..., SLIP]
+        return np.concatenate([rate[..., equation], twisting[..., None]], axis=-1)
 
     values = y[unknown]
-    start = np.linalg.norm(residual(values))
     value = residual(values)
+    start = np.linalg.norm(value)
+    steps = 1e-5 * np.diag(scale)
     for _ in range(60):
         size = np.linalg.norm(value)
-        jacobian = np.stack(
-            [
-                (residual(values + 1e-5 * s * unit) - value) / (1e-5 * s)
-                for s, unit in zip(scale, np.eye(len(values)), strict=True)
-            ],
-            axis=1,
-        )
+        jacobian = ((residual(values + steps) - value) / (1e-5 * scale[:, None])).T
         if np.linalg.matrix_rank(jacobian) < len(values):
             break  # the flanks are apart: nothing resists
         change = np.linalg.solve(jacobian, -value)

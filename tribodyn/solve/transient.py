@@ -74,26 +74,27 @@ def stability_steps(model: Model, state: np.ndarray) -> float:
     table = model.table
     boundary = np.asarray(table.boundary)
     scale = absolute_tolerances(model, 1.0, max(abs(state[5]), 1e-9))[:MECHANICAL]
-    greatest = 0.0
+    phases, segments = [], []
     for segment in range(len(boundary) - 1):
         start, end = boundary[segment], boundary[segment + 1]
-        phases = [start, 0.5 * (start + end), end]
+        found = [start, 0.5 * (start + end), end]
         distance = np.asarray(table.channel)[segment, :, :, 1, 0]
         nodes = np.linspace(start, end, distance.shape[0] + 1)[:-1]
         for slot in np.flatnonzero(np.asarray(table.in_contact)[segment]):
             if distance[0, slot] * distance[-1, slot] < 0.0:
-                phases.append(float(np.interp(0.0, *np.sort([distance[:, slot], nodes], axis=-1))))
-        for phase in phases:
-            columns = []
-            for i in range(MECHANICAL):
-                shift = np.zeros(STATES)
-                shift[i] = 1e-4 * scale[i]
-                rise = accelerations(state + shift, phase, segment, model) - accelerations(
-                    state - shift, phase, segment, model
-                )
-                columns.append(rise[:MECHANICAL] / (2 * shift[i]))
-            greatest = max(greatest, float(np.max(np.abs(np.linalg.eigvals(np.stack(columns, axis=1))))))
-    return greatest / REAL_STABILITY
+                found.append(float(np.interp(0.0, *np.sort([distance[:, slot], nodes], axis=-1))))
+        phases += found
+        segments += [segment] * len(found)
+    shift = np.zeros((MECHANICAL, STATES))
+    shift[:, :MECHANICAL] = 1e-4 * np.diag(scale)
+    place = np.array(phases)[:, None], np.array(segments)[:, None]
+    shape = (len(phases), MECHANICAL, STATES)
+    up, down = (
+        accelerations(np.broadcast_to(state + sign * shift, shape), *place, model)[..., :MECHANICAL]
+        for sign in (1, -1)
+    )
+    jacobians = np.swapaxes((up - down) / (2e-4 * scale[:, None]), 1, 2)
+    return float(np.max(np.abs(np.linalg.eigvals(jacobians)))) / REAL_STABILITY
 
 
 def choose(method: str, model: Model, state: np.ndarray) -> Choice:
