@@ -18,7 +18,7 @@ def friction_loss(cycle: MeshCycle, normal_load: Array, friction_coefficient: Ar
     Parameters
     ----------
     cycle : MeshCycle
-        The table.
+        The table; its `side` must not be traced.
     normal_load : array, (S, N, Q)
         Load of each pair at the nodes, N; smooth in every segment.
     friction_coefficient : array, () or (S, N, Q)
@@ -41,7 +41,7 @@ def mean_efficiency(cycle: MeshCycle, gear_torque: Any, friction_coefficient: Ar
     Parameters
     ----------
     cycle : MeshCycle
-        The table; may be traced.
+        The table; may be traced, but for `side`.
     gear_torque : float
         N m, > 0.
     friction_coefficient : array, () or (S, N, Q)

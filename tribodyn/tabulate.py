@@ -19,9 +19,9 @@ from tribodyn.compliance.energy import (
     tooth_compliance,
 )
 from tribodyn.compliance.table import check_cover, interpolate
-from tribodyn.elementary import cos, namespace
+from tribodyn.elementary import cos, is_jax, namespace
 from tribodyn.errors import InputError
-from tribodyn.geometry.drive import SIDES, Drive, tip_radius
+from tribodyn.geometry.drive import SIDES, Drive, body_of, tip_radius
 from tribodyn.geometry.family import Family
 from tribodyn.geometry.path import Path, contact_limits, contact_ratio, kinematics
 from tribodyn.iteration import chebyshev_basis
@@ -83,7 +83,7 @@ def tabulate(
     InputError
         If a table does not cover the contact, an option lacks its numbers, or options contradict each other.
     """
-    _check_options(mesh, back)
+    _check_options(drive, mesh, back)
     path = family.working_path(drive)
     limits = contact_limits(path, tip_radius(drive, "pinion"), tip_radius(drive, "gear"))
     ratio = contact_ratio(path, *limits, drive.pinion.teeth)
@@ -128,7 +128,16 @@ def tabulate(
     )
 
 
-def _check_options(mesh: "MeshData", back: bool) -> None:
+def _check_options(drive: Drive, mesh: "MeshData", back: bool) -> None:
+    for side in SIDES:
+        bore = body_of(drive, side).bore_radius
+        if mesh.compliance == "energy" and not is_jax(bore) and bore <= 0:
+            raise InputError(
+                f"drive.{side}.bore_radius",
+                bore,
+                "the energy method takes the body for a ring that is held at its bore",
+                "give the radius at which the shaft holds it",
+            )
     if mesh.compliance == "constant" and mesh.stiffness is None:
         raise InputError(
             "mesh.stiffness", rule="is needed for compliance = 'constant'", remedy="give one pair's"

@@ -140,6 +140,11 @@ class TestOptions:
             tabulate(crc.FAMILY, DRIVE, (STEEL, STEEL), mesh(**options), 2, back)
         assert error.value.key == key
 
+    def test_solid_body_is_refused(self):
+        solid = DRIVE._replace(gear=DRIVE.gear._replace(bore_radius=0.0))
+        with pytest.raises(InputError, match="held at its bore"):
+            tabulate(crc.FAMILY, solid, (STEEL, STEEL), ENERGY, 2)
+
     def test_interpolation_is_the_monotone_one(self):
         rng = np.random.default_rng(4)
         for count in (2, 3, 12):
@@ -226,3 +231,35 @@ def test_a_thousand_drives_in_one_batch(family):
     assert np.all(np.isfinite(many))
     for i in (0, 500, 999):
         np.testing.assert_allclose(many[i], figures(family, batch[i], points=17), rtol=1e-10)
+
+
+class TestQuasiStatic:
+    """Load sharing and loss against a plain calculation."""
+
+    def test_gap_takes_a_pair_out_of_contact(self):
+        roll = np.linspace(-0.3, 0.3, 3)
+        late = mesh(error_table=(roll, np.array([1e-3, 0.0, 0.0])))  # far too much relief in approach
+        cycle = tabulate(crc.FAMILY, DRIVE, (STEEL, STEEL), late, 2)
+        loads = quasi_static(cycle, 500.0).normal_load
+        assert loads[0, 0, 1] == 0
+        assert loads[0, 0, 0] * cycle.gear_pitch_radius * math.cos(
+            cycle.pressure_angle[0, 0, 0]
+        ) == pytest.approx(500.0)
+
+    def test_load_dependent_contact_is_in_equilibrium(self):
+        cycle = tabulate(crc.FAMILY, DRIVE, (STEEL, STEEL), mesh(hertz="load-dependent"), 2)
+        state = quasi_static(cycle, 500.0)
+        loads, arms = state.normal_load[0], np.cos(cycle.pressure_angle[0])
+        approach = cycle.compliance[0] * loads + cycle.hertz_coefficient * loads**0.9
+        approach += np.einsum("nij,nj->ni", cycle.coupling[0], loads)
+        np.testing.assert_allclose(approach, arms * state.deflection[0][:, None], rtol=1e-10)
+
+    @FAMILIES
+    def test_loss_is_the_integral_of_sliding_friction(self, family):
+        cycle = tabulate(family, DRIVE, (STEEL, STEEL), ENERGY, 2)
+        fine = tabulate(family, DRIVE, (STEEL, STEEL), mesh(points=4001), 2)
+        loads = quasi_static(fine, 500.0).normal_load
+        power = (0.05 * loads * np.abs(fine.pinion_speed - fine.gear_speed)).sum(axis=-1)
+        loss = sum(np.trapezoid(power[s], fine.phase[s]) for s in range(2))
+        useful = 500.0 * 23 / 47
+        assert mean_efficiency(cycle, 500.0, 0.05) == pytest.approx(useful / (useful + loss), abs=1e-9)
