@@ -83,7 +83,7 @@ IN_TEXT = {
         '"energy"', '"enrgy"', 'mesh.compliance = "enrgy"', "not one of the choices", 'mean "energy"?'
     ),
     "unknown kind": Mistake(
-        '"gear-pair"', '"irefc"', 'kind = "irefc"', "not one of the choices", 'write "gear-pair"'
+        '"gear-pair"', '"gears"', 'kind = "gears"', "no such kind of scenario", 'mean "gear-pair"?'
     ),
     "unknown law": Mistake(
         '"none"', '"masjedi"', 'friction.law = "masjedi"', "no such friction law", '"masjedi-khonsari"?'

@@ -5,15 +5,18 @@ import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import tomli_w
-from pydantic import ValidationError
+from pydantic import Field, TypeAdapter, ValidationError
 
 from tribodyn.case import Case
 from tribodyn.errors import InputError
+from tribodyn.rolling.case import RollingCase
+from tribodyn.scenario.kinds import KINDS, table_of
 from tribodyn.scenario.messages import InputErrors, Origins, explain
 from tribodyn.scenario.resolve import resolve
+from tribodyn.scenario.rolling import RollingScenario, rolling_case_of
 from tribodyn.scenario.rules import broken_rules
 from tribodyn.scenario.schema import Friction, Scenario
 from tribodyn.scenario.sources import find_scenario, near_name, quoted
@@ -122,7 +125,7 @@ def _known(key: str, name: str, registry: Mapping[str, Any], what: str) -> None:
 class Loaded(NamedTuple):
     """A case, the file it was read from, and where each of its values stands."""
 
-    case: Case
+    case: Case | RollingCase
     path: Path
     origins: Origins
 
@@ -138,7 +141,7 @@ class Loaded(NamedTuple):
             raise self.origins.locate(error) from None
 
 
-def load_scenario(scenario: str | Path, overrides: Mapping[str, Any] | None = None) -> Case:
+def load_scenario(scenario: str | Path, overrides: Mapping[str, Any] | None = None) -> Case | RollingCase:
     """Read a scenario.
 
     Parameters
@@ -161,18 +164,27 @@ def load(scenario: str | Path, overrides: Mapping[str, Any] | None = None) -> Lo
     path = find_scenario(str(scenario))
     data, origins, unresolved = resolve(path, overrides or {})
     data.setdefault("name", re.sub(r"[^\w .-]", "-", path.stem).lstrip(" .-") or "scenario")
+    model, kind = table_of(data), data.get("kind")
     try:
-        table = Scenario.model_validate(data)
+        if isinstance(kind, str):
+            _known("kind", kind, KINDS, "kind of scenario")
+        table = model.model_validate(data)
+    except InputError as error:
+        raise origins.locate(error) from None
     except ValidationError as error:
         # a reference that could not be followed has been complained of already
         known = {one.key for one in unresolved}
-        found = [one for one in explain(error, Scenario) if one.key not in known]
+        found = [one for one in explain(error, model) if one.key not in known]
         raise _located([*unresolved, *found], origins) from None
+    toml = tomli_w.dumps(data)
+    digest = hashlib.sha256(toml.encode()).hexdigest()
+    if isinstance(table, RollingScenario):
+        return Loaded(rolling_case_of(table, toml, digest), path, origins)
+    assert isinstance(table, Scenario)
     errors = broken_rules(table) + _unknown_names(table) + _coefficient(table.friction)
     if errors:
         raise _located(errors, origins)
-    toml = tomli_w.dumps(data)
-    return Loaded(case_of(table, toml, hashlib.sha256(toml.encode()).hexdigest()), path, origins)
+    return Loaded(case_of(table, toml, digest), path, origins)
 
 
 def _located(errors: list[InputError], origins: Origins) -> InputError:
@@ -209,7 +221,8 @@ def _coefficient(friction: Friction) -> list[InputError]:
 
 def json_schema() -> dict[str, Any]:
     """Return the JSON schema of a scenario file, the registries' names included."""
-    schema = Scenario.model_json_schema()
+    kinds = Annotated[Scenario | RollingScenario, Field(discriminator="kind")]
+    schema = {"title": "Scenario", **TypeAdapter(kinds).json_schema()}
     parts = schema["$defs"]
     for table, key, known in (
         ("DriveTable", "family", FAMILIES),

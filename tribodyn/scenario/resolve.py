@@ -54,7 +54,8 @@ def resolve(path: Path, overrides: Mapping[str, Any]) -> Resolved:
     overrides : mapping
         Dotted key to value; a string is read as TOML where it is TOML, else taken as it stands.
     """
-    data = defaults_written_out(read_toml(path))
+    written = read_toml(path)
+    data = defaults_written_out(written, table_of(written))
     origins = Origins(str(path))
     for dotted, value in sorted(overrides.items(), key=lambda item: item[0].count(".")):
         try:
