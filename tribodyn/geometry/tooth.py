@@ -120,30 +120,30 @@ def cut_tooth(family: Family, drive: Drive, side: Side) -> Tooth:
     half_angle = (np.pi * drive.module / 4 + widening) / pitch_radius
     depth = drive.module * body.dedendum - shift
     rounding = drive.module * body.fillet_radius
-    tangent_distance = _tangent_distance(path, depth, rounding)
-    tangent_angle = path.pressure_angle(tangent_distance)
-    tangent_x, tangent_y = position(path, tangent_distance)
-    corner_x = tangent_x - pitch_radius * path.rotation(tangent_distance) + rounding * cos(tangent_angle)
+    flank_end = tangent_distance(path, depth, rounding)
+    tangent_angle = path.pressure_angle(flank_end)
+    tangent_x, tangent_y = position(path, flank_end)
+    corner_x = tangent_x - pitch_radius * path.rotation(flank_end) + rounding * cos(tangent_angle)
     tip = tip_radius(drive, side)
     tangent = Tooth(
         path=path,
         half_angle=half_angle,
-        form_distance=tangent_distance,
+        form_distance=flank_end,
         tip_distance=distance_at_radius(path, tip),
         form_angle=tangent_angle,
-        overrun=-kinematics(path, tangent_distance).pinion_speed,
+        overrun=-kinematics(path, flank_end).pinion_speed,
         corner_x=corner_x,
         corner_y=tangent_y + rounding * sin(tangent_angle),
         corner_radius=rounding,
         corner_limit=np.pi * drive.module / 4 - widening,
         root_radius=pitch_radius - depth,
-        form_radius=radius(path, tangent_distance),
+        form_radius=radius(path, flank_end),
         tip_radius=tip,
     )
     return _ended_by_undercut(tangent)
 
 
-def _tangent_distance(path: Path, depth: Any, rounding: Any) -> Any:
+def tangent_distance(path: Path, depth: Any, rounding: Any) -> Any:
     """Signed distance at which the rack's flank runs into the rounding of its tip.
 
     The centre of the rounding lies on the flank's normal and `rounding` above the tip line y = −depth, hence
