@@ -83,7 +83,7 @@ IN_TEXT = {
         '"energy"', '"enrgy"', 'mesh.compliance = "enrgy"', "not one of the choices", 'mean "energy"?'
     ),
     "unknown kind": Mistake(
-        '"gear-pair"', '"gears"', 'kind = "gears"', "no such kind of scenario", 'mean "gear-pair"?'
+        '"gear-pair"', '"gear-pairs"', 'kind = "gear-pairs"', "no such kind of scenario", 'mean "gear-pair"?'
     ),
     "unknown law": Mistake(
         '"none"', '"masjedi"', 'friction.law = "masjedi"', "no such friction law", '"masjedi-khonsari"?'

@@ -28,6 +28,12 @@ class Head(NamedTuple):
     created: datetime
     mesh_cycle: dict[str, Any]
     geometry: dict[str, Any]
+    elements: int = 0
+
+    @property
+    def kind(self) -> str:
+        """Kind of scenario, a key of `schema.KINDS`."""
+        return schema.ROLLING if self.elements else schema.GEAR_PAIR
 
 
 class Place(NamedTuple):
@@ -40,18 +46,12 @@ class Place(NamedTuple):
 
 def create(path: Path, head: Head, samples: int) -> dict[str, Place]:
     """Write the file at `path` with room for `samples` samples, and say where each dataset lies."""
-    side = np.asarray(head.mesh_cycle["side"])
-    numbers = schema.pair_numbers(int(np.sum(side > 0)), side.size)
-    size = {"time": samples, "pair": len(numbers), "dof": len(schema.DOF)}
     with h5py.File(path, "w", libver=LIBVER) as file:
         _write_head(file, head)
         datasets = {"time": _empty(file, "time", schema.TIME, (samples,))}
-        _scale(file, "pair", schema.PAIR, np.array(numbers))
-        # of fixed length, because Octave stops reading at other strings; the attribute makes xarray decode
-        _scale(file, "dof", schema.DOF_SCALE, np.array(schema.DOF, dtype="S"))
-        file["dof"].attrs["_Encoding"] = "utf-8"
+        size = {"time": samples, **_write_scales(file, head)}
         datasets["time"].make_scale("time")
-        for name, variable in schema.SAMPLES.items():
+        for name, variable in schema.KINDS[head.kind].samples.items():
             datasets[name] = _empty(file, name, variable, tuple(size[dim] for dim in variable.dims))
             _attach(file, file, datasets[name], variable)
         written = _empty(file, "samples_written", schema.SAMPLES_WRITTEN, ())
@@ -61,6 +61,20 @@ def create(path: Path, head: Head, samples: int) -> dict[str, Place]:
         places = {name: _place(dataset) for name, dataset in datasets.items()}
         places["samples_written"] = _place(written)
     return places
+
+
+def _write_scales(file: h5py.File, head: Head) -> dict[str, int]:
+    """Write the scales of the other axes than time; their lengths."""
+    if head.elements:
+        _scale(file, "element", schema.ELEMENT, np.arange(1, head.elements + 1))
+        return {"element": head.elements}
+    side = np.asarray(head.mesh_cycle["side"])
+    numbers = schema.pair_numbers(int(np.sum(side > 0)), side.size)
+    _scale(file, "pair", schema.PAIR, np.array(numbers))
+    # of fixed length, because Octave stops reading at other strings; the attribute makes xarray decode
+    _scale(file, "dof", schema.DOF_SCALE, np.array(schema.DOF, dtype="S"))
+    file["dof"].attrs["_Encoding"] = "utf-8"
+    return {"pair": len(numbers), "dof": len(schema.DOF)}
 
 
 def write_summary(file: h5py.File, summary: Mapping[str, Any], prefix: str = "") -> None:
@@ -86,6 +100,7 @@ def _write_head(file: h5py.File, head: Head) -> None:
     file.attrs["Conventions"] = "CF-1.10"
     file.attrs["format"] = schema.FORMAT
     file.attrs["format_version"] = schema.FORMAT_VERSION
+    file.attrs["kind"] = head.kind
     file.attrs["tribodyn_version"] = __version__
     file.attrs["created"] = head.created.isoformat(timespec="seconds")
     file.attrs["scenario"] = head.scenario

@@ -64,11 +64,13 @@ class Record:
         return values.astype(str) if values.dtype.kind == "S" else values
 
     def __contains__(self, name: object) -> bool:
-        return (name in schema.SAMPLES or name in ("time", "pair", "dof")) and name in self._file
+        kind = schema.KINDS[self.kind]
+        return (name in kind.samples or name in ("time", *kind.scales)) and name in self._file
 
     def __iter__(self) -> Iterator[str]:
         """Go through the names of the datasets over time."""
-        yield from (name for name in ("time", *schema.SAMPLES) if name in self._file)
+        samples = schema.KINDS[self.kind].samples
+        yield from (name for name in ("time", *samples) if name in self._file)
 
     def units(self, name: str) -> str:
         """Return the SI unit of a dataset."""
@@ -94,14 +96,24 @@ class Record:
         return _attributes(self._file)
 
     @cached_property
+    def kind(self) -> str:
+        """Kind of the scenario: "gear-pair", or "irefc" for a gear with rolling elements."""
+        return str(self.attrs.get("kind", schema.GEAR_PAIR))
+
+    @cached_property
     def samples(self) -> int:
         """Number of samples that hold results."""
         return int(self._file["samples_written"][()])
 
     @cached_property
     def pairs(self) -> tuple[int, ...]:
-        """Numbers of the pair slots, in the order of the pair axis."""
-        return tuple(int(number) for number in self._file["pair"][...])
+        """Numbers of the pair slots, in the order of the pair axis; none where elements roll."""
+        return self._numbers("pair")
+
+    @cached_property
+    def elements(self) -> tuple[int, ...]:
+        """Numbers of the rolling elements, in the order of the element axis; none in a gear pair."""
+        return self._numbers("element")
 
     @cached_property
     def scenario(self) -> dict[str, Any]:
@@ -129,6 +141,11 @@ class Record:
     def geometry(self) -> dict[str, Any]:
         """Outlines and path of contact (points, 2), radii and other lengths, m."""
         return self._group("geometry", schema.GEOMETRY)
+
+    def _numbers(self, scale: str) -> tuple[int, ...]:
+        if scale not in schema.KINDS[self.kind].scales:
+            return ()
+        return tuple(int(number) for number in self._file[scale][...])
 
     def _group(self, name: str, table: dict[str, schema.Variable]) -> dict[str, Any]:
         try:
@@ -161,8 +178,13 @@ class Record:
             )
         if self.status not in (schema.PARTIAL, schema.COMPLETE, schema.FAILED):
             raise ValueError(f"unknown status {self.status}")
-        _ = self.pairs, self["dof"]
-        for name in (*schema.NEEDED, *self):
+        if self.kind not in schema.KINDS:
+            raise ValueError(f"unknown kind {self.kind}")
+        _ = self.pairs, self.elements
+        kind = schema.KINDS[self.kind]
+        for scale in kind.scales:
+            _ = self[scale]
+        for name in (*kind.needed, *self):
             if self._file[name].shape[0] < self.samples:
                 raise ValueError(f"{name} is too short")
         for name in ("mesh_cycle", "geometry", "summary"):
@@ -201,4 +223,4 @@ def _attributes(item: Any) -> dict[str, Any]:
 
 
 def _over_time(name: str) -> bool:
-    return name not in ("pair", "dof")
+    return name not in ("pair", "dof", "element")

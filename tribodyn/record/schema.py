@@ -94,7 +94,40 @@ SAMPLES: dict[str, Variable] = {
     "efficiency": Variable(("time",), "1", "instantaneous efficiency"),
 }
 
+#: The same for a gear with rolling elements.
+ROLLING_SAMPLES: dict[str, Variable] = {
+    "input_angle": Variable(("time",), "rad", "rotation of the shaft"),
+    "element_angle": Variable(
+        ("time", "element"),
+        "rad",
+        "angle of the element about the cage's centre from the pitch point; 0 in a depression of the cam, "
+        "pi on a protrusion",
+    ),
+    "cam_distance": Variable(
+        ("time", "element"), "m", "L_A, distance from pitch point to contact with the cam"
+    ),
+    "crown_distance": Variable(
+        ("time", "element"), "m", "L_B, distance from pitch point to contact with the crown"
+    ),
+    "normal_load": Variable(
+        ("time", "element"), "N", "normal load of the element, the same on cam and crown"
+    ),
+    "slip_speed": Variable(
+        ("time", "element"),
+        "m/s",
+        "slip of the element over the cam, positive counter-clockwise about the pitch point",
+    ),
+    "spin_speed": Variable(("time", "element"), "rad/s", "rotation of the element in the cage"),
+    "power_cam": Variable(("time", "element"), "W", "power lost at the cam, to rolling and sliding"),
+    "power_crown": Variable(("time", "element"), "W", "power lost at the crown, to rolling"),
+    "power_in": Variable(("time",), "W", "power of the shaft"),
+    "power_out": Variable(("time",), "W", "power of the cam, which drives the load"),
+    "power_friction": Variable(("time",), "W", "power lost in all contacts"),
+    "efficiency": Variable(("time",), "1", "instantaneous efficiency; as_published: the product (23)"),
+}
+
 TIME = Variable(("time",), "s", "time")
+ELEMENT = Variable(("element",), "1", "rolling element, in the order of their angles")
 PAIR = Variable(
     ("pair",), "1", "pair of teeth: 1 entered last, 0 the one before it; numbers above 1 are back flanks"
 )
@@ -154,6 +187,21 @@ MESH_CYCLE_SCALARS: dict[str, str] = {
     "roll_end": "rad",
 }
 
+
+class Kind(NamedTuple):
+    """What a record of one kind of scenario holds over time: all its datasets, and those it cannot lack."""
+
+    samples: dict[str, Variable]
+    needed: tuple[str, ...]
+    scales: tuple[str, ...]
+
+
+GEAR_PAIR, ROLLING = "gear-pair", "irefc"
+KINDS: dict[str, Kind] = {
+    GEAR_PAIR: Kind(SAMPLES, NEEDED, ("pair", "dof")),
+    ROLLING: Kind(ROLLING_SAMPLES, ("time", "input_angle", "element_angle", "normal_load"), ("element",)),
+}
+
 #: Curves of the geometry; lengths such as radii are attributes of the group, in m.
 GEOMETRY: dict[str, Variable] = {
     "pinion_outline": Variable(
@@ -169,10 +217,14 @@ GEOMETRY: dict[str, Variable] = {
     "path_of_contact": Variable(
         ("path_point", "axis"), "m", "path of contact, origin at the pitch point, x along the pitch tangent"
     ),
+    "cam_outline": Variable(
+        ("cam_point", "axis"), "m", "profile of the cam about its centre, as it stands at the start"
+    ),
+    "crown_outline": Variable(("crown_point", "axis"), "m", "profile of the crown about the shaft's axis"),
 }
 
 #: Further dimensions that only count; xarray wants each to exist.
-COUNTED = ("other_pair", "pinion_point", "gear_point", "path_point", "axis")
+COUNTED = ("other_pair", "pinion_point", "gear_point", "cam_point", "crown_point", "path_point", "axis")
 
 
 def pair_numbers(front_pairs: int, pairs: int) -> list[int]:

@@ -19,7 +19,7 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.record import layout
-from tribodyn.record.schema import COMPLETE, FAILED, SAMPLES, STATUS_NOTES, partial_path
+from tribodyn.record.schema import COMPLETE, FAILED, KINDS, STATUS_NOTES, partial_path
 
 
 def check_target(path: Path, force: bool = False) -> None:
@@ -76,6 +76,8 @@ class RecordWriter:
         `pinion_outline`, `gear_outline`, `path_of_contact`, each (points, 2), and lengths, m.
     force : bool
         Replace an existing record, and the remains of an unfinished run.
+    elements : int
+        Number of rolling elements; 0 in the record of a gear pair, which has a mesh cycle instead.
 
     Raises
     ------
@@ -90,9 +92,10 @@ class RecordWriter:
         scenario_toml: str,
         sha256: str,
         samples: int,
-        mesh_cycle: Mapping[str, Any],
+        mesh_cycle: Mapping[str, Any] | None = None,
         geometry: Mapping[str, Any] | None = None,
         force: bool = False,
+        elements: int = 0,
     ) -> None:
         self.path = Path(path)
         self.partial = partial_path(self.path)
@@ -100,7 +103,7 @@ class RecordWriter:
         self.written = 0
         self._open = False
         self._head = layout.Head(
-            scenario_toml, sha256, datetime.now(UTC), dict(mesh_cycle), dict(geometry or {})
+            scenario_toml, sha256, datetime.now(UTC), dict(mesh_cycle or {}), dict(geometry or {}), elements
         )
         check_target(self.path, force)
         scratch = self._scratch()
@@ -198,7 +201,7 @@ class RecordWriter:
         source: Any
         target: Any
         with h5py.File(self.partial, "r") as source, h5py.File(scratch, "r+") as target:
-            for name in ("time", *SAMPLES):
+            for name in ("time", *KINDS[self._head.kind].samples):
                 target[name][...] = source[name][: self.written]
             target["samples_written"][...] = self.written
         self._conclude(scratch, FAILED, message, summary or {})
