@@ -1,0 +1,193 @@
+"""What holds for every gear pair that passes the checks, shifted involute or CRC."""
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import strategies as st
+
+from tribodyn.errors import InputError
+from tribodyn.geometry import crc, involute
+from tribodyn.geometry.checks import check
+from tribodyn.geometry.drive import SIDES, Drive, GearBody, tip_radius
+from tribodyn.geometry.path import (
+    contact_limits,
+    contact_ratio,
+    distance_at_radius,
+    kinematics,
+    position,
+    seen_from,
+)
+from tribodyn.geometry.tooth import cut_tooth, flank_point, outline, thickness_half_angle
+
+
+@st.composite
+def bodies(draw, shiftable, least_teeth):
+    addendum = draw(st.floats(0.8, 1.1))
+    return GearBody(
+        teeth=float(draw(st.integers(least_teeth, 90))),
+        profile_shift=draw(st.floats(-0.2, 0.6)) if shiftable else 0.0,
+        addendum=addendum,
+        dedendum=1.4,
+        fillet_radius=draw(st.floats(0.0, 0.25)),
+        face_width=0.02,
+        bore_radius=0.0,
+    )
+
+
+@st.composite
+def pairs(draw):
+    """Draw a family and a drive that passes its checks."""
+    family = draw(st.sampled_from([involute.FAMILY, crc.FAMILY]))
+    angle = draw(st.floats(18.0, 25.0) if family.shiftable else st.floats(20.0, 25.0))
+    least_teeth = 16 if family.shiftable else 14
+    pinion, gear = (draw(bodies(family.shiftable, least_teeth)) for _ in range(2))
+    drive = Drive(draw(st.floats(0.0005, 0.02)), np.radians(angle), pinion, gear)
+    try:
+        check(family, drive)
+    except InputError:
+        assume(False)
+    return family, drive
+
+
+def limits_of(family, drive):
+    path = family.working_path(drive)
+    return path, *contact_limits(path, tip_radius(drive, "pinion"), tip_radius(drive, "gear"))
+
+
+fraction = st.floats(0.0, 1.0)
+over_pairs = settings(
+    max_examples=60, deadline=None, suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow]
+)
+
+
+@over_pairs
+@given(pairs())
+def test_speeds_are_radii_of_curvature_times_rotation_of_the_normal(pair):
+    path, start, end = limits_of(*pair)
+    r = np.linspace(start, end, 41)
+    state = kinematics(path, r)
+    w = path.pinion_pitch_radius / path.gear_pitch_radius
+    # κ = dα/dφ, by difference along the path, independent of the slope that `kinematics` uses.
+    step = 1e-4 * (end - start)
+    kappa = (path.pressure_angle(r + step) - path.pressure_angle(r - step)) / (
+        path.rotation(r + step) - path.rotation(r - step)
+    )
+    module = pair[1].module
+    np.testing.assert_allclose(
+        state.pinion_speed * state.pinion_curvature, 1 + kappa, atol=1e-6, err_msg="u_p = ω ρ_p (1 + κ)"
+    )
+    np.testing.assert_allclose(
+        state.gear_speed * state.gear_curvature, w - kappa, atol=1e-6, err_msg="u_g = ω ρ_g (w − κ)"
+    )
+    np.testing.assert_allclose(state.sliding, (1 + w) * r, atol=1e-12 * module)
+    assert np.all(state.pinion_speed > 0)
+    assert np.all(state.gear_speed > 0)
+
+
+@over_pairs
+@given(pairs(), fraction)
+def test_flanks_touch_along_a_common_normal_through_the_pitch_point(pair, where):
+    """Rotate both teeth, as cut, to any phase: they meet in one point and nowhere overlap."""
+    family, drive = pair
+    path, start, end = limits_of(family, drive)
+    r = start + where * (end - start)
+    rotation = path.rotation(r)
+    w = path.pinion_pitch_radius / path.gear_pitch_radius
+    module = drive.module
+    points = {}
+    for side in SIDES:
+        view, tooth = seen_from(path, side), cut_tooth(family, drive, side)
+        turned = rotation if side == "pinion" else -w * rotation
+        pitch = view.pinion_pitch_radius
+        half_angle = thickness_half_angle(tooth, pitch)
+        distance = np.linspace(tooth.form_distance, tooth.tip_distance, 400)
+        x, y = position(view, r if side == "pinion" else -r)
+        contact_distance = distance_at_radius(tooth.path, np.hypot(x, pitch + y))
+        placed = []
+        for along in (contact_distance, contact_distance + 1e-6 * module, distance):
+            x, y = flank_point(tooth, along)
+            # Angle of the point from the line of centres, in the body's own view.
+            angle = half_angle - turned - np.arctan2(y, x)
+            placed.append((-np.hypot(x, y) * np.sin(angle), np.hypot(x, y) * np.cos(angle) - pitch))
+        sign = 1.0 if side == "pinion" else -1.0
+        points[side] = [sign * np.array(p) for p in placed]
+    contact = points["pinion"][0]
+    np.testing.assert_allclose(contact, points["gear"][0], atol=1e-9 * max(1.0, module / 0.003))
+    np.testing.assert_allclose(contact, position(path, r), atol=1e-12)
+    normal = np.array([np.cos(path.pressure_angle(r)), np.sin(path.pressure_angle(r))])
+    for side in SIDES:
+        tangent = points[side][1] - points[side][0]
+        assert tangent @ normal / np.linalg.norm(tangent) == pytest.approx(0, abs=1e-5)
+    # No penetration: seen from the pinion, every point of the gear's flank lies outside the pinion's.
+    tooth = cut_tooth(family, drive, "pinion")
+    pitch = path.pinion_pitch_radius
+    x, y = points["gear"][2]
+    distance, angle = np.hypot(x, pitch + y), np.arctan2(x, pitch + y)
+    beside = (distance > tooth.form_radius) & (distance < tooth.tip_radius)
+    flank = thickness_half_angle(tooth, distance[beside])
+    gap = (angle[beside] + thickness_half_angle(tooth, pitch) - rotation - flank) * distance[beside]
+    assert gap.min() > -1e-9 * module / 0.003
+
+
+@over_pairs
+@given(pairs())
+def test_nothing_slides_at_the_pitch_point(pair):
+    family, drive = pair
+    state = kinematics(family.working_path(drive), 0.0)
+    assert state.sliding == pytest.approx(0, abs=1e-15)
+    assert state.entrainment > 0
+
+
+@over_pairs
+@given(pairs())
+def test_contact_ratio(pair):
+    family, drive = pair
+    path, start, end = limits_of(family, drive)
+    ratio = contact_ratio(path, start, end, drive.pinion.teeth)
+    assert ratio >= 1
+    if family.shiftable:
+        assert ratio == pytest.approx(involute.closed_form_contact_ratio(drive), rel=1e-12)
+    else:
+        curvature = kinematics(path, np.linspace(start, end, 101)).relative_curvature
+        np.testing.assert_allclose(curvature, curvature[50], rtol=1e-9)
+
+
+@over_pairs
+@given(pairs(), st.floats(0.05, 0.95))
+def test_curvature_is_that_of_the_flank_as_cut(pair, where):
+    family, drive = pair
+    path, start, end = limits_of(family, drive)
+    r = start + where * (end - start)
+    state = kinematics(path, r)
+    for side, curvature in (("pinion", state.pinion_curvature), ("gear", state.gear_curvature)):
+        view, tooth = seen_from(path, side), cut_tooth(family, drive, side)
+        x, y = position(view, r if side == "pinion" else -r)
+        along = distance_at_radius(tooth.path, np.hypot(x, view.pinion_pitch_radius + y))
+        step = 2e-3 * drive.module
+        x, y = flank_point(tooth, along + step * np.arange(-2, 3))
+        # Central differences of fourth order.
+        first, second = np.array([1, -8, 0, 8, -1]) / 12, np.array([-1, 16, -30, 16, -1]) / 12
+        dx, dy, ddx, ddy = first @ x, first @ y, second @ x, second @ y
+        # The flank runs outwards with the body on its left as x goes along the tooth: convex turns inwards.
+        measured = (dy * ddx - dx * ddy) / (dx**2 + dy**2) ** 1.5
+        assert measured == pytest.approx(curvature, rel=1e-4, abs=1e-5 / drive.module)
+
+
+@over_pairs
+@given(pairs())
+def test_outline_is_continuous_and_narrows_outwards(pair):
+    family, drive = pair
+    for side in SIDES:
+        shape = outline(family, drive, side, 80, 80)
+        tooth = cut_tooth(family, drive, side)
+        assert shape.fillet_x[-1] == pytest.approx(shape.flank_x[0], abs=1e-12)
+        assert shape.fillet_y[-1] == pytest.approx(shape.flank_y[0], abs=1e-12)
+        x = np.concatenate([shape.fillet_x, shape.flank_x[1:]])
+        y = np.concatenate([shape.fillet_y, shape.flank_y[1:]])
+        assert np.all(np.diff(np.hypot(x, y)) > -1e-15)
+        assert np.all(np.diff(x) > 0)
+        # Otherwise the tooth has a waist: undercut, or a normal that passes the axis on the far side.
+        arm = kinematics(tooth.path, tooth.form_distance).pinion_friction_arm
+        if arm > 0 and tooth.overrun <= 0:
+            assert np.all(np.diff(np.arctan2(y, x)) < 0)
+        assert shape.tip_half_thickness > 0
