@@ -12,6 +12,7 @@ from tribodyn.dynamics.outputs import outputs
 from tribodyn.errors import SimulationError
 from tribodyn.mesh_cycle import as_arrays
 from tribodyn.prepare import Prepared, geometry_arrays, prepare
+from tribodyn.rolling.case import RollingCase
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.transient import Chunk, Settings, Stop, choose, transient
 from tribodyn.summary import RunningExtremes, energy_residual, single_pair_stiffness, steady_figures
@@ -29,7 +30,7 @@ class RunResult(NamedTuple):
 
 
 def run(
-    case: Case,
+    case: Case | RollingCase,
     output: str | Path | None = None,
     force: bool = False,
     progress: Callable[[float], None] | None = None,
@@ -38,7 +39,7 @@ def run(
 
     Parameters
     ----------
-    case : Case
+    case : Case, or RollingCase of a gear with rolling elements
     output : path, optional
         Name of the record; default ``<case name>.h5`` in the current folder.
     force : bool
@@ -58,6 +59,11 @@ def run(
     """
     from tribodyn.record.writer import RecordWriter, check_target
 
+    if isinstance(case, RollingCase):
+        from tribodyn import simulate_rolling
+
+        path, summary = simulate_rolling.run(case, output, force, progress)
+        return RunResult(path, "complete", "", summary)
     path = Path(output) if output is not None else Path(f"{case.name}.h5")
     check_target(path, force)
     prepared = prepare(case)
