@@ -75,7 +75,9 @@ class LubricantData:
     temperature_viscosity : float
         K_T, 1/K.
     density : float
-        kg/m³; only Veciana's variant of the Péclet number uses it.
+        kg/m³; used by ISO/TR 14179-1 and by Veciana's variant of the Péclet number.
+    load_exponent : float
+        d of Niemann's lubricant factor X_L = w^−d; 0.0651 of mineral oil 75W90 (Diez-Ibarbia et al.).
     """
 
     asperity_friction: float
@@ -85,6 +87,7 @@ class LubricantData:
     viscosity_pressure_index: float
     temperature_viscosity: float
     density: float
+    load_exponent: float = 0.0651
 
 
 @dataclass(frozen=True)
@@ -258,6 +261,8 @@ class Case:
         Of pinion and gear.
     roughness : float
         Composite rms roughness σ of the flanks, m.
+    mean_roughness : float
+        Arithmetic mean roughness Ra of the flanks, m.
     lubricant, bearings, operating, mesh, friction, solver, output
         See the classes.
     """
@@ -272,6 +277,7 @@ class Case:
     materials: tuple[MaterialData, MaterialData]
     masses: tuple[BodyMass, BodyMass]
     roughness: float
+    mean_roughness: float
     lubricant: LubricantData
     bearings: tuple[BearingData, BearingData]
     operating: OperatingData

@@ -20,7 +20,7 @@ from tribodyn.dynamics.parameters import (
     Options,
 )
 from tribodyn.mesh_cycle import MeshCycle, polynomials
-from tribodyn.tribology.contact import Contact
+from tribodyn.surfaces import contact_of
 
 #: Gauss-Seidel sweeps from the tabulated inverse: only pairs about to separate need more than one.
 SWEEPS = 3
@@ -59,7 +59,7 @@ def prepare(case: Case) -> Prepared:
     InputError
         Where the teeth cannot be made or cannot run together, or a table does not cover the contact.
     """
-    from tribodyn.geometry.body import mass_and_inertia
+    from tribodyn.geometry.body import body_masses
     from tribodyn.geometry.checks import check
     from tribodyn.scenario.load import family
     from tribodyn.tabulate import pair_slots, tabulate
@@ -74,19 +74,12 @@ def prepare(case: Case) -> Prepared:
         pairs=pair_slots(teeth, case.drive),
         back=case.mesh.backlash is not None,
     )
-    masses = []
-    for given, side, material in zip(case.masses, ("pinion", "gear"), case.materials, strict=True):
-        mass, inertia = given.mass, given.inertia
-        if mass is None or inertia is None:
-            computed = mass_and_inertia(teeth, case.drive, side, material.density)
-            mass = computed[0] if mass is None else mass
-            inertia = computed[1] if inertia is None else inertia
-        masses.append((float(mass), float(inertia)))
-    pinion, gear = masses
+    given = [(one.mass, one.inertia) for one in case.masses]
+    pinion, gear = body_masses(teeth, case.drive, given, [one.density for one in case.materials])
     model = Model(
         polynomials(cycle),
         _mechanics(case, pinion, gear, cycle),
-        _contact(case),
+        contact_of(case),
         _options(case, cycle),
     )
     return Prepared(case, cycle, model, (pinion, gear))
@@ -107,35 +100,6 @@ def _options(case: Case, cycle: MeshCycle) -> Options:
         drive=drive,
         hertz=HERTZ_IN_TABLE if linear else HERTZ_POWER_LAW,
         sweeps=1 if not coupled else SWEEPS if linear else SWEEPS_NONLINEAR,
-    )
-
-
-def _contact(case: Case) -> Contact:
-    from tribodyn.scenario.load import friction_law
-
-    law = friction_law(case.friction.law)
-    pinion, gear = case.materials
-    compliance = [(1 - m.poisson_ratio**2) / m.youngs_modulus for m in case.materials]
-    # the printed Peclet number has no heat capacity in it; 1 J/(m³ K) is what that amounts to
-    heat = [m.density * m.specific_heat if law.heat_capacity else 1.0 for m in case.materials]
-    lubricant = case.lubricant
-    return Contact(
-        effective_modulus=2.0 / sum(compliance),
-        hardness=min(pinion.hardness, gear.hardness),
-        roughness=case.roughness,
-        asperity_friction=lubricant.asperity_friction,
-        limiting_shear_coefficient=lubricant.limiting_shear_coefficient,
-        inlet_viscosity=lubricant.inlet_viscosity,
-        pressure_viscosity=lubricant.pressure_viscosity,
-        viscosity_pressure_index=lubricant.viscosity_pressure_index,
-        temperature_viscosity=lubricant.temperature_viscosity,
-        pinion_conductivity=pinion.thermal_conductivity,
-        gear_conductivity=gear.thermal_conductivity,
-        pinion_heat_capacity=heat[0],
-        gear_heat_capacity=heat[1],
-        coulomb_coefficient=float(case.friction.coefficient or 0.0),
-        asperity_log_factor=law.asperity_log_factor,
-        limiting_share=law.limiting_share,
     )
 
 

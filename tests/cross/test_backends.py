@@ -13,7 +13,15 @@ from tribodyn.dynamics.parameters import STATES
 from tribodyn.native import kernel
 from tribodyn.solve.diffrax_engine import right_hand_side
 from tribodyn.solve.dopri5 import rhs
-from tribodyn.tribology.friction import mixed_film
+from tribodyn.tribology.friction import (
+    BENEDICT_KELLEY,
+    COULOMB,
+    MASJEDI_KHONSARI,
+    NONE,
+    XU,
+    friction,
+    mixed_film,
+)
 
 
 @kernel
@@ -39,6 +47,32 @@ def test_friction_agrees_between_numpy_numba_and_jax(rng):
     np.testing.assert_allclose(traced, numpy, rtol=2e-12, atol=1e-300)
 
 
+@kernel
+def _coefficients(law, loads, curvatures, speeds, slidings, contact, out):
+    for i in range(len(loads)):
+        u, v = speeds[i], slidings[i]
+        values = friction(law, loads[i], curvatures[i], u, v, u + 0.5 * v, u - 0.5 * v, contact)
+        out[0, i] = values[0]
+        out[1, i] = values[3]
+
+
+@pytest.mark.parametrize("law", [NONE, COULOMB, MASJEDI_KHONSARI, XU, BENEDICT_KELLEY])
+def test_every_law_agrees_between_numpy_numba_and_jax(rng, law):
+    n = 5000
+    load, curvature = 10 ** rng.uniform(2, 6.5, n), 10 ** rng.uniform(1, 3.5, n)
+    speed = 10 ** rng.uniform(-3, 2, n)
+    sliding = speed * rng.uniform(-1, 1, n)
+    contact = LIU_NI._replace(peclet_sliding=1.0, viscosity_pressure_factor=4 / np.pi)
+    state = (load, curvature, speed, sliding, speed + sliding / 2, speed - sliding / 2)
+    values = friction(law, *state, contact)
+    native = np.empty((2, n))
+    _coefficients(law, load, curvature, speed, sliding, contact, native)
+    traced = jax.jit(lambda *a: jnp.stack(friction(law, *a, contact)))(*map(jnp.asarray, state))
+    for row, which in ((0, 0), (1, 3)):
+        np.testing.assert_allclose(native[row], values[which], rtol=1e-11, atol=1e-300)
+        np.testing.assert_allclose(traced[which], values[which], rtol=1e-11, atol=1e-300)
+
+
 def test_friction_has_a_gradient():
     slope = jax.grad(lambda u: mixed_film(3.85e5, 111.0, u, 0.05, 0.2, 0.15, LIU_NI)[0])(0.134)
     step = 1e-6
@@ -54,8 +88,12 @@ def test_friction_has_a_gradient():
         {"mesh.hertz": "load-dependent"},
         {"mesh.backlash": "12 um", "friction.law": "masjedi-khonsari-as-printed"},
         {"friction.law": "none"},
+        {"friction.law": "xu"},
+        {"friction.law": "benedict-kelley"},
+        {"friction.law": "niemann"},
+        {"friction.law": "masjedi-khonsari-veciana-peak"},
     ],
-    ids=["default", "dynamic", "hertz", "backlash", "frictionless"],
+    ids=["default", "dynamic", "hertz", "backlash", "frictionless", "xu", "benedict", "niemann", "veciana"],
 )
 def test_right_hand_sides_agree_over_random_states(prepared, rng, overrides):
     model = prepared("crc-23-47", **overrides).model

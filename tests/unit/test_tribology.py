@@ -26,6 +26,9 @@ LIU_NI = Contact(
     coulomb_coefficient=0.06,
     asperity_log_factor=4470.0,
     limiting_share=1.0,
+    mean_roughness=3e-7 / math.sqrt(math.pi),
+    viscosity_pressure_factor=1.0,
+    peclet_sliding=0.0,
 )
 POINT = dict(
     line_load=3.85e5,

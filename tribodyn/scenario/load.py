@@ -1,8 +1,9 @@
 """From a scenario's name or path to a `Case`, and the registries that give names in TOML their meaning."""
 
 import hashlib
+import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
@@ -21,7 +22,8 @@ from tribodyn.scenario.rules import broken_rules
 from tribodyn.scenario.schema import Friction, Scenario
 from tribodyn.scenario.sources import find_scenario, near_name, quoted
 from tribodyn.scenario.to_case import case_of
-from tribodyn.tribology.friction import COULOMB, MASJEDI_KHONSARI, NONE
+from tribodyn.tribology.friction import BENEDICT_KELLEY, COULOMB, MASJEDI_KHONSARI, NONE, XU
+from tribodyn.tribology.mean_friction import MeanConditions, iso_14179_1, niemann
 
 if TYPE_CHECKING:
     from tribodyn.geometry.family import Family
@@ -44,6 +46,14 @@ class FrictionLaw(NamedTuple):
         1: the limiting shear stress follows the pressure carried by the fluid; 0: the whole mean pressure.
     heat_capacity : bool
         Whether the Péclet numbers contain ρ_s c_p of the solids, as they must to be numbers.
+    lubricant_heat : bool
+        Whether the density in them is the lubricant's.
+    peclet_sliding : float
+        1: the speed in them is the sliding speed; 0: each surface's own.
+    viscosity_pressure_factor : float
+        Pressure in Roelands' law over the mean pressure of the contact.
+    mean : callable, optional
+        Gives the friction coefficient of the whole mesh, which then is a Coulomb contact.
     """
 
     code: int
@@ -52,6 +62,10 @@ class FrictionLaw(NamedTuple):
     asperity_log_factor: float = 4470.0
     limiting_share: float = 1.0
     heat_capacity: bool = True
+    lubricant_heat: bool = False
+    peclet_sliding: float = 0.0
+    viscosity_pressure_factor: float = 1.0
+    mean: Callable[[MeanConditions], Any] | None = None
 
 
 FRICTION_LAWS = {
@@ -71,6 +85,27 @@ FRICTION_LAWS = {
         asperity_log_factor=447.0,
         heat_capacity=False,
     ),
+    "masjedi-khonsari-veciana": FrictionLaw(
+        MASJEDI_KHONSARI,
+        "the same as Veciana et al. print it: Péclet numbers of sliding speed and lubricant density",
+        lubricant_heat=True,
+        peclet_sliding=1.0,
+    ),
+    "masjedi-khonsari-veciana-peak": FrictionLaw(
+        MASJEDI_KHONSARI,
+        "the reading that meets Veciana's crossover: Roelands' law at the greatest pressure, "
+        "each surface's own speed and the lubricant's density in the Péclet numbers",
+        lubricant_heat=True,
+        viscosity_pressure_factor=4.0 / math.pi,
+    ),
+    "xu": FrictionLaw(XU, "regression over thermal EHL solutions for oil 75W90, Xu (2005)"),
+    "benedict-kelley": FrictionLaw(
+        BENEDICT_KELLEY, "disc tests in mixed lubrication, Benedict & Kelley (1961)"
+    ),
+    "niemann": FrictionLaw(
+        COULOMB, "mean coefficient of the mesh by Niemann, as in ISO/TR 14179-2", mean=niemann
+    ),
+    "iso-14179-1": FrictionLaw(COULOMB, "mean coefficient of the mesh by ISO/TR 14179-1", mean=iso_14179_1),
 }
 
 FAMILIES = {

@@ -62,6 +62,9 @@ class DriveTable(Described):
     module: Length
     pressure_angle: Angle = Field(description="of the rack for involutes; at the pitch point for CRC")
     roughness: Length = Field(description="composite rms roughness of the flanks")
+    mean_roughness: Length | None = Field(
+        None, description="Ra of the flanks; default: roughness/sqrt(pi), that of two equal Gaussian flanks"
+    )
     material: MaterialReference | None = None
     pinion: Gear
     gear: Gear
@@ -77,6 +80,10 @@ class Lubricant(Described):
     viscosity_pressure_index: Positive = Field(description="z of Roelands' law")
     temperature_viscosity: Annotated[float, Quantity(units.not_negative(units.PER_KELVIN))]
     density: Annotated[float, Quantity(units.positive(units.DENSITY))]
+    load_exponent: NotNegative = Field(
+        0.0651,
+        description="d of Niemann's lubricant factor; default: mineral oil 75W90 (Diez-Ibarbia et al.)",
+    )
 
 
 class Bearing(Table):

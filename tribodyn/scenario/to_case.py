@@ -1,5 +1,6 @@
 """From the validated tables of a scenario to the plain data that the physics takes."""
 
+import math
 from typing import cast
 
 from tribodyn import case
@@ -17,13 +18,12 @@ def case_of(scenario: schema.Scenario, toml: str, sha256: str) -> case.Case:
         toml=toml,
         sha256=sha256,
         family=drive.family,
-        drive=Drive(drive.module, drive.pressure_angle, _body(drive.pinion), _body(drive.gear)),
-        materials=(_material(drive, drive.pinion), _material(drive, drive.gear)),
-        masses=(_mass(drive.pinion), _mass(drive.gear)),
+        drive=drive_of(drive),
+        materials=materials_of(drive),
+        masses=masses_of(drive),
         roughness=drive.roughness,
-        lubricant=case.LubricantData(
-            **scenario.lubricant.model_dump(exclude={"title", "source", "assumptions"})
-        ),
+        mean_roughness=mean_roughness(drive),
+        lubricant=lubricant_of(scenario.lubricant),
         bearings=(_bearing(scenario.bearings.pinion), _bearing(scenario.bearings.gear)),
         operating=_operating(scenario.operating),
         mesh=_mesh(scenario.mesh),
@@ -31,6 +31,31 @@ def case_of(scenario: schema.Scenario, toml: str, sha256: str) -> case.Case:
         solver=case.SolverData(**scenario.solver.model_dump()),
         output=case.OutputData(**scenario.output.model_dump()),
     )
+
+
+def lubricant_of(lubricant: model_files.Lubricant) -> case.LubricantData:
+    """Return the lubricant's numbers."""
+    return case.LubricantData(**lubricant.model_dump(exclude={"title", "source", "assumptions"}))
+
+
+def mean_roughness(drive: model_files.DriveTable) -> float:
+    """Ra of the flanks, m; σ/√π where it is not given: two equal flanks with normally distributed heights."""
+    return drive.roughness / math.sqrt(math.pi) if drive.mean_roughness is None else drive.mean_roughness
+
+
+def drive_of(drive: model_files.DriveTable) -> Drive:
+    """Return the geometry of a drive file."""
+    return Drive(drive.module, drive.pressure_angle, _body(drive.pinion), _body(drive.gear))
+
+
+def materials_of(drive: model_files.DriveTable) -> tuple[case.MaterialData, case.MaterialData]:
+    """Return what pinion and gear are made of."""
+    return _material(drive, drive.pinion), _material(drive, drive.gear)
+
+
+def masses_of(drive: model_files.DriveTable) -> tuple[case.BodyMass, case.BodyMass]:
+    """Return the masses that a drive file gives."""
+    return _mass(drive.pinion), _mass(drive.gear)
 
 
 def _body(gear: model_files.Gear) -> GearBody:

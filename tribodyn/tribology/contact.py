@@ -22,9 +22,12 @@ class Contact(NamedTuple):
     temperature_viscosity : K_T, 1/K
     pinion_conductivity, gear_conductivity : W/(m K)
     pinion_heat_capacity, gear_heat_capacity : per volume ρ_s c_p of the solids, J/(m³ K)
-    coulomb_coefficient : friction coefficient of the Coulomb law
+    coulomb_coefficient : friction coefficient of the Coulomb law and of the laws that give the mesh one mean
     asperity_log_factor : the factor inside the logarithm of the asperity load ratio, 4470
     limiting_share : 1: the limiting shear stress follows the pressure on the fluid, p(1 − λ); 0: the whole p
+    mean_roughness : arithmetic mean roughness Ra of the flanks, m
+    viscosity_pressure_factor : pressure in Roelands' law over the mean pressure: 1, or 4/π for the greatest
+    peclet_sliding : 1: both Péclet numbers contain the sliding speed; 0: each surface's own speed
     """
 
     effective_modulus: Any
@@ -43,6 +46,9 @@ class Contact(NamedTuple):
     coulomb_coefficient: Any
     asperity_log_factor: Any
     limiting_share: Any
+    mean_roughness: Any
+    viscosity_pressure_factor: Any
+    peclet_sliding: Any
 
 
 @law

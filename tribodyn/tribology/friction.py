@@ -8,6 +8,7 @@ import math
 
 from tribodyn.elementary import absolute, expm1, law, log, maximum, minimum
 from tribodyn.tribology.contact import hertz_half_width, hertz_pressure
+from tribodyn.tribology.empirical import benedict_kelley, xu
 from tribodyn.tribology.film import asperity_load_ratio, central_film_thickness, in_fitted_range
 from tribodyn.tribology.flash import flash_temperature_rise
 from tribodyn.tribology.rheology import limiting_shear_stress, roelands_viscosity
@@ -15,6 +16,8 @@ from tribodyn.tribology.rheology import limiting_shear_stress, roelands_viscosit
 NONE = 0
 COULOMB = 1
 MASJEDI_KHONSARI = 2
+XU = 3
+BENEDICT_KELLEY = 4
 
 #: Least line load (N/m) and entrainment (m/s) at which the closures are evaluated: they diverge at zero.
 LEAST_LINE_LOAD = 1.0
@@ -68,15 +71,15 @@ def mixed_film(line_load, curvature, entrainment, sliding, pinion_speed, gear_sp
     temperature_rise = flash_temperature_rise(
         heat_flux,
         half_width,
-        pinion_speed,
-        gear_speed,
+        _peclet_speed(pinion_speed, sliding, contact.peclet_sliding),
+        _peclet_speed(gear_speed, sliding, contact.peclet_sliding),
         contact.pinion_conductivity,
         contact.gear_conductivity,
         contact.pinion_heat_capacity,
         contact.gear_heat_capacity,
     )
     viscosity = roelands_viscosity(
-        pressure * (1.0 - share),
+        contact.viscosity_pressure_factor * pressure * (1.0 - share),
         temperature_rise,
         contact.inlet_viscosity,
         contact.viscosity_pressure_index,
@@ -96,10 +99,18 @@ def mixed_film(line_load, curvature, entrainment, sliding, pinion_speed, gear_sp
 
 
 @law
+def _peclet_speed(speed, sliding, share):
+    """Speed in a Péclet number: the surface's own, or with `share` 1 the sliding speed (Veciana)."""
+    return (1.0 - share) * absolute(speed) + share * sliding
+
+
+@law
 def friction(law_code, line_load, curvature, entrainment, sliding, pinion_speed, gear_speed, contact):
     """Evaluate the law in use; arguments and values as for `mixed_film`.
 
-    The film is Masjedi & Khonsari's under every law. `law_code` is static for JAX, an integer for numba.
+    The film is Masjedi & Khonsari's under every law, and the range that is told is the film's. Laws that
+    give the whole mesh one mean coefficient (`mean_friction`) come as Coulomb's. `law_code` is static for
+    JAX, an integer for numba.
     """
     coefficient, share, film, temperature, pressure, valid = mixed_film(
         line_load, curvature, entrainment, sliding, pinion_speed, gear_speed, contact
@@ -107,12 +118,21 @@ def friction(law_code, line_load, curvature, entrainment, sliding, pinion_speed,
     if law_code == NONE:
         coefficient = 0.0 * coefficient
         temperature = 0.0 * temperature
-    elif law_code == COULOMB:
-        half_width = hertz_half_width(
-            maximum(line_load, LEAST_LINE_LOAD), curvature, contact.effective_modulus
-        )
-        coefficient = 0.0 * coefficient + contact.coulomb_coefficient
-        heat_flux = contact.coulomb_coefficient * absolute(sliding) * pressure * math.pi / 4.0
+    elif law_code != MASJEDI_KHONSARI:
+        load = maximum(line_load, LEAST_LINE_LOAD)
+        speed = maximum(absolute(entrainment), LEAST_ENTRAINMENT)
+        if law_code == XU:
+            coefficient = xu(
+                pressure, 1.0 / curvature, speed, sliding, contact.inlet_viscosity, contact.roughness
+            )
+        elif law_code == BENEDICT_KELLEY:
+            coefficient = benedict_kelley(
+                load, 2.0 * speed, sliding, contact.inlet_viscosity, contact.mean_roughness
+            )
+        else:
+            coefficient = 0.0 * coefficient + contact.coulomb_coefficient
+        half_width = hertz_half_width(load, curvature, contact.effective_modulus)
+        heat_flux = coefficient * absolute(sliding) * pressure * math.pi / 4.0
         temperature = flash_temperature_rise(
             heat_flux,
             half_width,
