@@ -49,6 +49,10 @@ def _written(row: "Row", name: str) -> str:
     value = getattr(row, name)
     if value is None:
         return ""
+    if isinstance(value, list):
+        return " ".join(
+            f"{one:.2g}" if name in ("difference", "tolerance") else f"{one:.5g}" for one in value
+        )
     if isinstance(value, bool):
         return str(value).lower()
     if name in ("difference", "tolerance") and row.tolerance_kind == "relative":

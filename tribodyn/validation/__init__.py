@@ -8,7 +8,10 @@ from tribodyn.errors import InputError
 from tribodyn.validation.rows import Row
 
 #: Paper's name on the command line -> module that computes its rows.
-PAPERS = {"liu-ni-2022": "tribodyn.validation.liu_ni"}
+PAPERS = {
+    "liu-ni-2022": "tribodyn.validation.liu_ni",
+    "efremenkov-2024": "tribodyn.validation.efremenkov",
+}
 
 
 def validate(

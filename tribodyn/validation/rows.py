@@ -13,10 +13,11 @@ class Row(NamedTuple):
     Attributes
     ----------
     id, quantity, unit : str
-    published, computed : float, bool or None
-    difference : float or None
+    published, computed : float, bool, None, or list of float
+        Lists where a row of a table is compared column by column.
+    difference : float, list of float or None
         Computed less published: relative to the published value where the tolerance is.
-    tolerance : float or None
+    tolerance : float, list of float or None
     tolerance_kind : str
     verdict : {"pass", "fail", "reported"}
         "reported": the published value is not reproducible, or a claim does not hold in our physics.
@@ -28,8 +29,8 @@ class Row(NamedTuple):
     unit: str
     published: Any
     computed: Any
-    difference: float | None
-    tolerance: float | None
+    difference: float | list[float] | None
+    tolerance: float | list[float] | None
     tolerance_kind: str
     verdict: str
     note: str
@@ -51,6 +52,10 @@ def compare(row: dict[str, Any], computed: Any, note: str = "") -> Row:
         verdict = REPORTED
         if isinstance(value, (int, float)):
             difference = float(computed) - value
+    elif isinstance(value, list):
+        difference = [float(mine) - theirs for mine, theirs in zip(computed, value, strict=True)]
+        within = [abs(one) <= most for one, most in zip(difference, tolerance, strict=True)]
+        verdict = PASS if all(within) else FAIL
     else:
         difference = float(computed) - value
         if kind == "relative":

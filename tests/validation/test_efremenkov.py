@@ -1,0 +1,45 @@
+"""Efremenkov et al. (2024): every row of table and figures, from runs of the shipped scenarios."""
+
+import pytest
+
+from tribodyn.validation import validate
+from tribodyn.validation.rows import PASS, published
+
+
+@pytest.fixture(scope="module")
+def rows(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("efremenkov")
+    return {row.id: row for row in validate("efremenkov-2024", folder=folder)}
+
+
+def test_every_row_is_there_and_passes(rows):
+    assert set(rows) == set(published("efremenkov-2024"))
+    assert [row.id for row in rows.values() if row.verdict != PASS] == []
+
+
+def test_every_column_is_within_its_published_tolerance(rows):
+    for row in rows.values():
+        pairs = zip(row.computed, row.published, strict=True) if isinstance(row.published, list) else None
+        off = [a - b for a, b in pairs] if pairs else [row.computed - row.published]
+        most = row.tolerance if isinstance(row.tolerance, list) else [row.tolerance]
+        assert all(abs(one) <= limit for one, limit in zip(off, most, strict=True)), row.id
+
+
+#: Figures of a separate prototype of the restored equations.
+INDEPENDENT = {
+    "efremenkov/efficiency": 0.93224,
+    "efremenkov/ns-max-r2-30": 12.363,
+    "efremenkov/ns-max-rb-1.2": 20.538,
+    "efremenkov/ns-max-rb-2.8": 9.101,
+    "efremenkov/vs-range": 0.001432,
+}
+
+
+@pytest.mark.parametrize("key", INDEPENDENT)
+def test_figures_agree_with_an_independent_prototype(rows, key):
+    assert rows[key].computed == pytest.approx(INDEPENDENT[key], rel=5e-4)
+
+
+def test_the_corrected_efficiency_stands_beside_the_published_one(rows):
+    assert "0.039 (1442 W of 1500 W lost)" in rows["efremenkov/efficiency"].note
+    assert "0.9843" in rows["efremenkov/efficiency"].note
