@@ -1,11 +1,12 @@
 """The whole gear from one tooth: its polygon, its mass and its inertia about the axis."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from tribodyn.elementary import arctan2, cos, namespace, sin, sqrt
-from tribodyn.geometry.drive import Drive, Side, body_of
+from tribodyn.geometry.drive import SIDES, Drive, Side, body_of
 from tribodyn.geometry.family import Family
 from tribodyn.geometry.path import seen_from
 from tribodyn.geometry.tooth import ToothOutline, cut_tooth, outline, thickness_half_angle, tooth_outline
@@ -88,3 +89,28 @@ def mass_and_inertia(family: Family, drive: Drive, side: Side, density: Any) -> 
     shape = outline(family, drive, side, _INTEGRATION_POINTS, _INTEGRATION_POINTS)
     area, inertia = section_area_and_inertia(shape, body.teeth, body.bore_radius)
     return density * body.face_width * area, density * body.face_width * inertia
+
+
+def body_masses(
+    family: Family,
+    drive: Drive,
+    given: Sequence[tuple[float | None, float | None]],
+    densities: Sequence[float],
+) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Mass (kg) and moment of inertia (kg m²) of pinion and gear: those given, the others from the section.
+
+    Parameters
+    ----------
+    family, drive
+        The teeth and bodies; plain numbers.
+    given : sequence of (mass, inertia)
+        None where it is to be computed.
+    densities : sequence of float
+        Of both bodies, kg/m³.
+    """
+    masses = []
+    for side, known, density in zip(SIDES, given, densities, strict=True):
+        computed = (0.0, 0.0) if None not in known else mass_and_inertia(family, drive, side, density)
+        mass, inertia = (one if own is None else own for own, one in zip(known, computed, strict=True))
+        masses.append((float(mass), float(inertia)))
+    return masses[0], masses[1]

@@ -1,6 +1,7 @@
 """One clear line for every mistake: pydantic's findings, and where the value at fault stands."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
@@ -54,6 +55,18 @@ class Origins:
             return error
         key = tuple(int(part) if part.isdecimal() else part for part in error.key.split("."))
         return InputError(error.key, error.value, error.rule, error.remedy, self.of(key))
+
+
+    @contextmanager
+    def naming(self) -> Iterator[None]:
+        """Put the file into the errors that the physics raises inside the block."""
+        try:
+            yield
+        except InputError as error:
+            # a key without a point, such as "output", is an option of the command and not a key of a file
+            if error.file or "." not in error.key:
+                raise
+            raise self.locate(error) from None
 
 
 def explain(error: ValidationError, model: type[BaseModel]) -> list[InputError]:

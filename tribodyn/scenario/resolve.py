@@ -54,7 +54,11 @@ def resolve(path: Path, overrides: Mapping[str, Any]) -> Resolved:
     overrides : mapping
         Dotted key to value; a string is read as TOML where it is TOML, else taken as it stands.
     """
-    written = read_toml(path)
+    return resolve_table(read_toml(path), path, overrides)
+
+
+def resolve_table(written: dict[str, Any], path: Path, overrides: Mapping[str, Any]) -> Resolved:
+    """Return a scenario's data as `resolve` does; what it names is looked for as from a file at `path`."""
     data = defaults_written_out(written, table_of(written))
     origins = Origins(str(path))
     for dotted, value in sorted(overrides.items(), key=lambda item: item[0].count(".")):

@@ -10,7 +10,7 @@ from tribodyn.scenario.schema import Mesh, Operating, Scenario
 def broken_rules(scenario: Scenario) -> list[InputError]:
     """Return an error for every rule that the scenario breaks; none: it is consistent."""
     return [
-        *_drive(scenario.drive),
+        *broken_drive_rules(scenario.drive),
         *_bearing("bearings.pinion", scenario.bearings.pinion),
         *_bearing("bearings.gear", scenario.bearings.gear),
         *_operating(scenario.operating, scenario.mesh.backlash is not None),
@@ -18,7 +18,8 @@ def broken_rules(scenario: Scenario) -> list[InputError]:
     ]
 
 
-def _drive(drive: DriveTable) -> Iterator[InputError]:
+def broken_drive_rules(drive: DriveTable) -> Iterator[InputError]:
+    """Go through the rules that a drive breaks by itself."""
     for name in ("pinion", "gear"):
         gear = getattr(drive, name)
         if drive.material is None and gear.material is None:

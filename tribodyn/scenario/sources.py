@@ -48,6 +48,17 @@ def find_scenario(name: str) -> Path:
     raise _not_found("scenario", name, "scenario", [folder])
 
 
+def find_drive_or_scenario(name: str) -> Path:
+    """Return the file of a drive or of a scenario that is given by path or by the name of a shipped one."""
+    if name.endswith(".toml") or is_file(Path(name)):
+        return find_scenario(name)
+    folders = [shipped("models") / "drives", shipped("scenarios")]
+    for folder in folders:
+        if is_file(folder / f"{name}.toml"):
+            return folder / f"{name}.toml"
+    raise _not_found("model", name, "drive or scenario", folders)
+
+
 def find_model(name: str, kind: str, key: str, referring: Path) -> Path:
     """Return the file of a model that `referring` names.
 
@@ -69,7 +80,9 @@ def find_model(name: str, kind: str, key: str, referring: Path) -> Path:
         near = near_name(path.stem, names(path.parent))
         remedy = f'did you mean "{Path(name).with_name(near + ".toml")}"?' if near else "check the path"
         raise InputError(key, quoted(name), f"no such file: {printable(str(path))}", remedy)
-    folders = [referring.resolve().parent.parent / "models" / kind, shipped("models") / kind]
+    above = referring.resolve().parent.parent
+    # beside a scenario's folder there is models/, beside a model's own folder the other kinds
+    folders = [above / "models" / kind, above / kind, shipped("models") / kind]
     for folder in folders:
         if is_file(folder / f"{name}.toml"):
             return folder / f"{name}.toml"
