@@ -125,7 +125,7 @@ def _refuse_locking(case: RollingCase, cycle: Engagement) -> None:
             "friction.rolling_arm",
             f"{friction.rolling_arm * 1e3:g} mm",
             rule,
-            f"use less than {limit * 1e3:.3g} mm, such as 0.01 mm for hardened steel",
+            f"use less than {limit * 1e3:.3g} mm",
         )
     limit = friction.sliding_coefficient * power / sliding
     raise InputError(

@@ -10,6 +10,8 @@ from tribodyn.cli.overrides import SetOption, overrides
 if TYPE_CHECKING:
     from tribodyn.case import Case
     from tribodyn.mesh_cycle import MeshCycle
+    from tribodyn.rolling.case import RollingCase
+    from tribodyn.scenario.load import Loaded
 
 EXAMPLES = (
     "\b\nExamples:\n"
@@ -25,15 +27,20 @@ def check(
 ) -> None:
     """Check a scenario; print geometry and stiffness."""
     from tribodyn.cli.printing import print_json, print_table
+    from tribodyn.cli.sheet import print_sheet
     from tribodyn.geometry.sheet import geometry_sheet
+    from tribodyn.rolling.case import RollingCase
     from tribodyn.scenario.load import family, load
     from tribodyn.simulate import prepare
 
     loaded = load(scenario, overrides(settings))
     case = loaded.case
+    if isinstance(case, RollingCase):
+        _check_rolling(loaded, case, json)
+        return
     with loaded.naming():
         model = prepare(case)
-        sheet = geometry_sheet(family(case.family), case.drive)
+        sheet = geometry_sheet(family(case.family), case.drive, model.masses)
     stiffness = _stiffness(case, model.mesh_cycle)
     if json:
         print_json(
@@ -41,17 +48,7 @@ def check(
         )
         return
     typer.echo(f"{loaded.path}: {case.title}: sound")
-    bodies = {name: sheet[name] for name in ("pinion", "gear")}
-    pair = {name: value for name, value in sheet.items() if name not in bodies}
-    print_table("Pair", ("quantity", "value"), [(name, _written(*value)) for name, value in pair.items()])
-    print_table(
-        "Gears",
-        ("quantity", *bodies),
-        [
-            (name, *(_written(*body[name]) if name in body else "" for body in bodies.values()))
-            for name in bodies["pinion"]
-        ],
-    )
+    print_sheet(sheet)
     print_table(
         f"Stiffness of a single pair at the pitch point, at {stiffness['line_load'] * 1e-3:.0f} N/mm",
         ("by", "N/(mm um)", "N/m"),
@@ -62,9 +59,21 @@ def check(
     )
 
 
-def _written(value: Any, unit: str) -> str:
-    number = f"{value:.6g}" if isinstance(value, float) else str(value)
-    return f"{number} {unit}".strip()
+def _check_rolling(loaded: "Loaded", case: "RollingCase", json: bool) -> None:
+    from tribodyn.cli.printing import print_json, print_table
+    from tribodyn.cli.sheet import print_sheet
+    from tribodyn.rolling.sheet import geometry_sheet
+    from tribodyn.simulate_rolling import prepare
+
+    with loaded.naming():
+        prepare(case)
+    sheet = geometry_sheet(case.drive)
+    if json:
+        print_json({"scenario": str(loaded.path), "title": case.title, "mode": case.mode, "geometry": sheet})
+        return
+    typer.echo(f"{loaded.path}: {case.title}: sound")
+    rows = [("mode", case.mode), *((name, _written(*value)) for name, value in sheet.items())]
+    print_table("Gear with rolling elements", ("quantity", "value"), rows)
 
 
 def _stiffness(case: "Case", cycle: "MeshCycle") -> dict[str, Any]:

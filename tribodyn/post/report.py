@@ -25,6 +25,8 @@ class Line(NamedTuple):
 #: Groups of the table, in order. Names that a summary lacks are left out.
 GROUPS: dict[str, tuple[Line, ...]] = {
     "Geometry": (
+        Line("ratio", "Ratio of input to cam, which turns the other way"),
+        Line("eccentricity", "Eccentricity", 1e3, "mm"),
         Line("contact_ratio", "Contact ratio", form=".4f"),
         Line(
             "stiffness_single_pair_at_pitch_point", "Stiffness of one pair at the pitch point", 1e-6, "N/µm"
@@ -35,10 +37,16 @@ GROUPS: dict[str, tuple[Line, ...]] = {
         Line("transmission_error_mean", "Transmission error, mean", 1e6, "µm"),
         Line("transmission_error_peak_to_peak", "Transmission error, peak to peak", 1e6, "µm"),
         Line("normal_load_max", "Greatest normal load", 1.0, "N", ",.0f"),
+        Line("elements_loaded_min", "Loaded elements, at least", form="d"),
+        Line("elements_loaded_max", "Loaded elements, at most", form="d"),
+        Line("output_torque_mean", "Torque on the load, mean", 1.0, "N m"),
+        Line("output_torque_peak_to_peak", "Torque on the load, peak to peak", 1.0, "N m", ".3g"),
         Line("dynamic_factor", "Dynamic factor", form=".3f"),
         Line("contact_loss_fraction", "Time without contact", 100.0, "%", ".3g"),
     ),
     "Tribology": (
+        Line("slip_speed_max", "Greatest slip over the cam", 1e3, "mm/s"),
+        Line("spin_speed_max", "Greatest rotation of an element in the cage", 1.0, "rad/s"),
         Line("film_min", "Least film thickness", 1e6, "µm", ".3g"),
         Line("film_parameter_min", "Least film parameter", form=".3g"),
         Line("hertz_pressure_max", "Greatest Hertz pressure", 1e-9, "GPa", ".3g"),
@@ -49,6 +57,8 @@ GROUPS: dict[str, tuple[Line, ...]] = {
     "Energy": (
         Line("power_in_mean", "Power in, mean", 1.0, "W", ",.1f"),
         Line("power_friction_mean", "Friction loss, mean", 1.0, "W", ".3g"),
+        Line("power_cam_mean", "of it at the cam", 1.0, "W", ".3g"),
+        Line("power_crown_mean", "of it at the crown", 1.0, "W", ".3g"),
         Line("efficiency", "Efficiency", 100.0, "%", ".2f"),
     ),
     "Solver": (
@@ -57,6 +67,15 @@ GROUPS: dict[str, tuple[Line, ...]] = {
         Line("rhs_evaluations", "Right-hand sides", form=",d"),
         Line("wall_time", "Wall time", 1.0, "s", ".3g"),
     ),
+}
+
+
+#: What the modes of a gear with rolling elements amount to.
+MODES = {
+    "corrected": "Mode corrected: motion in time over one revolution, speeds relative to the eccentric, "
+    "efficiency by energy.",
+    "as_published": "Mode as_published: the paper's position and printed formulas; slip and spin are too small "
+    "by (Z2 + 1)/2, slip lowers the loss, efficiency is the product (23). A reference, not a prediction.",
 }
 
 
@@ -101,7 +120,7 @@ def shown(line: Line, value: Any) -> str:
 def trust(record: Record) -> list[str]:
     """Say how well the run satisfies what can be checked: range of the film law, balance of energy."""
     summary = record.summary
-    sentences = []
+    sentences = [MODES[summary["mode"]]] if "mode" in summary else []
     if "solver" in summary and "solver_reason" in summary:
         sentences.append(f"Solved by {summary['solver']} ({summary['solver_reason']}).")
     cycles = summary.get("averaging_cycles")
@@ -137,7 +156,7 @@ def as_json(record: Record) -> dict[str, Any]:
         "message": record.message,
         **{name: record.attrs[name] for name in head},
         "samples": record.samples,
-        "pairs": list(record.pairs),
+        **({"elements": len(record.elements)} if record.elements else {"pairs": list(record.pairs)}),
         "summary": _plain(record.summary),
     }
 

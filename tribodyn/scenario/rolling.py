@@ -9,7 +9,7 @@ from tribodyn.rolling.engagement import RollingFriction
 from tribodyn.rolling.geometry import RollingDrive
 from tribodyn.scenario import units
 from tribodyn.scenario.model_files import Described, Length
-from tribodyn.scenario.quantity import Count, NotNegative, Positive, Quantity, Reference, Table, Text, written
+from tribodyn.scenario.quantity import NotNegative, Positive, Quantity, Reference, Table, Text, written
 from tribodyn.scenario.schema import Name
 
 
@@ -17,7 +17,9 @@ class RollingDriveTable(Described):
     """A gear with rolling elements (`models/drives/`)."""
 
     pitch_radius: Length = Field(description='r_2, of the cage\'s pitch circle, the "generating circle"')
-    elements: Count = Field(description="Z_2, number of rolling elements")
+    elements: Annotated[int, Field(strict=True, gt=0, le=200)] = Field(
+        description="Z_2, number of rolling elements"
+    )
     displacement: Positive = Field(
         description="χ, radius of the circle of the elements' centres over pitch_radius"
     )
