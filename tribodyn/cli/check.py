@@ -61,7 +61,7 @@ def check(
 
 def _check_rolling(loaded: "Loaded", case: "RollingCase", json: bool) -> None:
     from tribodyn.cli.printing import print_json, print_table
-    from tribodyn.cli.sheet import print_sheet
+    from tribodyn.cli.sheet import written
     from tribodyn.rolling.sheet import geometry_sheet
     from tribodyn.simulate_rolling import prepare
 
@@ -72,7 +72,7 @@ def _check_rolling(loaded: "Loaded", case: "RollingCase", json: bool) -> None:
         print_json({"scenario": str(loaded.path), "title": case.title, "mode": case.mode, "geometry": sheet})
         return
     typer.echo(f"{loaded.path}: {case.title}: sound")
-    rows = [("mode", case.mode), *((name, _written(*value)) for name, value in sheet.items())]
+    rows = [("mode", case.mode), *((name, written(*value)) for name, value in sheet.items())]
     print_table("Gear with rolling elements", ("quantity", "value"), rows)
 
 

@@ -1,19 +1,33 @@
 """The geometry of a drive in the engineer's figures and units."""
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
-from tribodyn.geometry.assembly import assemble, lowest_contact_radius, tip_clearance
-from tribodyn.geometry.drive import SIDES, Drive, body_of, reference_radius
+import numpy as np
+
+from tribodyn.geometry.assembly import Assembly, assemble, lowest_contact_radius, tip_clearance
+from tribodyn.geometry.drive import SIDES, Drive, Side, body_of, reference_radius
 from tribodyn.geometry.family import Family
 from tribodyn.geometry.path import kinematics, seen_from
 from tribodyn.geometry.tooth import flank_point, thickness_half_angle
 
 Quantity = tuple[float, str]
 
+_SAMPLES = 400
 
-def geometry_sheet(family: Family, drive: Drive) -> dict[str, Any]:
+
+def geometry_sheet(
+    family: Family, drive: Drive, masses: Sequence[tuple[float, float]] | None = None
+) -> dict[str, Any]:
     """Summarise a drive that has passed `checks.check`.
+
+    Parameters
+    ----------
+    family, drive
+        What to summarise; plain numbers.
+    masses : sequence of (mass kg, inertia kg m²), optional
+        Of pinion and gear, where they are to stand in the sheet.
 
     Returns
     -------
@@ -29,6 +43,7 @@ def geometry_sheet(family: Family, drive: Drive) -> dict[str, Any]:
         "module": _millimetres(drive.module),
         "gear ratio": (float(drive.gear.teeth / drive.pinion.teeth), ""),
         "centre distance": _millimetres(path.pinion_pitch_radius + path.gear_pitch_radius),
+        "pressure angle of the rack on its rolling line": _degrees(assembly.pinion.path.pressure_angle(0.0)),
         "contact ratio": (assembly.contact_ratio, ""),
         "approach contact ratio": (-float(path.rotation(assembly.r_start)) / pitch_angle, ""),
         "recess contact ratio": (float(path.rotation(assembly.r_end)) / pitch_angle, ""),
@@ -41,7 +56,9 @@ def geometry_sheet(family: Family, drive: Drive) -> dict[str, Any]:
         "equivalent radius at pitch point": _millimetres(1 / at_pitch.relative_curvature),
         "equivalent radius at end of contact": _millimetres(1 / at_end.relative_curvature),
     }
-    for side in SIDES:
+    sliding = _sliding(assembly)
+    pair |= sliding.pop("pair")
+    for number, side in enumerate(SIDES):
         tooth, body = assembly.tooth(side), body_of(drive, side)
         working = seen_from(path, side).pinion_pitch_radius
         pair[side] = {
@@ -49,9 +66,14 @@ def geometry_sheet(family: Family, drive: Drive) -> dict[str, Any]:
             "profile shift": (float(body.profile_shift), ""),
             "reference diameter": _millimetres(2 * reference_radius(drive, side)),
             "working pitch diameter": _millimetres(2 * working),
+            **_base_diameter(assembly, side),
             "tip diameter": _millimetres(2 * tooth.tip_radius),
             "lowest contact diameter": _millimetres(2 * lowest_contact_radius(assembly, side)),
             "form diameter": _millimetres(2 * tooth.form_radius),
+            "active flank above form circle": _millimetres(
+                lowest_contact_radius(assembly, side) - tooth.form_radius
+            ),
+            "undercut margin": _millimetres(-tooth.overrun),
             "undercut by the rack": (float(tooth.overrun > 0), ""),
             "root diameter": _millimetres(2 * tooth.root_radius),
             "bore diameter": _millimetres(2 * body.bore_radius),
@@ -61,8 +83,46 @@ def geometry_sheet(family: Family, drive: Drive) -> dict[str, Any]:
             ),
             "tip thickness": _millimetres(2 * flank_point(tooth, tooth.tip_distance)[1]),
             "tip clearance": _millimetres(tip_clearance(assembly, side)),
+            **sliding[side],
         }
+        if masses is not None:
+            mass, inertia = masses[number]
+            pair[side] |= {"mass": (float(mass), "kg"), "moment of inertia": (1e6 * float(inertia), "kg mm²")}
     return pair
+
+
+def _sliding(assembly: Assembly) -> dict[str, dict[str, Quantity]]:
+    """Greatest sliding in approach and recess, and each flank's extremes of specific sliding.
+
+    Sliding per rad of the pinion, so mm/rad times rad/s is mm/s. Specific sliding is the flank's speed less
+    its mate's, over the flank's own: −∞ where a flank is touched at its point of zero velocity.
+    """
+    path = assembly.path
+    # Without P, where both speeds of a cycloid vanish.
+    approach = kinematics(path, assembly.r_start * np.linspace(1.0, 0.0, _SAMPLES, endpoint=False))
+    recess = kinematics(path, assembly.r_end * np.linspace(1.0, 0.0, _SAMPLES, endpoint=False))
+    result: dict[str, dict[str, Quantity]] = {
+        "pair": {
+            f"greatest sliding in {name}": (1e3 * float(np.abs(part.sliding).max()), "mm/rad")
+            for name, part in (("approach", approach), ("recess", recess))
+        }
+    }
+    for side, sign in zip(SIDES, (1.0, -1.0), strict=True):
+        specific = np.concatenate(
+            [sign * part.sliding / getattr(part, f"{side}_speed") for part in (approach, recess)]
+        )
+        result[side] = {
+            "least specific sliding": (float(specific.min()), ""),
+            "greatest specific sliding": (float(specific.max()), ""),
+        }
+    return result
+
+
+def _base_diameter(assembly: Assembly, side: Side) -> dict[str, Quantity]:
+    """Return the diameter of the base circle where there is one: where the normal load's arm is constant."""
+    along = kinematics(assembly.path, np.linspace(assembly.r_start, assembly.r_end, 5))
+    arm = getattr(along, f"{side}_normal_arm")
+    return {"base diameter": _millimetres(2 * arm[0])} if np.ptp(arm) <= 1e-12 * arm[0] else {}
 
 
 def _millimetres(length: Any) -> Quantity:
