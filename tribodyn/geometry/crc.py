@@ -19,8 +19,8 @@ from tribodyn.elementary import namespace, sin, sqrt
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, Side, reference_radius, tip_radius
 from tribodyn.geometry.family import Family
-from tribodyn.geometry.iteration import newton
 from tribodyn.geometry.path import Path, integrated_rotation, inverted_rotation, mirrored
+from tribodyn.iteration import newton
 
 Array = Any
 

@@ -7,8 +7,8 @@ from tribodyn.elementary import cos, namespace, sin, sqrt, tan
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, Side, body_of, reference_radius, tip_radius
 from tribodyn.geometry.family import Family
-from tribodyn.geometry.iteration import newton
 from tribodyn.geometry.path import Path
+from tribodyn.iteration import newton
 
 Array = Any
 

@@ -10,9 +10,9 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from tribodyn.elementary import cos, namespace, sin, sqrt
+from tribodyn.elementary import absolute, cos, namespace, sin, sqrt, where
 from tribodyn.geometry.drive import Side
-from tribodyn.geometry.iteration import newton
+from tribodyn.iteration import newton
 
 Array = Any
 
@@ -21,6 +21,10 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
 _NODES, _WEIGHTS = (1 + _NODES) / 2, _WEIGHTS / 2
 # Newton starts within a few per cent of the root: the error is at rounding after four steps.
 _NEWTON_STEPS = 6
+# Where the flanks' speeds and radii vanish (a cycloid's pitch point), a radius of this share
+# of the pitch radius stands for zero. The same distance tells the two sides of the pitch point apart.
+_VANISHING = 1e-12
+_BESIDE = 1e-9
 
 
 class Path(Protocol):
@@ -68,7 +72,8 @@ class Kinematics(NamedTuple):
         Curvatures of the flanks, 1/m, convex > 0. Curvature and not radius, because a radius is infinite
         where a flank is straight.
     relative_curvature : array
-        Their sum, one over the equivalent radius, 1/m.
+        Their sum, one over the equivalent radius, 1/m. Like the flanks' own it is huge but finite where the
+        equivalent radius vanishes: at the pitch point of a path whose pressure angle is zero there.
     pinion_speed, gear_speed : array
         Speeds of the contact along each flank, m per radian of pinion rotation.
     entrainment, sliding : array
@@ -105,8 +110,9 @@ def kinematics(path: Path, r: Array) -> Kinematics:
     gear_friction_arm = path.gear_pitch_radius * sin(alpha) - r
     pinion_speed = pinion_friction_arm + r * kappa
     gear_speed = ratio * gear_friction_arm + r * kappa
-    pinion_curvature = (1 + kappa) / pinion_speed
-    gear_curvature = (ratio - kappa) / gear_speed
+    least = _VANISHING * path.pinion_pitch_radius
+    pinion_curvature = (1 + kappa) / where(absolute(pinion_speed) < least, least, pinion_speed)
+    gear_curvature = (ratio - kappa) / where(absolute(gear_speed) < least, least, gear_speed)
     return Kinematics(
         signed_distance=r,
         pressure_angle=alpha,
@@ -122,6 +128,18 @@ def kinematics(path: Path, r: Array) -> Kinematics:
         entrainment=(pinion_speed + gear_speed) / 2,
         sliding=pinion_speed - gear_speed,
     )
+
+
+def sine_at_pitch_point(path: Path) -> tuple[Any, Any, Any]:
+    """Evaluate sin α at the pitch point, and its rate d(sin α)/d|r| (1/m) just before and just after it.
+
+    The rates are each other's negative unless the path has a corner there.
+    """
+    beside = _BESIDE * path.pinion_pitch_radius
+    xp = namespace(path)
+    r = xp.stack([0.0 * beside, -beside, beside])
+    alpha, slope = path.pressure_angle(r), path.pressure_angle_slope(r)
+    return sin(alpha[0]), -cos(alpha[0]) * slope[1], cos(alpha[0]) * slope[2]
 
 
 def position(path: Path, r: Array) -> tuple[Array, Array]:
@@ -143,10 +161,13 @@ def distance_at_radius(path: Path, pinion_radius: Array) -> Array:
     """
     xp = namespace(path, pinion_radius)
     r_p = path.pinion_pitch_radius
-    arm = r_p * sin(path.pressure_angle(xp.zeros_like(xp.asarray(pinion_radius, dtype=float))))
-    # Start on the straight path with the pitch point's pressure angle.
-    start = sqrt(xp.maximum(arm**2 + pinion_radius**2 - r_p**2, (1e-3 * arm) ** 2)) - arm
-    return newton(_step_to_radius, start, _NEWTON_STEPS, path, pinion_radius)
+    sine, before, after = sine_at_pitch_point(path)
+    # Start on the path with sin α linear on either side of P: exact for the involute and for the cycloid.
+    square = xp.asarray(pinion_radius, dtype=float) ** 2 - r_p**2
+    quadratic = 1 + 2 * r_p * xp.where(square < 0, -before, after)
+    arm = r_p * sine
+    root = sqrt(xp.maximum(arm**2 + quadratic * square, (1e-3 * arm) ** 2 + (_BESIDE * r_p) ** 2))
+    return newton(_step_to_radius, square / (arm + root), _NEWTON_STEPS, path, pinion_radius)
 
 
 def _step_to_radius(r: Array, path: Path, pinion_radius: Array) -> Array:
@@ -154,7 +175,7 @@ def _step_to_radius(r: Array, path: Path, pinion_radius: Array) -> Array:
     alpha = path.pressure_angle(r)
     residual = r**2 + 2 * r_p * r * sin(alpha) + r_p**2 - pinion_radius**2
     slope = 2 * (r + r_p * sin(alpha) + r * r_p * cos(alpha) * path.pressure_angle_slope(r))
-    return r - residual / slope
+    return r - residual / where(absolute(slope) < _VANISHING * r_p, _VANISHING * r_p, slope)
 
 
 def contact_limits(path: Path, pinion_tip_radius: Array, gear_tip_radius: Array) -> tuple[Array, Array]:

@@ -17,8 +17,15 @@ import numpy as np
 from tribodyn.elementary import arctan2, cos, namespace, sin, sqrt, tan
 from tribodyn.geometry.drive import Drive, Side, body_of, tip_radius
 from tribodyn.geometry.family import Family
-from tribodyn.geometry.iteration import newton
-from tribodyn.geometry.path import Path, distance_at_radius, kinematics, position, radius
+from tribodyn.geometry.path import (
+    Path,
+    distance_at_radius,
+    kinematics,
+    position,
+    radius,
+    sine_at_pitch_point,
+)
+from tribodyn.iteration import newton
 
 Array = Any
 
@@ -150,8 +157,11 @@ def tangent_distance(path: Path, depth: Any, rounding: Any) -> Any:
     r sin α + ρ_f sin α = ρ_f − depth.
     """
     xp = namespace(path, depth, rounding)
-    alpha = path.pressure_angle(xp.zeros_like(xp.asarray(depth, dtype=float)))
-    start = (rounding - depth) / sin(alpha) - rounding
+    sine, before, _ = sine_at_pitch_point(path)
+    # Start on the path with sin α linear in the distance before P.
+    half = (sine - before * rounding) / 2
+    root = sqrt(xp.maximum(half**2 + before * (depth - rounding + rounding * sine), (1e-3 * half) ** 2))
+    start = -(depth - rounding + rounding * sine) / (half + root)
     return newton(_step_to_tangency, start, _NEWTON_STEPS, path, depth, rounding)
 
 
