@@ -1,6 +1,6 @@
-"""Fixed numbers of steps, written once for NumPy and JAX.
+"""Fixed numbers of steps, written once for NumPy and JAX: iterations, Newton's method, recurrences.
 
-Newton's method, recurrences. Under tracing an unrolled loop multiplies the size of the program and the time it takes to compile; here the
+Under tracing an unrolled loop multiplies the size of the program and the time it takes to compile; here the
 steps after the first become one loop of the compiled program, differentiable in both modes.
 """
 
