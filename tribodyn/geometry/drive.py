@@ -48,15 +48,18 @@ class Drive(NamedTuple):
     module : float
         Reference pitch diameter over number of teeth, m.
     pressure_angle : float
-        rad; of the rack for the involute, at the pitch point for the CRC family.
+        rad; of the rack for the involute, at the pitch point for every other family.
     pinion, gear : GearBody
         The driver and the driven gear.
+    shape : tuple
+        What else the family's path needs: a NamedTuple of numbers and arrays that the family defines.
     """
 
     module: Number
     pressure_angle: Number
     pinion: GearBody
     gear: GearBody
+    shape: Any = ()
 
 
 def body_of(drive: Drive, side: Side) -> GearBody:

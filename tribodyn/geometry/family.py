@@ -1,10 +1,28 @@
 """A tooth family: which path two gears work on, and which path generates each of them."""
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from tribodyn.geometry.drive import Drive, Side
 from tribodyn.geometry.path import Path
+
+
+class Parameter(NamedTuple):
+    """A number, or a table of points, that a family's drives have and other families' do not.
+
+    Parameters
+    ----------
+    name : str
+        Key in the drive's table ``[shape]``, and field of the family's `shape`.
+    kind : {"length", "signed length", "number", "path"}
+        What it is: a length > 0 or of either sign (m), a plain number, or points x, y (m) of a path of contact.
+    about : str
+        What it means, in a line.
+    """
+
+    name: str
+    kind: Literal["length", "signed length", "number", "path"]
+    about: str
 
 
 class Family(NamedTuple):
@@ -24,6 +42,14 @@ class Family(NamedTuple):
         Whether a gear of this family can be profile-shifted.
     check : callable
         drive -> None; raises InputError for numbers that this family in particular cannot use.
+    shape : callable, optional
+        Makes a drive's `shape` from the values of `parameters`, by name: a NamedTuple of numbers or arrays.
+    parameters : tuple of Parameter
+        What `shape` holds.
+    pressure_angle : bool
+        Whether a drive gives its pressure angle; where not, it is 0 at the pitch point.
+    corner : bool
+        Whether α(r) has a corner at the pitch point; the mesh cycle then begins a segment there.
     """
 
     name: str
@@ -31,3 +57,7 @@ class Family(NamedTuple):
     generating_path: Callable[[Drive, Side], tuple[Path, Any]]
     shiftable: bool
     check: Callable[[Drive], None]
+    shape: Callable[..., Any] | None = None
+    parameters: tuple[Parameter, ...] = ()
+    pressure_angle: bool = True
+    corner: bool = False
