@@ -56,9 +56,12 @@ def _about(what: What) -> dict[str, str]:
         case What.solvers:
             return dict(load.SOLVERS)
         case What.plots:
-            from tribodyn.post.plots import NAMES
+            from tribodyn.post.plots import NAMES, ROLLING_NAMES
 
-            return {name: name.replace("-", " ") for name in NAMES}
+            of_pairs = {name: name.replace("-", " ") for name in NAMES}
+            rolling = {name: "gear with rolling elements" for name in ROLLING_NAMES}
+            both = {name: f"{of_pairs[name]}, also of rolling elements" for name in NAMES if name in rolling}
+            return {**of_pairs, **rolling, **both}
 
 
 def _titles(folder: Any) -> dict[str, str]:

@@ -54,17 +54,17 @@ def plot(
 
     from tribodyn.cli.printing import print_json, quoted_path
     from tribodyn.errors import InputError
-    from tribodyn.post.plots import NAMES
+    from tribodyn.post.plots import names as figure_names
     from tribodyn.record.reader import open_record
 
     paths = [word for word in what if word.endswith((".h5", ".hdf5")) or Path(word).is_file()]
     names = [word for word in what if word not in paths]
     if not paths:
         raise InputError("record", f'"{what[0]}"', "no such file", "name a record that tribodyn run wrote")
-    chosen = NAMES if not names or "all" in names else names
     prefix = "-".join(Path(path).stem for path in paths)
     with ExitStack() as stack:
         records = [stack.enter_context(open_record(path)) for path in paths]
+        chosen = figure_names(records) if not names or "all" in names else names
         pictures = draw(
             records,
             chosen,

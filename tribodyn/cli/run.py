@@ -74,8 +74,9 @@ def _as_json(path: Path) -> dict[str, Any]:
 
 def _draw(path: Path, *, everything: bool) -> list[Path]:
     from tribodyn.cli.plot import draw
-    from tribodyn.post.plots import NAMES
+    from tribodyn.post.plots import names
     from tribodyn.record.reader import open_record
 
     with open_record(path) as record:
-        return draw([record], ["overview", *NAMES] if everything else ["overview"], path.with_suffix(".png"))
+        chosen = ["overview", *names([record])] if everything else ["overview"]
+        return draw([record], chosen, path.with_suffix(".png"))

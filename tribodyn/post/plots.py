@@ -7,13 +7,15 @@ from matplotlib.figure import Figure
 
 from tribodyn.errors import InputError
 from tribodyn.post.figures import over_phase as panels
+from tribodyn.post.figures import rolling
 from tribodyn.post.figures.panel import View, draw, legend, record_title
 from tribodyn.post.figures.path_of_contact import draw_path, path_figure
 from tribodyn.post.figures.spectrum import spectrum_figure
 from tribodyn.post.style import house_style, mark_panel, new_figure, save
 from tribodyn.record.reader import Record
+from tribodyn.record.schema import ROLLING
 
-#: Names of the figures, in the order `tribodyn plot` draws them.
+#: Names of the figures of gear pairs, in the order `tribodyn plot` draws them.
 NAMES = (
     "transmission-error",
     "spectrum",
@@ -28,13 +30,36 @@ NAMES = (
 )
 
 
+#: Those of gears with rolling elements.
+ROLLING_NAMES = rolling.NAMES
+
+
+def names(records: Sequence[Record]) -> tuple[str, ...]:
+    """Names of the figures that can be drawn from these records."""
+    return rolling.names(records) if _kind(records) == ROLLING else NAMES
+
+
+def _kind(records: Sequence[Record]) -> str:
+    """Kind that all records are of; gear pairs and rolling elements cannot share a figure."""
+    first, *others = records
+    for record in others:
+        if record.kind != first.kind:
+            raise InputError(
+                "record",
+                str(record.path),
+                f"of kind {record.kind}, the first of {first.kind}",
+                "draw them apart",
+            )
+    return first.kind
+
+
 def figure(name: str, records: Sequence[Record], *, cycles: int | None = 2, against: str = "phase") -> Figure:
     """Draw one figure from one record, or from several to compare them.
 
     Parameters
     ----------
     name : str
-        One of `NAMES`, or `overview` (of the first record).
+        One of `names(records)`, or `overview` (of the first record).
     records : sequence of Record
         Records, open; one colour each.
     cycles : int or None
@@ -54,18 +79,21 @@ def figure(name: str, records: Sequence[Record], *, cycles: int | None = 2, agai
     if cycles is not None and cycles < 1:
         raise InputError("cycles", cycles, "at least one mesh cycle is drawn", "1 or more")
     view = View(cycles, against)
+    known = ROLLING_NAMES if _kind(records) == ROLLING else NAMES
+    if name not in ("overview", *known):
+        near = get_close_matches(name, known, n=1)
+        hint = f"did you mean {near[0]}? " if near else ""
+        raise InputError("plot", name, "no such figure", f"{hint}There are: {', '.join(known)}")
     with house_style():
+        if known is ROLLING_NAMES:
+            return rolling.figure(name, records, view)
         if name == "overview":
             return _overview(records[0], view)
-        if name in panels.PANELS:
-            return panels.over_phase(name, records, view)
         if name == "spectrum":
             return spectrum_figure(records, view)
         if name == "path-of-contact":
             return path_figure(records, view)
-    near = get_close_matches(name, NAMES, n=1)
-    hint = f"did you mean {near[0]}? " if near else ""
-    raise InputError("plot", name, "no such figure", f"{hint}There are: {', '.join(NAMES)}")
+        return panels.over_phase(name, records, view)
 
 
 def overview(record: Record) -> Figure:
@@ -93,4 +121,4 @@ def _overview(record: Record, view: View) -> Figure:
     return drawn
 
 
-__all__ = ["NAMES", "figure", "overview", "save"]
+__all__ = ["NAMES", "ROLLING_NAMES", "figure", "names", "overview", "save"]

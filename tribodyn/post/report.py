@@ -74,7 +74,7 @@ GROUPS: dict[str, tuple[Line, ...]] = {
 MODES = {
     "corrected": "Mode corrected: motion in time over one revolution, speeds relative to the eccentric, "
     "efficiency by energy.",
-    "as_published": "Mode as_published: the paper's position and printed formulas; slip and spin are too small "
+    "as_published": "Mode as_published: the paper's position and printed formulas; slip and spin too small "
     "by (Z2 + 1)/2, slip lowers the loss, efficiency is the product (23). A reference, not a prediction.",
 }
 
