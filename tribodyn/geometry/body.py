@@ -13,7 +13,8 @@ from tribodyn.geometry.tooth import ToothOutline, cut_tooth, outline, thickness_
 
 Array = Any
 
-_ARC_POINTS = 5
+#: Points of the root circle below half a tooth and of its tip circle, beside the ends of fillet and flank.
+ROOT_POINTS, TIP_POINTS = 4, 3
 # The chords of this many points leave a relative error below 1e-7 in area and inertia.
 _INTEGRATION_POINTS = 400
 
@@ -29,7 +30,7 @@ def gear_polygon(family: Family, drive: Drive, side: Side, flank_points: int = 4
     tooth = cut_tooth(family, drive, side)
     shape = tooth_outline(tooth, flank_points, max(flank_points // 2, 8))
     xp = namespace(tooth)
-    half_radius, half_angle = _half_tooth(shape, body_of(drive, side).teeth)
+    half_radius, half_angle = half_profile(shape, body_of(drive, side).teeth)
     # The middle of the gap belongs to the next tooth.
     radius = xp.concatenate([half_radius, half_radius[:0:-1]])
     angle = xp.concatenate([-half_angle, half_angle[:0:-1]])
@@ -45,15 +46,18 @@ def gear_polygon(family: Family, drive: Drive, side: Side, flank_points: int = 4
     return xp.concatenate([points, points[:1]])
 
 
-def _half_tooth(shape: ToothOutline, teeth: Any) -> tuple[Array, Array]:
-    """Polar coordinates of half a tooth, from the middle of the gap to the middle of the tip."""
+def half_profile(shape: ToothOutline, teeth: Any) -> tuple[Array, Array]:
+    """Polar coordinates (m, rad) of half a tooth, from the middle of the gap towards the middle of the tip.
+
+    First `ROOT_POINTS` points of the root circle, then the outline's, then `TIP_POINTS` of the tip circle.
+    """
     xp = namespace(shape, teeth)
     x = xp.concatenate([shape.fillet_x, shape.flank_x[1:]])
     y = xp.concatenate([shape.fillet_y, shape.flank_y[1:]])
     radius, angle = sqrt(x**2 + y**2), arctan2(y, x)
-    along = np.linspace(0.0, 1.0, _ARC_POINTS)[:-1]
+    along = np.linspace(0.0, 1.0, ROOT_POINTS + 1)[:-1]
     root = np.pi / teeth + along * (shape.root_half_angle - np.pi / teeth)
-    tip = angle[-1] * (1 - np.linspace(0.0, 1.0, _ARC_POINTS)[1:-1])
+    tip = angle[-1] * (1 - np.linspace(0.0, 1.0, TIP_POINTS + 2)[1:-1])
     return (
         xp.concatenate([shape.root_radius + 0 * root, radius, shape.tip_radius + 0 * tip]),
         xp.concatenate([root, angle, tip]),

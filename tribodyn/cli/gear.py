@@ -1,0 +1,97 @@
+"""`tribodyn gear`: the geometry sheet of a gear pair, and drawings of it."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from tribodyn.cli.output import make_folder, unwritable
+from tribodyn.cli.overrides import SetOption, overrides
+
+if TYPE_CHECKING:
+    from tribodyn.geometry.family import Family
+    from tribodyn.scenario.drive_file import DriveModel
+
+EXAMPLES = (
+    "\b\nExamples:\n"
+    "  tribodyn gear liu-ni-crc-23-47\n"
+    "  tribodyn gear liu-ni-involute-23-47 --set drive.pinion.profile_shift=0.3\n"
+    "  tribodyn gear my-drive.toml -o drawings\n"
+    "\b\nWith -o: the pair as SVG, PNG and DXF; each gear and its rack cutter as DXF;\n"
+    "the points of each gear's profile as CSV."
+)
+
+
+def gear(
+    model: Annotated[
+        str, typer.Argument(help="A drive or a scenario: the name of a shipped one, or a file.")
+    ],
+    output: Annotated[Path | None, typer.Option("--output", "-o", help="Folder of the drawings.")] = None,
+    settings: SetOption = None,
+    points: Annotated[int, typer.Option(help="Points along a flank in the drawings.", min=10)] = 60,
+    json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+) -> None:
+    """Print a gear pair's geometry; draw it."""
+    from tribodyn.cli.printing import print_json, quoted_path
+    from tribodyn.cli.sheet import print_sheet
+    from tribodyn.geometry.body import body_masses
+    from tribodyn.geometry.checks import check
+    from tribodyn.geometry.sheet import geometry_sheet
+    from tribodyn.scenario.drive_file import load_drive
+    from tribodyn.scenario.load import family
+
+    loaded = load_drive(model, overrides(settings))
+    teeth = family(loaded.family)
+    with loaded.origins.naming():
+        check(teeth, loaded.drive)
+    given = [(one.mass, one.inertia) for one in loaded.masses]
+    masses = body_masses(teeth, loaded.drive, given, [one.density for one in loaded.materials])
+    sheet = geometry_sheet(teeth, loaded.drive, masses)
+    files = _draw(loaded, teeth, output, points) if output is not None else []
+    if json:
+        print_json(
+            {
+                "model": str(loaded.path),
+                "title": loaded.title,
+                "family": loaded.family,
+                "geometry": sheet,
+                "files": [str(file) for file in files],
+            }
+        )
+        return
+    typer.echo(f"{loaded.path}: {loaded.title}: {loaded.family}")
+    print_sheet(sheet)
+    for file in files:
+        typer.echo(f"{file.suffix[1:]:8} {quoted_path(file)}")
+
+
+def _draw(model: "DriveModel", teeth: "Family", folder: Path, points: int) -> list[Path]:
+    """Write every drawing of a gear pair into a folder; return the files."""
+    from tribodyn.cli.progress import progress_bar
+    from tribodyn.drawing.dxf import write_gear, write_pair, write_rack
+    from tribodyn.drawing.picture import pair_figure
+    from tribodyn.drawing.profile import tooth_profile, write_profile
+    from tribodyn.geometry.drive import SIDES
+    from tribodyn.post.style import save
+
+    def file(what: str) -> Path:
+        return folder / f"{model.name}-{what}"
+
+    drive = model.drive
+    make_folder(folder)
+    try:
+        with progress_bar("drawing") as progress:
+            picture = pair_figure(teeth, drive, model.title, points)
+            files = [save(picture, file(f"pair.{ending}")) for ending in ("svg", "png")]
+            progress(0.5)
+            files.append(write_pair(file("pair.dxf"), teeth, drive, points))
+            for side in SIDES:
+                files += [
+                    write_gear(file(f"{side}.dxf"), teeth, drive, side, points),
+                    write_rack(file(f"{side}-rack.dxf"), teeth, drive, side, points),
+                    write_profile(file(f"{side}.csv"), tooth_profile(teeth, drive, side, points)),
+                ]
+            progress(1.0)
+    except OSError as error:
+        raise unwritable(folder, error) from None
+    return files

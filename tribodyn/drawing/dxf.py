@@ -1,0 +1,110 @@
+"""DXF drawings for CAD and wire erosion: gears, rack cutters, and the pair in mesh; in millimetres.
+
+Outlines are closed polylines (LWPOLYLINE); circles are circles, so that a bore can be picked.
+"""
+
+from pathlib import Path
+from typing import Any
+
+import ezdxf
+import numpy as np
+from ezdxf import units
+
+from tribodyn.drawing.picture import gears_in_mesh
+from tribodyn.geometry.body import gear_polygon
+from tribodyn.geometry.drive import SIDES, Drive, Side, body_of, root_radius, tip_radius
+from tribodyn.geometry.family import Family
+from tribodyn.geometry.path import seen_from
+from tribodyn.geometry.rack import rack_outline
+
+#: Layer -> (AutoCAD colour index, line type).
+LAYERS = {
+    "OUTLINE": (7, "CONTINUOUS"),
+    "BORE": (7, "CONTINUOUS"),
+    "TIP_CIRCLE": (3, "DASHED2"),
+    "PITCH_CIRCLE": (8, "CENTER2"),
+    "ROOT_CIRCLE": (3, "DASHED2"),
+    "ROLLING_LINE": (8, "CENTER2"),
+    "CENTRE_LINE": (8, "CENTER2"),
+    "PATH_OF_CONTACT": (1, "CONTINUOUS"),
+}
+#: Teeth of a rack cutter's drawing, and the height of its body above the root, in pitches.
+RACK_TEETH, RACK_BACK = 5, 0.5
+_MILLIMETRES = 1e3
+# Far below what any machine resolves, far above rounding.
+_SAME_POINT = 1e-12
+
+
+def write_gear(path: Path, family: Family, drive: Drive, side: Side, flank_points: int = 60) -> Path:
+    """Draw one gear about its own axis, a tooth gap's side on the line of centres as in `gear_polygon`."""
+    drawing = _drawing()
+    _add_gear(drawing, family, drive, side, gear_polygon(family, drive, side, flank_points), (0.0, 0.0))
+    drawing.saveas(path)
+    return path
+
+
+def write_rack(path: Path, family: Family, drive: Drive, side: Side, flank_points: int = 60) -> Path:
+    """Draw the rack cutter of one body, teeth down, x along the rolling line from a tooth's axis."""
+    drawing = _drawing()
+    shape = rack_outline(family, drive, side, flank_points)
+    offsets = (np.arange(RACK_TEETH) - (RACK_TEETH - 1) / 2) * shape.pitch
+    # Neighbouring pitches share the middle of a gap.
+    x = np.concatenate([shape.x[:-1] + offset for offset in offsets] + [shape.x[-1:] + offsets[-1]])
+    y = np.concatenate([shape.y[:-1]] * RACK_TEETH + [shape.y[-1:]])
+    back = shape.root_height + RACK_BACK * shape.pitch
+    outline = np.stack([np.append(x, [x[-1], x[0]]), np.append(y, [back, back])], axis=1)
+    _add_outline(drawing, outline)
+    _add_line(drawing, "ROLLING_LINE", np.array([[x[0], 0.0], [x[-1], 0.0]]))
+    drawing.saveas(path)
+    return path
+
+
+def write_pair(path: Path, family: Family, drive: Drive, flank_points: int = 60) -> Path:
+    """Draw both gears as a pair begins contact, with the path of contact, from the pitch point."""
+    drawing = _drawing()
+    mesh = gears_in_mesh(family, drive, flank_points)
+    centres = (0.0, -mesh.pitch_radii[0]), (0.0, mesh.pitch_radii[1])
+    for side, outline, centre in zip(SIDES, (mesh.pinion, mesh.gear), centres, strict=True):
+        _add_gear(drawing, family, drive, side, outline, centre)
+    _add_line(drawing, "CENTRE_LINE", np.array(centres))
+    _add_line(drawing, "PATH_OF_CONTACT", mesh.path)
+    drawing.saveas(path)
+    return path
+
+
+def _drawing() -> Any:
+    drawing = ezdxf.new("R2010", setup=["linetypes"], units=units.MM)
+    for name, (color, linetype) in LAYERS.items():
+        drawing.layers.add(name, color=color, linetype=linetype)
+    return drawing
+
+
+def _add_gear(
+    drawing: Any, family: Family, drive: Drive, side: Side, outline: np.ndarray, centre: tuple[float, float]
+) -> None:
+    """Add an outline (closed by its last point) and the circles about its axis, m."""
+    _add_outline(drawing, outline[:-1])
+    circles = {
+        "BORE": body_of(drive, side).bore_radius,
+        "ROOT_CIRCLE": root_radius(drive, side),
+        "PITCH_CIRCLE": seen_from(family.working_path(drive), side).pinion_pitch_radius,
+        "TIP_CIRCLE": tip_radius(drive, side),
+    }
+    for layer, radius in circles.items():
+        if radius > 0:
+            drawing.modelspace().add_circle(
+                [_MILLIMETRES * place for place in centre],
+                _MILLIMETRES * float(radius),
+                dxfattribs={"layer": layer},
+            )
+
+
+def _add_outline(drawing: Any, points: np.ndarray) -> None:
+    """Add a closed outline, m, without the points that a sharp corner or a pointed gap would repeat."""
+    step = np.hypot(*(points - np.roll(points, 1, axis=0)).T)
+    kept = points[step > _SAME_POINT]
+    drawing.modelspace().add_lwpolyline(_MILLIMETRES * kept, close=True, dxfattribs={"layer": "OUTLINE"})
+
+
+def _add_line(drawing: Any, layer: str, points: np.ndarray) -> None:
+    drawing.modelspace().add_lwpolyline(_MILLIMETRES * points, dxfattribs={"layer": layer})

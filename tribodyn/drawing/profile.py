@@ -1,0 +1,62 @@
+"""The profile of a tooth as a table of points."""
+
+import csv
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from tribodyn.geometry.body import ROOT_POINTS, TIP_POINTS, half_profile
+from tribodyn.geometry.drive import Drive, Side, body_of
+from tribodyn.geometry.family import Family
+from tribodyn.geometry.tooth import outline
+
+#: Columns of the file.
+HEADER = ("part", "x [mm]", "y [mm]", "radius [mm]", "angle [deg]")
+
+
+class Profile(NamedTuple):
+    """One tooth from the middle of a gap to the middle of the next.
+
+    Parameters
+    ----------
+    part : list of str
+        Curve that each point belongs to: root, fillet, flank or tip; a point where two meet belongs to the
+        fillet, or to the flank at the tip.
+    radius, angle : array
+        Polar coordinates about the axis from the tooth's axis of symmetry, m and rad; the angle grows.
+    """
+
+    part: list[str]
+    radius: np.ndarray
+    angle: np.ndarray
+
+
+def tooth_profile(family: Family, drive: Drive, side: Side, flank_points: int = 60) -> Profile:
+    """Points of one tooth of a body of a drive of plain numbers; the gear repeats it `teeth` times."""
+    fillet_points = max(flank_points // 2, 8)
+    shape = outline(family, drive, side, flank_points, fillet_points)
+    radius, angle = half_profile(shape, body_of(drive, side).teeth)
+    part = [
+        *["root"] * ROOT_POINTS,
+        *["fillet"] * fillet_points,
+        *["flank"] * (flank_points - 1),
+        *["tip"] * TIP_POINTS,
+    ]
+    return Profile(
+        part + part[::-1],
+        np.concatenate([radius, radius[::-1]]),
+        np.concatenate([-angle, angle[::-1]]),
+    )
+
+
+def write_profile(path: Path, profile: Profile) -> Path:
+    """Write a profile as CSV: x along the tooth's axis outwards, y across, mm."""
+    x, y = profile.radius * np.cos(profile.angle), profile.radius * np.sin(profile.angle)
+    columns = (1e3 * x, 1e3 * y, 1e3 * profile.radius, np.degrees(profile.angle))
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(HEADER)
+        for part, *numbers in zip(profile.part, *columns, strict=True):
+            writer.writerow([part, *(f"{number:.9g}" for number in numbers)])
+    return path

@@ -1,0 +1,151 @@
+"""Two gears in mesh as a picture: outlines, what bounds the path of contact, the path and its key points."""
+
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from tribodyn.post.style import PALETTE, QUIET
+
+PINION_FILL, GEAR_FILL = "#dcebf5", "#f6e6da"
+MILLIMETRE = 1e-3
+
+
+class GearsInMesh(NamedTuple):
+    """What the picture shows, m from the pitch point; x along the pitch tangent, y along the centres.
+
+    Parameters
+    ----------
+    pinion, gear : array
+        Closed outlines as they stand, (points, 2).
+    path : array
+        Path of contact, (points, 2).
+    pitch_radii, tip_radii : tuple of float
+        Of pinion and gear.
+    key_points : dict
+        Name, as mathematical text, -> (x, y).
+    """
+
+    pinion: np.ndarray
+    gear: np.ndarray
+    path: np.ndarray
+    pitch_radii: tuple[float, float]
+    tip_radii: tuple[float, float]
+    key_points: dict[str, tuple[float, float]]
+
+
+def key_rolls(start: float, end: float, pitch: float) -> dict[str, float]:
+    """Roll angles (rad) of the key points in order: B_g, C_p, P, C_g, B_p as Liu & Ni name them.
+
+    From `start` to `end` of contact with `pitch` between pairs; C_p and C_g only where one and two pairs
+    alternate.
+    """
+    rolls = {"B_g": start, "P": 0.0, "B_p": end}
+    if pitch < end - start < 2 * pitch:
+        rolls |= {"C_p": end - pitch, "C_g": start + pitch}
+    return dict(sorted(rolls.items(), key=lambda item: item[1]))
+
+
+def placed(
+    pinion: np.ndarray, gear: np.ndarray, pitch_radii: tuple[float, float], roll: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Place the outlines of pinion and gear at a roll angle (rad) of the pinion, from the pitch point, m.
+
+    They come as they stand while a pair touches at the pitch point, each about its own axis; the pinion turns
+    clockwise, the gear counter-clockwise.
+    """
+    return (
+        _turn(pinion, -roll) - np.array([0.0, pitch_radii[0]]),
+        _turn(gear, roll * pitch_radii[0] / pitch_radii[1]) + np.array([0.0, pitch_radii[1]]),
+    )
+
+
+def _turn(points: np.ndarray, angle: float) -> np.ndarray:
+    cosine, sine = np.cos(angle), np.sin(angle)
+    return points @ np.array([[cosine, sine], [-sine, cosine]])
+
+
+def draw_gears(axes: Axes, mesh: GearsInMesh) -> None:
+    """Draw both gears, tip and pitch circles, and the path with its key points; axes in mm about the path."""
+    _draw_outlines(axes, mesh)
+    path = mesh.path / MILLIMETRE
+    axes.plot(*path.T, color="black", linewidth=1.8)
+    _name_points(axes, mesh)
+    across, along = reach(mesh)
+    axes.set_xlim(-across, across)
+    axes.set_ylim(-along, along)
+    axes.annotate("gear", (0.03, 0.95), xycoords="axes fraction", va="top", color=PALETTE[1])
+    axes.annotate("pinion", (0.03, 0.05), xycoords="axes fraction", color=PALETTE[0])
+
+
+def draw_whole(axes: Axes, mesh: GearsInMesh, bore_radii: tuple[float, float]) -> None:
+    """Draw both gears whole, with bores and axes, and a frame round what `draw_gears` shows; axes in mm."""
+    _draw_outlines(axes, mesh)
+    axes.plot(*(mesh.path / MILLIMETRE).T, color="black", linewidth=1.2)
+    for centre, bore, color in zip(_centres(mesh), bore_radii, PALETTE, strict=False):
+        circle = centre + bore / MILLIMETRE * _circle()
+        axes.fill(*circle.T, facecolor="white", edgecolor=color, linewidth=0.9)
+        axes.plot(*centre, marker="+", color=QUIET, markersize=7)
+    across, along = reach(mesh)
+    axes.plot(
+        across * np.array([-1, 1, 1, -1, -1]),
+        along * np.array([-1, -1, 1, 1, -1]),
+        color="black",
+        linewidth=0.8,
+    )
+    axes.margins(0.03)
+
+
+def reach(mesh: GearsInMesh) -> tuple[float, float]:
+    """Half width and half height of the part that `draw_gears` shows, mm."""
+    path = mesh.path / MILLIMETRE
+    across = max(0.75 * float(np.ptp(path[:, 0])), 1.6 * float(np.abs(path[:, 1]).max())) + 1e-9
+    return across, 0.8 * across
+
+
+def _draw_outlines(axes: Axes, mesh: GearsInMesh) -> None:
+    outlines = (mesh.pinion, PINION_FILL), (mesh.gear, GEAR_FILL)
+    for (outline, fill), color in zip(outlines, PALETTE, strict=False):
+        axes.fill(*(outline / MILLIMETRE).T, facecolor=fill, edgecolor=color, linewidth=0.9)
+    sizes = zip(_centres(mesh), mesh.tip_radii, mesh.pitch_radii, PALETTE, strict=False)
+    for centre, tip, pitch, color in sizes:
+        circle = _circle()
+        axes.plot(*(centre + tip / MILLIMETRE * circle).T, color=color, linewidth=0.8, linestyle=(0, (5, 2)))
+        axes.plot(*(centre + pitch / MILLIMETRE * circle).T, color=QUIET, linewidth=0.6, linestyle="-.")
+    axes.set_aspect("equal")
+    axes.grid(False)
+    axes.set_xlabel("Along the pitch tangent (mm)")
+    axes.set_ylabel("Along the line of centres (mm)")
+
+
+def _centres(mesh: GearsInMesh) -> np.ndarray:
+    """Axes of pinion and gear, mm."""
+    return np.array([[0.0, -mesh.pitch_radii[0]], [0.0, mesh.pitch_radii[1]]]) / MILLIMETRE
+
+
+def _circle() -> np.ndarray:
+    turn = np.linspace(0, 2 * np.pi, 1441)
+    return np.stack([np.cos(turn), np.sin(turn)], axis=1)
+
+
+def _name_points(axes: Axes, mesh: GearsInMesh) -> None:
+    for number, (name, position) in enumerate(mesh.key_points.items()):
+        place = position[0] / MILLIMETRE, position[1] / MILLIMETRE
+        axes.plot(
+            *place,
+            marker="o",
+            markersize=4,
+            markerfacecolor="white",
+            markeredgecolor="black",
+            linestyle="none",
+        )
+        axes.annotate(
+            f"${name}$",
+            place,
+            # to either side of the path in turn, because P and C_g may be close
+            xytext=(-4, 9) if number % 2 == 0 else (5, -14),
+            textcoords="offset points",
+            ha="center",
+            fontsize=8.5,
+            bbox={"boxstyle": "round,pad=0.12", "facecolor": "white", "edgecolor": "none", "alpha": 0.75},
+        )
