@@ -99,6 +99,7 @@ def _four_panels(records: Sequence[Record], curves: Callable[[Record], Curve]) -
         draw_curve(panels, curves(record), PALETTE[number % len(PALETTE)], curves is by_number)
     for letter, axes in zip("abcd", panels, strict=True):
         mark_panel(axes, letter)
+    _from_zero(panels)
     _label_abscissa(panels[2:], curves is by_number)
     drawn.align_ylabels()
     _finish(drawn, records, [("cam", "-"), ("crown", "--")])
@@ -108,7 +109,7 @@ def _four_panels(records: Sequence[Record], curves: Callable[[Record], Curve]) -
 def draw_curve(panels: Sequence[Axes], curve: Curve, color: str, marked: bool) -> None:
     """Draw load, slip, losses and cumulative loss into four axes; points of single elements are `marked`."""
     marker = "o" if marked else ""
-    style = {"color": color, "marker": marker, "markersize": 3}
+    style: dict[str, Any] = {"color": color, "marker": marker, "markersize": 3, "clip_on": not marked}
     load, slip, losses, cumulative = panels
     load.plot(curve.x, curve.load, **style)
     load.set_ylabel("Normal load (N)")
@@ -119,18 +120,23 @@ def draw_curve(panels: Sequence[Axes], curve: Curve, color: str, marked: bool) -
     losses.set_ylabel("Loss of an element (W)")
     cumulative.plot(curve.x, curve.cumulative, **style)
     cumulative.set_ylabel("Cumulative loss (W)")
-    for axes in (load, losses, cumulative):
+
+
+def _from_zero(panels: Sequence[Axes]) -> None:
+    """Start loads and losses at zero, when all curves are drawn: it would stop the axes from growing."""
+    for axes in (panels[0], *panels[2:]):
         axes.set_ylim(bottom=0)
 
 
 def _label_abscissa(row: Sequence[Axes], by_element: bool) -> None:
+    """Label the horizontal axes, when all curves are drawn."""
     for axes in row:
         if by_element:
             axes.set_xlabel("Element, from the cam's depression")
             axes.xaxis.set_major_locator(MaxNLocator(integer=True))
             axes.set_xlim(axes.dataLim.x0 - 0.5, axes.dataLim.x1 + 0.5)
         else:
-            axes.set_xlabel("Angle φ of the element (°): 0 depression, 180 protrusion")
+            axes.set_xlabel("Angle φ of the element (°)")
             axes.set_xticks(range(0, 181, 30))
 
 
@@ -226,9 +232,8 @@ def _overview(record: Record, view: View) -> Figure:
     panels = [rows[0, 1], rows[0, 2], rows[1, 0], rows[1, 1]]
     moving = record.samples > 1
     draw_curve(panels, by_angle(record), PALETTE[0], marked=not moving)
+    _from_zero(panels)
     _label_abscissa(panels, by_element=False)
-    for axes in panels:
-        axes.set_xlabel("Angle φ of the element (°)")
     panels[2].legend(["cam", "crown"])
     if moving:
         part, x = _cycles(record, view)
