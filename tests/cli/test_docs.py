@@ -1,0 +1,146 @@
+"""Every page of the documentation: commands run, scenarios load, Python runs, links lead somewhere.
+
+Blocks are told apart by the words after the fence: ``toml scenario`` is a whole scenario, ``toml fragment``
+is put over the shipped CRC scenario, ``csv NAME`` is a file that others on the page refer to, ``console``
+holds shell commands, of which those of tribodyn are run, two mesh cycles long.
+"""
+
+import re
+import shlex
+import tomllib
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import matplotlib
+import pytest
+from matplotlib import pyplot
+from typer.main import get_command
+from typer.testing import CliRunner
+
+from tribodyn.cli.app import app
+from tribodyn.scenario.load import load_scenario
+from tribodyn.scenario.sources import find_scenario
+
+ROOT = Path(__file__).parents[2]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+RECORD = "crc-23-47"
+
+
+class Block(NamedTuple):
+    page: Path
+    line: int
+    language: str
+    info: str
+    text: str
+
+    def __str__(self) -> str:
+        return f"{self.page.name}:{self.line}"
+
+
+def blocks(language: str, info: str | None = None) -> list[Block]:
+    found = []
+    for page in PAGES:
+        text = page.read_text(encoding="utf-8")
+        for match in re.finditer(r"^```(\w+) ?(.*)\n((?:.*\n)*?)```$", text, re.MULTILINE):
+            block = Block(page, text[: match.start()].count("\n") + 1, *match.groups())
+            if block.language == language and info in (None, block.info):
+                found.append(block)
+    return found
+
+
+@pytest.fixture(scope="module")
+def record(tmp_path_factory) -> bytes:
+    """A short record, for the examples that read one."""
+    path = tmp_path_factory.mktemp("record") / f"{RECORD}.h5"
+    ran = CliRunner().invoke(app, ["run", RECORD, "-o", str(path), "--set", "solver.cycles=2", "--no-plot"])
+    assert ran.exit_code == 0, ran.output
+    return path.read_bytes()
+
+
+@pytest.fixture
+def folder(tmp_path: Path, record: bytes, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Where an example runs: a folder with a short record in it."""
+    (tmp_path / f"{RECORD}.h5").write_bytes(record)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def commands(block: Block) -> list[list[str]]:
+    lines = block.text.replace("\\\n", " ").splitlines()
+    words = [shlex.split(line.removeprefix("$ ").partition(" > ")[0], comments=True) for line in lines]
+    return [line[1:] for line in words if line[:1] == ["tribodyn"]]
+
+
+PAGES_WITH_COMMANDS = sorted({block.page for block in blocks("console")})
+
+
+@pytest.mark.parametrize("page", PAGES_WITH_COMMANDS, ids=lambda page: page.name)
+def test_commands_run(page: Path, folder: Path):
+    """In the order of the page, in one folder; validations are parsed only, they have tests of their own."""
+    for block in blocks("console"):
+        if block.page != page:
+            continue
+        for words in commands(block):
+            if words[0] == "validate":
+                command = get_command(app).commands["validate"]  # type: ignore[attr-defined]
+                command.make_context("validate", words[1:])
+                continue
+            if words[0] == "run":
+                words = [*words, "--set", "solver.cycles=2", "--force"]
+            ended = CliRunner().invoke(app, words)
+            assert ended.exit_code == 0, f"{block}: {shlex.join(words)}\n{ended.output}\n{ended.exception}"
+
+
+@pytest.mark.parametrize("block", blocks("toml", "scenario"), ids=str)
+def test_scenarios_load(block: Block, folder: Path):
+    (folder / "page.toml").write_text(block.text, encoding="utf-8")
+    assert load_scenario(folder / "page.toml").title
+
+
+@pytest.mark.parametrize("block", blocks("toml", "fragment"), ids=str)
+def test_fragments_load(block: Block, folder: Path):
+    for csv in blocks("csv"):
+        if csv.page == block.page:
+            (folder / csv.info).write_text(csv.text, encoding="utf-8")
+    base = find_scenario("crc-23-47").read_text(encoding="utf-8")
+    (folder / "page.toml").write_text(base, encoding="utf-8")
+    assert load_scenario(folder / "page.toml", flat(tomllib.loads(block.text))).title
+
+
+def flat(table: dict[str, Any], above: str = "") -> dict[str, Any]:
+    """Dotted keys; a drive that is written out replaces the other as a whole."""
+    found: dict[str, Any] = {}
+    for key, value in table.items():
+        if isinstance(value, dict) and above + key != "drive":
+            found |= flat(value, f"{above}{key}.")
+        else:
+            found[above + key] = value
+    return found
+
+
+def test_every_toml_block_is_one_or_the_other():
+    assert not [str(block) for block in blocks("toml") if block.info not in ("scenario", "fragment")]
+
+
+@pytest.mark.parametrize("block", blocks("python"), ids=str)
+def test_python_runs(block: Block, folder: Path):
+    matplotlib.use("agg")
+    try:
+        exec(compile(block.text, str(block), "exec"), {"__name__": "__main__"})
+    finally:
+        pyplot.close("all")
+
+
+def anchors(page: Path) -> set[str]:
+    """Anchors of a page's headings, as GitHub makes them."""
+    headings = re.findall(r"^#+ (.*)$", page.read_text(encoding="utf-8"), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_links_lead_somewhere(page: Path):
+    for target in re.findall(r"\]\((?!https?://)([^)\s]+)\)", page.read_text(encoding="utf-8")):
+        name, _, anchor = target.partition("#")
+        file = (page.parent / name).resolve() if name else page
+        assert file.exists(), f"{page.name}: {target}"
+        assert not anchor or anchor in anchors(file), f"{page.name}: {target}"

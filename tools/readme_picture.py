@@ -1,0 +1,58 @@
+"""Pictures of the README and the docs, drawn from runs of the shipped scenarios.
+
+python tools/readme_picture.py            # writes docs/pictures/*.png
+"""
+
+import argparse
+from contextlib import ExitStack
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from tribodyn import load_scenario, open_record, run
+from tribodyn.post.figures import over_phase as panels
+from tribodyn.post.figures.panel import View, draw, legend
+from tribodyn.post.figures.path_of_contact import draw_path
+from tribodyn.post.style import house_style, mark_panel, new_figure, save
+from tribodyn.record.reader import Record
+
+FOLDER = Path(__file__).parents[1] / "docs" / "pictures"
+PANELS = (
+    panels.TRANSMISSION_ERROR,
+    panels.NORMAL_LOAD,
+    panels.FRICTION_FORCE,
+    panels.FILM_THICKNESS,
+    panels.EFFICIENCY,
+)
+
+
+def comparison(records: list[Record]):
+    """Draw both drives in six panels: the first one's path of contact, then quantities of both over phase."""
+    with house_style():
+        figure = new_figure(11.0, 6.2)
+        axes = figure.subplots(2, 3).ravel()
+        draw_path(axes[0], records[0])
+        for panel, quantity in zip(axes[1:], PANELS, strict=True):
+            draw(panel, records, quantity, View(cycles=1), first=panel in (axes[1], axes[2]))
+        for letter, panel in zip("abcdef", axes, strict=True):
+            mark_panel(panel, letter)
+        legend(figure, axes[1], records)
+    return figure
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description="Draw the pictures of the README and the docs.")
+    parser.add_argument("--output", type=Path, default=FOLDER)
+    folder = parser.parse_args().output
+    folder.mkdir(parents=True, exist_ok=True)
+    with TemporaryDirectory(prefix="tribodyn-") as temporary, ExitStack() as stack:
+        records = []
+        for name in ("crc-23-47", "involute-23-47"):
+            # enough samples for the ringing after engagement
+            case = load_scenario(name, {"solver.cycles": 4, "output.samples_per_cycle": 2000})
+            result = run(case, Path(temporary) / f"{name}.h5")
+            records.append(stack.enter_context(open_record(result.path)))
+        print(save(comparison(records), folder / "crc-and-involute.png"))
+
+
+if __name__ == "__main__":
+    main()
