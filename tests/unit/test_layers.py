@@ -8,8 +8,19 @@ import pytest
 import tribodyn
 
 ROOT = Path(tribodyn.__file__).parent
-LAYERS = ("scenario", "geometry", "compliance", "tribology", "dynamics", "solve", "record", "post", "cli")
-PHYSICS = ("geometry", "compliance", "tribology", "dynamics", "solve")
+LAYERS = (
+    "scenario",
+    "geometry",
+    "compliance",
+    "tribology",
+    "dynamics",
+    "solve",
+    "record",
+    "post",
+    "drawing",
+    "cli",
+)
+PHYSICS = ("geometry", "compliance", "tribology", "dynamics", "solve", "rolling")
 FORBIDDEN = {
     "geometry": {
         "scenario",
@@ -47,6 +58,18 @@ FORBIDDEN = {
         "prepare",
     },
     "solve": {"scenario", "geometry", "compliance", "record", "post", "cli", "simulate", "prepare"},
+    "rolling": {
+        "scenario",
+        "compliance",
+        "dynamics",
+        "solve",
+        "record",
+        "post",
+        "cli",
+        "simulate",
+        "simulate_rolling",
+        "prepare",
+    },
     "record": {
         "scenario",
         "geometry",
@@ -58,9 +81,20 @@ FORBIDDEN = {
         "simulate",
         "prepare",
     },
-    "post": {"scenario", "geometry", "compliance", "dynamics", "solve", "cli", "simulate", "prepare"},
+    "post": {
+        "scenario",
+        "geometry",
+        "compliance",
+        "dynamics",
+        "solve",
+        "drawing",
+        "cli",
+        "simulate",
+        "prepare",
+    },
+    "drawing": {"scenario", "compliance", "dynamics", "solve", "record", "cli", "simulate", "prepare"},
 }
-OUTSIDE = {"pydantic", "pint", "h5py", "matplotlib", "typer", "rich"}
+OUTSIDE = {"pydantic", "pint", "h5py", "matplotlib", "ezdxf", "typer", "rich"}
 
 
 def imports(file: Path) -> set[str]:

@@ -36,7 +36,7 @@ _SAME_POINT = 1e-12
 
 
 def write_gear(path: Path, family: Family, drive: Drive, side: Side, flank_points: int = 60) -> Path:
-    """Draw one gear about its own axis, a tooth gap's side on the line of centres as in `gear_polygon`."""
+    """Draw one gear about its own axis, turned as it is while a pair touches at the pitch point."""
     drawing = _drawing()
     _add_gear(drawing, family, drive, side, gear_polygon(family, drive, side, flank_points), (0.0, 0.0))
     drawing.saveas(path)

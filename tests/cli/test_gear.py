@@ -1,0 +1,146 @@
+"""`tribodyn gear`: the sheet of a drive by name, of a file or of a scenario; drawings; refusals."""
+
+import json
+from pathlib import Path
+
+import ezdxf
+import pytest
+from typer.testing import CliRunner
+
+from tribodyn.cli.app import app
+from tribodyn.scenario.sources import shipped
+
+DRAWINGS = (
+    "pair.svg",
+    "pair.png",
+    "pair.dxf",
+    "pinion.dxf",
+    "pinion-rack.dxf",
+    "pinion.csv",
+    "gear.dxf",
+    "gear-rack.dxf",
+    "gear.csv",
+)
+
+
+def gear(*arguments: str):
+    return CliRunner().invoke(app, ["gear", *arguments])
+
+
+def sheet(*arguments: str) -> dict:
+    done = gear(*arguments, "--json")
+    assert done.exit_code == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def test_sheet_of_a_shipped_drive():
+    printed = sheet("liu-ni-crc-23-47")
+    assert printed["family"] == "crc"
+    assert printed["files"] == []
+    # Liu & Ni's contact ratio as the published one rounds it
+    assert printed["geometry"]["contact ratio"][0] == pytest.approx(1.52, abs=5e-3)
+    pinion = printed["geometry"]["pinion"]
+    assert pinion["teeth"] == [23.0, ""]
+    assert pinion["tip diameter"] == [pytest.approx(75.0), "mm"]
+    assert pinion["mass"][1] == "kg"
+    assert 0 < pinion["mass"][0] < 7850 * 3.1416 * 0.0375**2 * 0.025
+
+
+def test_drive_file_and_scenario_give_the_same_sheet():
+    by_scenario = sheet("crc-23-47")["geometry"]
+    by_name = sheet("liu-ni-crc-23-47")["geometry"]
+    by_file = sheet(str(shipped("models") / "drives" / "liu-ni-crc-23-47.toml"))["geometry"]
+    assert by_scenario == by_name == by_file
+
+
+def test_the_sheet_for_people_names_what_an_engineer_looks_for():
+    shown = gear("involute-18-36")
+    assert shown.exit_code == 0
+    for name in (
+        "module",
+        "approach contact ratio",
+        "base diameter",
+        "tip thickness",
+        "undercut margin",
+        "least specific sliding",
+        "moment of inertia",
+    ):
+        assert name in shown.stdout
+
+
+def test_keys_are_set_as_in_a_scenario():
+    assert sheet("liu-ni-involute-23-47", "--set", "drive.pinion.profile_shift=0.25")["geometry"]["pinion"][
+        "profile shift"
+    ] == [0.25, ""]
+
+
+def test_drawings(tmp_path: Path):
+    printed = sheet("liu-ni-involute-23-47", "-o", str(tmp_path / "new" / "folder"), "--points", "20")
+    files = [Path(file) for file in printed["files"]]
+    assert sorted(file.name for file in files) == sorted(f"liu-ni-involute-23-47-{end}" for end in DRAWINGS)
+    for file in files:
+        assert file.stat().st_size > 1000
+        if file.suffix == ".dxf":
+            outlines = ezdxf.readfile(file).modelspace().query('LWPOLYLINE[layer=="OUTLINE"]')
+            assert len(outlines) == (2 if file.name.endswith("pair.dxf") else 1)
+            assert all(outline.closed for outline in outlines)
+
+
+@pytest.mark.parametrize(
+    ("model", "said"),
+    [
+        ("liu-ni-crc-23-74", 'did you mean "liu-ni-crc-23-47"?'),
+        ("nowhere.toml", "no such file"),
+        ("efremenkov-irefc", "not a pair of gears"),
+        ("irefc", "not a pair of gears"),
+    ],
+)
+def test_what_is_no_gear_pair_is_refused(model: str, said: str):
+    refused = gear(model)
+    assert refused.exit_code == 2
+    assert said in refused.stderr
+    assert len(refused.stderr.splitlines()) == 1
+
+
+def own_drive(folder: Path, old: str, new: str) -> str:
+    text = (shipped("models") / "drives" / "liu-ni-involute-23-47.toml").read_text(encoding="utf-8")
+    assert old in text
+    path = folder / "own.toml"
+    path.write_text(text.replace(old, new), encoding="utf-8")
+    return str(path)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ('family = "involute"', 'family = "evolvent"', "drive.family"),
+        ('module = "3 mm"', 'module = "3"', "drive.module"),
+        ("teeth = 23", "teeth = 14", "undercuts"),
+        ('material = "steel-liu-ni-2022"', "", "drive.pinion.material: missing"),
+        ('material = "steel-liu-ni-2022"', 'material = "steel-liu-nix"', "did you mean"),
+    ],
+)
+def test_a_bad_drive_file_is_named_with_its_key(tmp_path: Path, old: str, new: str, said: str):
+    path = own_drive(tmp_path, old, new)
+    refused = gear(path)
+    assert refused.exit_code == 2
+    assert said in refused.stderr
+    assert all(line.startswith(f"{path}: drive.") for line in refused.stderr.splitlines())
+
+
+def test_materials_of_an_own_drive_are_found_beside_it(tmp_path: Path):
+    (tmp_path / "drives").mkdir()
+    (tmp_path / "materials").mkdir()
+    steel = (shipped("models") / "materials" / "steel-liu-ni-2022.toml").read_text(encoding="utf-8")
+    assert "7850" in steel
+    (tmp_path / "materials" / "light.toml").write_text(steel.replace("7850", "3925"), encoding="utf-8")
+    light = sheet(own_drive(tmp_path / "drives", "steel-liu-ni-2022", "light"))["geometry"]["gear"]
+    steel = sheet("liu-ni-involute-23-47")["geometry"]["gear"]
+    assert light["mass"][0] == pytest.approx(steel["mass"][0] / 2)
+
+
+def test_a_folder_that_cannot_be_made_is_bad_input(tmp_path: Path):
+    (tmp_path / "file").write_text("", encoding="utf-8")
+    refused = gear("liu-ni-crc-23-47", "-o", str(tmp_path / "file"))
+    assert refused.exit_code == 2
+    assert "choose another folder with --output" in refused.stderr
