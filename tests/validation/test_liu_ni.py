@@ -71,6 +71,7 @@ def test_verdicts(computed, kind, tolerance, verdict):
         "published": True if kind == "claim" else 1.0,
         "tolerance": tolerance,
         "tolerance_kind": kind,
+        "independent": None,
         "note": "",
     }
     assert compare(row, computed).verdict == verdict

@@ -1,4 +1,4 @@
-"""Comparison with the numbers and claims of the papers, from records alone."""
+"""Comparison with the numbers and claims of the papers, from records where it takes a run."""
 
 from collections.abc import Callable
 from importlib import import_module
@@ -11,6 +11,8 @@ from tribodyn.validation.rows import Row
 PAPERS = {
     "liu-ni-2022": "tribodyn.validation.liu_ni",
     "efremenkov-2024": "tribodyn.validation.efremenkov",
+    "veciana-2024": "tribodyn.validation.veciana",
+    "diez-ibarbia": "tribodyn.validation.diez_ibarbia",
 }
 
 

@@ -43,10 +43,19 @@ def published(paper: str) -> dict[str, dict[str, Any]]:
 
 
 def compare(row: dict[str, Any], computed: Any, note: str = "") -> Row:
-    """Judge a computed value against a published row; `note` is put before the row's own."""
+    """Judge a computed value against a published row; `note` is put before the row's own.
+
+    Where the paper has a figure only, the value of a separate prototype takes its number's place, and the
+    row's `tolerance_kind` and note say so. What cannot be computed yet is None and stays "reported".
+    """
     value, tolerance, kind = row["published"], row["tolerance"], row["tolerance_kind"]
+    if value is None and row["independent"] is not None:
+        value = row["independent"]
+        note = "; ".join(text for text in (note, f"a separate prototype of the equations: {value:g}") if text)
     difference = None
-    if kind == "claim":
+    if computed is None:
+        verdict = REPORTED
+    elif kind == "claim":
         verdict = PASS if bool(computed) == bool(value) else REPORTED
     elif tolerance is None:
         verdict = REPORTED
@@ -63,5 +72,14 @@ def compare(row: dict[str, Any], computed: Any, note: str = "") -> Row:
         verdict = PASS if abs(difference) <= tolerance else FAIL
     notes = "; ".join(text for text in (note, row["note"]) if text)
     return Row(
-        row["id"], row["quantity"], row["unit"], value, computed, difference, tolerance, kind, verdict, notes
+        row["id"],
+        row["quantity"],
+        row["unit"],
+        row["published"],
+        computed,
+        difference,
+        tolerance,
+        kind,
+        verdict,
+        notes,
     )

@@ -1,0 +1,54 @@
+"""Veciana et al. (2024): every row of the published table, and the figures of a separate prototype."""
+
+import pytest
+
+from tribodyn.validation import validate
+from tribodyn.validation.rows import published
+from tribodyn.validation.veciana_study import Study
+
+#: A separate prototype of the restored equations: involute, cycloid at d_g = 0.1, 0.17, 0.4 d_1, crossover.
+PROTOTYPE = {
+    ("EHL", 1.0, 2e-3): (0.9973579939497901, 0.9987677416, 0.9978222853, 0.9969104993287033, 0.22146275),
+    ("EHL", 3.0, 2e-3): (0.998728424115494, 0.9994629581, 0.9989319365, 0.9981334213660665, 0.20063553),
+    ("EHL", 1.0, 6e-3): (0.99827924367011, 0.99919778, 0.9985820082, 0.9979881968305704, 0.22153485),
+    ("MEHL A", 1.0, 2e-3): (0.9958641415799675, 0.9976411555, 0.9949746941, 0.9918971884152651, 0.14418199),
+    ("MEHL A", 2.0, 2e-3): (0.9972645965287468, 0.9985635137, 0.9967108289, 0.9941327245198818, 0.14796125),
+    ("MEHL A", 1.0, 4e-3): (0.9970182145538947, 0.9985855094, 0.9964949010, 0.9928193662342649, 0.15299394),
+    ("MEHL B", 1.0, 2e-3): (0.9949923292238145, 0.9974814480, 0.9948430069, 0.9917439193184326, 0.16522405),
+    ("MEHL B", 1.0, 6e-3): (0.9970300077241627, 0.9988439522, 0.9971762768, 0.9933520465767027, 0.17562714),
+}
+
+
+@pytest.fixture(scope="module")
+def rows():
+    return {row.id: row for row in validate("veciana-2024")}
+
+
+def test_every_row_is_there_and_within_its_tolerance(rows):
+    assert set(rows) == set(published("veciana-2024"))
+    for number in range(1, 16):
+        row = rows[f"veciana/{number:02d}"]
+        off = row.computed - row.published
+        if row.tolerance_kind == "relative":
+            off /= row.published
+        assert abs(off) <= row.tolerance, row.id
+        assert row.verdict == "pass"
+    assert rows["veciana/16"].verdict == "reported"
+
+
+def test_both_readings_of_the_mixed_law_are_told(rows):
+    for number in (5, 8, 9, 12, 13, 15, 16):
+        note = rows[f"veciana/{number:02d}"].note
+        assert "reading A (as printed)" in note
+        assert "reading B (greatest pressure, own speeds)" in note
+
+
+@pytest.mark.parametrize("case", PROTOTYPE)
+def test_efficiencies_agree_with_a_separate_prototype(case):
+    law, ratio, module = case
+    involute, small, chosen, large, crossover = PROTOTYPE[case]
+    study = Study(ratio, module, law)
+    assert study.involute() == pytest.approx(involute, abs=1e-9)
+    # the prototype's quadrature of the cycloid is converged to 1e-7
+    assert study.cycloid([0.1, 0.17, 0.4]) == pytest.approx([small, chosen, large], abs=1e-7)
+    assert study.crossover() == pytest.approx(crossover, abs=2e-5)

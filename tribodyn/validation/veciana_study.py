@@ -1,0 +1,155 @@
+"""Drives and lubricant of Veciana et al. (2024), Tables 2 and 3, and the efficiencies of their study."""
+
+import math
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+
+from tribodyn.efficiency.torque_ratio import (
+    TorqueRatio,
+    UnitContact,
+    cycloid_contact,
+    involute_contact,
+    torque_ratio,
+)
+from tribodyn.tribology.contact import Contact
+from tribodyn.tribology.friction import MASJEDI_KHONSARI, XU
+
+#: Readings of the friction laws. "A" is the mixed law as printed: Roelands at the mean pressure, sliding
+#: speed in the Péclet numbers; "B" has the greatest pressure and each surface's own speed.
+Law = Literal["EHL", "MEHL A", "MEHL B"]
+LAWS: tuple[Law, ...] = ("EHL", "MEHL A", "MEHL B")
+
+PINION_TEETH = 27.0
+PRESSURE_ANGLE = math.radians(20.0)
+PITCH_LINE_SPEED = 12.5  # m/s
+PITCH_POINT_PRESSURE = 668e6  # Pa, of the involute
+WIDTH_OVER_DIAMETER = 0.8
+EFFECTIVE_MODULUS = 231e9  # Pa
+#: The paper's drives: (gear ratio, module m).
+DRIVES = ((1.0, 2e-3), (2.0, 2e-3), (3.0, 2e-3), (1.0, 4e-3), (1.0, 6e-3))
+
+SURFACES = Contact(
+    effective_modulus=EFFECTIVE_MODULUS,
+    hardness=6.0e9,
+    roughness=0.20e-6,
+    asperity_friction=0.12,
+    limiting_shear_coefficient=0.06,
+    inlet_viscosity=0.010,
+    pressure_viscosity=1.5e-8,
+    viscosity_pressure_index=0.58,
+    temperature_viscosity=0.03,
+    pinion_conductivity=60.5,
+    gear_conductivity=60.5,
+    pinion_heat_capacity=769.2 * 434.0,  # density of the lubricant, specific heat of the steel, as printed
+    gear_heat_capacity=769.2 * 434.0,
+    coulomb_coefficient=0.0,
+    asperity_log_factor=4470.0,
+    limiting_share=1.0,
+    mean_roughness=0.20e-6 / math.sqrt(math.pi),
+    viscosity_pressure_factor=1.0,
+    peclet_sliding=1.0,
+)
+
+
+def law_of(name: Law) -> tuple[int, Contact]:
+    """Return the law's code and the surfaces in that reading."""
+    if name == "MEHL B":
+        return MASJEDI_KHONSARI, SURFACES._replace(
+            peclet_sliding=0.0, viscosity_pressure_factor=4.0 / math.pi
+        )
+    return (XU if name == "EHL" else MASJEDI_KHONSARI), SURFACES
+
+
+class Study(NamedTuple):
+    """One drive of the study under one law.
+
+    Attributes
+    ----------
+    ratio : i
+    module : m
+    law : Law
+    """
+
+    ratio: float
+    module: float
+    law: Law
+
+    @property
+    def pinion_radius(self) -> float:
+        """Pitch radius of the pinion, m."""
+        return self.module * PINION_TEETH / 2.0
+
+    @property
+    def pinion_speed(self) -> float:
+        """Speed of the pinion, rad/s."""
+        return PITCH_LINE_SPEED / self.pinion_radius
+
+    @property
+    def face_width(self) -> float:
+        """Face width, m."""
+        return WIDTH_OVER_DIAMETER * 2.0 * self.pinion_radius
+
+    @property
+    def input_torque(self) -> float:
+        """Γ_1 that presses the involute to 668 MPa at its pitch point, N m: W'_0 = 2π R p_H²/E'."""
+        radius = self.pinion_radius * math.sin(PRESSURE_ANGLE) * self.ratio / (1.0 + self.ratio)
+        line_load = 2.0 * math.pi * radius * PITCH_POINT_PRESSURE**2 / EFFECTIVE_MODULUS
+        return line_load * self.face_width * self.pinion_radius * math.cos(PRESSURE_ANGLE)
+
+    def solve(self, pair: UnitContact) -> TorqueRatio:
+        """Solve a pair of this drive."""
+        law, surfaces = law_of(self.law)
+        return torque_ratio(pair, self.input_torque, self.pinion_speed, self.face_width, law, surfaces)
+
+    def involute_pair(self, rotation: Any = None) -> UnitContact:
+        """Return the involute of the drive."""
+        return involute_contact(PINION_TEETH, self.pinion_radius, self.ratio, PRESSURE_ANGLE, rotation)
+
+    def cycloid_pair(
+        self,
+        approach_circle: Any,
+        recess_circle: Any = None,
+        rotation: Any = None,
+        exact_speeds: bool = False,
+    ) -> UnitContact:
+        """Return the cycloid with generating circles d_g1, d_g2 over d_1 (one given: both)."""
+        return cycloid_contact(
+            PINION_TEETH,
+            self.pinion_radius,
+            self.ratio,
+            approach_circle,
+            approach_circle if recess_circle is None else recess_circle,
+            rotation,
+            exact_speeds,
+        )
+
+    def involute(self) -> float:
+        """Efficiency of the involute."""
+        return float(self.solve(self.involute_pair()).efficiency)
+
+    def cycloid(self, approach_circle: Any, recess_circle: Any = None, exact_speeds: bool = False) -> Any:
+        """Efficiency of the cycloid, array like its circles."""
+        pair = self.cycloid_pair(approach_circle, recess_circle, exact_speeds=exact_speeds)
+        return self.solve(pair).efficiency
+
+    def crossover(self) -> float:
+        """Circles d_g1 = d_g2 over d_1 at which the cycloid is as efficient as the involute."""
+        from scipy.optimize import brentq
+
+        level = self.involute()
+
+        def above(circle: float) -> float:
+            return float(self.cycloid(circle)) - level
+
+        return float(brentq(above, 0.1, 0.4, xtol=1e-7))  # pyright: ignore[reportArgumentType]
+
+
+def contact_height(pair: UnitContact) -> float:
+    """Radial height of the pinion's flank between its first and last contact, m.
+
+    The radius of a contact point follows from its arms: (A, T) are its components about the pinion's axis.
+    Pass a pair whose first and last points are the ends of contact.
+    """
+    radius = np.hypot(pair.pinion_normal_arm, pair.pinion_friction_arm)
+    return float(radius[..., -1] - radius[..., 0])
