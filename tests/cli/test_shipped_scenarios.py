@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from tribodyn.record.reader import open_record
+from tribodyn.scenario.load import load_scenario
 from tribodyn.scenario.sources import names, shipped
 
 
@@ -29,7 +30,9 @@ def tribodyn(*arguments: str, folder: Path) -> str:
 
 @pytest.mark.parametrize("name", names(shipped("scenarios")))
 def test_it_runs(name: str, tmp_path: Path):
-    said = tribodyn("run", name, "--set", "solver.cycles=2", "--json", folder=tmp_path)
+    rolling = load_scenario(name).kind == "irefc"  # solves no equation of motion and takes no time
+    shorter = () if rolling else ("--set", "solver.cycles=2")
+    said = tribodyn("run", name, *shorter, "--json", folder=tmp_path)
     result = json.loads(said)
     assert result["status"] == "complete"
     assert abs(result["summary"]["energy_residual"]) < 1e-5  # 10 × rtol
