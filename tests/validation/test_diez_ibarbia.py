@@ -55,9 +55,9 @@ def test_shifted_pairs_agree_with_a_separate_prototype(case):
     scenario, shift = case
     by_hoehn, by_integral = loss_factors(shifted(drive(), scenario, shift))
     # the prototype rounds the contact ratio that S2 keeps to 1.611, and integrates numerically
-    close = 3e-7 if scenario == "S2" else 1e-9
+    close = 1e-6 if scenario == "S2" else 1e-9
     assert 1 - FRICTION * by_hoehn == pytest.approx(PROTOTYPE[case][0], abs=close)
-    assert 1 - FRICTION * by_integral == pytest.approx(PROTOTYPE[case][1], abs=3e-7)
+    assert 1 - FRICTION * by_integral == pytest.approx(PROTOTYPE[case][1], abs=1e-6)
 
 
 @pytest.mark.parametrize(("scenario", "shift", "back"), [("S2", 0.064, 0.13), ("S3", 0.103, 0.21)])
