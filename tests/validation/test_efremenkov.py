@@ -2,6 +2,9 @@
 
 import pytest
 
+from tribodyn.record.reader import open_record
+from tribodyn.scenario.load import load_scenario
+from tribodyn.simulate import run
 from tribodyn.validation import validate
 from tribodyn.validation.rows import PASS, published
 
@@ -43,3 +46,17 @@ def test_figures_agree_with_an_independent_prototype(rows, key):
 def test_the_corrected_efficiency_stands_beside_the_published_one(rows):
     assert "0.039 (1442 W of 1500 W lost)" in rows["efremenkov/efficiency"].note
     assert "0.9843" in rows["efremenkov/efficiency"].note
+
+
+#: The table's columns N_SA and N_SB, W, of elements 2 … 13.
+CAM = (0.1455, 0.1867, 0.1818, 0.1624, 0.1384, 0.1140, 0.0909, 0.0701, 0.0519, 0.0363, 0.0228, 0.0110)
+CROWN = (0.0013, 0.0024, 0.0033, 0.0039, 0.0044, 0.0046, 0.0046, 0.0043, 0.0037, 0.0030, 0.0021, 0.0011)
+
+
+def test_the_columns_of_cam_and_crown_belong_to_another_gear(tmp_path):
+    """Both were made with r_b 2.8 mm and μ 1e-6 m, the cam's by the magnitude of its signed sum."""
+    changes = {"drive.element_radius": "2.8 mm", "friction.rolling_arm": "1e-6 m"}
+    result = run(load_scenario("irefc-as-published", changes), tmp_path / "columns.h5")
+    with open_record(result.path) as record:
+        assert -record["power_cam"][0][1:13] == pytest.approx(CAM, abs=6e-5)
+        assert record["power_crown"][0][1:13] == pytest.approx(CROWN, abs=6e-5)
