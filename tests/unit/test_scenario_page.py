@@ -10,7 +10,7 @@ import pytest
 from pydantic import ValidationError
 from pydantic.fields import FieldInfo
 
-from tribodyn.scenario import schema
+from tribodyn.scenario.kinds import KINDS
 from tribodyn.scenario.load import FAMILIES, FRICTION_LAWS, SOLVERS
 from tribodyn.scenario.quantity import Column, Quantity, Reference, Table
 
@@ -39,7 +39,7 @@ def tables(table: type[Table]) -> dict[str, type[Table]]:
     return found
 
 
-TABLES = tables(schema.Scenario)
+TABLES = {name: table for kind in KINDS.values() for name, table in tables(kind).items()}
 KEYS = [(table, key) for table in TABLES for key in TABLES[table].model_fields]
 
 
