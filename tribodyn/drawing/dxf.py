@@ -6,9 +6,9 @@ Outlines are closed polylines (LWPOLYLINE); circles are circles, so that a bore 
 from pathlib import Path
 from typing import Any
 
-import ezdxf
 import numpy as np
 from ezdxf import units
+from ezdxf.filemanagement import new
 
 from tribodyn.drawing.picture import gears_in_mesh
 from tribodyn.geometry.body import gear_polygon
@@ -73,7 +73,7 @@ def write_pair(path: Path, family: Family, drive: Drive, flank_points: int = 60)
 
 
 def _drawing() -> Any:
-    drawing = ezdxf.new("R2010", setup=["linetypes"], units=units.MM)
+    drawing = new("R2010", setup=["linetypes"], units=units.MM)
     for name, (color, linetype) in LAYERS.items():
         drawing.layers.add(name, color=color, linetype=linetype)
     return drawing

@@ -32,6 +32,8 @@ class Record:
 
     def __init__(self, path: str | Path) -> None:
         self.path = Path(path)
+        #: What a legend calls the record: its file's name, unless somebody who has several gives another.
+        self.label = self.path.stem.removesuffix(".partial")
         self._file: Any = _open(self.path)  # h5py types no item of a file
         try:
             self._check()

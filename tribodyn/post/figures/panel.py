@@ -43,8 +43,8 @@ class Quantity(NamedTuple):
 
 
 def record_label(record: Record) -> str:
-    """Name a record in a legend, by its file."""
-    return record.path.stem.removesuffix(".partial")
+    """Name a record in a legend."""
+    return record.label
 
 
 def record_title(record: Record) -> str:

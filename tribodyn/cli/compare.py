@@ -1,0 +1,123 @@
+"""`tribodyn compare`: several runs in one table and in the same pictures."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from tribodyn.cli.output import make_folder
+from tribodyn.cli.overrides import SetOption, overrides
+from tribodyn.cli.plot import Format
+
+if TYPE_CHECKING:
+    from tribodyn.scenario.load import Loaded
+
+EXAMPLES = (
+    "\b\nExamples:\n"
+    "  tribodyn compare crc-23-47 involute-23-47\n"
+    '  tribodyn compare crc-23-47 involute-23-47 --set operating.gear_torque="300 N*m" -o comparison\n'
+    "  tribodyn compare before.h5 after.h5 --json"
+    "\b\nScenarios are run, records are read; with -o the records of what was run\n"
+    "and one picture a quantity, all runs in it, are kept."
+)
+
+
+def compare(
+    what: Annotated[
+        list[str], typer.Argument(metavar="A B...", help="Records, scenario files, names of scenarios.")
+    ],
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", help="Folder of the records and pictures.")
+    ] = None,
+    settings: SetOption = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace records of that name.")] = False,
+    format: Annotated[Format, typer.Option(help="File format of the pictures.")] = Format.png,
+    json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+) -> None:
+    """Compare runs: one table, shared pictures."""
+    from contextlib import ExitStack
+    from tempfile import TemporaryDirectory
+
+    from tribodyn.cli.plot import draw
+    from tribodyn.cli.printing import print_json, print_rich, quoted_path
+    from tribodyn.post import compare as comparing
+    from tribodyn.post.plots import names
+    from tribodyn.record.reader import open_record
+
+    scenarios = _scenarios(what, overrides(settings))
+    pictures: list[Path] = []
+    with ExitStack() as stack:
+        if output is None:
+            folder = Path(stack.enter_context(TemporaryDirectory(prefix="tribodyn-")))
+        else:
+            folder = output
+            make_folder(folder)
+        paths = [_run(scenarios[word], folder, force) if word in scenarios else Path(word) for word in what]
+        records = [stack.enter_context(open_record(path)) for path in paths]
+        compared = comparing.compare(records)
+        if output is not None:
+            pictures = draw(records, names(records), folder / f"compare.{format.value}")
+    ran = [path for word, path in zip(what, paths, strict=True) if word in scenarios and output is not None]
+    if json:
+        files = {"kept": [str(path) for path in ran], "pictures": [str(path) for path in pictures]}
+        print_json({**comparing.as_json(compared), **files})
+        return
+    print_rich(comparing.comparison_table(compared))
+    for path in ran:
+        typer.echo(f"record   {quoted_path(path)}")
+    for picture in pictures:
+        typer.echo(f"picture  {quoted_path(picture)}")
+
+
+def _scenarios(what: list[str], settings: Mapping[str, str]) -> dict[str, "Loaded"]:
+    """Load what is to be run, and refuse before anything runs what cannot be compared afterwards."""
+    from tribodyn.errors import InputError
+    from tribodyn.record.reader import open_record
+    from tribodyn.scenario.load import load
+
+    if len(what) < 2:
+        raise InputError(
+            "compare", f'"{what[0]}"', "there is nothing to compare it with", "name at least two"
+        )
+    scenarios = {word: load(word, settings) for word in what if not _is_record(word)}
+    if settings and not scenarios:
+        raise InputError(
+            "--set", None, "nothing is run: records are as they are", "name scenarios, or leave it"
+        )
+    kinds, cases = {}, {}
+    for word in what:
+        if word not in scenarios:
+            with open_record(word) as record:
+                kinds[word] = record.kind
+            continue
+        case = scenarios[word].case
+        kinds[word] = case.kind
+        if case.name in cases:
+            rule = f'its record would have the name of that of "{cases[case.name]}", {case.name}.h5'
+            raise InputError("compare", f'"{word}"', rule, "give it another name: name = ... in the file")
+        cases[case.name] = word
+    other = next((word for word in what if kinds[word] != kinds[what[0]]), None)
+    if other is not None:
+        rule = f'kind "{kinds[other]}" and kind "{kinds[what[0]]}" share no quantities to compare'
+        raise InputError("compare", f'"{other}"', rule, "compare runs of one kind")
+    return scenarios
+
+
+def _is_record(word: str) -> bool:
+    return word.endswith((".h5", ".hdf5")) or (not word.endswith(".toml") and Path(word).is_file())
+
+
+def _run(loaded: "Loaded", folder: Path, force: bool) -> Path:
+    """Run a scenario into a folder; return its record."""
+    from tribodyn.cli.outcome import SIMULATION_FAILED, complain
+    from tribodyn.cli.progress import progress_bar
+    from tribodyn.simulate import run as simulate
+
+    name = loaded.case.name
+    with loaded.naming(), progress_bar(name) as progress:
+        result = simulate(loaded.case, folder / f"{name}.h5", force=force, progress=progress)
+    if result.status != "complete":
+        complain(f"{loaded.path}: the simulation failed: {result.message}")
+        raise typer.Exit(SIMULATION_FAILED)
+    return result.path

@@ -1,0 +1,234 @@
+"""Records side by side: one table of what they found, and what besides the gears differs between the runs."""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from rich.console import Group
+from rich.table import Table
+from rich.text import Text
+
+from tribodyn.errors import InputError
+from tribodyn.post.report import GROUPS, Line, shown
+from tribodyn.record.reader import Record
+
+#: Groups of the summary that tell of the gears; how they were solved does not.
+COMPARED = ("Geometry", "Dynamics", "Tribology", "Energy")
+#: The share of the power that is lost, beside the efficiency whose difference it shows better.
+LOSS = Line("loss", "Loss, share of the power in", 100.0, "%", ".3f")
+#: Parts of a scenario that say under which conditions a drive ran, not which drive nor how it was solved.
+CONDITIONS = ("mode", "operating", "lubricant", "friction", "bearings", "mesh")
+_PROSE = ("source", "assumptions")
+
+
+class Row(NamedTuple):
+    """One quantity of every record.
+
+    Parameters
+    ----------
+    line : Line
+        What it is and how it is written.
+    values : tuple
+        SI, in the order of the records; None where a record lacks it.
+    """
+
+    line: Line
+    values: tuple[Any, ...]
+
+    def differences(self) -> tuple[float | None, ...]:
+        """Relative difference of every later record from the first; None where it means nothing."""
+        first = self.values[0]
+        return tuple(_relative(first, value) for value in self.values[1:])
+
+
+class Comparison(NamedTuple):
+    """Several records side by side.
+
+    Parameters
+    ----------
+    labels, titles : tuple of str
+        Names of the records in table and legends, and titles of their scenarios.
+    groups : dict
+        Heading -> rows.
+    conditions : dict
+        Dotted key of the scenario -> what each record's says, for the keys in which they differ.
+    """
+
+    labels: tuple[str, ...]
+    titles: tuple[str, ...]
+    groups: dict[str, tuple[Row, ...]]
+    conditions: dict[str, tuple[str, ...]]
+
+
+def compare(records: Sequence[Record]) -> Comparison:
+    """Set complete records of one kind side by side; their labels become distinct.
+
+    Raises
+    ------
+    InputError
+        Fewer than two records, one of them twice, an unfinished one, or kinds that share no quantities.
+    """
+    _refuse(records)
+    for record, label in zip(records, distinct_labels(records), strict=True):
+        record.label = label
+    summaries = [_with_loss(record.summary) for record in records]
+    groups = {}
+    for heading in COMPARED:
+        lines = (*GROUPS[heading], LOSS) if heading == "Energy" else GROUPS[heading]
+        rows = (Row(line, tuple(summary.get(line.name) for summary in summaries)) for line in lines)
+        groups[heading] = tuple(row for row in rows if any(value is not None for value in row.values))
+    return Comparison(
+        tuple(record.label for record in records),
+        tuple(str(record.scenario.get("title", "")) for record in records),
+        {heading: rows for heading, rows in groups.items() if rows},
+        _differing([dict(_conditions(record.scenario)) for record in records]),
+    )
+
+
+def _refuse(records: Sequence[Record]) -> None:
+    if len(records) < 2:
+        given = str(records[0].path) if records else None
+        raise InputError("compare", given, "there is nothing to compare it with", "name at least two")
+    seen = set()
+    for record in records:
+        if record.path.resolve() in seen:
+            raise InputError("record", str(record.path), "given twice", "name each record once")
+        seen.add(record.path.resolve())
+        if record.status != "complete":
+            rule = f"{record.status}, so its means and extremes are not those of a whole run"
+            raise InputError("record", str(record.path), rule, "run its scenario again")
+        if record.kind != records[0].kind:
+            rule = f'kind "{record.kind}" and kind "{records[0].kind}" share no quantities to compare'
+            raise InputError("record", str(record.path), rule, "compare records of one kind")
+
+
+def distinct_labels(records: Sequence[Record]) -> list[str]:
+    """Name every record by its file, and by as many folders above as tell it from the others."""
+    labels = [record.label for record in records]
+    for depth in range(1, max(len(record.path.resolve().parts) for record in records)):
+        same = {label for label in labels if labels.count(label) > 1}
+        if not same:
+            break
+        for number, record in enumerate(records):
+            if labels[number] in same:
+                folders = record.path.resolve().parts[-1 - depth : -1]
+                labels[number] = "/".join((*folders, record.path.stem))
+    return labels
+
+
+def _with_loss(summary: Mapping[str, Any]) -> dict[str, Any]:
+    efficiency = summary.get("efficiency")
+    return {**summary, **({} if efficiency is None else {LOSS.name: 1.0 - efficiency})}
+
+
+def _relative(first: Any, value: Any) -> float | None:
+    if first is None or value is None or np.ndim(first) or np.ndim(value) or isinstance(first, str):
+        return None
+    if not (math.isfinite(first) and math.isfinite(value)) or first == 0:
+        return None
+    return value / first - 1
+
+
+def _conditions(scenario: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+    """Go through what a scenario says of its conditions, dotted key and value; models by their titles."""
+    for part in CONDITIONS:
+        value = scenario.get(part)
+        if isinstance(value, Mapping) and "title" in value:
+            yield part, str(value["title"])
+        if value is not None:
+            yield from _flat(part, value)
+
+
+def _flat(key: str, value: Any) -> Iterator[tuple[str, str]]:
+    if not isinstance(value, Mapping):
+        yield key, str(value)
+        return
+    for name, item in value.items():
+        if name not in _PROSE and name != "title":
+            yield from _flat(f"{key}.{name}", item)
+
+
+def _differing(conditions: Sequence[Mapping[str, str]]) -> dict[str, tuple[str, ...]]:
+    keys = dict.fromkeys(key for one in conditions for key in one)
+    values = {key: tuple(one.get(key, "–") for one in conditions) for key in keys}
+    different = {key: value for key, value in values.items() if len(set(value)) > 1}
+    # where the titles of two models differ, they tell it better than all the numbers
+    titled = [key for key in different if "." not in key]
+    return {
+        key: value
+        for key, value in different.items()
+        if "." not in key or key.partition(".")[0] not in titled
+    }
+
+
+def comparison_table(comparison: Comparison) -> Group:
+    """Lay out a comparison for the terminal (a rich renderable), in engineers' units."""
+    parts: list[Any] = [
+        Text.assemble((label, "bold"), f": {title}")
+        for label, title in zip(comparison.labels, comparison.titles, strict=True)
+    ]
+    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0), header_style="bold")
+    first, *others = comparison.labels
+    table.add_column("", no_wrap=True)
+    table.add_column(first, justify="right", overflow="fold")
+    for label in others:
+        table.add_column(label, justify="right", overflow="fold")
+        table.add_column(f"against {first}" if len(others) == 1 else "", justify="right")
+    table.add_column("")
+    for heading, rows in comparison.groups.items():
+        table.add_row(Text(heading, style="bold cyan"))
+        for row in rows:
+            written = [_written(row.line, value) for value in row.values]
+            cells = [written[0]]
+            for value, difference in zip(written[1:], _differences(row), strict=True):
+                cells += [value, difference]
+            table.add_row(f"  {row.line.label}", *cells, row.line.unit)
+    parts += ["", table, "", *_conditions_told(comparison)]
+    return Group(*parts)
+
+
+def _written(line: Line, value: Any) -> str:
+    return "–" if value is None else shown(line, value)
+
+
+def _differences(row: Row) -> list[str]:
+    """Write how later records differ from the first: in per cent, or of shares in percentage points."""
+    found = []
+    for value, relative in zip(row.values[1:], row.differences(), strict=True):
+        if relative is None:
+            found.append("")
+        elif row.line.unit == "%" and row.line is not LOSS:
+            found.append(f"{100 * (value - row.values[0]):+.2f} pp")
+        else:
+            found.append(f"{100 * relative:+.1f} %")
+    return found
+
+
+def _conditions_told(comparison: Comparison) -> list[Text]:
+    if not comparison.conditions:
+        return [Text("Speed, load, lubricant, friction law, bearings and mesh are the same in all runs.")]
+    told = [Text("What besides the drive differs between the runs", style="bold cyan")]
+    for key, values in comparison.conditions.items():
+        told.append(Text(f"  {key}: {' / '.join(values)}"))
+    return told
+
+
+def as_json(comparison: Comparison) -> dict[str, Any]:
+    """Turn a comparison, SI units, into plain data; relative differences are those from the first record."""
+    return {
+        "records": [
+            {"label": label, "title": title}
+            for label, title in zip(comparison.labels, comparison.titles, strict=True)
+        ],
+        "quantities": {
+            row.line.name: {
+                "label": row.line.label,
+                "values": list(row.values),
+                "relative_differences": list(row.differences()),
+            }
+            for rows in comparison.groups.values()
+            for row in rows
+        },
+        "different_conditions": {key: list(values) for key, values in comparison.conditions.items()},
+    }
