@@ -18,7 +18,7 @@ def mesh_cycle(contact_ratio: float = 1.5, nodes: int = 9) -> dict[str, Any]:
             (
                 "pressure_angle",
                 "signed_distance",
-                "relative_curvature",
+                "equivalent_radius",
                 "pinion_speed",
                 "gear_speed",
                 "compliance",
@@ -44,6 +44,8 @@ def mesh_cycle(contact_ratio: float = 1.5, nodes: int = 9) -> dict[str, Any]:
         "pitch_point_phase": 0.8,
         "roll_start": -0.2,
         "roll_end": 0.2,
+        "pitch_point_length": 0.0,
+        "pitch_point_rate": 0.0,
     }
 
 

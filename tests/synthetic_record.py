@@ -59,7 +59,7 @@ def tabulated(phase: np.ndarray) -> dict[str, np.ndarray]:
     return {
         "contact": contact,
         "signed_distance": distance,
-        "relative_curvature": 1 / pinion + 1 / gear,
+        "equivalent_radius": 1 / (1 / pinion + 1 / gear),
         "pinion_speed": pinion,
         "gear_speed": ratio * gear,
         "pressure_angle": np.full_like(roll, PRESSURE_ANGLE),
@@ -93,6 +93,8 @@ def mesh_cycle(nodes: int = 33) -> dict:
         "pitch_point_phase": -start / PITCH_ANGLE,
         "roll_start": start,
         "roll_end": end,
+        "pitch_point_length": 0.0,
+        "pitch_point_rate": 0.0,
     }
 
 
@@ -128,7 +130,7 @@ def samples(cycles: int, per_cycle: int, friction: float = 0.05) -> dict[str, np
     coefficient = friction * np.tanh(np.abs(sliding) / 0.01)
     force = coefficient * load * np.sign(sliding)
     film = 1.2e-7 * (entrainment / 0.12) ** 0.7 * (7000 / np.maximum(load, 500)) ** 0.135
-    radius = 1 / table["relative_curvature"]
+    radius = table["equivalent_radius"]
     pressure = np.sqrt(np.maximum(load, 0) / 0.02 * 2.26e11 / (2 * np.pi * radius))
     power_out = TORQUE * SPEED * TEETH[0] / TEETH[1]
     loss = np.abs(force * sliding).sum(axis=1)

@@ -38,8 +38,9 @@ class MeshCycle(NamedTuple):
         Angle α of the common normal against the pitch tangent, rad.
     signed_distance : (S, N, Q)
         r, from the pitch point to the contact, negative in approach, m.
-    relative_curvature : (S, N, Q)
-        1/ρ, the sum of both flanks' curvatures, 1/m.
+    equivalent_radius : (S, N, Q)
+        ρ, one over the sum of both flanks' curvatures, m; 0 at the pitch point of a path whose pressure
+        angle is zero there.
     pinion_speed, gear_speed : (S, N, Q)
         Speed of the contact point along the pinion's and the gear's flank, m/s per rad/s of the pinion.
     compliance : (S, N, Q)
@@ -65,6 +66,9 @@ class MeshCycle(NamedTuple):
         Phase at which the newest pair passes the pitch point (may exceed 1: then it is no longer newest).
     roll_start, roll_end : float
         Pinion angle from the pitch point at which a pair enters and leaves, rad.
+    pitch_point_length, pitch_point_rate : float
+        M (m) and entrainment over equivalent radius (1/rad) where both vanish at the pitch point, see
+        `geometry.pitch_point`; 0 for a path on which they do not.
     """
 
     boundary: Any
@@ -73,7 +77,7 @@ class MeshCycle(NamedTuple):
     phase: Any
     pressure_angle: Any
     signed_distance: Any
-    relative_curvature: Any
+    equivalent_radius: Any
     pinion_speed: Any
     gear_speed: Any
     compliance: Any
@@ -88,6 +92,8 @@ class MeshCycle(NamedTuple):
     pitch_point_phase: Any
     roll_start: Any
     roll_end: Any
+    pitch_point_length: Any = 0.0
+    pitch_point_rate: Any = 0.0
 
     @property
     def pairs(self) -> int:
@@ -109,7 +115,7 @@ class MeshCycle(NamedTuple):
 CHANNELS = (
     "pressure_angle",
     "signed_distance",
-    "relative_curvature",
+    "equivalent_radius",
     "pinion_speed",
     "compliance",
     "gap",
@@ -135,6 +141,8 @@ class Polynomials(NamedTuple):
     gear_pitch_radius: Any
     pitch_angle: Any
     face_width: Any
+    pitch_point_length: Any = 0.0
+    pitch_point_rate: Any = 0.0
 
 
 @lru_cache(maxsize=8)
@@ -197,6 +205,8 @@ def polynomials(cycle: MeshCycle) -> Polynomials:
         gear_pitch_radius=cycle.gear_pitch_radius,
         pitch_angle=cycle.pitch_angle,
         face_width=cycle.face_width,
+        pitch_point_length=cycle.pitch_point_length,
+        pitch_point_rate=cycle.pitch_point_rate,
     )
 
 

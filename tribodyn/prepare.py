@@ -100,6 +100,7 @@ def _options(case: Case, cycle: MeshCycle) -> Options:
         drive=drive,
         hertz=HERTZ_IN_TABLE if linear else HERTZ_POWER_LAW,
         sweeps=1 if not coupled else SWEEPS if linear else SWEEPS_NONLINEAR,
+        averaged=int(float(cycle.pitch_point_length) > 0.0),
     )
 
 

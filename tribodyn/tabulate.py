@@ -24,6 +24,7 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.drive import SIDES, Drive, body_of, tip_radius
 from tribodyn.geometry.family import Family
 from tribodyn.geometry.path import Path, contact_limits, contact_ratio, kinematics
+from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.iteration import chebyshev_basis
 from tribodyn.mesh_cycle import MeshCycle
 
@@ -89,12 +90,13 @@ def tabulate(
     ratio = contact_ratio(path, *limits, drive.pinion.teeth)
     start, end = path.rotation(limits[0]), path.rotation(limits[1])
     contact = _Contact(path, start, end, ratio, 2 * np.pi / drive.pinion.teeth)
-    boundary, phase, in_contact, roll = _phases(contact, pairs, mesh.points, back)
+    boundary, phase, in_contact, roll = _phases(contact, pairs, mesh.points, back, family.corner)
     curve = _RollCurve(start, end)
 
     r_nodes = path.signed_distance(curve.nodes())
     r = curve.interpolate(r_nodes, roll)
     motion = kinematics(path, r)
+    vanishing = pitch_point(path)
     width = _common_width(drive)
     compliance, coupling = _compliance(family, drive, materials, mesh, path, curve, r_nodes, roll, pairs)
     gap = _transmission_error(mesh, phase, roll, curve)
@@ -110,7 +112,7 @@ def tabulate(
         phase=phase,
         pressure_angle=motion.pressure_angle,
         signed_distance=r,
-        relative_curvature=motion.relative_curvature,
+        equivalent_radius=1.0 / motion.relative_curvature,
         pinion_speed=motion.pinion_speed,
         gear_speed=motion.gear_speed,
         compliance=compliance,
@@ -125,6 +127,8 @@ def tabulate(
         pitch_point_phase=-start / contact.pitch_angle,
         roll_start=start,
         roll_end=end,
+        pitch_point_length=vanishing.length,
+        pitch_point_rate=vanishing.speed_per_radius,
     )
 
 
@@ -162,20 +166,27 @@ def _common_width(drive: Drive) -> Any:
     return namespace(*widths).minimum(*widths)
 
 
-def _phases(contact: _Contact, pairs: int, points: int, back: bool) -> tuple[Array, Array, Array, Array]:
+def _phases(
+    contact: _Contact, pairs: int, points: int, back: bool, corner: bool
+) -> tuple[Array, Array, Array, Array]:
     """Boundaries (S + 1,), phases (S, N), contact (S, Q) and roll angles (S, N, Q) of all slots.
 
     Positions count pitches since a pair's first contact. A back pair lives in the mirrored world, where the
     phase runs backwards: the back flank of a pinion tooth crosses the pitch point half a pitch after its
-    front flank, so that its roll angle there is π/Z_p − φ.
+    front flank, so that its roll angle there is π/Z_p − φ. Where the path has a corner at the pitch point a
+    segment also begins when a pair passes it, for no spline may run across.
     """
     xp = namespace(contact.roll_start, contact.contact_ratio)
     leave = contact.contact_ratio - (pairs - 1)
     ages = np.arange(pairs - 1.0, -1.0, -1.0)
-    boundary = xp.stack([0.0 * leave, leave, 1.0 + 0.0 * leave])
     enter = (0.5 - 2.0 * contact.roll_start / contact.pitch_angle) % 1.0
+    boundary = [0.0 * leave, leave, 1.0 + 0.0 * leave]
     if back:
-        boundary = xp.sort(xp.concatenate([boundary, xp.stack([enter, (enter - leave) % 1.0])]))
+        boundary += [enter, (enter - leave) % 1.0]
+    if corner:
+        passes = -contact.roll_start / contact.pitch_angle
+        boundary += [passes % 1.0] + ([(passes + 0.5) % 1.0] if back else [])
+    boundary = xp.sort(xp.stack(boundary))
     lower, upper = boundary[:-1, None], boundary[1:, None]
     phase = lower + (upper - lower) * np.linspace(0.0, 1.0, points)
     middle = (lower + upper) / 2

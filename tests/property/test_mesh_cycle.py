@@ -62,7 +62,7 @@ def test_period(cycle):
     for name in (
         "signed_distance",
         "pressure_angle",
-        "relative_curvature",
+        "equivalent_radius",
         "pinion_speed",
         "gear_speed",
         "compliance",

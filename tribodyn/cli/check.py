@@ -79,13 +79,13 @@ def _check_rolling(loaded: "Loaded", case: "RollingCase", json: bool) -> None:
 def _stiffness(case: "Case", cycle: "MeshCycle") -> dict[str, Any]:
     """Return the line load (N/m), and by method the single-pair stiffness at P: N/m, and per width in Pa."""
     from tribodyn.compliance.iso6336 import single_pair_stiffness as iso6336
+    from tribodyn.scenario.load import family
     from tribodyn.summary import single_pair_stiffness
 
     pinion, gear = case.drive.pinion, case.drive.gear
     width = min(pinion.face_width, gear.face_width)
-    load = abs(case.operating.gear_torque) / (
-        float(cycle.gear_pitch_radius) * math.cos(case.drive.pressure_angle)
-    )
+    angle = float(family(case.family).working_path(case.drive).pressure_angle(0.0))
+    load = abs(case.operating.gear_torque) / (float(cycle.gear_pitch_radius) * math.cos(angle))
     per_width = {f'compliance = "{case.mesh.compliance}"': single_pair_stiffness(cycle, load) / width}
     if case.family == "involute":
         iso = iso6336(pinion.teeth, gear.teeth, pinion.profile_shift, gear.profile_shift)

@@ -177,14 +177,19 @@ def tooth_compliance(loaded: LoadedTooth, material: "MaterialData", width: Any, 
     fillet = fillet_point(tooth, np.pi / 2 + unit * (tooth.form_angle - np.pi / 2))
     first = distance_at_radius(path, tooth.form_radius)
     last = distance_at_radius(path, tooth.tip_radius)
-    flank = contact_in_tooth_frame(path, loaded.pitch_half_angle, first + unit * (last - first))
-
     own = r if loaded.side == "pinion" else -r
     x, y, load_angle = contact_in_tooth_frame(path, loaded.pitch_half_angle, own)
     lever = x - y * tan(load_angle) - root
-    along = 2.0 * (own - first) / (last - first) - 1.0
-    to_form = section_integrals(*fillet, root).sum(axis=0)
-    integrals = to_form + chebyshev_basis(along, _DEGREE + 1) @ section_integrals(flank.x, flank.y, root)
+    integrals = section_integrals(*fillet, root).sum(axis=0)
+    # Two pieces of flank, for the paths of some families have a corner at the pitch point.
+    xp = namespace(first, last)
+    middle = xp.clip(0.0, first + 0.01 * (last - first), last - 0.01 * (last - first))
+    for start, end in ((first, middle), (middle, last)):
+        flank = contact_in_tooth_frame(path, loaded.pitch_half_angle, start + unit * (end - start))
+        along = 2.0 * (namespace(own, start).clip(own, start, end) - start) / (end - start) - 1.0
+        integrals = integrals + chebyshev_basis(along, _DEGREE + 1) @ section_integrals(
+            flank.x, flank.y, root
+        )
     bending, shear, axial = beam_compliance(integrals, lever, load_angle, material.poisson_ratio)
     foundation = foundation_compliance(
         load_angle,

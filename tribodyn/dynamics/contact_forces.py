@@ -22,13 +22,14 @@ from tribodyn.dynamics.parameters import (
 )
 from tribodyn.dynamics.smooth import positive_part, positive_part_integral, power_law_force, ramp, sign
 from tribodyn.elementary import cos, law, maximum, sin, sqrt, where
+from tribodyn.tribology.contact import averaged_radius
 from tribodyn.tribology.friction import friction
 
 # Quantities of one contact, rows of `work`.
 ANGLE = 0  # pressure angle α, rad
 DISTANCE = 1  # signed distance r from the pitch point, m
-CURVATURE = 2  # relative curvature 1/ρ, 1/m
-PINION_SPEED = 3  # speed along the pinion flank, m/s
+RADIUS = 2  # equivalent radius ρ; where it vanishes at P, averaged over the contact's width, m
+PINION_SPEED = 3  # speed along the pinion flank, averaged with the radius, m/s
 GEAR_SPEED = 4
 COMPLIANCE = 5  # of the pair, without the load-dependent Hertz contact, m/N
 APPROACH = 6  # δ, m
@@ -55,7 +56,7 @@ COUPLING = 26  # deflection per load on slot 0, and on from here per load on the
 QUANTITIES = 26  # and one more for every slot
 
 # Channels of mesh_cycle.Polynomials.channel.
-_ANGLE, _DISTANCE, _CURVATURE, _SPEED, _COMPLIANCE, _GAP = range(6)
+_ANGLE, _DISTANCE, _RADIUS, _SPEED, _COMPLIANCE, _GAP = range(6)
 
 
 @law
@@ -108,7 +109,7 @@ def approach(segment, cell, u, cells_per_radian, y, model, work):
         work[COS, i] = cosine
         work[SIN, i] = sine
         work[DISTANCE, i] = distance
-        work[CURVATURE, i] = cubic(c, segment, cell, i, _CURVATURE, u)
+        work[RADIUS, i] = cubic(c, segment, cell, i, _RADIUS, u)
         work[PINION_SPEED, i] = side * pinion_speed * flank_speed
         work[GEAR_SPEED, i] = side * pinion_speed * (flank_speed - (1.0 + ratio) * distance)
         work[COMPLIANCE, i] = cubic(c, segment, cell, i, _COMPLIANCE, u)
@@ -197,10 +198,27 @@ def contact_forces(segment, cell, u, cells_per_radian, y, model, work):
             sliding = work[SLIDING, i]
         speed_p = work[PINION_SPEED, i]
         speed_g = work[GEAR_SPEED, i]
+        if model.options.averaged:
+            radius = work[RADIUS, i]
+            averaged = averaged_radius(
+                radius, load / table.face_width, model.contact.effective_modulus, table.pitch_point_length
+            )
+            # entrainment is averaged with the radius, to which it is proportional there; sliding is not
+            added = (
+                table.side[i]
+                * (mechanics.nominal_speed + y[SLIP])
+                * table.pitch_point_rate
+                * (averaged - radius)
+            )
+            speed_p = speed_p + added
+            speed_g = speed_g + added
+            work[RADIUS, i] = averaged
+            work[PINION_SPEED, i] = speed_p
+            work[GEAR_SPEED, i] = speed_g
         coefficient, share, film, temperature, pressure, valid = friction(
             model.options.friction_law,
             load / table.face_width,
-            work[CURVATURE, i],
+            1.0 / work[RADIUS, i],
             0.5 * (speed_p + speed_g),
             sliding,
             speed_p,

@@ -105,7 +105,7 @@ def outputs(cycles: np.ndarray, states: np.ndarray, model: Model) -> dict[str, n
         "normal_load": np.where(inside, load, 0.0),
         "friction_force": np.where(inside, per_pair(contact.FRICTION_FORCE), 0.0),
         "film_parameter": contacting(film / model.contact.roughness),
-        "equivalent_radius": contacting(1.0 / per_pair(contact.CURVATURE), inside),
+        "equivalent_radius": contacting(per_pair(contact.RADIUS), inside),
         "entrainment_speed": contacting(0.5 * (speed_p + speed_g), inside),
         "sliding_speed": contacting(per_pair(contact.SLIDING), inside),
         "mesh_stiffness": np.where(touching, per_pair(contact.STIFFNESS), 0.0),

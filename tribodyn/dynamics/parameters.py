@@ -55,6 +55,7 @@ class Options(NamedTuple):
     drive: int = DRIVE_SPEED
     hertz: int = HERTZ_IN_TABLE
     sweeps: int = 1
+    averaged: int = 0  # 1: radius and entrainment vanish at the pitch point and are averaged over the contact
 
 
 class Mechanics(NamedTuple):

@@ -37,7 +37,7 @@ def check(family: Family, drive: Drive) -> None:
     InputError
         Names the key (``drive.pinion.profile_shift``), the rule and, known, a value that obeys it.
     """
-    check_sizes(drive)
+    check_sizes(drive, family.pressure_angle)
     with np.errstate(all="ignore"):
         family.check(drive)
         assembly = assemble(family, drive)
@@ -53,11 +53,12 @@ def check(family: Family, drive: Drive) -> None:
             _check_interference(assembly, side)
 
 
-def check_sizes(drive: Drive) -> None:
-    """Refuse numbers that are not finite or have the wrong sign."""
+def check_sizes(drive: Drive, pressure_angle: bool = True) -> None:
+    """Refuse numbers that are not finite or have the wrong sign; the pressure angle if the family has one."""
     _require("module", drive.module, drive.module > 0, "must be greater than zero")
-    angle_holds = 0 < drive.pressure_angle <= _GREATEST_PRESSURE_ANGLE
-    _require("pressure_angle", drive.pressure_angle, angle_holds, "must be between 0 and 45°")
+    if pressure_angle:
+        angle_holds = 0 < drive.pressure_angle <= _GREATEST_PRESSURE_ANGLE
+        _require("pressure_angle", drive.pressure_angle, angle_holds, "must be between 0 and 45°")
     for side in SIDES:
         body = body_of(drive, side)
         for name in GearBody._fields:

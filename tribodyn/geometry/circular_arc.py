@@ -3,7 +3,7 @@
 The chord of an arc of diameter D makes asin(|r|/D) with the arc's tangent, so that on either side
 α = α_P + asin(|r|/D): the pressure angle grows away from P on both. A negative diameter bends the arc the
 other way; with D_2 = −D_1 both arcs are one circle. With α_P = 0 the arcs are the generating circles of
-cycloidal teeth (`cycloid`).
+cycloidal teeth (`cycloidal`).
 """
 
 import math
@@ -15,9 +15,9 @@ from tribodyn.elementary import cos, log, namespace, sin, sqrt, where
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, Side, reference_radius
 from tribodyn.geometry.family import Family, Parameter
-from tribodyn.iteration import newton
 from tribodyn.geometry.path import Path, seen_from
 from tribodyn.geometry.reach import refuse_shift, require_reach
+from tribodyn.iteration import newton
 
 Array = Any
 

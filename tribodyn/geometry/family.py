@@ -15,7 +15,7 @@ class Parameter(NamedTuple):
     name : str
         Key in the drive's table ``[shape]``, and field of the family's `shape`.
     kind : {"length", "signed length", "number", "path"}
-        What it is: a length > 0 or of either sign (m), a plain number, or points x, y (m) of a path of contact.
+        What it is: a length (m), > 0 or of either sign; a plain number; or points x, y (m) of a path.
     about : str
         What it means, in a line.
     """

@@ -156,7 +156,9 @@ MESH_CYCLE: dict[str, Variable] = {
     "signed_distance": Variable(
         ("phase", "pair"), "m", "distance from pitch point to contact, negative in approach"
     ),
-    "relative_curvature": Variable(("phase", "pair"), "1/m", "sum of the flanks' curvatures"),
+    "equivalent_radius": Variable(
+        ("phase", "pair"), "m", "one over the sum of the flanks' curvatures, at the very point of contact"
+    ),
     "pinion_speed": Variable(
         ("phase", "pair"), "m/rad", "speed of the contact along the pinion's flank per pinion speed"
     ),
@@ -185,6 +187,8 @@ MESH_CYCLE_SCALARS: dict[str, str] = {
     "pitch_point_phase": "1",
     "roll_start": "rad",
     "roll_end": "rad",
+    "pitch_point_length": "m",
+    "pitch_point_rate": "1/rad",
 }
 
 

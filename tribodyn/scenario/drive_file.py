@@ -15,6 +15,7 @@ from tribodyn.scenario.model_files import DriveTable
 from tribodyn.scenario.quantity import Table
 from tribodyn.scenario.resolve import resolve_table
 from tribodyn.scenario.rules import broken_drive_rules
+from tribodyn.scenario.shape import shape_errors
 from tribodyn.scenario.sources import find_drive_or_scenario, quoted, read_toml
 from tribodyn.scenario.to_case import drive_of, masses_of, materials_of
 
@@ -80,11 +81,10 @@ def load_drive(model: str, overrides: Mapping[str, Any] | None = None) -> DriveM
         known = {one.key for one in unresolved}
         found = [one for one in explain(error, _DriveAlone) if one.key not in known]
         raise InputErrors([origins.locate(one) for one in (*unresolved, *found)]) from None
-    errors = list(broken_drive_rules(table))
+    with origins.naming():
+        errors = [*broken_drive_rules(table), *shape_errors(table, family(table.family))]
     if errors:
         raise InputErrors([origins.locate(one) for one in errors])
-    with origins.naming():
-        family(table.family)
     return DriveModel(
         table.title,
         path.stem,

@@ -5,6 +5,7 @@ import math
 import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
@@ -20,6 +21,7 @@ from tribodyn.scenario.resolve import resolve
 from tribodyn.scenario.rolling import RollingScenario, rolling_case_of
 from tribodyn.scenario.rules import broken_rules
 from tribodyn.scenario.schema import Friction, Scenario
+from tribodyn.scenario.shape import shape_errors
 from tribodyn.scenario.sources import find_scenario, near_name, quoted
 from tribodyn.scenario.to_case import case_of
 from tribodyn.tribology.friction import BENEDICT_KELLEY, COULOMB, MASJEDI_KHONSARI, NONE, XU
@@ -111,6 +113,11 @@ FRICTION_LAWS = {
 FAMILIES = {
     "involute": "standard or profile-shifted involute; pressure_angle is the rack's",
     "crc": "constant relative curvature (Liu & Ni); pressure_angle is the one at the pitch point",
+    "cycloidal": "epi- and hypocycloids; shape.approach_circle, recess_circle: diameters of the generating "
+    "circles",
+    "parabolic": "parabolic path of contact (Jia et al.); shape.k1 of the recess, k2 of the approach",
+    "circular-arc": "path of two circular arcs; pressure_angle at the pitch point, shape.approach_diameter, "
+    "recess_diameter",
 }
 
 SOLVERS = {
@@ -135,13 +142,7 @@ def friction_law(name: str) -> FrictionLaw:
 def family(name: str) -> "Family":
     """Return the family of paths of contact of that name."""
     _known("drive.family", name, FAMILIES, "family of paths of contact")
-    if name == "crc":
-        from tribodyn.geometry import crc
-
-        return crc.FAMILY
-    from tribodyn.geometry import involute
-
-    return involute.FAMILY
+    return import_module(f"tribodyn.geometry.{name.replace('-', '_')}").FAMILY
 
 
 def solver(name: str) -> str:
@@ -217,6 +218,8 @@ def load(scenario: str | Path, overrides: Mapping[str, Any] | None = None) -> Lo
         return Loaded(rolling_case_of(table, toml, digest), path, origins)
     assert isinstance(table, Scenario)
     errors = broken_rules(table) + _unknown_names(table) + _coefficient(table.friction)
+    if table.drive.family in FAMILIES:
+        errors += shape_errors(table.drive, family(table.drive.family))
     if errors:
         raise _located(errors, origins)
     return Loaded(case_of(table, toml, digest), path, origins)

@@ -1,6 +1,6 @@
 """The tables of `models/`: what drives, materials, lubricants and bearings are."""
 
-from typing import Annotated
+from typing import Annotated, Any
 
 from pydantic import Field
 
@@ -60,7 +60,10 @@ class DriveTable(Described):
 
     family: Text = Field(description="family of the path of contact")
     module: Length
-    pressure_angle: Angle = Field(description="of the rack for involutes; at the pitch point for CRC")
+    pressure_angle: Angle | None = Field(
+        None, description="of the rack for involutes; at the pitch point for other families, if they take one"
+    )
+    shape: dict[str, Any] | None = Field(None, description="what else the family needs, see `tribodyn list`")
     roughness: Length = Field(description="composite rms roughness of the flanks")
     mean_roughness: Length | None = Field(
         None, description="Ra of the flanks; default: roughness/sqrt(pi), that of two equal Gaussian flanks"

@@ -28,6 +28,7 @@ MODEL_FILES: dict[Key, str] = {
 
 #: Keys whose string names a CSV file, and the columns that are due.
 CURVES: dict[Key, tuple[str, str]] = {
+    ("drive", "shape", "points"): ("x", "y"),
     ("operating", "gear_torque_table"): ("time", "torque"),
     ("mesh", "table"): ("roll_angle", "stiffness"),
     ("mesh", "transmission_error", "table"): ("roll_angle", "error"),

@@ -6,6 +6,7 @@ from typing import cast
 from tribodyn import case
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.scenario import model_files, schema
+from tribodyn.scenario.shape import shape_of
 
 
 def case_of(scenario: schema.Scenario, toml: str, sha256: str) -> case.Case:
@@ -45,7 +46,10 @@ def mean_roughness(drive: model_files.DriveTable) -> float:
 
 def drive_of(drive: model_files.DriveTable) -> Drive:
     """Return the geometry of a drive file."""
-    return Drive(drive.module, drive.pressure_angle, _body(drive.pinion), _body(drive.gear))
+    from tribodyn.scenario.load import family
+
+    shape = shape_of(drive, family(drive.family))
+    return Drive(drive.module, drive.pressure_angle or 0.0, _body(drive.pinion), _body(drive.gear), shape)
 
 
 def materials_of(drive: model_files.DriveTable) -> tuple[case.MaterialData, case.MaterialData]:

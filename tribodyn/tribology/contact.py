@@ -3,7 +3,7 @@
 import math
 from typing import Any, NamedTuple
 
-from tribodyn.elementary import law, sqrt
+from tribodyn.elementary import exp, law, log, maximum, sqrt
 
 
 class Contact(NamedTuple):
@@ -61,3 +61,21 @@ def hertz_half_width(line_load, curvature, effective_modulus):
 def hertz_pressure(line_load, curvature, effective_modulus):
     """Greatest Hertz pressure p_H = √(w' E'/(2π ρ)), Pa."""
     return sqrt(line_load * effective_modulus * curvature / (2.0 * math.pi))
+
+
+@law
+def averaged_radius(radius, line_load, effective_modulus, pitch_point_length):
+    """Equivalent radius averaged over the half width a of its own contact, m; for one that vanishes at P.
+
+    ρ̄⁴ = ρ⁴ + (M a)², a = √(8 w' ρ̄/(π E')). At P, where ρ = 0, ρ̄² = M a is the exact mean of
+    `geometry.pitch_point`; far from P ρ̄ = ρ, the difference falling like (M a/ρ²)². With M = 0 it is ρ
+    everywhere. The quartic is convex above its largest root, to which Newton's steps come down.
+    """
+    strength = pitch_point_length * pitch_point_length * 8.0 * maximum(line_load, 1.0)
+    strength = strength / (math.pi * effective_modulus)
+    fourth = radius * radius * radius * radius
+    root = radius + exp(log(maximum(strength, 1e-60)) / 3.0)
+    for _ in range(6):
+        cube = root * root * root
+        root = (3.0 * cube * root + fourth) / (4.0 * cube - strength)
+    return root

@@ -1,9 +1,9 @@
 """The cycloidal family: teeth of epi- and hypocycloids, which two generating circles draw.
 
 The path of contact runs along the circles that roll on the pitch circles at P: r = −d_g1 sin α in approach,
-where the pinion's hypocycloid meets the gear's epicycloid, and r = +d_g2 sin α in recess (Veciana et al. 2024,
-section 2.3). At P α, the radii of curvature and the speeds along the flanks vanish together; `pitch_point`
-says what the contact then is.
+where the pinion's hypocycloid meets the gear's epicycloid, and r = +d_g2 sin α in recess (Veciana et al.
+2024, section 2.3). At P α, the radii of curvature and the speeds along the flanks vanish together;
+`pitch_point` says what the contact then is.
 """
 
 from typing import Any, NamedTuple
