@@ -1,4 +1,4 @@
-"""Loads and deflection of the mesh in slow rotation: elasticity and torque balance, without friction."""
+"""Loads and deflection of the mesh in slow rotation: elasticity and torque balance, with friction if given."""
 
 from typing import Any, NamedTuple
 
@@ -34,11 +34,12 @@ class QuasiStatic(NamedTuple):
     mesh_stiffness: Array
 
 
-def quasi_static(cycle: MeshCycle, gear_torque: Any) -> QuasiStatic:
+def quasi_static(cycle: MeshCycle, gear_torque: Any, friction: Array = None) -> QuasiStatic:
     """Share the gear's torque among the driving pairs by their compliances and gaps.
 
     With h_i = cos α_i every loaded pair has Δ h_i − e_i = Σ_j C_ij F_j (+ A F_i^0.9), and r_g Σ F_i h_i is
-    the torque. Bearings are rigid, and a back flank carries nothing.
+    the torque, to which friction adds Σ μ_i F_i (r_g sin α_i − r_i). Bearings are rigid, and a back flank
+    carries nothing.
 
     Parameters
     ----------
@@ -46,10 +47,16 @@ def quasi_static(cycle: MeshCycle, gear_torque: Any) -> QuasiStatic:
         The table; may be traced.
     gear_torque : float
         N m, > 0.
+    friction : array, (S, N, Q), optional
+        Friction force over normal load, with the sign of the sliding: negative in approach.
     """
-    xp = namespace(*cycle, gear_torque)
+    xp = namespace(*cycle, gear_torque, friction)
     present = (cycle.in_contact * (cycle.side > 0))[:, None, :] + 0.0 * cycle.compliance
     arms = xp.cos(cycle.pressure_angle)
+    torque_arms = arms
+    if friction is not None:
+        lever = xp.sin(cycle.pressure_angle) - cycle.signed_distance / cycle.gear_pitch_radius
+        torque_arms = arms + friction * lever
     force = gear_torque / cycle.gear_pitch_radius
     identity = np.eye(cycle.compliance.shape[-1])
 
@@ -62,14 +69,14 @@ def quasi_static(cycle: MeshCycle, gear_torque: Any) -> QuasiStatic:
         right = xp.stack([active * arms, active * cycle.gap], axis=-1)
         solution = xp.linalg.solve(matrix, right)
         per_deflection, by_gap = solution[..., 0], solution[..., 1]
-        stiffness = (active * arms * per_deflection).sum(axis=-1)
-        total = (force + (active * arms * by_gap).sum(axis=-1)) / stiffness
+        stiffness = (active * torque_arms * per_deflection).sum(axis=-1)
+        total = (force + (active * torque_arms * by_gap).sum(axis=-1)) / stiffness
         load = active * (per_deflection * total[..., None] - by_gap)
         overlap = arms * total[..., None] - cycle.gap - xp.einsum("...ij,...j->...i", cycle.coupling, load)
         active = present * xp.where(xp.where(active > 0, load, overlap) > 0, 1.0, 0.0)
         return load, active, total, stiffness
 
-    equal = present * force / (present * arms).sum(axis=-1, keepdims=True)
+    equal = present * force / (present * torque_arms).sum(axis=-1, keepdims=True)
     load, _, deflection, stiffness = iterate(share, (equal, present, equal, equal), _STEPS)
     return QuasiStatic(load, deflection, stiffness)
 

@@ -1,0 +1,84 @@
+"""The tables of a scenario of ``kind = "efficiency"``: loads, friction and losses without dynamics."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from tribodyn.case import FrictionData, MeshData, OperatingData
+from tribodyn.efficiency.case import EfficiencyCase
+from tribodyn.scenario import units
+from tribodyn.scenario.model_files import DriveTable, Lubricant
+from tribodyn.scenario.quantity import NotNegative, Quantity, Reference, Switch, Table, Text, written
+from tribodyn.scenario.schema import Name
+from tribodyn.scenario.to_case import drive_of, lubricant_of, materials_of, mean_roughness
+
+
+class EfficiencyOperating(Table):
+    """Constant speed and torque."""
+
+    pinion_speed: Annotated[float, Quantity(units.positive(units.ANGULAR_SPEED))]
+    gear_torque: Annotated[float, Quantity(units.positive(units.TORQUE))]
+
+
+class EfficiencyMesh(Table):
+    """How the pairs in contact share the load, and the compliance they share it by."""
+
+    load_sharing: Literal["elastic", "uniform", "single-pair"] = Field(
+        "elastic",
+        description="by the energy method's compliance; equally; one pair about the pitch point. "
+        "Of the samples: the summary has all three",
+    )
+    hertz: Literal["linear", "load-dependent"] = Field("linear", description="contact part of the compliance")
+    foundation_coupling: Switch = Field(True, description="pairs that share a body share its foundation")
+
+
+class EfficiencyFriction(Table):
+    """Which law acts between the flanks."""
+
+    law: Text
+    coefficient: NotNegative | None = Field(None, description="of Coulomb's law")
+
+
+class EfficiencyOutput(Table):
+    """What is recorded: one mesh cycle."""
+
+    samples_per_cycle: Annotated[int, Field(strict=True, ge=8)] = 200
+
+
+class EfficiencyScenario(Table):
+    """A scenario file of an efficiency study."""
+
+    title: Text = Field(description="what it shows, in a line")
+    name: Name | None = Field(None, description="names the record; default: the file's own name")
+    kind: Literal["efficiency"]
+    drive: Annotated[DriveTable, Reference("name of a file in models/drives, or a path")]
+    lubricant: Annotated[Lubricant, Reference("name of a file in models/lubricants, or a path")]
+    operating: EfficiencyOperating
+    mesh: EfficiencyMesh = written({})
+    friction: EfficiencyFriction
+    output: EfficiencyOutput = written({})
+
+
+def efficiency_case_of(scenario: EfficiencyScenario, toml: str, sha256: str) -> EfficiencyCase:
+    """Return the case of a scenario that has passed schema and rules."""
+    drive, mesh, operating = scenario.drive, scenario.mesh, scenario.operating
+    return EfficiencyCase(
+        title=scenario.title,
+        name=scenario.name or "scenario",
+        kind=scenario.kind,
+        toml=toml,
+        sha256=sha256,
+        family=drive.family,
+        drive=drive_of(drive),
+        materials=materials_of(drive),
+        roughness=drive.roughness,
+        mean_roughness=mean_roughness(drive),
+        lubricant=lubricant_of(scenario.lubricant),
+        operating=OperatingData("speed", operating.pinion_speed, operating.gear_torque),
+        mesh=MeshData(
+            "energy", damping_ratio=0.0, hertz=mesh.hertz, foundation_coupling=mesh.foundation_coupling
+        ),
+        friction=FrictionData(scenario.friction.law, scenario.friction.coefficient),
+        load_sharing=mesh.load_sharing,
+        samples_per_cycle=scenario.output.samples_per_cycle,
+    )

@@ -1,0 +1,174 @@
+"""From a case of the efficiency study to its record: one mesh cycle, quasi-static."""
+
+from collections.abc import Callable
+from pathlib import Path
+from time import perf_counter
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.efficiency import along_path
+from tribodyn.efficiency.along_path import SHARINGS, Duty
+from tribodyn.efficiency.case import EfficiencyCase
+from tribodyn.efficiency.loss_factor import exact, hoehn, tip_contact_ratios
+from tribodyn.efficiency.torque_ratio import path_contact, torque_ratio
+from tribodyn.errors import InputError
+from tribodyn.geometry.path import Path as PathOfContact
+from tribodyn.mesh_cycle import MeshCycle, as_arrays
+from tribodyn.surfaces import contact_of
+
+
+class Study(NamedTuple):
+    """A case made ready: the table of the mesh, the path it was made from, and what the mesh has to do."""
+
+    case: EfficiencyCase
+    cycle: MeshCycle
+    path: PathOfContact
+    duty: Duty
+
+    @property
+    def mesh_cycle(self) -> MeshCycle:
+        """The table."""
+        return self.cycle
+
+
+def prepare(case: EfficiencyCase) -> Study:
+    """Check the geometry and tabulate the mesh.
+
+    Raises
+    ------
+    InputError
+        Where the teeth cannot be made or cannot run together, or the load sharing does not fit them.
+    """
+    from tribodyn.geometry.checks import check
+    from tribodyn.scenario.load import family, friction_law
+    from tribodyn.tabulate import pair_slots, tabulate
+
+    teeth = family(case.family)
+    check(teeth, case.drive)
+    cycle = tabulate(teeth, case.drive, case.materials, case.mesh, pairs=pair_slots(teeth, case.drive))
+    duty = Duty(
+        case.operating.gear_torque,
+        case.operating.pinion_speed,
+        friction_law(case.friction.law).code,
+        contact_of(case),
+        case.load_sharing,
+    )
+    return Study(case, cycle, teeth.working_path(case.drive), duty)
+
+
+def run(
+    case: EfficiencyCase,
+    output: str | Path | None = None,
+    force: bool = False,
+    progress: Callable[[float], None] | None = None,
+) -> tuple[Path, dict[str, Any]]:
+    """Run a case over one mesh cycle and write its record.
+
+    Parameters and errors as those of `tribodyn.simulate.run`; returns the record's path and its summary.
+    """
+    from tribodyn.prepare import geometry_arrays
+    from tribodyn.record.writer import RecordWriter, check_target
+
+    path = Path(output) if output is not None else Path(f"{case.name}.h5")
+    check_target(path, force)
+    begun = perf_counter()
+    study = prepare(case)
+    mesh, state, samples = _sampled(study)
+    summary = _figures(study, state) | {"wall_time": perf_counter() - begun}
+    with RecordWriter(
+        path,
+        scenario_toml=case.toml,
+        sha256=case.sha256,
+        samples=len(samples),
+        mesh_cycle=as_arrays(study.cycle),
+        geometry=geometry_arrays(case, study.cycle),
+        force=force,
+    ) as record:
+        record.write(0, along_path.record_arrays(mesh, state, study.duty))
+        if progress:
+            progress(1.0)
+        return record.finish(summary), summary
+
+
+def _sampled(study: Study) -> tuple[along_path.Places, along_path.Engagement, np.ndarray]:
+    phase = along_path.phases(study.case.samples_per_cycle)
+    mesh = along_path.places(study.cycle, study.path, phase, study.duty.sharing)
+    return mesh, along_path.engage(mesh, study.duty), phase
+
+
+def efficiencies(study: Study) -> dict[str, float]:
+    """Cycle efficiency under every load sharing, by the torque ratio, and of an involute by Höhn's formula.
+
+    A load sharing that does not fit the teeth, and Höhn's formula where friction is not one mean coefficient,
+    are left out.
+    """
+    found = {}
+    for sharing in SHARINGS:
+        try:
+            means = along_path.cycle_efficiency(study.cycle, study.path, study.duty._replace(sharing=sharing))
+        except InputError:
+            continue
+        found[f"efficiency_{sharing.replace('-', '_')}"] = means.efficiency
+    case, duty = study.case, study.duty
+    ratio = float(study.cycle.gear_pitch_radius) / float(study.cycle.pinion_pitch_radius)
+    single = torque_ratio(
+        path_contact(study.path, case.drive.pinion.teeth),
+        duty.gear_torque / ratio,
+        duty.pinion_speed,
+        float(study.cycle.face_width),
+        duty.friction_law,
+        duty.surfaces,
+    )
+    found["efficiency_torque_ratio"] = float(single.efficiency)
+    return found | _by_loss_factor(study)
+
+
+def _by_loss_factor(study: Study) -> dict[str, float]:
+    from tribodyn.scenario.load import family
+    from tribodyn.tribology.friction import COULOMB
+
+    case, coefficient = study.case, study.duty.surfaces.coulomb_coefficient
+    if case.family != "involute" or study.duty.friction_law != COULOMB:
+        return {}
+    tips = tip_contact_ratios(family(case.family), case.drive)
+    teeth, ratio = case.drive.pinion.teeth, case.drive.gear.teeth / case.drive.pinion.teeth
+    factor = exact(*tips, teeth, ratio)
+    found = {"loss_factor": factor, "efficiency_loss_factor": 1.0 - coefficient * factor}
+    if max(tips) <= 1.0 <= sum(tips):
+        found["efficiency_hoehn"] = 1.0 - coefficient * hoehn(*tips, teeth, ratio)
+    return found
+
+
+def _figures(study: Study, state: along_path.Engagement) -> dict[str, Any]:
+    cycle, duty = study.cycle, study.duty
+    means = along_path.cycle_efficiency(cycle, study.path, duty)
+    loaded = state.normal_load > 0
+    share = 1.0 / len(state.power_in[:-1])
+    balance = means.power_in - means.power_out - means.power_friction
+
+    def greatest(values: np.ndarray) -> float:
+        return float(np.max(values[loaded]))
+
+    def least(values: np.ndarray) -> float:
+        return float(np.min(values[loaded]))
+
+    return {
+        "contact_ratio": float(cycle.contact_ratio),
+        "load_sharing": duty.sharing,
+        "mesh_frequency": duty.pinion_speed / float(cycle.pitch_angle),
+        "normal_load_max": greatest(state.normal_load),
+        "film_min": least(state.central_film_thickness),
+        "film_parameter_min": least(state.central_film_thickness) / duty.surfaces.roughness,
+        "hertz_pressure_max": greatest(state.hertz_pressure),
+        "flash_temperature_max": greatest(state.flash_temperature_rise),
+        "friction_coefficient_mean": means.friction_coefficient,
+        "friction_force_mean": np.sum(np.abs(state.friction_force[:-1]), axis=0) * share,
+        "closure_in_range_fraction": float(np.mean(state.in_range[loaded])),
+        "power_in_mean": means.power_in,
+        "power_friction_mean": means.power_friction,
+        "efficiency": means.efficiency,
+        "energy_residual": balance / means.power_in,
+        "averaging_cycles": 1,
+        **efficiencies(study),
+    }
