@@ -14,6 +14,8 @@ from tribodyn.validation.rows import Row
 
 
 def cell(value: object) -> str:
+    if isinstance(value, list):
+        return " ".join(map(cell, value))
     if isinstance(value, bool):
         return "holds" if value else "does not hold"
     if isinstance(value, float):

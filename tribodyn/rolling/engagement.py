@@ -26,6 +26,9 @@ from tribodyn.rolling.geometry import (
     pitch_point_distance,
 )
 
+#: Lever arm over pitch radius up to which an element stands at a dead point and carries nothing.
+DEAD_POINT = 1e-12
+
 Mode = Literal["as_published", "corrected"]
 
 
@@ -105,7 +108,9 @@ def normal_loads(drive: RollingDrive, angle: Array, input_torque: float) -> Arra
     An element's approach under a small rotation of the cam is in proportion to its lever arm, and so is its
     load (Hooke); only elements with 0 < φ < π are pressed. The sum of R a is M_in Z2/2 at every instant.
     """
-    arm = np.maximum(lever_arm(drive, angle), 0.0)
+    arm = lever_arm(drive, angle)
+    # at a dead point rounding leaves an arm of 1e-16
+    arm = np.where(arm > DEAD_POINT * drive.pitch_radius, arm, 0.0)
     return 0.5 * input_torque * drive.elements * arm / np.sum(arm**2, axis=-1, keepdims=True)
 
 

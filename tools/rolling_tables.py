@@ -1,0 +1,93 @@
+"""Tables and picture of docs/rolling-elements.md, from runs of the shipped scenarios.
+
+python tools/rolling_tables.py            # writes them into the page
+"""
+
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+from marked_block import put
+
+from tribodyn import load_scenario, open_record, run
+from tribodyn.post.plots import overview, save
+
+PAGE = Path(__file__).parents[1] / "docs" / "rolling-elements.md"
+PICTURE = PAGE.parent / "pictures" / "irefc.png"
+RADII = (1.2, 1.6, 2.0, 2.4, 2.8)
+
+
+def result(folder: Path, scenario: str, **changes: str) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
+    """Summary of a run, and its datasets at the start."""
+    settings = {name.replace("__", "."): value for name, value in changes.items()}
+    path = run(load_scenario(scenario, settings), folder / "run.h5", force=True).path
+    with open_record(path) as record:
+        return record.summary, {name: record[name][0] for name in record}
+
+
+def modes(folder: Path) -> str:
+    """The table's position in both modes, the corrected one with both rolling arms."""
+    published = result(folder, "irefc-as-published")
+    coarse = result(folder, "irefc", friction__rolling_arm="1 mm")
+    fine = result(folder, "irefc")
+    runs = (published, coarse, fine)
+    head = "as published, μ 1 mm", "corrected, μ 1 mm", "corrected, μ 0.01 mm"
+    lines = [
+        "| element | φ, ° | R, N | v_s, mm/s: published | corrected | ω_b, rad/s: published | corrected | "
+        f"N_S, W: {' | '.join(head)} |",
+        "|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|",
+    ]
+    for i in range(len(published[1]["normal_load"])):
+        old, new = published[1], fine[1]
+        cells = [
+            f"{i + 1}",
+            f"{np.degrees(new['element_angle'][i]):.1f}",
+            f"{new['normal_load'][i]:.1f}",
+            *(f"{data['slip_speed'][i] * 1e3:.2f}" for data in (old, new)),
+            *(f"{data['spin_speed'][i]:.1f}" for data in (old, new)),
+            *(f"{data['power_cam'][i] + data['power_crown'][i]:.3f}" for _, data in runs),
+        ]
+        lines.append(f"| {' | '.join(cells)} |")
+    lines += ["", f"| | {' | '.join(head)} |", "|---|--:|--:|--:|"]
+    for label, name, form in (
+        ("loss, W", "power_friction_mean", ".1f"),
+        ("of it at the cam, W", "power_cam_mean", ".1f"),
+        ("of it at the crown, W", "power_crown_mean", ".1f"),
+        ("greatest slip, mm/s", "slip_speed_max", ".2f"),
+        ("efficiency", "efficiency", ".4f"),
+        ("efficiency by energy", "efficiency_by_energy", ".4f"),
+    ):
+        factor = 1e3 if name == "slip_speed_max" else 1.0
+        cells = [format(factor * summary[name], form) for summary, _ in runs]
+        lines.append(f"| {label} | {' | '.join(cells)} |")
+    return "\n".join(lines) + "\n\nMeans are over the revolution in mode `corrected`."
+
+
+def conclusions(folder: Path) -> str:
+    """Sizes that the paper varies, with the corrected loss beside the printed one."""
+
+    def loss(scenario: str, **changes: str) -> str:
+        return f"{result(folder, scenario, **changes)[0]['power_friction_mean']:.1f}"
+
+    lines = ["| | loss as published, W | corrected, μ 0.01 mm, W |", "|---|--:|--:|"]
+    sizes = [(f"r_b {radius:g} mm", {"drive__element_radius": f"{radius} mm"}) for radius in RADII]
+    sizes += [(f"r₂ {radius:g} mm", {"drive__pitch_radius": f"{radius} mm"}) for radius in (20, 30)]
+    for label, changes in sizes:
+        cells = [loss(scenario, **changes) for scenario in ("irefc-as-published", "irefc")]
+        lines.append(f"| {label} | {' | '.join(cells)} |")
+    return "\n".join(lines)
+
+
+def main() -> None:
+    with TemporaryDirectory(prefix="tribodyn-") as temporary:
+        folder = Path(temporary)
+        put(PAGE, "rolling-modes", modes(folder))
+        put(PAGE, "rolling-conclusions", conclusions(folder))
+        path = run(load_scenario("irefc"), folder / "irefc.h5").path
+        with open_record(path) as record:
+            print(save(overview(record), PICTURE))
+
+
+if __name__ == "__main__":
+    main()
