@@ -1,4 +1,4 @@
-"""Transient runs: choice of the method, blocks of whole mesh cycles, and what happens on a failure."""
+"""Transient runs: blocks of whole mesh cycles one after the other, and what happens on a failure."""
 
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -8,7 +8,6 @@ import numpy as np
 from tribodyn.dynamics.equations import engagement
 from tribodyn.dynamics.parameters import (
     LAG,
-    MECHANICAL,
     SLIP,
     STATES,
     WORK_IN,
@@ -17,15 +16,8 @@ from tribodyn.dynamics.parameters import (
     Model,
 )
 from tribodyn.solve.engine import DONE, REASONS, Block, Engine, Tolerances, absolute_tolerances
-from tribodyn.solve.initial import accelerations, static_deflection
-
-EXPLICIT, STIFF = "dopri5", "radau"
-
-#: Explicit steps per mesh cycle, by stability alone, above which the stiff solver is the cheaper one:
-#: measured on the CRC drive, where native Dormand-Prince and Radau cost the same at 0.1 rad/s.
-STIFF_ABOVE = 50_000
-#: Stability limit of Dormand-Prince 5(4) on the negative real axis.
-REAL_STABILITY = 3.3
+from tribodyn.solve.initial import static_deflection
+from tribodyn.solve.stiffness import EXPLICIT
 
 
 class Settings(NamedTuple):
@@ -36,13 +28,6 @@ class Settings(NamedTuple):
     cycles: int
     max_steps: int
     samples: int
-
-
-class Choice(NamedTuple):
-    """A method and the reason for it."""
-
-    method: str
-    reason: str
 
 
 class Chunk(NamedTuple):
@@ -63,52 +48,6 @@ class Stop(NamedTuple):
     evaluations: int
     reason: str
     time: float
-
-
-def stability_steps(model: Model, state: np.ndarray) -> float:
-    """Steps per mesh cycle that an explicit method needs for stability, the greatest over the segments.
-
-    The spectral radius of the mechanics' Jacobian (central differences) over the stability limit, at the
-    middle and both ends of each segment and where each pair passes the pitch point.
-    """
-    table = model.table
-    boundary = np.asarray(table.boundary)
-    scale = absolute_tolerances(model, 1.0, max(abs(state[5]), 1e-9))[:MECHANICAL]
-    phases, segments = [], []
-    for segment in range(len(boundary) - 1):
-        start, end = boundary[segment], boundary[segment + 1]
-        found = [start, 0.5 * (start + end), end]
-        distance = np.asarray(table.channel)[segment, :, :, 1, 0]
-        nodes = np.linspace(start, end, distance.shape[0] + 1)[:-1]
-        for slot in np.flatnonzero(np.asarray(table.in_contact)[segment]):
-            if distance[0, slot] * distance[-1, slot] < 0.0:
-                found.append(float(np.interp(0.0, *np.sort([distance[:, slot], nodes], axis=-1))))
-        phases += found
-        segments += [segment] * len(found)
-    shift = np.zeros((MECHANICAL, STATES))
-    shift[:, :MECHANICAL] = 1e-4 * np.diag(scale)
-    place = np.array(phases)[:, None], np.array(segments)[:, None]
-    shape = (len(phases), MECHANICAL, STATES)
-    up, down = (
-        accelerations(np.broadcast_to(state + sign * shift, shape), *place, model)[..., :MECHANICAL]
-        for sign in (1, -1)
-    )
-    jacobians = np.swapaxes((up - down) / (2e-4 * scale[:, None]), 1, 2)
-    return float(np.max(np.abs(np.linalg.eigvals(jacobians)))) / REAL_STABILITY
-
-
-def choose(method: str, model: Model, state: np.ndarray) -> Choice:
-    """The method to use: the user's, or explicit unless stability makes it dear."""
-    if method != "auto":
-        return Choice(method, "chosen in the scenario")
-    steps = stability_steps(model, state)
-    if steps > STIFF_ABOVE:
-        return Choice(
-            STIFF, f"stiff: stability would ask {steps:.0f} explicit steps a mesh cycle, above {STIFF_ABOVE}"
-        )
-    return Choice(
-        EXPLICIT, f"not stiff: stability asks {steps:.0f} explicit steps a mesh cycle, below {STIFF_ABOVE}"
-    )
 
 
 class NativeEngine:
