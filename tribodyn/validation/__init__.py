@@ -13,6 +13,7 @@ PAPERS = {
     "efremenkov-2024": "tribodyn.validation.efremenkov",
     "veciana-2024": "tribodyn.validation.veciana",
     "diez-ibarbia": "tribodyn.validation.diez_ibarbia",
+    "jia-2022": "tribodyn.validation.jia",
 }
 
 
