@@ -80,6 +80,9 @@ def _scenarios(what: list[str], settings: Mapping[str, str]) -> dict[str, "Loade
         raise InputError(
             "compare", f'"{what[0]}"', "there is nothing to compare it with", "name at least two"
         )
+    again = next((word for number, word in enumerate(what) if word in what[:number]), None)
+    if again is not None:
+        raise InputError("compare", f'"{again}"', "given twice", "name each once")
     scenarios = {word: load(word, settings) for word in what if not _is_record(word)}
     if settings and not scenarios:
         raise InputError(

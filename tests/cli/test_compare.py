@@ -1,0 +1,161 @@
+"""`tribodyn compare`: runs and records in one table and in shared pictures; what cannot be compared."""
+
+import json
+from pathlib import Path
+
+import h5py
+import pytest
+from typer.testing import CliRunner
+
+from tests import synthetic_record
+from tribodyn.cli.app import app
+from tribodyn.post.compare import compare as side_by_side
+from tribodyn.post.compare import comparison_table
+from tribodyn.post.plots import NAMES
+from tribodyn.record.reader import open_record
+
+SHORT = ("--set", "solver.cycles=2")
+
+
+def compare(*arguments: str):
+    return CliRunner().invoke(app, ["compare", *map(str, arguments)])
+
+
+def compared(*arguments: str) -> dict:
+    done = compare(*arguments, "--json")
+    assert done.exit_code == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+@pytest.fixture(scope="module")
+def both(tmp_path_factory: pytest.TempPathFactory) -> tuple[dict, Path]:
+    """CRC against involute, as Liu & Ni compare them, kept in a folder."""
+    folder = tmp_path_factory.mktemp("comparison")
+    return compared("crc-23-47", "involute-23-47", *SHORT, "-o", str(folder / "new")), folder / "new"
+
+
+def test_scenarios_are_run_and_their_records_compared(both):
+    result, folder = both
+    assert [one["label"] for one in result["records"]] == ["crc-23-47", "involute-23-47"]
+    quantities = result["quantities"]
+    for number, name in enumerate(("crc-23-47", "involute-23-47")):
+        with open_record(folder / f"{name}.h5") as record:
+            for key in (
+                "contact_ratio",
+                "transmission_error_peak_to_peak",
+                "normal_load_max",
+                "dynamic_factor",
+                "film_min",
+                "film_parameter_min",
+                "flash_temperature_max",
+                "friction_coefficient_mean",
+                "efficiency",
+                "power_friction_mean",
+            ):
+                assert quantities[key]["values"][number] == pytest.approx(record.summary[key])
+            assert quantities["loss"]["values"][number] == pytest.approx(1 - record.summary["efficiency"])
+    # what Liu & Ni find: less contact ratio, more film, less loss (figures 13 and 16)
+    assert quantities["contact_ratio"]["values"] == [
+        pytest.approx(1.523, abs=1e-3),
+        pytest.approx(1.668, abs=1e-3),
+    ]
+    assert quantities["film_min"]["relative_differences"][0] < -0.1
+    assert quantities["loss"]["relative_differences"][0] > 0.05
+    assert result["different_conditions"] == {}
+
+
+def test_records_and_a_picture_of_every_quantity_are_kept(both):
+    result, folder = both
+    assert [Path(path) for path in result["kept"]] == [
+        folder / "crc-23-47.h5",
+        folder / "involute-23-47.h5",
+    ]
+    assert [Path(path).name for path in result["pictures"]] == [f"compare-{name}.png" for name in NAMES]
+    for picture in result["pictures"]:
+        assert Path(picture).read_bytes().startswith(b"\x89PNG")
+
+
+def test_without_a_folder_nothing_is_left_behind(both, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    _, folder = both
+    monkeypatch.chdir(tmp_path)
+    shown = compare(str(folder / "crc-23-47.h5"), "involute-23-47", *SHORT)
+    assert shown.exit_code == 0, shown.stderr
+    assert "record " not in shown.stdout
+    assert list(tmp_path.iterdir()) == []
+    for label in ("Contact ratio", "Least film parameter", "Loss, share of the power in", "pp"):
+        assert label in shown.stdout
+    assert "are the same in all runs" in shown.stdout
+
+
+def test_runs_at_unequal_load_say_so(both):
+    _, folder = both
+    result = compared(
+        str(folder / "crc-23-47.h5"), "involute-23-47", *SHORT, "--set", "operating.gear_torque=300 N*m"
+    )
+    assert result["different_conditions"] == {"operating.gear_torque": ["500 N*m", "300 N*m"]}
+    assert result["kept"] == result["pictures"] == []
+
+
+def test_existing_records_are_replaced_with_force_only(both):
+    _, folder = both
+    refused = compare("crc-23-47", "involute-23-47", *SHORT, "-o", str(folder))
+    assert refused.exit_code == 2
+    assert "--force" in refused.stderr
+
+
+def test_labels_of_equal_names_are_told_apart_by_their_folders(tmp_path: Path):
+    for folder in ("before", "after"):
+        (tmp_path / folder).mkdir()
+    paths = [
+        synthetic_record.write(tmp_path / folder / "drive.h5", cycles=2, per_cycle=40)
+        for folder in ("before", "after")
+    ]
+    records = [open_record(path) for path in paths]
+    comparison = side_by_side(records)
+    assert comparison.labels == ("before/drive", "after/drive")
+    assert all(
+        difference in (0.0, None)
+        for rows in comparison.groups.values()
+        for row in rows
+        for difference in row.differences()
+    )
+    comparison_table(comparison)
+
+
+def test_three_records_each_against_the_first(tmp_path: Path):
+    paths = [
+        synthetic_record.write(tmp_path / f"{name}.h5", cycles=2, per_cycle=40) for name in ("a", "b", "c")
+    ]
+    result = compared(*map(str, paths))
+    assert result["quantities"]["efficiency"]["relative_differences"] == [0.0, 0.0]
+    assert result["quantities"]["friction_force_mean"]["values"][2] == [150.0, 310.0]
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["crc-23-47"], "there is nothing to compare it with"),
+        (["crc-23-47", "involut-23-47"], 'did you mean "involute-23-47"?'),
+        (["crc-23-47", "irefc"], "share no quantities to compare"),
+        (["crc-23-47", "crc-23-47"], "given twice"),
+        (["crc-23-47", "missing.h5"], "no such file"),
+    ],
+)
+def test_what_cannot_be_compared_is_refused_before_anything_runs(words: list[str], said: str):
+    refused = compare(*words)
+    assert refused.exit_code == 2
+    assert said in refused.stderr
+    assert len(refused.stderr.splitlines()) == 1
+
+
+def test_records_that_cannot_be_compared(tmp_path: Path):
+    first = synthetic_record.write(tmp_path / "first.h5", cycles=2, per_cycle=40)
+    other = synthetic_record.write(tmp_path / "other.h5", cycles=2, per_cycle=40)
+    twice = compare(str(first), str(tmp_path / "." / "first.h5"))
+    assert (twice.exit_code, "given twice" in twice.stderr) == (2, True)
+    settings = compare(str(first), str(other), "--set", "solver.cycles=3")
+    assert (settings.exit_code, "nothing is run" in settings.stderr) == (2, True)
+    with h5py.File(other, "r+") as file:
+        file.attrs["status"] = "failed"
+    unfinished = compare(str(first), str(other))
+    assert (unfinished.exit_code, "run its scenario again" in unfinished.stderr) == (2, True)
