@@ -9,12 +9,14 @@ import numpy as np
 
 from tribodyn.case import Case
 from tribodyn.dynamics.outputs import outputs
+from tribodyn.efficiency.case import EfficiencyCase
 from tribodyn.errors import SimulationError
 from tribodyn.mesh_cycle import as_arrays
 from tribodyn.prepare import Prepared, geometry_arrays, prepare
 from tribodyn.rolling.case import RollingCase
 from tribodyn.solve.initial import initial_state
-from tribodyn.solve.transient import Chunk, Settings, Stop, choose, transient
+from tribodyn.solve.stiffness import choose
+from tribodyn.solve.transient import Chunk, Settings, Stop, transient
 from tribodyn.summary import RunningExtremes, energy_residual, single_pair_stiffness, steady_figures
 
 __all__ = ["Prepared", "RunResult", "prepare", "run"]
@@ -30,7 +32,7 @@ class RunResult(NamedTuple):
 
 
 def run(
-    case: Case | RollingCase,
+    case: Case | RollingCase | EfficiencyCase,
     output: str | Path | None = None,
     force: bool = False,
     progress: Callable[[float], None] | None = None,
@@ -39,7 +41,7 @@ def run(
 
     Parameters
     ----------
-    case : Case, or RollingCase of a gear with rolling elements
+    case : Case, RollingCase of a gear with rolling elements, or EfficiencyCase of a quasi-static study
     output : path, optional
         Name of the record; default ``<case name>.h5`` in the current folder.
     force : bool
@@ -63,6 +65,11 @@ def run(
         from tribodyn import simulate_rolling
 
         path, summary = simulate_rolling.run(case, output, force, progress)
+        return RunResult(path, "complete", "", summary)
+    if isinstance(case, EfficiencyCase):
+        from tribodyn import simulate_efficiency
+
+        path, summary = simulate_efficiency.run(case, output, force, progress)
         return RunResult(path, "complete", "", summary)
     path = Path(output) if output is not None else Path(f"{case.name}.h5")
     check_target(path, force)
