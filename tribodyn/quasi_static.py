@@ -1,4 +1,4 @@
-"""Loads and deflection of the mesh in slow rotation: elasticity and torque balance, with friction if given."""
+"""Loads and deflection of the mesh in slow rotation: elasticity and torque balance, friction if given."""
 
 from typing import Any, NamedTuple
 

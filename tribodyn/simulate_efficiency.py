@@ -7,10 +7,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.efficiency import along_path
-from tribodyn.efficiency.along_path import SHARINGS, Duty
+from tribodyn.efficiency.along_path import Duty, Engagement, cycle_efficiency, engage
 from tribodyn.efficiency.case import EfficiencyCase
 from tribodyn.efficiency.loss_factor import exact, hoehn, tip_contact_ratios
+from tribodyn.efficiency.places import SHARINGS, Places, places
+from tribodyn.efficiency.quadrature import Array
 from tribodyn.efficiency.torque_ratio import path_contact, torque_ratio
 from tribodyn.errors import InputError
 from tribodyn.geometry.path import Path as PathOfContact
@@ -85,16 +86,16 @@ def run(
         geometry=geometry_arrays(case, study.cycle),
         force=force,
     ) as record:
-        record.write(0, along_path.record_arrays(mesh, state, study.duty))
+        record.write(0, _record_arrays(mesh, state, study.duty))
         if progress:
             progress(1.0)
         return record.finish(summary), summary
 
 
-def _sampled(study: Study) -> tuple[along_path.Places, along_path.Engagement, np.ndarray]:
-    phase = along_path.phases(study.case.samples_per_cycle)
-    mesh = along_path.places(study.cycle, study.path, phase, study.duty.sharing)
-    return mesh, along_path.engage(mesh, study.duty), phase
+def _sampled(study: Study) -> tuple[Places, Engagement, np.ndarray]:
+    phase = np.linspace(0.0, 1.0, study.case.samples_per_cycle + 1)
+    mesh = places(study.cycle, study.path, phase, study.duty.sharing)
+    return mesh, engage(mesh, study.duty), phase
 
 
 def efficiencies(study: Study) -> dict[str, float]:
@@ -106,7 +107,7 @@ def efficiencies(study: Study) -> dict[str, float]:
     found = {}
     for sharing in SHARINGS:
         try:
-            means = along_path.cycle_efficiency(study.cycle, study.path, study.duty._replace(sharing=sharing))
+            means = cycle_efficiency(study.cycle, study.path, study.duty._replace(sharing=sharing))
         except InputError:
             continue
         found[f"efficiency_{sharing.replace('-', '_')}"] = means.efficiency
@@ -140,9 +141,9 @@ def _by_loss_factor(study: Study) -> dict[str, float]:
     return found
 
 
-def _figures(study: Study, state: along_path.Engagement) -> dict[str, Any]:
+def _figures(study: Study, state: Engagement) -> dict[str, Any]:
     cycle, duty = study.cycle, study.duty
-    means = along_path.cycle_efficiency(cycle, study.path, duty)
+    means = cycle_efficiency(cycle, study.path, duty)
     loaded = state.normal_load > 0
     share = 1.0 / len(state.power_in[:-1])
     balance = means.power_in - means.power_out - means.power_friction
@@ -171,4 +172,50 @@ def _figures(study: Study, state: along_path.Engagement) -> dict[str, Any]:
         "energy_residual": balance / means.power_in,
         "averaging_cycles": 1,
         **efficiencies(study),
+    }
+
+
+def _record_arrays(mesh: Places, state: Engagement, duty: Duty) -> dict[str, Any]:
+    """Datasets of a record of one mesh cycle; what a quasi-static state has not stays out."""
+    cycle = mesh.cycle
+    touching = (mesh.carrying > 0) & (state.normal_load > 0)
+    angle = mesh.phase * cycle.pitch_angle
+    ratio = cycle.pinion_pitch_radius / cycle.gear_pitch_radius
+    zero = np.zeros_like(angle)
+
+    def contacting(values: Array) -> Array:
+        return np.where(touching, values, np.nan)
+
+    gear_angle = ratio * angle - np.nan_to_num(state.deflection) / cycle.gear_pitch_radius
+    one = np.ones_like(angle)
+    return {
+        "time": angle / duty.pinion_speed,
+        "pinion_angle": angle,
+        "displacement": np.stack([zero, zero, zero, zero, angle, gear_angle], axis=-1),
+        "velocity": np.stack(
+            [zero, zero, zero, zero, one * duty.pinion_speed, one * duty.pinion_speed * ratio], -1
+        ),
+        "transmission_error": contacting(state.deflection[:, None] * np.cos(cycle.pressure_angle[:, 0])),
+        "transmission_error_rotational": state.deflection,
+        "normal_load": state.normal_load,
+        "friction_force": state.friction_force,
+        "friction_coefficient": contacting(state.friction_coefficient),
+        "asperity_load_ratio": contacting(state.asperity_load_ratio),
+        "central_film_thickness": contacting(state.central_film_thickness),
+        "film_parameter": contacting(state.central_film_thickness / duty.surfaces.roughness),
+        "flash_temperature_rise": contacting(state.flash_temperature_rise),
+        "hertz_pressure": contacting(state.hertz_pressure),
+        "equivalent_radius": contacting(state.radius),
+        "entrainment_speed": contacting(state.entrainment),
+        "sliding_speed": contacting(state.sliding),
+        "pressure_angle": contacting(cycle.pressure_angle[:, 0]),
+        "mesh_stiffness": np.where(touching, 1.0 / cycle.compliance[:, 0], 0.0),
+        "closure_in_range": np.where(touching, state.in_range, np.nan),
+        "drive_torque": state.pinion_torque,
+        "power_in": state.power_in,
+        "power_out": state.power_out,
+        "power_friction": state.power_friction,
+        "power_damping": zero,
+        "power_parametric": zero,
+        "efficiency": state.power_out / state.power_in,
     }

@@ -30,8 +30,8 @@ def tribodyn(*arguments: str, folder: Path) -> str:
 
 @pytest.mark.parametrize("name", names(shipped("scenarios")))
 def test_it_runs(name: str, tmp_path: Path):
-    rolling = load_scenario(name).kind == "irefc"  # solves no equation of motion and takes no time
-    shorter = () if rolling else ("--set", "solver.cycles=2")
+    still = load_scenario(name).kind != "gear-pair"  # solves no equation of motion and takes no time
+    shorter = () if still else ("--set", "solver.cycles=2")
     said = tribodyn("run", name, *shorter, "--json", folder=tmp_path)
     result = json.loads(said)
     assert result["status"] == "complete"

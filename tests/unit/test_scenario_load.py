@@ -217,7 +217,9 @@ def test_registries_know_their_names_and_suggest_near_ones():
 def test_the_json_schema_offers_references_and_the_registries_names():
     schema = json_schema()
     assert schema["$defs"]["Friction"]["properties"]["law"]["enum"] == list(FRICTION_LAWS)
-    assert [shape["$ref"] for shape in schema["oneOf"]] == ["#/$defs/Scenario", "#/$defs/RollingScenario"]
+    kinds = ("Scenario", "RollingScenario", "EfficiencyScenario")
+    assert [shape["$ref"] for shape in schema["oneOf"]] == [f"#/$defs/{kind}" for kind in kinds]
+    assert schema["$defs"]["EfficiencyFriction"]["properties"]["law"]["enum"] == list(FRICTION_LAWS)
     gear_pair = schema["$defs"]["Scenario"]
     drive = gear_pair["properties"]["drive"]
     assert [shape.get("type", "table") for shape in drive["anyOf"]] == ["string", "table"]

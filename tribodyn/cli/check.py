@@ -9,6 +9,7 @@ from tribodyn.cli.overrides import SetOption, overrides
 
 if TYPE_CHECKING:
     from tribodyn.case import Case
+    from tribodyn.efficiency.case import EfficiencyCase
     from tribodyn.mesh_cycle import MeshCycle
     from tribodyn.rolling.case import RollingCase
     from tribodyn.scenario.load import Loaded
@@ -28,10 +29,12 @@ def check(
     """Check a scenario; print geometry and stiffness."""
     from tribodyn.cli.printing import print_json, print_table
     from tribodyn.cli.sheet import print_sheet
+    from tribodyn.efficiency.case import EfficiencyCase
     from tribodyn.geometry.sheet import geometry_sheet
     from tribodyn.rolling.case import RollingCase
     from tribodyn.scenario.load import family, load
     from tribodyn.simulate import prepare
+    from tribodyn.simulate_efficiency import prepare as prepare_efficiency
 
     loaded = load(scenario, overrides(settings))
     case = loaded.case
@@ -39,8 +42,12 @@ def check(
         _check_rolling(loaded, case, json)
         return
     with loaded.naming():
-        model = prepare(case)
-        sheet = geometry_sheet(family(case.family), case.drive, model.masses)
+        if isinstance(case, EfficiencyCase):
+            model, masses = prepare_efficiency(case), None
+        else:
+            model = prepare(case)
+            masses = model.masses
+        sheet = geometry_sheet(family(case.family), case.drive, masses)
     stiffness = _stiffness(case, model.mesh_cycle)
     if json:
         print_json(
@@ -76,7 +83,7 @@ def _check_rolling(loaded: "Loaded", case: "RollingCase", json: bool) -> None:
     print_table("Gear with rolling elements", ("quantity", "value"), rows)
 
 
-def _stiffness(case: "Case", cycle: "MeshCycle") -> dict[str, Any]:
+def _stiffness(case: "Case | EfficiencyCase", cycle: "MeshCycle") -> dict[str, Any]:
     """Return the line load (N/m), and by method the single-pair stiffness at P: N/m, and per width in Pa."""
     from tribodyn.compliance.iso6336 import single_pair_stiffness as iso6336
     from tribodyn.scenario.load import family

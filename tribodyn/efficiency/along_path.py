@@ -1,58 +1,27 @@
 """Quasi-static loads, friction and efficiency along the path of contact, for any family and friction law.
 
-No inertia: at each phase of the mesh the loads balance the torque, friction included, and the friction law and
-the loads are solved together. The load is shared by the elasticity of the mesh, equally, or not at all (one
-pair over half a pitch on either side of the pitch point).
+No inertia: at each phase of the mesh the loads balance the torque, friction included, and the friction law
+and the loads are solved together.
 """
 
-from typing import Any, Literal, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from tribodyn.efficiency.places import Places, Sharing, places
 from tribodyn.efficiency.quadrature import Array, piecewise
-from tribodyn.errors import InputError, SimulationError
-from tribodyn.geometry.path import Path, kinematics
-from tribodyn.mesh_cycle import CHANNELS, MeshCycle, Polynomials, polynomials
+from tribodyn.errors import SimulationError
+from tribodyn.geometry.path import Path
+from tribodyn.mesh_cycle import MeshCycle
 from tribodyn.quasi_static import quasi_static
 from tribodyn.tribology.contact import Contact, averaged_radius
 from tribodyn.tribology.friction import friction
 
-Sharing = Literal["elastic", "uniform", "single-pair"]
-SHARINGS: dict[Sharing, str] = {
-    "elastic": "by the compliances of the pairs and the body they share",
-    "uniform": "equally among the pairs in contact, as ISO/TC 60 has it",
-    "single-pair": "one pair over half a pitch on either side of the pitch point: unit contact ratio",
-}
 #: Nodes between two breaks of the integrand.
 POINTS = 20
 #: The loads follow friction through μ tan α only: each step shrinks the error tenfold.
 STEPS = 60
 TOLERANCE = 1e-12
-
-
-class Places(NamedTuple):
-    """The mesh at some phases: K phases, Q pairs.
-
-    Attributes
-    ----------
-    phase : (K,)
-        Mesh cycles.
-    cycle : MeshCycle
-        A table of one node in each of K segments, driving flanks only; its kinematics are the path's own.
-    carrying : (K, Q)
-        1 for a pair that may carry load under the load sharing in use.
-    normal_arm, friction_arm : (2, K, Q)
-        Arms of normal load and friction about pinion and gear, m.
-    radius : (K, Q)
-        Equivalent radius, m.
-    """
-
-    phase: Array
-    cycle: MeshCycle
-    carrying: Array
-    normal_arm: Array
-    friction_arm: Array
-    radius: Array
 
 
 class Engagement(NamedTuple):
@@ -102,7 +71,7 @@ class Duty(NamedTuple):
     pinion_speed : rad/s
     friction_law : code of `tribodyn.tribology.friction`
     surfaces : Contact
-    sharing : one of `SHARINGS`
+    sharing : one of `places.SHARINGS`
     """
 
     gear_torque: float
@@ -110,77 +79,6 @@ class Duty(NamedTuple):
     friction_law: int
     surfaces: Contact
     sharing: Sharing = "elastic"
-
-
-def places(cycle: MeshCycle, path: Path, phase: Array, sharing: Sharing = "elastic") -> Places:
-    """Look up the mesh at phases 0 … 1: compliance and gap from the table, kinematics from the path.
-
-    Raises
-    ------
-    InputError
-        If one pair shall carry the load over a pitch that its contact does not cover.
-    """
-    pairs = cycle.front_pairs
-    segment = np.clip(np.searchsorted(cycle.boundary, phase, side="right") - 1, 0, len(cycle.boundary) - 2)
-    position = phase[:, None] + np.arange(pairs - 1.0, -1.0, -1.0)
-    roll = np.clip(cycle.roll_start + cycle.pitch_angle * position, cycle.roll_start, cycle.roll_end)
-    inside = (position < cycle.contact_ratio).astype(float)
-    if sharing == "single-pair":
-        half = cycle.pitch_angle / 2.0
-        if cycle.roll_start > -half or cycle.roll_end < half:
-            raise InputError(
-                "load_sharing",
-                f'"{sharing}"',
-                "the contact of a pair does not cover half a pitch on either side of the pitch point",
-                'use "elastic" or "uniform"',
-            )
-        inside = inside * ((roll >= -half) & (roll < half))
-    motion = kinematics(path, path.signed_distance(roll))
-    at = _Lookup(polynomials(cycle), cycle.boundary, segment, phase)
-    one = cycle._replace(
-        in_contact=inside,
-        side=np.ones(pairs),
-        phase=phase[:, None],
-        pressure_angle=motion.pressure_angle[:, None],
-        signed_distance=motion.signed_distance[:, None],
-        pinion_speed=motion.pinion_speed[:, None],
-        gear_speed=motion.gear_speed[:, None],
-        compliance=at.channel("compliance")[:, None, :pairs],
-        gap=at.channel("gap")[:, None, :pairs],
-        coupling=at.coupling()[:, None, :pairs, :pairs],
-    )
-    return Places(
-        phase,
-        one,
-        inside,
-        np.stack([motion.pinion_normal_arm, motion.gear_normal_arm]),
-        np.stack([motion.pinion_friction_arm, motion.gear_friction_arm]),
-        1.0 / motion.relative_curvature,
-    )
-
-
-class _Lookup(NamedTuple):
-    """The table's splines at given phases."""
-
-    table: Polynomials
-    boundary: Array
-    segment: Array
-    phase: Array
-
-    def _value(self, coefficients: Array) -> Array:
-        start, end = self.boundary[self.segment], self.boundary[self.segment + 1]
-        cells = coefficients.shape[1]
-        place = np.clip((self.phase - start) / (end - start), 0.0, 1.0) * cells
-        cell = np.clip(place.astype(int), 0, cells - 1)
-        c = coefficients[self.segment, cell]
-        u = (place - cell).reshape(-1, *[1] * (c.ndim - 2))
-        return c[..., 0] + u * (c[..., 1] + u * (c[..., 2] + u * c[..., 3]))
-
-    def channel(self, name: str) -> Array:
-        return self._value(self.table.channel[:, :, :, CHANNELS.index(name)])
-
-    def coupling(self) -> Array:
-        return self._value(self.table.coupling)
 
 
 def engage(mesh: Places, duty: Duty) -> Engagement:
@@ -196,7 +94,7 @@ def engage(mesh: Places, duty: Duty) -> Engagement:
     rolling = speed * cycle.pinion_speed[:, 0], speed * cycle.gear_speed[:, 0]
     sliding = rolling[0] - rolling[1]
     width = cycle.face_width
-    mu = np.zeros_like(side)
+    mu, change = np.zeros_like(side), np.inf
     for _ in range(STEPS):
         load, deflection = _loads(mesh, duty, side * mu)
         radius, rolled = mesh.radius, rolling
@@ -300,54 +198,3 @@ def cycle_efficiency(cycle: MeshCycle, path: Path, duty: Duty, points: int = POI
     )
     loaded = float(weight @ np.sum(state.normal_load * np.abs(state.sliding), axis=-1))
     return CycleEfficiency(power_out / power_in, power_in, power_out, lost, lost / loaded)
-
-
-def phases(samples: int) -> Array:
-    """Uniform phases of one mesh cycle for a record, both ends included."""
-    return np.linspace(0.0, 1.0, samples + 1)
-
-
-def record_arrays(mesh: Places, state: Engagement, duty: Duty) -> dict[str, Any]:
-    """Datasets of a record of one mesh cycle; what a quasi-static state has not stays out."""
-    cycle = mesh.cycle
-    touching = (mesh.carrying > 0) & (state.normal_load > 0)
-    angle = mesh.phase * cycle.pitch_angle
-    ratio = cycle.pinion_pitch_radius / cycle.gear_pitch_radius
-    zero = np.zeros_like(angle)
-
-    def contacting(values: Array) -> Array:
-        return np.where(touching, values, np.nan)
-
-    gear_angle = ratio * angle - np.nan_to_num(state.deflection) / cycle.gear_pitch_radius
-    one = np.ones_like(angle)
-    return {
-        "time": angle / duty.pinion_speed,
-        "pinion_angle": angle,
-        "displacement": np.stack([zero, zero, zero, zero, angle, gear_angle], axis=-1),
-        "velocity": np.stack(
-            [zero, zero, zero, zero, one * duty.pinion_speed, one * duty.pinion_speed * ratio], -1
-        ),
-        "transmission_error": contacting(state.deflection[:, None] * np.cos(cycle.pressure_angle[:, 0])),
-        "transmission_error_rotational": state.deflection,
-        "normal_load": state.normal_load,
-        "friction_force": state.friction_force,
-        "friction_coefficient": contacting(state.friction_coefficient),
-        "asperity_load_ratio": contacting(state.asperity_load_ratio),
-        "central_film_thickness": contacting(state.central_film_thickness),
-        "film_parameter": contacting(state.central_film_thickness / duty.surfaces.roughness),
-        "flash_temperature_rise": contacting(state.flash_temperature_rise),
-        "hertz_pressure": contacting(state.hertz_pressure),
-        "equivalent_radius": contacting(state.radius),
-        "entrainment_speed": contacting(state.entrainment),
-        "sliding_speed": contacting(state.sliding),
-        "pressure_angle": contacting(cycle.pressure_angle[:, 0]),
-        "mesh_stiffness": np.where(touching, 1.0 / cycle.compliance[:, 0], 0.0),
-        "closure_in_range": np.where(touching, state.in_range, np.nan),
-        "drive_torque": state.pinion_torque,
-        "power_in": state.power_in,
-        "power_out": state.power_out,
-        "power_friction": state.power_friction,
-        "power_damping": zero,
-        "power_parametric": zero,
-        "efficiency": state.power_out / state.power_in,
-    }

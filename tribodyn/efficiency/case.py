@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from tribodyn.case import FrictionData, LubricantData, MaterialData, MeshData, OperatingData
-from tribodyn.efficiency.along_path import Sharing
+from tribodyn.efficiency.places import Sharing
 from tribodyn.geometry.drive import Drive
 
 

@@ -208,7 +208,7 @@ def torque_ratio(
     side = np.sign(pair.rotation)
     speeds = pinion_speed * pair.pinion_speed, pinion_speed * pair.gear_speed
     entrainment, sliding = (speeds[0] + speeds[1]) / 2.0, speeds[0] - speeds[1]
-    mu = np.zeros_like(pair.pinion_normal_arm)
+    mu, load, change = np.zeros_like(pair.pinion_normal_arm), input_torque / pair.pinion_normal_arm, np.inf
     for _ in range(STEPS):
         load = input_torque / (pair.pinion_normal_arm + side * mu * pair.pinion_friction_arm)
         with np.errstate(under="ignore"):

@@ -60,6 +60,13 @@ GROUPS: dict[str, tuple[Line, ...]] = {
         Line("power_cam_mean", "of it at the cam", 1.0, "W", ".3g"),
         Line("power_crown_mean", "of it at the crown", 1.0, "W", ".3g"),
         Line("efficiency", "Efficiency", 100.0, "%", ".2f"),
+        Line("load_sharing", "Load sharing of the samples"),
+        Line("efficiency_elastic", "Efficiency, elastic load sharing", 100.0, "%", ".3f"),
+        Line("efficiency_uniform", "Efficiency, equal loads", 100.0, "%", ".3f"),
+        Line("efficiency_single_pair", "Efficiency, one pair at a time", 100.0, "%", ".3f"),
+        Line("efficiency_torque_ratio", "Efficiency, torque ratio of one pair", 100.0, "%", ".3f"),
+        Line("efficiency_loss_factor", "Efficiency, loss factor integrated", 100.0, "%", ".3f"),
+        Line("efficiency_hoehn", "Efficiency, Höhn's loss factor", 100.0, "%", ".3f"),
     ),
     "Solver": (
         Line("solver", "Method"),

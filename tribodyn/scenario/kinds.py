@@ -3,11 +3,16 @@
 from collections.abc import Mapping
 from typing import Any
 
+from tribodyn.scenario.efficiency import EfficiencyScenario
 from tribodyn.scenario.quantity import Table
 from tribodyn.scenario.rolling import RollingScenario
 from tribodyn.scenario.schema import Scenario
 
-KINDS: dict[str, type[Table]] = {"gear-pair": Scenario, "irefc": RollingScenario}
+KINDS: dict[str, type[Table]] = {
+    "gear-pair": Scenario,
+    "irefc": RollingScenario,
+    "efficiency": EfficiencyScenario,
+}
 
 
 def table_of(data: Mapping[str, Any]) -> type[Table]:

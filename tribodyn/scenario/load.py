@@ -13,13 +13,15 @@ import tomli_w
 from pydantic import Field, TypeAdapter, ValidationError
 
 from tribodyn.case import Case
+from tribodyn.efficiency.case import EfficiencyCase
 from tribodyn.errors import InputError
 from tribodyn.rolling.case import RollingCase
+from tribodyn.scenario.efficiency import EfficiencyFriction, EfficiencyScenario, efficiency_case_of
 from tribodyn.scenario.kinds import KINDS, table_of
 from tribodyn.scenario.messages import InputErrors, Origins, explain
 from tribodyn.scenario.resolve import resolve
 from tribodyn.scenario.rolling import RollingScenario, rolling_case_of
-from tribodyn.scenario.rules import broken_rules
+from tribodyn.scenario.rules import broken_drive_rules, broken_rules
 from tribodyn.scenario.schema import Friction, Scenario
 from tribodyn.scenario.shape import shape_errors
 from tribodyn.scenario.sources import find_scenario, near_name, quoted
@@ -29,6 +31,10 @@ from tribodyn.tribology.mean_friction import MeanConditions, iso_14179_1, nieman
 
 if TYPE_CHECKING:
     from tribodyn.geometry.family import Family
+
+
+AnyCase = Case | RollingCase | EfficiencyCase
+"""A case of any kind of scenario."""
 
 
 class FrictionLaw(NamedTuple):
@@ -161,7 +167,7 @@ def _known(key: str, name: str, registry: Mapping[str, Any], what: str) -> None:
 class Loaded(NamedTuple):
     """A case, the file it was read from, and where each of its values stands."""
 
-    case: Case | RollingCase
+    case: AnyCase
     path: Path
     origins: Origins
 
@@ -177,7 +183,7 @@ class Loaded(NamedTuple):
             raise self.origins.locate(error) from None
 
 
-def load_scenario(scenario: str | Path, overrides: Mapping[str, Any] | None = None) -> Case | RollingCase:
+def load_scenario(scenario: str | Path, overrides: Mapping[str, Any] | None = None) -> AnyCase:
     """Read a scenario.
 
     Parameters
@@ -216,13 +222,15 @@ def load(scenario: str | Path, overrides: Mapping[str, Any] | None = None) -> Lo
     digest = hashlib.sha256(toml.encode()).hexdigest()
     if isinstance(table, RollingScenario):
         return Loaded(rolling_case_of(table, toml, digest), path, origins)
-    assert isinstance(table, Scenario)
-    errors = broken_rules(table) + _unknown_names(table) + _coefficient(table.friction)
+    assert isinstance(table, Scenario | EfficiencyScenario)
+    rules = broken_rules(table) if isinstance(table, Scenario) else list(broken_drive_rules(table.drive))
+    errors = rules + _unknown_names(table) + _coefficient(table.friction)
     if table.drive.family in FAMILIES:
         errors += shape_errors(table.drive, family(table.drive.family))
     if errors:
         raise _located(errors, origins)
-    return Loaded(case_of(table, toml, digest), path, origins)
+    case = case_of if isinstance(table, Scenario) else efficiency_case_of
+    return Loaded(case(table, toml, digest), path, origins)  # pyright: ignore[reportArgumentType]
 
 
 def _located(errors: list[InputError], origins: Origins) -> InputError:
@@ -230,13 +238,11 @@ def _located(errors: list[InputError], origins: Origins) -> InputError:
     return InputErrors(located) if len(located) > 1 else located[0]
 
 
-def _unknown_names(table: Scenario) -> list[InputError]:
+def _unknown_names(table: Scenario | EfficiencyScenario) -> list[InputError]:
     errors = []
-    lookups = (
-        (family, table.drive.family),
-        (friction_law, table.friction.law),
-        (solver, table.solver.method),
-    )
+    lookups = [(family, table.drive.family), (friction_law, table.friction.law)]
+    if isinstance(table, Scenario):
+        lookups.append((solver, table.solver.method))
     for lookup, name in lookups:
         try:
             lookup(name)
@@ -245,7 +251,7 @@ def _unknown_names(table: Scenario) -> list[InputError]:
     return errors
 
 
-def _coefficient(friction: Friction) -> list[InputError]:
+def _coefficient(friction: Friction | EfficiencyFriction) -> list[InputError]:
     law = FRICTION_LAWS.get(friction.law)
     if law is None or law.coefficient == (friction.coefficient is not None):
         return []
@@ -259,12 +265,13 @@ def _coefficient(friction: Friction) -> list[InputError]:
 
 def json_schema() -> dict[str, Any]:
     """Return the JSON schema of a scenario file, the registries' names included."""
-    kinds = Annotated[Scenario | RollingScenario, Field(discriminator="kind")]
+    kinds = Annotated[Scenario | RollingScenario | EfficiencyScenario, Field(discriminator="kind")]
     schema = {"title": "Scenario", **TypeAdapter(kinds).json_schema()}
     parts = schema["$defs"]
     for table, key, known in (
         ("DriveTable", "family", FAMILIES),
         ("Friction", "law", FRICTION_LAWS),
+        ("EfficiencyFriction", "law", FRICTION_LAWS),
         ("Solver", "method", SOLVERS),
     ):
         parts[table]["properties"][key]["enum"] = list(known)

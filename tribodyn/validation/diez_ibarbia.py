@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.case import Case
 from tribodyn.efficiency.loss_factor import exact, hoehn, tip_contact_ratios
 from tribodyn.efficiency.shift import SCENARIOS, Scenario, shifted
 from tribodyn.geometry.drive import Drive
@@ -36,12 +37,18 @@ def mean_friction(condition: str) -> float:
         "operating.pinion_speed": f"{speed!r} rad/s",
         "operating.gear_torque": f"{2.0 * power / speed!r} N*m",
     }
-    return float(niemann(nominal_conditions(load_scenario("involute-18-36", overrides))))
+    return float(niemann(nominal_conditions(_case(overrides))))
 
 
 def drive() -> Drive:
     """Return the paper's pair without shift."""
-    return load_scenario("involute-18-36").drive
+    return _case({}).drive
+
+
+def _case(overrides: dict[str, str]) -> Case:
+    case = load_scenario("involute-18-36", overrides)
+    assert isinstance(case, Case)
+    return case
 
 
 def loss_factors(pair: Drive) -> tuple[float, float]:

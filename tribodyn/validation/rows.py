@@ -48,11 +48,12 @@ def compare(row: dict[str, Any], computed: Any, note: str = "") -> Row:
     Where the paper has a figure only, the value of a separate prototype takes its number's place, and the
     row's `tolerance_kind` and note say so. What cannot be computed yet is None and stays "reported".
     """
-    value, tolerance, kind = row["published"], row["tolerance"], row["tolerance_kind"]
-    if value is None and row["independent"] is not None:
-        value = row["independent"]
+    figure_only = row["published"] is None and row["independent"] is not None
+    value: Any = row["independent"] if figure_only else row["published"]
+    tolerance, kind = row["tolerance"], row["tolerance_kind"]
+    if figure_only:
         note = "; ".join(text for text in (note, f"a separate prototype of the equations: {value:g}") if text)
-    difference = None
+    difference: Any = None
     if computed is None:
         verdict = REPORTED
     elif kind == "claim":

@@ -1,0 +1,65 @@
+"""Efficiency of a dynamic run from its record, by energy over the last whole mesh cycles."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from tribodyn.errors import InputError
+from tribodyn.record.reader import Record
+
+
+class DynamicEfficiency(NamedTuple):
+    """Work over the last whole mesh cycles of a record.
+
+    Attributes
+    ----------
+    cycles : number of mesh cycles
+    efficiency : 1 less friction work over work put in: what the summary of a run tells
+    overall : work put out over work put in; with the damping of mesh and bearings
+    work_in, work_out, work_friction, work_damping : J
+    stored : change of the stored energy, J; small where the run has settled
+    """
+
+    cycles: int
+    efficiency: float
+    overall: float
+    work_in: float
+    work_out: float
+    work_friction: float
+    work_damping: float
+    stored: float
+
+
+def dynamic_efficiency(record: Record, cycles: int | None = None) -> DynamicEfficiency:
+    """Integrate the powers of a record over its last whole mesh cycles.
+
+    Energies are integrated and then divided: an average of instantaneous efficiencies is not one of energy.
+
+    Parameters
+    ----------
+    record : Record
+        Of a gear pair, open.
+    cycles : int, optional
+        Default: a quarter of the run, at least one cycle.
+
+    Raises
+    ------
+    InputError
+        If the record does not hold that many cycles.
+    """
+    samples = int(record.scenario["output"]["samples_per_cycle"])
+    whole = (len(record["time"]) - 1) // samples
+    wanted = max(1, whole // 4) if cycles is None else cycles
+    if not 0 < wanted <= whole:
+        raise InputError("cycles", wanted, f"the record holds {whole} whole mesh cycles", "use fewer")
+    part = slice(-wanted * samples - 1, None)
+    time = record["time"][part]
+
+    def work(name: str) -> float:
+        return float(np.trapezoid(record[name][part], time))
+
+    put_in, out, lost, damped = (work(f"power_{name}") for name in ("in", "out", "friction", "damping"))
+    stored = record["stored_energy"][part]
+    return DynamicEfficiency(
+        wanted, 1.0 - lost / put_in, out / put_in, put_in, out, lost, damped, float(stored[-1] - stored[0])
+    )

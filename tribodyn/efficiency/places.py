@@ -1,0 +1,113 @@
+"""The mesh at given phases: which pairs carry, their arms, radii and compliances."""
+
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+
+from tribodyn.efficiency.quadrature import Array
+from tribodyn.errors import InputError
+from tribodyn.geometry.path import Path, kinematics
+from tribodyn.mesh_cycle import CHANNELS, MeshCycle, Polynomials, polynomials
+
+Sharing = Literal["elastic", "uniform", "single-pair"]
+SHARINGS: dict[Sharing, str] = {
+    "elastic": "by the compliances of the pairs and the body they share",
+    "uniform": "equally among the pairs in contact, as ISO/TC 60 has it",
+    "single-pair": "one pair over half a pitch on either side of the pitch point: unit contact ratio",
+}
+
+
+class Places(NamedTuple):
+    """The mesh at some phases: K phases, Q pairs.
+
+    Attributes
+    ----------
+    phase : (K,)
+        Mesh cycles.
+    cycle : MeshCycle
+        A table of one node in each of K segments, driving flanks only; its kinematics are the path's own.
+    carrying : (K, Q)
+        1 for a pair that may carry load under the load sharing in use.
+    normal_arm, friction_arm : (2, K, Q)
+        Arms of normal load and friction about pinion and gear, m.
+    radius : (K, Q)
+        Equivalent radius, m.
+    """
+
+    phase: Array
+    cycle: MeshCycle
+    carrying: Array
+    normal_arm: Array
+    friction_arm: Array
+    radius: Array
+
+
+def places(cycle: MeshCycle, path: Path, phase: Array, sharing: Sharing = "elastic") -> Places:
+    """Look up the mesh at phases 0 … 1: compliance and gap from the table, kinematics from the path.
+
+    Raises
+    ------
+    InputError
+        If one pair shall carry the load over a pitch that its contact does not cover.
+    """
+    pairs = cycle.front_pairs
+    segment = np.clip(np.searchsorted(cycle.boundary, phase, side="right") - 1, 0, len(cycle.boundary) - 2)
+    position = phase[:, None] + np.arange(pairs - 1.0, -1.0, -1.0)
+    roll = np.clip(cycle.roll_start + cycle.pitch_angle * position, cycle.roll_start, cycle.roll_end)
+    inside = (position < cycle.contact_ratio).astype(float)
+    if sharing == "single-pair":
+        half = cycle.pitch_angle / 2.0
+        if cycle.roll_start > -half or cycle.roll_end < half:
+            raise InputError(
+                "load_sharing",
+                f'"{sharing}"',
+                "the contact of a pair does not cover half a pitch on either side of the pitch point",
+                'use "elastic" or "uniform"',
+            )
+        inside = inside * ((roll >= -half) & (roll < half))
+    motion = kinematics(path, path.signed_distance(roll))
+    at = _Lookup(polynomials(cycle), cycle.boundary, segment, phase)
+    one = cycle._replace(
+        in_contact=inside,
+        side=np.ones(pairs),
+        phase=phase[:, None],
+        pressure_angle=motion.pressure_angle[:, None],
+        signed_distance=motion.signed_distance[:, None],
+        pinion_speed=motion.pinion_speed[:, None],
+        gear_speed=motion.gear_speed[:, None],
+        compliance=at.channel("compliance")[:, None, :pairs],
+        gap=at.channel("gap")[:, None, :pairs],
+        coupling=at.coupling()[:, None, :pairs, :pairs],
+    )
+    return Places(
+        phase,
+        one,
+        inside,
+        np.stack([motion.pinion_normal_arm, motion.gear_normal_arm]),
+        np.stack([motion.pinion_friction_arm, motion.gear_friction_arm]),
+        1.0 / motion.relative_curvature,
+    )
+
+
+class _Lookup(NamedTuple):
+    """The table's splines at given phases."""
+
+    table: Polynomials
+    boundary: Array
+    segment: Any
+    phase: Array
+
+    def _value(self, coefficients: Any) -> Array:
+        start, end = self.boundary[self.segment], self.boundary[self.segment + 1]
+        cells = coefficients.shape[1]
+        place = np.clip((self.phase - start) / (end - start), 0.0, 1.0) * cells
+        cell = np.clip(place.astype(int), 0, cells - 1)
+        c = coefficients[self.segment, cell]
+        u = (place - cell).reshape(-1, *[1] * (c.ndim - 2))
+        return c[..., 0] + u * (c[..., 1] + u * (c[..., 2] + u * c[..., 3]))
+
+    def channel(self, name: str) -> Array:
+        return self._value(self.table.channel[:, :, :, CHANNELS.index(name)])
+
+    def coupling(self) -> Array:
+        return self._value(self.table.coupling)
