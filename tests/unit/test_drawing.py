@@ -139,3 +139,15 @@ def test_picture_of_the_pair(tmp_path: Path, ending: str):
     assert low < -2 * 34.5 - 3
     assert high > 2 * 70.5 + 3
     assert save(figure, tmp_path / f"pair.{ending}").stat().st_size > 10_000
+
+
+@bodies(SOUND)
+def test_chords_stay_on_the_curve_as_the_page_promises(family, drive, side):
+    """At the command's 100 points to a flank: 0.3 µm on the flank, 2 µm on the fillet, for 3 mm."""
+    coarse, fine = outline(family, drive, side, 100, 50), outline(family, drive, side, 199, 99)
+    for curve, most in (("flank", 0.3e-6), ("fillet", 2.0e-6)):
+        x, y = getattr(coarse, f"{curve}_x"), getattr(coarse, f"{curve}_y")
+        between_x, between_y = getattr(fine, f"{curve}_x")[1::2], getattr(fine, f"{curve}_y")[1::2]
+        dx, dy = np.diff(x), np.diff(y)
+        away = np.abs((between_x - x[:-1]) * dy - (between_y - y[:-1]) * dx) / np.hypot(dx, dy)
+        assert away.max() < most * drive.module / 0.003

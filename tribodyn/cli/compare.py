@@ -17,7 +17,7 @@ EXAMPLES = (
     "\b\nExamples:\n"
     "  tribodyn compare crc-23-47 involute-23-47\n"
     '  tribodyn compare crc-23-47 involute-23-47 --set operating.gear_torque="300 N*m" -o comparison\n'
-    "  tribodyn compare before.h5 after.h5 --json"
+    "  tribodyn compare before.h5 after.h5 --json\n"
     "\b\nScenarios are run, records are read; with -o the records of what was run\n"
     "and one picture a quantity, all runs in it, are kept."
 )

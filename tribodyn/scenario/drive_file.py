@@ -9,6 +9,7 @@ from pydantic import ValidationError
 from tribodyn.case import BodyMass, Case, MaterialData
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive
+from tribodyn.rolling.case import RollingCase
 from tribodyn.scenario.load import family, load
 from tribodyn.scenario.messages import InputErrors, Origins, explain
 from tribodyn.scenario.model_files import DriveTable
@@ -99,11 +100,11 @@ def load_drive(model: str, overrides: Mapping[str, Any] | None = None) -> DriveM
 
 def _of_scenario(path: Path, overrides: Mapping[str, Any]) -> DriveModel:
     case, _, origins = load(path, overrides)
-    if not isinstance(case, Case):
+    if isinstance(case, RollingCase):
         raise _no_pair(path)
-    return DriveModel(
-        case.title, case.name, case.family, case.drive, case.materials, case.masses, path, origins
-    )
+    # a quasi-static study needs no masses
+    masses = case.masses if isinstance(case, Case) else (BodyMass(), BodyMass())
+    return DriveModel(case.title, case.name, case.family, case.drive, case.materials, masses, path, origins)
 
 
 def _no_pair(path: Path) -> InputError:

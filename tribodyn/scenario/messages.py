@@ -56,7 +56,6 @@ class Origins:
         key = tuple(int(part) if part.isdecimal() else part for part in error.key.split("."))
         return InputError(error.key, error.value, error.rule, error.remedy, self.of(key))
 
-
     @contextmanager
     def naming(self) -> Iterator[None]:
         """Put the file into the errors that the physics raises inside the block."""

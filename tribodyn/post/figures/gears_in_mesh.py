@@ -129,6 +129,7 @@ def _circle() -> np.ndarray:
 
 
 def _name_points(axes: Axes, mesh: GearsInMesh) -> None:
+    last = len(mesh.key_points) - 2
     for number, (name, position) in enumerate(mesh.key_points.items()):
         place = position[0] / MILLIMETRE, position[1] / MILLIMETRE
         axes.plot(
@@ -142,8 +143,8 @@ def _name_points(axes: Axes, mesh: GearsInMesh) -> None:
         axes.annotate(
             f"${name}$",
             place,
-            # to either side of the path in turn, because P and C_g may be close
-            xytext=(-4, 9) if number % 2 == 0 else (5, -14),
+            # to either side of the path in turn and C_p and C_g apart: both may be close to P
+            xytext=(-4, 9) if number % 2 == 0 else (9 if number == last else -4, -14),
             textcoords="offset points",
             ha="center",
             fontsize=8.5,
