@@ -122,6 +122,8 @@ FAMILIES = {
     "cycloidal": "epi- and hypocycloids; shape.approach_circle, recess_circle: diameters of the generating "
     "circles",
     "parabolic": "parabolic path of contact (Jia et al.); shape.k1 of the recess, k2 of the approach",
+    "s-gear": "rack with a power-law flank; shape.form_factor, exponent",
+    "points": "a path of contact of your own; pressure_angle at the pitch point, shape.points: CSV with x, y",
     "circular-arc": "path of two circular arcs; pressure_angle at the pitch point, shape.approach_diameter, "
     "recess_diameter",
 }

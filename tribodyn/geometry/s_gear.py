@@ -1,0 +1,156 @@
+"""S-gears: the rack's flank is a power law, point-symmetric about the pitch line.
+
+Half the rack's flank is η = a_P (1 − (1 − ξ)^n), in modules from the pitch point, the other half its image by
+half a turn (Hlebanja's S-gears, whose form factor and exponent a_P and n are). Its normal meets the pitch line
+where cot α = dη/dξ, so that at the height |y| over the pitch line, h = |y|/m,
+
+    cot α = n a_P (1 − h/a_P)^((n − 1)/n),
+
+and the path of contact is r = y/sin α. Contact is convex-concave at both ends and like an involute's at P,
+where the pressure angle acot(n a_P) is the smallest. The power law serves up to one module from the pitch
+line, as high as the teeth are; the rack goes on straight from there to its rounded tip. Soon above (at 1.02
+modules for the usual a_P = 1.31, n = 1.9) r would be greatest and the path turn back.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.elementary import absolute, arctan2, cos, namespace, sin, where
+from tribodyn.errors import InputError
+from tribodyn.geometry.drive import SIDES, Drive, Side, reference_radius, tip_radius
+from tribodyn.geometry.family import Family, Parameter
+from tribodyn.geometry.path import Path, integrated_rotation, inverted_rotation, seen_from
+from tribodyn.geometry.reach import refuse_shift, require_reach
+from tribodyn.iteration import newton
+
+Array = Any
+
+_NEWTON_STEPS = 10
+
+
+class PowerRackPath(NamedTuple):
+    """Path of contact of a rack whose flank is a power law.
+
+    Parameters
+    ----------
+    pinion_pitch_radius, gear_pitch_radius : float
+        Pitch radii, m.
+    module : float
+        Unit of the rack's height, m.
+    form, exponent : float
+        a_P and n.
+    """
+
+    pinion_pitch_radius: Any
+    gear_pitch_radius: Any
+    module: Any
+    form: Any
+    exponent: Any
+
+    def _cotangent(self, y: Array) -> tuple[Array, Array]:
+        """Cotangent of α at the height y ≥ 0, and its derivative by y."""
+        power = (self.exponent - 1) / self.exponent
+        inside = 1.0 * (y < self.module)
+        left = 1 - namespace(self, y).clip(y, 0.0, self.module) / (self.form * self.module)
+        cotangent = self.exponent * self.form * left**power
+        return cotangent, -inside * power * cotangent / (left * self.form * self.module)
+
+    def _height(self, r: Array) -> Array:
+        """Height |y| of the contact over the pitch line at the signed distance r: y √(1 + cot² α) = |r|."""
+        distance = absolute(namespace(self, r).asarray(r, dtype=float))
+        # From below, where the concave r(y) brings Newton's steps up to the root one-sidedly.
+        start = distance / (1 + (self.exponent * self.form) ** 2) ** 0.5
+        return newton(_step_to_height, start, _NEWTON_STEPS, self, distance)
+
+    def pressure_angle(self, r: Array) -> Array:
+        """Pressure angle, rad."""
+        cotangent, _ = self._cotangent(self._height(r))
+        return arctan2(1.0 + 0.0 * cotangent, cotangent)
+
+    def pressure_angle_slope(self, r: Array) -> Array:
+        """Slope dα/dr, rad/m; at P itself the recess's."""
+        y = self._height(r)
+        cotangent, rate = self._cotangent(y)
+        alpha = arctan2(1.0 + 0.0 * cotangent, cotangent)
+        # dα = −sin² α d(cot α); r = y/sin α, so that dr/dy = (1 − r cos α dα/dy)/sin α
+        by_height = -(sin(alpha) ** 2) * rate
+        slope = by_height * sin(alpha) / (1 - y / sin(alpha) * cos(alpha) * by_height)
+        return where(namespace(r).asarray(r) < 0, -slope, slope)
+
+    def rotation(self, r: Array) -> Array:
+        """Pinion angle φ, rad."""
+        return integrated_rotation(self, r)
+
+    def signed_distance(self, rotation: Array) -> Array:
+        """Signed distance r (m) at the pinion angle φ."""
+        return inverted_rotation(self, rotation)
+
+
+def _step_to_height(y: Array, path: PowerRackPath, distance: Array) -> Array:
+    cotangent, rate = path._cotangent(y)
+    stretch = (1 + cotangent**2) ** 0.5
+    slope = stretch + y * cotangent * rate / stretch
+    return y - (y * stretch - distance) / slope
+
+
+class Shape(NamedTuple):
+    """Form factor a_P (in modules) and exponent n of the rack's flank."""
+
+    form_factor: Any
+    exponent: Any
+
+
+def working_path(drive: Drive) -> Path:
+    """Path of the drive's rack."""
+    pitch_radii = reference_radius(drive, "pinion"), reference_radius(drive, "gear")
+    return PowerRackPath(*pitch_radii, drive.module, *drive.shape)
+
+
+def generating_path(drive: Drive, side: Side) -> tuple[Path, Any]:
+    """Rack and mate share the one path of contact; the rack cannot be shifted."""
+    return seen_from(working_path(drive), side), 0.0 * drive.module
+
+
+def check(drive: Drive) -> None:
+    """Refuse profile shift, a rack that is no S, and one that ends before the teeth do."""
+    refuse_shift(drive)
+    a, n = drive.shape
+    if not 1 < n <= 4:
+        raise InputError("drive.shape.exponent", n, "must be above 1 and at most 4", "use 1.9")
+    if not (a > 1 and 0.5 <= n * a <= 12):
+        angle = np.degrees(np.arctan2(1, n * a))
+        rule = f"must be above 1, with acot(n a_P) = {angle:.3g}°, the pressure angle at P, from 5° to 63°"
+        raise InputError("drive.shape.form_factor", a, rule, "use 1.31 with the exponent 1.9")
+    path = PowerRackPath(*working_path(drive))
+    y = drive.module * np.linspace(0.0, 1.0, 501)
+    if not np.all(np.diff(y * np.hypot(1.0, path._cotangent(y)[0])) > 0):
+        rule = "the path of contact turns back before the teeth's height of one module"
+        raise InputError("drive.shape.form_factor", a, rule, "use a greater one, such as 1.31 for n = 1.9")
+    for side in SIDES:
+        height = (tip_radius(drive, side) - reference_radius(drive, side)) / drive.module
+        if height > 1 + 1e-9:
+            rule = "the flank of an S-gear is a power law up to one module from the pitch line only"
+            raise InputError(f"drive.{side}.addendum", float(height), rule, "use at most 1")
+    reach = 50 * drive.module
+    require_reach(drive, path, -reach, reach, _advice)
+
+
+def _advice(drive: Drive, half: int) -> tuple[str, Any, str]:
+    return "shape.form_factor", drive.shape.form_factor, "use a greater one, or lower teeth and racks"
+
+
+FAMILY = Family(
+    "s-gear",
+    working_path,
+    generating_path,
+    shiftable=False,
+    check=check,
+    shape=Shape,
+    parameters=(
+        Parameter("form_factor", "number", "a_P of the rack's flank, height in modules"),
+        Parameter("exponent", "number", "n of the rack's flank"),
+    ),
+    pressure_angle=False,
+    corner=True,
+)
