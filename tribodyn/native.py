@@ -38,8 +38,9 @@ def _cache_folder() -> Path:
 _CACHE = _cache_folder() / f"kernels-{_source_digest()}"
 numba.core.config.CACHE_DIR = str(_CACHE)  # pyright: ignore[reportAttributeAccessIssue]
 
-#: Decorator of a compiled kernel: cached between processes, IEEE division, no reordering.
-kernel = numba.njit(cache=True, error_model="numpy")
+#: Decorator of a compiled kernel: cached between processes, IEEE division, no reordering. Without numba's
+#: reference counts, which would cost a quarter of the right-hand side: so a kernel is handed its buffers.
+kernel = numba.njit(cache=True, error_model="numpy", _nrt=False)
 
 
 def _unary(function, implementation):

@@ -8,7 +8,7 @@ import numpy as np
 
 from tribodyn.dynamics.contact_forces import QUANTITIES
 from tribodyn.dynamics.equations import derivatives, engagement
-from tribodyn.dynamics.parameters import SLIP, STATES, WORK_IN, WORK_PARAMETRIC, XI_RATE
+from tribodyn.dynamics.parameters import SLIP, STATES, WORK_IN, WORK_PARAMETRIC, XI_RATE, Model
 from tribodyn.native import kernel
 from tribodyn.solve.engine import DONE, NOT_FINITE, STALLED, STEP_TOO_SMALL, TOO_MANY_STEPS
 
@@ -40,6 +40,12 @@ D = np.array(
 )
 
 
+def buffers(model: Model) -> tuple[np.ndarray, np.ndarray]:
+    """Scratch for the kernels: the contacts' quantities, and nine states."""
+    pairs = model.table.side.shape[0]
+    return np.zeros((QUANTITIES + pairs, pairs)), np.zeros((9, STATES))
+
+
 @kernel
 def _engage(before, phase_before, after, phase_after, y, model, work):
     slip, xi_rate, work_in, parametric = engagement(before, phase_before, after, phase_after, y, model, work)
@@ -50,7 +56,7 @@ def _engage(before, phase_before, after, phase_after, y, model, work):
 
 
 @kernel
-def march(model, y, first_cycle, cycles, restart, samples, rtol, atol, step, max_steps, out):
+def march(model, y, first_cycle, cycles, restart, samples, rtol, atol, step, max_steps, out, work, buffer):
     """Integrate `cycles` mesh cycles from the state `y` at the end of the one before.
 
     Parameters
@@ -71,6 +77,8 @@ def march(model, y, first_cycle, cycles, restart, samples, rtol, atol, step, max
         Greatest number of steps in one mesh cycle.
     out : (cycles · samples, STATES)
         Receives the states at the samples.
+    work, buffer : arrays
+        Scratch, from `buffers`.
 
     Returns
     -------
@@ -78,10 +86,9 @@ def march(model, y, first_cycle, cycles, restart, samples, rtol, atol, step, max
     """
     table = model.table
     segments = table.in_contact.shape[0]
-    work = np.zeros((QUANTITIES + table.side.shape[0], table.side.shape[0]))
-    k = np.zeros((7, STATES))
-    stage = np.zeros(STATES)
-    new = np.zeros(STATES)
+    k = buffer[:7]
+    stage = buffer[7]
+    new = buffer[8]
     steps = 0
     evaluations = 0
     written = 0
@@ -100,7 +107,8 @@ def march(model, y, first_cycle, cycles, restart, samples, rtol, atol, step, max
             derivatives(phase, whole, segment, y, model, work, k[0])
             evaluations += 1
             if written < (cycle + 1) * samples and (written - cycle * samples) / samples <= start:
-                out[written] = y
+                for i in range(STATES):
+                    out[written, i] = y[i]
                 written += 1
             step = min(step, end - start)
             while phase < end:
@@ -120,15 +128,18 @@ def march(model, y, first_cycle, cycles, restart, samples, rtol, atol, step, max
                     derivatives(phase + C[s] * step, whole, segment, stage, model, work, k[s])
                 evaluations += 6
                 error = 0.0
+                total = 0.0
                 for i in range(STATES):
                     new[i] = stage[i]
                     difference = 0.0
                     for j in range(7):
                         difference += E[j] * k[j, i]
                     scale = atol[i] + rtol * max(abs(y[i]), abs(new[i]))
-                    error += (step * difference / scale) ** 2
-                error = np.sqrt(error / STATES)
-                if not np.isfinite(error):
+                    # the worst state decides: states at rest must not dilute the others' error
+                    off = abs(step * difference) / scale
+                    error = max(error, off)
+                    total += off  # carries a NaN that max would lose
+                if not np.isfinite(total):
                     if step < 1e-9:
                         return NOT_FINITE, cycle + phase, step, steps, evaluations, written
                     step *= 0.1

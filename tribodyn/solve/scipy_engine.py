@@ -5,9 +5,8 @@ import warnings
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from tribodyn.dynamics.contact_forces import QUANTITIES
 from tribodyn.dynamics.parameters import SLIP, STATES, Model
-from tribodyn.solve.dopri5 import engage, rhs
+from tribodyn.solve.dopri5 import buffers, engage, rhs
 from tribodyn.solve.engine import DONE, GAVE_UP, NOT_FINITE, STALLED, TOO_MANY_STEPS, Block, Tolerances
 
 METHODS = {"radau": "Radau", "bdf": "BDF", "lsoda": "LSODA", "dop853": "DOP853"}
@@ -42,8 +41,8 @@ class ScipyEngine:
         """See `engine.Engine`."""
         model, table = self.model, self.model.table
         boundary = np.asarray(table.boundary)
-        segments, pairs = len(boundary) - 1, table.side.shape[0]
-        work = np.zeros((QUANTITIES + pairs, pairs))
+        segments = len(boundary) - 1
+        work, _ = buffers(model)
         y = state.copy()
         found: list[np.ndarray] = []
         steps = evaluations = 0

@@ -54,9 +54,10 @@ class NativeEngine:
     """The compiled Dormand-Prince kernel behind the `engine.Engine` interface."""
 
     def __init__(self, model: Model, samples: int, tolerances: Tolerances):
-        from tribodyn.solve.dopri5 import march
+        from tribodyn.solve.dopri5 import buffers, march
 
         self._march = march
+        self._buffers = buffers(model)
         self.model = model
         self.samples = samples
         self.tolerances = tolerances
@@ -79,6 +80,7 @@ class NativeEngine:
             self.step,
             self.tolerances.max_steps,
             out,
+            *self._buffers,
         )
         self.started = True
         return Block(out[:written], y, status, reached, steps, evaluations)
