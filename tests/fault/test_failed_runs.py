@@ -7,7 +7,10 @@ from tribodyn import simulate
 from tribodyn.errors import SimulationError
 from tribodyn.record.reader import open_record
 from tribodyn.scenario.load import load_scenario
+from tribodyn.solve.engine import NOT_FINITE, Tolerances, absolute_tolerances
 from tribodyn.solve.initial import static_equilibrium
+from tribodyn.solve.scipy_engine import ScipyEngine
+from tribodyn.solve.transient import NativeEngine
 
 
 def run(folder, **overrides):
@@ -65,3 +68,15 @@ def test_failures_name_the_time_they_happen_at(tmp_path):
     stated = float(result.message.split("t = ")[1].split(" s")[0])
     assert stated >= record["time"][-1] - 1e-12
     assert stated < record["time"][-1] + 2 * (record["time"][1] - record["time"][0])
+
+
+def test_a_solution_that_stops_being_finite_is_told(prepared):
+    """NaN must end the run, not pass the error control."""
+    model = prepared("crc-23-47").model
+    state = static_equilibrium(model)
+    broken = model._replace(mechanics=model.mechanics._replace(mesh_damping=float("nan")))
+    tolerances = Tolerances(1e-6, absolute_tolerances(model, 1e-6, 3e-5), 100000)
+    for engine in (NativeEngine(broken, 50, tolerances), ScipyEngine("radau", broken, 50, tolerances)):
+        block = engine.block(state, 0, 2)
+        assert block.status == NOT_FINITE
+        assert block.reached < 0.01
