@@ -159,3 +159,15 @@ def test_records_that_cannot_be_compared(tmp_path: Path):
         file.attrs["status"] = "failed"
     unfinished = compare(str(first), str(other))
     assert (unfinished.exit_code, "run its scenario again" in unfinished.stderr) == (2, True)
+
+
+def test_a_run_beside_the_quasi_static_study_of_its_drive():
+    """Both find the same sliding, so nearly the same loss; the study has no dynamics to show."""
+    result = compared("crc-23-47", "efficiency-crc-23-47")
+    quantities = result["quantities"]
+    assert quantities["efficiency"]["values"][1] == pytest.approx(
+        quantities["efficiency"]["values"][0], abs=1e-3
+    )
+    assert quantities["dynamic_factor"]["values"][1] is None
+    assert quantities["dynamic_factor"]["relative_differences"] == [None]
+    assert list(result["different_conditions"]) == ["kind"]

@@ -74,6 +74,7 @@ def _scenarios(what: list[str], settings: Mapping[str, str]) -> dict[str, "Loade
     """Load what is to be run, and refuse before anything runs what cannot be compared afterwards."""
     from tribodyn.errors import InputError
     from tribodyn.record.reader import open_record
+    from tribodyn.record.schema import GEAR_PAIR, KINDS
     from tribodyn.scenario.load import load
 
     if len(what) < 2:
@@ -95,7 +96,8 @@ def _scenarios(what: list[str], settings: Mapping[str, str]) -> dict[str, "Loade
                 kinds[word] = record.kind
             continue
         case = scenarios[word].case
-        kinds[word] = case.kind
+        # a quasi-static study of a gear pair has the record of a gear pair
+        kinds[word] = case.kind if case.kind in KINDS else GEAR_PAIR
         if case.name in cases:
             rule = f'its record would have the name of that of "{cases[case.name]}", {case.name}.h5'
             raise InputError("compare", f'"{word}"', rule, "give it another name: name = ... in the file")

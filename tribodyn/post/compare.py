@@ -18,7 +18,7 @@ COMPARED = ("Geometry", "Dynamics", "Tribology", "Energy")
 #: The share of the power that is lost, beside the efficiency whose difference it shows better.
 LOSS = Line("loss", "Loss, share of the power in", 100.0, "%", ".3f")
 #: Parts of a scenario that say under which conditions a drive ran, not which drive nor how it was solved.
-CONDITIONS = ("mode", "operating", "lubricant", "friction", "bearings", "mesh")
+CONDITIONS = ("kind", "mode", "operating", "lubricant", "friction", "bearings", "mesh")
 _PROSE = ("source", "assumptions")
 
 
@@ -153,6 +153,9 @@ def _differing(conditions: Sequence[Mapping[str, str]]) -> dict[str, tuple[str, 
     keys = dict.fromkeys(key for one in conditions for key in one)
     values = {key: tuple(one.get(key, "–") for one in conditions) for key in keys}
     different = {key: value for key, value in values.items() if len(set(value)) > 1}
+    if "kind" in different:
+        # another kind of study has no such key, which says nothing
+        different = {key: value for key, value in different.items() if "–" not in value}
     # where the titles of two models differ, they tell it better than all the numbers
     titled = [key for key in different if "." not in key]
     return {
