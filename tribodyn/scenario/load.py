@@ -176,13 +176,8 @@ class Loaded(NamedTuple):
     @contextmanager
     def naming(self) -> Iterator[None]:
         """Put the file into the errors that the physics raises inside the block."""
-        try:
+        with self.origins.naming():
             yield
-        except InputError as error:
-            # "output" and the like are options of the command, not keys of a file
-            if error.file or "." not in error.key:  # a key without a point is an option of the command
-                raise
-            raise self.origins.locate(error) from None
 
 
 def load_scenario(scenario: str | Path, overrides: Mapping[str, Any] | None = None) -> AnyCase:
