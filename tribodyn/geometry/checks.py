@@ -155,6 +155,8 @@ def _check_undercut(assembly: Assembly, side: Side) -> None:
         f"the rack undercuts the working part of the flank up to the radius {_millimetres(tooth.form_radius)}"
     )
     otherwise = "use more teeth, a larger pressure angle or a smaller dedendum"
+    if family.parameters:
+        otherwise = "use more teeth, another shape of the path or a smaller dedendum"
     if family.shiftable:
         least = boundary(sound, body.profile_shift, body.profile_shift + 2)
         remedy = _advice(least, "at least", otherwise)

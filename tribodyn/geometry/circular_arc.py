@@ -90,7 +90,7 @@ class Shape(NamedTuple):
     recess_diameter: Any
 
 
-def working_path(drive: Drive) -> Path:
+def working_path(drive: Drive) -> ArcPath:
     """Two arcs of the drive's diameters and pressure angle."""
     pitch_radii = reference_radius(drive, "pinion"), reference_radius(drive, "gear")
     return ArcPath(*pitch_radii, drive.pressure_angle, *drive.shape)
@@ -118,7 +118,7 @@ def check(drive: Drive) -> None:
     for name, diameter in drive.shape._asdict().items():
         if diameter == 0:
             raise InputError(f"drive.shape.{name}", "0 mm", "an arc needs a diameter", "use another one")
-    path = ArcPath(*working_path(drive))
+    path = working_path(drive)
     require_reach(drive, path, *arc_ends(path), _advice)
 
 

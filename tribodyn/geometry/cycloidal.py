@@ -23,7 +23,7 @@ class Shape(NamedTuple):
     recess_circle: Any
 
 
-def working_path(drive: Drive) -> Path:
+def working_path(drive: Drive) -> ArcPath:
     """Arcs of both generating circles, tangent to the line of centres' perpendicular at P."""
     pitch_radii = reference_radius(drive, "pinion"), reference_radius(drive, "gear")
     return ArcPath(*pitch_radii, 0.0, *drive.shape)
@@ -41,7 +41,8 @@ def check(drive: Drive) -> None:
     smaller than that circle (at half of it the flank is a radial straight line).
     """
     refuse_shift(drive)
-    for side, name in (("pinion", "approach_circle"), ("gear", "recess_circle")):
+    inside: tuple[tuple[Side, str], ...] = (("pinion", "approach_circle"), ("gear", "recess_circle"))
+    for side, name in inside:
         diameter, pitch = getattr(drive.shape, name), 2 * reference_radius(drive, side)
         if not 0 < diameter < pitch:
             raise InputError(
@@ -50,7 +51,7 @@ def check(drive: Drive) -> None:
                 f"it rolls inside the pitch circle of the {side}, whose diameter is {1e3 * pitch:.4g} mm",
                 f"use less, such as {1e3 * pitch / 3:.4g} mm",
             )
-    path = ArcPath(*working_path(drive))
+    path = working_path(drive)
     require_reach(drive, path, *arc_ends(path), _advice)
 
 

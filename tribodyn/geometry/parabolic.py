@@ -75,7 +75,7 @@ class Shape(NamedTuple):
     k2: Any
 
 
-def working_path(drive: Drive) -> Path:
+def working_path(drive: Drive) -> ParabolaPath:
     """Parabolas of the drive's coefficients."""
     r_p, r_g = reference_radius(drive, "pinion"), reference_radius(drive, "gear")
     return ParabolaPath(r_p, r_g, 2 * drive.shape.k2 * r_p, 2 * drive.shape.k1 * r_g)

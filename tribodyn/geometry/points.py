@@ -133,7 +133,7 @@ def polar(points: Array) -> tuple[Array, Array]:
     return sign * xp.hypot(x, y), xp.arctan2(sign * y, sign * x)
 
 
-def working_path(drive: Drive) -> Path:
+def working_path(drive: Drive) -> PointsPath:
     """Spline through the drive's points. Which of them is P must be plain numbers."""
     points = drive.shape.points
     xp = namespace(drive)

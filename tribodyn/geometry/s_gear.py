@@ -1,8 +1,8 @@
 """S-gears: the rack's flank is a power law, point-symmetric about the pitch line.
 
 Half the rack's flank is η = a_P (1 − (1 − ξ)^n), in modules from the pitch point, the other half its image by
-half a turn (Hlebanja's S-gears, whose form factor and exponent a_P and n are). Its normal meets the pitch line
-where cot α = dη/dξ, so that at the height |y| over the pitch line, h = |y|/m,
+half a turn (Hlebanja's S-gears, whose form factor and exponent a_P and n are). Its normal meets the pitch
+line where cot α = dη/dξ, so that at the height |y| over the pitch line, h = |y|/m,
 
     cot α = n a_P (1 − h/a_P)^((n − 1)/n),
 
@@ -101,7 +101,7 @@ class Shape(NamedTuple):
     exponent: Any
 
 
-def working_path(drive: Drive) -> Path:
+def working_path(drive: Drive) -> PowerRackPath:
     """Path of the drive's rack."""
     pitch_radii = reference_radius(drive, "pinion"), reference_radius(drive, "gear")
     return PowerRackPath(*pitch_radii, drive.module, *drive.shape)
@@ -122,7 +122,7 @@ def check(drive: Drive) -> None:
         angle = np.degrees(np.arctan2(1, n * a))
         rule = f"must be above 1, with acot(n a_P) = {angle:.3g}°, the pressure angle at P, from 5° to 63°"
         raise InputError("drive.shape.form_factor", a, rule, "use 1.31 with the exponent 1.9")
-    path = PowerRackPath(*working_path(drive))
+    path = working_path(drive)
     y = drive.module * np.linspace(0.0, 1.0, 501)
     if not np.all(np.diff(y * np.hypot(1.0, path._cotangent(y)[0])) > 0):
         rule = "the path of contact turns back before the teeth's height of one module"

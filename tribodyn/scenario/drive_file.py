@@ -83,7 +83,8 @@ def load_drive(model: str, overrides: Mapping[str, Any] | None = None) -> DriveM
         found = [one for one in explain(error, _DriveAlone) if one.key not in known]
         raise InputErrors([origins.locate(one) for one in (*unresolved, *found)]) from None
     with origins.naming():
-        errors = [*broken_drive_rules(table), *shape_errors(table, family(table.family))]
+        errors = [*unresolved, *broken_drive_rules(table)]
+        errors = errors or shape_errors(table, family(table.family))
     if errors:
         raise InputErrors([origins.locate(one) for one in errors])
     return DriveModel(

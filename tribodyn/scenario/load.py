@@ -215,6 +215,8 @@ def load(scenario: str | Path, overrides: Mapping[str, Any] | None = None) -> Lo
         known = {one.key for one in unresolved}
         found = [one for one in explain(error, model) if one.key not in known]
         raise _located([*unresolved, *found], origins) from None
+    if unresolved:  # of a key whose value only its family knows to be a file
+        raise _located(unresolved, origins)
     toml = tomli_w.dumps(data)
     digest = hashlib.sha256(toml.encode()).hexdigest()
     if isinstance(table, RollingScenario):

@@ -1,4 +1,4 @@
-"""Jia et al., Mathematics 10(22):4290 (2022): limits of the parabola coefficients, contact ratios, pressure."""
+"""Jia et al., Mathematics 10(22):4290 (2022): limits of k1 and k2, contact ratios, Hertz pressure."""
 
 import math
 from collections.abc import Callable
@@ -17,6 +17,13 @@ PAPER = "jia-2022"
 NO_CONTACT_MODEL = "needs the finite-element load contact model, which is not in yet"
 
 
+def drive_of(name: str) -> Case:
+    """Return the case of one of the paper's two drives."""
+    case = load_scenario(f"jia-{name}-17-29")
+    assert isinstance(case, Case)
+    return case
+
+
 def contact_ratio(case: Case) -> float:
     """Transverse contact ratio of a case's drive."""
     return assemble(family(case.family), case.drive).contact_ratio
@@ -33,7 +40,7 @@ def pressure_at_pitch_point(case: Case) -> float:
 
 def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[Row]:
     """All rows of the paper; no run is needed, so that `folder` stays empty."""
-    parabolic, involute = (load_scenario(f"jia-{name}-17-29") for name in ("parabolic", "involute"))
+    parabolic, involute = (drive_of(name) for name in ("parabolic", "involute"))
     pinion, gear = parabolic.drive.pinion.teeth, parabolic.drive.gear.teeth
     least, most_k1 = published_limits(gear)
     _, most_k2 = published_limits(pinion)
