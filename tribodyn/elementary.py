@@ -102,16 +102,16 @@ def where(condition: Any, a: Any, b: Any) -> Any:
 
 
 def minimum(a: Any, b: Any) -> Any:
-    """The lesser of the two."""
+    """The lesser of the two; NaN if either is."""
     if type(a) is float and type(b) is float:
-        return a if a < b else b
+        return b if b < a or b != b else a
     return namespace(a, b).minimum(a, b)
 
 
 def maximum(a: Any, b: Any) -> Any:
-    """The greater of the two."""
+    """The greater of the two; NaN if either is."""
     if type(a) is float and type(b) is float:
-        return a if a > b else b
+        return b if b > a or b != b else a
     return namespace(a, b).maximum(a, b)
 
 

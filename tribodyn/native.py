@@ -73,12 +73,12 @@ def _where(condition, a, b):
 
 @overload(elementary.minimum)
 def _minimum(a, b):
-    return lambda a, b: a if a < b else b
+    return lambda a, b: b if b < a or b != b else a
 
 
 @overload(elementary.maximum)
 def _maximum(a, b):
-    return lambda a, b: a if a > b else b
+    return lambda a, b: b if b > a or b != b else a
 
 
 @overload(elementary.last_at_or_below)
