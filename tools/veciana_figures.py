@@ -10,6 +10,7 @@ path in the rolling speeds, which the paper leaves out.
 import argparse
 import math
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -71,6 +72,7 @@ def surfaces(law: Law, arrays: dict[str, np.ndarray]) -> Figure:
         arrays[f"involute, {key}"] = np.array(100.0 * study.involute())
         levels += [arrays[key].min(), arrays[key].max()]
     steps = np.linspace(min(levels), max(levels), 15)
+    filled: Any = None
     for letter, axes, (ratio, module) in zip("abcdef", panels.flat, drives, strict=True):
         key = f"i = {ratio:g}, m = {module * 1e3:g} mm"
         filled = axes.contourf(approach, recess, arrays[key], levels=steps, cmap="viridis")

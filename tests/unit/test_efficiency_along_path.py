@@ -116,12 +116,21 @@ def test_a_cycloidal_path_gives_veciana_closed_form(studies, law):
     common = (duty.gear_torque * 23 / 47, duty.pinion_speed, 0.02, law, duty.surfaces)
     circle = 23.5e-3 / diameter
     for exact_speeds in (True, False):
-        ours = torque_ratio(path_contact(study.path, 23, exact_speeds=exact_speeds), *common)
+        ours = torque_ratio(path_contact(study.path, 23, exact_speeds=exact_speeds, averaged=False), *common)
         closed = torque_ratio(
             cycloid_contact(23, radius, 47 / 23, circle, circle, exact_speeds=exact_speeds), *common
         )
         np.testing.assert_allclose(ours.torque_ratio, closed.torque_ratio, rtol=1e-8)
         assert ours.efficiency == pytest.approx(float(closed.efficiency), abs=1e-10)
+
+
+@pytest.mark.parametrize("law", [MASJEDI_KHONSARI, XU, BENEDICT_KELLEY])
+def test_torque_ratio_and_single_pair_agree_on_vanishing_radii(studies, law):
+    """Both average the contact at the pitch point over its own width."""
+    study = studies["efficiency-cycloidal-23-47"]
+    found = efficiencies(study._replace(duty=study.duty._replace(friction_law=law)))
+    loss = 1 - found["efficiency_single_pair"]
+    assert abs(found["efficiency_single_pair"] - found["efficiency_torque_ratio"]) < loss**2
 
 
 def test_the_quadrature_resolves_a_vanishing_radius(studies):

@@ -8,14 +8,14 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tribodyn.efficiency.contact_friction import contact_friction
 from tribodyn.efficiency.places import Places, Sharing, places
 from tribodyn.efficiency.quadrature import Array, piecewise
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.path import Path
 from tribodyn.mesh_cycle import MeshCycle
 from tribodyn.quasi_static import quasi_static
-from tribodyn.tribology.contact import Contact, averaged_radius
-from tribodyn.tribology.friction import friction
+from tribodyn.tribology.contact import Contact
 
 #: Nodes between two breaks of the integrand.
 POINTS = 20
@@ -97,26 +97,16 @@ def engage(mesh: Places, duty: Duty) -> Engagement:
     mu, change = np.zeros_like(side), np.inf
     for _ in range(STEPS):
         load, deflection = _loads(mesh, duty, side * mu)
-        radius, rolled = mesh.radius, rolling
-        if cycle.pitch_point_length > 0.0:
-            radius = averaged_radius(
-                radius, load / width, duty.surfaces.effective_modulus, cycle.pitch_point_length
-            )
-            # entrainment is averaged with the radius, to which it is proportional there; sliding is not
-            added = speed * cycle.pitch_point_rate * (radius - mesh.radius)
-            rolled = rolling[0] + added, rolling[1] + added
-        entrainment = (rolled[0] + rolled[1]) / 2.0
-        with np.errstate(over="ignore", under="ignore"):
-            found, share, film, temperature, pressure, valid = friction(
-                duty.friction_law,
-                load / width,
-                1.0 / radius,
-                entrainment,
-                sliding,
-                *rolled,
-                duty.surfaces,
-            )
-        found = found * mesh.carrying
+        contact = contact_friction(
+            duty.friction_law,
+            load / width,
+            mesh.radius,
+            *rolling,
+            duty.surfaces,
+            cycle.pitch_point_length,
+            speed * cycle.pitch_point_rate,
+        )
+        found = contact.coefficient * mesh.carrying
         change, mu = float(np.max(np.abs(found - mu))), found
         if change < TOLERANCE:
             break
@@ -129,14 +119,14 @@ def engage(mesh: Places, duty: Duty) -> Engagement:
         normal_load=load,
         friction_coefficient=mu,
         friction_force=side * mu * load,
-        entrainment=entrainment,
+        entrainment=contact.entrainment,
         sliding=sliding,
-        radius=radius + 0.0 * load,
-        asperity_load_ratio=share,
-        central_film_thickness=film,
-        flash_temperature_rise=temperature,
-        hertz_pressure=pressure,
-        in_range=valid,
+        radius=contact.radius,
+        asperity_load_ratio=contact.asperity_load_ratio,
+        central_film_thickness=contact.central_film_thickness,
+        flash_temperature_rise=contact.flash_temperature_rise,
+        hertz_pressure=contact.hertz_pressure,
+        in_range=contact.in_range,
         deflection=deflection,
         pinion_torque=pinion_torque,
         gear_torque=gear_torque,

@@ -10,11 +10,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.efficiency.contact_friction import contact_friction
 from tribodyn.efficiency.quadrature import Array, from_pitch_point
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.path import Path, kinematics
+from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.tribology.contact import Contact
-from tribodyn.tribology.friction import friction
 
 #: Nodes on either side of the pitch point: the efficiency is then known to 1e-7 for every family and law.
 POINTS = 24
@@ -34,6 +35,8 @@ class UnitContact(NamedTuple):
     pinion_friction_arm, gear_friction_arm : T, arms of the friction force, m
     curvature : relative curvature, 1/m
     pinion_speed, gear_speed : rolling speeds u_1, u_2, m/rad
+    pitch_point_length, pitch_point_rate : how the contact at a vanishing radius is averaged over its width
+        See `geometry.pitch_point`, m and 1/rad; 0: it is not, as in Veciana's study.
     """
 
     rotation: Array
@@ -45,6 +48,8 @@ class UnitContact(NamedTuple):
     curvature: Array
     pinion_speed: Array
     gear_speed: Array
+    pitch_point_length: Any = 0.0
+    pitch_point_rate: Any = 0.0
 
     @property
     def ratio(self) -> Array:
@@ -163,11 +168,22 @@ def path_contact(
     pinion_teeth: float,
     rotation: tuple[Array, Array] | None = None,
     exact_speeds: bool = True,
+    averaged: bool = True,
 ) -> UnitContact:
-    """A pair on any path of contact; arguments as in `cycloid_contact`."""
+    """A pair on any path of contact.
+
+    Parameters
+    ----------
+    path : Path
+    pinion_teeth, rotation, exact_speeds
+        As in `cycloid_contact`.
+    averaged : bool
+        Average radius and entrainment over the contact's width where they vanish at the pitch point.
+    """
     psi, weight = rotation or rotations(pinion_teeth)
     motion = kinematics(path, path.signed_distance(psi))
     ratio = path.pinion_pitch_radius / path.gear_pitch_radius
+    vanishing = pitch_point(path)
     return UnitContact(
         rotation=psi,
         weight=weight,
@@ -178,6 +194,8 @@ def path_contact(
         curvature=motion.relative_curvature,
         pinion_speed=motion.pinion_speed if exact_speeds else motion.pinion_friction_arm,
         gear_speed=motion.gear_speed if exact_speeds else ratio * motion.gear_friction_arm,
+        pitch_point_length=float(vanishing.length) if averaged else 0.0,
+        pitch_point_rate=float(vanishing.speed_per_radius) if averaged else 0.0,
     )
 
 
@@ -207,14 +225,18 @@ def torque_ratio(
     """
     side = np.sign(pair.rotation)
     speeds = pinion_speed * pair.pinion_speed, pinion_speed * pair.gear_speed
-    entrainment, sliding = (speeds[0] + speeds[1]) / 2.0, speeds[0] - speeds[1]
     mu, load, change = np.zeros_like(pair.pinion_normal_arm), input_torque / pair.pinion_normal_arm, np.inf
     for _ in range(STEPS):
         load = input_torque / (pair.pinion_normal_arm + side * mu * pair.pinion_friction_arm)
-        with np.errstate(under="ignore"):
-            found = friction(
-                friction_law, load / face_width, pair.curvature, entrainment, sliding, *speeds, surfaces
-            )[0]
+        found = contact_friction(
+            friction_law,
+            load / face_width,
+            1.0 / pair.curvature,
+            *speeds,
+            surfaces,
+            pair.pitch_point_length,
+            pinion_speed * pair.pitch_point_rate,
+        ).coefficient
         change, mu = np.max(np.abs(found - mu)), found
         if change < TOLERANCE:
             break

@@ -1,0 +1,109 @@
+"""What holds for the losses of every gear pair, friction coefficient and friction law."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import strategies as st
+
+from tests.unit.test_friction_laws import VECIANA
+from tribodyn.efficiency.loss_factor import exact, hoehn
+from tribodyn.efficiency.torque_ratio import cycloid_contact, path_contact, torque_ratio
+from tribodyn.geometry.involute import InvolutePath
+from tribodyn.tribology.friction import BENEDICT_KELLEY, COULOMB, MASJEDI_KHONSARI, XU
+from tribodyn.tribology.mean_friction import iso_14179_1, mean_conditions, niemann
+
+teeth = st.integers(14, 60)
+ratios = st.floats(1.0, 5.0)
+often = settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.filter_too_much])
+
+
+def duty(radius):
+    """Moderate load and speed for a pinion of that radius: N m, rad/s, m."""
+    return 3e5 * radius**2, 10.0 / radius, radius
+
+
+@st.composite
+def contacts(draw):
+    """A pair on a straight path or between cycloids, one pitch of which lies on the flanks."""
+    count, ratio, radius = draw(teeth), draw(ratios), draw(st.floats(5e-3, 0.2))
+    if draw(st.booleans()):
+        angle = draw(st.floats(0.3, 0.5))
+        # half a pitch must stay off the pinion's base circle
+        assume(math.pi / count < 0.9 * math.tan(angle))
+        pair = path_contact(InvolutePath(radius, radius * ratio, angle), count)
+    else:
+        circles = (draw(st.floats(0.1, 0.45)) for _ in range(2))
+        pair = cycloid_contact(count, radius, ratio, *circles, exact_speeds=draw(st.booleans()))
+        assume(math.pi / count < 0.2)
+    return pair, radius
+
+
+@often
+@given(contacts(), st.sampled_from([MASJEDI_KHONSARI, XU, BENEDICT_KELLEY]))
+def test_friction_takes_a_part_and_no_more(contact, law):
+    pair, radius = contact
+    torque, speed, width = duty(radius)
+    found = torque_ratio(pair, torque, speed, width, law, VECIANA)
+    assert 0.5 < found.efficiency < 1.0
+    assert np.all(found.normal_load > 0)
+    lost = (
+        found.friction_coefficient * found.normal_load * np.abs(pair.pinion_speed - pair.gear_speed) * speed
+    )
+    out = found.torque_ratio / pair.ratio * torque * speed
+    np.testing.assert_allclose(out + lost, torque * speed, rtol=1e-9)
+
+
+@often
+@given(contacts(), st.floats(0.0, 0.1), st.floats(0.001, 0.1))
+def test_more_friction_loses_more(contact, mu, more):
+    pair, radius = contact
+    low, high = (
+        torque_ratio(pair, *duty(radius), COULOMB, VECIANA._replace(coulomb_coefficient=value)).efficiency
+        for value in (mu, mu + more)
+    )
+    assert high < low <= 1.0 + 1e-12
+
+
+@often
+@given(teeth, st.floats(0.005, 0.1), st.floats(0.1, 0.4), st.floats(0.1, 0.4))
+def test_equal_gears_may_change_places(count, mu, approach, recess):
+    """i = 1, to first order in μ: driving the other gear swaps approach and recess."""
+    surfaces = VECIANA._replace(coulomb_coefficient=mu * 1e-3)
+    losses = [
+        1 - torque_ratio(cycloid_contact(count, 0.03, 1.0, *c), *duty(0.03), COULOMB, surfaces).efficiency
+        for c in ((approach, recess), (recess, approach))
+    ]
+    assert losses[0] == pytest.approx(losses[1], rel=2e-3)
+
+
+@often
+@given(st.floats(0.0, 1.0), st.floats(0.0, 1.0), teeth, ratios)
+def test_loss_factors_agree_inside_the_formulas_range(first, second, count, ratio):
+    assume(first + second >= 1.0)
+    assert exact(first, second, count, ratio) == pytest.approx(hoehn(first, second, count, ratio), rel=1e-9)
+
+
+@often
+@given(st.floats(0.3, 2.0), st.floats(0.3, 2.0), teeth, ratios)
+def test_loss_factor_does_not_know_who_drives(first, second, count, ratio):
+    assert exact(first, second, count, ratio) == pytest.approx(exact(second, first, count, ratio), rel=1e-12)
+
+
+@often
+@given(
+    st.floats(1e3, 2e4),
+    st.floats(0.01, 0.2),
+    ratios,
+    st.floats(0.3, 0.45),
+    st.floats(2.0, 25.0),
+    st.floats(2e-3, 0.1),
+)
+def test_mean_coefficients_are_coefficients(load, radius, ratio, angle, speed, viscosity):
+    conditions = mean_conditions(
+        load, radius, radius * ratio, angle, speed / radius, radius, viscosity, 850.0, 0.5e-6, 0.0651
+    )
+    assert 0.005 < niemann(conditions) < 0.3
+    assert 0.001 < iso_14179_1(conditions) < 0.3
+    assert conditions.pitch_line_speed == pytest.approx(speed)
