@@ -1,0 +1,96 @@
+"""What two flanks give way next to their contact: Weber and Banaschek's depth-limited Hertz deflection.
+
+The finite-element model knows the contact's load only as a point. Its displacement is therefore read below
+the surface, where that makes no difference, and what lies between there and the surface is put back by the
+half-plane under Hertz's pressure.
+"""
+
+from typing import Any, Protocol
+
+import numpy as np
+
+Array = Any
+
+
+class Elastic(Protocol):
+    """An isotropic elastic material."""
+
+    @property
+    def youngs_modulus(self) -> float:
+        """E, Pa."""
+        ...
+
+    @property
+    def poisson_ratio(self) -> float:
+        """ν."""
+        ...
+
+
+def hertz_half_width(line_load: Array, curvature: Array, first: Elastic, second: Elastic) -> Array:
+    """Half width of the contact, m: L = √(4/π Σ(1 − ν²)/E q/κ), κ = 1/χ1 + 1/χ2 (Diez-Ibarbia et al. (13)).
+
+    Parameters
+    ----------
+    line_load : array
+        q, N/m.
+    curvature : array
+        Relative curvature κ, 1/m.
+    first, second : Elastic
+        Materials of both bodies.
+    """
+    softness = sum((1.0 - m.poisson_ratio**2) / m.youngs_modulus for m in (first, second))
+    return np.sqrt(4.0 / np.pi * softness * line_load / curvature)
+
+
+def weber_banaschek(line_load: Array, half_width: Array, depth: float, material: Elastic) -> Array:
+    """Approach of the surface to the point `depth` below it in a half-plane under Hertz's pressure, m.
+
+    u = 2 (1 − ν²) q/(π E) {ln[t + √(1 + t²)] − ν/(1 − ν) t² [√(1 + 1/t²) − 1]}, t = depth/half width, in
+    plane strain. Diez-Ibarbia et al. (12) print √(1 + t²) in the last root too, which grows without bound.
+
+    Parameters
+    ----------
+    line_load : array
+        q ≥ 0, N/m.
+    half_width : array
+        L of the contact, m; 0 only where q is.
+    depth : float
+        h, m.
+    material : Elastic
+        Of this body.
+    """
+    nu = material.poisson_ratio
+    t = depth / np.maximum(half_width, 1e-12 * depth)
+    # t² (√(1 + 1/t²) − 1) without cancellation for t → ∞, where it is 1/2
+    root = t / (np.sqrt(1.0 + t**2) + t)
+    shape = np.arcsinh(t) - nu / (1.0 - nu) * root
+    return 2.0 * (1.0 - nu**2) / (np.pi * material.youngs_modulus) * line_load * shape
+
+
+def weber_banaschek_slope(line_load: Array, half_width: Array, depth: float, material: Elastic) -> Array:
+    """Derivative of `weber_banaschek` by the line load, whose root the half width grows with; m per N/m."""
+    nu = material.poisson_ratio
+    t = depth / np.maximum(half_width, 1e-12 * depth)
+    rise = np.sqrt(1.0 + t**2)
+    root = t / (rise + t)
+    shape = np.arcsinh(t) - nu / (1.0 - nu) * root
+    # d/dt of both terms; t goes like q^(−1/2)
+    steeper = 1.0 / rise - nu / (1.0 - nu) * (1.0 / rise) / (rise + t) ** 2
+    return 2.0 * (1.0 - nu**2) / (np.pi * material.youngs_modulus) * (shape - 0.5 * t * steeper)
+
+
+def freed_of_depth(inside: Array, poisson_ratio: float) -> Array:
+    """Displacement at the depth h corrected by what the tooth, other than a half-plane, does above it.
+
+    A half-plane under a point load has u(h) − u(2h) = 2 (1 − ν²)/(π E) q ln 2. What the tooth has more than
+    that between 2h and h it has again, to first order, between h and the surface. With this the sum of FE and
+    local deflection no longer depends on h (error of second order).
+
+    Parameters
+    ----------
+    inside : (2, …)
+        Displacements at depths h and 2h per unit line load, for unit Young's modulus.
+    poisson_ratio : float
+        ν.
+    """
+    return 2.0 * inside[0] - inside[1] - 2.0 * (1.0 - poisson_ratio**2) / np.pi * np.log(2.0)

@@ -1,0 +1,162 @@
+"""Structured quadrilaterals over one tooth and its share of the ring: a sector of the full gear.
+
+Half a sector has three blocks that meet in the middle of the fillet, where the boundary is smooth, so that
+each of them has a sound corner there: the tooth above, the body under the tooth and the body under the gap.
+Each block is the transfinite (Coons) map of its four edges. The other half is the mirror image, and the full
+gear is the sector repeated, node on node.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import KDTree
+
+from tribodyn.geometry.tooth import Tooth, fillet_point, flank_point
+
+Array = Any
+
+#: Cells at level 1: along the flank, along the upper and the lower half of the fillet with the root circle,
+#: across half the tooth, and from the root to the bore.
+_FLANK, _FILLET, _ROOT, _ACROSS, _DEPTH = 10, 2, 4, 4, 7
+_CURVE_POINTS = 400
+# Ratio of the cells' widths, flank to middle of the tooth, and of their depths, bore to root.
+_ACROSS_GRADING = 0.45
+_DEPTH_GRADING = 4.0
+# The seam from the fillet to the tooth's axis drops by this share of its length, which gives each of the
+# three blocks about a third of the straight angle at their common corner.
+_SEAM_DROP = 0.35
+
+
+class SectorMesh(NamedTuple):
+    """Curved cells of nine nodes over one sector; x along the tooth's axis, +y the side of the loaded flank.
+
+    Attributes
+    ----------
+    nodes : (2, N), m
+    cells : (9, C), node numbers: corners counter-clockwise, middles of the edges that follow them, centre
+    flank : (M,), corner nodes on the flank y > 0, from the fillet to the tip
+    """
+
+    nodes: Array
+    cells: NDArray[np.int64]
+    flank: NDArray[np.int64]
+
+
+def sector_mesh(tooth: Tooth, teeth: int, bore_radius: float, level: int) -> SectorMesh:
+    """Mesh the sector of one tooth; `level` multiplies the number of cells in both directions."""
+    blocks = _half_blocks(tooth, teeth, bore_radius, level)
+    mirrored = [block * np.array([1.0, -1.0]) for block in blocks]
+    points, cells = [], []
+    count = 0
+    for block in [*blocks, *mirrored]:
+        rows, columns, _ = block.shape
+        number = count + np.arange(rows * columns).reshape(rows, columns)
+        ring = [(0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1), (1, 1)]
+        cells.append(
+            np.stack([number[i : rows - 2 + i : 2, j : columns - 2 + j : 2].ravel() for i, j in ring])
+        )
+        points.append(block.reshape(-1, 2))
+        count += rows * columns
+    nodes, merged = _merge(np.concatenate(points))
+    rows, columns, _ = blocks[0].shape
+    flank = merged[np.arange(0, rows, 2) * columns][_FILLET * level :]
+    return SectorMesh(nodes.T.copy(), _counter_clockwise(nodes, merged[np.concatenate(cells, axis=1)]), flank)
+
+
+def _half_blocks(tooth: Tooth, teeth: int, bore_radius: float, level: int) -> list[Array]:
+    """Nodes (rows, columns, 2) of the three blocks; columns of the first run from the flank to the axis."""
+    along = np.linspace(0.0, 1.0, _CURVE_POINTS)
+    fillet = np.stack(fillet_point(tooth, np.pi / 2 + along * (tooth.form_angle - np.pi / 2)), axis=-1)
+    flank = np.stack(
+        flank_point(tooth, tooth.form_distance + along * (tooth.tip_distance - tooth.form_distance)), axis=-1
+    )
+    first = float(np.arctan2(fillet[0, 1], fillet[0, 0]))
+    root = _arc(tooth.root_radius, np.pi / teeth, first, _CURVE_POINTS)
+    lengths = _length(fillet)
+    split = int(np.searchsorted(lengths, 0.5 * lengths[-1]))
+    below = np.concatenate([root[:-1], fillet[: split + 1]])
+    above = fillet[split:]
+
+    # every second node is the middle of an edge
+    across, depth, level = 2 * _ACROSS * level, 2 * _DEPTH * level, 2 * level
+    profile = np.concatenate(
+        [
+            _spread(above, np.linspace(0, 1, _FILLET * level + 1))[:-1],
+            _spread(flank, np.linspace(0, 1, _FLANK * level + 1)),
+        ]
+    )
+    towards_axis = _graded(across, _ACROSS_GRADING)
+    corner = profile[0]
+    seam_end = np.array([corner[0] - _SEAM_DROP * corner[1], 0.0])
+    seam = corner + towards_axis[:, None] * (seam_end - corner)
+    tip_angle = float(np.arctan2(profile[-1, 1], profile[-1, 0]))
+    tip = tooth.tip_radius * _unit(tip_angle * (1 - towards_axis))
+    height = _length(profile) / _length(profile)[-1]
+    axis = seam_end + height[:, None] * (tip[-1] - seam_end)
+    upper = _coons(seam, tip, profile, axis)
+
+    roots = _ROOT * level
+    gap = _spread(below, np.linspace(0, 1, roots + 1))
+    foot = np.pi / teeth * across / (across + roots)
+    inwards = _graded(depth, _DEPTH_GRADING)
+    edge = gap[0] + inwards[:, None] * (bore_radius * _unit(np.pi / teeth) - gap[0])
+    middle = corner + inwards[:, None] * (bore_radius * _unit(foot) - corner)
+    centre = seam_end + inwards[:, None] * (np.array([bore_radius, 0.0]) - seam_end)
+    under_gap = _coons(gap, bore_radius * _unit(np.linspace(np.pi / teeth, foot, roots + 1)), edge, middle)
+    under_tooth = _coons(seam, bore_radius * _unit(foot * (1 - towards_axis)), middle, centre)
+    return [upper, under_gap, under_tooth]
+
+
+def _coons(first: Array, last: Array, left: Array, right: Array) -> Array:
+    """Fill (rows, columns, 2) between the edges first and last row, left and right column."""
+    u = _fraction(left, right)[:, None, None]
+    v = _fraction(first, last)[None, :, None]
+    corners = (
+        (1 - u) * (1 - v) * first[0] + (1 - u) * v * first[-1] + u * (1 - v) * last[0] + u * v * last[-1]
+    )
+    return (1 - u) * first + u * last + (1 - v) * left[:, None] + v * right[:, None] - corners
+
+
+def _fraction(one: Array, other: Array) -> Array:
+    lengths = _length(one), _length(other)
+    return (lengths[0] / lengths[0][-1] + lengths[1] / lengths[1][-1]) / 2
+
+
+def _length(curve: Array) -> Array:
+    return np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(curve, axis=0), axis=1))])
+
+
+def _spread(curve: Array, at: Array) -> Array:
+    """Points of a curve at fractions of its length."""
+    length = _length(curve)
+    return np.stack([np.interp(at * length[-1], length, curve[:, k]) for k in range(2)], axis=-1)
+
+
+def _graded(cells: int, ratio: float) -> Array:
+    """Fractions 0 … 1 of cells whose widths grow evenly, the first `ratio` … of them relative to the last."""
+    middle = (np.arange(cells) + 0.5) / cells
+    first, last = (ratio, 1.0) if ratio < 1 else (1.0, ratio)
+    width = first * (last / first) ** middle
+    return np.concatenate([[0.0], np.cumsum(width)]) / width.sum()
+
+
+def _unit(angle: Array | float) -> Array:
+    return np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+
+
+def _arc(radius: float, start: float, end: float, points: int) -> Array:
+    return radius * _unit(np.linspace(start, end, points))
+
+
+def _merge(points: Array) -> tuple[Array, NDArray[np.int64]]:
+    """Join points that coincide: the distinct points, and the number that each point has among them."""
+    near = KDTree(points).query_ball_point(points, 1e-9 * float(np.ptp(points, axis=0).max()))
+    _, index, inverse = np.unique([min(same) for same in near], return_index=True, return_inverse=True)
+    return points[index], inverse
+
+
+def _counter_clockwise(nodes: Array, cells: NDArray[np.int64]) -> NDArray[np.int64]:
+    a, b, c = (nodes[cells[k]] for k in range(3))
+    area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
+    return np.where(area > 0, cells, cells[[0, 3, 2, 1, 7, 6, 5, 4, 8]])

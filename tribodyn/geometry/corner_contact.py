@@ -1,0 +1,116 @@
+"""A pair of teeth before the beginning and beyond the end of its path of contact: the tip's corner.
+
+Unloaded teeth part there. Loaded ones let the body run ahead, and the corner of the mate's tip touches the
+flank early or late, once the deflection exceeds the gap between them.
+
+The corner is followed in the view of the body whose flank it touches (`path.seen_from`): before contact
+begins that is the pinion, met by the gear's tip; after its end the gear, met by the pinion's.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.drive import Side
+from tribodyn.geometry.path import Kinematics, distance_at_radius, kinematics, radius, seen_from
+from tribodyn.geometry.tooth import thickness_half_angle
+
+Array = Any
+
+
+class PairGeometry(NamedTuple):
+    """One pair of teeth at given pinion angles; every field is shaped like the roll angle.
+
+    On the path of contact these are the path's. Outside, direction and curvature are those at the end of the
+    path, and the signed distance is the corner's distance from the pitch point, which makes the sliding
+    velocity exact.
+
+    Attributes
+    ----------
+    motion : Kinematics
+        Direction, arms, curvatures and speeds, `path.kinematics`.
+    gap : array
+        Distance between corner and flank along the flank's normal while nothing is loaded, m; 0 on the path.
+    pinion_radius, gear_radius : array
+        Where each flank is touched: distance from its own axis, m.
+    """
+
+    motion: Kinematics
+    gap: Array
+    pinion_radius: Array
+    gear_radius: Array
+
+
+def roll_limits(assembly: Assembly) -> tuple[float, float]:
+    """Pinion angles at which the path of contact begins and ends, rad from the pitch point."""
+    path = assembly.path
+    return float(path.rotation(assembly.r_start)), float(path.rotation(assembly.r_end))
+
+
+def pair_geometry(assembly: Assembly, roll: Array) -> PairGeometry:
+    """Geometry of one pair at the pinion angles `roll` (rad from the pitch point), on and off the path."""
+    path = assembly.path
+    start, end = roll_limits(assembly)
+    r = path.signed_distance(np.clip(roll, start, end))
+    motion = kinematics(path, r)
+    reach = {
+        "pinion": np.array(radius(path, r), dtype=float),
+        "gear": np.array(radius(seen_from(path, "gear"), -r), dtype=float),
+    }
+    gap, moved = np.zeros_like(roll), np.zeros_like(roll)
+    sides: tuple[tuple[Side, Array], ...] = (("pinion", roll < start), ("gear", roll > end))
+    for side, outside in sides:
+        if np.any(outside):
+            distance, found, at = _corner(assembly, side, roll[outside])
+            gap[outside], reach[side][outside] = found, at
+            moved[outside] = (-distance if side == "pinion" else distance) - r[outside]
+    ratio = path.pinion_pitch_radius / path.gear_pitch_radius
+    motion = motion._replace(
+        signed_distance=motion.signed_distance + moved,
+        pinion_friction_arm=motion.pinion_friction_arm + moved,
+        gear_friction_arm=motion.gear_friction_arm - moved,
+        pinion_speed=motion.pinion_speed + moved,
+        gear_speed=motion.gear_speed - ratio * moved,
+        entrainment=motion.entrainment + (1.0 - ratio) * moved / 2.0,
+        sliding=motion.sliding + (1.0 + ratio) * moved,
+    )
+    return PairGeometry(motion, gap, reach["pinion"], reach["gear"])
+
+
+def _corner(assembly: Assembly, side: Side, roll: Array) -> tuple[Array, Array, Array]:
+    """Corner of the mate's tip near this body's flank at the pinion's angles.
+
+    Its distance from the pitch point, the gap along the flank's normal and the radius on this body, m.
+    """
+    path: Any = seen_from(assembly.path, side)
+    tooth = assembly.tooth(side)
+    first = assembly.lowest_contact(side)
+    r_body, r_mate = path.pinion_pitch_radius, path.gear_pitch_radius
+    turn = roll if side == "pinion" else -roll * assembly.path.pinion_pitch_radius / r_body
+    alpha = path.pressure_angle(first)
+    x, y = first * np.cos(alpha), r_mate - first * np.sin(alpha)
+    mate = np.arctan2(x, y) + (turn - path.rotation(first)) * r_body / r_mate
+    tip = np.hypot(x, y)
+    x, y = tip * np.sin(mate), r_mate - tip * np.cos(mate)
+    reach = np.hypot(x, r_body + y)
+    corner = thickness_half_angle(tooth, r_body) + np.arctan2(x, r_body + y) - turn
+    arm = r_body * np.cos(path.pressure_angle(distance_at_radius(path, reach)))
+    return np.hypot(x, y), (corner - thickness_half_angle(tooth, reach)) * arm, reach
+
+
+def roll_at_gap(assembly: Assembly, gap: float) -> tuple[float, float]:
+    """Pinion angles (rad) before and beyond the path of contact at which the corner's gap is `gap` (m).
+
+    No further than one pitch outside the path.
+    """
+    pitch = 2.0 * np.pi / assembly.drive.pinion.teeth
+    found = []
+    for limit, outwards in zip(roll_limits(assembly), (-1.0, 1.0), strict=True):
+        low, high = 0.0, pitch
+        for _ in range(50):
+            middle = (low + high) / 2.0
+            wide = pair_geometry(assembly, np.array([limit + outwards * middle])).gap[0] > gap
+            low, high = (low, middle) if wide else (middle, high)
+        found.append(limit + outwards * high)
+    return found[0], found[1]
