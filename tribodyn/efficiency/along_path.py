@@ -107,6 +107,11 @@ def engage(mesh: Places, duty: Duty) -> Engagement:
             speed * cycle.pitch_point_rate,
         )
         found = contact.coefficient * mesh.carrying
+        if np.any(mesh.carrying * (mesh.normal_arm + side * found * mesh.friction_arm) < 0.0):
+            worst = float(np.max(found))
+            raise SimulationError(
+                f"friction locks the mesh: a coefficient of {worst:.3g} turns a load's arm over"
+            )
         change, mu = float(np.max(np.abs(found - mu))), found
         if change < TOLERANCE:
             break

@@ -2,8 +2,6 @@
 
 from typing import NamedTuple
 
-import numpy as np
-
 from tribodyn.errors import InputError
 from tribodyn.record.reader import Record
 
@@ -31,9 +29,10 @@ class DynamicEfficiency(NamedTuple):
 
 
 def dynamic_efficiency(record: Record, cycles: int | None = None) -> DynamicEfficiency:
-    """Integrate the powers of a record over its last whole mesh cycles.
+    """Works of a record over its last whole mesh cycles.
 
-    Energies are integrated and then divided: an average of instantaneous efficiencies is not one of energy.
+    Energies are divided, and the run has integrated them: neither an average of instantaneous efficiencies
+    nor anything that depends on the samples.
 
     Parameters
     ----------
@@ -53,13 +52,12 @@ def dynamic_efficiency(record: Record, cycles: int | None = None) -> DynamicEffi
     if not 0 < wanted <= whole:
         raise InputError("cycles", wanted, f"the record holds {whole} whole mesh cycles", "use fewer")
     part = slice(-wanted * samples - 1, None)
-    time = record["time"][part]
 
-    def work(name: str) -> float:
-        return float(np.trapezoid(record[name][part], time))
+    def change(name: str) -> float:
+        values = record[name][part]
+        return float(values[-1] - values[0])
 
-    put_in, out, lost, damped = (work(f"power_{name}") for name in ("in", "out", "friction", "damping"))
-    stored = record["stored_energy"][part]
+    put_in, out, lost, damped = (change(f"work_{name}") for name in ("in", "out", "friction", "damping"))
     return DynamicEfficiency(
-        wanted, 1.0 - lost / put_in, out / put_in, put_in, out, lost, damped, float(stored[-1] - stored[0])
+        wanted, 1.0 - lost / put_in, out / put_in, put_in, out, lost, damped, change("stored_energy")
     )

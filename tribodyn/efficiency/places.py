@@ -59,7 +59,7 @@ def places(cycle: MeshCycle, path: Path, phase: Array, sharing: Sharing = "elast
         half = cycle.pitch_angle / 2.0
         if cycle.roll_start > -half or cycle.roll_end < half:
             raise InputError(
-                "load_sharing",
+                "mesh.load_sharing",
                 f'"{sharing}"',
                 "the contact of a pair does not cover half a pitch on either side of the pitch point",
                 'use "elastic" or "uniform"',

@@ -237,6 +237,11 @@ def torque_ratio(
             pair.pitch_point_length,
             pinion_speed * pair.pitch_point_rate,
         ).coefficient
+        if np.any(pair.pinion_normal_arm + side * found * pair.pinion_friction_arm <= 0.0):
+            worst = float(np.max(found))
+            raise SimulationError(
+                f"friction locks the pair: a coefficient of {worst:.3g} turns the load's arm over"
+            )
         change, mu = np.max(np.abs(found - mu)), found
         if change < TOLERANCE:
             break
