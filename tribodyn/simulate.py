@@ -123,7 +123,7 @@ def run(
         if stop.reason:
             message = str(SimulationError(stop.reason, stop.time))
             return RunResult(record.fail(message, summary), "failed", message, summary)
-        summary |= steady_figures(follower.window(), cycle, samples)
+        summary |= steady_figures(follower.window(), follower.window_work(), cycle, samples)
         return RunResult(record.finish(summary), "complete", "", summary)
 
 
@@ -137,6 +137,7 @@ class _Follower:
         self.extremes = RunningExtremes()
         self.blocks: list[dict[str, np.ndarray]] = []
         self.ends: list[tuple[np.ndarray, float]] = []
+        self.window_start = np.empty(0)
 
     def add(self, part: Chunk, block: dict[str, np.ndarray]) -> None:
         self.written += len(part.cycles)
@@ -146,6 +147,8 @@ class _Follower:
         self.ends[1:] = [(part.states[-1], block["stored_energy"][-1])]
         inside = (part.cycles >= self.start - 1e-9) & (part.cycles < self.stop - 1e-9)
         if inside.any():
+            if not self.blocks:
+                self.window_start = part.states[inside][0]
             self.blocks.append({name: values[inside] for name, values in block.items()})
 
     def figures(self) -> dict[str, float]:
@@ -155,6 +158,10 @@ class _Follower:
         return self.extremes.values | {
             "energy_residual": energy_residual(first, last, stored_last - stored_first)
         }
+
+    def window_work(self) -> np.ndarray:
+        """Change of the state, works included, over the last cycles."""
+        return self.ends[-1][0] - self.window_start
 
     def window(self) -> dict[str, np.ndarray]:
         return {name: np.concatenate([b[name] for b in self.blocks]) for name in self.blocks[0]}

@@ -71,13 +71,18 @@ def single_pair_stiffness(cycle: MeshCycle, load: float) -> float:
     return float(1.0 / (compliance + 0.9 * coefficient * max(load, 1.0) ** -0.1))
 
 
-def steady_figures(window: dict[str, np.ndarray], cycle: MeshCycle, samples: int) -> dict[str, Any]:
+def steady_figures(
+    window: dict[str, np.ndarray], work: np.ndarray, cycle: MeshCycle, samples: int
+) -> dict[str, Any]:
     """Figures of the last whole mesh cycles of a run.
 
     Parameters
     ----------
     window : dict
         The record's arrays over whole cycles, last sample not included.
+    work : (STATES,)
+        Change of the state over them: its works are integrated, so that no mean power depends on the
+        sampling.
     cycle : MeshCycle
     samples : int
         Samples per mesh cycle.
@@ -92,11 +97,12 @@ def steady_figures(window: dict[str, np.ndarray], cycle: MeshCycle, samples: int
     loaded = np.sum(load * np.abs(np.nan_to_num(window["sliding_speed"][:, :front])))
     touching = window["normal_load"] > 0.0
     # by the actual rotation: a driven pinion need not turn at its nominal speed
-    steps = max(len(error) - 1, 1)
-    frequency = float(steps / samples / (window["time"][-1] - window["time"][0]))
+    steps_in_window = len(error)
+    frequency = float((steps_in_window - 1) / samples / (window["time"][-1] - window["time"][0]))
     orders, amplitudes = amplitude_spectrum(error, samples)
-    power_in, power_friction = np.mean(window["power_in"]), np.mean(window["power_friction"])
-    load_torque = abs(np.mean(window["power_out"]) / np.mean(window["velocity"][:, -1]))
+    duration = steps_in_window / samples / frequency
+    power_in, power_out, power_friction = work[[WORK_IN, WORK_OUT, WORK_FRICTION]] / duration
+    load_torque = abs(power_out / np.mean(window["velocity"][:, -1]))
     static = float(load_torque / cycle.gear_pitch_radius)
     keep = orders <= 20.0 + 1e-9
     return {
@@ -109,7 +115,7 @@ def steady_figures(window: dict[str, np.ndarray], cycle: MeshCycle, samples: int
         "dynamic_factor": float(np.max(moment) / static) if static > 0 else float("nan"),
         "friction_coefficient_mean": float(slid / loaded) if loaded > 0 else float("nan"),
         "friction_force_mean": np.mean(friction, axis=0),
-        "efficiency": float(1.0 - power_friction / power_in) if power_in > 0 else float("nan"),
+        "efficiency": float(1.0 - work[WORK_FRICTION] / work[WORK_IN]) if power_in > 0 else float("nan"),
         "power_in_mean": float(power_in),
         "power_friction_mean": float(power_friction),
         "closure_in_range_fraction": float(np.mean(window["closure_in_range"][touching]))

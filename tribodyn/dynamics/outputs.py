@@ -13,6 +13,11 @@ from tribodyn.dynamics.parameters import (
     VX_P,
     VY_G,
     VY_P,
+    WORK_DAMPING,
+    WORK_FRICTION,
+    WORK_IN,
+    WORK_OUT,
+    WORK_PARAMETRIC,
     X_G,
     X_P,
     XI,
@@ -117,6 +122,11 @@ def outputs(cycles: np.ndarray, states: np.ndarray, model: Model) -> dict[str, n
         "power_damping": power_damping,
         "power_parametric": power_parametric,
         "stored_energy": np.broadcast_to(stored_energy(y, model, work), count),
+        "work_in": y[WORK_IN],
+        "work_out": y[WORK_OUT],
+        "work_friction": y[WORK_FRICTION],
+        "work_damping": y[WORK_DAMPING],
+        "work_parametric": y[WORK_PARAMETRIC],
         "efficiency": efficiency(power_in, sliding_loss),
     }
     return result

@@ -91,6 +91,13 @@ SAMPLES: dict[str, Variable] = {
         ("time",), "W", "power that enters through the varying stiffness and geometry at fixed coordinates"
     ),
     "stored_energy": Variable(("time",), "J", "kinetic and strain energy"),
+    "work_in": Variable(("time",), "J", "work of the drive since the start"),
+    "work_out": Variable(("time",), "J", "work on the load since the start"),
+    "work_friction": Variable(("time",), "J", "work lost to sliding friction since the start"),
+    "work_damping": Variable(("time",), "J", "work lost to mesh and bearing damping since the start"),
+    "work_parametric": Variable(
+        ("time",), "J", "parametric work since the start, jumps at engagement included"
+    ),
     "efficiency": Variable(("time",), "1", "instantaneous efficiency"),
 }
 
