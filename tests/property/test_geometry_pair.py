@@ -1,14 +1,13 @@
-"""What holds for every gear pair that passes the checks, shifted involute or CRC."""
+"""What holds for every gear pair of any family that passes the checks."""
 
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
-from tribodyn.errors import InputError
-from tribodyn.geometry import crc, involute
-from tribodyn.geometry.checks import check
-from tribodyn.geometry.drive import SIDES, Drive, GearBody, tip_radius
+from tests.random_drives import DEGENERATE, drives
+from tribodyn.geometry import involute
+from tribodyn.geometry.drive import SIDES, tip_radius
 from tribodyn.geometry.path import (
     contact_limits,
     contact_ratio,
@@ -18,35 +17,6 @@ from tribodyn.geometry.path import (
     seen_from,
 )
 from tribodyn.geometry.tooth import cut_tooth, flank_point, outline, thickness_half_angle
-
-
-@st.composite
-def bodies(draw, shiftable, least_teeth):
-    addendum = draw(st.floats(0.8, 1.1))
-    return GearBody(
-        teeth=float(draw(st.integers(least_teeth, 90))),
-        profile_shift=draw(st.floats(-0.2, 0.6)) if shiftable else 0.0,
-        addendum=addendum,
-        dedendum=1.4,
-        fillet_radius=draw(st.floats(0.0, 0.25)),
-        face_width=0.02,
-        bore_radius=0.0,
-    )
-
-
-@st.composite
-def pairs(draw):
-    """Draw a family and a drive that passes its checks."""
-    family = draw(st.sampled_from([involute.FAMILY, crc.FAMILY]))
-    angle = draw(st.floats(18.0, 25.0) if family.shiftable else st.floats(20.0, 25.0))
-    least_teeth = 16 if family.shiftable else 14
-    pinion, gear = (draw(bodies(family.shiftable, least_teeth)) for _ in range(2))
-    drive = Drive(draw(st.floats(0.0005, 0.02)), np.radians(angle), pinion, gear)
-    try:
-        check(family, drive)
-    except InputError:
-        assume(False)
-    return family, drive
 
 
 def limits_of(family, drive):
@@ -61,14 +31,15 @@ over_pairs = settings(
 
 
 @over_pairs
-@given(pairs())
+@given(drives())
 def test_speeds_are_radii_of_curvature_times_rotation_of_the_normal(pair):
     path, start, end = limits_of(*pair)
+    step = 1e-4 * (end - start)
     r = np.linspace(start, end, 41)
+    r = r[np.abs(r) > 2 * step]  # a path may have a corner at P
     state = kinematics(path, r)
     w = path.pinion_pitch_radius / path.gear_pitch_radius
     # κ = dα/dφ, by difference along the path, independent of the slope that `kinematics` uses.
-    step = 1e-4 * (end - start)
     kappa = (path.pressure_angle(r + step) - path.pressure_angle(r - step)) / (
         path.rotation(r + step) - path.rotation(r - step)
     )
@@ -80,17 +51,25 @@ def test_speeds_are_radii_of_curvature_times_rotation_of_the_normal(pair):
         state.gear_speed * state.gear_curvature, w - kappa, atol=1e-6, err_msg="u_g = ω ρ_g (w − κ)"
     )
     np.testing.assert_allclose(state.sliding, (1 + w) * r, atol=1e-12 * module)
+    # Friction takes as much from the pinion's torque balance as it leaves out of the gear's, and slides away
+    # with the rest: T_p − w T_g = F_f (L_p − w L_g) = F_f v_s/ω_p at any normal load.
+    np.testing.assert_allclose(
+        state.pinion_friction_arm - w * state.gear_friction_arm, state.sliding, atol=1e-12 * module
+    )
+    np.testing.assert_allclose(state.pinion_normal_arm, w * state.gear_normal_arm, rtol=1e-12)
     assert np.all(state.pinion_speed > 0)
     assert np.all(state.gear_speed > 0)
 
 
 @over_pairs
-@given(pairs(), fraction)
+@given(drives(), fraction)
 def test_flanks_touch_along_a_common_normal_through_the_pitch_point(pair, where):
     """Rotate both teeth, as cut, to any phase: they meet in one point and nowhere overlap."""
     family, drive = pair
     path, start, end = limits_of(family, drive)
     r = start + where * (end - start)
+    # At P itself a cycloid's flank stands still, and steps along it have no direction.
+    assume(abs(r) > 0.05 * drive.module or family.name not in DEGENERATE)
     rotation = path.rotation(r)
     w = path.pinion_pitch_radius / path.gear_pitch_radius
     module = drive.module
@@ -130,16 +109,19 @@ def test_flanks_touch_along_a_common_normal_through_the_pitch_point(pair, where)
 
 
 @over_pairs
-@given(pairs())
+@given(drives())
 def test_nothing_slides_at_the_pitch_point(pair):
     family, drive = pair
     state = kinematics(family.working_path(drive), 0.0)
     assert state.sliding == pytest.approx(0, abs=1e-15)
-    assert state.entrainment > 0
+    if family.name in DEGENERATE:
+        assert state.entrainment == pytest.approx(0, abs=1e-15)
+    else:
+        assert state.entrainment > 0
 
 
 @over_pairs
-@given(pairs())
+@given(drives())
 def test_contact_ratio(pair):
     family, drive = pair
     path, start, end = limits_of(family, drive)
@@ -147,17 +129,19 @@ def test_contact_ratio(pair):
     assert ratio >= 1
     if family.shiftable:
         assert ratio == pytest.approx(involute.closed_form_contact_ratio(drive), rel=1e-12)
-    else:
+    if family.name == "crc":
         curvature = kinematics(path, np.linspace(start, end, 101)).relative_curvature
         np.testing.assert_allclose(curvature, curvature[50], rtol=1e-9)
 
 
 @over_pairs
-@given(pairs(), st.floats(0.05, 0.95))
+@given(drives(), st.floats(0.05, 0.95))
 def test_curvature_is_that_of_the_flank_as_cut(pair, where):
     family, drive = pair
     path, start, end = limits_of(family, drive)
     r = start + where * (end - start)
+    # Not across a corner of the path at P, where the curvature jumps.
+    assume(abs(r) > 0.15 * drive.module or not family.corner)
     state = kinematics(path, r)
     for side, curvature in (("pinion", state.pinion_curvature), ("gear", state.gear_curvature)):
         view, tooth = seen_from(path, side), cut_tooth(family, drive, side)
@@ -174,7 +158,7 @@ def test_curvature_is_that_of_the_flank_as_cut(pair, where):
 
 
 @over_pairs
-@given(pairs())
+@given(drives())
 def test_outline_is_continuous_and_narrows_outwards(pair):
     family, drive = pair
     for side in SIDES:

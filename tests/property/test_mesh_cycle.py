@@ -1,47 +1,26 @@
 """Properties of the mesh cycle that hold for every valid drive."""
 
-import math
-
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tests.random_drives import drives
 from tribodyn.case import MaterialData, MeshData
-from tribodyn.errors import InputError
-from tribodyn.geometry import crc, involute
-from tribodyn.geometry.checks import check
-from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.mesh_cycle import as_arrays, from_arrays
 from tribodyn.quasi_static import quasi_static
 from tribodyn.tabulate import pair_slots, tabulate
 
 STEEL = MaterialData("steel", 206e9, 0.3, 7850.0, 46.0, 470.0, 6e9)
 BRONZE = MaterialData("bronze", 110e9, 0.34, 8800.0, 60.0, 380.0, 2e9)
-FAMILIES = {"involute": involute.FAMILY, "crc": crc.FAMILY}
 
 
 @st.composite
 def cycles(draw, back=False):
     """Mesh cycle of a random valid drive."""
-    name = draw(st.sampled_from(sorted(FAMILIES)))
-    pinion, gear = draw(st.integers(17, 60)), draw(st.integers(17, 90))
-    angle = math.radians(draw(st.floats(19, 26)))
-    shift = draw(st.floats(-0.1, 0.4)) if name == "involute" else 0.0
-    addendum = draw(st.floats(0.7, 1.05))
-    bore = draw(st.floats(0.2, 0.7))
-    drive = Drive(
-        0.003,
-        angle,
-        GearBody(float(pinion), shift, addendum, 1.25, 0.2, 0.02, bore * 0.0015 * pinion),
-        GearBody(float(gear), 0.0, addendum, 1.25, 0.2, 0.025, bore * 0.0015 * gear),
-    )
-    try:
-        check(FAMILIES[name], drive)
-    except InputError:
-        assume(False)
+    family, drive = draw(drives())
     mesh = MeshData("energy", 0.05, points=17, backlash=4e-5)
-    return tabulate(FAMILIES[name], drive, (STEEL, BRONZE), mesh, pair_slots(FAMILIES[name], drive), back)
+    return tabulate(family, drive, (STEEL, BRONZE), mesh, pair_slots(family, drive), back)
 
 
 @settings(max_examples=40, deadline=None)

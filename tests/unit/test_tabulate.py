@@ -51,6 +51,7 @@ def test_kinematics_are_those_of_the_path(family):
     motion = kinematics(path, path.signed_distance(rolls[inside]))
     for name in ("signed_distance", "pressure_angle", "pinion_speed", "gear_speed"):
         np.testing.assert_allclose(getattr(cycle, name)[inside], getattr(motion, name), rtol=1e-9, atol=1e-14)
+    np.testing.assert_allclose(cycle.equivalent_radius[inside], 1 / motion.relative_curvature, rtol=1e-9)
 
 
 def test_involute_contact_ratio():

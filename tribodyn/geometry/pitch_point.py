@@ -51,7 +51,8 @@ def pitch_point(path: Path) -> PitchPoint:
     vanishes = sine < _ZERO_ANGLE
     # A regular path goes through the same formulas, with a harmless κ, and is discarded.
     curvatures, rates = [], []
-    for kappa in (xp.where(vanishes, r_p * after, 1.0), xp.where(vanishes, -r_p * before, -1.0)):
+    harmless = 1 + ratio
+    for kappa in (xp.where(vanishes, r_p * after, harmless), xp.where(vanishes, -r_p * before, -harmless)):
         sign = 1.0 if not curvatures else -1.0
         pinion, gear = sign * (1 + 2 * kappa), sign * (2 * kappa - ratio)
         over_root = (1 + kappa) / sqrt(pinion) + (ratio - kappa) / sqrt(gear)

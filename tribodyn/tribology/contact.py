@@ -67,15 +67,19 @@ def hertz_pressure(line_load, curvature, effective_modulus):
 def averaged_radius(radius, line_load, effective_modulus, pitch_point_length):
     """Equivalent radius averaged over the half width a of its own contact, m; for one that vanishes at P.
 
-    ρ̄⁴ = ρ⁴ + (M a)², a = √(8 w' ρ̄/(π E')). At P, where ρ = 0, ρ̄² = M a is the exact mean of
-    `geometry.pitch_point`; far from P ρ̄ = ρ, the difference falling like (M a/ρ²)². With M = 0 it is ρ
-    everywhere. The quartic is convex above its largest root, to which Newton's steps come down.
+    The exact mean at P is ρ̄² = M a (`geometry.pitch_point`). A contact beside P covers P while that is nearer
+    than a; for it there is no closed form, but ρ⁴ = ρ̄⁴ + 14 (M a)² − 15 (M a)⁴/ρ̄⁴ is exact at P and where the
+    contact's edge is at P, goes over to ρ̄ = ρ far away, and between meets the mean over a flank of curvature
+    k/√s to 10 %. With a² = 8 w' ρ̄/(π E') it is a polynomial in ρ̄, to whose root Newton's steps come down.
+    A load below 1 N/m counts as that; with M = 0 the radius stays as it is.
     """
-    strength = pitch_point_length * pitch_point_length * 8.0 * maximum(line_load, 1.0)
-    strength = strength / (math.pi * effective_modulus)
-    fourth = radius * radius * radius * radius
-    root = radius + exp(log(maximum(strength, 1e-60)) / 3.0)
+    scale = pitch_point_length * pitch_point_length * 8.0 * maximum(line_load, 1.0)
+    scale = exp(log(maximum(scale / (math.pi * effective_modulus), 1e-60)) / 3.0)  # ρ̄ at P
+    fourth = (radius / scale) * (radius / scale) * (radius / scale) * (radius / scale)
+    root = sqrt(1.0 + (radius / scale) * (radius / scale))
     for _ in range(6):
-        cube = root * root * root
-        root = (3.0 * cube * root + fourth) / (4.0 * cube - strength)
-    return root
+        square = root * root
+        cube = square * root
+        value = cube * cube + 14.0 * cube - 15.0 - fourth * square
+        root = root - value / (6.0 * cube * square + 42.0 * square - 2.0 * fourth * root)
+    return scale * root
