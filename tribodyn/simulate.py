@@ -22,6 +22,11 @@ from tribodyn.summary import RunningExtremes, energy_residual, single_pair_stiff
 __all__ = ["Prepared", "RunResult", "prepare", "run"]
 
 
+#: What a record says of the contact at the pitch point, under `pitch_point` in its summary.
+REGULAR = "regular"
+AVERAGED = "radius and entrainment vanish; averaged over the contact's own half width"
+
+
 class RunResult(NamedTuple):
     """How a run ended: the record's path, "complete" or "failed", why, and its figures."""
 
@@ -84,6 +89,7 @@ def run(
         "gear_mass": prepared.masses[1][0],
         "pinion_inertia": prepared.masses[0][1],
         "gear_inertia": prepared.masses[1][1],
+        "pitch_point": AVERAGED if model.options.averaged else REGULAR,
     }
     with RecordWriter(
         path,

@@ -139,6 +139,8 @@ def trust(record: Record) -> list[str]:
         sentences.append(
             f"The film law is inside its fitted range in {_percent(fraction)} of the contact{outside}."
         )
+    if summary.get("pitch_point", "regular") != "regular":
+        sentences.append(f"At the pitch point {summary['pitch_point']}; pressure there is no merit figure.")
     residual = summary.get("energy_residual")
     if residual is not None and math.isfinite(residual):
         sentences.append(f"The energy balance closes within {abs(residual):.1e} of the work put in.")

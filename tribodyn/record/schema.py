@@ -64,11 +64,17 @@ SAMPLES: dict[str, Variable] = {
         ("time", "pair"), "1", "film parameter: central film thickness over composite roughness"
     ),
     "central_film_thickness": Variable(("time", "pair"), "m", "central film thickness"),
-    "equivalent_radius": Variable(("time", "pair"), "m", "equivalent radius of curvature of the two flanks"),
-    "hertz_pressure": Variable(("time", "pair"), "Pa", "greatest Hertz pressure"),
+    "equivalent_radius": Variable(
+        ("time", "pair"),
+        "m",
+        "equivalent radius of the two flanks; averaged over the contact where it vanishes at the pitch point",
+    ),
+    "hertz_pressure": Variable(("time", "pair"), "Pa", "greatest Hertz pressure, at the equivalent radius"),
     "flash_temperature_rise": Variable(("time", "pair"), "K", "flash temperature rise in the contact"),
     "entrainment_speed": Variable(
-        ("time", "pair"), "m/s", "entrainment speed, mean of both flanks' rolling speeds"
+        ("time", "pair"),
+        "m/s",
+        "entrainment speed, mean of both flanks' rolling speeds; averaged over the contact like the radius",
     ),
     "sliding_speed": Variable(
         ("time", "pair"), "m/s", "sliding speed, pinion's less gear's; negative in approach"
