@@ -153,7 +153,7 @@ class MeshData:
 
     Parameters
     ----------
-    compliance : {"energy", "constant", "table"}
+    compliance : {"energy", "fem", "constant", "table"}
         Where the single-pair stiffness comes from.
     hertz : {"linear", "load-dependent"}
         Contact part of the energy method's compliance.
@@ -180,7 +180,7 @@ class MeshData:
         Static transmission error of a pair over roll angle (rad, m).
     """
 
-    compliance: Literal["energy", "constant", "table"]
+    compliance: Literal["energy", "fem", "constant", "table"]
     damping_ratio: float
     hertz: Literal["linear", "load-dependent"] = "linear"
     foundation_coupling: bool = True

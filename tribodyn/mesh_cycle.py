@@ -61,11 +61,12 @@ class MeshCycle(NamedTuple):
     face_width : float
         Common face width, m.
     contact_ratio : float
-        Theoretical transverse contact ratio.
+        Theoretical transverse contact ratio: the path of contact over the pitch.
     pitch_point_phase : float
         Phase at which the newest pair passes the pitch point (may exceed 1: then it is no longer newest).
     roll_start, roll_end : float
-        Pinion angle from the pitch point at which a pair enters and leaves, rad.
+        Pinion angle from the pitch point at which a pair enters and leaves the table, rad: the ends of the
+        path of contact, or further out where corners can touch.
     pitch_point_length, pitch_point_rate : float
         M (m) and entrainment over equivalent radius (1/rad) where both vanish at the pitch point, see
         `geometry.pitch_point`; 0 for a path on which they do not.

@@ -66,14 +66,15 @@ def prepare(case: Case) -> Prepared:
 
     teeth = family(case.family)
     check(teeth, case.drive)
-    cycle = tabulate(
-        teeth,
-        case.drive,
-        case.materials,
-        case.mesh,
-        pairs=pair_slots(teeth, case.drive),
-        back=case.mesh.backlash is not None,
-    )
+    back = case.mesh.backlash is not None
+    if case.mesh.compliance == "fem":
+        from tribodyn.tabulate_loaded import tabulate_loaded
+
+        torque = case.operating.gear_torque
+        cycle = tabulate_loaded(teeth, case.drive, case.materials, case.mesh, torque, back)
+    else:
+        pairs = pair_slots(teeth, case.drive)
+        cycle = tabulate(teeth, case.drive, case.materials, case.mesh, pairs=pairs, back=back)
     given = [(one.mass, one.inertia) for one in case.masses]
     pinion, gear = body_masses(teeth, case.drive, given, [one.density for one in case.materials])
     model = Model(
@@ -166,12 +167,14 @@ def geometry_arrays(case: Lubricated, cycle: MeshCycle) -> dict[str, Any]:
     """Outlines, path and circles for a record's pictures, in each body's own frame, m."""
     from tribodyn.geometry.body import gear_polygon
     from tribodyn.geometry.drive import SIDES, body_of, root_radius, tip_radius
-    from tribodyn.geometry.path import position
+    from tribodyn.geometry.path import contact_limits, position
     from tribodyn.scenario.load import family
 
     teeth = family(case.family)
     path = teeth.working_path(case.drive)
-    roll = np.linspace(float(cycle.roll_start), float(cycle.roll_end), 201)
+    limits = contact_limits(path, tip_radius(case.drive, "pinion"), tip_radius(case.drive, "gear"))
+    start, end = (float(path.rotation(limit)) for limit in limits)
+    roll = np.linspace(start, end, 201)
     x, y = position(path, path.signed_distance(roll))
     arrays: dict[str, Any] = {"path_of_contact": np.stack([x, y], axis=-1)}
     for side in SIDES:

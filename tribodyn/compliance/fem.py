@@ -159,7 +159,7 @@ def _cyclic_solution(
         permc_spec="MMD_AT_PLUS_A",
         options={"SymmetricMode": True, "DiagPivotThresh": 0.0},
     )
-    by_edges, by_loads = solver.solve(columns[rest].toarray()), solver.solve(loads[rest])
+    by_edges, by_loads = _solved(solver, columns[rest].toarray()), _solved(solver, loads[rest])
     reduced = columns[edges].toarray() - rows[:, rest] @ by_edges
     passed_on = -rows[:, rest] @ by_loads
 
@@ -180,6 +180,12 @@ def _cyclic_solution(
         seen += weight * np.real(phase * (alone - per_edge @ edge))
     own = seen[list(sectors).index(0), count:].reshape(depths, positions, count)
     return seen[:, :count], np.einsum("dmm->dm", own)
+
+
+def _solved(solver: Any, right: Array) -> Array:
+    # One side at a time: with many, SuperLU calls threaded BLAS on tiny blocks, ten times slower where
+    # the cores are busy.
+    return np.stack([solver.solve(np.ascontiguousarray(column)) for column in right.T], axis=-1)
 
 
 def _edges(

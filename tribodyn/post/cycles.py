@@ -109,12 +109,42 @@ def pair_curve(
 def key_points(record: Record) -> list[KeyPoint]:
     """Key points of one mesh cycle, by phase; C_p and C_g only where one and two pairs alternate."""
     table = record.mesh_cycle
-    fronts = int(np.sum(table["side"] > 0))
-    ratio = float(table["contact_ratio"])
-    two = fronts == 2
+    pitch = 2 * np.pi / table["pinion_teeth"]
+    start, end = ((roll - table["roll_start"]) / pitch for roll in path_limits(record))
+    two = 1.0 < end - start <= 2.0
     points = [
-        KeyPoint(0.0, "B_g", "C_g" if two else ""),
-        KeyPoint(ratio - fronts + 1, "C_p" if two else "", "B_p"),
+        KeyPoint(float(start), "B_g", "C_g" if two else ""),
+        KeyPoint(float(end - np.ceil(end) + 1), "C_p" if two else "", "B_p"),
         KeyPoint(float(table["pitch_point_phase"]) % 1.0, "P", ""),
     ]
     return sorted(points)
+
+
+def pair_history(record: Record, name: str) -> tuple[np.ndarray, np.ndarray]:
+    """Find roll angles (0 at the pitch point, increasing, rad) of a driving pair and a quantity over them."""
+    table = record.mesh_cycle
+    pitch = 2 * np.pi / table["pinion_teeth"]
+    fronts = int(np.sum(table["side"] > 0))
+    rolls, values = [], []
+    for slot in range(fronts):
+        touching = table["in_contact"][:, slot] > 0
+        rolls.append(table["roll_start"] + (table["phase"][touching] + fronts - 1 - slot) * pitch)
+        values.append(table[name][touching, slot])
+    roll = np.concatenate(rolls)
+    order = np.argsort(roll, kind="stable")
+    return roll[order], np.concatenate(values)[order]
+
+
+def path_limits(record: Record) -> tuple[float, float]:
+    """Find the roll angles at which the path of contact begins and ends, rad.
+
+    A table by finite elements reaches beyond both, where the tips' corners touch.
+    """
+    table = record.mesh_cycle
+    limits = float(table["roll_start"]), float(table["roll_end"])
+    reach = (limits[1] - limits[0]) * table["pinion_teeth"] / (2 * np.pi)
+    if reach <= table["contact_ratio"] * (1 + 1e-9):
+        return limits
+    roll, distance = pair_history(record, "signed_distance")
+    first, last = (np.hypot(*record.geometry["path_of_contact"][end]) for end in (0, -1))
+    return float(np.interp(-first, distance, roll)), float(np.interp(last, distance, roll))

@@ -113,7 +113,7 @@ class Mesh(Table):
     """How the teeth in contact give way, damp, separate and err."""
 
     damping_ratio: NotNegative
-    compliance: Literal["energy", "constant", "table"] = "energy"
+    compliance: Literal["energy", "fem", "constant", "table"] = "energy"
     hertz: Literal["linear", "load-dependent"] = Field(
         "linear", description="contact part of the energy method's compliance"
     )

@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribodyn.errors import InputError
+from tribodyn.post.cycles import pair_history, path_limits
 from tribodyn.post.figures.gears_in_mesh import GearsInMesh, draw_gears, key_rolls, placed
 from tribodyn.post.figures.panel import View, record_label, record_title
 from tribodyn.post.style import WIDTH, new_figure
@@ -16,25 +17,15 @@ from tribodyn.record.reader import Record
 def key_positions(record: Record) -> dict[str, tuple[float, float]]:
     """Find the key points of the path, m."""
     table = record.mesh_cycle
-    rolls = key_rolls(table["roll_start"], table["roll_end"], 2 * np.pi / table["pinion_teeth"])
+    rolls = key_rolls(*path_limits(record), 2 * np.pi / table["pinion_teeth"])
     return {name: contact_position(record, roll) for name, roll in rolls.items()}
 
 
 def contact_position(record: Record, roll: float) -> tuple[float, float]:
     """Find the point of contact of a pair of driving flanks at a roll angle (0 at the pitch point), m."""
-    table = record.mesh_cycle
-    pitch = 2 * np.pi / table["pinion_teeth"]
-    fronts = int(np.sum(table["side"] > 0))
-    rolls, distances, angles = [], [], []
-    for slot in range(fronts):
-        touching = table["in_contact"][:, slot] > 0
-        rolls.append(table["roll_start"] + (table["phase"][touching] + fronts - 1 - slot) * pitch)
-        distances.append(table["signed_distance"][touching, slot])
-        angles.append(table["pressure_angle"][touching, slot])
-    rolls = np.concatenate(rolls)
-    order = np.argsort(rolls, kind="stable")
-    distance = np.interp(roll, rolls[order], np.concatenate(distances)[order])
-    angle = np.interp(roll, rolls[order], np.concatenate(angles)[order])
+    distance, angle = (
+        np.interp(roll, *pair_history(record, name)) for name in ("signed_distance", "pressure_angle")
+    )
     return float(distance * np.cos(angle)), float(distance * np.sin(angle))
 
 

@@ -1,0 +1,203 @@
+"""The mesh cycle by the load contact model: compliances at the operating load, contact of the tips' corners.
+
+What `tabulate` does with formulas, from finite elements and Hertz. A pair is tabulated beyond its path of
+contact, as far as corners can touch, with the gap between them. The contact's deflection is not proportional
+to the load; the table holds its secant at the load which the model finds in slow rotation without friction,
+so that the quasi-static mesh at the operating torque is the load contact model's.
+"""
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from tribodyn.compliance.load_sharing import (
+    PairFlexibility,
+    contact_deflection,
+    flexibility,
+    neighbour_compliance,
+    own_compliance,
+    share_load,
+)
+from tribodyn.compliance.table import check_cover, interpolate
+from tribodyn.errors import InputError
+from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry, roll_at_gap, roll_limits
+from tribodyn.geometry.drive import SIDES, Drive, body_of
+from tribodyn.geometry.family import Family
+from tribodyn.geometry.pitch_point import pitch_point
+from tribodyn.mesh_cycle import MeshCycle
+
+if TYPE_CHECKING:
+    from tribodyn.case import MaterialData, MeshData
+
+Array = Any
+
+#: Corners are followed to a gap of this many static deflections of a single pair at the operating load:
+#: where the mesh vibrates more than that, contact begins too late in the model.
+REACH = 2.0
+# Share of a single pair's load below which the secant no longer follows the load: the contact's compliance
+# grows without bound, like a logarithm, as the load vanishes.
+_LEAST_SHARE = 0.05
+
+
+def tabulate_loaded(
+    family: Family,
+    drive: Drive,
+    materials: tuple["MaterialData", "MaterialData"],
+    mesh: "MeshData",
+    gear_torque: float,
+    back: bool = False,
+) -> MeshCycle:
+    """Tabulate the mesh cycle of a drive of plain numbers at an operating torque.
+
+    Parameters
+    ----------
+    family, drive, materials, mesh, back
+        As in `tabulate.tabulate`.
+    gear_torque : float
+        T_g > 0 at which the compliances are taken, N m.
+
+    Raises
+    ------
+    InputError
+        If a body has no bore, or the torque drives nothing.
+    """
+    _check(drive, mesh, gear_torque, back)
+    assembly = assemble(family, drive)
+    flexible = flexibility(assembly, materials)
+    if not mesh.foundation_coupling:
+        apart = [gear._replace(between=0.0 * gear.between) for gear in flexible.gears]
+        flexible = flexible._replace(gears=(apart[0], apart[1]))
+    pitch_geometry = pair_geometry(assembly, np.zeros((1, 1)))
+    full = gear_torque / pitch_geometry.motion.gear_normal_arm[0, 0]
+    limits = roll_at_gap(assembly, REACH * full * float(_secant(flexible, pitch_geometry, full)[0, 0]))
+    pitch = 2.0 * np.pi / drive.pinion.teeth
+    span = (limits[1] - limits[0]) / pitch
+    pairs = math.ceil(span)
+    marks = [0.0, span, *((roll - limits[0]) / pitch for roll in roll_limits(assembly))]
+    if family.corner:
+        marks.append(-limits[0] / pitch)
+    boundary, phase, position = _phases(marks, pairs, mesh.points, back, enter=0.5 - 2.0 * limits[0] / pitch)
+    middle = position[:, mesh.points // 2]
+    in_contact = np.where((middle > 0.0) & (middle < span), 1.0, 0.0)
+    roll = np.clip(limits[0] + pitch * position, *limits)
+
+    slots = position.shape[-1]
+    front, behind = slice(0, pairs), slice(pairs, slots)
+    geometry = pair_geometry(assembly, roll.reshape(-1, slots))
+    error = _transmission_error(mesh, phase, roll, roll_limits(assembly), begin=marks[2])
+    shared = share_load(
+        flexible, roll[..., front].reshape(-1, pairs), gear_torque, gap=error[..., front].reshape(-1, pairs)
+    )
+    load = np.full((len(shared.normal_load), slots), full)
+    load[:, front] = np.hypot(shared.normal_load, _LEAST_SHARE * full)
+    coupling = np.zeros((*load.shape, slots))
+    for part in (front, behind):
+        coupling[:, part, part] = neighbour_compliance(flexible, _slots(geometry, part))
+    side = np.where(np.arange(slots) < pairs, 1.0, -1.0)
+    gap = geometry.gap.reshape(roll.shape)
+    gap = gap + (error if not back else np.where(side > 0, error, mesh.backlash))
+    motion, vanishing = geometry.motion, pitch_point(assembly.path)
+    return MeshCycle(
+        boundary=boundary,
+        in_contact=in_contact,
+        side=side,
+        phase=phase,
+        pressure_angle=motion.pressure_angle.reshape(roll.shape),
+        signed_distance=motion.signed_distance.reshape(roll.shape),
+        equivalent_radius=1.0 / motion.relative_curvature.reshape(roll.shape),
+        pinion_speed=motion.pinion_speed.reshape(roll.shape),
+        gear_speed=motion.gear_speed.reshape(roll.shape),
+        compliance=_secant(flexible, geometry, load).reshape(roll.shape),
+        gap=gap,
+        coupling=coupling.reshape(*roll.shape, slots),
+        hertz_coefficient=0.0,
+        pinion_pitch_radius=assembly.path.pinion_pitch_radius,
+        gear_pitch_radius=assembly.path.gear_pitch_radius,
+        pinion_teeth=drive.pinion.teeth,
+        face_width=flexible.width,
+        contact_ratio=assembly.contact_ratio,
+        pitch_point_phase=-limits[0] / pitch,
+        roll_start=limits[0],
+        roll_end=limits[1],
+        pitch_point_length=vanishing.length,
+        pitch_point_rate=vanishing.speed_per_radius,
+    )
+
+
+def _check(drive: Drive, mesh: "MeshData", gear_torque: float, back: bool) -> None:
+    for side in SIDES:
+        bore = body_of(drive, side).bore_radius
+        if bore <= 0:
+            raise InputError(
+                f"drive.{side}.bore_radius",
+                bore,
+                "the finite elements are held at the bore",
+                "give the radius at which the shaft holds the gear",
+            )
+    if gear_torque <= 0:
+        raise InputError(
+            "operating.gear_torque",
+            gear_torque,
+            'compliance = "fem" is taken at this load, which must be greater than zero',
+            'write a torque such as "500 N*m", or use compliance = "energy"',
+        )
+    if back and mesh.backlash is None:
+        raise InputError(
+            "mesh.backlash", rule="is needed for the contact of back flanks", remedy="give a length"
+        )
+
+
+def _secant(flexible: PairFlexibility, geometry: PairGeometry, load: Array) -> Array:
+    """Compliance of each pair alone at its load: deflection over load, m/N."""
+    deflection, _ = contact_deflection(flexible, geometry, load + 0.0 * geometry.gap)
+    return own_compliance(flexible, geometry) + deflection / load
+
+
+def _slots(geometry: PairGeometry, part: slice) -> PairGeometry:
+    motion = geometry.motion._make(field[..., part] for field in geometry.motion)
+    return PairGeometry(
+        motion, geometry.gap[..., part], geometry.pinion_radius[..., part], geometry.gear_radius[..., part]
+    )
+
+
+def _phases(
+    marks: list[float], pairs: int, points: int, back: bool, enter: float
+) -> tuple[Array, Array, Array]:
+    """Boundaries (S + 1,), phases (S, N) and positions (S, N, Q) of all slots, in pitches since entering.
+
+    A segment begins wherever a pair passes one of the marks (pitches since entering), for there the table has
+    a kink. Back pairs as in `tabulate`: they live in the mirrored world, and enter at the phase `enter`.
+    """
+    enter = enter % 1.0
+    phases = [mark % 1.0 for mark in marks] + ([(enter - mark) % 1.0 for mark in marks] if back else [])
+    inner = np.array(sorted(phases))
+    inner = inner[(inner > 1e-9) & (inner < 1.0 - 1e-9)]
+    inner = inner[np.concatenate([[True], np.diff(inner) > 1e-9])] if len(inner) else inner
+    boundary = np.concatenate([[0.0], inner, [1.0]])
+    lower, upper = boundary[:-1, None], boundary[1:, None]
+    phase = lower + (upper - lower) * np.linspace(0.0, 1.0, points)
+    ages = np.arange(pairs - 1.0, -1.0, -1.0)
+    position = phase[..., None] + ages
+    if back:
+        wrapped = np.where((lower + upper) / 2.0 > enter, 1.0, 0.0)
+        position = np.concatenate([position, (enter - phase + wrapped)[..., None] + ages], axis=-1)
+    return boundary, phase, position
+
+
+def _transmission_error(
+    mesh: "MeshData", phase: Array, roll: Array, limits: tuple[float, float], begin: float
+) -> Array:
+    """Errors of the flanks (S, N, Q), m; those given over roll angle stay at their ends beyond the path.
+
+    Harmonics are in step with the beginning of the path, at the phase `begin`, as they are in `tabulate`.
+    """
+    error = 0.0 * roll
+    for order, amplitude, angle in mesh.error_harmonics:
+        error = error + (amplitude * np.cos(2.0 * np.pi * order * (phase - begin) + angle))[..., None]
+    if mesh.error_table is not None:
+        at, values = mesh.error_table
+        check_cover(at, *limits, "mesh.transmission_error.table")
+        error = error + interpolate(at, values, np.clip(roll, max(at[0], limits[0]), min(at[-1], limits[1])))
+    return error
