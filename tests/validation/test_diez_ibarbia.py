@@ -1,10 +1,16 @@
-"""Diez-Ibarbia et al.: the rows that need no load contact model, and those that do."""
+"""Diez-Ibarbia et al.: Höhn's efficiencies and those of the load contact model."""
 
 import pytest
 
 from tribodyn.efficiency.shift import shifted
 from tribodyn.validation import validate
-from tribodyn.validation.diez_ibarbia import drive, loss_factors, mean_friction, peak
+from tribodyn.validation.diez_ibarbia import (
+    drive,
+    load_contact_efficiency,
+    loss_factors,
+    mean_friction,
+    peak,
+)
 from tribodyn.validation.rows import published
 
 #: A separate prototype: (scenario, shift) -> Höhn's efficiency at OC1, and by the integral.
@@ -24,18 +30,25 @@ def rows():
     return {row.id: row for row in validate("diez-ibarbia")}
 
 
-def test_analytic_rows_pass_and_the_rest_says_what_it_lacks(rows):
+def test_all_rows_with_figures_pass(rows):
     assert set(rows) == set(published("diez-ibarbia"))
     for name in ("oc1", "oc2", "oc3", "oc4", "oc5"):
-        row = rows[f"diez/{name}-hohn"]
-        assert row.verdict == "pass"
-        assert abs(row.difference) <= row.tolerance
-        assert rows[f"diez/{name}-lcm"].verdict == "reported"
+        for method in ("hohn", "lcm"):
+            row = rows[f"diez/{name}-{method}"]
+            assert row.verdict == "pass"
+            assert abs(row.difference) <= row.tolerance
     assert rows["diez/contact-ratio"].verdict == "pass"
-    for row in rows.values():
-        if row.computed is None:
-            assert row.verdict == "reported"
-            assert "load contact model" in row.note
+
+
+def test_claims_about_the_load_contact_model_hold(rows):
+    for claim in (
+        "efficiency-order-oc2-oc5-oc3-oc1-oc4",
+        "lcm-below-h-hn-at-637-n-m-near-it-at-159",
+        "a-step-of-the-load-sharing-at-the-pitch",
+        "effective-contact-ratio-above-the-theore",
+    ):
+        assert rows[f"diez/claim-{claim}"].computed is True, claim
+    assert "1.0212 to 0.9796" in rows["diez/claim-a-step-of-the-load-sharing-at-the-pitch"].note
 
 
 def test_the_claim_that_does_not_hold_is_reported_with_its_figures(rows):
@@ -63,3 +76,20 @@ def test_shifted_pairs_agree_with_a_separate_prototype(case):
 @pytest.mark.parametrize(("scenario", "shift", "back"), [("S2", 0.064, 0.13), ("S3", 0.103, 0.21)])
 def test_hoehn_first_rises_with_shift(scenario, shift, back):
     assert peak(scenario) == pytest.approx((shift, back), abs=5e-3)
+
+
+# The same prototype's load contact model: (scenario, shift, condition) -> efficiency.
+LOAD_CONTACT = {
+    ("S1", 0.2, "OC4"): 0.98887,
+    ("S2", 0.3, "OC1"): 0.99061,
+    ("S2", 0.7, "OC4"): 0.98475,
+    ("S3", 0.1, "OC2"): 0.99469,
+    ("S3", 0.5, "OC5"): 0.99199,
+}
+
+
+@pytest.mark.parametrize("case", LOAD_CONTACT)
+def test_shifted_pairs_by_the_load_contact_model_agree_with_a_separate_prototype(case):
+    scenario, shift, condition = case
+    found = load_contact_efficiency(shifted(drive(), scenario, shift), condition)
+    assert found == pytest.approx(LOAD_CONTACT[case], abs=5e-5)
