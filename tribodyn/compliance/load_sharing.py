@@ -29,6 +29,8 @@ from tribodyn.errors import SimulationError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry
 from tribodyn.geometry.drive import SIDES, body_of
+from tribodyn.geometry.pitch_point import pitch_point
+from tribodyn.tribology.contact import averaged_radius
 
 Array = Any
 
@@ -154,7 +156,12 @@ def neighbour_compliance(flexible: PairFlexibility, geometry: PairGeometry) -> A
 def contact_deflection(flexible: PairFlexibility, geometry: PairGeometry, load: Array) -> tuple[Array, Array]:
     """Local deflection u_1 + u_2 (m) under the normal loads (N ≥ 0), and its derivative, m/N."""
     line_load = load / flexible.width
-    half = hertz_half_width(line_load, geometry.motion.relative_curvature, *flexible.materials)
+    # Where the flanks' radii vanish, at the pitch point of a cycloid, the contact's own width sees more of
+    # them. The slope is not quite Newton's there; the steps still settle.
+    modulus = 2.0 / sum((1.0 - m.poisson_ratio**2) / m.youngs_modulus for m in flexible.materials)
+    vanishing = pitch_point(flexible.assembly.path).length
+    radius = averaged_radius(1.0 / geometry.motion.relative_curvature, line_load, modulus, vanishing)
+    half = hertz_half_width(line_load, 1.0 / radius, *flexible.materials)
     total, slope = np.zeros_like(load), np.zeros_like(load)
     for gear, material in zip(flexible.gears, flexible.materials, strict=True):
         total += weber_banaschek(line_load, half, gear.depth, material)

@@ -1,0 +1,114 @@
+"""The energy method beside the load contact model, over the shipped drives.
+
+python tools/load_contact_table.py                               # prints the table
+python tools/load_contact_table.py --into docs/load-contact.md   # and puts it into the page
+"""
+
+import argparse
+from dataclasses import replace
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from marked_block import put
+
+from tribodyn.case import Case, MeshData
+from tribodyn.compliance.load_sharing import flexibility
+from tribodyn.efficiency.load_contact import load_contact
+from tribodyn.geometry.assembly import assemble
+from tribodyn.mesh_cycle import MeshCycle
+from tribodyn.quasi_static import cycle_mean, quasi_static
+from tribodyn.scenario.load import family, load_scenario
+from tribodyn.tabulate import pair_slots, tabulate
+from tribodyn.tabulate_loaded import tabulate_loaded
+
+DRIVES = (
+    "diez-ibarbia-18-36",
+    "liu-ni-involute-23-47",
+    "liu-ni-crc-23-47",
+    "cycloidal-23-47",
+    "parabolic-23-47",
+    "circular-arc-23-47",
+    "s-gear-23-47",
+    "jia-involute-17-29",
+    "jia-parabolic-17-29",
+    "involute-35-70-high-contact-ratio",
+)
+LINE_LOAD = 200e3  # N/m on a single pair, at the pitch point
+MESH = MeshData("energy", 0.05)
+
+
+class Figures(NamedTuple):
+    """Mean and peak to peak of the deflection on the pitch circles, m, and the load's share over roll."""
+
+    mean: float
+    swing: float
+    roll: np.ndarray
+    share: np.ndarray
+
+
+def figures(cycle: MeshCycle, torque: float) -> Figures:
+    state = quasi_static(cycle, torque)
+    pairs = cycle.front_pairs
+    position = cycle.phase[..., None] + np.arange(pairs - 1.0, -1.0, -1.0)
+    roll = cycle.roll_start + cycle.pitch_angle * position
+    inside = (np.broadcast_to(cycle.in_contact[:, None, :], roll.shape) > 0).ravel()
+    share = state.normal_load * cycle.gear_pitch_radius / torque
+    order = np.argsort(roll.ravel()[inside], kind="stable")
+    deflection = state.deflection
+    return Figures(
+        float(cycle_mean(cycle, deflection)),
+        float(np.ptp(deflection)),
+        roll.ravel()[inside][order],
+        share.ravel()[inside][order],
+    )
+
+
+def row(name: str) -> str:
+    case = load_scenario("involute-18-36", {"drive": name})
+    assert isinstance(case, Case)
+    teeth, drive = family(case.family), case.drive
+    assembly = assemble(teeth, drive)
+    arm = float(assembly.path.gear_pitch_radius * np.cos(assembly.path.pressure_angle(0.0)))
+    torque = LINE_LOAD * min(drive.pinion.face_width, drive.gear.face_width) * arm
+    elements = figures(tabulate_loaded(teeth, drive, case.materials, MESH, torque), torque)
+    ratio = load_contact(flexibility(assembly, case.materials), torque, 0.0).contact_ratio
+    cells = [
+        name,
+        f"{assembly.contact_ratio:.3f}, {ratio:.3f}",
+        f"{elements.mean * 1e6:.1f}, {elements.swing * 1e6:.1f}",
+    ]
+    for hertz in ("linear", "load-dependent"):
+        mesh = replace(MESH, hertz=hertz)
+        energy = figures(tabulate(teeth, drive, case.materials, mesh, pair_slots(teeth, drive)), torque)
+        at = np.linspace(elements.roll[0], elements.roll[-1], 2001)
+        shares = [np.interp(at, x.roll, x.share, left=0.0, right=0.0) for x in (elements, energy)]
+        inside = (at > energy.roll[0]) & (at < energy.roll[-1])
+        off = float(np.sqrt(np.mean((shares[1] - shares[0])[inside] ** 2)))
+        cells.append(f"{100 * (elements.mean / energy.mean - 1):+.0f}")
+        cells.append(f"{100 * (energy.swing / elements.swing - 1):+.0f}")
+        cells.append(f"{100 * off:.0f}")
+    return "| " + " | ".join(cells) + " |"
+
+
+def table() -> str:
+    head = (
+        "| drive | contact ratio: path, effective | deflection: mean, peak to peak, µm "
+        "| linear contact: stiffness, % | swing, % | share, % "
+        "| load-dependent contact: stiffness, % | swing, % | share, % |"
+    )
+    return "\n".join([head, "|---|---|---|--:|--:|--:|--:|--:|--:|", *map(row, DRIVES)])
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description="The energy method beside the load contact model.")
+    parser.add_argument("--into", type=Path, help="page with the marked block")
+    page = parser.parse_args().into
+    text = table()
+    print(text)
+    if page:
+        put(page, "energy", text)
+
+
+if __name__ == "__main__":
+    main()
