@@ -1,0 +1,120 @@
+"""Families against one another, and their runs under every compiler and sampling."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+from tests.states import random_place, random_state
+from tribodyn.case import MaterialData, MeshData
+from tribodyn.dynamics.contact_forces import QUANTITIES
+from tribodyn.dynamics.equations import derivatives
+from tribodyn.dynamics.parameters import STATES
+from tribodyn.geometry import cycloidal, parabolic, s_gear
+from tribodyn.geometry.drive import Drive, GearBody
+from tribodyn.record.reader import open_record
+from tribodyn.scenario.load import load_scenario
+from tribodyn.simulate import run
+from tribodyn.solve.diffrax_engine import right_hand_side
+from tribodyn.solve.dopri5 import rhs
+from tribodyn.tabulate import pair_slots, tabulate
+
+STEEL = MaterialData("steel", 206e9, 0.3, 7850.0, 46.0, 470.0, 6e9)
+
+
+def test_points_of_a_path_give_the_drive_that_has_it(prepared):
+    """The CRC drive from its formula and from points of its path every half millimetre."""
+    ours, theirs = prepared("points-23-47").cycle, prepared("crc-23-47").cycle
+    assert ours.contact_ratio == pytest.approx(theirs.contact_ratio, rel=1e-6)
+    phase = np.linspace(0.02, 0.98, 49)
+    for name, tolerance in (
+        ("pressure_angle", 1e-5),
+        ("equivalent_radius", 1e-4),
+        ("compliance", 1e-5),
+        ("pinion_speed", 1e-5),
+    ):
+        at = [np.interp(phase, c.phase.ravel(), getattr(c, name)[..., 1].ravel()) for c in (ours, theirs)]
+        np.testing.assert_allclose(at[0], at[1], rtol=tolerance, err_msg=name)
+
+
+@pytest.mark.parametrize("name", ["cycloidal-23-47", "parabolic-23-47"])
+def test_right_hand_side_agrees_between_numpy_numba_and_jax(name, prepared, rng):
+    model = prepared(name).model
+    assert model.options.averaged == 1
+    pairs = model.table.side.shape[0]
+    work = np.zeros((QUANTITIES + pairs, pairs))
+    numbers = jax.tree.map(jnp.asarray, (model.table, model.mechanics, model.contact))
+    traced = jax.jit(
+        lambda phase, y, segment: right_hand_side(
+            phase,
+            y,
+            (2.0, segment, model._replace(table=numbers[0], mechanics=numbers[1], contact=numbers[2])),
+        )
+    )
+    for _ in range(20):
+        y = random_state(rng)
+        phase, segment = random_place(rng, model.table.boundary)
+        plain: dict = {}
+        derivatives(phase, 2.0, segment, y, model, {}, plain)
+        expected = np.array([plain[i] for i in range(STATES)])
+        native = np.empty(STATES)
+        rhs(phase, 2.0, segment, y, model, work, native)
+        scale = 1e-12 * np.abs(expected).max()
+        np.testing.assert_allclose(native, expected, rtol=1e-11, atol=scale)
+        np.testing.assert_allclose(traced(phase, y, segment), expected, rtol=1e-11, atol=scale)
+
+
+def drive(shape):
+    bodies = (GearBody(z, 0.0, 1.0, 1.25, 0.2, 0.02, b) for z, b in ((23.0, 0.015), (47.0, 0.025)))
+    return Drive(0.003, 0.0, *bodies, shape)
+
+
+@pytest.mark.parametrize(
+    ("family", "shape"),
+    [
+        (cycloidal.FAMILY, cycloidal.Shape(0.0235, 0.02)),
+        (parabolic.FAMILY, parabolic.Shape(0.32, 0.3)),
+        (s_gear.FAMILY, s_gear.Shape(1.6, 1.8)),
+    ],
+    ids=lambda value: getattr(value, "name", ""),
+)
+def test_the_mesh_cycle_differentiates_by_the_shape(family, shape):
+    """Derivative of what the table holds by the shape's numbers, against differences."""
+    mesh = MeshData("energy", 0.05, points=9)
+    pairs = pair_slots(family, drive(shape))
+
+    def figure(values):
+        cycle = tabulate(family, drive(type(shape)(*values)), (STEEL, STEEL), mesh, pairs)
+        xp = np if isinstance(values, tuple) else jnp
+        return (
+            1e9 * xp.mean(cycle.compliance * cycle.in_contact[:, None])
+            + 100 * xp.mean(cycle.equivalent_radius)
+            + cycle.contact_ratio
+            + 10 * cycle.pitch_point_length
+        )
+
+    slope = jax.jit(jax.grad(figure))(jnp.asarray(shape))
+    for i, value in enumerate(shape):
+        step = 1e-5 * value
+        ends = [figure(tuple(v + s * step * (k == i) for k, v in enumerate(shape))) for s in (1, -1)]
+        assert slope[i] == pytest.approx((ends[0] - ends[1]) / (2 * step), rel=2e-5)
+
+
+@pytest.mark.parametrize("name", ["cycloidal-23-47", "parabolic-23-47"])
+def test_extremes_do_not_hang_on_a_sample_at_the_pitch_point(name, tmp_path):
+    """Film, pressure and temperature stay the same however finely the neighbourhood of P is sampled."""
+    found = []
+    for samples in (150, 1200):
+        case = load_scenario(
+            name,
+            {"solver.cycles": 2, "output.samples_per_cycle": samples},
+        )
+        result = run(case, tmp_path / f"{samples}.h5")
+        with open_record(result.path) as record:
+            assert "half width" in record.summary["pitch_point"]
+            keys = ("central_film_thickness", "hertz_pressure", "flash_temperature_rise")
+            arrays = [np.asarray(record[key])[samples:] for key in keys]
+            film, pressure, temperature = arrays
+            assert np.nanmin(film) > 0
+            found.append((np.nanmin(film), np.nanmax(pressure), np.nanmax(temperature)))
+    np.testing.assert_allclose(found[0], found[1], rtol=0.05)
