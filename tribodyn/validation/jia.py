@@ -14,7 +14,7 @@ from tribodyn.tribology.contact import hertz_pressure
 from tribodyn.validation.rows import Row, compare, published
 
 PAPER = "jia-2022"
-NO_CONTACT_MODEL = "needs the finite-element load contact model, which is not in yet"
+NO_CONTACT_MODEL = "needs stresses of the load contact model over the face width, which are not in yet"
 
 
 def drive_of(name: str) -> Case:
