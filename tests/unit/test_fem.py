@@ -7,6 +7,7 @@ from scipy.sparse.linalg import spsolve
 from tribodyn.compliance.fem import curved_basis, elasticity, gear_compliance
 from tribodyn.compliance.gear_compliance import NEIGHBOURS
 from tribodyn.compliance.ring_mesh import sector_mesh
+from tribodyn.errors import InputError
 from tribodyn.geometry.body import section_area_and_inertia
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.involute import FAMILY
@@ -111,6 +112,24 @@ def test_mesh_has_the_area_of_the_outline(level):
     assert np.sum(basis.dx) * 12 == pytest.approx(area, rel=2e-4 / level**2)
     ends = np.hypot(*mesh.nodes[:, mesh.flank])[[0, -1]]
     assert ends == pytest.approx([TOOTH.form_radius, TOOTH.tip_radius])
+
+
+@pytest.mark.parametrize("teeth", [10, 17, 40, 150])
+@pytest.mark.parametrize("bore", [0.2, 0.6, 0.9])
+@pytest.mark.parametrize("fillet", [0.1, 0.38])
+def test_no_cell_is_folded(teeth, bore, fillet):
+    body = GearBody(teeth, 0.4 if teeth < 17 else 0.0, 1.0, 1.25, fillet, 0.02, 1e-3)
+    tooth = cut_tooth(FAMILY, Drive(3e-3, np.radians(20.0), body, body), "pinion")
+    mesh = sector_mesh(tooth, teeth, bore * tooth.root_radius, 1)
+    basis = curved_basis(mesh.nodes, mesh.cells)
+    assert np.all(basis.mapping.detDF(basis.X) > 0)
+
+
+def test_rim_too_thin_for_the_mesh_is_refused():
+    body = GearBody(8, -0.3, 1.0, 1.25, 0.05, 0.02, 1e-3)  # deeply undercut
+    tooth = cut_tooth(FAMILY, Drive(3e-3, np.radians(20.0), body, body), "pinion")
+    with pytest.raises(InputError, match="too thin"):
+        gear_compliance(tooth, 8, 0.97 * tooth.root_radius, POISSON, 0.75e-3, 1)
 
 
 def whole_ring(level: int):

@@ -69,7 +69,6 @@ def test_effective_contact_ratio(pair, torque, expected):
     assert effective_contact_ratio(roll, shared, PITCH) == pytest.approx(expected, abs=0.02)
 
 
-@pytest.mark.slow
 def test_stiffness_does_not_depend_on_the_depth_of_the_local_region(pair):
     found = [
         stiffness_at_pitch_point(flexibility(pair.assembly, pair.materials, depth=depth))

@@ -19,6 +19,7 @@ from skfem.helpers import ddot, eye, sym_grad, trace
 
 from tribodyn.compliance.gear_compliance import NEIGHBOURS, GearCompliance
 from tribodyn.compliance.ring_mesh import SectorMesh, sector_mesh
+from tribodyn.errors import InputError
 from tribodyn.geometry.path import kinematics
 from tribodyn.geometry.tooth import Tooth, flank_point
 
@@ -76,9 +77,23 @@ def gear_compliance(
         cell or more, so that the mesh resolves it.
     level : int
         Multiplies the number of cells in both directions.
+
+    Raises
+    ------
+    InputError
+        If the cells do not fit into a thin rim.
     """
     mesh = sector_mesh(tooth, teeth, bore_radius, level)
     basis = curved_basis(mesh.nodes, mesh.cells)
+    mapping: Any = basis.mapping
+    if not np.all(mapping.detDF(basis.X) > 0):
+        raise InputError(
+            "bore_radius",
+            bore_radius,
+            f"the rim under teeth with a root radius of {tooth.root_radius:.4g} m is too thin for the "
+            "finite elements' mesh",
+            "make the bore smaller, or the fillet rounder",
+        )
     direction = _load_directions(tooth, mesh)
     positions = mesh.nodes[:, mesh.flank]
     _, near = KDTree(basis.doflocs[:, ::2].T).query(positions.T)  # x and y of a node follow each other

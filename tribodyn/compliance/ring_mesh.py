@@ -88,7 +88,9 @@ def _half_blocks(tooth: Tooth, teeth: int, bore_radius: float, level: int) -> li
     )
     towards_axis = _graded(across, _ACROSS_GRADING)
     corner = profile[0]
-    seam_end = np.array([corner[0] - _SEAM_DROP * corner[1], 0.0])
+    # over a thin rim it drops less, lest it meet the bore
+    middle_of_rim = (bore_radius + np.hypot(*corner)) / 2.0
+    seam_end = np.array([max(corner[0] - _SEAM_DROP * corner[1], middle_of_rim), 0.0])
     seam = corner + towards_axis[:, None] * (seam_end - corner)
     tip_angle = float(np.arctan2(profile[-1, 1], profile[-1, 0]))
     tip = tooth.tip_radius * _unit(tip_angle * (1 - towards_axis))
