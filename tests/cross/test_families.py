@@ -10,7 +10,7 @@ from tribodyn.case import MaterialData, MeshData
 from tribodyn.dynamics.contact_forces import QUANTITIES
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.parameters import STATES
-from tribodyn.geometry import cycloidal, parabolic, s_gear
+from tribodyn.geometry import cycloidal
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.record.reader import open_record
 from tribodyn.scenario.load import load_scenario
@@ -69,22 +69,14 @@ def drive(shape):
     return Drive(0.003, 0.0, *bodies, shape)
 
 
-@pytest.mark.parametrize(
-    ("family", "shape"),
-    [
-        (cycloidal.FAMILY, cycloidal.Shape(0.0235, 0.02)),
-        (parabolic.FAMILY, parabolic.Shape(0.32, 0.3)),
-        (s_gear.FAMILY, s_gear.Shape(1.6, 1.8)),
-    ],
-    ids=lambda value: getattr(value, "name", ""),
-)
-def test_the_mesh_cycle_differentiates_by_the_shape(family, shape):
+def test_the_mesh_cycle_differentiates_by_the_shape():
     """Derivative of what the table holds by the shape's numbers, against differences."""
+    family, shape = cycloidal.FAMILY, cycloidal.Shape(0.0235, 0.02)
     mesh = MeshData("energy", 0.05, points=9)
     pairs = pair_slots(family, drive(shape))
 
     def figure(values):
-        cycle = tabulate(family, drive(type(shape)(*values)), (STEEL, STEEL), mesh, pairs)
+        cycle = tabulate(family, drive(cycloidal.Shape(*values)), (STEEL, STEEL), mesh, pairs)
         xp = np if isinstance(values, tuple) else jnp
         return (
             1e9 * xp.mean(cycle.compliance * cycle.in_contact[:, None])
