@@ -108,13 +108,17 @@ REFUSED = {
 }
 
 
+def made(scenario, overrides):
+    case = load_scenario(scenario, overrides)
+    assert isinstance(case, Case)
+    return prepare(case)
+
+
 @pytest.mark.parametrize("name", REFUSED)
 def test_refused(name):
     scenario, overrides, key, rule, advice = REFUSED[name]
     with pytest.raises(InputError) as caught:
-        case = load_scenario(scenario, overrides)
-        assert isinstance(case, Case)
-        prepare(case)
+        made(scenario, overrides)
     said = str(caught.value)
     assert f"drive.{key}" in said
     assert rule in said
