@@ -35,6 +35,8 @@ Array = Any
 
 # Degree of the interpolation over each half of the contact; test_tabulate shows what it leaves.
 _DEGREE = 16
+# Mesh cycles; far below anything that is resolved, far above rounding.
+_LEAST_SEGMENT = 1e-11
 _POINTS = -np.cos(np.pi * np.arange(_DEGREE + 1) / _DEGREE)
 _TO_SERIES = np.linalg.inv(np.polynomial.chebyshev.chebvander(_POINTS, _DEGREE))
 
@@ -186,7 +188,7 @@ def _phases(
     if corner:
         passes = -contact.roll_start / contact.pitch_angle
         boundary += [passes % 1.0] + ([(passes + 0.5) % 1.0] if back else [])
-    boundary = xp.sort(xp.stack(boundary))
+    boundary = _apart(xp.sort(xp.stack(boundary)))
     lower, upper = boundary[:-1, None], boundary[1:, None]
     phase = lower + (upper - lower) * np.linspace(0.0, 1.0, points)
     middle = (lower + upper) / 2
@@ -199,6 +201,18 @@ def _phases(
     in_contact = xp.where(centre < contact.contact_ratio, 1.0, 0.0)
     roll = contact.roll_start + contact.pitch_angle * position
     return boundary, phase, in_contact, xp.clip(roll, contact.roll_start, contact.roll_end)
+
+
+def _apart(boundary: Array) -> Array:
+    """Move boundaries that fall together, as at a whole contact ratio, so that every segment has a length."""
+    xp = namespace(boundary)
+    found = [boundary[0]]
+    for value in boundary[1:-1]:
+        found.append(xp.maximum(value, found[-1] + _LEAST_SEGMENT))
+    found.append(boundary[-1])
+    for i in range(len(found) - 2, 0, -1):
+        found[i] = xp.minimum(found[i], found[i + 1] - _LEAST_SEGMENT)
+    return xp.stack(found)
 
 
 class _RollCurve(NamedTuple):
