@@ -119,7 +119,8 @@ def quoted(value: Any) -> str:
         text = "[" + ", ".join(map(quoted, value)) + "]"
     else:
         text = str(value)
-    return text if len(text) <= 80 else text[:77] + "..."
+    most = 240 if isinstance(value, str) else 80  # a path of a file is told whole
+    return text if len(text) <= most else text[: most - 3] + "..."
 
 
 def printable(text: str) -> str:
