@@ -29,6 +29,10 @@ MOTOR_SLIP = 13
 #: the change of stiffness and geometry with phase.
 WORK_IN, WORK_OUT, WORK_FRICTION, WORK_DAMPING, WORK_PARAMETRIC = 14, 15, 16, 17, 18
 STATES = 19
+#: Coordinates of the free bodies, m, and their rates, in the same order.
+DISPLACEMENTS = (X_P, Y_P, X_G, Y_G, XI)
+VELOCITIES = (VX_P, VY_P, VX_G, VY_G, XI_RATE)
+WORKS = (WORK_IN, WORK_OUT, WORK_FRICTION, WORK_DAMPING, WORK_PARAMETRIC)
 #: States that the mechanics depend on; the rest are the audit's.
 MECHANICAL = 14
 

@@ -5,26 +5,14 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from tribodyn.dynamics.parameters import (
+    DISPLACEMENTS,
     LAG,
     MOTOR_SLIP,
     SLIP,
     STATES,
     TWIST,
-    VX_G,
-    VX_P,
-    VY_G,
-    VY_P,
-    WORK_DAMPING,
-    WORK_FRICTION,
-    WORK_IN,
-    WORK_OUT,
-    WORK_PARAMETRIC,
-    X_G,
-    X_P,
-    XI,
-    XI_RATE,
-    Y_G,
-    Y_P,
+    VELOCITIES,
+    WORKS,
     Model,
 )
 
@@ -96,11 +84,11 @@ def absolute_tolerances(model: Model, rtol: float, deflection: float) -> np.ndar
     frequency = np.sqrt(stiffness / mass)
     velocity = deflection * frequency
     scale = np.empty(STATES)
-    scale[[X_P, Y_P, X_G, Y_G, XI]] = deflection
-    scale[[VX_P, VY_P, VX_G, VY_G, XI_RATE]] = velocity
+    scale[list(DISPLACEMENTS)] = deflection
+    scale[list(VELOCITIES)] = velocity
     scale[[SLIP, MOTOR_SLIP]] = velocity / pinion_radius
     scale[TWIST] = deflection / pinion_radius
     scale[LAG] = deflection / pinion_radius / mechanics.nominal_speed
     energy = stiffness * deflection * pinion_radius * float(table.pitch_angle)
-    scale[[WORK_IN, WORK_OUT, WORK_FRICTION, WORK_DAMPING, WORK_PARAMETRIC]] = energy
+    scale[list(WORKS)] = energy
     return rtol * scale

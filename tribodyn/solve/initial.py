@@ -6,21 +6,14 @@ import numpy as np
 
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.parameters import (
+    DISPLACEMENTS,
     DRIVE_SHAFT,
     MOTOR_SLIP,
     SLIP,
     STATES,
     TWIST,
-    VX_G,
-    VX_P,
-    VY_G,
-    VY_P,
-    X_G,
-    X_P,
+    VELOCITIES,
     XI,
-    XI_RATE,
-    Y_G,
-    Y_P,
     Model,
 )
 from tribodyn.errors import SimulationError
@@ -65,8 +58,8 @@ def static_equilibrium(model: Model, phase: float = 0.0, segment: int = 0) -> np
     if model.mechanics.load_times.shape[0]:
         torque += float(model.mechanics.load_torques[0])
     deflection = static_deflection(model, max(abs(torque), 1e-3))
-    unknown = [X_P, Y_P, X_G, Y_G, XI]
-    equation = [VX_P, VY_P, VX_G, VY_G, XI_RATE]
+    unknown: list[int] = list(DISPLACEMENTS)
+    equation = list(VELOCITIES)
     shaft = model.options.drive == DRIVE_SHAFT
     scale = np.full(len(unknown), deflection)
     y = np.zeros(STATES)
