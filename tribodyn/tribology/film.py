@@ -7,7 +7,8 @@ lubrication with provision for surface roughness", J. Tribol. 134 (2012) 011503;
 from tribodyn.elementary import exp, law, log, log1p, maximum, minimum, where
 
 #: Ranges over which the regressions were fitted: load W, speed U, material G, roughness σ/ρ, hardness V.
-#: Quoted from secondary literature; the flag `closure_in_range` rests on them.
+#: The bounds are given from memory of the literature and have not been checked against the paper; the flag
+#: `closure_in_range` rests on them, no result does.
 FITTED_RANGE = {
     "W": (2e-5, 5e-4),
     "U": (1e-12, 1e-10),
