@@ -45,11 +45,6 @@ class Prepared(NamedTuple):
     model: Model
     masses: tuple[tuple[float, float], tuple[float, float]]
 
-    @property
-    def mesh_cycle(self) -> MeshCycle:
-        """The table that the model was made from."""
-        return self.cycle
-
 
 def prepare(case: Case) -> Prepared:
     """Check the geometry, tabulate the mesh cycle and assemble the model.

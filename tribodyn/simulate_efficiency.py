@@ -27,11 +27,6 @@ class Study(NamedTuple):
     path: PathOfContact
     duty: Duty
 
-    @property
-    def mesh_cycle(self) -> MeshCycle:
-        """The table."""
-        return self.cycle
-
 
 def prepare(case: EfficiencyCase) -> Study:
     """Check the geometry and tabulate the mesh.

@@ -48,7 +48,7 @@ def check(
             model = prepare(case)
             masses = model.masses
         sheet = geometry_sheet(family(case.family), case.drive, masses)
-    stiffness = _stiffness(case, model.mesh_cycle)
+    stiffness = _stiffness(case, model.cycle)
     if json:
         print_json(
             {"scenario": str(loaded.path), "title": case.title, "geometry": sheet, "stiffness": stiffness}

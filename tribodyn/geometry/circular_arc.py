@@ -13,9 +13,8 @@ import numpy as np
 
 from tribodyn.elementary import cos, log, namespace, sin, sqrt, where
 from tribodyn.errors import InputError
-from tribodyn.geometry.drive import Drive, Side, reference_radius
-from tribodyn.geometry.family import Family, Parameter
-from tribodyn.geometry.path import Path, seen_from
+from tribodyn.geometry.drive import Drive, reference_radius
+from tribodyn.geometry.family import Family, Parameter, unshifted
 from tribodyn.geometry.reach import refuse_shift, require_reach
 from tribodyn.iteration import newton
 
@@ -96,11 +95,6 @@ def working_path(drive: Drive) -> ArcPath:
     return ArcPath(*pitch_radii, drive.pressure_angle, *drive.shape)
 
 
-def generating_path(drive: Drive, side: Side) -> tuple[Path, Any]:
-    """Rack and mate share the one path of contact; the rack cannot be shifted."""
-    return seen_from(working_path(drive), side), 0.0 * drive.module
-
-
 def arc_ends(path: ArcPath) -> tuple[float, float]:
     """Signed distances (m) up to which each arc serves: to where α comes near 90° or falls to 0."""
 
@@ -132,7 +126,7 @@ def _advice(drive: Drive, half: int) -> tuple[str, Any, str]:
 FAMILY = Family(
     "circular-arc",
     working_path,
-    generating_path,
+    unshifted(working_path),
     shiftable=False,
     check=check,
     shape=Shape,

@@ -17,9 +17,9 @@ import numpy as np
 
 from tribodyn.elementary import namespace, sin, sqrt
 from tribodyn.errors import InputError
-from tribodyn.geometry.drive import Drive, Side, reference_radius, tip_radius
-from tribodyn.geometry.family import Family
-from tribodyn.geometry.path import Path, integrated_rotation, inverted_rotation, mirrored
+from tribodyn.geometry.drive import Drive, reference_radius, tip_radius
+from tribodyn.geometry.family import Family, unshifted
+from tribodyn.geometry.path import Path, integrated_rotation, inverted_rotation
 from tribodyn.iteration import newton
 
 Array = Any
@@ -147,12 +147,6 @@ def working_path(drive: Drive) -> Path:
     return CRCPath(r_p, r_g, lower * arm, upper * arm, sine * solve(ratio, lower, upper))
 
 
-def generating_path(drive: Drive, side: Side) -> tuple[Path, Any]:
-    """Rack and mate share the one path of contact; the rack cannot be shifted."""
-    path = working_path(drive)
-    return (path if side == "pinion" else mirrored(path)), 0.0 * drive.module
-
-
 def check(drive: Drive) -> None:
     """Refuse profile shift, and teeth that reach further than a path of constant relative curvature does."""
     for side in ("pinion", "gear"):
@@ -178,4 +172,4 @@ def check(drive: Drive) -> None:
         )
 
 
-FAMILY = Family("crc", working_path, generating_path, False, check)
+FAMILY = Family("crc", working_path, unshifted(working_path), False, check)

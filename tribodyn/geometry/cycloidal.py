@@ -11,8 +11,7 @@ from typing import Any, NamedTuple
 from tribodyn.errors import InputError
 from tribodyn.geometry.circular_arc import ArcPath, arc_ends
 from tribodyn.geometry.drive import Drive, Side, reference_radius
-from tribodyn.geometry.family import Family, Parameter
-from tribodyn.geometry.path import Path, seen_from
+from tribodyn.geometry.family import Family, Parameter, unshifted
 from tribodyn.geometry.reach import refuse_shift, require_reach
 
 
@@ -27,11 +26,6 @@ def working_path(drive: Drive) -> ArcPath:
     """Arcs of both generating circles, tangent to the line of centres' perpendicular at P."""
     pitch_radii = reference_radius(drive, "pinion"), reference_radius(drive, "gear")
     return ArcPath(*pitch_radii, 0.0, *drive.shape)
-
-
-def generating_path(drive: Drive, side: Side) -> tuple[Path, Any]:
-    """Rack and mate share the one path of contact; the rack cannot be shifted."""
-    return seen_from(working_path(drive), side), 0.0 * drive.module
 
 
 def check(drive: Drive) -> None:
@@ -64,7 +58,7 @@ def _advice(drive: Drive, half: int) -> tuple[str, Any, str]:
 FAMILY = Family(
     "cycloidal",
     working_path,
-    generating_path,
+    unshifted(working_path),
     shiftable=False,
     check=check,
     shape=Shape,

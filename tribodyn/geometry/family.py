@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import Any, Literal, NamedTuple
 
 from tribodyn.geometry.drive import Drive, Side
-from tribodyn.geometry.path import Path
+from tribodyn.geometry.path import Path, seen_from
 
 
 class Parameter(NamedTuple):
@@ -61,3 +61,17 @@ class Family(NamedTuple):
     parameters: tuple[Parameter, ...] = ()
     pressure_angle: bool = True
     corner: bool = False
+
+
+def unshifted(
+    working_path: Callable[[Drive], Path],
+) -> Callable[[Drive, Side], tuple[Path, Any]]:
+    """Generating path of a family whose rack and mate share the one path of contact.
+
+    The rack of such a family cannot be shifted; its path is the working one, seen from the body.
+    """
+
+    def generating_path(drive: Drive, side: Side) -> tuple[Path, Any]:
+        return seen_from(working_path(drive), side), 0.0 * drive.module
+
+    return generating_path

@@ -11,8 +11,7 @@ from typing import Any, NamedTuple
 from tribodyn.elementary import namespace, sqrt, where
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, Side, body_of, reference_radius
-from tribodyn.geometry.family import Family, Parameter
-from tribodyn.geometry.path import Path, seen_from
+from tribodyn.geometry.family import Family, Parameter, unshifted
 from tribodyn.geometry.reach import refuse_shift, require_reach
 
 Array = Any
@@ -81,11 +80,6 @@ def working_path(drive: Drive) -> ParabolaPath:
     return ParabolaPath(r_p, r_g, 2 * drive.shape.k2 * r_p, 2 * drive.shape.k1 * r_g)
 
 
-def generating_path(drive: Drive, side: Side) -> tuple[Path, Any]:
-    """Rack and mate share the one path of contact; the rack cannot be shifted."""
-    return seen_from(working_path(drive), side), 0.0 * drive.module
-
-
 def published_limits(teeth: float) -> tuple[float, float]:
     """Least and greatest k without undercut by Jia's (42) and (44), from the teeth of the wheel it rolls in.
 
@@ -149,7 +143,7 @@ def _advice(drive: Drive, half: int) -> tuple[str, Any, str]:
 FAMILY = Family(
     "parabolic",
     working_path,
-    generating_path,
+    unshifted(working_path),
     shiftable=False,
     check=check,
     shape=Shape,

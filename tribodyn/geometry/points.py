@@ -12,9 +12,9 @@ import numpy as np
 
 from tribodyn.elementary import cos, namespace
 from tribodyn.errors import InputError
-from tribodyn.geometry.drive import Drive, Side, reference_radius
-from tribodyn.geometry.family import Family, Parameter
-from tribodyn.geometry.path import Path, inverted_rotation, seen_from
+from tribodyn.geometry.drive import Drive, reference_radius
+from tribodyn.geometry.family import Family, Parameter, unshifted
+from tribodyn.geometry.path import inverted_rotation
 from tribodyn.geometry.reach import refuse_shift, require_reach
 
 Array = Any
@@ -160,11 +160,6 @@ def working_path(drive: Drive) -> PointsPath:
     return path._replace(rotations=turned - turned[at])
 
 
-def generating_path(drive: Drive, side: Side) -> tuple[Path, Any]:
-    """Rack and mate share the one path of contact; the rack cannot be shifted."""
-    return seen_from(working_path(drive), side), 0.0 * drive.module
-
-
 def check(drive: Drive) -> None:
     """Refuse points that double back, miss P, are too few, leave the quadrants or end before the teeth do."""
     refuse_shift(drive)
@@ -209,7 +204,7 @@ def _advice(drive: Drive, half: int) -> tuple[str, Any, str]:
 FAMILY = Family(
     "points",
     working_path,
-    generating_path,
+    unshifted(working_path),
     shiftable=False,
     check=check,
     shape=Shape,

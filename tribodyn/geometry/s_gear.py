@@ -18,9 +18,9 @@ import numpy as np
 
 from tribodyn.elementary import absolute, arctan2, cos, namespace, sin, where
 from tribodyn.errors import InputError
-from tribodyn.geometry.drive import SIDES, Drive, Side, reference_radius, tip_radius
-from tribodyn.geometry.family import Family, Parameter
-from tribodyn.geometry.path import Path, integrated_rotation, inverted_rotation, seen_from
+from tribodyn.geometry.drive import SIDES, Drive, reference_radius, tip_radius
+from tribodyn.geometry.family import Family, Parameter, unshifted
+from tribodyn.geometry.path import integrated_rotation, inverted_rotation
 from tribodyn.geometry.reach import refuse_shift, require_reach
 from tribodyn.iteration import newton
 
@@ -107,11 +107,6 @@ def working_path(drive: Drive) -> PowerRackPath:
     return PowerRackPath(*pitch_radii, drive.module, *drive.shape)
 
 
-def generating_path(drive: Drive, side: Side) -> tuple[Path, Any]:
-    """Rack and mate share the one path of contact; the rack cannot be shifted."""
-    return seen_from(working_path(drive), side), 0.0 * drive.module
-
-
 def check(drive: Drive) -> None:
     """Refuse profile shift, a rack that is no S, and one that ends before the teeth do."""
     refuse_shift(drive)
@@ -143,7 +138,7 @@ def _advice(drive: Drive, half: int) -> tuple[str, Any, str]:
 FAMILY = Family(
     "s-gear",
     working_path,
-    generating_path,
+    unshifted(working_path),
     shiftable=False,
     check=check,
     shape=Shape,

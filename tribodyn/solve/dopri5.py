@@ -47,7 +47,8 @@ def buffers(model: Model) -> tuple[np.ndarray, np.ndarray]:
 
 
 @kernel
-def _engage(before, phase_before, after, phase_after, y, model, work):
+def engage(before, phase_before, after, phase_after, y, model, work):
+    """Jump of the state where the contacting pairs change, in place."""
     slip, xi_rate, work_in, parametric = engagement(before, phase_before, after, phase_after, y, model, work)
     y[SLIP] += slip
     y[XI_RATE] += xi_rate
@@ -100,9 +101,9 @@ def march(model, y, first_cycle, cycles, restart, samples, rtol, atol, step, max
             start = table.boundary[segment]
             end = table.boundary[segment + 1]
             if segment > 0:
-                _engage(segment - 1, start, segment, start, y, model, work)
+                engage(segment - 1, start, segment, start, y, model, work)
             elif restart or cycle > 0:
-                _engage(segments - 1, 1.0, 0, 0.0, y, model, work)
+                engage(segments - 1, 1.0, 0, 0.0, y, model, work)
             phase = start
             derivatives(phase, whole, segment, y, model, work, k[0])
             evaluations += 1
@@ -187,9 +188,3 @@ def march(model, y, first_cycle, cycles, restart, samples, rtol, atol, step, max
 def rhs(phase, cycle, segment, y, model, work, dy):
     """The compiled right-hand side, for SciPy's solvers; returns the powers of `derivatives`."""
     return derivatives(phase, cycle, segment, y, model, work, dy)
-
-
-@kernel
-def engage(before, phase_before, after, phase_after, y, model, work):
-    """The compiled jump of the state at an engagement, in place."""
-    _engage(before, phase_before, after, phase_after, y, model, work)

@@ -15,7 +15,7 @@ from tribodyn.dynamics.parameters import (
     XI_RATE,
     Model,
 )
-from tribodyn.solve.engine import DONE, REASONS, Block, Engine, Tolerances, absolute_tolerances
+from tribodyn.solve.engine import DONE, NOT_FINITE, REASONS, Block, Engine, Tolerances, absolute_tolerances
 from tribodyn.solve.initial import static_deflection
 from tribodyn.solve.stiffness import EXPLICIT
 
@@ -139,7 +139,7 @@ def transient(model: Model, state: np.ndarray, settings: Settings, method: str) 
         yield Chunk(at[:kept], block.samples[:kept], block.evaluations, block.steps)
         if block.status != DONE or kept < len(finite):
             reached = done + block.reached
-            reason = REASONS[block.status] if block.status != DONE else REASONS[3]
+            reason = REASONS[NOT_FINITE if block.status == DONE else block.status]
             reason = f"{reason} ({block.message})" if block.message else reason
             time = reached * float(model.table.pitch_angle) / model.mechanics.nominal_speed
             last = block.samples[kept - 1] if kept else state
