@@ -18,7 +18,6 @@ import tribodyn
 from tribodyn import elementary
 from tribodyn.dynamics import equations  # noqa: F401  (its import registers every law)
 
-
 #: Everything that a kernel can contain; the rules of import keep it to these.
 _KERNEL_SOURCES = ("elementary.py", "native.py", "mesh_cycle.py", "tribology", "dynamics", "solve")
 
