@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from tribodyn.geometry.modification import UNMODIFIED, Modifications
+
 if TYPE_CHECKING:
     from tribodyn.geometry.drive import Drive
 
@@ -178,6 +180,12 @@ class MeshData:
         (order of the mesh frequency, amplitude m, phase rad) of cosines in the static transmission error.
     error_table : Table or None
         Static transmission error of a pair over roll angle (rad, m).
+    modifications : Modifications
+        What is missing on the flanks, and misalignment; with ``compliance = "fem"``.
+    slices : int
+        Slices along the face, with ``compliance = "fem"``.
+    slice_coupling : bool
+        Whether slices of one tooth hold each other.
     """
 
     compliance: Literal["energy", "fem", "constant", "table"]
@@ -192,6 +200,9 @@ class MeshData:
     points: int = 65
     error_harmonics: tuple[tuple[int, float, float], ...] = ()
     error_table: Table | None = None
+    modifications: Modifications = UNMODIFIED
+    slices: int = 1
+    slice_coupling: bool = True
 
 
 @dataclass(frozen=True)
