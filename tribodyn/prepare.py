@@ -1,5 +1,7 @@
 """From a case to a model ready to integrate: geometry checked, mesh cycle tabulated, numbers assembled."""
 
+import dataclasses
+from collections.abc import Hashable, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,7 +21,7 @@ from tribodyn.dynamics.parameters import (
     Model,
     Options,
 )
-from tribodyn.mesh_cycle import MeshCycle, polynomials
+from tribodyn.mesh_cycle import MeshCycle, Polynomials, polynomials
 from tribodyn.surfaces import Lubricated, contact_of
 
 #: Gauss-Seidel sweeps from the tabulated inverse: only pairs about to separate need more than one.
@@ -46,14 +48,86 @@ class Prepared(NamedTuple):
     masses: tuple[tuple[float, float], tuple[float, float]]
 
 
-def prepare(case: Case) -> Prepared:
+class Tabulated(NamedTuple):
+    """What the geometry and elasticity of a case make of it: costly, and the same for every speed.
+
+    Attributes
+    ----------
+    cycle : MeshCycle
+    table : Polynomials
+        The same as the right-hand side reads it.
+    masses : tuple of (mass kg, inertia kg m²)
+        Of pinion and gear alone.
+    """
+
+    cycle: MeshCycle
+    table: Polynomials
+    masses: tuple[tuple[float, float], tuple[float, float]]
+
+
+#: Fields of a case that its table does not depend on. Whatever is not named here is taken to matter.
+_NOT_IN_TABLE = (
+    "title",
+    "name",
+    "toml",
+    "sha256",
+    "roughness",
+    "mean_roughness",
+    "lubricant",
+    "bearings",
+    "operating",
+    "friction",
+    "solver",
+    "output",
+)
+_MESH_NOT_IN_TABLE = {"damping_ratio": 0.0, "formulation": "classical", "contact_width": 0.0}
+
+
+def table_key(case: Case) -> Hashable:
+    """Everything that the table of a case depends on: equal keys mean equal tables, bit for bit."""
+    parts: list[Any] = [
+        getattr(case, one.name)
+        for one in dataclasses.fields(case)
+        if one.name not in (*_NOT_IN_TABLE, "mesh")
+    ]
+    parts.append(dataclasses.replace(case.mesh, **_MESH_NOT_IN_TABLE))
+    if case.mesh.compliance == "fem":
+        parts.append(case.operating.gear_torque)
+    return _hashable(parts)
+
+
+def _hashable(value: Any) -> Hashable:
+    """The content of nested dataclasses, tuples, dictionaries and arrays, to compare and look up by."""
+    if isinstance(value, np.ndarray):
+        return value.shape, value.tobytes()
+    if dataclasses.is_dataclass(value):
+        value = [getattr(value, one.name) for one in dataclasses.fields(value)]
+    if isinstance(value, Mapping):
+        value = sorted(value.items())
+    return tuple(map(_hashable, value)) if isinstance(value, (list, tuple)) else value
+
+
+def prepare(case: Case, tabulated: Tabulated | None = None) -> Prepared:
     """Check the geometry, tabulate the mesh cycle and assemble the model.
+
+    Parameters
+    ----------
+    case : Case
+    tabulated : Tabulated, optional
+        From a case with the same `table_key`; made here where it is not given.
 
     Raises
     ------
     InputError
         Where the teeth cannot be made or cannot run together, or a table does not cover the contact.
     """
+    cycle, table, (pinion, gear) = tabulated or tables(case)
+    model = Model(table, _mechanics(case, pinion, gear, cycle), contact_of(case), _options(case, cycle))
+    return Prepared(case, cycle, model, (pinion, gear))
+
+
+def tables(case: Case) -> Tabulated:
+    """Check the geometry and tabulate the mesh cycle; raises as `prepare` does."""
     from tribodyn.geometry.body import body_masses
     from tribodyn.geometry.checks import check
     from tribodyn.scenario.load import family
@@ -72,13 +146,7 @@ def prepare(case: Case) -> Prepared:
         cycle = tabulate(teeth, case.drive, case.materials, case.mesh, pairs=pairs, back=back)
     given = [(one.mass, one.inertia) for one in case.masses]
     pinion, gear = body_masses(teeth, case.drive, given, [one.density for one in case.materials])
-    model = Model(
-        polynomials(cycle),
-        _mechanics(case, pinion, gear, cycle),
-        contact_of(case),
-        _options(case, cycle),
-    )
-    return Prepared(case, cycle, model, (pinion, gear))
+    return Tabulated(cycle, polynomials(cycle), (pinion, gear))
 
 
 def _options(case: Case, cycle: MeshCycle) -> Options:

@@ -19,7 +19,7 @@ from tribodyn.rolling.case import RollingCase
 from tribodyn.scenario.efficiency import EfficiencyFriction, EfficiencyScenario, efficiency_case_of
 from tribodyn.scenario.kinds import KINDS, table_of
 from tribodyn.scenario.messages import InputErrors, Origins, explain
-from tribodyn.scenario.resolve import resolve
+from tribodyn.scenario.resolve import Resolved, resolve
 from tribodyn.scenario.rolling import RollingScenario, rolling_case_of
 from tribodyn.scenario.rules import broken_drive_rules, broken_rules
 from tribodyn.scenario.schema import Friction, Scenario
@@ -201,7 +201,20 @@ def load_scenario(scenario: str | Path, overrides: Mapping[str, Any] | None = No
 def load(scenario: str | Path, overrides: Mapping[str, Any] | None = None) -> Loaded:
     """Read a scenario as `load_scenario` does, and say where its values stand."""
     path = find_scenario(str(scenario))
-    data, origins, unresolved = resolve(path, overrides or {})
+    return loaded_from(resolve(path, overrides or {}), path)
+
+
+def loaded_from(resolved: Resolved, path: Path) -> Loaded:
+    """Return the case of a scenario whose references and overrides have been put in; raises as `load` does.
+
+    Parameters
+    ----------
+    resolved : Resolved
+        Its data may have been changed since; it is not changed here but for a missing name.
+    path : Path
+        The scenario's file.
+    """
+    data, origins, unresolved = resolved
     data.setdefault("name", re.sub(r"[^\w .-]", "-", path.stem).lstrip(" .-") or "scenario")
     model, kind = table_of(data), data.get("kind")
     try:

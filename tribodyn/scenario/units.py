@@ -118,6 +118,7 @@ def _spelling(text: str) -> str:
     return _NM.sub("N*m", _ONE_OVER.sub("dimensionless", text).replace("·", "*"))
 
 
+@cache
 def _factor(text: str, kind: Kind, write: str) -> float:
     """Factor from the unit `text` to the SI unit of `kind`; one with a shifted zero, °C, has none."""
     import pint
