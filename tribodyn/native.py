@@ -45,7 +45,8 @@ numba.core.config.CACHE_DIR = str(_CACHE)  # pyright: ignore[reportAttributeAcce
 
 #: Decorator of a compiled kernel: cached between processes, IEEE division, no reordering. Without numba's
 #: reference counts, which would cost a quarter of the right-hand side: so a kernel is handed its buffers.
-kernel = numba.njit(cache=True, error_model="numpy", _nrt=False)  # pyright: ignore[reportCallIssue]
+#: Without Python's lock, so that batches run on all cores.
+kernel = numba.njit(cache=True, error_model="numpy", nogil=True, _nrt=False)  # pyright: ignore[reportCallIssue]
 
 
 def _unary(function, implementation):

@@ -64,7 +64,12 @@ class Block(NamedTuple):
 
 
 class Engine(Protocol):
-    """Integrates blocks of whole mesh cycles one after the other."""
+    """Integrates blocks of whole mesh cycles one after the other.
+
+    `started` says whether the next block opens with the engagement at phase 0: not at the start of a run.
+    """
+
+    started: bool
 
     def block(self, state: np.ndarray, first_cycle: int, cycles: int) -> Block:
         """Integrate `cycles` cycles; `state` stands before the engagement that opens the block."""

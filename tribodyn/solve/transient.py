@@ -12,6 +12,7 @@ from tribodyn.dynamics.parameters import (
     STATES,
     WORK_IN,
     WORK_PARAMETRIC,
+    XI,
     XI_RATE,
     Model,
 )
@@ -86,6 +87,13 @@ class NativeEngine:
         return Block(out[:written], y, status, reached, steps, evaluations)
 
 
+def tolerances_from(model: Model, state: np.ndarray, rtol: float, max_steps: int) -> Tolerances:
+    """Tolerances scaled by the deflection that the mesh has in `state` or would have under the load."""
+    static = static_deflection(model, float(model.mechanics.load_torque))
+    deflection = max(abs(float(state[XI])), static, 1e-9)
+    return Tolerances(rtol, absolute_tolerances(model, rtol, deflection), max_steps)
+
+
 def make_engine(method: str, model: Model, samples: int, tolerances: Tolerances) -> Engine:
     """The engine that a method's name stands for."""
     if method == EXPLICIT:
@@ -121,10 +129,7 @@ def transient(model: Model, state: np.ndarray, settings: Settings, method: str) 
     A complete run has cycles × samples + 1 samples, the last one at the start of the next mesh cycle, after
     its engagement. A run that stops early yields what it has and says why in `Stop.reason`.
     """
-    deflection = max(abs(float(state[5])), static_deflection(model, float(model.mechanics.load_torque)), 1e-9)
-    tolerances = Tolerances(
-        settings.rtol, absolute_tolerances(model, settings.rtol, deflection), settings.max_steps
-    )
+    tolerances = tolerances_from(model, state, settings.rtol, settings.max_steps)
     engine = make_engine(method, model, settings.samples, tolerances)
     size = cycles_per_block(method, settings.cycles)
     steps = evaluations = done = 0

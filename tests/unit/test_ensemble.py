@@ -1,0 +1,106 @@
+"""Batches: every case as if it were alone."""
+
+import numpy as np
+import pytest
+
+from tribodyn.dynamics.parameters import LAG, SLIP, STATES, XI
+from tribodyn.solve.engine import DONE, STALLED, TOO_MANY_STEPS
+from tribodyn.solve.ensemble import march
+from tribodyn.solve.initial import static_equilibrium
+from tribodyn.solve.transient import NativeEngine, tolerances_from
+
+RTOL, SAMPLES = 1e-6, 40
+
+
+@pytest.fixture(scope="module")
+def cases(prepared):
+    """Eleven speeds of one drive, its inertia and its load: models and states."""
+    model = prepared("crc-23-47-300").model
+    base = float(model.mechanics.nominal_speed)
+    models = [
+        model._replace(
+            mechanics=model.mechanics._replace(
+                nominal_speed=base * (0.4 + 0.17 * i), load_torque=model.mechanics.load_torque * (1 + 0.03 * i)
+            )
+        )
+        for i in range(11)
+    ]
+    return models, np.array([static_equilibrium(model) for model in models])
+
+
+def test_a_batch_agrees_with_single_runs(cases):
+    models, states = cases
+    found = march(models, states, cycles=7, window=2, samples=SAMPLES, rtol=RTOL)
+    assert np.all(found.status == DONE)
+    assert np.all(found.reached == 7)
+    for case, model in enumerate(models):
+        # exact to five orders more: the difference is the batch's own error
+        exact = NativeEngine(model, SAMPLES, tolerances_from(model, states[case], 1e-11, 10**6))
+        block = exact.block(states[case], 0, 7)
+        xi = found.samples[case, :, XI]
+        assert np.max(np.abs(xi - block.samples[-2 * SAMPLES :, XI])) < 2e-4 * np.ptp(xi)
+        assert found.state[case, XI] == pytest.approx(block.state[XI], rel=1e-4)
+        assert found.state[case, LAG] == pytest.approx(block.state[LAG], abs=1e-9)
+
+
+def test_bits_depend_neither_on_order_nor_company_nor_workers(cases):
+    models, states = cases
+    settings = {"cycles": 4, "window": 1, "samples": SAMPLES, "rtol": RTOL}
+    whole = march(models, states, workers=1, **settings)
+    order = [3, 7, 0, 10, 1, 9, 2, 8, 4, 6, 5]
+    shuffled = march([models[i] for i in order], states[order], workers=2, **settings)
+    alone = [march(models[i : i + 1], states[i : i + 1], **settings) for i in (0, 5)]
+    for name in whole._fields:
+        np.testing.assert_array_equal(getattr(shuffled, name), getattr(whole, name)[order], err_msg=name)
+        for i, one in zip((0, 5), alone, strict=True):
+            np.testing.assert_array_equal(getattr(one, name)[0], getattr(whole, name)[i], err_msg=name)
+
+
+def test_a_march_goes_on_where_it_stopped(cases):
+    models, states = cases
+    settings = {"samples": SAMPLES, "rtol": 1e-9}
+    whole = march(models, states, cycles=6, window=3, **settings)
+    first = march(models, states, cycles=3, window=0, **settings)
+    second = march(models, first.state, cycles=3, window=3, started=True, first_cycle=3, **settings)
+    assert first.samples.shape == (11, 0, STATES)
+    scale = np.ptp(whole.samples[..., XI], axis=1).max()
+    assert np.max(np.abs(second.samples - whole.samples)[..., XI]) < 1e-6 * scale
+
+
+def test_a_failed_case_tells_why_and_leaves_the_others_alone(cases, prepared):
+    """One pinion driven by too small a torque comes to rest; another may take no more than ten steps."""
+    models, states = list(cases[0]), cases[1].copy()
+    settings = {"cycles": 3, "window": 3, "samples": SAMPLES, "rtol": RTOL}
+    alone = march(models, states, **settings)
+    weak = prepared("crc-23-47", **{"operating.source": "torque", "operating.pinion_torque": "20 N*m"}).model
+    models[4] = weak
+    states[4] = 0.0
+    found = march(models, states, **settings)
+    assert found.status[4] == STALLED
+    assert 0 < found.reached[4] < 3
+    assert weak.mechanics.nominal_speed + found.state[4, SLIP] > 0
+    kept = np.isfinite(found.samples[4, :, XI])
+    assert kept.sum() == np.floor(found.reached[4] * SAMPLES) + 1
+    assert kept[: kept.sum()].all()
+    others = [i for i in range(11) if i != 4]
+    np.testing.assert_array_equal(found.samples[others], alone.samples[others])
+    hurried = march(models[:2], states[:2], max_steps=10, **settings)
+    assert np.all(hurried.status == TOO_MANY_STEPS)
+    assert np.all(hurried.steps == 10)
+
+
+def test_progress_rises_to_one(cases):
+    told = []
+    march(
+        cases[0][:3], cases[1][:3], cycles=1, window=0, samples=4, rtol=1e-4, progress=told.append, workers=1
+    )
+    assert told == sorted(told)
+    assert told[-1] == 1.0
+
+
+def test_misfits_are_told(cases):
+    models, states = cases
+    with pytest.raises(ValueError, match="3 models"):
+        march(models[:3], states, cycles=1, window=0, samples=4, rtol=1e-4)
+    with pytest.raises(ValueError, match="window"):
+        march(models, states, cycles=1, window=2, samples=4, rtol=1e-4)
