@@ -20,7 +20,8 @@ def cases(prepared):
     models = [
         model._replace(
             mechanics=model.mechanics._replace(
-                nominal_speed=base * (0.4 + 0.17 * i), load_torque=model.mechanics.load_torque * (1 + 0.03 * i)
+                nominal_speed=base * (0.4 + 0.17 * i),
+                load_torque=model.mechanics.load_torque * (1 + 0.03 * i),
             )
         )
         for i in range(11)
