@@ -15,7 +15,7 @@ from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.body import gear_polygon
 from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.path import kinematics, position
-from tribodyn.post.style import house_style, new_figure, save
+from tribodyn.post.style import INK, PALETTE, house_style, new_figure, save
 from tribodyn.prepare import prepare
 from tribodyn.scenario.load import family
 from tribodyn.tribology.contact import averaged_radius
@@ -37,21 +37,21 @@ def teeth(axes: Any, case: Case) -> None:
     """Draw both gears about the pitch point, touching there, with the path of contact."""
     kind = family(case.family)
     assembly = assemble(kind, case.drive)
-    for side, colour in zip(SIDES, ("C0", "C1"), strict=True):
+    for side, colour in zip(SIDES, PALETTE, strict=False):
         outline = np.asarray(gear_polygon(kind, case.drive, side))
         pitch = getattr(assembly.path, f"{side}_pitch_radius")
         centre = -pitch if side == "pinion" else pitch
         axes.fill(1e3 * outline[:, 0], 1e3 * (outline[:, 1] + centre), colour, alpha=0.25, lw=0)
         axes.plot(1e3 * outline[:, 0], 1e3 * (outline[:, 1] + centre), colour, lw=1.0, label=side)
     x, y = position(assembly.path, np.linspace(assembly.r_start, assembly.r_end, 401))
-    axes.plot(1e3 * x, 1e3 * y, "k", lw=1.6, label="path of contact")
-    axes.plot(0, 0, "ko", ms=3)
+    axes.plot(1e3 * x, 1e3 * y, INK, lw=1.6, label="path of contact")
+    axes.plot(0, 0, "o", color=INK, ms=3)
     axes.annotate("P", (0, 0), (3, 3), textcoords="offset points")
     span = 4.2 * 1e3 * case.drive.module
     axes.set(
         xlim=(-span, span), ylim=(-0.7 * span, 0.7 * span), aspect="equal", xlabel="x / mm", ylabel="y / mm"
     )
-    axes.legend(loc="lower right", fontsize="small")
+    axes.legend(loc="lower right")
 
 
 def contact(angle: Any, radius: Any, case: Case) -> None:
@@ -60,19 +60,19 @@ def contact(angle: Any, radius: Any, case: Case) -> None:
     assembly = assemble(family(case.family), case.drive)
     r = np.linspace(assembly.r_start, assembly.r_end, 802)
     at = kinematics(assembly.path, r)
-    angle.plot(1e3 * r, np.degrees(at.pressure_angle), "C2")
+    angle.plot(1e3 * r, np.degrees(at.pressure_angle), PALETTE[2])
     angle.set(ylabel="pressure angle / °", ylim=(0, 1.1 * np.degrees(np.max(at.pressure_angle))))
     equivalent = 1 / at.relative_curvature
-    radius.plot(1e3 * r, 1e3 * equivalent, "C3", label="at the point")
+    radius.plot(1e3 * r, 1e3 * equivalent, PALETTE[3], label="at the point")
     length = float(cycle.pitch_point_length)
     if length > 0:
         width = min(body.face_width for body in (case.drive.pinion, case.drive.gear))
         load = case.operating.gear_torque / float(cycle.gear_pitch_radius) / width
         modulus = 2 / sum((1 - m.poisson_ratio**2) / m.youngs_modulus for m in case.materials)
         radius.plot(
-            1e3 * r, 1e3 * averaged_radius(equivalent, load, modulus, length), "k--", label="averaged"
+            1e3 * r, 1e3 * averaged_radius(equivalent, load, modulus, length), INK, ls="--", label="averaged"
         )
-        radius.legend(fontsize="small")
+        radius.legend()
     radius.set(
         xlabel="signed distance from P / mm",
         ylabel="equivalent radius / mm",
@@ -89,7 +89,7 @@ def main() -> None:
         case = load_scenario(scenario)
         assert isinstance(case, Case)
         with house_style():
-            figure = new_figure(9.0, 4.2)
+            figure = new_figure(8.0, 3.8)
             grid = figure.add_gridspec(2, 2, width_ratios=(1.4, 1))
             teeth(figure.add_subplot(grid[:, 0]), case)
             contact(figure.add_subplot(grid[0, 1]), figure.add_subplot(grid[1, 1]), case)
