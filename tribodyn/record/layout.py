@@ -47,32 +47,32 @@ class Place(NamedTuple):
 def create(path: Path, head: Head, samples: int) -> dict[str, Place]:
     """Write the file at `path` with room for `samples` samples, and say where each dataset lies."""
     with h5py.File(path, "w", libver=LIBVER) as file:
-        _write_head(file, head)
+        write_head(file, head)
         datasets = {"time": _empty(file, "time", schema.TIME, (samples,))}
         size = {"time": samples, **_write_scales(file, head)}
         datasets["time"].make_scale("time")
         for name, variable in schema.KINDS[head.kind].samples.items():
             datasets[name] = _empty(file, name, variable, tuple(size[dim] for dim in variable.dims))
-            _attach(file, file, datasets[name], variable)
+            attach(file, file, datasets[name], variable)
         written = _empty(file, "samples_written", schema.SAMPLES_WRITTEN, ())
         _write_arrays(file, file.create_group("mesh_cycle"), schema.MESH_CYCLE, head.mesh_cycle)
         _write_arrays(file, file.create_group("geometry"), schema.GEOMETRY, head.geometry)
         file.create_group("summary")
-        places = {name: _place(dataset) for name, dataset in datasets.items()}
-        places["samples_written"] = _place(written)
+        places = {name: place_of(dataset) for name, dataset in datasets.items()}
+        places["samples_written"] = place_of(written)
     return places
 
 
 def _write_scales(file: h5py.File, head: Head) -> dict[str, int]:
     """Write the scales of the other axes than time; their lengths."""
     if head.elements:
-        _scale(file, "element", schema.ELEMENT, np.arange(1, head.elements + 1))
+        scale(file, "element", schema.ELEMENT, np.arange(1, head.elements + 1))
         return {"element": head.elements}
     side = np.asarray(head.mesh_cycle["side"])
     numbers = schema.pair_numbers(int(np.sum(side > 0)), side.size)
-    _scale(file, "pair", schema.PAIR, np.array(numbers))
+    scale(file, "pair", schema.PAIR, np.array(numbers))
     # of fixed length, because Octave stops reading at other strings; the attribute makes xarray decode
-    _scale(file, "dof", schema.DOF_SCALE, np.array(schema.DOF, dtype="S"))
+    scale(file, "dof", schema.DOF_SCALE, np.array(schema.DOF, dtype="S"))
     file["dof"].attrs["_Encoding"] = "utf-8"
     return {"pair": len(numbers), "dof": len(schema.DOF)}
 
@@ -96,7 +96,8 @@ def encode(name: str, values: Any) -> np.ndarray:
     return np.ascontiguousarray(values, dtype="i1")
 
 
-def _write_head(file: h5py.File, head: Head) -> None:
+def write_head(file: h5py.File, head: Head) -> None:
+    """Write the root's attributes, status `partial`."""
     file.attrs["Conventions"] = "CF-1.10"
     file.attrs["format"] = schema.FORMAT
     file.attrs["format_version"] = schema.FORMAT_VERSION
@@ -112,10 +113,21 @@ def _write_head(file: h5py.File, head: Head) -> None:
 
 
 def _empty(file: h5py.File, name: str, variable: Variable, shape: tuple[int, ...]) -> h5py.Dataset:
-    """Create a contiguous dataset whose bytes are in the file, at an address, from the start."""
+    """Create the dataset of a run, filled with what stands for "nothing written"."""
     flag = name == "closure_in_range"
     count = name == "samples_written"
     kind, fill = ("i1", schema.NO_CONTACT) if flag else ("<i8", 0) if count else ("<f8", np.nan)
+    dataset = reserve(file, name, variable, shape, kind, fill)
+    if flag:
+        dataset.attrs["flag_values"] = np.array([-1, 0, 1], dtype="i1")
+        dataset.attrs["flag_meanings"] = "out_of_contact out_of_range in_range"
+    return dataset
+
+
+def reserve(
+    file: h5py.File, name: str, variable: Variable, shape: tuple[int, ...], kind: str, fill: Any
+) -> h5py.Dataset:
+    """Create a contiguous dataset whose bytes are in the file, at an address, from the start."""
     plan = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
     plan.set_alloc_time(h5py.h5d.ALLOC_TIME_EARLY)
     plan.set_fill_value(np.array(fill, dtype=kind))
@@ -123,14 +135,12 @@ def _empty(file: h5py.File, name: str, variable: Variable, shape: tuple[int, ...
     # at the low level, because create_dataset drops the plan where the dataset is a scalar
     identifier = h5py.h5d.create(file.id, name.encode(), h5py.h5t.py_create(np.dtype(kind)), space, plan)
     dataset = h5py.Dataset(identifier)
-    _describe(dataset, variable)
-    if flag:
-        dataset.attrs["flag_values"] = np.array([-1, 0, 1], dtype="i1")
-        dataset.attrs["flag_meanings"] = "out_of_contact out_of_range in_range"
+    describe(dataset, variable)
     return dataset
 
 
-def _place(dataset: h5py.Dataset) -> Place:
+def place_of(dataset: h5py.Dataset) -> Place:
+    """Say where a dataset's bytes lie."""
     row = dataset.shape[1:]
     stride = dataset.dtype.itemsize * int(np.prod(row, dtype=int))
     offset = dataset.id.get_offset()
@@ -139,18 +149,21 @@ def _place(dataset: h5py.Dataset) -> Place:
     return Place(offset or 0, stride, row)
 
 
-def _describe(dataset: h5py.Dataset, variable: Variable) -> None:
+def describe(dataset: h5py.Dataset, variable: Variable) -> None:
+    """Give a dataset its unit and meaning."""
     dataset.attrs["units"] = variable.units
     dataset.attrs["long_name"] = variable.long_name
 
 
-def _scale(group: h5py.Group, name: str, variable: Variable, values: np.ndarray) -> None:
+def scale(group: h5py.Group, name: str, variable: Variable, values: np.ndarray) -> None:
+    """Write a dimension scale."""
     dataset = group.create_dataset(name, data=values)
-    _describe(dataset, variable)
+    describe(dataset, variable)
     dataset.make_scale(name)
 
 
-def _attach(file: h5py.File, group: h5py.Group, dataset: Any, variable: Variable) -> None:
+def attach(file: h5py.File, group: h5py.Group, dataset: Any, variable: Variable) -> None:
+    """Attach to every axis of a dataset its scale, out of the group or of the root."""
     for axis, dim in enumerate(variable.dims):
         dataset.dims[axis].attach_scale(group[dim] if dim in group else file[dim])
 
@@ -167,17 +180,17 @@ def _write_arrays(
     arrays = {name: np.asarray(values[name], dtype="<f8") for name in table if name in values}
     for name, array in arrays.items():
         dataset = group.create_dataset(name, data=array)
-        _describe(dataset, table[name])
+        describe(dataset, table[name])
         if table[name].dims == (name,):
             dataset.make_scale(name)
     for name, array in arrays.items():
         for dim, length in zip(table[name].dims, array.shape, strict=True):
             if dim in schema.COUNTED and dim not in group:
-                _scale(
+                scale(
                     group,
                     dim,
                     Variable((dim,), "1", f"number of the {dim.replace('_', ' ')}"),
                     np.arange(length),
                 )
         if table[name].dims != (name,):
-            _attach(file, group, group[name], table[name])
+            attach(file, group, group[name], table[name])

@@ -1,0 +1,237 @@
+"""What `--vary` says: a key of the scenario and its values, as a range or a list.
+
+``start:stop:step`` goes from start to stop in steps, ``start:stop/count`` divides the way evenly, and
+``value,value,…`` lists. A unit stands once, at the end, and holds for every number before it.
+"""
+
+import re
+from collections.abc import Mapping
+from decimal import Decimal
+from fractions import Fraction
+from typing import Any, NamedTuple
+
+from pydantic import BaseModel
+
+from tribodyn.errors import InputError
+from tribodyn.scenario.quantity import Quantity, Reference
+from tribodyn.scenario.resolve import toml_value
+from tribodyn.scenario.units import Kind, NotAQuantity, to_si
+
+VARY = "--vary"
+#: Values of one axis; beyond, a range was surely mistyped, and the values alone would fill the memory.
+MOST_VALUES = 1_000_000
+GRAMMAR = "write start:stop:step, start:stop/count or value,value,… with the unit once, at the end"
+
+_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+_STEPS = re.compile(rf"\s*({_NUMBER})\s*:\s*({_NUMBER})\s*:\s*({_NUMBER})\s*([^\d\s:.].*|1\s*/.*)?", re.ASCII)
+_COUNTS = (
+    re.compile(rf"\s*({_NUMBER})\s*:\s*({_NUMBER})\s*/\s*(\d+)\s*([^\d\s:./].*)?", re.ASCII),
+    re.compile(rf"\s*({_NUMBER})\s*:\s*({_NUMBER})\s*([^\d\s:./].*?)\s*/\s*(\d+)\s*()", re.ASCII),
+)
+_BARE = re.compile(rf"\s*{_NUMBER}\s*", re.ASCII)
+
+
+class Axis(NamedTuple):
+    """One varied parameter.
+
+    Attributes
+    ----------
+    key : str
+        Its dotted key in the scenario.
+    name : str
+        The last part of the key, or as much of it as tells the axes apart; names the record's dimension.
+    written : tuple
+        The values as TOML would hold them.
+    values : tuple of float, or tuple of str
+        The values in SI, or the texts where they are no numbers.
+    units : str
+        SI unit, "1" for plain numbers, "" for texts.
+    """
+
+    key: str
+    name: str
+    written: tuple[Any, ...]
+    values: tuple[float, ...] | tuple[str, ...]
+    units: str
+
+    @property
+    def numeric(self) -> bool:
+        """Whether the values are numbers."""
+        return bool(self.units)
+
+
+def axes_of(options: list[str], table: type[BaseModel]) -> list[Axis]:
+    """Read all `--vary` options of a command; `table` is the schema of the scenario.
+
+    Raises
+    ------
+    InputError
+        If there is none, a key comes twice, or an option cannot be read; a key that the schema does not know
+        is left to the reading of the scenario, which suggests another.
+    """
+    if not options:
+        raise InputError(
+            VARY, None, "nothing is varied", f"add {VARY} operating.pinion_speed=100:6000:200rpm"
+        )
+    axes: list[Axis] = []
+    for option in options:
+        axis = _axis(option, table)
+        if any(axis.key == other.key for other in axes):
+            raise InputError(
+                VARY, f'"{option}"', f"{axis.key} is varied twice", "list all its values at once"
+            )
+        axes.append(axis)
+    return _named_apart(axes)
+
+
+def _axis(option: str, table: type[BaseModel]) -> Axis:
+    key, equals, text = option.partition("=")
+    key, text = key.strip(), text.strip()
+    if not equals or not text or not all(key.split(".")):
+        raise _refusal(option, "not KEY=VALUES", GRAMMAR)
+    leaf = _leaf(table, key)
+    if key in ("title", "name", "kind") or key.startswith("output."):
+        raise _refusal(option, f"{key} cannot be varied", "vary what the physics depends on")
+    if isinstance(leaf, type) and issubclass(leaf, BaseModel):
+        raise _refusal(option, f"{key} is a table", f"vary a key in it, such as {key}.{_example(leaf)}")
+    texts = _values(option, text, leaf)
+    written = tuple(value if isinstance(leaf, Kind) else toml_value(value) for value in texts)
+    values, units = _in_si(option, key, written, leaf)
+    if len(set(values)) < len(values):
+        raise _refusal(option, "a value comes twice", "list every value once")
+    return Axis(key, key.rpartition(".")[2], written, values, units)
+
+
+def _values(option: str, text: str, leaf: Any) -> list[str]:
+    """Split into values, each with the unit."""
+    if found := _STEPS.fullmatch(text):
+        start, stop, step, unit = found.groups()
+        return _with_unit(_by_step(option, *map(Decimal, (start, stop, step))), unit)
+    for pattern, order in zip(_COUNTS, ((1, 2, 3, 4), (1, 2, 4, 3)), strict=True):
+        if found := pattern.fullmatch(text):
+            start, stop, count, unit = (found[i] for i in order)
+            return _with_unit(_by_count(option, Fraction(start), Fraction(stop), int(count)), unit)
+    if re.match(rf"\s*{_NUMBER}[^,]*:", text) and not isinstance(leaf, Reference):
+        raise _refusal(option, "neither a range nor a list", GRAMMAR)
+    values = [value.strip() for value in text.split(",")]
+    if not all(values):
+        raise _refusal(option, "an empty value", "leave out the comma that has nothing beside it")
+    unit = re.sub(rf"^\s*{_NUMBER}\s*", "", values[-1], flags=re.ASCII) if isinstance(leaf, Kind) else ""
+    return [f"{value} {unit}" if unit and _BARE.fullmatch(value) else value for value in values]
+
+
+def _with_unit(numbers: list[str], unit: str | None) -> list[str]:
+    return [f"{number} {unit.strip()}" for number in numbers] if unit else numbers
+
+
+def _by_step(option: str, start: Decimal, stop: Decimal, step: Decimal) -> list[str]:
+    """Decimal arithmetic: 0.1:0.3:0.1 are the numbers 0.1, 0.2 and 0.3 to the last digit."""
+    if step == 0:
+        raise _refusal(option, "the step is zero", "write a step, or a list of values")
+    if (stop - start) * step < 0:
+        raise _refusal(
+            option,
+            f"the step {step} leads away from {stop}",
+            f"write {start}:{stop}:{-step} or swap the ends",
+        )
+    count = int((stop - start) / step) + 1
+    _not_too_many(option, count)
+    return [f"{(start + i * step).normalize():f}" for i in range(count)]
+
+
+def _by_count(option: str, start: Fraction, stop: Fraction, count: int) -> list[str]:
+    if count < 2 or start == stop:
+        raise _refusal(option, "an empty range", "write two different ends and a count of at least 2")
+    _not_too_many(option, count)
+    numbers = [start + (stop - start) * i / (count - 1) for i in range(count)]
+    return [str(n.numerator) if n.denominator == 1 else repr(float(n)) for n in numbers]
+
+
+def _not_too_many(option: str, count: int) -> None:
+    if count > MOST_VALUES:
+        raise _refusal(
+            option, f"{count:.3g} values", f"at most {MOST_VALUES} of one key; choose a larger step"
+        )
+
+
+def _in_si(
+    option: str, key: str, written: tuple[Any, ...], leaf: Any
+) -> tuple[tuple[float, ...] | tuple[str, ...], str]:
+    if isinstance(leaf, Kind):
+        try:
+            return tuple(to_si(value, leaf) for value in written), leaf.si.replace("**", "")
+        except NotAQuantity as error:
+            raise InputError(key, f'"{option.partition("=")[2]}"', error.rule, error.remedy, VARY) from None
+    if all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in written):
+        return tuple(float(value) for value in written), "1"
+    if any(isinstance(value, (dict, list)) for value in written):
+        raise _refusal(option, "tables and lists cannot be varied", "vary one number in them")
+    quantities = [_base_units(value) for value in written]
+    if all(quantities) and len({unit for _, unit in quantities}) == 1:  # of a family's shape
+        return tuple(magnitude for magnitude, _ in quantities), quantities[0][1]
+    return tuple(str(value).lower() if isinstance(value, bool) else str(value) for value in written), ""
+
+
+def _base_units(value: Any) -> tuple[float, str] | tuple[()]:
+    """Magnitude and SI base units of a quantity whose kind only a family of teeth knows; () if none."""
+    from tribodyn.scenario.units import registry
+
+    found = re.fullmatch(rf"\s*({_NUMBER})\s*(\S.*)", value, re.ASCII) if isinstance(value, str) else None
+    if found is None:
+        return ()
+    try:
+        base = registry().Quantity(1.0, found[2]).to_base_units()
+    except Exception:  # pint raises whatever Python's tokenizer and arithmetic do
+        return ()
+    number, factor = float(found[1]), float(base.magnitude)
+    exact = number / round(1 / factor) if 0 < factor < 1 and abs(1 / factor % 1) < 1e-9 else number * factor
+    return exact, f"{base.units:~C}".replace("**", "") or "1"
+
+
+def _leaf(table: type[BaseModel], key: str) -> Any:
+    """What stands at a key: a `Kind` of quantity, a `Reference` or a table; None for anything else."""
+    place: Any = table
+    for part in key.split("."):
+        if part.isdecimal():
+            continue
+        fields = getattr(place, "model_fields", {})
+        if part not in fields:
+            return None
+        found = _marks(fields[part].annotation) + list(fields[part].metadata)
+        references = [one for one in found if isinstance(one, Reference)]
+        kinds = [one.kind for one in found if isinstance(one, Quantity)]
+        tables = [one for one in found if isinstance(one, type) and issubclass(one, BaseModel)]
+        last = part == key.rpartition(".")[2]
+        place = next(iter(references if last and references else kinds or tables), None)
+    return place
+
+
+def _marks(annotation: Any) -> list[Any]:
+    """Everything that stands in an annotation, its own metadata included."""
+    inner = (*getattr(annotation, "__args__", ()), *getattr(annotation, "__metadata__", ()))
+    return [annotation, *(one for part in inner for one in _marks(part))]
+
+
+def _example(table: type[BaseModel]) -> str:
+    return next(iter(table.model_fields))
+
+
+def _named_apart(axes: list[Axis]) -> list[Axis]:
+    """Lengthen names that two axes share: pinion_profile_shift and gear_profile_shift."""
+    names: Mapping[str, int] = {axis.name: [a.name for a in axes].count(axis.name) for axis in axes}
+    named = []
+    for axis in axes:
+        parts = axis.key.split(".")
+        reserved = names[axis.name] > 1 or axis.name in RESERVED or axis.name.isdecimal()
+        named.append(axis._replace(name="_".join(parts[-2:] if reserved else parts[-1:])))
+    if len({axis.name for axis in named}) < len(named):
+        named = [axis._replace(name=axis.key.replace(".", "_")) for axis in axes]
+    return named
+
+
+#: Names of the record's own dimensions, which no axis may take.
+RESERVED = ("direction", "sample", "cycle", "mode", "state_variable", "status", "message", "state")
+
+
+def _refusal(option: str, rule: str, remedy: str) -> InputError:
+    return InputError(VARY, f'"{option}"', rule, remedy)

@@ -1,0 +1,135 @@
+"""The grid of a sweep: from a place on the axes to a case."""
+
+import copy
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from tribodyn.case import Case
+from tribodyn.errors import InputError
+from tribodyn.prepare import table_key
+from tribodyn.scenario.kinds import table_of
+from tribodyn.scenario.load import loaded_from
+from tribodyn.scenario.messages import InputErrors
+from tribodyn.scenario.resolve import OVERRIDES, Resolved, resolve
+from tribodyn.scenario.sources import find_scenario, read_toml
+from tribodyn.scenario.vary import VARY, Axis, axes_of
+
+
+class Grid:
+    """A scenario and the axes along which it is varied.
+
+    Parameters
+    ----------
+    scenario : str
+        Path of a scenario file, or the name of a shipped one.
+    vary : list of str
+        ``KEY=VALUES``, see `tribodyn.scenario.vary`.
+    overrides : mapping
+        Dotted key to value, for all cases.
+
+    Raises
+    ------
+    InputError
+        If the scenario, an axis, or a value at the end of an axis cannot be used.
+    """
+
+    def __init__(self, scenario: str, vary: list[str], overrides: Mapping[str, Any]) -> None:
+        self.path = find_scenario(scenario)
+        self.overrides = dict(overrides)
+        self.axes: Sequence[Axis] = axes_of(vary, table_of(read_toml(self.path)))
+        # texts may name files, which have to be read before anything inside them is set
+        self._texts = [i for i, axis in enumerate(self.axes) if not axis.numeric]
+        self._resolved = lru_cache(maxsize=16)(self._resolve)
+        self._check()
+        self.base = self.case((0,) * len(self.axes))
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Number of values along each axis."""
+        return tuple(len(axis.values) for axis in self.axes)
+
+    @property
+    def name(self) -> str:
+        """Name of the scenario, which names the record."""
+        return self.base.name
+
+    def case(self, place: Sequence[int]) -> Case:
+        """Return the case at a place of the grid; InputError where its values contradict each other."""
+        chosen = tuple(place[i] for i in self._texts)
+        kept = self._resolved(chosen)
+        data = copy.deepcopy(kept.data)
+        for axis, index in zip(self.axes, place, strict=True):
+            if axis.numeric:
+                _put(data, axis.key, axis.written[index])
+        try:
+            case = loaded_from(Resolved(data, kept.origins, kept.errors), self.path).case
+        except InputError as error:
+            raise self._as_varied(error) from None
+        if not isinstance(case, Case):
+            kind = data.get("kind")
+            raise InputError(
+                "kind", f'"{kind}"', "only gear pairs in motion can be swept", 'take one of kind "gear-pair"'
+            )
+        return case
+
+    def moves_table(self, axis: int) -> bool:
+        """Whether the table of the mesh differs between the ends of an axis."""
+        place = [0] * len(self.axes)
+        last = place.copy()
+        last[axis] = len(self.axes[axis].values) - 1
+        return table_key(self.case(place)) != table_key(self.case(last))
+
+    def _resolve(self, chosen: tuple[int, ...]) -> Resolved:
+        texts = {
+            self.axes[i].key: self.axes[i].written[index]
+            for i, index in zip(self._texts, chosen, strict=True)
+        }
+        # numbers too, so that the tables that they stand in are there
+        numbers = {axis.key: axis.written[0] for axis in self.axes if axis.numeric}
+        try:
+            return resolve(self.path, self.overrides | texts | numbers)
+        except InputError as error:
+            raise self._as_varied(error) from None
+
+    def _check(self) -> None:
+        """Read the ends of every numeric axis and every text: what is in between is as good as they are."""
+        for i, axis in enumerate(self.axes):
+            places = (0, len(axis.values) - 1) if axis.numeric else range(len(axis.values))
+            for index in places:
+                place = [0] * len(self.axes)
+                place[i] = index
+                self.case(place)
+
+    def _as_varied(self, error: InputError) -> InputError:
+        """Name `--vary` as the origin of what an axis put into the scenario."""
+        if isinstance(error, InputErrors):
+            return InputErrors([self._as_varied(one) for one in error.errors])
+        varied = any(error.key == axis.key for axis in self.axes)
+        if error.file not in ("", OVERRIDES) or not varied:
+            return error
+        return InputError(error.key, error.value, error.rule, error.remedy, VARY)
+
+    def table(self, place: Sequence[int]) -> dict[str, float | str]:
+        """Return the parameters at a place of the grid, by name of the axis."""
+        return {axis.name: axis.values[index] for axis, index in zip(self.axes, place, strict=True)}
+
+    def flat(self, place: Sequence[int]) -> int:
+        """Return the place's number, the last axis running fastest."""
+        return int(np.ravel_multi_index(tuple(place), self.shape))
+
+
+def _put(data: dict[str, Any], key: str, value: Any) -> None:
+    place: Any = data
+    *above, last = (int(part) if part.isdecimal() else part for part in key.split("."))
+    for part in above:
+        place = place[part]
+    place[last] = value
+
+
+def default_output(grid: Grid) -> Path:
+    """Return the record's name: the scenario's, and what is varied."""
+    return Path(f"{grid.name}-{'-'.join(axis.name for axis in grid.axes)}.h5")
