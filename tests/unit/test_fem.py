@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from scipy.sparse.linalg import spsolve
 
-from tribodyn.compliance.fem import curved_basis, elasticity, gear_compliance
+from tribodyn.compliance.fem import gear_compliance
 from tribodyn.compliance.gear_compliance import NEIGHBOURS
 from tribodyn.compliance.ring_mesh import sector_mesh
+from tribodyn.compliance.strips import curved_basis, plane_stiffness
 from tribodyn.errors import InputError
 from tribodyn.geometry.body import section_area_and_inertia
 from tribodyn.geometry.drive import Drive, GearBody
@@ -36,11 +37,11 @@ def interleaved(x, y):
 
 def solve_with_boundary(basis, field):
     """Displacement with the field's values on the whole boundary, and the field's everywhere."""
-    place = basis.doflocs[:, ::2]
+    place = basis.doflocs
     exact = interleaved(*field(*place))
-    boundary = basis.get_dofs().flatten()
-    matrix = elasticity(POISSON).assemble(basis).tocsr()
-    free = np.setdiff1d(np.arange(basis.N), boundary)
+    boundary = (2 * basis.get_dofs().flatten()[:, None] + np.arange(2)).ravel()
+    matrix = plane_stiffness(basis, POISSON).tocsr()
+    free = np.setdiff1d(np.arange(2 * basis.N), boundary)
     found = exact.copy()
     found[free] = spsolve(matrix[free][:, free].tocsc(), -matrix[free][:, boundary] @ exact[boundary])
     return found, exact
@@ -54,8 +55,8 @@ def test_patch_of_curved_cells_carries_a_constant_strain():
 
 def test_strain_energy_of_constant_strain_and_none_of_rotation():
     basis = block(3, 2, bend=0.05)
-    x, y = basis.doflocs[:, ::2]
-    matrix = elasticity(POISSON).assemble(basis)
+    x, y = basis.doflocs
+    matrix = plane_stiffness(basis, POISSON)
     stretch = interleaved(1e-3 * x, 0.0 * y)
     # plane strain: sigma_x = E (1 - nu)/((1 + nu)(1 - 2 nu)) eps_x
     expected = (1 - POISSON) / ((1 + POISSON) * (1 - 2 * POISSON)) * 1e-6
@@ -87,15 +88,15 @@ def test_cantilever_converges_with_the_third_power():
 
 def test_slender_beam_under_end_load_bends_as_theory_says():
     basis = block(40, 2, length=20.0)
-    x = basis.doflocs[0, ::2]
-    matrix = elasticity(POISSON).assemble(basis).tocsr()
+    x = basis.doflocs[0]
+    matrix = plane_stiffness(basis, POISSON).tocsr()
     clamped = np.flatnonzero(np.repeat(x < 1e-9, 2))
-    free = np.setdiff1d(np.arange(basis.N), clamped)
-    load = np.zeros(basis.N)
+    free = np.setdiff1d(np.arange(2 * basis.N), clamped)
+    load = np.zeros(2 * basis.N)
     # how the resultant is spread over the end does not matter far from it (Saint-Venant)
     end = np.flatnonzero(x > 20.0 - 1e-9)
     load[2 * end + 1] = 1.0 / len(end)
-    u = np.zeros(basis.N)
+    u = np.zeros(2 * basis.N)
     u[free] = spsolve(matrix[free][:, free].tocsc(), load[free])
     modulus = 1.0 / (1 - POISSON**2)
     bending = 20.0**3 / (3 * modulus / 12.0)
@@ -148,7 +149,7 @@ def whole_ring(level: int):
 def test_one_sector_with_cyclic_symmetry_is_the_whole_ring():
     gear = gear_compliance(TOOTH, 12, 8e-3, POISSON, 0.75e-3, 1)
     basis, mesh = whole_ring(1)
-    place = basis.doflocs[:, ::2]
+    place = basis.doflocs
     flank = mesh.nodes[:, mesh.flank]
     r = np.linspace(TOOTH.form_distance, TOOTH.tip_distance, 400_001)
     x, y = flank_point(TOOTH, r)
@@ -158,12 +159,12 @@ def test_one_sector_with_cyclic_symmetry_is_the_whole_ring():
     tangent = np.array([x[at + 1] - x[at - 1], y[at + 1] - y[at - 1]])
     inward = np.array([tangent[1], -tangent[0]]) / np.hypot(*tangent)
     node = np.argmin(np.hypot(*(place - flank[:, [middle]])))
-    load = np.zeros(basis.N)
+    load = np.zeros(2 * basis.N)
     load[2 * node : 2 * node + 2] = inward
     held = np.hypot(*place) < 8e-3 * (1 + 1e-9)
     free = np.flatnonzero(np.repeat(~held, 2))
-    matrix = elasticity(POISSON).assemble(basis).tocsr()
-    u = np.zeros(basis.N)
+    matrix = plane_stiffness(basis, POISSON).tocsr()
+    u = np.zeros(2 * basis.N)
     u[free] = spsolve(matrix[free][:, free].tocsc(), load[free])
     for tooth in (-2, -1, 0, 1, 2):
         c, s = np.cos(tooth * np.pi / 6), np.sin(tooth * np.pi / 6)

@@ -9,15 +9,30 @@ import hashlib
 import os
 import tempfile
 import zipfile
+import zlib
+from collections.abc import Callable
 from functools import lru_cache
 from pathlib import Path
+from typing import Any, TypeVar
 
 import numpy as np
 
-from tribodyn.compliance.gear_compliance import GearCompliance
+from tribodyn.compliance.gear_compliance import NEIGHBOURS, GearCompliance, LeadHarmonics
+from tribodyn.compliance.lead_harmonics import wave_numbers
 from tribodyn.geometry.tooth import Tooth, tooth_outline
 
-_SOURCES = ("gear_compliance.py", "fem.py", "ring_mesh.py")
+Kept = TypeVar("Kept", GearCompliance, LeadHarmonics)
+
+_SECTORS = 2 * NEIGHBOURS + 1
+_SOURCES = (
+    "gear_compliance.py",
+    "fem.py",
+    "gear_model.py",
+    "ring_mesh.py",
+    "strips.py",
+    "cyclic_symmetry.py",
+    "root_stress.py",
+)
 
 
 def cache_folder() -> Path:
@@ -30,18 +45,76 @@ def cache_folder() -> Path:
 
 
 def cached_gear_compliance(
-    tooth: Tooth, teeth: int, bore_radius: float, poisson_ratio: float, depth: float, level: int
+    tooth: Tooth,
+    teeth: int,
+    bore_radius: float,
+    poisson_ratio: float,
+    depth: float,
+    level: int,
+    lead: bool = False,
 ) -> GearCompliance:
-    """Look `fem.gear_compliance` up in the cache, or solve it and keep it there. Arguments as there."""
-    file = cache_folder() / f"{_digest(tooth, teeth, bore_radius, poisson_ratio, depth, level)}.npz"
-    known = _read(file)
-    if known is not None:
-        return known
-    from tribodyn.compliance.fem import gear_compliance
+    """Look a gear up in the cache, or solve it and keep it there.
 
-    solved = gear_compliance(tooth, teeth, bore_radius, poisson_ratio, depth, level)
+    Parameters
+    ----------
+    tooth, teeth, bore_radius, poisson_ratio, depth, level
+        As for `fem.gear_compliance`.
+    lead : bool
+        With the response to loads that vary along the teeth and the root stress: some seconds more, once.
+    """
+    numbers = (teeth, bore_radius, poisson_ratio, depth, level)
+    plane = _kept(GearCompliance, _plane_fits, _digest(tooth, *numbers), lambda: _plane(tooth, *numbers))
+    plane = plane._replace(depth=float(plane.depth))
+    if not lead:
+        return plane
+    module = 2.0 * float(tooth.path.pinion_pitch_radius) / teeth
+    waves = wave_numbers(module, float(tooth.root_radius))
+    harmonics = _kept(
+        LeadHarmonics,
+        lambda found: _lead_fits(found, len(waves), len(plane.radius)),
+        "lead-" + _digest(tooth, *numbers, *waves),
+        lambda: _lead(tooth, *numbers, waves),
+    )
+    return plane._replace(lead=harmonics)
+
+
+def _plane(*arguments: Any) -> GearCompliance:
+    from tribodyn.compliance import fem
+
+    return fem.gear_compliance(*arguments)
+
+
+def _lead(*arguments: Any) -> LeadHarmonics:
+    from tribodyn.compliance import fem
+
+    return fem.lead_harmonics(*arguments)
+
+
+def _kept(kind: type[Kept], fits: Callable[[Kept], bool], name: str, solve: Callable[[], Kept]) -> Kept:
+    """Arrays of a file, or of `solve`, which are then kept in it."""
+    file = cache_folder() / f"{name}.npz"
+    found = _read(kind, file)
+    if found is not None and fits(found):
+        return found
+    solved = solve()
     _write(file, solved)
     return solved
+
+
+def _plane_fits(found: GearCompliance) -> bool:
+    count = len(found.radius)
+    return found.inside.shape == (2, count) and found.between.shape == (_SECTORS, count, count)
+
+
+def _lead_fits(found: LeadHarmonics, waves: int, count: int) -> bool:
+    points = found.root_position.shape[-1]
+    return (
+        found.wave_number.shape == (waves,)
+        and found.inside.shape == (waves, 2, count)
+        and found.between.shape == (waves, _SECTORS, count, count)
+        and found.root_position.shape == (2, points)
+        and found.root_stress.shape == (waves, _SECTORS, 2, points, count)
+    )
 
 
 def _digest(tooth: Tooth, *numbers: float) -> str:
@@ -59,30 +132,29 @@ def _source_digest() -> bytes:
     return hashlib.sha256(b"".join((folder / name).read_bytes() for name in _SOURCES)).digest()
 
 
-def _read(file: Path) -> GearCompliance | None:
+def _read(kind: type[Kept], file: Path) -> Kept | None:
     try:
         with file.open("rb") as stream, np.load(stream, allow_pickle=False) as stored:
-            parts = {name: stored[name] for name in GearCompliance._fields}
-    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
+            parts = {name: stored[name] for name in _arrays(kind)}
+    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, zlib.error):
         return None
-    found = GearCompliance(parts["radius"], parts["inside"], parts["between"], parts["depth"])
-    count = len(found.radius)
-    fits = found.inside.shape == (2, count) and found.between.shape[1:] == (count, count)
-    if not fits or not all(np.all(np.isfinite(part)) for part in parts.values()):
+    if not all(part.dtype == float and np.all(np.isfinite(part)) for part in parts.values()):
         return None
-    return found._replace(depth=float(parts["depth"]))
+    return kind(**parts)
 
 
-def _write(file: Path, gear: GearCompliance) -> None:
+def _arrays(kind: Any) -> list[str]:
+    return [name for name in kind._fields if name not in kind._field_defaults]
+
+
+def _write(file: Path, solved: GearCompliance | LeadHarmonics) -> None:
     """Keep it, or do without where the folder cannot be written: the cache is a convenience."""
     try:
         file.parent.mkdir(parents=True, exist_ok=True)
         handle, name = tempfile.mkstemp(dir=file.parent, suffix=".tmp")
         try:
             with os.fdopen(handle, "wb") as stream:
-                np.savez(
-                    stream, radius=gear.radius, inside=gear.inside, between=gear.between, depth=gear.depth
-                )
+                np.savez(stream, **{part: getattr(solved, part) for part in _arrays(type(solved))})
             os.replace(name, file)
         except BaseException:
             Path(name).unlink(missing_ok=True)

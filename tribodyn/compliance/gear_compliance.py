@@ -8,6 +8,33 @@ Array = Any
 NEIGHBOURS = 2
 
 
+class LeadHarmonics(NamedTuple):
+    """Response of a gear to line loads cos kz along its teeth, for unit Young's modulus; amplitudes.
+
+    K wave numbers, M positions of the load as in `GearCompliance`, P positions along the root.
+
+    Attributes
+    ----------
+    wave_number : (K,)
+        k, rad/m, increasing from 0.
+    inside : (K, 2, M)
+    between : (K, 2 NEIGHBOURS + 1, M, M)
+        As in `GearCompliance`, per unit line load.
+    root_position : (2, P)
+        x and y in the tooth's frame, m, of the points on the loaded flank's side, y > 0, from the middle of
+        the gap to the flank; those of the other side are their mirror images.
+    root_stress : (K, 2 NEIGHBOURS + 1, 2, P, M)
+        Stress along the profile, tension positive, per unit line load, 1/m: on the tooth k − NEIGHBOURS
+        pitches towards +y of the loaded one, on its own side y > 0 (0) and y < 0 (1).
+    """
+
+    wave_number: Array
+    inside: Array
+    between: Array
+    root_position: Array
+    root_stress: Array
+
+
 class GearCompliance(NamedTuple):
     """Compliances of a gear's flanks in plane strain, for unit Young's modulus and width.
 
@@ -25,9 +52,12 @@ class GearCompliance(NamedTuple):
         side of the loaded flank, per load at position j; infinite in truth for the tooth itself where i = j.
     depth : float
         Depth below the surface to which `inside` refers, m.
+    lead : LeadHarmonics or None
+        Loads that vary along the teeth, and root stress, where they were asked for.
     """
 
     radius: Array
     inside: Array
     between: Array
     depth: float
+    lead: LeadHarmonics | None = None

@@ -90,6 +90,7 @@ def flexibility(
     materials: tuple[Elastic, Elastic],
     depth: float = DEPTH,
     level: int = LEVEL,
+    lead: bool = False,
 ) -> PairFlexibility:
     """Finite elements of both gears, from the cache where they have been solved before.
 
@@ -103,6 +104,8 @@ def flexibility(
         Of the local region, modules.
     level : int
         Refinement of the mesh.
+    lead : bool
+        Also for loads that vary along the teeth, and with root stress.
     """
     drive = assembly.drive
     gears = [
@@ -113,6 +116,7 @@ def flexibility(
             material.poisson_ratio,
             depth * float(drive.module),
             level,
+            lead,
         )
         for side, material in zip(SIDES, materials, strict=True)
     ]

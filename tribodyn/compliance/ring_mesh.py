@@ -29,27 +29,38 @@ _SEAM_DROP = 0.35
 
 
 class SectorMesh(NamedTuple):
-    """Curved cells of nine nodes over one sector; x along the tooth's axis, +y the side of the loaded flank.
+    """Curved cells of nine nodes over half a sector, or one; x along the tooth's axis, +y the loaded flank.
 
     Attributes
     ----------
     nodes : (2, N), m
     cells : (9, C), node numbers: corners counter-clockwise, middles of the edges that follow them, centre
     flank : (M,), corner nodes on the flank y > 0, from the fillet to the tip
+    root : (2 R + 1,), corner and middle nodes of R edges on the side y > 0, from the middle of the gap along
+        the root circle and the fillet to the flank's first
     """
 
     nodes: Array
     cells: NDArray[np.int64]
     flank: NDArray[np.int64]
+    root: NDArray[np.int64]
+
+
+def half_sector_mesh(tooth: Tooth, teeth: int, bore_radius: float, level: int) -> SectorMesh:
+    """Mesh the half y ≥ 0 of one tooth's sector; `level` multiplies the cells in both directions."""
+    return _joined(_half_blocks(tooth, teeth, bore_radius, level), level)
 
 
 def sector_mesh(tooth: Tooth, teeth: int, bore_radius: float, level: int) -> SectorMesh:
-    """Mesh the sector of one tooth; `level` multiplies the number of cells in both directions."""
+    """Mesh the whole sector of one tooth, the half and its mirror image."""
     blocks = _half_blocks(tooth, teeth, bore_radius, level)
-    mirrored = [block * np.array([1.0, -1.0]) for block in blocks]
-    points, cells = [], []
+    return _joined([*blocks, *(block * np.array([1.0, -1.0]) for block in blocks)], level)
+
+
+def _joined(blocks: list[Array], level: int) -> SectorMesh:
+    points, cells, numbers = [], [], []
     count = 0
-    for block in [*blocks, *mirrored]:
+    for block in blocks:
         rows, columns, _ = block.shape
         number = count + np.arange(rows * columns).reshape(rows, columns)
         ring = [(0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1), (1, 1)]
@@ -57,11 +68,17 @@ def sector_mesh(tooth: Tooth, teeth: int, bore_radius: float, level: int) -> Sec
             np.stack([number[i : rows - 2 + i : 2, j : columns - 2 + j : 2].ravel() for i, j in ring])
         )
         points.append(block.reshape(-1, 2))
+        numbers.append(number)
         count += rows * columns
     nodes, merged = _merge(np.concatenate(points))
-    rows, columns, _ = blocks[0].shape
-    flank = merged[np.arange(0, rows, 2) * columns][_FILLET * level :]
-    return SectorMesh(nodes.T.copy(), _counter_clockwise(nodes, merged[np.concatenate(cells, axis=1)]), flank)
+    profile, gap = merged[numbers[0][:, 0]], merged[numbers[1][0]]
+    above = 2 * _FILLET * level
+    return SectorMesh(
+        nodes.T.copy(),
+        _counter_clockwise(nodes, merged[np.concatenate(cells, axis=1)]),
+        profile[above::2],
+        np.concatenate([gap[:-1], profile[: above + 1]]),
+    )
 
 
 def _half_blocks(tooth: Tooth, teeth: int, bore_radius: float, level: int) -> list[Array]:

@@ -1,0 +1,164 @@
+"""A ring of equal mirror-symmetric sectors under loads on one of them, from half a sector.
+
+A load on one tooth is the sum over the harmonics n = 0 … Z − 1 of loads on all teeth that differ by the
+phase 2πn/Z from tooth to tooth; for each of these the displacement of a sector's one edge is that of the
+other, turned by 2π/Z and multiplied by the phase, so that one sector stands for the ring (D. L. Thomas, Int.
+J. Numer. Meth. Engng 14 (1979) 81). The sector itself is its half y ≥ 0 and the mirror image, and a
+displacement the sum of one that is its own mirror image and one that is the negative of it: two problems of
+half the size. Nothing is neglected: the result is that of the full ring.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csc_matrix
+from scipy.sparse.linalg import splu
+
+Array = Any
+
+
+class HalfSector(NamedTuple):
+    """Nodes of half a sector between its axis of symmetry (the x axis) and its edge at the angle π/Z.
+
+    Attributes
+    ----------
+    teeth : int
+        Z, number of sectors.
+    nodes : int
+        Number of all nodes.
+    held : nodes that do not move
+    axis : nodes on the axis of symmetry
+    edge : nodes on the edge that are not held
+    """
+
+    teeth: int
+    nodes: int
+    held: NDArray[np.int64]
+    axis: NDArray[np.int64]
+    edge: NDArray[np.int64]
+
+
+class Reduced(NamedTuple):
+    """Half a sector of one symmetry as seen from its edge: what loads and edge do to the readers."""
+
+    stiffness: Array  # (edge, edge)
+    passed_on: Array  # (edge, load): forces that the loads pass on to the held edge, reversed
+    alone: Array  # (reader, load) with the edge held
+    per_edge: Array  # (reader, edge): reading is alone − per_edge @ edge
+
+
+def half_sector(place: Array, teeth: int, bore_radius: float) -> HalfSector:
+    """Find the special nodes among the places (2, nodes)."""
+    radius, angle = np.hypot(*place), np.arctan2(place[1], place[0])
+    near = 1e-9 * bore_radius
+    held = radius < bore_radius + near
+    return HalfSector(
+        teeth,
+        place.shape[1],
+        np.flatnonzero(held),
+        np.flatnonzero(~held & (np.abs(place[1]) < near)),
+        np.flatnonzero(~held & (radius * np.abs(angle - np.pi / teeth) < near)),
+    )
+
+
+def ring_response(
+    half: HalfSector,
+    stiffness: Any,
+    loads: Array,
+    readers: Array,
+    mirrored: NDArray[np.bool_],
+    sectors: NDArray[np.int64],
+    coupled: bool = True,
+) -> Array:
+    """Readings (sector, reader, load) of the ring.
+
+    Parameters
+    ----------
+    half : HalfSector
+    stiffness : sparse (dof, dof)
+        Of the half sector; 2 or 3 components of the displacement follow each other at a node: u, v[, w].
+    loads : (dof, load)
+        On the half y > 0 of sector 0.
+    readers : (reader, dof)
+        Rows that take the half's displacements to what is read.
+    mirrored : (reader,)
+        Whether the reader looks at the mirror image of the half: reads, at y < 0, what its row says of the
+        reflected displacement.
+    sectors : (sector,)
+        Pitches from the loaded sector, counted in the sense from x to y.
+    coupled : bool
+        Without, the edges are held and the other sectors stay at rest: for loads that do not reach so far.
+    """
+    components = stiffness.shape[0] // half.nodes
+    parts = [_reduced(half, stiffness, loads, readers, components, symmetry, coupled) for symmetry in (1, -1)]
+    side = np.where(mirrored, -1.0, 1.0)[:, None]
+    alone = 0.5 * (parts[0].alone + side * parts[1].alone)
+    if not coupled:
+        return alone * (sectors == 0)[:, None, None]
+
+    turn = 2.0 * np.pi / half.teeth
+    cosine, sine = np.cos(turn), np.sin(turn)
+    one_node = np.eye(components)
+    one_node[:2, :2] = [[cosine, -sine], [sine, cosine]]
+    rotation = np.kron(np.eye(len(half.edge)), one_node)
+    mirror = np.diag(np.tile([1.0, -1.0, 1.0][:components], len(half.edge)))
+    seen = np.zeros((len(sectors), len(readers), loads.shape[1]))
+    for harmonic in range(half.teeth // 2 + 1):
+        # the edge at +π/Z by that at −π/Z, and both symmetries' shares of the two
+        ahead = np.exp(1j * turn * harmonic) * rotation
+        share = [0.5 * (ahead + mirror), 0.5 * (ahead - mirror)]
+        matrix = sum(2.0 * s.conj().T @ part.stiffness @ s for s, part in zip(share, parts, strict=True))
+        force = sum(s.conj().T @ part.passed_on for s, part in zip(share, parts, strict=True))
+        behind = np.linalg.solve(matrix, force)
+        reading = parts[0].per_edge @ (share[0] @ behind) + side * (parts[1].per_edge @ (share[1] @ behind))
+        # harmonics n and Z − n are each other's conjugates
+        weight = (1.0 if harmonic in (0, half.teeth / 2) else 2.0) / half.teeth
+        phase = np.exp(1j * turn * harmonic * sectors)[:, None, None]
+        seen += weight * np.real(phase * (alone - reading))
+    return seen
+
+
+def _reduced(
+    half: HalfSector,
+    stiffness: Any,
+    loads: Array,
+    readers: Array,
+    components: int,
+    symmetry: int,
+    coupled: bool,
+) -> Reduced:
+    """Reduce the half with displacements that are (1) or are opposite to (-1) their mirror image."""
+    unmoved = [1] if symmetry > 0 else [0, 2][: components - 1]  # components on the axis
+    fixed = [_dofs(half.held, range(components), components), _dofs(half.axis, unmoved, components)]
+    edges = _dofs(half.edge, range(components), components)
+    rest = np.setdiff1d(np.arange(stiffness.shape[0]), np.concatenate([*fixed, edges]))
+    inner = stiffness[rest]
+    solver = splu(
+        csc_matrix(inner[:, rest]),
+        permc_spec="MMD_AT_PLUS_A",
+        options={"SymmetricMode": True, "DiagPivotThresh": 0.0},
+    )
+    by_loads = _solved(solver, loads[rest])
+    read = readers[:, rest]
+    if not coupled:
+        none = np.zeros((0, 0))
+        return Reduced(none, none, read @ by_loads, none)
+    to_edge = inner[:, edges]
+    by_edges = _solved(solver, to_edge.toarray())
+    return Reduced(
+        stiffness[edges][:, edges].toarray() - to_edge.T @ by_edges,
+        -to_edge.T @ by_loads,
+        read @ by_loads,
+        read @ by_edges - readers[:, edges],
+    )
+
+
+def _dofs(nodes: NDArray[np.int64], which: Any, components: int) -> NDArray[np.int64]:
+    return (components * nodes[:, None] + np.array(list(which))).ravel()
+
+
+def _solved(solver: Any, right: Array) -> Array:
+    # One side at a time: with many, SuperLU calls threaded BLAS on tiny blocks, ten times slower where
+    # the cores are busy.
+    return np.stack([solver.solve(np.ascontiguousarray(column)) for column in right.T], axis=-1)

@@ -1,0 +1,60 @@
+"""Tangential stress along the root of a tooth from the displacements of its boundary.
+
+The root's surface is free, so the stress along the profile follows from the strains in the surface alone,
+
+    σ = E/(1 − ν²) (ε_t + ν ε_z),   ε_t = t · ∂u/∂s,   ε_z = ∂w/∂z.
+
+ε_t is taken at the two Gauss points of each quadratic edge, where the derivative of an interpolated
+displacement is right to one order more than elsewhere (J. Barlow, Int. J. Numer. Meth. Engng 10 (1976) 243).
+"""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = Any
+
+_GAUSS = np.array([-1.0, 1.0]) / np.sqrt(3.0)
+
+
+def edge_points(place: Array) -> Array:
+    """Points (2, 2 R), m, at which `stress_rows` reads, of the boundary's nodes (2, 2 R + 1)."""
+    shape = np.stack([_GAUSS * (_GAUSS - 1) / 2, 1 - _GAUSS**2, _GAUSS * (_GAUSS + 1) / 2])
+    return np.einsum("dne,ng->deg", _by_edge(place), shape).reshape(2, -1)
+
+
+def stress_rows(place: Array, nodes: NDArray[np.int64], size: int, poisson_ratio: float, k: float) -> Array:
+    """Rows (2 R, dof) that take amplitudes of the displacement to the stress's, for unit Young's modulus.
+
+    Parameters
+    ----------
+    place : (2, 2 R + 1)
+        Corner and middle nodes of R quadratic edges that follow each other, m.
+    nodes : (2 R + 1,)
+        Their numbers; u, v and w of a node follow each other in the degrees of freedom.
+    size : int
+        Number of degrees of freedom.
+    poisson_ratio : float
+        ν.
+    k : float
+        Wave number, rad/m.
+    """
+    shape = np.stack([_GAUSS * (_GAUSS - 1) / 2, 1 - _GAUSS**2, _GAUSS * (_GAUSS + 1) / 2])
+    slope = np.stack([_GAUSS - 0.5, -2 * _GAUSS, _GAUSS + 0.5])
+    tangent = np.einsum("dne,ng->deg", _by_edge(place), slope)
+    stretch = slope[None, :, None] * (tangent / np.sum(tangent**2, axis=0))[:, None]  # (2, node, edge, point)
+    along = np.broadcast_to(poisson_ratio * k * shape[:, None], stretch.shape[1:])
+    values = np.stack([*stretch, along]) / (1.0 - poisson_ratio**2)
+    edges = values.shape[2]
+    rows = np.zeros((edges, 2, size))
+    for node in range(3):
+        for component in range(3):
+            at = 3 * nodes[node : node + 2 * edges - 1 : 2] + component
+            rows[np.arange(edges), :, at] += values[component, node]
+    return rows.reshape(2 * edges, size)
+
+
+def _by_edge(place: Array) -> Array:
+    """Nodes (2, 3, R) of every edge."""
+    return np.stack([place[:, :-2:2], place[:, 1::2], place[:, 2::2]], axis=1)

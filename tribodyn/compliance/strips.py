@@ -1,0 +1,101 @@
+"""Stiffness of a prismatic body whose displacement runs like a cosine along it: finite strips.
+
+With u, v = (U, V)(x, y) cos kz and w = W(x, y) sin kz the strains are
+
+    ε_x = U_x, ε_y = V_y, γ_xy = U_y + V_x, ε_z = kW   (times cos kz)
+    γ_xz = W_x − kU, γ_yz = W_y − kV                   (times sin kz)
+
+and the energy per length, for k > 0 half of that at the crest, is a quadratic form in the section's U, V, W
+(Y. K. Cheung, Finite Strip Method in Structural Analysis, Pergamon 1976; also E. L. Wilson, AIAA J. 3
+(1965) 2269 for bodies of revolution). In powers of k it is K_0 + k K_1 + k² K_2, so that a mesh is assembled
+once for all wave numbers. Planes z = 0 and z = nπ/k are planes of symmetry: free of shear, w = 0. At k = 0 U
+and V are those of plane strain.
+"""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_matrix, kron
+from skfem import Basis, BilinearForm, ElementQuad2, MeshQuad, MeshQuad2
+
+Array = Any
+
+#: Components of the displacement a node: u, v, w.
+COMPONENTS = 3
+
+
+def curved_basis(nodes: Array, cells: NDArray[np.int64]) -> Basis:
+    """Basis of quadratic functions on curved quadrilaterals of nine nodes, in `SectorMesh`'s order.
+
+    The nodes' numbers do not survive; `Basis.doflocs` says where every node of the basis is.
+    """
+    corners, numbers = np.unique(cells[:4], return_inverse=True)
+    straight = MeshQuad(np.ascontiguousarray(nodes[:, corners]), np.ascontiguousarray(numbers.reshape(4, -1)))
+    order = Basis(straight, ElementQuad2()).element_dofs
+    place = np.empty((2, int(order.max()) + 1))
+    place[:, order] = nodes[:, cells]
+    return Basis(MeshQuad2(place, straight.t), ElementQuad2(), intorder=5)
+
+
+def plane_stiffness(basis: Basis, poisson_ratio: float) -> csr_matrix:
+    """Plane strain for unit Young's modulus; u and v of a node of `curved_basis` follow each other."""
+    shear, lame = _moduli(poisson_ratio)
+    xx, xy, yy = (_assembled(basis, gradients(a, b)) for a, b in ((0, 0), (0, 1), (1, 1)))
+    return csr_matrix(
+        kron((lame + 2.0 * shear) * xx + shear * yy, _unit(2, 0, 0))
+        + kron((lame + 2.0 * shear) * yy + shear * xx, _unit(2, 1, 1))
+        + kron(lame * xy + shear * xy.T, _unit(2, 0, 1))
+        + kron(lame * xy.T + shear * xy, _unit(2, 1, 0))
+    )
+
+
+def strip_stiffness(basis: Basis, poisson_ratio: float) -> tuple[csr_matrix, csr_matrix, csr_matrix]:
+    """K_0, K_1 and K_2 for unit Young's modulus; u, v, w of a node of `curved_basis` follow each other.
+
+    A load per length f cos kz at a node works on U and V with its amplitude f.
+    """
+    shear, lame = _moduli(poisson_ratio)
+    plane: Any = plane_stiffness(basis, poisson_ratio)
+    nodes = plane.shape[0] // 2
+    in_plane = csr_matrix((np.ones(2), ([0, 1], [0, 1])), shape=(2, COMPONENTS))
+    widen = kron(csr_matrix((np.ones(nodes), (range(nodes), range(nodes)))), in_plane).tocsr()
+    laplace = sum(_assembled(basis, gradients(a, a)) for a in (0, 1))
+    constant = widen.T @ plane @ widen + shear * kron(laplace, _unit(COMPONENTS, 2, 2))
+
+    linear: Any = 0
+    for axis in (0, 1):
+        mixed = _assembled(basis, value_and_gradient(axis))
+        to_w = kron(lame * mixed - shear * mixed.T, _unit(COMPONENTS, 2, axis))
+        linear = linear + to_w + to_w.T
+    mass = _assembled(basis, BilinearForm(lambda u, v, _: u * v))
+    square = kron(mass, np.diag([shear, shear, lame + 2.0 * shear]))
+    return csr_matrix(constant), csr_matrix(linear), csr_matrix(square)
+
+
+def gradients(first: int, second: int) -> BilinearForm:
+    """∫ v_,first u_,second of test function v and trial function u."""
+    return BilinearForm(lambda u, v, _: v.grad[first] * u.grad[second])
+
+
+def value_and_gradient(axis: int) -> BilinearForm:
+    """∫ v u_,axis of test function v and trial function u."""
+    return BilinearForm(lambda u, v, _: v * u.grad[axis])
+
+
+def _assembled(basis: Basis, form: BilinearForm) -> csr_matrix:
+    return csr_matrix(form.assemble(basis))
+
+
+def _moduli(poisson_ratio: float) -> tuple[float, float]:
+    """Shear modulus and Lamé's first constant for unit Young's modulus."""
+    return (
+        0.5 / (1.0 + poisson_ratio),
+        poisson_ratio / ((1.0 + poisson_ratio) * (1.0 - 2.0 * poisson_ratio)),
+    )
+
+
+def _unit(size: int, row: int, column: int) -> Array:
+    matrix = np.zeros((size, size))
+    matrix[row, column] = 1.0
+    return matrix
