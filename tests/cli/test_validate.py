@@ -1,8 +1,10 @@
 """`tribodyn validate`: a row for every published number, and an exit status that says whether they hold."""
 
 import json
+from pathlib import Path
 
 import pytest
+from matplotlib.figure import Figure
 from typer.testing import CliRunner
 
 import tribodyn.validation
@@ -30,3 +32,32 @@ def test_json_holds_every_row(monkeypatch: pytest.MonkeyPatch):
     keys = {"id", "published", "computed", "difference", "tolerance", "verdict", "note"}
     assert [keys <= row.keys() for row in rows] == [True, True]
     assert [row["published"] for row in rows] == [100.0, True]
+
+
+def test_pictures_are_drawn_and_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    drawn = tmp_path / "pictures" / "diez-ibarbia-figure-06.png"
+    monkeypatch.setattr(tribodyn.validation, "validate", lambda *_: ROWS)
+    monkeypatch.setattr(tribodyn.validation, "draw", lambda paper, plots, *_: [plots / drawn.name])
+    ended = CliRunner().invoke(app, ["validate", "diez-ibarbia", "--json", "--plots", str(drawn.parent)])
+    assert ended.exit_code == 0
+    assert json.loads(ended.stdout)["pictures"] == [str(drawn)]
+
+
+def test_a_paper_without_figures_says_so_before_it_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.delitem(tribodyn.validation.FIGURES, "diez-ibarbia")
+    ended = CliRunner().invoke(app, ["validate", "diez-ibarbia", "--plots", str(tmp_path / "pictures")])
+    assert ended.exit_code == 2
+    assert "none of them is drawn here" in ended.stderr
+    assert not (tmp_path / "pictures").exists()
+
+
+def test_every_figure_of_a_paper_is_drawn(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    done = []
+    names = tribodyn.validation.figure_names("diez-ibarbia")
+    monkeypatch.setattr(
+        "tribodyn.validation.figures.diez_ibarbia.FIGURES", dict.fromkeys(names, lambda _: Figure())
+    )
+    pictures = tribodyn.validation.draw("diez-ibarbia", tmp_path, tmp_path, done.append)
+    assert [picture.name for picture in pictures] == [f"diez-ibarbia-{name}.png" for name in names]
+    assert all(picture.exists() for picture in pictures)
+    assert done[-1] == 1.0

@@ -6,7 +6,7 @@ import pytest
 from tribodyn.efficiency.load_contact import load_contact
 from tribodyn.errors import InputError
 from tribodyn.geometry.corner_contact import pair_geometry
-from tribodyn.validation.diez_ibarbia import drive, elastic
+from tribodyn.validation.diez_ibarbia_study import drive, elastic
 
 
 @pytest.fixture(scope="module")

@@ -9,7 +9,7 @@ from tribodyn.efficiency.loss_factor import exact, hoehn, tip_contact_ratios
 from tribodyn.efficiency.shift import SCENARIOS, shifted
 from tribodyn.geometry.drive import tip_radius
 from tribodyn.geometry.involute import FAMILY
-from tribodyn.validation.diez_ibarbia import drive
+from tribodyn.validation.diez_ibarbia_study import drive
 
 
 @pytest.mark.parametrize("tips", [(0.8, 0.8), (0.5, 0.6), (1.0, 1.0), (0.55, 0.97), (1.0, 0.2)])

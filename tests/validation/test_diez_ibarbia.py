@@ -2,13 +2,12 @@
 
 import pytest
 
-from tribodyn.efficiency.shift import shifted
 from tribodyn.validation import validate
-from tribodyn.validation.diez_ibarbia import (
-    drive,
-    load_contact_efficiency,
+from tribodyn.validation.diez_ibarbia_study import (
+    at_load,
     loss_factors,
     mean_friction,
+    pair_of,
     peak,
 )
 from tribodyn.validation.rows import published
@@ -55,7 +54,10 @@ def test_the_claim_that_does_not_hold_is_reported_with_its_figures(rows):
     row = rows["diez/claim-efficiency-falls-with-shift"]
     assert row.verdict == "reported"
     assert row.computed is False
-    assert "S2" in row.note
+    for scenario in ("S1", "S2", "S3"):
+        assert f"{scenario}, x = " in row.note
+        for condition in ("OC1", "OC2", "OC3", "OC4", "OC5"):
+            assert f"{scenario} by load contact {condition} " in row.note
 
 
 def test_mean_friction_coefficients():
@@ -66,7 +68,7 @@ def test_mean_friction_coefficients():
 @pytest.mark.parametrize("case", PROTOTYPE)
 def test_shifted_pairs_agree_with_a_separate_prototype(case):
     scenario, shift = case
-    by_hoehn, by_integral = loss_factors(shifted(drive(), scenario, shift))
+    by_hoehn, by_integral = loss_factors(pair_of(scenario, shift))
     # the prototype rounds the contact ratio that S2 keeps to 1.611, and integrates numerically
     close = 1e-6 if scenario == "S2" else 1e-9
     assert 1 - FRICTION * by_hoehn == pytest.approx(PROTOTYPE[case][0], abs=close)
@@ -91,5 +93,5 @@ LOAD_CONTACT = {
 @pytest.mark.parametrize("case", LOAD_CONTACT)
 def test_shifted_pairs_by_the_load_contact_model_agree_with_a_separate_prototype(case):
     scenario, shift, condition = case
-    found = load_contact_efficiency(shifted(drive(), scenario, shift), condition)
+    found = at_load(scenario, shift, condition).efficiency
     assert found == pytest.approx(LOAD_CONTACT[case], abs=5e-5)

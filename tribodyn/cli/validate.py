@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from tribodyn.cli.output import make_folder
+from tribodyn.cli.output import make_folder, unwritable
 
 if TYPE_CHECKING:
     from tribodyn.validation.rows import Row
@@ -13,7 +13,8 @@ if TYPE_CHECKING:
 EXAMPLES = (
     "\b\nExit status 4 if a value is outside its tolerance. Examples:\n"
     "  tribodyn validate liu-ni-2022\n"
-    "  tribodyn validate liu-ni-2022 --json -o records"
+    "  tribodyn validate liu-ni-2022 --json -o records\n"
+    "  tribodyn validate diez-ibarbia --plots pictures"
 )
 
 
@@ -22,23 +23,46 @@ def validate(
     output: Annotated[
         Path | None, typer.Option("--output", "-o", help="Folder to keep the records in.")
     ] = None,
+    plots: Annotated[
+        Path | None, typer.Option("--plots", help="Folder for figures like the paper's, from our numbers.")
+    ] = None,
     json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
     """Compare with what a paper published."""
-    from tribodyn.cli.outcome import OUTSIDE_TOLERANCE, complain
-    from tribodyn.cli.printing import print_json, print_table
-    from tribodyn.cli.progress import progress_bar
-    from tribodyn.validation import validate as compare
+    from contextlib import ExitStack
+    from tempfile import TemporaryDirectory
 
-    if output is not None:
-        make_folder(output)
-    with progress_bar(f"validate {paper}") as progress:
-        rows = compare(paper, progress, output)
+    from tribodyn import validation
+    from tribodyn.cli.outcome import OUTSIDE_TOLERANCE, complain
+    from tribodyn.cli.printing import print_json, print_table, quoted_path
+    from tribodyn.cli.progress import progress_bar
+
+    if plots is not None:
+        validation.figure_names(paper)
+    for folder in (output, plots):
+        if folder is not None:
+            make_folder(folder)
+    pictures: list[Path] = []
+    with ExitStack() as stack:
+        records = output
+        if plots is not None and records is None:
+            records = Path(stack.enter_context(TemporaryDirectory(prefix="tribodyn-")))
+        with progress_bar(f"validate {paper}") as progress:
+            rows = validation.validate(paper, progress, records)
+        if plots is not None and records is not None:
+            with progress_bar("drawing") as progress:
+                try:
+                    pictures = validation.draw(paper, plots, records, progress)
+                except OSError as error:
+                    raise unwritable(plots, error) from None
     if json:
-        print_json({"rows": [row._asdict() for row in rows]})
+        drawn = {"pictures": [str(picture) for picture in pictures]} if plots is not None else {}
+        print_json({"rows": [row._asdict() for row in rows], **drawn})
     else:
         columns = ("quantity", "unit", "published", "computed", "difference", "tolerance", "verdict", "note")
         print_table(paper, columns, [[_written(row, name) for name in columns] for row in rows])
+        for picture in pictures:
+            typer.echo(f"picture  {quoted_path(picture)}")
     failed = [row.id for row in rows if row.verdict == "fail"]
     if failed:
         complain(f"{paper}: outside tolerance: {', '.join(failed)}")

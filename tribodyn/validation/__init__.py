@@ -15,6 +15,10 @@ PAPERS = {
     "diez-ibarbia": "tribodyn.validation.diez_ibarbia",
     "jia-2022": "tribodyn.validation.jia",
 }
+#: Paper's name -> module that draws its figures.
+FIGURES = {
+    "diez-ibarbia": "tribodyn.validation.figures.diez_ibarbia",
+}
 
 
 def validate(
@@ -38,8 +42,7 @@ def validate(
     SimulationError
         If one of the runs fails.
     """
-    if paper not in PAPERS:
-        raise InputError("paper", paper, "no such paper", f"one of: {', '.join(PAPERS)}")
+    _check(paper)
     module = import_module(PAPERS[paper])
     if folder is not None:
         return module.rows(Path(folder), progress)
@@ -47,3 +50,63 @@ def validate(
 
     with TemporaryDirectory(prefix="tribodyn-") as temporary:
         return module.rows(Path(temporary), progress)
+
+
+def figure_names(paper: str) -> list[str]:
+    """Names of the figures of a paper that are drawn from our own numbers.
+
+    Raises
+    ------
+    InputError
+        For an unknown paper, and one without figures.
+    """
+    _check(paper)
+    if paper not in FIGURES:
+        raise InputError(
+            "plots",
+            f"figures of {paper}",
+            "none of them is drawn here",
+            f"keep its records with --output and draw these with tribodyn plot, or take one of: "
+            f"{', '.join(FIGURES)}",
+        )
+    return list(import_module(FIGURES[paper]).FIGURES)
+
+
+def draw(
+    paper: str, plots: Path, records: Path, progress: Callable[[float], None] | None = None
+) -> list[Path]:
+    """Draw figures like a paper's from our own numbers.
+
+    Parameters
+    ----------
+    paper : str
+        One of `FIGURES`.
+    plots : Path
+        Folder of the pictures, which is there: ``diez-ibarbia-figure-06.png``.
+    records : Path
+        Folder in which `validate` left the paper's records.
+    progress : callable, optional
+        Called with the share done, 0 … 1.
+
+    Raises
+    ------
+    InputError
+        As `figure_names`.
+    """
+    from tribodyn.post.style import house_style, save
+
+    names = figure_names(paper)
+    module = import_module(FIGURES[paper])
+    pictures = []
+    for done, name in enumerate(names, start=1):
+        with house_style():
+            figure = module.FIGURES[name](records)
+        pictures.append(save(figure, plots / f"{paper}-{name}.png"))
+        if progress:
+            progress(done / len(names))
+    return pictures
+
+
+def _check(paper: str) -> None:
+    if paper not in PAPERS:
+        raise InputError("paper", paper, "no such paper", f"one of: {', '.join(PAPERS)}")

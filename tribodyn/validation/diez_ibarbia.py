@@ -7,86 +7,31 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.case import Case
-from tribodyn.compliance.load_sharing import PairFlexibility, flexibility, share_load
+from tribodyn.compliance.load_sharing import PairFlexibility, share_load
 from tribodyn.efficiency.load_contact import load_contact
-from tribodyn.efficiency.loss_factor import exact, hoehn, tip_contact_ratios
-from tribodyn.efficiency.shift import SCENARIOS, Scenario, shifted
-from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.drive import Drive
+from tribodyn.efficiency.loss_factor import tip_contact_ratios
+from tribodyn.efficiency.shift import SCENARIOS, Scenario
 from tribodyn.geometry.involute import FAMILY
-from tribodyn.scenario.load import load_scenario
-from tribodyn.surfaces import nominal_conditions
-from tribodyn.tribology.mean_friction import niemann
+from tribodyn.validation.diez_ibarbia_study import (
+    CONDITIONS,
+    at_load,
+    drive,
+    elastic,
+    equal_load_efficiencies,
+    gear_torque,
+    loss_factors,
+    mean_friction,
+    peak,
+)
 from tribodyn.validation.rows import Row, compare, published
 
 PAPER = "diez-ibarbia"
-#: Operating conditions: power W, speed rpm.
-CONDITIONS = {
-    "OC1": (25e3, 1500.0),
-    "OC2": (25e3, 6000.0),
-    "OC3": (50e3, 3000.0),
-    "OC4": (100e3, 1500.0),
-    "OC5": (100e3, 6000.0),
+#: Shifts x1 at which it is checked whether the efficiency falls.
+SHIFTS: dict[Scenario, tuple[float, ...]] = {
+    "S1": (0.0, 0.1, 0.2),
+    "S2": (0.0, 0.1, 0.3, 0.5, 0.7),
+    "S3": (0.0, 0.1, 0.3, 0.5, 0.7),
 }
-# Mesh of the shifted pairs: efficiencies within 1e-5 of those of the finer one used without shift.
-_LEVEL_OF_SHIFTED = 1
-
-
-def mean_friction(condition: str) -> float:
-    """Niemann's mean friction coefficient of the paper's pair at an operating condition."""
-    power, rpm = CONDITIONS[condition]
-    speed = rpm * math.pi / 30.0
-    overrides = {
-        "operating.pinion_speed": f"{speed!r} rad/s",
-        "operating.gear_torque": f"{2.0 * power / speed!r} N*m",
-    }
-    return float(niemann(nominal_conditions(_case(overrides))))
-
-
-def gear_torque(condition: str) -> float:
-    """Torque on the gear at an operating condition, N m; the paper's torques are the pinion's."""
-    power, rpm = CONDITIONS[condition]
-    return 2.0 * power / (rpm * math.pi / 30.0)
-
-
-def elastic(pair: Drive, level: int | None = None) -> PairFlexibility:
-    """Finite elements of the paper's pair, shifted or not, of its material."""
-    options = {} if level is None else {"level": level}
-    return flexibility(assemble(FAMILY, pair), _case({}).materials, **options)
-
-
-def drive() -> Drive:
-    """Return the paper's pair without shift."""
-    return _case({}).drive
-
-
-def _case(overrides: dict[str, str]) -> Case:
-    case = load_scenario("involute-18-36", overrides)
-    assert isinstance(case, Case)
-    return case
-
-
-def loss_factors(pair: Drive) -> tuple[float, float]:
-    """H_v by Höhn's formula and by the integral behind it."""
-    tips = tip_contact_ratios(FAMILY, pair)
-    teeth, ratio = pair.pinion.teeth, pair.gear.teeth / pair.pinion.teeth
-    return hoehn(*tips, teeth, ratio), exact(*tips, teeth, ratio)
-
-
-def peak(scenario: Scenario) -> tuple[float, float]:
-    """Shift at which Höhn's efficiency is greatest, and the shift beyond which it is below that without."""
-    from scipy.optimize import brentq, minimize_scalar
-
-    base = drive()
-
-    def factor(shift: float) -> float:
-        return loss_factors(shifted(base, scenario, shift))[0]
-
-    best = float(minimize_scalar(factor, bounds=(0.0, 0.4), method="bounded").x)  # pyright: ignore
-    start = factor(0.0)
-    back = brentq(lambda shift: factor(shift) - start, best, 0.6)
-    return best, float(back)  # pyright: ignore[reportArgumentType]
 
 
 def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[Row]:
@@ -135,7 +80,7 @@ def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[
         theory < ratios[0] < ratios[1] < ratios[2],
         " / ".join(f"{ratio:.3f}" for ratio in ratios) + f" at 40 / 159 / 637 N·m; theoretical {theory:.3f}",
     )
-    values[f"{prefix}efficiency-falls-with-shift"] = _falls_with_shift(base, progress)
+    values[f"{prefix}efficiency-falls-with-shift"] = _falls_with_shift(progress)
     table = published(PAPER)
     return [compare(table[key], *values[key]) for key in table]
 
@@ -152,32 +97,51 @@ def _step_at_pitch_point(flexible: PairFlexibility) -> tuple[bool, str]:
     return agree, f"OC4: {before:.4f} to {after:.4f}"
 
 
-def _falls_with_shift(base: Drive, progress: Callable[[float], None] | None) -> tuple[bool, str]:
-    falls, notes, by_model = [], [], []
-    mu = mean_friction("OC1")
-    for name in SCENARIOS:
-        shifts = np.array([0.0, 0.1, 0.2] if name == "S1" else [0.0, 0.1, 0.3, 0.5, 0.7])
-        factors = np.array([loss_factors(shifted(base, name, float(x))) for x in shifts])
-        course = ", ".join(f"{100 * (1 - mu * value):.3f}" for value in factors[:, 0])
-        falls.append(bool(np.all(np.diff(factors[:, 0]) > 0)))
-        losses = [load_contact_efficiency(shifted(base, name, float(x)), "OC1") for x in shifts]
-        by_model.append(f"{name} " + ", ".join(f"{100 * value:.3f}" for value in losses))
-        falls.append(bool(np.all(np.diff(losses) < 0)))
+def _falls_with_shift(progress: Callable[[float], None] | None) -> tuple[bool, str]:
+    falls, notes = [], []
+    for count, scenario in enumerate(SCENARIOS):
+        notes += [_by_hoehn(scenario), *_by_load_contact(scenario)]
+        for condition in CONDITIONS:
+            falls += [np.all(np.diff(course) < 0.0) for course in _courses(scenario, condition)]
         if progress:
-            progress(0.5 + 0.5 * len(by_model) / len(SCENARIOS))
-        if name == "S1":
-            notes.append(f"{name} OC1 {course}: tips and sliding unchanged, Höhn's value cannot move")
-            continue
-        best, back = peak(name)
-        over = factors[-1, 0] / factors[-1, 1] - 1.0
-        notes.append(
-            f"{name} OC1 {course}: rises to x = {best:.3f} and is below x = 0 only beyond {back:.3f}; "
-            f"at x = 0.7 Höhn's formula overstates the loss by {100 * over:.1f} %"
-        )
-    return all(falls), "by Höhn: " + "; ".join(notes) + "; by the load contact model: " + "; ".join(by_model)
+            progress(0.5 + 0.5 * (count + 1) / len(SCENARIOS))
+    return bool(all(falls)), "; ".join(notes)
 
 
-def load_contact_efficiency(pair: Drive, condition: str) -> float:
-    """Efficiency of a shifted pair at an operating condition by the load contact model."""
-    flexible = elastic(pair, _LEVEL_OF_SHIFTED)
-    return load_contact(flexible, gear_torque(condition), mean_friction(condition)).efficiency
+def _courses(scenario: Scenario, condition: str) -> tuple[list[float], list[float]]:
+    """Efficiency over the shifts by Höhn and by the load contact model."""
+    shifts = SHIFTS[scenario]
+    return (
+        [equal_load_efficiencies(scenario, shift, condition)[0] for shift in shifts],
+        [at_load(scenario, shift, condition).efficiency for shift in shifts],
+    )
+
+
+def _by_hoehn(scenario: Scenario) -> str:
+    """Höhn's H_v is the same at every operating condition, and so is the course of his efficiency."""
+    course = ", ".join(f"{100 * value:.3f}" for value in _courses(scenario, "OC1")[0])
+    said = f"{scenario}, x = {', '.join(f'{shift:g}' for shift in SHIFTS[scenario])}, by Höhn OC1 {course}"
+    if scenario == "S1":
+        return f"{said}: tips and sliding unchanged, Höhn's value cannot move"
+    best, back = peak(scenario)
+    formula, integral = equal_load_efficiencies(scenario, SHIFTS[scenario][-1], "OC1")
+    over = (1.0 - formula) / (1.0 - integral) - 1.0
+    return (
+        f"{said}: at every condition rises to x = {best:.3f} and is below x = 0 only beyond {back:.3f}; "
+        f"at x = 0.7 Höhn's formula overstates the loss by {100 * over:.1f} %"
+    )
+
+
+def _by_load_contact(scenario: Scenario) -> list[str]:
+    said = []
+    for condition in CONDITIONS:
+        _, values = _courses(scenario, condition)
+        steps = np.diff(values)
+        shifts = SHIFTS[scenario]
+        course = "falls"
+        if np.any(steps > 0.0):
+            highest = int(np.argmax(values))
+            course = "rises" if highest == len(shifts) - 1 else f"greatest of these at {shifts[highest]:g}"
+        figures = ", ".join(f"{100 * value:.3f}" for value in values)
+        said.append(f"{scenario} by load contact {condition} {figures}: {course}")
+    return said
