@@ -12,11 +12,13 @@ from pathlib import Path
 import numba
 import numba.core.config
 import numpy as np
+from numba.core import types
 from numba.extending import overload, register_jitable
 
 import tribodyn
 from tribodyn import elementary
-from tribodyn.dynamics import equations  # noqa: F401  (its import registers every law)
+from tribodyn.dynamics import equations  # noqa: F401  (the import of both registers every law)
+from tribodyn.solve import dormand_prince  # noqa: F401
 
 #: Everything that a kernel can contain; the rules of import keep it to these.
 _KERNEL_SOURCES = ("elementary.py", "native.py", "mesh_cycle.py", "tribology", "dynamics", "solve")
@@ -52,7 +54,7 @@ kernel = numba.njit(cache=True, error_model="numpy", nogil=True, _nrt=False)  # 
 def _unary(function, implementation):
     @overload(function)
     def _(x):
-        return implementation
+        return implementation if isinstance(x, types.Number) else None
 
 
 _unary(elementary.sqrt, lambda x: math.sqrt(x))
@@ -74,17 +76,19 @@ def _arctan2(y, x):
 
 @overload(elementary.where)
 def _where(condition, a, b):
-    return lambda condition, a, b: a if condition else b
+    return (lambda condition, a, b: a if condition else b) if isinstance(condition, types.Boolean) else None
 
 
 @overload(elementary.minimum)
 def _minimum(a, b):
-    return lambda a, b: b if b < a or b != b else a
+    both = isinstance(a, types.Number) and isinstance(b, types.Number)
+    return (lambda a, b: b if b < a or b != b else a) if both else None
 
 
 @overload(elementary.maximum)
 def _maximum(a, b):
-    return lambda a, b: b if b > a or b != b else a
+    both = isinstance(a, types.Number) and isinstance(b, types.Number)
+    return (lambda a, b: b if b > a or b != b else a) if both else None
 
 
 @overload(elementary.last_at_or_below)
@@ -93,7 +97,7 @@ def _last_at_or_below(grid, x):
         index = np.searchsorted(grid, x, side="right") - 1
         return min(max(index, 0), grid.shape[0] - 2)
 
-    return implementation
+    return implementation if isinstance(grid, types.Array) else None
 
 
 for _law in elementary.LAWS:

@@ -1,7 +1,6 @@
 """Native explicit solver: Dormand-Prince 5(4) in mesh phase, restarted exactly at engagement.
 
-Coefficients, dense output and step-size control after Hairer, Nørsett & Wanner, Solving Ordinary Differential
-Equations I (2nd ed., 1993), code DOPRI5. The whole block of cycles runs inside one compiled function.
+The whole block of cycles runs inside one compiled function.
 """
 
 import numpy as np
@@ -10,40 +9,27 @@ from tribodyn.dynamics.contact_forces import QUANTITIES
 from tribodyn.dynamics.equations import derivatives, engagement
 from tribodyn.dynamics.parameters import SLIP, STATES, WORK_IN, WORK_PARAMETRIC, XI_RATE, Model
 from tribodyn.native import kernel
+from tribodyn.solve.dormand_prince import (
+    LEAST_REMEMBERED,
+    LEAST_STEP,
+    STAGES,
+    TOUCHING,
+    A,
+    C,
+    D,
+    E,
+    dense_output,
+    growth,
+    shrinkage,
+    weighed_error,
+)
 from tribodyn.solve.engine import DONE, NOT_FINITE, STALLED, STEP_TOO_SMALL, TOO_MANY_STEPS
-
-A = np.array(
-    [
-        [0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [1 / 5, 0.0, 0.0, 0.0, 0.0, 0.0],
-        [3 / 40, 9 / 40, 0.0, 0.0, 0.0, 0.0],
-        [44 / 45, -56 / 15, 32 / 9, 0.0, 0.0, 0.0],
-        [19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729, 0.0, 0.0],
-        [9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656, 0.0],
-        [35 / 384, 0.0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84],
-    ]
-)
-C = np.array([0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0, 1.0])
-#: Fifth-order less embedded fourth-order weights.
-E = np.array([71 / 57600, 0.0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40])
-#: Weights of the dense output's highest term.
-D = np.array(
-    [
-        -12715105075 / 11282082432,
-        0.0,
-        87487479700 / 32700410799,
-        -10690763975 / 1880347072,
-        701980252875 / 199316789632,
-        -1453857185 / 822651844,
-        69997945 / 29380423,
-    ]
-)
 
 
 def buffers(model: Model) -> tuple[np.ndarray, np.ndarray]:
     """Scratch for the kernels: the contacts' quantities, and nine states."""
     pairs = model.table.side.shape[0]
-    return np.zeros((QUANTITIES + pairs, pairs)), np.zeros((9, STATES))
+    return np.zeros((QUANTITIES + pairs, pairs)), np.zeros((STAGES + 2, STATES))
 
 
 @kernel
@@ -87,13 +73,13 @@ def march(model, y, first_cycle, cycles, restart, samples, rtol, atol, step, max
     """
     table = model.table
     segments = table.in_contact.shape[0]
-    k = buffer[:7]
-    stage = buffer[7]
-    new = buffer[8]
+    k = buffer[:STAGES]
+    stage = buffer[STAGES]
+    new = buffer[STAGES + 1]
     steps = 0
     evaluations = 0
     written = 0
-    last_error = 1e-4
+    last_error = LEAST_REMEMBERED
     for cycle in range(cycles):
         whole = first_cycle + cycle
         steps_before = steps
@@ -115,29 +101,28 @@ def march(model, y, first_cycle, cycles, restart, samples, rtol, atol, step, max
             while phase < end:
                 if steps - steps_before >= max_steps:
                     return TOO_MANY_STEPS, cycle + phase, step, steps, evaluations, written
-                last = phase + 1.0000001 * step >= end
+                last = phase + TOUCHING * step >= end
                 if last:
                     step = end - phase
-                if step < 1e-13:
+                if step < LEAST_STEP:
                     return STEP_TOO_SMALL, cycle + phase, step, steps, evaluations, written
-                for s in range(1, 7):
+                for s in range(1, STAGES):
                     for i in range(STATES):
                         total = 0.0
                         for j in range(s):
                             total += A[s, j] * k[j, i]
                         stage[i] = y[i] + step * total
                     derivatives(phase + C[s] * step, whole, segment, stage, model, work, k[s])
-                evaluations += 6
+                evaluations += STAGES - 1
                 error = 0.0
                 total = 0.0
                 for i in range(STATES):
                     new[i] = stage[i]
                     difference = 0.0
-                    for j in range(7):
+                    for j in range(STAGES):
                         difference += E[j] * k[j, i]
-                    scale = atol[i] + rtol * max(abs(y[i]), abs(new[i]))
                     # the worst state decides: states at rest must not dilute the others' error
-                    off = abs(step * difference) / scale
+                    off = weighed_error(step * difference, y[i], new[i], atol[i], rtol)
                     error = max(error, off)
                     total += off  # carries a NaN that max would lose
                 if not np.isfinite(total):
@@ -155,32 +140,21 @@ def march(model, y, first_cycle, cycles, restart, samples, rtol, atol, step, max
                             break
                         theta = (at - phase) / step
                         for i in range(STATES):
-                            rise = new[i] - y[i]
-                            bend = step * k[0, i] - rise
                             high = 0.0
-                            for j in range(7):
+                            for j in range(STAGES):
                                 high += D[j] * k[j, i]
-                            out[written, i] = y[i] + theta * (
-                                rise
-                                + (1.0 - theta)
-                                * (
-                                    bend
-                                    + theta * (rise - step * k[6, i] - bend + (1.0 - theta) * step * high)
-                                )
-                            )
+                            out[written, i] = dense_output(theta, step, y[i], new[i], k[0, i], k[6, i], high)
                         written += 1
                     phase = next_phase
                     for i in range(STATES):
                         y[i] = new[i]
                         k[0, i] = k[6, i]
                     steps += 1
-                    used = max(error, 1e-10)
-                    factor = 0.9 * used**-0.17 * last_error**0.04
                     if not last:
-                        step *= min(5.0, max(0.2, factor))
-                    last_error = max(error, 1e-4)
+                        step *= growth(error, last_error)
+                    last_error = max(error, LEAST_REMEMBERED)
                 else:
-                    step *= max(0.2, 0.9 * error**-0.2)
+                    step *= shrinkage(error)
     return DONE, float(cycles), step, steps, evaluations, written
 
 

@@ -16,6 +16,7 @@ from tribodyn.dynamics.parameters import (
     XI_RATE,
     Model,
 )
+from tribodyn.solve.dormand_prince import FIRST_STEP
 from tribodyn.solve.engine import DONE, NOT_FINITE, REASONS, Block, Engine, Tolerances, absolute_tolerances
 from tribodyn.solve.initial import static_deflection
 from tribodyn.solve.stiffness import EXPLICIT
@@ -62,7 +63,7 @@ class NativeEngine:
         self.model = model
         self.samples = samples
         self.tolerances = tolerances
-        self.step = 1e-3
+        self.step = FIRST_STEP
         self.started = False
 
     def block(self, state: np.ndarray, first_cycle: int, cycles: int) -> Block:
