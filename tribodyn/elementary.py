@@ -101,6 +101,15 @@ def where(condition: Any, a: Any, b: Any) -> Any:
     return namespace(condition, a, b).where(condition, a, b)
 
 
+def skippable(condition: Any) -> bool:
+    """Whether what only counts where `condition` fails may be left out: compiled for one case, if it holds.
+
+    Arrays and tracers hold many cases, so everything is evaluated there; what is left out must have no
+    weight in the result.
+    """
+    return False
+
+
 def minimum(a: Any, b: Any) -> Any:
     """The lesser of the two; NaN if either is."""
     if type(a) is float and type(b) is float:

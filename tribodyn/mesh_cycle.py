@@ -112,14 +112,15 @@ class MeshCycle(NamedTuple):
         return 2 * np.pi / self.pinion_teeth
 
 
-#: Channels of `Polynomials.channel`, in order.
+#: Channels of `Polynomials.channel`, in order; cosine and sine of the pressure angle.
 CHANNELS = (
-    "pressure_angle",
+    "cosine",
     "signed_distance",
     "equivalent_radius",
     "pinion_speed",
     "compliance",
     "gap",
+    "sine",
 )
 
 
@@ -193,7 +194,9 @@ def polynomials(cycle: MeshCycle) -> Polynomials:
     xp = namespace(*cycle)
     if cycle.compliance.dtype != np.float64:
         raise TypeError(f"the mesh cycle is {cycle.compliance.dtype}, not float64: enable jax_enable_x64")
-    channels = xp.stack([getattr(cycle, name) for name in CHANNELS], axis=-1)
+    angle = {"cosine": xp.cos(cycle.pressure_angle), "sine": xp.sin(cycle.pressure_angle)}
+    found = [angle[name] if name in angle else getattr(cycle, name) for name in CHANNELS]
+    channels = xp.stack(found, axis=-1)
     return Polynomials(
         boundary=cycle.boundary,
         in_contact=cycle.in_contact,

@@ -23,6 +23,7 @@ from tribodyn.dynamics.parameters import (
 )
 from tribodyn.mesh_cycle import MeshCycle, Polynomials, polynomials
 from tribodyn.surfaces import Lubricated, contact_of
+from tribodyn.tribology.contact import logarithms
 
 #: Gauss-Seidel sweeps from the tabulated inverse: only pairs about to separate need more than one.
 SWEEPS = 3
@@ -122,7 +123,9 @@ def prepare(case: Case, tabulated: Tabulated | None = None) -> Prepared:
         Where the teeth cannot be made or cannot run together, or a table does not cover the contact.
     """
     cycle, table, (pinion, gear) = tabulated or tables(case)
-    model = Model(table, _mechanics(case, pinion, gear, cycle), contact_of(case), _options(case, cycle))
+    contact = contact_of(case)
+    mechanics, options = _mechanics(case, pinion, gear, cycle), _options(case, cycle)
+    model = Model(table, mechanics, contact, options, logarithms(contact))
     return Prepared(case, cycle, model, (pinion, gear))
 
 

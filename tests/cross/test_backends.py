@@ -13,6 +13,7 @@ from tribodyn.dynamics.parameters import STATES
 from tribodyn.native import kernel
 from tribodyn.solve.diffrax_engine import right_hand_side
 from tribodyn.solve.dopri5 import rhs
+from tribodyn.tribology.contact import logarithms
 from tribodyn.tribology.friction import (
     BENEDICT_KELLEY,
     COULOMB,
@@ -23,12 +24,14 @@ from tribodyn.tribology.friction import (
     mixed_film,
 )
 
+LOGS = logarithms(LIU_NI)
+
 
 @kernel
-def _films(loads, curvatures, speeds, slidings, contact, out):
+def _films(loads, curvatures, speeds, slidings, contact, logs, out):
     for i in range(len(loads)):
         u, v = speeds[i], slidings[i]
-        out[i] = mixed_film(loads[i], curvatures[i], u, v, u + 0.5 * v, u - 0.5 * v, contact)[0]
+        out[i] = mixed_film(loads[i], curvatures[i], u, v, u + 0.5 * v, u - 0.5 * v, contact, logs)[0]
 
 
 def test_friction_agrees_between_numpy_numba_and_jax(rng):
@@ -37,12 +40,11 @@ def test_friction_agrees_between_numpy_numba_and_jax(rng):
     curvature = 10 ** rng.uniform(1, 3.5, n)
     speed = 10 ** rng.uniform(-3, 2, n)
     sliding = speed * rng.uniform(-1, 1, n)
-    numpy = mixed_film(load, curvature, speed, sliding, speed + sliding / 2, speed - sliding / 2, LIU_NI)[0]
+    state = load, curvature, speed, sliding, speed + sliding / 2, speed - sliding / 2
+    numpy = mixed_film(*state, LIU_NI, LOGS)[0]
     native = np.empty(n)
-    _films(load, curvature, speed, sliding, LIU_NI, native)
-    traced = jax.jit(lambda *a: mixed_film(*a, LIU_NI)[0])(
-        *(jnp.asarray(x) for x in (load, curvature, speed, sliding, speed + sliding / 2, speed - sliding / 2))
-    )
+    _films(load, curvature, speed, sliding, LIU_NI, LOGS, native)
+    traced = jax.jit(lambda *a: mixed_film(*a, LIU_NI, LOGS)[0])(*map(jnp.asarray, state))
     np.testing.assert_allclose(native, numpy, rtol=2e-12, atol=1e-300)
     np.testing.assert_allclose(traced, numpy, rtol=2e-12, atol=1e-300)
 
@@ -74,9 +76,9 @@ def test_every_law_agrees_between_numpy_numba_and_jax(rng, law):
 
 
 def test_friction_has_a_gradient():
-    slope = jax.grad(lambda u: mixed_film(3.85e5, 111.0, u, 0.05, 0.2, 0.15, LIU_NI)[0])(0.134)
+    slope = jax.grad(lambda u: mixed_film(3.85e5, 111.0, u, 0.05, 0.2, 0.15, LIU_NI, LOGS)[0])(0.134)
     step = 1e-6
-    values = [mixed_film(3.85e5, 111.0, 0.134 + s, 0.05, 0.2, 0.15, LIU_NI)[0] for s in (step, -step)]
+    values = [mixed_film(3.85e5, 111.0, 0.134 + s, 0.05, 0.2, 0.15, LIU_NI, LOGS)[0] for s in (step, -step)]
     assert float(slope) == pytest.approx((values[0] - values[1]) / (2 * step), rel=1e-6)
 
 

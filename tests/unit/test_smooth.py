@@ -50,7 +50,7 @@ def test_asperity_load_ratio_is_capped_smoothly():
     U = np.geomspace(1e-15, 1e-10, 4001)
     logarithm = np.log1p(4470 * S**6.015 * V**1.168 * W**0.485 * U**-3.741 * G**-2.898)
     printed = 0.005 * W**-0.408 * U**-0.088 * G**0.103 * logarithm / 100
-    ours = asperity_load_ratio(np.log(W), np.log(U), np.log(G), np.log(S), np.log(V), 4470.0)
+    ours = asperity_load_ratio(np.log(W), np.log(U), np.log(G), np.log(S), np.log(V), np.log(4470.0))
     low = printed < 1 - CAP_WIDTH
     np.testing.assert_allclose(ours[low], printed[low], rtol=1e-10)
     high = printed > 1 + CAP_WIDTH
@@ -59,7 +59,7 @@ def test_asperity_load_ratio_is_capped_smoothly():
 
     def greatest_jump_of_slope(points):
         log_u = np.linspace(np.log(1e-13), np.log(1e-11), points)
-        value = asperity_load_ratio(np.log(W), log_u, np.log(G), np.log(S), np.log(V), 4470.0)
+        value = asperity_load_ratio(np.log(W), log_u, np.log(G), np.log(S), np.log(V), np.log(4470.0))
         return np.max(np.abs(np.diff(np.gradient(value, log_u))))
 
     # a kink would keep its jump under refinement; a C1 function halves it

@@ -21,42 +21,42 @@ from tribodyn.dynamics.parameters import (
     Y_P,
 )
 from tribodyn.dynamics.smooth import positive_part, positive_part_integral, power_law_force, ramp, sign
-from tribodyn.elementary import cos, law, maximum, sin, sqrt, where
+from tribodyn.elementary import law, maximum, skippable, sqrt, where
 from tribodyn.tribology.contact import averaged_radius
-from tribodyn.tribology.friction import friction
+from tribodyn.tribology.friction import friction_coefficient
 
 # Quantities of one contact, rows of `work`.
-ANGLE = 0  # pressure angle α, rad
-DISTANCE = 1  # signed distance r from the pitch point, m
-RADIUS = 2  # equivalent radius ρ; where it vanishes at P, averaged over the contact's width, m
-PINION_SPEED = 3  # speed along the pinion flank, averaged with the radius, m/s
-GEAR_SPEED = 4
-COMPLIANCE = 5  # of the pair, without the load-dependent Hertz contact, m/N
-APPROACH = 6  # δ, m
-APPROACH_RATE = 7  # dδ/dt, m/s
-APPROACH_SLOPE = 8  # ∂δ/∂φ at fixed coordinates, m/rad
-COMPLIANCE_SLOPE = 9  # dC/dφ, m/(N rad)
-EFFECTIVE_APPROACH = 10  # δ less what the loads on neighbouring pairs deflect, m
-ELASTIC_LOAD = 11  # N
-NORMAL_LOAD = 12  # elastic and damping, N
-STIFFNESS = 13  # of one pair at its load, N/m
-SLIDING = 14  # sliding velocity, pinion less gear, along t, m/s
-RELATIVE_VELOCITY = 15  # the same with the vibration, m/s
-FRICTION_FORCE = 16  # on the pinion along +t, N
-FRICTION_COEFFICIENT = 17
-ASPERITY_SHARE = 18
-FILM = 19  # central film thickness, m
-TEMPERATURE_RISE = 20  # K
-PRESSURE = 21  # greatest Hertz pressure, Pa
-IN_RANGE = 22
-COS = 23
-SIN = 24
-TRANSMISSION_ERROR = 25  # along the pair's normal, gap not subtracted, m
-COUPLING = 26  # deflection per load on slot 0, and on from here per load on the other slots, m/N
-QUANTITIES = 26  # and one more for every slot
+DISTANCE = 0  # signed distance r from the pitch point, m
+RADIUS = 1  # equivalent radius ρ; where it vanishes at P, averaged over the contact's width, m
+PINION_SPEED = 2  # speed along the pinion flank, averaged with the radius, m/s
+GEAR_SPEED = 3
+COMPLIANCE = 4  # of the pair, without the load-dependent Hertz contact, m/N
+APPROACH = 5  # δ, m
+APPROACH_RATE = 6  # dδ/dt, m/s
+APPROACH_SLOPE = 7  # ∂δ/∂φ at fixed coordinates, m/rad
+COMPLIANCE_SLOPE = 8  # dC/dφ, m/(N rad)
+EFFECTIVE_APPROACH = 9  # δ less what the loads on neighbouring pairs deflect, m
+ELASTIC_LOAD = 10  # N
+NORMAL_LOAD = 11  # elastic and damping, N
+STIFFNESS = 12  # of one pair at its load, N/m
+SLIDING = 13  # sliding velocity, pinion less gear, along t, m/s
+RELATIVE_VELOCITY = 14  # the same with the vibration, m/s
+FRICTION_FORCE = 15  # on the pinion along +t, N
+FRICTION_COEFFICIENT = 16
+COS = 17  # of the pressure angle
+SIN = 18
+TRANSMISSION_ERROR = 19  # along the pair's normal, gap not subtracted, m
+COUPLING = 20  # deflection per load on slot 0, and on from here per load on the other slots, m/N
+QUANTITIES = 20  # and one more for every slot
 
 # Channels of mesh_cycle.Polynomials.channel.
-_ANGLE, _DISTANCE, _RADIUS, _SPEED, _COMPLIANCE, _GAP = range(6)
+_COSINE, _DISTANCE, _RADIUS, _SPEED, _COMPLIANCE, _GAP, _SINE = range(7)
+
+
+@law
+def out_of_reach(segment, i, model):
+    """Whether a slot's pair is off the path of contact in this segment, and may be passed over."""
+    return skippable(model.table.in_contact[segment, i] == 0.0)
 
 
 @law
@@ -84,28 +84,28 @@ def approach(segment, cell, u, cells_per_radian, y, model, work):
     and rotations change sign.
     """
     table = model.table
+    c = table.channel
     pinion_speed = model.mechanics.nominal_speed + y[SLIP]
     ratio = table.pinion_pitch_radius / table.gear_pitch_radius
+    gear_speed = ratio * pinion_speed - y[XI_RATE] / table.gear_pitch_radius
+    towards, towards_rate = y[XI] + y[X_P] - y[X_G], y[XI_RATE] + y[VX_P] - y[VX_G]
+    across, across_rate = y[Y_P] - y[Y_G], y[VY_P] - y[VY_G]
     for i in range(table.side.shape[0]):
+        if out_of_reach(segment, i, model):
+            continue
         side = table.side[i]
-        c = table.channel
-        angle = cubic(c, segment, cell, i, _ANGLE, u)
-        cosine = cos(angle)
-        sine = sin(angle)
-        along = side * (y[XI] + y[X_P] - y[X_G])
-        across = y[Y_P] - y[Y_G]
-        along_rate = side * (y[XI_RATE] + y[VX_P] - y[VX_G])
-        across_rate = y[VY_P] - y[VY_G]
+        cosine = cubic(c, segment, cell, i, _COSINE, u)
+        sine = cubic(c, segment, cell, i, _SINE, u)
+        along = side * towards
         error = along * cosine + across * sine
-        slope = (across * cosine - along * sine) * cubic_slope(c, segment, cell, i, _ANGLE, u)
+        slope = along * cubic_slope(c, segment, cell, i, _COSINE, u)
+        slope = slope + across * cubic_slope(c, segment, cell, i, _SINE, u)
         slope = (slope - cubic_slope(c, segment, cell, i, _GAP, u)) * cells_per_radian
         distance = cubic(c, segment, cell, i, _DISTANCE, u)
         flank_speed = cubic(c, segment, cell, i, _SPEED, u)
         lever_p = distance + table.pinion_pitch_radius * sine
         lever_g = table.gear_pitch_radius * sine - distance
-        gear_speed = ratio * pinion_speed - y[XI_RATE] / table.gear_pitch_radius
 
-        work[ANGLE, i] = angle
         work[COS, i] = cosine
         work[SIN, i] = sine
         work[DISTANCE, i] = distance
@@ -117,7 +117,7 @@ def approach(segment, cell, u, cells_per_radian, y, model, work):
         work[TRANSMISSION_ERROR, i] = error
         work[APPROACH, i] = error - cubic(c, segment, cell, i, _GAP, u)
         work[APPROACH_SLOPE, i] = slope
-        work[APPROACH_RATE, i] = along_rate * cosine + across_rate * sine + slope * pinion_speed
+        work[APPROACH_RATE, i] = side * towards_rate * cosine + across_rate * sine + slope * pinion_speed
         work[SLIDING, i] = side * pinion_speed * (1.0 + ratio) * distance
         work[RELATIVE_VELOCITY, i] = (
             side * (pinion_speed * lever_p - gear_speed * lever_g)
@@ -137,18 +137,30 @@ def elastic_loads(segment, cell, u, model, work):
     pairs = model.table.side.shape[0]
     width = model.mechanics.contact_width
     coefficient = model.table.hertz_coefficient
+    coupled = model.options.sweeps > 1
     for i in range(pairs):
+        work[ELASTIC_LOAD, i] = 0.0
+        if out_of_reach(segment, i, model) or not coupled:
+            continue
         load = 0.0
         for j in range(pairs):
-            work[COUPLING + j, i] = cubic(model.table.coupling, segment, cell, i, j, u)
+            if out_of_reach(segment, j, model):
+                continue
+            if j < i:
+                work[COUPLING + j, i] = cubic(model.table.coupling, segment, cell, i, j, u)
+            elif j > i:
+                work[COUPLING + j, i] = cubic(model.table.coupling, segment, cell, j, i, u)
             load = load + cubic(model.table.stiffness, segment, cell, i, j, u) * work[APPROACH, j]
         work[ELASTIC_LOAD, i] = maximum(load, 0.0)
     for _ in range(model.options.sweeps):
         for i in range(pairs):
+            if out_of_reach(segment, i, model):
+                continue
             free = work[APPROACH, i]
-            for j in range(pairs):
-                if j != i:
-                    free = free - work[COUPLING + j, i] * work[ELASTIC_LOAD, j]
+            if coupled:
+                for j in range(pairs):
+                    if j != i and not out_of_reach(segment, j, model):
+                        free = free - work[COUPLING + j, i] * work[ELASTIC_LOAD, j]
             deflection = positive_part(free, width)
             compliance = work[COMPLIANCE, i]
             if model.options.hertz == HERTZ_POWER_LAW:
@@ -156,8 +168,8 @@ def elastic_loads(segment, cell, u, model, work):
                 root = (maximum(load, 1e-6)) ** -0.1
                 work[STIFFNESS, i] = 1.0 / (compliance + 0.9 * coefficient * root)
             else:
-                load = deflection / compliance
                 work[STIFFNESS, i] = 1.0 / compliance
+                load = deflection * work[STIFFNESS, i]
             work[EFFECTIVE_APPROACH, i] = free
             work[ELASTIC_LOAD, i] = model.table.in_contact[segment, i] * load
 
@@ -187,6 +199,10 @@ def contact_forces(segment, cell, u, cells_per_radian, y, model, work):
     ratio = table.pinion_pitch_radius / table.gear_pitch_radius
     reversal_speed = (1.0 + ratio) * mechanics.reversal_width * mechanics.nominal_speed
     for i in range(table.side.shape[0]):
+        if out_of_reach(segment, i, model):
+            work[NORMAL_LOAD, i] = 0.0
+            work[FRICTION_FORCE, i] = 0.0
+            continue
         stiffness = work[STIFFNESS, i]
         engaged = ramp(work[EFFECTIVE_APPROACH, i] / mechanics.contact_width)
         damping = mechanics.mesh_damping * sqrt(stiffness) * work[APPROACH_RATE, i]
@@ -215,7 +231,7 @@ def contact_forces(segment, cell, u, cells_per_radian, y, model, work):
             work[RADIUS, i] = averaged
             work[PINION_SPEED, i] = speed_p
             work[GEAR_SPEED, i] = speed_g
-        coefficient, share, film, temperature, pressure, valid = friction(
+        coefficient = friction_coefficient(
             model.options.friction_law,
             load / table.face_width,
             1.0 / work[RADIUS, i],
@@ -224,15 +240,11 @@ def contact_forces(segment, cell, u, cells_per_radian, y, model, work):
             speed_p,
             speed_g,
             model.contact,
+            model.logs,
         )
         work[NORMAL_LOAD, i] = load
         work[FRICTION_COEFFICIENT, i] = coefficient
         work[FRICTION_FORCE, i] = coefficient * load * sign(sliding / reversal_speed)
-        work[ASPERITY_SHARE, i] = share
-        work[FILM, i] = film
-        work[TEMPERATURE_RISE, i] = temperature
-        work[PRESSURE, i] = pressure
-        work[IN_RANGE, i] = valid
 
 
 @law
@@ -255,9 +267,14 @@ def mesh_energy(model, work):
     pairs = model.table.side.shape[0]
     energy = 0.0
     for i in range(pairs):
+        if skippable(work[ELASTIC_LOAD, i] == 0.0):
+            continue
         energy = energy + pair_energy(i, model, work)
-        for j in range(i):
-            energy = energy + work[COUPLING + j, i] * work[ELASTIC_LOAD, i] * work[ELASTIC_LOAD, j]
+        if model.options.sweeps > 1:
+            for j in range(i):
+                if skippable(work[ELASTIC_LOAD, j] == 0.0):
+                    continue
+                energy = energy + work[COUPLING + j, i] * work[ELASTIC_LOAD, i] * work[ELASTIC_LOAD, j]
     return energy
 
 
@@ -271,13 +288,18 @@ def parametric_torque(segment, cell, u, cells_per_radian, model, work):
     pairs = model.table.side.shape[0]
     torque = 0.0
     for i in range(pairs):
+        if out_of_reach(segment, i, model):
+            continue
         load = work[ELASTIC_LOAD, i]
         if model.options.hertz == HERTZ_POWER_LAW:
             stored = 0.5 * load * load
         else:
             stored = pair_energy(i, model, work) / work[COMPLIANCE, i]
         torque = torque - stored * work[COMPLIANCE_SLOPE, i] + work[NORMAL_LOAD, i] * work[APPROACH_SLOPE, i]
-        for j in range(i):
-            slope = cubic_slope(model.table.coupling, segment, cell, i, j, u) * cells_per_radian
-            torque = torque - slope * load * work[ELASTIC_LOAD, j]
+        if model.options.sweeps > 1:
+            for j in range(i):
+                if out_of_reach(segment, j, model):
+                    continue
+                slope = cubic_slope(model.table.coupling, segment, cell, i, j, u) * cells_per_radian
+                torque = torque - slope * load * work[ELASTIC_LOAD, j]
     return torque

@@ -17,6 +17,7 @@ from tribodyn.dynamics.contact_forces import (
     contact_forces,
     elastic_loads,
     mesh_energy,
+    out_of_reach,
     parametric_torque,
 )
 from tribodyn.dynamics.parameters import (
@@ -112,6 +113,8 @@ def derivatives(phase, cycle, segment, y, model, work, dy):
     friction_power = 0.0
     damping_power = 0.0
     for i in range(table.side.shape[0]):
+        if out_of_reach(segment, i, model):
+            continue
         normal, tangential = work[NORMAL_LOAD, i], work[FRICTION_FORCE, i]
         cosine, sine, side = work[COS, i], work[SIN, i], table.side[i]
         lever_p = work[DISTANCE, i] + table.pinion_pitch_radius * sine

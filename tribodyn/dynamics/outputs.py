@@ -8,6 +8,7 @@ from tribodyn.dynamics import contact_forces as contact
 from tribodyn.dynamics.equations import derivatives, stored_energy
 from tribodyn.dynamics.parameters import (
     LAG,
+    SLIDING_DYNAMIC,
     SLIP,
     VX_G,
     VX_P,
@@ -26,17 +27,17 @@ from tribodyn.dynamics.parameters import (
     Y_P,
     Model,
 )
+from tribodyn.tribology.friction import friction
 
-#: Record name -> row of the contacts' quantities, for everything that means something only in contact.
-PAIR_QUANTITIES = {
-    "transmission_error": contact.TRANSMISSION_ERROR,
-    "friction_coefficient": contact.FRICTION_COEFFICIENT,
-    "asperity_load_ratio": contact.ASPERITY_SHARE,
-    "central_film_thickness": contact.FILM,
-    "hertz_pressure": contact.PRESSURE,
-    "flash_temperature_rise": contact.TEMPERATURE_RISE,
-    "pressure_angle": contact.ANGLE,
-}
+#: What `tribology.friction.friction` returns, in order, as the record names it.
+SURFACE_QUANTITIES = (
+    "friction_coefficient",
+    "asperity_load_ratio",
+    "central_film_thickness",
+    "flash_temperature_rise",
+    "hertz_pressure",
+    "closure_in_range",
+)
 
 
 def segment_of(phase: np.ndarray, boundary: np.ndarray) -> np.ndarray:
@@ -85,7 +86,7 @@ def outputs(cycles: np.ndarray, states: np.ndarray, model: Model) -> dict[str, n
     pinion_angle = cycles * table.pitch_angle
     gear_angle = (table.pinion_pitch_radius * pinion_angle - y[XI]) / table.gear_pitch_radius
     gear_speed = ratio * pinion_speed - y[XI_RATE] / table.gear_pitch_radius
-    film = per_pair(contact.FILM)
+    dynamic = model.options.sliding == SLIDING_DYNAMIC
     speed_p, speed_g = per_pair(contact.PINION_SPEED), per_pair(contact.GEAR_SPEED)
     power_in, power_out, power_friction, power_damping, power_parametric, drive_torque = (
         np.broadcast_to(power, count) for power in powers
@@ -97,11 +98,22 @@ def outputs(cycles: np.ndarray, states: np.ndarray, model: Model) -> dict[str, n
     def contacting(values: np.ndarray, mask: np.ndarray = touching) -> np.ndarray:
         return np.where(mask, values, np.nan)
 
-    result = {name: contacting(per_pair(row)) for name, row in PAIR_QUANTITIES.items()}
-    # geometry exists on the whole path of contact, loaded or not
-    result["transmission_error"] = contacting(per_pair(contact.TRANSMISSION_ERROR), inside)
-    result["pressure_angle"] = contacting(per_pair(contact.ANGLE), inside)
+    with np.errstate(over="ignore", under="ignore"):
+        surface = friction(
+            model.options.friction_law,
+            load / table.face_width,
+            1.0 / per_pair(contact.RADIUS),
+            0.5 * (speed_p + speed_g),
+            per_pair(contact.RELATIVE_VELOCITY if dynamic else contact.SLIDING),
+            speed_p,
+            speed_g,
+            model.contact,
+        )
+    result = {name: contacting(values) for name, values in zip(SURFACE_QUANTITIES, surface, strict=True)}
     result |= {
+        # geometry exists on the whole path of contact, loaded or not
+        "transmission_error": contacting(per_pair(contact.TRANSMISSION_ERROR), inside),
+        "pressure_angle": contacting(np.arctan2(per_pair(contact.SIN), per_pair(contact.COS)), inside),
         "time": time,
         "pinion_angle": pinion_angle,
         "displacement": np.stack([y[X_P], y[Y_P], y[X_G], y[Y_G], pinion_angle, gear_angle], axis=-1),
@@ -109,12 +121,12 @@ def outputs(cycles: np.ndarray, states: np.ndarray, model: Model) -> dict[str, n
         "transmission_error_rotational": y[XI],
         "normal_load": np.where(inside, load, 0.0),
         "friction_force": np.where(inside, per_pair(contact.FRICTION_FORCE), 0.0),
-        "film_parameter": contacting(film / model.contact.roughness),
+        "film_parameter": result["central_film_thickness"] / model.contact.roughness,
         "equivalent_radius": contacting(per_pair(contact.RADIUS), inside),
         "entrainment_speed": contacting(0.5 * (speed_p + speed_g), inside),
         "sliding_speed": contacting(per_pair(contact.SLIDING), inside),
         "mesh_stiffness": np.where(touching, per_pair(contact.STIFFNESS), 0.0),
-        "closure_in_range": np.where(touching, per_pair(contact.IN_RANGE), 1.0) > 0.5,
+        "closure_in_range": np.where(touching, result["closure_in_range"], 1.0) > 0.5,
         "drive_torque": drive_torque,
         "power_in": power_in,
         "power_out": power_out,

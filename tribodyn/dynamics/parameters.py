@@ -58,7 +58,7 @@ class Options(NamedTuple):
     formulation: int = CLASSICAL
     drive: int = DRIVE_SPEED
     hertz: int = HERTZ_IN_TABLE
-    sweeps: int = 1
+    sweeps: int = 1  # over coupled pairs; 1: they are not coupled
     averaged: int = 0  # 1: radius and entrainment vanish at the pitch point and are averaged over the contact
 
 
@@ -123,3 +123,4 @@ class Model(NamedTuple):
     mechanics: Mechanics
     contact: Any  # tribology.contact.Contact
     options: Options
+    logs: Any  # tribology.contact.Logarithms, of the contact

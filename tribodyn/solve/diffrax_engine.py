@@ -29,6 +29,7 @@ from tribodyn.dynamics.parameters import (
     Options,
 )
 from tribodyn.solve.engine import DONE, NOT_FINITE, STALLED, TOO_MANY_STEPS, Block, Tolerances
+from tribodyn.tribology.contact import logarithms
 
 jax.config.update("jax_enable_x64", True)
 
@@ -75,7 +76,7 @@ def _engaged(y: Any, before: Any, segment: Any, model: Model) -> Any:
 def _march(method, options, cycles, most, numbers, y, first_cycle, restart, at, rtol, atol, max_steps):
     """Scan over the segments of `cycles` cycles; `at` (segments, most) holds each segment's sample phases."""
     table, mechanics, contact = numbers
-    model = Model(table, mechanics, contact, options)
+    model = Model(table, mechanics, contact, options, logarithms(contact))
     segments = table.in_contact.shape[0]
     if method in EXPLICIT:
         controller = diffrax.PIDController(rtol=rtol, atol=atol, pcoeff=0.2, icoeff=0.4)

@@ -17,6 +17,7 @@ from tribodyn.dynamics.parameters import (
     Model,
 )
 from tribodyn.errors import SimulationError
+from tribodyn.mesh_cycle import CHANNELS
 
 
 def accelerations(states: np.ndarray, phase: Any, segment: Any, model: Model) -> np.ndarray:
@@ -39,8 +40,8 @@ def static_deflection(model: Model, torque: float) -> float:
     stiffness = float(
         np.sum(1.0 / np.asarray(table.channel)[-1, 0, :, 4, 0] * np.asarray(table.in_contact)[-1])
     )
-    angle = float(np.asarray(table.channel)[-1, 0, -1, 0, 0])
-    return abs(torque) / (float(table.gear_pitch_radius) * np.cos(angle)) / stiffness
+    cosine = float(np.asarray(table.channel)[-1, 0, -1, CHANNELS.index("cosine"), 0])
+    return abs(torque) / (float(table.gear_pitch_radius) * cosine) / stiffness
 
 
 def static_equilibrium(model: Model, phase: float = 0.0, segment: int = 0) -> np.ndarray:
@@ -113,7 +114,7 @@ def _greatest_gap(model: Model, segment: int) -> float:
     table = model.table
     front = (np.asarray(table.side) > 0) & (np.asarray(table.in_contact)[segment] > 0)
     channel = np.asarray(table.channel)[segment][:, front]
-    return float(max(0.0, np.max(channel[..., 5, 0])) / np.cos(np.max(channel[..., 0, 0])))
+    return float(max(0.0, np.max(channel[..., 5, 0])) / np.min(channel[..., 0, 0]))
 
 
 def initial_state(model: Model, kind: str) -> np.ndarray:

@@ -51,6 +51,41 @@ class Contact(NamedTuple):
     peclet_sliding: Any
 
 
+class Logarithms(NamedTuple):
+    """Natural logarithms of what a contact has whatever its load and speed, so that no evaluation takes them.
+
+    Attributes
+    ----------
+    modulus : of E' in Pa
+    material : of G = α_PV E'
+    hardness : of V = H_v/E'
+    roughness : of σ in m
+    inlet_viscosity : of η0 in Pa·s
+    asperity_factor : of the factor inside the logarithm of the asperity load ratio
+    """
+
+    modulus: Any
+    material: Any
+    hardness: Any
+    roughness: Any
+    inlet_viscosity: Any
+    asperity_factor: Any
+
+
+@law
+def logarithms(contact):
+    """Logarithms of the numbers of a `Contact`."""
+    modulus = log(contact.effective_modulus)
+    return Logarithms(
+        modulus,
+        log(contact.pressure_viscosity) + modulus,
+        log(contact.hardness) - modulus,
+        log(contact.roughness),
+        log(contact.inlet_viscosity),
+        log(contact.asperity_log_factor),
+    )
+
+
 @law
 def hertz_half_width(line_load, curvature, effective_modulus):
     """Half width a_H = √(8 w' ρ/(π E')) of a line contact, m (Johnson, Contact Mechanics, ch. 4)."""

@@ -4,7 +4,7 @@ Masjedi & Khonsari, "Film thickness and asperity load formulas for line-contact 
 lubrication with provision for surface roughness", J. Tribol. 134 (2012) 011503; Liu & Ni (19), (24).
 """
 
-from tribodyn.elementary import exp, law, log, log1p, maximum, minimum, where
+from tribodyn.elementary import exp, law, log1p, maximum, minimum, where
 
 #: Ranges over which the regressions were fitted: load W, speed U, material G, roughness σ/ρ, hardness V.
 #: The bounds are given from memory of the literature and have not been checked against the paper; the flag
@@ -31,10 +31,10 @@ def asperity_load_ratio(log_W, log_U, log_G, log_S, log_V, log_factor):
     """Share λ = L_a/100 of the load that asperities carry, 0 … 1.
 
     L_a[%] = 0.005 W^−0.408 U^−0.088 G^0.103 ln(1 + 4470 σ̄^6.015 V^1.168 W^0.485 U^−3.741 G^−2.898), from the
-    logarithms of the dimensionless groups. Liu & Ni (19) print 447 for 4470; the factor is a parameter so
-    that both can be run. The cap at 100 % is blended over 1 ± `CAP_WIDTH`.
+    logarithms of the dimensionless groups and of the factor. Liu & Ni (19) print 447 for 4470; it is a
+    parameter so that both can be run. The cap at 100 % is blended over 1 ± `CAP_WIDTH`.
     """
-    inner = log(log_factor) + 6.015 * log_S + 1.168 * log_V + 0.485 * log_W - 3.741 * log_U - 2.898 * log_G
+    inner = log_factor + 6.015 * log_S + 1.168 * log_V + 0.485 * log_W - 3.741 * log_U - 2.898 * log_G
     logarithm = where(inner > 30.0, inner, log1p(exp(minimum(inner, 30.0))))
     ratio = 0.00005 * exp(-0.408 * log_W - 0.088 * log_U + 0.103 * log_G) * logarithm
     excess = minimum(maximum(ratio - 1.0 + CAP_WIDTH, 0.0), 2.0 * CAP_WIDTH)
@@ -53,8 +53,14 @@ def central_film_thickness(log_W, log_U, log_G, log_S, log_V, curvature):
 
 
 @law
-def in_fitted_range(W, U, G, S, V):
+def in_fitted_range(line_load, curvature, entrainment, contact):
     """1.0 where every dimensionless group lies inside `FITTED_RANGE`, else 0.0."""
+    modulus = contact.effective_modulus
+    W = line_load * curvature / modulus
+    U = contact.inlet_viscosity * entrainment * curvature / modulus
+    G = contact.pressure_viscosity * modulus
+    S = contact.roughness * curvature
+    V = contact.hardness / modulus
     lowest = minimum(minimum(W / _W_LOW, U / _U_LOW), minimum(G / _G_LOW, V / _V_LOW))
     highest = maximum(maximum(W / _W_HIGH, U / _U_HIGH), maximum(G / _G_HIGH, V / _V_HIGH))
     highest = maximum(highest, S / _S_HIGH)

@@ -23,7 +23,10 @@ def flash_temperature_rise(
     ΔT = 2 a_H q/{√π [K_1 √(1 + Pe_1) + K_2 √(1 + Pe_2)]}, Pe_j = a_H |u_j| (ρ_s c_p)_j/(2 K_j): Tian &
     Kennedy (1994); Liu & Ni (22), who leave the solid's heat capacity per volume ρ_s c_p out of Pe.
     """
-    pinion_peclet = half_width * absolute(pinion_speed) * pinion_heat_capacity / (2.0 * pinion_conductivity)
-    gear_peclet = half_width * absolute(gear_speed) * gear_heat_capacity / (2.0 * gear_conductivity)
-    conducted = pinion_conductivity * sqrt(1.0 + pinion_peclet) + gear_conductivity * sqrt(1.0 + gear_peclet)
+    # K √(1 + Pe) with K drawn into the root, which saves two divisions
+    pinion_flow = 0.5 * half_width * absolute(pinion_speed) * pinion_heat_capacity
+    gear_flow = 0.5 * half_width * absolute(gear_speed) * gear_heat_capacity
+    conducted = sqrt(pinion_conductivity * (pinion_conductivity + pinion_flow)) + sqrt(
+        gear_conductivity * (gear_conductivity + gear_flow)
+    )
     return 2.0 * half_width * heat_flux / (ROOT_PI * conducted)

@@ -7,7 +7,7 @@ and temperature are known whatever law makes the friction.
 import math
 
 from tribodyn.elementary import absolute, expm1, law, log, maximum, minimum
-from tribodyn.tribology.contact import hertz_half_width, hertz_pressure
+from tribodyn.tribology.contact import hertz_half_width, hertz_pressure, logarithms
 from tribodyn.tribology.empirical import benedict_kelley, xu
 from tribodyn.tribology.film import asperity_load_ratio, central_film_thickness, in_fitted_range
 from tribodyn.tribology.flash import flash_temperature_rise
@@ -22,10 +22,12 @@ BENEDICT_KELLEY = 4
 #: Least line load (N/m) and entrainment (m/s) at which the closures are evaluated: they diverge at zero.
 LEAST_LINE_LOAD = 1.0
 LEAST_ENTRAINMENT = 1e-6
+#: Of the pressure in a Hertz line contact.
+GREATEST_OVER_MEAN = 4.0 / math.pi
 
 
 @law
-def mixed_film(line_load, curvature, entrainment, sliding, pinion_speed, gear_speed, contact):
+def mixed_film(line_load, curvature, entrainment, sliding, pinion_speed, gear_speed, contact, logs):
     """Film, asperity load, temperature and friction of a mixed-EHL line contact, Masjedi & Khonsari.
 
     Masjedi & Khonsari, J. Tribol. 134 (2012) 011503 and Tribol. Int. 92 (2015) 184; Liu & Ni (18)-(24).
@@ -37,28 +39,24 @@ def mixed_film(line_load, curvature, entrainment, sliding, pinion_speed, gear_sp
     entrainment, sliding : u = (u_p + u_g)/2 and v_s = u_p − u_g, m/s, any sign
     pinion_speed, gear_speed : speeds of the contact along the flanks, m/s
     contact : Contact
+    logs : Logarithms of the contact
 
     Returns
     -------
-    friction_coefficient, asperity_load_ratio, central_film_thickness, flash_temperature_rise,
-    hertz_pressure, in_range
-        μ = λ f_c + (τ_lim/p) [1 − exp(−η |v_s|/(τ_lim h_c))], λ, h_c (m), ΔT (K), p_H (Pa), and 1.0 where the
-        regressions are inside their fitted range.
+    friction_coefficient, asperity_load_ratio, central_film_thickness, flash_temperature_rise, hertz_pressure
+        μ = λ f_c + (τ_lim/p) [1 − exp(−η |v_s|/(τ_lim h_c))], λ, h_c (m), ΔT (K), p_H (Pa).
     """
     line_load = maximum(line_load, LEAST_LINE_LOAD)
     entrainment = maximum(absolute(entrainment), LEAST_ENTRAINMENT)
     sliding = absolute(sliding)
-    modulus = contact.effective_modulus
-    W = line_load * curvature / modulus
-    U = contact.inlet_viscosity * entrainment * curvature / modulus
-    G = contact.pressure_viscosity * modulus
-    S = contact.roughness * curvature
-    V = contact.hardness / modulus
-    log_W, log_U, log_G, log_S, log_V = log(W), log(U), log(G), log(S), log(V)
-    share = asperity_load_ratio(log_W, log_U, log_G, log_S, log_V, contact.asperity_log_factor)
-    film = central_film_thickness(log_W, log_U, log_G, log_S, log_V, curvature)
+    log_curvature = log(curvature)
+    log_W = log(line_load) + log_curvature - logs.modulus
+    log_U = log(entrainment) + log_curvature + logs.inlet_viscosity - logs.modulus
+    log_S = log_curvature + logs.roughness
+    share = asperity_load_ratio(log_W, log_U, logs.material, log_S, logs.hardness, logs.asperity_factor)
+    film = central_film_thickness(log_W, log_U, logs.material, log_S, logs.hardness, curvature)
 
-    half_width = hertz_half_width(line_load, curvature, modulus)
+    half_width = hertz_half_width(line_load, curvature, contact.effective_modulus)
     pressure = line_load / (2.0 * half_width)
     shear_limit = limiting_shear_stress(
         pressure, share, contact.limiting_shear_coefficient, contact.limiting_share
@@ -81,21 +79,14 @@ def mixed_film(line_load, curvature, entrainment, sliding, pinion_speed, gear_sp
     viscosity = roelands_viscosity(
         contact.viscosity_pressure_factor * pressure * (1.0 - share),
         temperature_rise,
-        contact.inlet_viscosity,
+        logs.inlet_viscosity,
         contact.viscosity_pressure_index,
         contact.temperature_viscosity,
     )
     # where asperities carry everything the fluid has no shear limit left, and no weight either
     newtonian = minimum(viscosity * sliding / (maximum(shear_limit, 1.0) * film), 600.0)
     coefficient = contact.asperity_friction * share - shear_limit / pressure * expm1(-newtonian)
-    return (
-        coefficient,
-        share,
-        film,
-        temperature_rise,
-        hertz_pressure(line_load, curvature, modulus),
-        in_fitted_range(W, U, G, S, V),
-    )
+    return coefficient, share, film, temperature_rise, GREATEST_OVER_MEAN * pressure
 
 
 @law
@@ -105,37 +96,63 @@ def _peclet_speed(speed, sliding, share):
 
 
 @law
-def friction(law_code, line_load, curvature, entrainment, sliding, pinion_speed, gear_speed, contact):
-    """Evaluate the law in use; arguments and values as for `mixed_film`.
+def friction_coefficient(
+    law_code, line_load, curvature, entrainment, sliding, pinion_speed, gear_speed, contact, logs
+):
+    """Friction coefficient by the law in use, and nothing else: what the right-hand side needs.
 
-    The film is Masjedi & Khonsari's under every law, and the range that is told is the film's. Laws that
-    give the whole mesh one mean coefficient (`mean_friction`) come as Coulomb's. `law_code` is static for
-    JAX, an integer for numba.
+    Laws that give the whole mesh one mean coefficient (`mean_friction`) come as Coulomb's. `law_code` is
+    static for JAX, an integer for numba; arguments otherwise as for `mixed_film`.
     """
-    coefficient, share, film, temperature, pressure, valid = mixed_film(
-        line_load, curvature, entrainment, sliding, pinion_speed, gear_speed, contact
+    if law_code == MASJEDI_KHONSARI:
+        found = mixed_film(
+            line_load, curvature, entrainment, sliding, pinion_speed, gear_speed, contact, logs
+        )
+        return found[0]
+    load = maximum(line_load, LEAST_LINE_LOAD)
+    speed = maximum(absolute(entrainment), LEAST_ENTRAINMENT)
+    if law_code == XU:
+        return xu(
+            hertz_pressure(load, curvature, contact.effective_modulus),
+            1.0 / curvature,
+            speed,
+            sliding,
+            contact.inlet_viscosity,
+            contact.roughness,
+        )
+    if law_code == BENEDICT_KELLEY:
+        return benedict_kelley(load, 2.0 * speed, sliding, contact.inlet_viscosity, contact.mean_roughness)
+    if law_code == COULOMB:
+        return 0.0 * sliding + contact.coulomb_coefficient
+    return 0.0 * sliding  # NONE
+
+
+@law
+def friction(law_code, line_load, curvature, entrainment, sliding, pinion_speed, gear_speed, contact):
+    """All that is known of one contact under the law in use; arguments as for `mixed_film`.
+
+    The film is Masjedi & Khonsari's under every law, and the range that is told is the film's. The heat that
+    makes the flash temperature is the law's own.
+
+    Returns
+    -------
+    friction_coefficient, asperity_load_ratio, central_film_thickness, flash_temperature_rise,
+    hertz_pressure, in_range
+        As `mixed_film`, and 1.0 where the film's regressions are inside their fitted range, else 0.0.
+    """
+    logs = logarithms(contact)
+    coefficient, share, film, temperature, pressure = mixed_film(
+        line_load, curvature, entrainment, sliding, pinion_speed, gear_speed, contact, logs
     )
-    if law_code == NONE:
-        coefficient = 0.0 * coefficient
-        temperature = 0.0 * temperature
-    elif law_code != MASJEDI_KHONSARI:
-        load = maximum(line_load, LEAST_LINE_LOAD)
-        speed = maximum(absolute(entrainment), LEAST_ENTRAINMENT)
-        if law_code == XU:
-            coefficient = xu(
-                pressure, 1.0 / curvature, speed, sliding, contact.inlet_viscosity, contact.roughness
-            )
-        elif law_code == BENEDICT_KELLEY:
-            coefficient = benedict_kelley(
-                load, 2.0 * speed, sliding, contact.inlet_viscosity, contact.mean_roughness
-            )
-        else:
-            coefficient = 0.0 * coefficient + contact.coulomb_coefficient
-        half_width = hertz_half_width(load, curvature, contact.effective_modulus)
-        heat_flux = coefficient * absolute(sliding) * pressure * math.pi / 4.0
+    load = maximum(line_load, LEAST_LINE_LOAD)
+    speed = maximum(absolute(entrainment), LEAST_ENTRAINMENT)
+    if law_code != MASJEDI_KHONSARI:
+        coefficient = 0.0 * coefficient + friction_coefficient(
+            law_code, line_load, curvature, entrainment, sliding, pinion_speed, gear_speed, contact, logs
+        )
         temperature = flash_temperature_rise(
-            heat_flux,
-            half_width,
+            coefficient * absolute(sliding) * pressure / GREATEST_OVER_MEAN,
+            hertz_half_width(load, curvature, contact.effective_modulus),
             pinion_speed,
             gear_speed,
             contact.pinion_conductivity,
@@ -143,4 +160,4 @@ def friction(law_code, line_load, curvature, entrainment, sliding, pinion_speed,
             contact.pinion_heat_capacity,
             contact.gear_heat_capacity,
         )
-    return coefficient, share, film, temperature, pressure, valid
+    return coefficient, share, film, temperature, pressure, in_fitted_range(load, curvature, speed, contact)

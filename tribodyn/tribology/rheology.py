@@ -1,21 +1,22 @@
 """Viscosity and limiting shear stress of the lubricant in the contact."""
 
-from tribodyn.elementary import exp, law, log, log1p, maximum, minimum
+from tribodyn.elementary import exp, law, log, maximum, minimum
 
 #: Above this the exponential overflows; 1 − exp(−η …) has long reached 1.
 GREATEST_EXPONENT = 600.0
 
 
 @law
-def roelands_viscosity(pressure, temperature_rise, inlet_viscosity, index, temperature_coefficient):
-    """Average viscosity in the contact, Pa·s.
+def roelands_viscosity(pressure, temperature_rise, log_inlet_viscosity, index, temperature_coefficient):
+    """Average viscosity in the contact, Pa·s, from the logarithm of the one at the inlet, η0 in Pa·s.
 
     η = η0 exp{(ln η0 + 9.67) [−1 + (1 + 5.1e-9 p)^z] − K_T ΔT}, Roelands (1966); Liu & Ni (21). The exponent
     is clipped (near a cycloid's pitch point the Hertz pressure diverges).
     """
-    rise = exp(index * log1p(5.1e-9 * pressure)) - 1.0
-    exponent = (log(inlet_viscosity) + 9.67) * rise - temperature_coefficient * temperature_rise
-    return inlet_viscosity * exp(maximum(minimum(exponent, GREATEST_EXPONENT), -GREATEST_EXPONENT))
+    rise = exp(index * log(1.0 + 5.1e-9 * pressure)) - 1.0
+    exponent = (log_inlet_viscosity + 9.67) * rise - temperature_coefficient * temperature_rise
+    exponent = maximum(minimum(exponent, GREATEST_EXPONENT), -GREATEST_EXPONENT)
+    return exp(log_inlet_viscosity + exponent)
 
 
 @law
