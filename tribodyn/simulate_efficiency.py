@@ -1,31 +1,43 @@
 """From a case of the efficiency study to its record: one mesh cycle, quasi-static."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from time import perf_counter
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.efficiency.along_path import Duty, Engagement, cycle_efficiency, engage
+from tribodyn.compliance.load_sharing import (
+    PairFlexibility,
+    effective_contact_ratio,
+    flexibility,
+    share_load,
+)
+from tribodyn.efficiency.along_path import CycleEfficiency, Duty, Engagement, cycle_efficiency, engage
 from tribodyn.efficiency.case import EfficiencyCase
 from tribodyn.efficiency.loss_factor import exact, hoehn, tip_contact_ratios
-from tribodyn.efficiency.places import SHARINGS, Places, places
+from tribodyn.efficiency.places import SHARINGS, Places, Sharing, places
 from tribodyn.efficiency.quadrature import Array
 from tribodyn.efficiency.torque_ratio import path_contact, torque_ratio
 from tribodyn.errors import InputError
+from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.path import Path as PathOfContact
 from tribodyn.mesh_cycle import MeshCycle, as_arrays
 from tribodyn.surfaces import contact_of
 
 
 class Study(NamedTuple):
-    """A case made ready: the table of the mesh, the path it was made from, and what the mesh has to do."""
+    """A case made ready: the table of the mesh, the path it was made from, and what the mesh has to do.
+
+    `flexible` is the load contact model that shares the load, where the scenario asks for it.
+    """
 
     case: EfficiencyCase
     cycle: MeshCycle
     path: PathOfContact
     duty: Duty
+    flexible: PairFlexibility | None = None
 
 
 def prepare(case: EfficiencyCase) -> Study:
@@ -39,10 +51,19 @@ def prepare(case: EfficiencyCase) -> Study:
     from tribodyn.geometry.checks import check
     from tribodyn.scenario.load import family, friction_law
     from tribodyn.tabulate import pair_slots, tabulate
+    from tribodyn.tabulate_loaded import tabulate_loaded
 
     teeth = family(case.family)
     check(teeth, case.drive)
-    cycle = tabulate(teeth, case.drive, case.materials, case.mesh, pairs=pair_slots(teeth, case.drive))
+    flexible = None
+    if case.mesh.compliance == "fem":
+        cycle = tabulate_loaded(teeth, case.drive, case.materials, case.mesh, case.operating.gear_torque)
+        flexible = flexibility(assemble(teeth, case.drive), case.materials)
+        if not case.mesh.foundation_coupling:
+            apart = [gear._replace(between=0.0 * gear.between) for gear in flexible.gears]
+            flexible = flexible._replace(gears=(apart[0], apart[1]))
+    else:
+        cycle = tabulate(teeth, case.drive, case.materials, case.mesh, pairs=pair_slots(teeth, case.drive))
     duty = Duty(
         case.operating.gear_torque,
         case.operating.pinion_speed,
@@ -50,7 +71,7 @@ def prepare(case: EfficiencyCase) -> Study:
         contact_of(case),
         case.load_sharing,
     )
-    return Study(case, cycle, teeth.working_path(case.drive), duty)
+    return Study(case, cycle, teeth.working_path(case.drive), duty, flexible)
 
 
 def run(
@@ -71,7 +92,7 @@ def run(
     begun = perf_counter()
     study = prepare(case)
     mesh, state, samples = _sampled(study)
-    summary = _figures(study, state) | {"wall_time": perf_counter() - begun}
+    summary = _figures(study, mesh, state) | {"wall_time": perf_counter() - begun}
     with RecordWriter(
         path,
         scenario_toml=case.toml,
@@ -89,20 +110,25 @@ def run(
 
 def _sampled(study: Study) -> tuple[Places, Engagement, np.ndarray]:
     phase = np.linspace(0.0, 1.0, study.case.samples_per_cycle + 1)
-    mesh = places(study.cycle, study.path, phase, study.duty.sharing)
+    mesh = places(study.cycle, study.path, phase, study.duty.sharing, study.flexible)
     return mesh, engage(mesh, study.duty), phase
 
 
-def efficiencies(study: Study) -> dict[str, float]:
+def efficiencies(
+    study: Study, known: Mapping[Sharing, CycleEfficiency] = MappingProxyType({})
+) -> dict[str, float]:
     """Cycle efficiency under every load sharing, by the torque ratio, and of an involute by Höhn's formula.
 
-    A load sharing that does not fit the teeth, and Höhn's formula where friction is not one mean coefficient,
-    are left out.
+    What is `known` by its load sharing is not computed again. A load sharing that does not fit the teeth, and
+    Höhn's formula where friction is not one mean coefficient, are left out.
     """
     found = {}
     for sharing in SHARINGS:
+        duty = study.duty._replace(sharing=sharing)
         try:
-            means = cycle_efficiency(study.cycle, study.path, study.duty._replace(sharing=sharing))
+            means = known.get(sharing) or cycle_efficiency(
+                study.cycle, study.path, duty, flexible=study.flexible
+            )
         except InputError:
             continue
         found[f"efficiency_{sharing.replace('-', '_')}"] = means.efficiency
@@ -136,9 +162,18 @@ def _by_loss_factor(study: Study) -> dict[str, float]:
     return found
 
 
-def _figures(study: Study, state: Engagement) -> dict[str, Any]:
+def _effective_contact_ratio(mesh: Places, state: Engagement, duty: Duty) -> dict[str, float]:
+    """Contact ratio under load, where the load sharing knows corner contact."""
+    if mesh.flexible is None:
+        return {}
+    roll, friction = mesh.roll[:-1], state.friction_coefficient[:-1]
+    shared = share_load(mesh.flexible, roll, duty.gear_torque, friction)
+    return {"contact_ratio_effective": effective_contact_ratio(roll, shared, float(mesh.cycle.pitch_angle))}
+
+
+def _figures(study: Study, mesh: Places, state: Engagement) -> dict[str, Any]:
     cycle, duty = study.cycle, study.duty
-    means = cycle_efficiency(cycle, study.path, duty)
+    means = cycle_efficiency(cycle, study.path, duty, flexible=study.flexible)
     loaded = state.normal_load > 0
     share = 1.0 / len(state.power_in[:-1])
     balance = means.power_in - means.power_out - means.power_friction
@@ -151,6 +186,7 @@ def _figures(study: Study, state: Engagement) -> dict[str, Any]:
 
     return {
         "contact_ratio": float(cycle.contact_ratio),
+        **_effective_contact_ratio(mesh, state, duty),
         "load_sharing": duty.sharing,
         "mesh_frequency": duty.pinion_speed / float(cycle.pitch_angle),
         "normal_load_max": greatest(state.normal_load),
@@ -166,7 +202,7 @@ def _figures(study: Study, state: Engagement) -> dict[str, Any]:
         "efficiency": means.efficiency,
         "energy_residual": balance / means.power_in,
         "averaging_cycles": 1,
-        **efficiencies(study),
+        **efficiencies(study, {duty.sharing: means}),
     }
 
 

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tribodyn.compliance.load_sharing import PairFlexibility, share_load
 from tribodyn.efficiency.contact_friction import contact_friction
 from tribodyn.efficiency.places import Places, Sharing, places
 from tribodyn.efficiency.quadrature import Array, piecewise
@@ -143,6 +144,9 @@ def engage(mesh: Places, duty: Duty) -> Engagement:
 
 def _loads(mesh: Places, duty: Duty, signed_friction: Array) -> tuple[Array, Array]:
     """Loads (K, Q) that give the gear's torque with the friction of the last step, and deflection (K,)."""
+    if mesh.flexible is not None:
+        shared = share_load(mesh.flexible, mesh.roll, duty.gear_torque, np.abs(signed_friction))
+        return mesh.carrying * shared.normal_load, shared.deflection
     if duty.sharing == "elastic":
         found = quasi_static(mesh.cycle, duty.gear_torque, signed_friction[:, None])
         return found.normal_load[:, 0], found.deflection[:, 0]
@@ -168,7 +172,13 @@ class CycleEfficiency(NamedTuple):
     friction_coefficient: float
 
 
-def cycle_efficiency(cycle: MeshCycle, path: Path, duty: Duty, points: int = POINTS) -> CycleEfficiency:
+def cycle_efficiency(
+    cycle: MeshCycle,
+    path: Path,
+    duty: Duty,
+    points: int = POINTS,
+    flexible: PairFlexibility | None = None,
+) -> CycleEfficiency:
     """Integrate power in, out and lost over a mesh cycle.
 
     The quadrature is split where the set of loaded pairs changes and crowds towards the pitch points, so that
@@ -183,11 +193,13 @@ def cycle_efficiency(cycle: MeshCycle, path: Path, duty: Duty, points: int = POI
     duty : Duty
     points : int
         Nodes between two breaks.
+    flexible : PairFlexibility, optional
+        As in `places`.
     """
     pitch = cycle.pitch_point_phase - np.arange(cycle.front_pairs - 1.0, -1.0, -1.0)
     breaks = np.unique(np.concatenate([cycle.boundary, (cycle.pitch_point_phase + np.array([0.5])) % 1.0]))
     phase, weight = piecewise(breaks, pitch, points)
-    state = engage(places(cycle, path, phase, duty.sharing), duty)
+    state = engage(places(cycle, path, phase, duty.sharing, flexible), duty)
     power_in, power_out, lost = (
         float(weight @ power) for power in (state.power_in, state.power_out, state.power_friction)
     )

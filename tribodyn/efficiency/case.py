@@ -18,7 +18,7 @@ class EfficiencyCase:
     operating : OperatingData
         Pinion speed and gear torque, both constant.
     mesh : MeshData
-        Compliance by the energy method, for the elastic load sharing.
+        Compliance by the energy method or, "fem", the load contact model, for the elastic load sharing.
     load_sharing : {"elastic", "uniform", "single-pair"}
         That of the samples recorded; the summary has all three.
     samples_per_cycle : int

@@ -4,14 +4,16 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
+from tribodyn.compliance.load_sharing import PairFlexibility
 from tribodyn.efficiency.quadrature import Array
 from tribodyn.errors import InputError
-from tribodyn.geometry.path import Path, kinematics
+from tribodyn.geometry.corner_contact import pair_geometry, roll_limits
+from tribodyn.geometry.path import Kinematics, Path, kinematics
 from tribodyn.mesh_cycle import CHANNELS, MeshCycle, Polynomials, polynomials
 
 Sharing = Literal["elastic", "uniform", "single-pair"]
 SHARINGS: dict[Sharing, str] = {
-    "elastic": "by the compliances of the pairs and the body they share",
+    "elastic": "by the compliances of the pairs and of the bodies they share",
     "uniform": "equally among the pairs in contact, as ISO/TC 60 has it",
     "single-pair": "one pair over half a pitch on either side of the pitch point: unit contact ratio",
 }
@@ -32,6 +34,10 @@ class Places(NamedTuple):
         Arms of normal load and friction about pinion and gear, m.
     radius : (K, Q)
         Equivalent radius, m.
+    roll : (K, Q)
+        Pinion angles of the pairs from the pitch point, rad.
+    flexible : PairFlexibility or None
+        By what the pairs share the load; None: by the table's compliances, or not elastically.
     """
 
     phase: Array
@@ -40,10 +46,31 @@ class Places(NamedTuple):
     normal_arm: Array
     friction_arm: Array
     radius: Array
+    roll: Array
+    flexible: PairFlexibility | None
 
 
-def places(cycle: MeshCycle, path: Path, phase: Array, sharing: Sharing = "elastic") -> Places:
+def places(
+    cycle: MeshCycle,
+    path: Path,
+    phase: Array,
+    sharing: Sharing = "elastic",
+    flexible: PairFlexibility | None = None,
+) -> Places:
     """Look up the mesh at phases 0 … 1: compliance and gap from the table, kinematics from the path.
+
+    Parameters
+    ----------
+    cycle : MeshCycle
+        Of concrete numbers.
+    path : Path
+        The working path that the table was made from.
+    phase : (K,)
+        Mesh cycles.
+    sharing : one of `SHARINGS`
+    flexible : PairFlexibility, optional
+        The load contact model that the table was made from (`tabulate_loaded`). Pairs that share elastically
+        then touch beyond the path as well, where a corner meets a flank; the others know the path only.
 
     Raises
     ------
@@ -53,11 +80,16 @@ def places(cycle: MeshCycle, path: Path, phase: Array, sharing: Sharing = "elast
     pairs = cycle.front_pairs
     segment = np.clip(np.searchsorted(cycle.boundary, phase, side="right") - 1, 0, len(cycle.boundary) - 2)
     position = phase[:, None] + np.arange(pairs - 1.0, -1.0, -1.0)
-    roll = np.clip(cycle.roll_start + cycle.pitch_angle * position, cycle.roll_start, cycle.roll_end)
-    inside = (position < cycle.contact_ratio).astype(float)
+    roll = cycle.roll_start + cycle.pitch_angle * position
+    start, end = float(cycle.roll_start), float(cycle.roll_end)
+    corners = flexible is not None and sharing == "elastic"
+    if flexible is not None and not corners:
+        start, end = roll_limits(flexible.assembly)
+    # closed at the beginning, and open at the end by more than rounding
+    inside = ((roll >= start - 1e-12) & (roll < end - 1e-12)).astype(float)
     if sharing == "single-pair":
         half = cycle.pitch_angle / 2.0
-        if cycle.roll_start > -half or cycle.roll_end < half:
+        if start > -half or end < half:
             raise InputError(
                 "mesh.load_sharing",
                 f'"{sharing}"',
@@ -65,7 +97,11 @@ def places(cycle: MeshCycle, path: Path, phase: Array, sharing: Sharing = "elast
                 'use "elastic" or "uniform"',
             )
         inside = inside * ((roll >= -half) & (roll < half))
-    motion = kinematics(path, path.signed_distance(roll))
+    motion: Kinematics
+    if flexible is not None and corners:
+        motion = pair_geometry(flexible.assembly, roll).motion
+    else:
+        motion = kinematics(path, path.signed_distance(np.clip(roll, start, end)))
     at = _Lookup(polynomials(cycle), cycle.boundary, segment, phase)
     one = cycle._replace(
         in_contact=inside,
@@ -86,6 +122,8 @@ def places(cycle: MeshCycle, path: Path, phase: Array, sharing: Sharing = "elast
         np.stack([motion.pinion_normal_arm, motion.gear_normal_arm]),
         np.stack([motion.pinion_friction_arm, motion.gear_friction_arm]),
         1.0 / motion.relative_curvature,
+        roll,
+        flexible if corners else None,
     )
 
 

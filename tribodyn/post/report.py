@@ -28,6 +28,7 @@ GROUPS: dict[str, tuple[Line, ...]] = {
         Line("ratio", "Ratio of input to cam, which turns the other way"),
         Line("eccentricity", "Eccentricity", 1e3, "mm"),
         Line("contact_ratio", "Contact ratio", form=".4f"),
+        Line("contact_ratio_effective", "Contact ratio under load, corner contact included", form=".4f"),
         Line(
             "stiffness_single_pair_at_pitch_point", "Stiffness of one pair at the pitch point", 1e-6, "N/µm"
         ),

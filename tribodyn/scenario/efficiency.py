@@ -1,11 +1,13 @@
 """The tables of a scenario of ``kind = "efficiency"``: loads, friction and losses without dynamics."""
 
+from collections.abc import Iterator
 from typing import Annotated, Literal
 
 from pydantic import Field
 
 from tribodyn.case import FrictionData, MeshData, OperatingData
 from tribodyn.efficiency.case import EfficiencyCase
+from tribodyn.errors import InputError
 from tribodyn.scenario import units
 from tribodyn.scenario.model_files import DriveTable, Lubricant
 from tribodyn.scenario.quantity import NotNegative, Quantity, Reference, Switch, Table, Text, written
@@ -23,9 +25,14 @@ class EfficiencyOperating(Table):
 class EfficiencyMesh(Table):
     """How the pairs in contact share the load, and the compliance they share it by."""
 
+    compliance: Literal["energy", "fem"] = Field(
+        "energy",
+        description="what elastic load sharing goes by: the energy method; or the load contact model on "
+        "finite elements, in which pairs touch beyond their path of contact as well",
+    )
     load_sharing: Literal["elastic", "uniform", "single-pair"] = Field(
         "elastic",
-        description="by the energy method's compliance; equally; one pair about the pitch point. "
+        description="by the compliances; equally; one pair about the pitch point. "
         "Of the samples: the summary has all three",
     )
     hertz: Literal["linear", "load-dependent"] = Field("linear", description="contact part of the compliance")
@@ -59,6 +66,17 @@ class EfficiencyScenario(Table):
     output: EfficiencyOutput = written({})
 
 
+def broken_efficiency_rules(mesh: EfficiencyMesh) -> Iterator[InputError]:
+    """Go through the rules that the mesh of an efficiency study breaks."""
+    if mesh.hertz == "load-dependent" and mesh.compliance != "energy":
+        yield InputError(
+            "mesh.hertz",
+            '"load-dependent"',
+            f'contradicts compliance = "{mesh.compliance}", which contains the Hertz contact',
+            'leave hertz out, or write compliance = "energy"',
+        )
+
+
 def efficiency_case_of(scenario: EfficiencyScenario, toml: str, sha256: str) -> EfficiencyCase:
     """Return the case of a scenario that has passed schema and rules."""
     drive, mesh, operating = scenario.drive, scenario.mesh, scenario.operating
@@ -76,7 +94,7 @@ def efficiency_case_of(scenario: EfficiencyScenario, toml: str, sha256: str) -> 
         lubricant=lubricant_of(scenario.lubricant),
         operating=OperatingData("speed", operating.pinion_speed, operating.gear_torque),
         mesh=MeshData(
-            "energy", damping_ratio=0.0, hertz=mesh.hertz, foundation_coupling=mesh.foundation_coupling
+            mesh.compliance, damping_ratio=0.0, hertz=mesh.hertz, foundation_coupling=mesh.foundation_coupling
         ),
         friction=FrictionData(scenario.friction.law, scenario.friction.coefficient),
         load_sharing=mesh.load_sharing,

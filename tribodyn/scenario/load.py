@@ -16,7 +16,12 @@ from tribodyn.case import Case
 from tribodyn.efficiency.case import EfficiencyCase
 from tribodyn.errors import InputError
 from tribodyn.rolling.case import RollingCase
-from tribodyn.scenario.efficiency import EfficiencyFriction, EfficiencyScenario, efficiency_case_of
+from tribodyn.scenario.efficiency import (
+    EfficiencyFriction,
+    EfficiencyScenario,
+    broken_efficiency_rules,
+    efficiency_case_of,
+)
 from tribodyn.scenario.kinds import KINDS, table_of
 from tribodyn.scenario.messages import InputErrors, Origins, explain
 from tribodyn.scenario.resolve import Resolved, resolve
@@ -235,7 +240,10 @@ def loaded_from(resolved: Resolved, path: Path) -> Loaded:
     if isinstance(table, RollingScenario):
         return Loaded(rolling_case_of(table, toml, digest), path, origins)
     assert isinstance(table, Scenario | EfficiencyScenario)
-    rules = broken_rules(table) if isinstance(table, Scenario) else list(broken_drive_rules(table.drive))
+    if isinstance(table, Scenario):
+        rules = broken_rules(table)
+    else:
+        rules = [*broken_drive_rules(table.drive), *broken_efficiency_rules(table.mesh)]
     errors = rules + _unknown_names(table) + _coefficient(table.friction)
     if table.drive.family in FAMILIES:
         errors += shape_errors(table.drive, family(table.drive.family))

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tribodyn.case import Case
-from tribodyn.compliance.load_sharing import PairFlexibility, flexibility
+from tribodyn.compliance.load_sharing import LEVEL, PairFlexibility, flexibility
 from tribodyn.efficiency.load_contact import LoadContact, load_contact
 from tribodyn.efficiency.loss_factor import exact, hoehn, tip_contact_ratios
 from tribodyn.efficiency.shift import Scenario, shifted
@@ -80,10 +80,9 @@ def drive() -> Drive:
     return _plain_case().drive
 
 
-def elastic(pair: Drive, level: int | None = None) -> PairFlexibility:
+def elastic(pair: Drive, level: int = LEVEL) -> PairFlexibility:
     """Finite elements of the paper's pair, shifted or not, of its material."""
-    options = {} if level is None else {"level": level}
-    return flexibility(assemble(FAMILY, pair), _plain_case().materials, **options)
+    return flexibility(assemble(FAMILY, pair), _plain_case().materials, level=level)
 
 
 def loss_factors(pair: Drive) -> tuple[float, float]:
