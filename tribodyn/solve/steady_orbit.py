@@ -1,0 +1,273 @@
+"""Steady states of periodically driven systems: march, recognise the period, shoot, judge the stability.
+
+Written over `period_map.PeriodMap`, so that the gear model and the backlash oscillator share it. A system is
+marched until its states once a period repeat, or until their contraction tells that Newton's method would get
+there sooner; a state that shooting found is taken only if it is stable and near what marching was heading for,
+otherwise marching goes on. What marching leaves, it leaves: no average of an unstable state is ever returned.
+"""
+
+from collections.abc import Callable
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from tribodyn.solve.period_map import PeriodMap
+from tribodyn.solve.shooting import Shot, shoot
+
+Method = Literal["auto", "marching", "shooting"]
+
+#: Greatest number of excitation periods in one period of the motion.
+MAX_PERIOD = 4
+#: Periods marched between two looks at the states: at least twice MAX_PERIOD.
+BLOCK = 12
+#: Estimated distance from the steady state, over the scale, at which Newton's method takes over.
+NEAR = 1e-2
+#: The same where marching on would take many times the maps that shooting takes.
+NEAR_SLOW = 0.5
+#: Shooting is expected to take two derivatives and a check, in maps over one period a state and n.
+DERIVATIVES = 2
+#: A solution may be this many times the estimated distance away from where marching had come.
+REACH = 10.0
+
+
+class Orbit(NamedTuple):
+    """One system's steady state, or what can be said instead.
+
+    Attributes
+    ----------
+    state : (N,)
+        At the start of a period, on the steady orbit; the last one marched where there is none.
+    last : (N,)
+        Where marching ended: the start for a neighbouring system, on the orbit only if that was taken.
+    period : int
+        Periods of the excitation in one of the motion; 0 where none was found.
+    residual : float
+        Scaled change of the state over one period of the motion; of a motion that is not periodic the least
+        over 1 … MAX_PERIOD periods.
+    multipliers : (N,) complex
+        Floquet multipliers over one period of the motion, greatest first; NaN without a steady state.
+    stable : bool
+        All multipliers inside the unit circle.
+    kind : str
+        "period-1" … "period-4", "unstable", "not periodic", "failed".
+    method : str
+        "marching" or "shooting": what closed the orbit to the tolerance.
+    marched : int
+        Periods marched.
+    message : str
+    """
+
+    state: np.ndarray
+    last: np.ndarray
+    period: int
+    residual: float
+    multipliers: np.ndarray
+    stable: bool
+    kind: str
+    method: str
+    marched: int
+    message: str
+
+
+class _Progress:
+    """What has been marched of every system."""
+
+    def __init__(self, states: np.ndarray):
+        self.current = states.copy()
+        self.marched = np.zeros(len(states), dtype=int)
+        self.next_shot = np.zeros(len(states), dtype=int)
+        self.changes = np.full((len(states), MAX_PERIOD), np.inf)
+        self.history: list[list[float]] = [[] for _ in states]
+        self.fallback: dict[int, Orbit] = {}
+
+    def approaching(self, case: int) -> bool:
+        """Whether the change over a period fell over the second half of what was marched."""
+        blocks = self.history[case]
+        quarter = max(1, len(blocks) // 4)
+        return max(blocks[-quarter:]) < 0.5 * max(blocks[-2 * quarter : -quarter] or [0.0])
+
+
+def find(
+    period_map: PeriodMap,
+    states: np.ndarray,
+    *,
+    tolerance: float = 1e-7,
+    max_periods: int = 2000,
+    method: Method = "auto",
+    progress: Callable[[float], None] | None = None,
+) -> list[Orbit]:
+    """Steady states of all systems of a map, each from its own start.
+
+    Parameters
+    ----------
+    period_map : PeriodMap
+    states : (C, N)
+        Where each system starts.
+    tolerance : float
+        Greatest scaled change over a period of the motion.
+    max_periods : int
+        Periods that a system may march.
+    method : {"auto", "marching", "shooting"}
+        "marching" takes only what marching alone brings within the tolerance; "shooting" starts Newton's
+        method for one period from the states given and takes unstable states too.
+    progress : callable, optional
+        Called with the share of systems done.
+    """
+    count = len(states)
+    if method == "shooting":
+        return _shoot_from(period_map, states, tolerance)
+    done: list[Orbit | None] = [None] * count
+    so_far = _Progress(states)
+    pending = np.arange(count)
+    while pending.size:
+        wanted: dict[int, list[tuple[int, float]]] = {}
+        block = period_map.march(so_far.current[pending], pending, BLOCK, method == "marching")
+        for k, case in enumerate(pending):
+            if block.reasons[k]:
+                done[case] = _failed(so_far.current[case], int(so_far.marched[case]), block.reasons[k])
+                continue
+            track = np.concatenate([so_far.current[case][None], block.states[k]])
+            so_far.current[case] = track[-1]
+            so_far.marched[case] += BLOCK
+            period, reach = _candidate(track / period_map.scale[case], so_far, case, tolerance, method)
+            if period:
+                wanted.setdefault(period, []).append((int(case), reach))
+        for period, these in wanted.items():
+            for case, orbit in _attempt(period_map, so_far, these, period, tolerance, method).items():
+                done[case] = orbit
+        late = [c for c in pending if done[c] is None and so_far.marched[c] + BLOCK > max_periods]
+        for case, orbit in _last_resort(period_map, so_far, late, tolerance, method).items():
+            done[case] = orbit
+        pending = np.array([c for c in pending if done[c] is None], dtype=int)
+        if progress:
+            progress(1.0 - len(pending) / count)
+    return [orbit for orbit in done if orbit is not None]
+
+
+def _candidate(track, so_far: _Progress, case, tolerance, method) -> tuple[int, float]:
+    """Period for which to try shooting, 0 for none, and how far its solution may lie from here."""
+    half = BLOCK // 2
+    for n in range(1, MAX_PERIOD + 1):
+        change = np.max(np.abs(track[n:] - track[:-n]), axis=1)
+        # the greatest over n periods, so that a passing zero of an oscillating approach deceives nobody
+        last, middle = float(np.max(change[-n:])), float(np.max(change[-n - half : -half]))
+        so_far.changes[case, n - 1] = last
+        if n == 1:
+            so_far.history[case].append(float(np.max(change)))
+        if last <= tolerance:
+            return n, np.inf
+        if method == "marching" or so_far.marched[case] < so_far.next_shot[case]:
+            continue
+        rate = (last / middle) ** (1.0 / half) if middle > 0.0 else 0.0
+        if rate >= 1.0:
+            if last <= 1e-3 * NEAR:  # so slow, or so near, that the contraction cannot be seen
+                return n, NEAR
+            continue
+        distance = last / (1.0 - rate**n)
+        maps_left = np.log(tolerance / last) / np.log(rate) if rate > 0.0 else 0.0
+        slow = maps_left > 2.0 * n * DERIVATIVES * (track.shape[1] + 2)
+        if distance <= NEAR or (slow and distance <= NEAR_SLOW):
+            return n, REACH * distance
+    return 0, 0.0
+
+
+def _attempt(period_map, so_far: _Progress, these, period, tolerance, method) -> dict[int, Orbit]:
+    """Shoot from where marching stands; returns the orbits that are taken."""
+    cases = np.array([case for case, _ in these])
+    steps = 0 if method == "marching" else 20
+    shots = shoot(period_map, so_far.current[cases], cases, period, tolerance, steps)
+    taken = {}
+    for (case, reach), shot in zip(these, shots, strict=True):
+        so_far.next_shot[case] = 2 * so_far.marched[case]
+        if shot.reason:
+            continue
+        orbit = _judge(period_map, shot, case, period, int(so_far.marched[case]), tolerance)
+        away = np.max(np.abs(shot.state - so_far.current[case]) / period_map.scale[case])
+        if orbit.stable and away <= reach:
+            taken[case] = orbit
+        else:
+            so_far.fallback.setdefault(case, orbit)
+    return taken
+
+
+def _judge(period_map, shot: Shot, case: int, period: int, marched: int, tolerance: float) -> Orbit:
+    """The orbit of a converged shot, with its least period and its stability."""
+    if period > 1:
+        one, scale = np.array([case]), period_map.scale[case]
+        track = period_map.march(shot.state[None], one, period, True).states[0]
+        for n in range(1, period):
+            close = np.max(np.abs(track[n - 1] - shot.state) / scale) <= 100.0 * tolerance
+            if period % n == 0 and close:
+                again = shoot(period_map, shot.state[None], one, n, tolerance)[0]
+                if not again.reason:
+                    shot, period = again, n
+                    break
+    greatest = float(np.abs(shot.multipliers[0]))
+    stable = greatest < 1.0
+    return Orbit(
+        state=shot.state,
+        last=shot.state,
+        period=period,
+        residual=shot.residual,
+        multipliers=shot.multipliers,
+        stable=stable,
+        kind=f"period-{period}" if stable else "unstable",
+        method="shooting" if shot.steps else "marching",
+        marched=marched,
+        message="" if stable else f"an unstable state of period {period}: {_way_out(shot.multipliers[0])}",
+    )
+
+
+def _way_out(multiplier: complex) -> str:
+    """In words, how a state with that greatest multiplier is left."""
+    modulus = f"greatest multiplier {abs(multiplier):.4g}"
+    if abs(multiplier.imag) > 1e-6 * abs(multiplier):
+        return f"{modulus} at ±{np.degrees(abs(np.angle(multiplier))):.0f}°, left by a second frequency"
+    if multiplier.real < 0.0:
+        return f"{modulus}, negative: left towards twice the period"
+    return f"{modulus}, positive: left towards another state"
+
+
+def _last_resort(period_map, so_far: _Progress, late, tolerance, method) -> dict[int, Orbit]:
+    """What to say of systems that have marched all their periods."""
+    said: dict[int, Orbit] = {}
+    shots: list[Shot | None] = [None] * len(late)
+    if method == "auto" and late:
+        cases = np.array(late)
+        shots = list(shoot(period_map, so_far.current[cases], cases, 1, tolerance))
+    for case, shot in zip(late, shots, strict=True):
+        marched, last = int(so_far.marched[case]), so_far.current[case].copy()
+        orbit = so_far.fallback.get(case)
+        if shot is not None and not shot.reason:
+            orbit = _judge(period_map, shot, case, 1, marched, tolerance)
+        least = float(np.min(so_far.changes[case]))
+        wandering = f"marched {marched} periods without repeating, least change {least:.1e}"
+        if orbit is not None and orbit.stable and so_far.approaching(case):
+            said[case] = orbit._replace(message=f"found by shooting, still far off: {wandering}")
+        elif orbit is not None and not orbit.stable:
+            said[case] = orbit._replace(last=last, marched=marched, message=f"{orbit.message}; {wandering}")
+        else:
+            beside = "; shooting found a stable state that it does not reach" if orbit else ""
+            none = np.full(last.shape, np.nan, dtype=complex)
+            message = wandering + beside
+            said[case] = Orbit(
+                last, last, 0, least, none, False, "not periodic", "marching", marched, message
+            )
+    return said
+
+
+def _shoot_from(period_map, states, tolerance) -> list[Orbit]:
+    found = []
+    for case, shot in enumerate(shoot(period_map, states, np.arange(len(states)), 1, tolerance)):
+        found.append(
+            _failed(shot.state, 0, shot.reason)
+            if shot.reason
+            else _judge(period_map, shot, case, 1, 0, tolerance)._replace(method="shooting")
+        )
+    return found
+
+
+def _failed(state: np.ndarray, marched: int, reason: str) -> Orbit:
+    none = np.full(len(state), np.nan, dtype=complex)
+    last = state.copy()
+    return Orbit(last, last, 0, np.inf, none, False, "failed", "marching", marched, reason)
