@@ -2,8 +2,8 @@
 
 x'' + 2ζ x' + (1 + ε cos Ωτ) f(x) = F_m + F_e Ω² cos Ωτ with f(x) = x − 1 above 1, 0 between, x + 1 below −1
 (Kahraman & Singh, J. Sound Vib. 142 (1990) 49, with ε after the same, 146 (1991) 135). Between the corners
-|x| = 1 the equation is linear with entire coefficients, so that its Taylor series converges for every step and
-its terms follow from a recurrence; steps are chosen so that the series is exact to rounding. A step never
+|x| = 1 the equation is linear with entire coefficients, so that its Taylor series converges for every step
+and its terms follow from a recurrence; steps are chosen so that the series is exact to rounding. A step never
 crosses a corner: the first one is found by steps that a bound on the acceleration proves to be too short to
 miss it. The force is continuous there, so that the tangent passes a corner unchanged and the map's derivative
 is as exact as the map.
@@ -101,7 +101,7 @@ def _until_corner(a, step, corner, direction, on_corner):
     """Time of the first passage of `corner` in `direction` (±1), or `step` if there is none before.
 
     From a distance p and speed p' the corner cannot be reached before p + p' s − M s²/2 = 0, M bounding the
-    acceleration over the step: going on by that s again and again converges to the first root and passes none.
+    acceleration over the step: going on by that s again and again converges to the first root, passing none.
     """
     bound = 0.0
     power = 1.0

@@ -83,7 +83,7 @@ def shoot(
                     going.append(k)
                     continue
             found[row] = Shot(
-                x[row].copy(), residual[k], _eigenvalues(tangent.jacobian[k]), int(steps[row]), reason
+                x[row].copy(), float(residual[k]), _eigenvalues(tangent.jacobian[k]), int(steps[row]), reason
             )
         factor = _line_search(
             period_map, x[active[going]], direction[going], residual[going], cases[active[going]], periods
@@ -93,7 +93,7 @@ def shoot(
             if share == 0.0:
                 reason = f"shooting found no way down from the residual {residual[k]:.1e}"
                 multipliers = _eigenvalues(tangent.jacobian[k])
-                found[row] = Shot(x[row].copy(), residual[k], multipliers, int(steps[row]), reason)
+                found[row] = Shot(x[row].copy(), float(residual[k]), multipliers, int(steps[row]), reason)
             x[row] += share * direction[k]
             steps[row] += 1
         active = np.array([row for row in active if found[row] is None], dtype=int)
@@ -135,5 +135,5 @@ def _line_search(period_map, x, direction, residual, cases, periods) -> np.ndarr
 def _eigenvalues(jacobian: np.ndarray) -> np.ndarray:
     if not np.all(np.isfinite(jacobian)):
         return np.full(len(jacobian), np.nan, dtype=complex)
-    values = np.linalg.eigvals(jacobian).astype(complex)
-    return values[np.lexsort((-values.imag, -np.round(np.abs(values), 12)))]
+    values = np.asarray(np.linalg.eigvals(jacobian), dtype=complex)
+    return values[np.lexsort((-np.imag(values), -np.round(np.abs(values), 12)))]

@@ -2,8 +2,8 @@
 
 Written over `period_map.PeriodMap`, so that the gear model and the backlash oscillator share it. A system is
 marched until its states once a period repeat, or until their contraction tells that Newton's method would get
-there sooner; a state that shooting found is taken only if it is stable and near what marching was heading for,
-otherwise marching goes on. What marching leaves, it leaves: no average of an unstable state is ever returned.
+there sooner; a state that shooting found is taken only if it is stable and near what marching was heading
+for, otherwise marching goes on. What marching leaves, it leaves: no average of an unstable state is returned.
 """
 
 from collections.abc import Callable
@@ -122,7 +122,7 @@ def find(
     while pending.size:
         wanted: dict[int, list[tuple[int, float]]] = {}
         block = period_map.march(so_far.current[pending], pending, BLOCK, method == "marching")
-        for k, case in enumerate(pending):
+        for k, case in enumerate(map(int, pending)):
             if block.reasons[k]:
                 done[case] = _failed(so_far.current[case], int(so_far.marched[case]), block.reasons[k])
                 continue
@@ -131,7 +131,7 @@ def find(
             so_far.marched[case] += BLOCK
             period, reach = _candidate(track / period_map.scale[case], so_far, case, tolerance, method)
             if period:
-                wanted.setdefault(period, []).append((int(case), reach))
+                wanted.setdefault(period, []).append((case, reach))
         for period, these in wanted.items():
             for case, orbit in _attempt(period_map, so_far, these, period, tolerance, method).items():
                 done[case] = orbit
@@ -144,7 +144,9 @@ def find(
     return [orbit for orbit in done if orbit is not None]
 
 
-def _candidate(track, so_far: _Progress, case, tolerance, method) -> tuple[int, float]:
+def _candidate(
+    track: np.ndarray, so_far: _Progress, case: int, tolerance: float, method: Method
+) -> tuple[int, float]:
     """Period for which to try shooting, 0 for none, and how far its solution may lie from here."""
     half = BLOCK // 2
     for n in range(1, MAX_PERIOD + 1):
@@ -154,6 +156,9 @@ def _candidate(track, so_far: _Progress, case, tolerance, method) -> tuple[int, 
         so_far.changes[case, n - 1] = last
         if n == 1:
             so_far.history[case].append(float(np.max(change)))
+        within = any(n % d == 0 and so_far.changes[case, d - 1] <= 100.0 * tolerance for d in range(1, n))
+        if within:  # about to settle to a period that divides this one
+            continue
         if last <= tolerance:
             return n, np.inf
         if method == "marching" or so_far.marched[case] < so_far.next_shot[case]:

@@ -154,13 +154,14 @@ def transient(model: Model, state: np.ndarray, settings: Settings, method: str) 
         state = block.state
         done += count
     state = state.copy()
-    _engage_next(state, model)
+    engage_next(state, model)
     yield Chunk(np.array([float(done)]), state[None], 0, 0)
     time = done * float(model.table.pitch_angle) / model.mechanics.nominal_speed + float(state[LAG])
     yield Stop(state, float(done), steps, evaluations, "", time)
 
 
-def _engage_next(state: np.ndarray, model: Model) -> None:
+def engage_next(state: np.ndarray, model: Model) -> None:
+    """Take a state at the end of a mesh cycle over the engagement that begins the next, in place."""
     last = len(np.asarray(model.table.boundary)) - 2
     slip, xi_rate, work_in, parametric = engagement(last, 1.0, 0, 0.0, state, model, {})
     state[SLIP] += slip
