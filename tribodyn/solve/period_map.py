@@ -10,7 +10,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 #: Step of a difference quotient, as a share of the state's scale: divides the noise of a map integrated to
-#: 1e-9 down to 1e-4 or less of the greatest multiplier (measured on the CRC drive at 1 % and 5 % damping, where
+#: 1e-9 down to 1e-4 or less of the greatest multiplier (measured on the CRC drive at 1 and 5 % damping, where
 #: truncation stays below that up to 3e-3), and is a third of the width over which contact sets in.
 DIFFERENCE = 1e-3
 
