@@ -3,7 +3,8 @@
 What `tabulate` does with formulas, from finite elements and Hertz. A pair is tabulated beyond its path of
 contact, as far as corners can touch, with the gap between them. The contact's deflection is not proportional
 to the load; the table holds its secant at the load which the model finds in slow rotation without friction,
-so that the quasi-static mesh at the operating torque is the load contact model's.
+so that the quasi-static mesh at the operating torque is the load contact model's. Faces in slices are
+condensed to one compliance and gap a pair (`compliance.condensed`).
 """
 
 import math
@@ -11,18 +12,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from tribodyn.compliance.load_sharing import (
-    PairFlexibility,
-    contact_deflection,
-    flexibility,
-    neighbour_compliance,
-    own_compliance,
-    share_load,
-)
+from tribodyn.compliance.condensed import Condensed, condense
+from tribodyn.compliance.flank_gap import flank_gap, relief_rolls
+from tribodyn.compliance.load_sharing import PairFlexibility, contact_deflection, flexibility, share_load
+from tribodyn.compliance.loaded_contact import check, reach
+from tribodyn.compliance.slices import face_positions, neighbour_compliance, own_compliance, pair_harmonics
 from tribodyn.compliance.table import check_cover, interpolate
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry, roll_at_gap, roll_limits
+from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry, roll_limits
 from tribodyn.geometry.drive import SIDES, Drive, body_of
 from tribodyn.geometry.family import Family
 from tribodyn.geometry.pitch_point import pitch_point
@@ -33,9 +31,6 @@ if TYPE_CHECKING:
 
 Array = Any
 
-#: Corners are followed to a gap of this many static deflections of a single pair at the operating load:
-#: where the mesh vibrates more than that, contact begins too late in the model.
-REACH = 2.0
 # Share of a single pair's load below which the secant no longer follows the load: the contact's compliance
 # grows without bound, like a logarithm, as the load vanishes.
 _LEAST_SHARE = 0.05
@@ -69,13 +64,15 @@ def tabulate_loaded(
     if not mesh.foundation_coupling:
         apart = [gear._replace(between=0.0 * gear.between) for gear in flexible.gears]
         flexible = flexible._replace(gears=(apart[0], apart[1]))
-    pitch_geometry = pair_geometry(assembly, np.zeros((1, 1)))
-    full = gear_torque / pitch_geometry.motion.gear_normal_arm[0, 0]
-    limits = roll_at_gap(assembly, REACH * full * float(_secant(flexible, pitch_geometry, full)[0, 0]))
+    modifications = mesh.modifications
+    check(flexible, modifications, gear_torque, mesh.slices)
+    # where the mesh vibrates by more than this reach, contact begins too late in the model
+    limits = reach(flexible, modifications, gear_torque, mesh.slices, mesh.slice_coupling)
     pitch = 2.0 * np.pi / drive.pinion.teeth
     span = (limits[1] - limits[0]) / pitch
     pairs = math.ceil(span)
     marks = [0.0, span, *((roll - limits[0]) / pitch for roll in roll_limits(assembly))]
+    marks += [(roll - limits[0]) / pitch for roll in relief_rolls(assembly, modifications)]
     if family.corner:
         marks.append(-limits[0] / pitch)
     boundary, phase, position = _phases(marks, pairs, mesh.points, back, enter=0.5 - 2.0 * limits[0] / pitch)
@@ -87,17 +84,22 @@ def tabulate_loaded(
     front, behind = slice(0, pairs), slice(pairs, slots)
     geometry = pair_geometry(assembly, roll.reshape(-1, slots))
     error = _transmission_error(mesh, phase, roll, roll_limits(assembly), begin=marks[2])
-    shared = share_load(
-        flexible, roll[..., front].reshape(-1, pairs), gear_torque, gap=error[..., front].reshape(-1, pairs)
+    full = gear_torque / pair_geometry(assembly, np.zeros(1)).motion.gear_normal_arm[0]
+    compliance, gap = np.zeros_like(geometry.gap), np.zeros_like(geometry.gap)
+    coupling = np.zeros((*gap.shape, slots))
+    compliance[:, front], coupling[:, front, front], gap[:, front] = _driving(
+        flexible,
+        mesh,
+        gear_torque,
+        _LEAST_SHARE * full,
+        roll[..., front].reshape(-1, pairs),
+        error[..., front].reshape(-1, pairs),
     )
-    load = np.full((len(shared.normal_load), slots), full)
-    load[:, front] = np.hypot(shared.normal_load, _LEAST_SHARE * full)
-    coupling = np.zeros((*load.shape, slots))
-    for part in (front, behind):
-        coupling[:, part, part] = neighbour_compliance(flexible, _slots(geometry, part))
+    if back:
+        mates = _slots(geometry, behind)
+        compliance[:, behind], gap[:, behind] = _secant(flexible, mates, full), mates.gap + mesh.backlash
+        coupling[:, behind, behind] = neighbour_compliance(flexible, mates)[0]
     side = np.where(np.arange(slots) < pairs, 1.0, -1.0)
-    gap = geometry.gap.reshape(roll.shape)
-    gap = gap + (error if not back else np.where(side > 0, error, mesh.backlash))
     motion, vanishing = geometry.motion, pitch_point(assembly.path)
     return MeshCycle(
         boundary=boundary,
@@ -109,8 +111,8 @@ def tabulate_loaded(
         equivalent_radius=1.0 / motion.relative_curvature.reshape(roll.shape),
         pinion_speed=motion.pinion_speed.reshape(roll.shape),
         gear_speed=motion.gear_speed.reshape(roll.shape),
-        compliance=_secant(flexible, geometry, load).reshape(roll.shape),
-        gap=gap,
+        compliance=compliance.reshape(roll.shape),
+        gap=gap.reshape(roll.shape),
         coupling=coupling.reshape(*roll.shape, slots),
         hertz_coefficient=0.0,
         pinion_pitch_radius=assembly.path.pinion_pitch_radius,
@@ -143,22 +145,48 @@ def _check(drive: Drive, mesh: "MeshData", gear_torque: float, back: bool) -> No
             'compliance = "fem" is taken at this load, which must be greater than zero',
             'write a torque such as "500 N*m", or use compliance = "energy"',
         )
+    if any(len(flank.pitch_error) for flank in mesh.modifications[:2]):
+        raise InputError(
+            "drive.modification.pitch_errors",
+            rule="differ from tooth to tooth, but the mesh cycle of the dynamics repeats every pitch",
+            remedy='use kind = "load-contact", or leave them away',
+        )
     if back and mesh.backlash is None:
         raise InputError(
             "mesh.backlash", rule="is needed for the contact of back flanks", remedy="give a length"
         )
 
 
-def _secant(flexible: PairFlexibility, geometry: PairGeometry, load: Array) -> Array:
-    """Compliance of each pair alone at its load: deflection over load, m/N."""
-    deflection, _ = contact_deflection(flexible, geometry, load + 0.0 * geometry.gap)
-    return own_compliance(flexible, geometry) + deflection / load
+def _driving(
+    flexible: PairFlexibility,
+    mesh: "MeshData",
+    gear_torque: float,
+    least_load: float,
+    roll: Array,
+    error: Array,
+) -> Condensed:
+    """Driving pairs (position, pair) at the operating torque."""
+    slices = mesh.slices
+    geometry = pair_geometry(flexible.assembly, roll)
+    face = face_positions(flexible.width, slices)
+    gap = error[..., None] + flank_gap(flexible.assembly, mesh.modifications, geometry, face)
+    shared = share_load(flexible, roll, gear_torque, 0.0, gap, slices, mesh.slice_coupling)
+    harmonics = pair_harmonics(flexible, geometry, slices, mesh.slice_coupling)
+    whole = geometry.gap[..., None] + gap
+    return condense(flexible, geometry, harmonics, whole, shared, least_load)
+
+
+def _secant(flexible: PairFlexibility, geometry: PairGeometry, load: float) -> Array:
+    """Compliance of each pair alone under a load (N) along its whole face: deflection over load, m/N."""
+    curvature = geometry.motion.relative_curvature
+    deflection, _ = contact_deflection(flexible, curvature, load / flexible.width + 0.0 * curvature)
+    return own_compliance(flexible, geometry)[0] + deflection / load
 
 
 def _slots(geometry: PairGeometry, part: slice) -> PairGeometry:
-    motion = geometry.motion._make(field[..., part] for field in geometry.motion)
+    motion, *others = geometry
     return PairGeometry(
-        motion, geometry.gap[..., part], geometry.pinion_radius[..., part], geometry.gear_radius[..., part]
+        motion._make(field[..., part] for field in motion), *(field[..., part] for field in others)
     )
 
 

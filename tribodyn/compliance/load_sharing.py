@@ -5,29 +5,24 @@ The pairs j that can touch have
     ξ cos α_j − g_j = Σ_k λ_jk F_k + u_1(F_j) + u_2(F_j),   F_j ≥ 0,
     Σ F_j [H_gj ± μ_j L_gj] = T_g   (− before the pitch point),
 
-with ξ = r_p θ_p − r_g θ_g, the gap g of the tips' corners outside the path of contact, the compliances λ of
-both gears in plane strain (own: below the surface; of neighbours: through the body) and Weber-Banaschek's
-deflection u between there and the surface (A. Diez-Ibarbia et al.; A. Fernández del Rincón et al., Mech.
-Mach. Theory 61 (2013) 30). Face width, material and load are the same along the teeth.
+with ξ = r_p θ_p − r_g θ_g, the gap g of the tips' corners outside the path of contact and of modified
+flanks, the compliances λ of both gears (own: below the surface; of neighbours: through the body) and
+Weber-Banaschek's deflection u between there and the surface (A. Diez-Ibarbia et al.; A. Fernández del Rincón
+et al., Mech. Mach. Theory 61 (2013) 30). Where gaps vary along the face, the same holds for every slice of
+every pair (`slices`).
 """
 
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.interpolate import CubicSpline, RectBivariateSpline
 
+from tribodyn.compliance.active_set import press
 from tribodyn.compliance.fem_cache import cached_gear_compliance
-from tribodyn.compliance.gear_compliance import NEIGHBOURS, GearCompliance
-from tribodyn.compliance.local import (
-    Elastic,
-    freed_of_depth,
-    hertz_half_width,
-    weber_banaschek,
-    weber_banaschek_slope,
-)
-from tribodyn.errors import SimulationError
+from tribodyn.compliance.gear_compliance import GearCompliance
+from tribodyn.compliance.local import Elastic, hertz_half_width, weber_banaschek, weber_banaschek_slope
+from tribodyn.compliance.slices import by_slices, pair_harmonics
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry
+from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.tribology.contact import averaged_radius
@@ -39,11 +34,8 @@ Array = Any
 DEPTH = 0.25
 LEVEL = 2
 
-_STEPS = 60
-_SETTLED = 1e-11
-# Load, as a share of the mean, at which a pair that just touches is linearised: the contact's deflection
-# goes like F ln(1/F) and has no slope at 0.
-_LEAST_LOAD = 1e-7
+# Entries of the systems solved at a time: 16 MB, and a few times that while they are solved.
+_ENTRIES = 2_000_000
 
 
 class PairFlexibility(NamedTuple):
@@ -65,24 +57,32 @@ class PairFlexibility(NamedTuple):
 
 
 class SharedLoad(NamedTuple):
-    """State of the mesh; arrays over (position, pair) unless said otherwise.
+    """State of the mesh; arrays over (position, pair, slice) unless said otherwise.
 
     Attributes
     ----------
-    normal_load : N, ≥ 0
+    slice_load : N, ≥ 0
     deflection : (position,)
         ξ = r_p θ_p − r_g θ_g, m.
     overlap : m
-        ξ cos α − g less what the other pairs' loads deflect: what a pair's own load takes up where it is
+        ξ cos α − g less what the other slices' loads deflect: what a slice's own load takes up where it is
         positive; the distance still open where negative.
     contact_deflection : m
         u_1 + u_2.
+    stiffness : (position,)
+        dT_g/dξ of what touches, N m/m.
     """
 
-    normal_load: Array
+    slice_load: Array
     deflection: Array
     overlap: Array
     contact_deflection: Array
+    stiffness: Array
+
+    @property
+    def normal_load(self) -> Array:
+        """Loads of the pairs (position, pair), N."""
+        return np.sum(self.slice_load, axis=-1)
 
 
 def flexibility(
@@ -124,53 +124,32 @@ def flexibility(
     return PairFlexibility(assembly, materials, width, (gears[0], gears[1]))
 
 
-def own_compliance(flexible: PairFlexibility, geometry: PairGeometry) -> Array:
-    """λ_jj, m/N: both gears, from the bores to the local regions' depth; shaped like the geometry."""
-    total = np.zeros_like(geometry.gap)
-    reaches = geometry.pinion_radius, geometry.gear_radius
-    for gear, material, reach in zip(flexible.gears, flexible.materials, reaches, strict=True):
-        curve = CubicSpline(gear.radius, freed_of_depth(gear.inside, material.poisson_ratio))
-        at = np.clip(reach, gear.radius[0], gear.radius[-1])
-        total += curve(at) / (material.youngs_modulus * flexible.width)
-    return total
+def contact_deflection(flexible: PairFlexibility, curvature: Array, line_load: Array) -> tuple[Array, Array]:
+    """Local deflection u_1 + u_2 (m) under line loads (N/m, ≥ 0), and its derivative, m per N/m.
 
-
-def neighbour_compliance(flexible: PairFlexibility, geometry: PairGeometry) -> Array:
-    """λ_jk (position, pair, pair) of different pairs, m/N, zero on the diagonal.
-
-    The pairs stand one pitch apart in the last axis of the geometry, the one that entered first in front.
+    Parameters
+    ----------
+    flexible : PairFlexibility
+    curvature : array
+        Relative curvature of the flanks, 1/m; broadcasts with the loads.
+    line_load : array
     """
-    count = geometry.gap.shape[-1]
-    matrix = np.zeros((*geometry.gap.shape, count))
-    reaches = geometry.pinion_radius, geometry.gear_radius
-    # On the pinion the earlier tooth stands on the loaded flank's side, on the gear on the other.
-    for gear, material, reach, sign in zip(flexible.gears, flexible.materials, reaches, (1, -1), strict=True):
-        at = np.clip(reach, gear.radius[0], gear.radius[-1])
-        for pitches in range(1, min(count - 1, NEIGHBOURS) + 1):
-            surface = RectBivariateSpline(gear.radius, gear.radius, gear.between[NEIGHBOURS + sign * pitches])
-            for later in range(pitches, count):
-                earlier = later - pitches
-                value = surface.ev(at[..., earlier], at[..., later])
-                value = value / (material.youngs_modulus * flexible.width)
-                matrix[..., earlier, later] += value
-                matrix[..., later, earlier] += value
-    return matrix
-
-
-def contact_deflection(flexible: PairFlexibility, geometry: PairGeometry, load: Array) -> tuple[Array, Array]:
-    """Local deflection u_1 + u_2 (m) under the normal loads (N ≥ 0), and its derivative, m/N."""
-    line_load = load / flexible.width
-    # Where the flanks' radii vanish, at the pitch point of a cycloid, the contact's own width sees more of
-    # them. The slope is not quite Newton's there; the steps still settle.
-    modulus = 2.0 / sum((1.0 - m.poisson_ratio**2) / m.youngs_modulus for m in flexible.materials)
-    vanishing = pitch_point(flexible.assembly.path).length
-    radius = averaged_radius(1.0 / geometry.motion.relative_curvature, line_load, modulus, vanishing)
-    half = hertz_half_width(line_load, 1.0 / radius, *flexible.materials)
-    total, slope = np.zeros_like(load), np.zeros_like(load)
+    half = half_width(flexible, curvature, line_load)
+    total, slope = np.zeros_like(half), np.zeros_like(half)
     for gear, material in zip(flexible.gears, flexible.materials, strict=True):
         total += weber_banaschek(line_load, half, gear.depth, material)
-        slope += weber_banaschek_slope(line_load, half, gear.depth, material) / flexible.width
+        slope += weber_banaschek_slope(line_load, half, gear.depth, material)
     return total, slope
+
+
+def half_width(flexible: PairFlexibility, curvature: Array, line_load: Array) -> Array:
+    """Half width of the contact, m, under line loads (N/m); curvature as in `contact_deflection`."""
+    # Where the flanks' radii vanish, at the pitch point of a cycloid, the contact's own width sees more of
+    # them. The slope of the deflection is not quite Newton's there; the steps still settle.
+    modulus = 2.0 / sum((1.0 - m.poisson_ratio**2) / m.youngs_modulus for m in flexible.materials)
+    vanishing = pitch_point(flexible.assembly.path).length
+    radius = averaged_radius(1.0 / curvature, line_load, modulus, vanishing)
+    return hertz_half_width(line_load, 1.0 / radius, *flexible.materials)
 
 
 def share_load(
@@ -179,8 +158,10 @@ def share_load(
     gear_torque: float,
     friction_coefficient: Array | float = 0.0,
     gap: Array | float = 0.0,
+    slices: int = 1,
+    coupled: bool = True,
 ) -> SharedLoad:
-    """Share the gear's torque among the pairs that can touch.
+    """Share the gear's torque among the pairs that can touch, and along their faces.
 
     Parameters
     ----------
@@ -192,8 +173,12 @@ def share_load(
         T_g > 0, N m.
     friction_coefficient : float or (position, pair)
         μ of the pairs.
-    gap : float or (position, pair)
+    gap : float, (position, pair) or (position, pair, slice)
         What is missing between the flanks beside the corners' gap, m: errors and modifications.
+    slices : int
+        Equal slices of the face.
+    coupled : bool
+        Whether slices hold each other through the teeth and bodies.
 
     Raises
     ------
@@ -201,64 +186,61 @@ def share_load(
         If no state of contact is found.
     """
     geometry = pair_geometry(flexible.assembly, roll)
-    matrix = neighbour_compliance(flexible, geometry)
-    matrix += np.eye(roll.shape[1]) * own_compliance(flexible, geometry)[..., None]
-    arm = np.cos(geometry.motion.pressure_angle)
-    side = np.sign(geometry.motion.signed_distance)
-    lever = geometry.motion.gear_normal_arm + (
-        side * friction_coefficient * geometry.motion.gear_friction_arm
+    motion = geometry.motion
+    side = np.sign(motion.signed_distance)
+    lever = motion.gear_normal_arm + side * friction_coefficient * motion.gear_friction_arm
+    extra = np.asarray(gap, dtype=float)
+    extra = extra if extra.ndim == 3 else extra[..., None]
+    whole = np.broadcast_to(geometry.gap[..., None] + extra, (*roll.shape, slices))
+    return press_pairs(
+        flexible,
+        motion.relative_curvature,
+        pair_harmonics(flexible, geometry, slices, coupled),
+        np.cos(motion.pressure_angle),
+        lever,
+        whole,
+        np.full(len(roll), float(gear_torque)),
     )
-    return _solve(flexible, geometry, matrix, arm, lever, geometry.gap + gap, gear_torque)
 
 
-def _solve(
+def press_pairs(
     flexible: PairFlexibility,
-    geometry: PairGeometry,
-    matrix: Array,
+    curvature: Array,
+    harmonics: Array,
     arm: Array,
     lever: Array,
     gap: Array,
-    torque: float,
+    torque: Array,
 ) -> SharedLoad:
-    """Newton's method with an active set: one linear system of the pairs' loads and ξ a position and step."""
-    positions, pairs = gap.shape
-    mean = torque / float(np.max(lever))
-    active = gap <= np.min(gap, axis=-1, keepdims=True) + 1e-12
-    load = active * mean / np.sum(active, axis=-1, keepdims=True)
-    system = np.zeros((positions, pairs + 1, pairs + 1))
-    right = np.zeros((positions, pairs + 1))
-    # ξ in units of the deflection that the mean load makes, to keep the systems well conditioned
-    unit = mean * float(np.mean(np.einsum("...ii->...i", matrix)))
-    change = np.inf
-    for _ in range(_STEPS):
-        at = np.maximum(load, _LEAST_LOAD * mean)
-        value, slope = contact_deflection(flexible, geometry, at)
-        own = matrix + np.eye(pairs) * slope[..., None]
-        both = active[..., :, None] & active[..., None, :]
-        apart = np.eye(pairs) * ~active[..., None]
-        system[:, :pairs, :pairs] = np.where(both, own * mean / unit, 0.0) + apart
-        system[:, :pairs, pairs] = np.where(active, -arm, 0.0)
-        system[:, pairs, :pairs] = active * lever * mean / torque
-        right[:, :pairs] = np.where(active, slope * at - gap - value, 0.0) / unit
-        right[:, pairs] = 1.0
-        solution = np.linalg.solve(system, right[..., None])[..., 0]
-        found = active * solution[:, :pairs] * mean
-        deflection = solution[:, pairs] * unit
-        overlap = deflection[:, None] * arm - gap - np.einsum("...ij,...j->...i", matrix, found)
-        overlap += np.einsum("...ii->...i", matrix) * found
-        touching = np.where(active, found > 0.0, overlap > 0.0)
-        # a torque must be carried by something: where all let go, the closest pair holds on
-        none = ~np.any(touching, axis=-1)
-        touching[none] = gap[none] <= np.min(gap[none], axis=-1, keepdims=True)
-        change = np.max(np.abs(found - load)) / mean
-        settled = change < _SETTLED and bool(np.all(touching == active))
-        load, active = np.maximum(found, 0.0), touching
-        if settled:
-            value, _ = contact_deflection(flexible, geometry, load)
-            return SharedLoad(load, deflection, overlap, value)
-    raise SimulationError(
-        f"the load contact model does not settle: loads still move by {change:.1e} of the mean"
-    )
+    """Share torques (position,) among pairs of slices; arrays (position, pair), the gap (…, slice).
+
+    `harmonics` as made by `slices.pair_harmonics`. Positions are taken a few at a time, to bound the memory.
+    """
+    positions, pairs, slices = gap.shape
+    places = pairs * slices
+    width = flexible.width / slices
+    parts = []
+    for first in range(0, positions, max(1, _ENTRIES // places**2)):
+        rows = slice(first, min(positions, first + max(1, _ENTRIES // places**2)))
+        bent = np.repeat(curvature[rows], slices, axis=-1)
+
+        def local(chosen: Array, load: Array, bent: Array = bent) -> tuple[Array, Array]:
+            value, slope = contact_deflection(flexible, bent[chosen], load / width)
+            return value, slope / width
+
+        found = press(
+            by_slices(harmonics[:, rows], slices).reshape(-1, places, places),
+            local,
+            np.repeat(arm[rows], slices, axis=-1),
+            np.repeat(lever[rows], slices, axis=-1),
+            gap[rows].reshape(-1, places),
+            torque[rows],
+        )
+        parts.append(found)
+    load, deflection, overlap, stiffness = (np.concatenate(field) for field in zip(*parts, strict=True))
+    load = load.reshape(gap.shape)
+    taken, _ = contact_deflection(flexible, curvature[..., None], load / width)
+    return SharedLoad(load, deflection, overlap.reshape(gap.shape), taken, stiffness)
 
 
 def extended_rolls(assembly: Assembly, limits: tuple[float, float], positions: int) -> Array:
@@ -276,7 +258,7 @@ def effective_contact_ratio(roll: Array, shared: SharedLoad, pitch: float) -> fl
     where the overlap passes zero, interpolated.
     """
     order: Any = np.argsort(roll, axis=None)
-    angle, overlap = roll.ravel()[order], shared.overlap.ravel()[order]
+    angle, overlap = roll.ravel()[order], np.max(shared.overlap, axis=-1).ravel()[order]
     inside = np.flatnonzero(overlap > 0.0)
     ends = []
     for here, there in ((inside[0], inside[0] - 1), (inside[-1], inside[-1] + 1)):

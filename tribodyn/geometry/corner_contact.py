@@ -34,12 +34,17 @@ class PairGeometry(NamedTuple):
         Distance between corner and flank along the flank's normal while nothing is loaded, m; 0 on the path.
     pinion_radius, gear_radius : array
         Where each flank is touched: distance from its own axis, m.
+    pinion_place, gear_place : array
+        The same as the signed distance at which that point of the flank is on the path of contact, m; both
+        are the contact's own on the path.
     """
 
     motion: Kinematics
     gap: Array
     pinion_radius: Array
     gear_radius: Array
+    pinion_place: Array
+    gear_place: Array
 
 
 def roll_limits(assembly: Assembly) -> tuple[float, float]:
@@ -58,12 +63,14 @@ def pair_geometry(assembly: Assembly, roll: Array) -> PairGeometry:
         "pinion": np.array(radius(path, r), dtype=float),
         "gear": np.array(radius(seen_from(path, "gear"), -r), dtype=float),
     }
+    place = {"pinion": r.copy(), "gear": r.copy()}
     gap, moved = np.zeros_like(roll), np.zeros_like(roll)
     sides: tuple[tuple[Side, Array], ...] = (("pinion", roll < start), ("gear", roll > end))
     for side, outside in sides:
         if np.any(outside):
-            distance, found, at = _corner(assembly, side, roll[outside])
+            distance, found, at, flank = _corner(assembly, side, roll[outside])
             gap[outside], reach[side][outside] = found, at
+            place[side][outside] = flank if side == "pinion" else -flank
             moved[outside] = (-distance if side == "pinion" else distance) - r[outside]
     ratio = path.pinion_pitch_radius / path.gear_pitch_radius
     motion = motion._replace(
@@ -75,13 +82,14 @@ def pair_geometry(assembly: Assembly, roll: Array) -> PairGeometry:
         entrainment=motion.entrainment + (1.0 - ratio) * moved / 2.0,
         sliding=motion.sliding + (1.0 + ratio) * moved,
     )
-    return PairGeometry(motion, gap, reach["pinion"], reach["gear"])
+    return PairGeometry(motion, gap, reach["pinion"], reach["gear"], place["pinion"], place["gear"])
 
 
-def _corner(assembly: Assembly, side: Side, roll: Array) -> tuple[Array, Array, Array]:
+def _corner(assembly: Assembly, side: Side, roll: Array) -> tuple[Array, Array, Array, Array]:
     """Corner of the mate's tip near this body's flank at the pinion's angles.
 
-    Its distance from the pitch point, the gap along the flank's normal and the radius on this body, m.
+    Its distance from the pitch point, the gap along the flank's normal, the radius on this body and the
+    signed distance, in this body's view, at which the flank would be in contact at that radius; m.
     """
     path: Any = seen_from(assembly.path, side)
     tooth = assembly.tooth(side)
@@ -95,23 +103,26 @@ def _corner(assembly: Assembly, side: Side, roll: Array) -> tuple[Array, Array, 
     x, y = tip * np.sin(mate), r_mate - tip * np.cos(mate)
     reach = np.hypot(x, r_body + y)
     corner = thickness_half_angle(tooth, r_body) + np.arctan2(x, r_body + y) - turn
-    arm = r_body * np.cos(path.pressure_angle(distance_at_radius(path, reach)))
-    return np.hypot(x, y), (corner - thickness_half_angle(tooth, reach)) * arm, reach
+    flank = distance_at_radius(path, reach)
+    arm = r_body * np.cos(path.pressure_angle(flank))
+    return np.hypot(x, y), (corner - thickness_half_angle(tooth, reach)) * arm, reach, flank
 
 
-def roll_at_gap(assembly: Assembly, gap: float) -> tuple[float, float]:
+def roll_at_gap(assembly: Assembly, gap: float | tuple[float, float]) -> tuple[float, float]:
     """Pinion angles (rad) before and beyond the path of contact at which the corner's gap is `gap` (m).
 
-    No further than one pitch outside the path.
+    Two gaps are those before and beyond; where one is not positive the angle is the path's end. No further
+    than one pitch outside the path.
     """
     pitch = 2.0 * np.pi / assembly.drive.pinion.teeth
+    gaps = gap if isinstance(gap, tuple) else (gap, gap)
     found = []
-    for limit, outwards in zip(roll_limits(assembly), (-1.0, 1.0), strict=True):
-        low, high = 0.0, pitch
+    for limit, outwards, least in zip(roll_limits(assembly), (-1.0, 1.0), gaps, strict=True):
+        low, high = 0.0, pitch if least > 0.0 else 0.0
         # ten steps of 32 intervals at once, as exact as fifty of two
         for _ in range(10):
             tried = np.linspace(low, high, 33)[1:-1]
-            wide = pair_geometry(assembly, limit + outwards * tried).gap > gap
+            wide = pair_geometry(assembly, limit + outwards * tried).gap > least
             first = int(np.argmax(wide)) if np.any(wide) else len(tried)
             ends = [low, *tried, high]
             low, high = float(ends[first]), float(ends[first + 1])

@@ -1,4 +1,9 @@
-"""What is taken off the flanks on purpose or by error, and how the axes deviate: lengths and angles, SI."""
+"""What is taken off the flanks on purpose or by error, and how the axes deviate: lengths and angles, SI.
+
+Lengths are along the normal of the flank, positive where material is missing. z is the place along the axis,
+from the middle of the faces; `start` is at the most negative z, `end` at the most positive.
+`compliance.flank_gap` makes the gap between two flanks of it.
+"""
 
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -7,14 +12,16 @@ if TYPE_CHECKING:
 
 
 class Relief(NamedTuple):
-    """Relief of one end of the profile.
+    """Relief of one end of the profile: amount × (1 − distance/length)^exponent from that end inwards.
+
+    The ends are those of the path of contact: the pinion's tip meets at its end, the gear's at its beginning.
 
     Parameters
     ----------
     amount : float
         Material missing at the end of the active profile, m along the normal.
     length : float
-        How far it reaches from that end, m along the line of action (|Δr|).
+        How far it reaches from that end, m along the line of action (|Δr|, the roll length of an involute).
     exponent : float
         1: linear, 2: parabolic.
     """
@@ -50,7 +57,7 @@ class FlankModification(NamedTuple):
     profile_error : Table or None
         Material missing along the normal over the pinion's roll angle from the pitch point (rad, m).
     pitch_error : tuple of float
-        One a tooth, m along the normal, positive where material is missing; empty: none.
+        One a tooth in the order in which they enter, m along the normal, material missing > 0; empty: none.
     """
 
     tip: Relief = Relief()
@@ -61,14 +68,20 @@ class FlankModification(NamedTuple):
 
 
 class Misalignment(NamedTuple):
-    """Angles between the axes, rad (ISO 6336-1, ISO/TR 10064-3).
+    """Angles between the axes, rad: the gear's against the pinion's, which meet at z = 0.
+
+    Against the plane of action at the pitch point, not, as ISO/TR 10064-3 tells inclination f_Σδ (in the
+    common plane of the axes) from skew f_Σβ (across it): of two such angles, positive where the gear stands
+    off towards +y (away from the pinion) and +x at z > 0,
+
+        in_plane = skew cos α_w + inclination sin α_w,  out_of_plane = inclination cos α_w − skew sin α_w.
 
     Parameters
     ----------
     in_plane : float
-        Within the plane of action.
+        Within the plane of action: the gap grows by this times z.
     out_of_plane : float
-        Perpendicular to it.
+        Perpendicular to it; of second order only, for an involute.
     """
 
     in_plane: float = 0.0

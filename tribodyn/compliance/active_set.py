@@ -1,0 +1,158 @@
+"""Which of many elastic places touch, and with what loads: Newton's method with an active set.
+
+At every position n places with the loads f ≥ 0 share a torque:
+
+    ξ a_i − g_i = Σ_j Λ_ij f_j + u_i(f_i)  where f_i > 0,   ξ a_i − g_i ≤ Σ_j Λ_ij f_j  elsewhere,
+    Σ_i l_i f_i = T.
+
+A step takes u for its tangent, solves for the loads of the places taken to touch and for ξ, and drops or adds
+all places that are on the wrong side (the primal-dual active set of contact mechanics). Where that does not
+end, only the worst place changes at a time.
+"""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.errors import SimulationError
+
+Array = Any
+
+#: Steps in which all places may change sides, and steps in which one may.
+_FREE_STEPS = 25
+_CAREFUL_STEPS = 400
+_SETTLED = 1e-11
+# Load, as a share of the mean, at which a place that just touches is linearised: the contact's deflection
+# goes like F ln(1/F) and has no slope at 0.
+_LEAST_LOAD = 1e-7
+
+
+class Pressed(NamedTuple):
+    """Loads of the places.
+
+    Attributes
+    ----------
+    load : (position, place)
+        N, ≥ 0.
+    deflection : (position,)
+        ξ, m.
+    overlap : (position, place)
+        ξ a − g less what the other places' loads deflect, m: what a place's own load takes up where it is
+        positive; the distance still open where negative.
+    stiffness : (position,)
+        dT/dξ, N m/m: of the places that touch, the local deflection's tangent included.
+    """
+
+    load: Array
+    deflection: Array
+    overlap: Array
+    stiffness: Array
+
+
+def press(
+    matrix: Array,
+    local: Callable[[Array, Array], tuple[Array, Array]],
+    arm: Array,
+    lever: Array,
+    gap: Array,
+    torque: Array,
+) -> Pressed:
+    """Find loads that carry a torque; arrays over (position, place) unless said otherwise.
+
+    Parameters
+    ----------
+    matrix : (position, place, place)
+        Λ, m/N.
+    local : callable
+        Of positions (indices) and loads of all their places, N: own deflection u, m, and its slope, m/N.
+    arm : array
+        a: what ξ makes along the normal, 1.
+    lever : array
+        l, m.
+    gap : array
+        g, m, of either sign.
+    torque : (position,)
+        T > 0, N m.
+
+    Raises
+    ------
+    SimulationError
+        If no state of contact is found.
+    """
+    positions, places = gap.shape
+    mean = torque / np.max(lever, axis=-1)
+    # ξ in units of the deflection that the mean load makes, to keep the systems well conditioned
+    unit = mean * np.mean(np.einsum("...ii->...i", matrix), axis=-1) / places
+    active = gap <= (np.min(gap, axis=-1) + unit)[:, None]
+    load = active * (mean / np.sum(active, axis=-1))[:, None]
+    result = Pressed(np.zeros_like(gap), np.zeros(positions), np.zeros_like(gap), np.zeros(positions))
+    rows = np.arange(positions)
+    worst = np.inf
+    for step in range(_FREE_STEPS + _CAREFUL_STEPS):
+        part = (matrix[rows], arm[rows], lever[rows], gap[rows], torque[rows], mean[rows], unit[rows])
+        at = np.maximum(load, (_LEAST_LOAD / places * mean[rows])[:, None])
+        value, slope = local(rows, at)
+        found, deflection, overlap, stiffness = _newton_step(active, at, value, slope, *part)
+        touching = np.where(active, found > 0.0, overlap > 0.0)
+        if step >= _FREE_STEPS:
+            touching = _worst_only(active, touching, found, overlap)
+        # a torque must be carried by something: where all let go, the closest place holds on
+        none = ~np.any(touching, axis=-1)
+        touching[none] = gap[rows][none] <= np.min(gap[rows][none], axis=-1, keepdims=True)
+        change = np.max(np.abs(found - load), axis=-1) / mean[rows]
+        settled = (change < _SETTLED) & np.all(touching == active, axis=-1)
+        load, active = np.maximum(found, 0.0), touching
+        for whole, new in zip(result, (load, deflection, overlap, stiffness), strict=True):
+            whole[rows[settled]] = new[settled]
+        if np.all(settled):
+            return result
+        rows, load, active = rows[~settled], load[~settled], active[~settled]
+        worst = float(np.max(change[~settled]))
+    raise SimulationError(
+        f"the load contact model does not settle: loads still move by {worst:.1e} of the mean"
+    )
+
+
+def _newton_step(
+    active: Array,
+    at: Array,
+    value: Array,
+    slope: Array,
+    matrix: Array,
+    arm: Array,
+    lever: Array,
+    gap: Array,
+    torque: Array,
+    mean: Array,
+    unit: Array,
+) -> tuple[Array, Array, Array, Array]:
+    """Loads, ξ, overlaps and dT/dξ with the local deflection linearised at the loads `at`."""
+    positions, places = gap.shape
+    mean, unit, torque = mean[:, None], unit[:, None], torque[:, None]
+    system = np.zeros((positions, places + 1, places + 1))
+    right = np.zeros((positions, places + 1, 2))
+    both = active[:, :, None] & active[:, None, :]
+    system[:, :places, :places] = np.where(both, matrix * (mean / unit)[..., None], 0.0)
+    diagonal = np.einsum("...ii->...i", system)[:, :places]
+    diagonal += np.where(active, slope * mean / unit, 1.0)
+    system[:, :places, places] = np.where(active, -arm, 0.0)
+    system[:, places, :places] = active * lever * mean / torque
+    right[:, :places, 0] = np.where(active, slope * at - gap - value, 0.0) / unit
+    right[:, places] = 1.0  # the torque; alone in the second column
+    solution = np.linalg.solve(system, right)
+    found = active * solution[:, :places, 0] * mean
+    deflection = solution[:, places, 0] * unit[:, 0]
+    stiffness = torque[:, 0] / (solution[:, places, 1] * unit[:, 0])
+    overlap = deflection[:, None] * arm - gap - np.einsum("...ij,...j->...i", matrix, found)
+    overlap += np.einsum("...ii->...i", matrix) * found
+    return found, deflection, overlap, stiffness
+
+
+def _worst_only(active: Array, touching: Array, found: Array, overlap: Array) -> Array:
+    """Change, of the places on the wrong side, only the one furthest from where it should be."""
+    wrong = touching != active
+    pull = np.where(active, -found / np.max(np.abs(found)), overlap / np.max(np.abs(overlap)))
+    furthest = np.argmax(np.where(wrong, pull, -np.inf), axis=-1)
+    chosen = wrong & (np.arange(active.shape[-1]) == furthest[:, None])
+    return np.where(chosen, touching, active)

@@ -1,0 +1,298 @@
+"""A pair of gears in slow rotation under load: line loads along the face, pressures, errors, stiffness.
+
+The load contact model (`load_sharing`) at many positions, with flanks as they are modified and axes as they
+stand. Phase 0 is where a pair passes the beginning of its path of contact, whatever the load.
+"""
+
+import math
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.compliance.flank_gap import check_modifications, flank_gap, pitch_gap
+from tribodyn.compliance.load_sharing import PairFlexibility, SharedLoad, half_width, share_load
+from tribodyn.compliance.slices import LEAST_SLICES, face_positions
+from tribodyn.errors import InputError
+from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry, roll_at_gap, roll_limits
+from tribodyn.geometry.modification import Modifications, vary_along_lead
+
+Array = Any
+
+#: Corners are followed to a gap of this many deflections of a single pair.
+REACH = 2.0
+# Phases at which the unloaded error is sampled for the reach of the contact.
+_PHASES = 60
+
+
+class LoadedContact(NamedTuple):
+    """Slow rotation under load over (T positions, P pairs, S slices); the pair that entered first in front.
+
+    Attributes
+    ----------
+    phase : (T,)
+        Mesh cycles since a pair passed the beginning of its path of contact.
+    roll : (T, P)
+        Pinion angle of each pair from the pitch point, rad.
+    slice_position : (S,)
+        Middle of each slice from the middle of the face, m.
+    deflection : (T,)
+        ξ = r_p θ_p − r_g θ_g, m: the loaded static transmission error, on the pitch circles.
+    unloaded : (T,)
+        The same without load: the kinematic error, m; the load's deflection is the difference.
+    normal_load : (T, P)
+        N.
+    line_load : (T, P, S)
+        N/m.
+    pressure, half_width : (T, P, S)
+        Greatest Hertz pressure, Pa, and half width, m, of each slice's line load.
+    face_load_factor : (T, P)
+        K_Hβ, greatest over mean line load along the face (ISO 6336-1); NaN where a pair carries nothing.
+    mesh_stiffness : (T,)
+        dF/dξ of the force on the pitch circles, N/m: of what touches, tangent.
+    contact_ratio : float
+        Mean number of pairs that carry load.
+    """
+
+    phase: Array
+    roll: Array
+    slice_position: Array
+    deflection: Array
+    unloaded: Array
+    normal_load: Array
+    line_load: Array
+    pressure: Array
+    half_width: Array
+    face_load_factor: Array
+    mesh_stiffness: Array
+    contact_ratio: float
+
+    @property
+    def peak_to_peak(self) -> float:
+        """Of the loaded static transmission error, m."""
+        return float(np.ptp(self.deflection))
+
+
+class HarrisMap(NamedTuple):
+    """Loaded static transmission error at several torques (S. L. Harris, Proc. IMechE 172 (1958) 87).
+
+    Attributes
+    ----------
+    gear_torque : (L,)
+        N m.
+    phase : (T,)
+        As in `LoadedContact`.
+    deflection : (L, T)
+        ξ, m.
+    peak_to_peak : (L,)
+        Of each, m.
+    """
+
+    gear_torque: Array
+    phase: Array
+    deflection: Array
+    peak_to_peak: Array
+
+
+def roll_through(
+    flexible: PairFlexibility,
+    modifications: Modifications,
+    gear_torque: float,
+    positions: int,
+    cycles: int = 1,
+    friction_coefficient: float = 0.0,
+    slices: int = 1,
+    coupled: bool = True,
+) -> LoadedContact:
+    """Roll a pair of gears slowly through some mesh cycles.
+
+    Parameters
+    ----------
+    flexible : PairFlexibility
+        `load_sharing.flexibility` of the drive.
+    modifications : Modifications
+        Of flanks and axes.
+    gear_torque : float
+        T_g > 0, N m, constant.
+    positions : int
+        Equal steps of a mesh cycle.
+    cycles : int
+        Mesh cycles: more than one where pitch errors make teeth differ.
+    friction_coefficient : float
+        μ, the same for all.
+    slices : int
+        Equal slices of the face.
+    coupled : bool
+        Whether slices hold each other through the teeth and bodies.
+
+    Raises
+    ------
+    InputError
+        If the torque drives nothing, a modification is none (`check_modifications`), or slices do not resolve
+        what carries.
+    SimulationError
+        If no state of contact is found.
+    """
+    check(flexible, modifications, gear_torque, slices)
+    limits = reach(flexible, modifications, gear_torque, slices, coupled)
+    assembly = flexible.assembly
+    pitch = 2.0 * np.pi / float(assembly.drive.pinion.teeth)
+    start, _ = roll_limits(assembly)
+    first, last = math.floor((limits[0] - start) / pitch), math.ceil((limits[1] - start) / pitch) - 1
+    ages = np.arange(last, first - 1, -1)
+    phase = np.arange(positions * cycles) / positions
+    cycle = np.arange(positions * cycles) // positions
+    roll = start + pitch * ((phase - cycle)[:, None] + ages)
+
+    face = face_positions(flexible.width, slices)
+    geometry = pair_geometry(assembly, roll)
+    gap = flank_gap(assembly, modifications, geometry, face)
+    gap = gap + pitch_gap(modifications, cycle[:, None] - ages)[..., None]
+    shared = share_load(flexible, roll, gear_torque, friction_coefficient, gap, slices, coupled)
+    _check_resolved(shared, modifications, gear_torque)
+
+    line_load = shared.slice_load * (slices / flexible.width)
+    half = half_width(flexible, geometry.motion.relative_curvature[..., None], line_load)
+    total = shared.normal_load
+    with np.errstate(invalid="ignore", divide="ignore"):
+        pressure = np.where(line_load > 0, 2.0 * line_load / (np.pi * half), 0.0)
+        factor = np.max(shared.slice_load, axis=-1) * slices / total
+    return LoadedContact(
+        phase=phase,
+        roll=roll,
+        slice_position=face,
+        deflection=shared.deflection,
+        unloaded=_unloaded(geometry, gap),
+        normal_load=total,
+        line_load=line_load,
+        pressure=pressure,
+        half_width=np.where(line_load > 0, half, 0.0),
+        face_load_factor=factor,
+        mesh_stiffness=shared.stiffness / assembly.path.gear_pitch_radius,
+        contact_ratio=_mean_pairs(np.max(shared.overlap, axis=-1), positions),
+    )
+
+
+def harris_map(
+    flexible: PairFlexibility,
+    modifications: Modifications,
+    gear_torques: Sequence[float],
+    positions: int,
+    slices: int = 1,
+    coupled: bool = True,
+) -> HarrisMap:
+    """Loaded static transmission error of one mesh cycle at several torques; else as `roll_through`."""
+    check(flexible, modifications, min(gear_torques), slices)
+    assembly = flexible.assembly
+    pitch = 2.0 * np.pi / float(assembly.drive.pinion.teeth)
+    start, _ = roll_limits(assembly)
+    limits = reach(flexible, modifications, max(gear_torques), slices, coupled)
+    ages = np.arange(
+        math.ceil((limits[1] - start) / pitch) - 1, math.floor((limits[0] - start) / pitch) - 1, -1
+    )
+    phase = np.arange(positions) / positions
+    roll = start + pitch * (phase[:, None] + ages)
+    gap = flank_gap(
+        assembly, modifications, pair_geometry(assembly, roll), face_positions(flexible.width, slices)
+    )
+    curves = [
+        share_load(flexible, roll, torque, 0.0, gap, slices, coupled).deflection for torque in gear_torques
+    ]
+    deflection = np.array(curves)
+    return HarrisMap(np.array(gear_torques, dtype=float), phase, deflection, np.ptp(deflection, axis=1))
+
+
+def reach(
+    flexible: PairFlexibility,
+    modifications: Modifications,
+    gear_torque: float,
+    slices: int,
+    coupled: bool,
+    factor: float = REACH,
+) -> tuple[float, float]:
+    """Pinion angles (rad) between which a pair can touch: corners up to a gap of `factor` deflections.
+
+    The deflection is that of a single pair at the pitch point, from first touch. Relief of the tips keeps the
+    corners that much further away.
+    """
+    assembly = flexible.assembly
+    face = face_positions(flexible.width, slices)
+    at_pitch_point = np.zeros((1, 1))
+    geometry = pair_geometry(assembly, at_pitch_point)
+    gap = flank_gap(assembly, modifications, geometry, face)
+    single = share_load(flexible, at_pitch_point, gear_torque, 0.0, gap, slices, coupled)
+    arm = np.cos(geometry.motion.pressure_angle[0, 0])
+    deflection = float(single.deflection[0] * arm - np.min(gap))
+
+    start, end = roll_limits(assembly)
+    pitch = 2.0 * np.pi / float(assembly.drive.pinion.teeth)
+    roll = start + pitch * np.arange(0.0, (end - start) / pitch, 1.0 / _PHASES)
+    nearest = _nearest(flexible, modifications, roll, face)
+    whole = np.full(math.ceil(len(roll) / _PHASES) * _PHASES, np.inf)
+    whole[: len(roll)] = nearest
+    # what the pairs leave open at the worst phase while nothing is loaded, and the errors of single teeth
+    open_between = float(np.max(np.min(whole.reshape(-1, _PHASES), axis=0)))
+    errors = [
+        np.ptp(one.pitch_error) for one in (modifications.pinion, modifications.gear) if len(one.pitch_error)
+    ]
+    most = factor * deflection + open_between + float(sum(errors))
+    before, beyond = _nearest(flexible, modifications, np.array([start, end]), face)
+    return roll_at_gap(assembly, (most - float(before), most - float(beyond)))
+
+
+def check(flexible: PairFlexibility, modifications: Modifications, gear_torque: float, slices: int) -> None:
+    """Refuse loads that drive nothing, modifications that are none, and too few slices for them."""
+    if gear_torque <= 0:
+        raise InputError("operating.gear_torque", gear_torque, "must drive the gear", "use more than 0 N m")
+    check_modifications(flexible.assembly, modifications)
+    if vary_along_lead(modifications) and slices < LEAST_SLICES:
+        raise InputError(
+            "mesh.slices",
+            slices,
+            f"is less than {LEAST_SLICES}, but flanks or axes differ along the face",
+            "leave it away (21 slices), or give more",
+        )
+
+
+def _nearest(flexible: PairFlexibility, modifications: Modifications, roll: Array, face: Array) -> Array:
+    """Least gap along the face at each angle on the path, m."""
+    geometry = pair_geometry(flexible.assembly, roll)
+    return np.min(flank_gap(flexible.assembly, modifications, geometry, face), axis=-1)
+
+
+def _unloaded(geometry: PairGeometry, gap: Array) -> Array:
+    """ξ (position,) at which the first place touches, m."""
+    whole = (geometry.gap[..., None] + gap) / np.cos(geometry.motion.pressure_angle)[..., None]
+    return np.min(whole, axis=(1, 2))
+
+
+def _check_resolved(shared: SharedLoad, modifications: Modifications, gear_torque: float) -> None:
+    """Refuse a result whose heaviest pair rests on fewer slices than a distribution needs."""
+    slices = shared.slice_load.shape[-1]
+    if slices < LEAST_SLICES or not vary_along_lead(modifications):
+        return
+    heaviest = np.argmax(shared.normal_load, axis=1)[:, None, None]
+    touching = np.sum(np.take_along_axis(shared.slice_load, heaviest, axis=1)[:, 0] > 0.0, axis=-1)
+    if np.any(touching < LEAST_SLICES):
+        raise InputError(
+            "mesh.slices",
+            slices,
+            f"at {gear_torque:g} N m only {int(np.min(touching))} of these slices carry the heaviest pair: "
+            "misalignment or lead relief is too great for what the load deflects, or the slices are too wide",
+            "give more slices or more torque, or less misalignment or lead relief",
+        )
+
+
+def _mean_pairs(overlap: Array, positions: int) -> float:
+    """Mean number of pairs that carry, from overlaps (position, pair) linear in between."""
+    history = [overlap[:-1], overlap[1:]]
+    # a pair goes on in the slot before its own in the next cycle
+    seam = overlap[positions - 1 :: positions, 1:], np.roll(overlap[::positions], -1, axis=0)[:, :-1]
+    total = 0.0
+    whole = np.arange(len(overlap) - 1) % positions != positions - 1
+    for here, there in ((history[0][whole], history[1][whole]), seam):
+        touching = (here > 0).astype(float)
+        crossing = (here > 0) != (there > 0)
+        share = np.where(crossing, here / np.where(crossing, here - there, 1.0), 0.0)
+        total += float(np.sum(np.where(crossing, np.where(here > 0, share, 1.0 - share), touching)))
+    return total / len(overlap)

@@ -1,0 +1,124 @@
+"""Face width in slices: how the load of one slice moves the others, of its own tooth and of the neighbours.
+
+A spur tooth is the same all along z, so a line load q cos kz displaces it by λ(k) q cos kz. With planes of
+symmetry at the end faces (z from one of them) the loads of S equal slices are the sum of the cosines
+
+    q(z) = Σ_n q_n cos k_n z,  k_n = n π/b,  n = 0 … S − 1,
+
+which passes through the slices' line loads at their middles; so the deflection there of slice s per load (N)
+on slice t is
+
+    Λ_st = (1/b) Σ_n c_n λ(k_n) cos k_n z_s cos k_n z_t,  c_0 = 1, c_n = 2.
+
+Cosines at the middles of equal slices are orthogonal: λ the same for all n makes slices that do not know of
+each other, Λ = λ S/b δ_st, and a uniform load meets λ(0), plane strain, alone. The local deflection under the
+surface is each slice's own (`local`), with its line load; λ holds what a load that varies along the face
+makes less than that, down to wavelengths of the contact's width.
+"""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy.interpolate import CubicSpline, RectBivariateSpline
+
+from tribodyn.compliance.gear_compliance import NEIGHBOURS, GearCompliance
+from tribodyn.compliance.local import freed_of_depth
+from tribodyn.geometry.corner_contact import PairGeometry
+
+if TYPE_CHECKING:
+    from tribodyn.compliance.load_sharing import PairFlexibility
+
+Array = Any
+
+#: Least number of slices where anything varies along the face.
+LEAST_SLICES = 3
+
+
+def face_positions(width: float, slices: int) -> Array:
+    """Middles of the slices (S,), m from the middle of the face."""
+    return ((np.arange(slices) + 0.5) / slices - 0.5) * width
+
+
+def modes(count: int, slices: int) -> Array:
+    """Modes (S, S) of the face at the slices' middles: cosines times √c_n; each one's square sums up to S.
+
+    Where `count` harmonics are one, the same for all modes, the slices themselves are as good: Λ = λ S/b δ.
+    """
+    if count == 1:
+        return np.sqrt(slices) * np.eye(slices)
+    number = np.arange(slices)
+    basis = np.cos(np.pi * number[:, None] * (np.arange(slices) + 0.5) / slices)
+    return basis * np.where(number > 0, np.sqrt(2.0), 1.0)[:, None]
+
+
+def wave_numbers(width: float, slices: int, coupled: bool) -> Array:
+    """k_n (n,), 1/m, of the modes that differ: all of the face's, or the uniform one for all alike."""
+    return np.pi * np.arange(slices if coupled else 1) / width
+
+
+def own_compliance(flexible: "PairFlexibility", geometry: PairGeometry, wave_number: Array = (0.0,)) -> Array:
+    """λ_jj(k)/b (n, …), m/N: both gears, from the bores to the local regions' depth; else as the geometry."""
+    total = np.zeros((len(wave_number), *geometry.gap.shape))
+    reaches = geometry.pinion_radius, geometry.gear_radius
+    for gear, material, reach in zip(flexible.gears, flexible.materials, reaches, strict=True):
+        own, _ = _harmonics(gear, material.poisson_ratio, wave_number)
+        at = np.clip(reach, gear.radius[0], gear.radius[-1])
+        for mode, values in enumerate(own):
+            total[mode] += CubicSpline(gear.radius, values)(at) / (material.youngs_modulus * flexible.width)
+    return total
+
+
+def neighbour_compliance(
+    flexible: "PairFlexibility", geometry: PairGeometry, wave_number: Array = (0.0,)
+) -> Array:
+    """λ_jk(k)/b (n, position, pair, pair) of different pairs, m/N, zero on the diagonal.
+
+    The pairs stand one pitch apart in the last axis of the geometry, the one that entered first in front.
+    """
+    count = geometry.gap.shape[-1]
+    matrix = np.zeros((len(wave_number), *geometry.gap.shape, count))
+    reaches = geometry.pinion_radius, geometry.gear_radius
+    # On the pinion the earlier tooth stands on the loaded flank's side, on the gear on the other.
+    for gear, material, reach, sign in zip(flexible.gears, flexible.materials, reaches, (1, -1), strict=True):
+        _, between = _harmonics(gear, material.poisson_ratio, wave_number)
+        at = np.clip(reach, gear.radius[0], gear.radius[-1])
+        scale = material.youngs_modulus * flexible.width
+        for mode in range(len(wave_number)):
+            for pitches in range(1, min(count - 1, NEIGHBOURS) + 1):
+                values = between[mode, NEIGHBOURS + sign * pitches]
+                surface = RectBivariateSpline(gear.radius, gear.radius, values)
+                earlier, later = np.arange(count - pitches), np.arange(pitches, count)
+                value = surface.ev(at[..., earlier], at[..., later]) / scale
+                matrix[mode][..., earlier, later] += value
+                matrix[mode][..., later, earlier] += value
+    return matrix
+
+
+def pair_harmonics(
+    flexible: "PairFlexibility", geometry: PairGeometry, slices: int, coupled: bool = True
+) -> Array:
+    """λ_jk(k_n)/b (n, position, pair, pair) of all modes of the face, or of the uniform one; m/N."""
+    wave_number = wave_numbers(flexible.width, slices, coupled)
+    matrix = neighbour_compliance(flexible, geometry, wave_number)
+    own = own_compliance(flexible, geometry, wave_number)
+    return matrix + np.eye(own.shape[-1]) * own[..., None]
+
+
+def by_slices(harmonics: Array, slices: int) -> Array:
+    """Λ (position, pair, slice, pair, slice), m/N, of `pair_harmonics` (n, position, pair, pair)."""
+    if len(harmonics) == 1:
+        return harmonics[0][:, :, None, :, None] * (slices * np.eye(slices))[:, None, :]
+    basis = modes(len(harmonics), slices)
+    _, positions, pairs, _ = harmonics.shape
+    product = (basis[:, :, None] * basis[:, None, :]).reshape(slices, -1)
+    spread = harmonics.reshape(slices, -1).T @ product
+    return spread.reshape(positions, pairs, pairs, slices, slices).swapaxes(2, 3)
+
+
+def _harmonics(gear: GearCompliance, poisson_ratio: float, wave_number: Array) -> tuple[Array, Array]:
+    """Compliances freed of the local region (n, M) and of neighbours (n, sector, M, M) for E = b = 1."""
+    own = freed_of_depth(gear.inside, poisson_ratio)
+    count = len(wave_number)
+    return np.broadcast_to(own, (count, *own.shape)), np.broadcast_to(
+        gear.between, (count, *gear.between.shape)
+    )
