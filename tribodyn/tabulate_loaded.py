@@ -14,9 +14,10 @@ import numpy as np
 
 from tribodyn.compliance.condensed import Condensed, condense
 from tribodyn.compliance.flank_gap import flank_gap, relief_rolls
+from tribodyn.compliance.gear_compliance import without_neighbours
 from tribodyn.compliance.load_sharing import PairFlexibility, contact_deflection, flexibility, share_load
 from tribodyn.compliance.loaded_contact import check, reach
-from tribodyn.compliance.slices import face_positions, neighbour_compliance, own_compliance, pair_harmonics
+from tribodyn.compliance.slices import face_positions, pair_harmonics
 from tribodyn.compliance.table import check_cover, interpolate
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
@@ -60,9 +61,9 @@ def tabulate_loaded(
     """
     _check(drive, mesh, gear_torque, back)
     assembly = assemble(family, drive)
-    flexible = flexibility(assembly, materials)
+    flexible = flexibility(assembly, materials, lead=mesh.slice_coupling and mesh.slices > 1)
     if not mesh.foundation_coupling:
-        apart = [gear._replace(between=0.0 * gear.between) for gear in flexible.gears]
+        apart = [without_neighbours(gear) for gear in flexible.gears]
         flexible = flexible._replace(gears=(apart[0], apart[1]))
     modifications = mesh.modifications
     check(flexible, modifications, gear_torque, mesh.slices)
@@ -97,8 +98,8 @@ def tabulate_loaded(
     )
     if back:
         mates = _slots(geometry, behind)
-        compliance[:, behind], gap[:, behind] = _secant(flexible, mates, full), mates.gap + mesh.backlash
-        coupling[:, behind, behind] = neighbour_compliance(flexible, mates)[0]
+        compliance[:, behind], coupling[:, behind, behind] = _under_load(flexible, mates, full)
+        gap[:, behind] = mates.gap + mesh.backlash
     side = np.where(np.arange(slots) < pairs, 1.0, -1.0)
     motion, vanishing = geometry.motion, pitch_point(assembly.path)
     return MeshCycle(
@@ -176,11 +177,13 @@ def _driving(
     return condense(flexible, geometry, harmonics, whole, shared, least_load)
 
 
-def _secant(flexible: PairFlexibility, geometry: PairGeometry, load: float) -> Array:
-    """Compliance of each pair alone under a load (N) along its whole face: deflection over load, m/N."""
+def _under_load(flexible: PairFlexibility, geometry: PairGeometry, load: float) -> tuple[Array, Array]:
+    """Compliance of pairs under a load (N) each, deflection over load, and their coupling; m/N."""
     curvature = geometry.motion.relative_curvature
     deflection, _ = contact_deflection(flexible, curvature, load / flexible.width + 0.0 * curvature)
-    return own_compliance(flexible, geometry)[0] + deflection / load
+    matrix = pair_harmonics(flexible, geometry)[0]
+    own = np.einsum("...ii->...i", matrix)
+    return own + deflection / load, matrix * ~np.eye(own.shape[-1], dtype=bool)
 
 
 def _slots(geometry: PairGeometry, part: slice) -> PairGeometry:

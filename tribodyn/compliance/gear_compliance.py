@@ -61,3 +61,9 @@ class GearCompliance(NamedTuple):
     between: Array
     depth: float
     lead: LeadHarmonics | None = None
+
+
+def without_neighbours(gear: GearCompliance) -> GearCompliance:
+    """Return a gear whose teeth do not know of each other's loads."""
+    lead = gear.lead and gear.lead._replace(between=0.0 * gear.lead.between)
+    return gear._replace(between=0.0 * gear.between, lead=lead)

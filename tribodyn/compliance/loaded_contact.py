@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.compliance.face_root_stress import root_stress
 from tribodyn.compliance.flank_gap import check_modifications, flank_gap, pitch_gap
 from tribodyn.compliance.load_sharing import PairFlexibility, SharedLoad, half_width, share_load
 from tribodyn.compliance.slices import LEAST_SLICES, face_positions
@@ -46,6 +47,9 @@ class LoadedContact(NamedTuple):
         N/m.
     pressure, half_width : (T, P, S)
         Greatest Hertz pressure, Pa, and half width, m, of each slice's line load.
+    root_tension, root_compression : (2, T, P, S)
+        Greatest stress along the root of each pair's tooth of pinion and gear, tension positive and
+        compression negative, Pa (`face_root_stress`).
     face_load_factor : (T, P)
         K_Hβ, greatest over mean line load along the face (ISO 6336-1); NaN where a pair carries nothing.
     mesh_stiffness : (T,)
@@ -63,6 +67,8 @@ class LoadedContact(NamedTuple):
     line_load: Array
     pressure: Array
     half_width: Array
+    root_tension: Array
+    root_compression: Array
     face_load_factor: Array
     mesh_stiffness: Array
     contact_ratio: float
@@ -109,7 +115,7 @@ def roll_through(
     Parameters
     ----------
     flexible : PairFlexibility
-        `load_sharing.flexibility` of the drive.
+        `load_sharing.flexibility` of the drive, with `lead`.
     modifications : Modifications
         Of flanks and axes.
     gear_torque : float
@@ -154,6 +160,7 @@ def roll_through(
     line_load = shared.slice_load * (slices / flexible.width)
     half = half_width(flexible, geometry.motion.relative_curvature[..., None], line_load)
     total = shared.normal_load
+    tension, compression = root_stress(flexible, geometry, line_load, coupled)
     with np.errstate(invalid="ignore", divide="ignore"):
         pressure = np.where(line_load > 0, 2.0 * line_load / (np.pi * half), 0.0)
         factor = np.max(shared.slice_load, axis=-1) * slices / total
@@ -167,6 +174,8 @@ def roll_through(
         line_load=line_load,
         pressure=pressure,
         half_width=np.where(line_load > 0, half, 0.0),
+        root_tension=tension,
+        root_compression=compression,
         face_load_factor=factor,
         mesh_stiffness=shared.stiffness / assembly.path.gear_pitch_radius,
         contact_ratio=_mean_pairs(np.max(shared.overlap, axis=-1), positions),

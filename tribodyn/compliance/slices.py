@@ -22,6 +22,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline, RectBivariateSpline
 
 from tribodyn.compliance.gear_compliance import NEIGHBOURS, GearCompliance
+from tribodyn.compliance.lead_harmonics import at_wave_numbers
 from tribodyn.compliance.local import freed_of_depth
 from tribodyn.geometry.corner_contact import PairGeometry
 
@@ -56,52 +57,34 @@ def wave_numbers(width: float, slices: int, coupled: bool) -> Array:
     return np.pi * np.arange(slices if coupled else 1) / width
 
 
-def own_compliance(flexible: "PairFlexibility", geometry: PairGeometry, wave_number: Array = (0.0,)) -> Array:
-    """λ_jj(k)/b (n, …), m/N: both gears, from the bores to the local regions' depth; else as the geometry."""
-    total = np.zeros((len(wave_number), *geometry.gap.shape))
-    reaches = geometry.pinion_radius, geometry.gear_radius
-    for gear, material, reach in zip(flexible.gears, flexible.materials, reaches, strict=True):
-        own, _ = _harmonics(gear, material.poisson_ratio, wave_number)
-        at = np.clip(reach, gear.radius[0], gear.radius[-1])
-        for mode, values in enumerate(own):
-            total[mode] += CubicSpline(gear.radius, values)(at) / (material.youngs_modulus * flexible.width)
-    return total
-
-
-def neighbour_compliance(
-    flexible: "PairFlexibility", geometry: PairGeometry, wave_number: Array = (0.0,)
+def pair_harmonics(
+    flexible: "PairFlexibility", geometry: PairGeometry, slices: int = 1, coupled: bool = True
 ) -> Array:
-    """λ_jk(k)/b (n, position, pair, pair) of different pairs, m/N, zero on the diagonal.
+    """λ_jk(k_n)/b (n, position, pair, pair) of all modes of the face, or of the uniform one; m/N.
 
-    The pairs stand one pitch apart in the last axis of the geometry, the one that entered first in front.
+    Both gears: of a pair itself from the bores to the local regions' depth, of others through teeth and
+    bodies. The pairs stand one pitch apart in the last axis of the geometry, the one that entered first in
+    front.
     """
+    wave_number = wave_numbers(flexible.width, slices, coupled)
     count = geometry.gap.shape[-1]
     matrix = np.zeros((len(wave_number), *geometry.gap.shape, count))
+    diagonal = np.einsum("...ii->...i", matrix)
     reaches = geometry.pinion_radius, geometry.gear_radius
     # On the pinion the earlier tooth stands on the loaded flank's side, on the gear on the other.
     for gear, material, reach, sign in zip(flexible.gears, flexible.materials, reaches, (1, -1), strict=True):
-        _, between = _harmonics(gear, material.poisson_ratio, wave_number)
+        own, between = _responses(gear, material.poisson_ratio, wave_number)
         at = np.clip(reach, gear.radius[0], gear.radius[-1])
         scale = material.youngs_modulus * flexible.width
-        for mode in range(len(wave_number)):
+        diagonal += np.moveaxis(CubicSpline(gear.radius, own.T)(at), -1, 0) / scale
+        for mode, rows in enumerate(between):
             for pitches in range(1, min(count - 1, NEIGHBOURS) + 1):
-                values = between[mode, NEIGHBOURS + sign * pitches]
-                surface = RectBivariateSpline(gear.radius, gear.radius, values)
+                surface = RectBivariateSpline(gear.radius, gear.radius, rows[NEIGHBOURS + sign * pitches])
                 earlier, later = np.arange(count - pitches), np.arange(pitches, count)
                 value = surface.ev(at[..., earlier], at[..., later]) / scale
                 matrix[mode][..., earlier, later] += value
                 matrix[mode][..., later, earlier] += value
     return matrix
-
-
-def pair_harmonics(
-    flexible: "PairFlexibility", geometry: PairGeometry, slices: int, coupled: bool = True
-) -> Array:
-    """λ_jk(k_n)/b (n, position, pair, pair) of all modes of the face, or of the uniform one; m/N."""
-    wave_number = wave_numbers(flexible.width, slices, coupled)
-    matrix = neighbour_compliance(flexible, geometry, wave_number)
-    own = own_compliance(flexible, geometry, wave_number)
-    return matrix + np.eye(own.shape[-1]) * own[..., None]
 
 
 def by_slices(harmonics: Array, slices: int) -> Array:
@@ -115,10 +98,9 @@ def by_slices(harmonics: Array, slices: int) -> Array:
     return spread.reshape(positions, pairs, pairs, slices, slices).swapaxes(2, 3)
 
 
-def _harmonics(gear: GearCompliance, poisson_ratio: float, wave_number: Array) -> tuple[Array, Array]:
+def _responses(gear: GearCompliance, poisson_ratio: float, wave_number: Array) -> tuple[Array, Array]:
     """Compliances freed of the local region (n, M) and of neighbours (n, sector, M, M) for E = b = 1."""
-    own = freed_of_depth(gear.inside, poisson_ratio)
-    count = len(wave_number)
-    return np.broadcast_to(own, (count, *own.shape)), np.broadcast_to(
-        gear.between, (count, *gear.between.shape)
-    )
+    if np.any(wave_number):
+        response = at_wave_numbers(gear, wave_number, poisson_ratio)
+        return response.own, response.between
+    return freed_of_depth(gear.inside, poisson_ratio)[None], gear.between[None]
