@@ -47,7 +47,7 @@ class Place(NamedTuple):
 def create(path: Path, head: Head, samples: int) -> dict[str, Place]:
     """Write the file at `path` with room for `samples` samples, and say where each dataset lies."""
     with h5py.File(path, "w", libver=LIBVER) as file:
-        write_head(file, head)
+        write_head(file, head.kind, head.scenario, head.sha256, head.created)
         datasets = {"time": _empty(file, "time", schema.TIME, (samples,))}
         size = {"time": samples, **_write_scales(file, head)}
         datasets["time"].make_scale("time")
@@ -96,16 +96,16 @@ def encode(name: str, values: Any) -> np.ndarray:
     return np.ascontiguousarray(values, dtype="i1")
 
 
-def write_head(file: h5py.File, head: Head) -> None:
+def write_head(file: h5py.File, kind: str, scenario: str, sha256: str, created: datetime) -> None:
     """Write the root's attributes, status `partial`."""
     file.attrs["Conventions"] = "CF-1.10"
     file.attrs["format"] = schema.FORMAT
     file.attrs["format_version"] = schema.FORMAT_VERSION
-    file.attrs["kind"] = head.kind
+    file.attrs["kind"] = kind
     file.attrs["tribodyn_version"] = __version__
-    file.attrs["created"] = head.created.isoformat(timespec="seconds")
-    file.attrs["scenario"] = head.scenario
-    file.attrs["scenario_sha256"] = head.sha256
+    file.attrs["created"] = created.isoformat(timespec="seconds")
+    file.attrs["scenario"] = scenario
+    file.attrs["scenario_sha256"] = sha256
     file.attrs["status"] = schema.PARTIAL
     file.attrs["message"] = schema.STATUS_NOTES[schema.PARTIAL]
     for library in LIBRARIES:

@@ -166,23 +166,23 @@ def _in_si(
         return tuple(float(value) for value in written), "1"
     if any(isinstance(value, (dict, list)) for value in written):
         raise _refusal(option, "tables and lists cannot be varied", "vary one number in them")
-    quantities = [_base_units(value) for value in written]
-    if all(quantities) and len({unit for _, unit in quantities}) == 1:  # of a family's shape
+    quantities = [found for found in map(_base_units, written) if found]
+    if len(quantities) == len(written) and len({unit for _, unit in quantities}) == 1:  # of a family's shape
         return tuple(magnitude for magnitude, _ in quantities), quantities[0][1]
     return tuple(str(value).lower() if isinstance(value, bool) else str(value) for value in written), ""
 
 
-def _base_units(value: Any) -> tuple[float, str] | tuple[()]:
-    """Magnitude and SI base units of a quantity whose kind only a family of teeth knows; () if none."""
+def _base_units(value: Any) -> tuple[float, str] | None:
+    """Magnitude and SI base units of a quantity whose kind only a family of teeth knows; None if none."""
     from tribodyn.scenario.units import registry
 
     found = re.fullmatch(rf"\s*({_NUMBER})\s*(\S.*)", value, re.ASCII) if isinstance(value, str) else None
     if found is None:
-        return ()
+        return None
     try:
         base = registry().Quantity(1.0, found[2]).to_base_units()
     except Exception:  # pint raises whatever Python's tokenizer and arithmetic do
-        return ()
+        return None
     number, factor = float(found[1]), float(base.magnitude)
     exact = number / round(1 / factor) if 0 < factor < 1 and abs(1 / factor % 1) < 1e-9 else number * factor
     return exact, f"{base.units:~C}".replace("**", "") or "1"

@@ -1,0 +1,278 @@
+"""Writes the record of a sweep, case by case in any order, so that it is a valid file at every moment.
+
+As with a run (`writer`), the whole file is laid out before the first case and closed; what a case gives is
+bytes put in their place, its `status` last. A sweep that was killed is taken up again by reading `status`.
+"""
+
+import os
+import shutil
+from collections.abc import Mapping, Sequence
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any, NamedTuple, Self
+
+import h5py
+import numpy as np
+
+from tribodyn.errors import InputError
+from tribodyn.record import layout, sweep_schema
+from tribodyn.record.schema import COMPLETE, FAILED, FORMAT, PARTIAL, STATUS_NOTES, Variable, partial_path
+from tribodyn.record.sweep_schema import CASES, SWEEP
+from tribodyn.record.writer import check_target
+
+#: What the root says of a sweep that is not complete.
+NOTE = "the sweep is going on, or was stopped: cases whose status is 0 are still to be done"
+#: How NumPy's names of texts of fixed length begin.
+_TEXT = "S"
+
+
+class ParameterScale(NamedTuple):
+    """One varied parameter: its dimension's name, the key in the scenario, unit and values."""
+
+    name: str
+    key: str
+    units: str
+    values: Sequence[float] | Sequence[str]
+
+
+class SweepHead(NamedTuple):
+    """What is known of a sweep before it starts.
+
+    Attributes
+    ----------
+    scenario, sha256 : str
+        The first case's scenario, resolved, and its digest.
+    parameters : tuple of ParameterScale
+        In the order of the dimensions.
+    settings : str
+        Everything else that the results depend on, as TOML: a sweep is taken up only with the same.
+    directions : tuple of str
+        "up", "down"; none where every case is on its own.
+    window, samples_per_cycle : int
+        Mesh cycles kept of each case, and samples in each.
+    cycles : int
+        Points of the Poincaré section.
+    modes : int
+    """
+
+    scenario: str
+    sha256: str
+    parameters: tuple[ParameterScale, ...]
+    settings: str
+    directions: tuple[str, ...]
+    window: int
+    samples_per_cycle: int
+    cycles: int
+    modes: int
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        """Dimensions of the cases."""
+        return (*(one.name for one in self.parameters), *(("direction",) if self.directions else ()))
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Their lengths."""
+        sizes = [len(one.values) for one in self.parameters]
+        return (*sizes, len(self.directions)) if self.directions else tuple(sizes)
+
+
+class SweepWriter:
+    """Puts the results of cases into `<name>.partial.h5`, which becomes `<name>.h5` when all are there.
+
+    Parameters
+    ----------
+    path : Path
+        Final name of the record.
+    head : SweepHead
+    force : bool
+        Replace an existing record, and what an unfinished sweep left.
+    resume : bool
+        Go on with what an unfinished sweep left, if there is anything.
+
+    Raises
+    ------
+    InputError
+        See `writer.check_target`; also where what is left belongs to another sweep.
+    """
+
+    def __init__(self, path: str | Path, head: SweepHead, *, force: bool = False, resume: bool = False):
+        self.path = Path(path)
+        self.partial = partial_path(self.path)
+        if resume and not force and self.partial.exists():
+            self._places = _places_of(self.partial, head)
+        else:
+            check_target(self.path, force)
+            scratch = self.path.with_name(f"{self.path.stem}.{os.getpid()}.tmp")
+            try:
+                self._places = _create(scratch, head)
+                os.replace(scratch, self.partial)
+            except OSError as error:
+                if scratch.exists():
+                    scratch.unlink()
+                reason = error.strerror or str(error)
+                raise InputError(
+                    "output", str(path), f"cannot be written: {reason}", "choose another file"
+                ) from error
+        with h5py.File(self.partial, "r") as file:
+            self.status: np.ndarray = file["status"][...].ravel()  # pyright: ignore
+        self._file = self.partial.open("r+b", buffering=0)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._file.close()
+
+    def write(self, cases: np.ndarray, block: Mapping[str, Any]) -> None:
+        """Put the results of cases in their place.
+
+        Parameters
+        ----------
+        cases : (n,) int
+            Numbers of the cases, increasing, the last dimension running fastest.
+        block : dict
+            Arrays (n, …) for every dataset of `sweep_schema.CASES`.
+        """
+        cases = np.asarray(cases)
+        runs = np.split(np.arange(len(cases)), np.flatnonzero(np.diff(cases) != 1) + 1)
+        for name in CASES:  # status is the last of them
+            place = self._places[name]
+            values = _encoded(name, block[name])
+            if values.shape != (len(cases), *place.row):
+                raise ValueError(f"{name}: shape {values.shape}, not {(len(cases), *place.row)}")
+            for run in runs:
+                self._put(place.offset + int(cases[run[0]]) * place.stride, values[run])
+        self.status[cases] = block["status"]
+
+    def read(self, name: str, cases: np.ndarray) -> np.ndarray:
+        """Give back what was written of some cases, the last run's included."""
+        place = self._places[name]
+        kind = np.dtype(CASES[name].dtype)
+        rows = []
+        for case in cases:
+            self._file.seek(place.offset + int(case) * place.stride)
+            rows.append(np.frombuffer(self._file.read(place.stride), kind).reshape(place.row))
+        return np.array(rows)
+
+    def finish(self, summary: Mapping[str, Any]) -> Path:
+        """Add the summary and give the record its final name; one without a single good case is "failed"."""
+        if np.any(self.status == sweep_schema.WAITING):
+            raise ValueError(f"{int(np.sum(self.status == sweep_schema.WAITING))} cases are still to be done")
+        self._file.close()
+        failed = int(np.sum(self.status == sweep_schema.FAILED))
+        none = failed == self.status.size
+        message = f"{failed} of {self.status.size} cases failed" if failed else STATUS_NOTES[COMPLETE]
+        scratch = self.path.with_name(f"{self.path.stem}.{os.getpid()}.tmp")
+        shutil.copyfile(self.partial, scratch)
+        with h5py.File(scratch, "r+", libver=layout.LIBVER) as file:
+            layout.write_summary(file, summary)
+            file.attrs["status"] = FAILED if none else COMPLETE
+            file.attrs["message"] = message
+        target = self.partial if none else self.path
+        os.replace(scratch, target)
+        if not none:
+            self.partial.unlink()
+        return target
+
+    def _put(self, offset: int, array: np.ndarray) -> None:
+        self._file.seek(offset)
+        rest = memoryview(array.tobytes())
+        while rest:  # an unbuffered file may take less than it is given
+            rest = rest[self._file.write(rest) :]
+
+
+def _create(path: Path, head: SweepHead) -> dict[str, layout.Place]:
+    """Lay out the whole file, every case waiting."""
+    with h5py.File(path, "w", libver=layout.LIBVER) as file:
+        layout.write_head(file, SWEEP, head.scenario, head.sha256, datetime.now(UTC))
+        file.attrs["message"] = NOTE
+        file.attrs["sweep"] = head.settings
+        file.attrs["samples_per_cycle"] = head.samples_per_cycle
+        size = _write_scales(file, head)
+        places = {}
+        for name, variable in CASES.items():
+            full = variable.over(head.dims)
+            shape = tuple(size[dim] for dim in full.dims)
+            dataset = layout.reserve(file, name, full, shape, variable.dtype, variable.fill)
+            layout.attach(file, file, dataset, full)
+            if _TEXT in variable.dtype:
+                dataset.attrs["_Encoding"] = "utf-8"
+            places[name] = _case_place(dataset, len(head.dims))
+        file["status"].attrs["flag_values"] = np.array([0, 1, 2], dtype="i1")
+        file["status"].attrs["flag_meanings"] = sweep_schema.CASE_STATES
+        file["stable"].attrs["flag_values"] = np.array([-1, 0, 1], dtype="i1")
+        file["stable"].attrs["flag_meanings"] = "unknown unstable stable"
+        file.create_group("summary")
+    return places
+
+
+def _write_scales(file: h5py.File, head: SweepHead) -> dict[str, int]:
+    """Write the scales of all dimensions; their lengths."""
+    for one in head.parameters:
+        variable = Variable((one.name,), one.units or "1", f"varied parameter {one.key}")
+        _write_scale(file, one.name, variable, one.values)
+        file[one.name].attrs["key"] = one.key
+    if head.directions:
+        _write_scale(file, "direction", sweep_schema.DIRECTION, head.directions)
+    phase = np.arange(head.window * head.samples_per_cycle) / head.samples_per_cycle
+    layout.scale(file, "sample", sweep_schema.SAMPLE, phase)
+    layout.scale(file, "cycle", sweep_schema.CYCLE, np.arange(head.cycles))
+    layout.scale(file, "mode", sweep_schema.MODE, np.arange(1, head.modes + 1))
+    _write_scale(file, "state_variable", sweep_schema.STATE_VARIABLE, sweep_schema.STATES)
+    names = (*head.dims, "sample", "cycle", "mode", "state_variable")
+    return {name: file[name].shape[0] for name in names}  # pyright: ignore
+
+
+def _write_scale(file: h5py.File, name: str, variable: Variable, values: Sequence[Any]) -> None:
+    """Numbers as they are; texts of fixed length, see `layout`."""
+    if isinstance(values[0], str):
+        layout.scale(file, name, variable, np.char.encode(np.array(values), "utf-8"))
+        file[name].attrs["_Encoding"] = "utf-8"
+    else:
+        layout.scale(file, name, variable, np.array(values, dtype="<f8"))
+
+
+def _case_place(dataset: h5py.Dataset, dims: int) -> layout.Place:
+    """Where a dataset lies, with a row a case."""
+    row = dataset.shape[dims:]
+    stride = dataset.dtype.itemsize * int(np.prod(row, dtype=int))
+    return layout.Place(layout.place_of(dataset).offset, stride, row)
+
+
+def _places_of(path: Path, head: SweepHead) -> dict[str, layout.Place]:
+    """The places in what an unfinished sweep left.
+
+    Raises
+    ------
+    InputError
+        If it is damaged, or the record of something else.
+    """
+    other = "move it away, or --force to begin anew"
+    try:
+        with h5py.File(path, "r") as file:
+            if file.attrs.get("format") != FORMAT or file.attrs.get("kind") != SWEEP:
+                raise InputError("--resume", str(path), "not what a sweep left", other)
+            if file.attrs["status"] != PARTIAL:
+                raise InputError("--resume", str(path), f"this sweep {file.attrs['status']}", other)
+            if file.attrs["scenario_sha256"] != head.sha256:
+                raise InputError("--resume", str(path), "made from another scenario", other)
+            if file.attrs["sweep"] != head.settings:
+                raise InputError("--resume", str(path), "made with other axes or settings", other)
+            return {name: _case_place(file[name], len(head.dims)) for name in CASES}  # pyright: ignore
+    except (OSError, KeyError) as error:
+        raise InputError("--resume", str(path), f"damaged: {error}", other) from error
+
+
+def _encoded(name: str, values: Any) -> np.ndarray:
+    """Values as the bytes that the file holds; texts cut to their room at a whole character."""
+    kind = CASES[name].dtype
+    if _TEXT not in kind:
+        return np.ascontiguousarray(values, dtype=kind)
+    room = int(kind.removeprefix(_TEXT))
+    return np.array([_cut(str(value), room) for value in values], dtype=kind)
+
+
+def _cut(text: str, room: int) -> bytes:
+    raw = text.encode()
+    return raw if len(raw) <= room else raw[: room - 3].decode(errors="ignore").encode() + "…".encode()

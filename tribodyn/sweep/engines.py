@@ -1,0 +1,128 @@
+"""Where the chunks of a sweep are evaluated: in this process over its cores, or on the workers of Dask."""
+
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from typing import Any, Protocol
+
+import numpy as np
+
+from tribodyn.errors import InputError, SimulationError
+from tribodyn.sweep.evaluate import Chunk, Settings, evaluate
+
+Block = dict[str, np.ndarray]
+NATIVE, JAX, DASK = "native", "jax", "dask"
+
+
+class Engine(Protocol):
+    """Evaluates chunks; results come in any order, each once."""
+
+    #: Chunks that are under way at the same time, which bounds the memory.
+    width: int
+
+    def __call__(self, chunks: Iterable[Chunk], settings: Settings) -> Iterator[tuple[Chunk, Block]]:
+        """Evaluate; takes the next chunks only as results go out."""
+        ...
+
+
+class Local:
+    """One chunk after the other in this process, its cases over all cores.
+
+    Parameters
+    ----------
+    workers : int, optional
+        Threads; by default one a core.
+    """
+
+    width = 1
+
+    def __init__(self, workers: int | None = None) -> None:
+        self.workers = workers
+
+    def __call__(self, chunks: Iterable[Chunk], settings: Settings) -> Iterator[tuple[Chunk, Block]]:
+        """See `Engine`."""
+        for chunk in chunks:
+            yield chunk, evaluate(chunk, settings, self.workers)
+
+
+class Dask:
+    """Chunks over the workers of a Dask scheduler; one whose worker dies is done again by another.
+
+    Parameters
+    ----------
+    client : distributed.Client
+    """
+
+    def __init__(self, client: Any) -> None:
+        self.client = client
+
+    @property
+    def width(self) -> int:
+        """Two chunks a worker, so that none waits for the next one to be sent."""
+        return 2 * max(1, len(self.client.scheduler_info(n_workers=-1)["workers"]))
+
+    def __call__(self, chunks: Iterable[Chunk], settings: Settings) -> Iterator[tuple[Chunk, Block]]:
+        """See `Engine`."""
+        from distributed import as_completed
+
+        rest = iter(chunks)
+        sent: dict[str, Chunk] = {}
+        running = as_completed()
+
+        def send() -> None:
+            for chunk in rest:
+                # impure: equal chunks of two sweeps must not be taken for one
+                future = self.client.submit(evaluate, chunk, settings, 1, pure=False, retries=3)
+                sent[future.key] = chunk
+                running.add(future)
+                return
+
+        for _ in range(self.width):
+            send()
+        for future in running:
+            if future.status == "error":
+                raise SimulationError(f"a worker of the cluster could not go on: {future.exception()!r}")
+            block = future.result()
+            chunk = sent.pop(future.key)
+            future.release()
+            send()
+            yield chunk, block
+
+
+@contextmanager
+def engine_of(name: str, workers: int | None, scheduler: str | None) -> Iterator[Engine]:
+    """Give the engine of a name; a local cluster lives as long as the block.
+
+    Raises
+    ------
+    InputError
+        If Dask is not there, or no scheduler answers at that address.
+    """
+    if name != DASK:
+        if scheduler is not None:
+            raise InputError("--scheduler", scheduler, "belongs to --engine dask", "add --engine dask")
+        yield Local(workers)
+        return
+    try:
+        from distributed import Client, LocalCluster
+    except ImportError:
+        raise InputError(
+            "--engine", "dask", "Dask is not installed", 'install it: pip install "tribodyn[cluster]"'
+        ) from None
+    if scheduler is None:
+        with (
+            LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None) as cluster,
+            Client(cluster) as client,
+        ):
+            yield Dask(client)
+        return
+    try:
+        client = Client(scheduler, timeout="10s")
+    except (OSError, ValueError) as error:
+        raise InputError(
+            "--scheduler",
+            scheduler,
+            f"no scheduler answers there ({error})",
+            "start one: dask scheduler",
+        ) from None
+    with client:
+        yield Dask(client)

@@ -1,0 +1,87 @@
+"""In which order the cases of a sweep are done, and from which state each begins."""
+
+from collections.abc import Callable, Iterator, Sequence
+
+import numpy as np
+
+from tribodyn.case import Case
+from tribodyn.dynamics.parameters import STATES
+from tribodyn.errors import InputError
+from tribodyn.record.sweep_schema import DONE
+from tribodyn.sweep.evaluate import Chunk
+from tribodyn.sweep.grid import Grid
+
+#: Bytes of states that the cases of a chunk may fill: what bounds the memory of a sweep.
+CHUNK_BYTES = 32 * 2**20
+MOST_IN_CHUNK = 256
+
+#: Gives what was recorded of cases: (numbers) -> statuses (n,), states (n, STATES).
+Recorded = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
+
+
+def chunk_size(window: int, samples: int) -> int:
+    """Cases to be evaluated together, by the room that their windows take."""
+    return max(1, min(MOST_IN_CHUNK, CHUNK_BYTES // (window * samples * STATES * 8)))
+
+
+def single_steps(grid: Grid, waiting: np.ndarray, size: int) -> Iterator[list[Chunk]]:
+    """All cases on their own, in one step; those that share a table one after the other.
+
+    Parameters
+    ----------
+    grid : Grid
+    waiting : (cases,) bool
+        Which are still to be done.
+    size : int
+        Cases in a chunk.
+    """
+    numbers = _by_table(grid)
+    numbers = numbers[waiting[numbers]]
+    for part in range(0, len(numbers), size):
+        chosen = np.sort(numbers[part : part + size])
+        yield [Chunk(chosen, tuple(case_or_reason(grid, number) for number in chosen))]
+
+
+def chained_steps(
+    grid: Grid, waiting: np.ndarray, size: int, directions: Sequence[str], recorded: Recorded
+) -> Iterator[list[Chunk]]:
+    """Step after step along the first parameter, each case from the state that its neighbour came to.
+
+    Numbers of cases run over the grid and, fastest, over the directions. A step waits until the one before it
+    is recorded. After a case that failed the chain goes on from the last state that there was.
+    """
+    shape = (*grid.shape, len(directions))
+    lanes = [(place, d) for place in np.ndindex(*grid.shape[1:]) for d in range(len(directions))]
+    states = np.full((len(lanes), STATES), np.nan)
+    count = grid.shape[0]
+    for step in range(count):
+        places = [(step if directions[d] == "up" else count - 1 - step, *place) for place, d in lanes]
+        numbers = np.array(
+            [np.ravel_multi_index((*place, d), shape) for place, (_, d) in zip(places, lanes, strict=True)]
+        )
+        open_lanes = np.flatnonzero(waiting[numbers])
+        chunks = []
+        for part in range(0, len(open_lanes), size):
+            chosen = open_lanes[part : part + size]
+            chosen = chosen[np.argsort(numbers[chosen])]
+            cases = tuple(case_or_reason(grid, grid.flat(places[i])) for i in chosen)
+            chunks.append(Chunk(numbers[chosen], cases, states[chosen]))
+        yield chunks
+        status, found = recorded(numbers)
+        good = status == DONE
+        states[good] = found[good]
+
+
+def case_or_reason(grid: Grid, number: int) -> Case | str:
+    """The case of a number of the grid, or why there is none."""
+    try:
+        return grid.case(np.unravel_index(number, grid.shape))  # pyright: ignore[reportArgumentType]
+    except InputError as error:
+        return str(error)
+
+
+def _by_table(grid: Grid) -> np.ndarray:
+    """Numbers of all cases, ordered so that axes which change the table run slowest."""
+    axes = range(len(grid.shape))
+    order = sorted(axes, key=lambda axis: not (grid.shape[axis] > 1 and grid.moves_table(axis)))
+    return np.arange(np.prod(grid.shape)).reshape(grid.shape).transpose(order).ravel()
