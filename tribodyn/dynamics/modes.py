@@ -1,4 +1,4 @@
-"""Modes of the model linearised at its mean mesh stiffness: what the mesh frequency and its orders can meet."""
+"""Modes of the model linearised at its mean mesh stiffness: what the orders of the mesh can meet."""
 
 import numpy as np
 
@@ -49,7 +49,7 @@ def natural_frequencies(model: Model) -> np.ndarray:
 
 
 def _mean_stiffness(model: Model) -> np.ndarray:
-    """Mean of Σ_ij k_ij n_i n_jᵀ over the mesh cycle for the driving flanks, n = (cos α, sin α); (2, 2), N/m."""
+    """Mean over the mesh cycle of Σ_ij k_ij n_i n_jᵀ of the driving flanks, n = (cos α, sin α); N/m."""
     table = model.table
     front = np.asarray(table.side) > 0
     width = np.diff(np.asarray(table.boundary))

@@ -34,7 +34,7 @@ class Record:
         self.path = Path(path)
         #: What a legend calls the record: its file's name, unless somebody who has several gives another.
         self.label = self.path.stem.removesuffix(".partial")
-        self._file: Any = _open(self.path)  # h5py types no item of a file
+        self._file: Any = open_file(self.path)  # h5py types no item of a file
         try:
             self._check()
         except InputError:
@@ -95,7 +95,7 @@ class Record:
     @cached_property
     def attrs(self) -> dict[str, Any]:
         """Attributes of the file's root."""
-        return _attributes(self._file)
+        return attributes(self._file)
 
     @cached_property
     def kind(self) -> str:
@@ -126,7 +126,7 @@ class Record:
     def summary(self) -> dict[str, Any]:
         """What the run found; names that hold `/` become nested dictionaries."""
         nested: dict[str, Any] = {}
-        for name, value in _attributes(self._file["summary"]).items():
+        for name, value in attributes(self._file["summary"]).items():
             *parents, leaf = name.split("/")
             place = nested
             for parent in parents:
@@ -152,7 +152,7 @@ class Record:
     def _group(self, name: str, table: dict[str, schema.Variable]) -> dict[str, Any]:
         try:
             group = self._file[name]
-            numbers = {key: value for key, value in _attributes(group).items() if not key.endswith("_units")}
+            numbers = {key: value for key, value in attributes(group).items() if not key.endswith("_units")}
             return {**{key: group[key][...] for key in table if key in group}, **numbers}
         except (OSError, KeyError, RuntimeError) as error:
             raise self._damaged(error) from error
@@ -190,7 +190,7 @@ class Record:
             if self._file[name].shape[0] < self.samples:
                 raise ValueError(f"{name} is too short")
         for name in ("mesh_cycle", "geometry", "summary"):
-            _attributes(self._file[name])
+            attributes(self._file[name])
 
     def _damaged(self, error: Exception) -> InputError:
         reason = str(error).strip("'\"")
@@ -204,7 +204,8 @@ def open_record(path: str | Path) -> Record:
     return Record(path)
 
 
-def _open(path: Path) -> h5py.File:
+def open_file(path: Path) -> h5py.File:
+    """Open an HDF5 file for reading; InputError says what hinders it."""
     if not path.is_file():
         raise InputError("record", str(path), "no such file", "name a file of tribodyn run")
     try:
@@ -217,7 +218,7 @@ def _open(path: Path) -> h5py.File:
         raise InputError("record", str(path), "not an HDF5 file", "name a file of tribodyn run") from error
 
 
-def _attributes(item: Any) -> dict[str, Any]:
+def attributes(item: Any) -> dict[str, Any]:
     """Attributes as Python and NumPy values."""
     return {
         name: value.item() if isinstance(value, np.generic) else value for name, value in item.attrs.items()

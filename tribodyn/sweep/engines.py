@@ -16,9 +16,6 @@ NATIVE, JAX, DASK = "native", "jax", "dask"
 class Engine(Protocol):
     """Evaluates chunks; results come in any order, each once."""
 
-    #: Chunks that are under way at the same time, which bounds the memory.
-    width: int
-
     def __call__(self, chunks: Iterable[Chunk], settings: Settings) -> Iterator[tuple[Chunk, Block]]:
         """Evaluate; takes the next chunks only as results go out."""
         ...
@@ -32,8 +29,6 @@ class Local:
     workers : int, optional
         Threads; by default one a core.
     """
-
-    width = 1
 
     def __init__(self, workers: int | None = None) -> None:
         self.workers = workers
@@ -55,9 +50,8 @@ class Dask:
     def __init__(self, client: Any) -> None:
         self.client = client
 
-    @property
-    def width(self) -> int:
-        """Two chunks a worker, so that none waits for the next one to be sent."""
+    def _under_way(self) -> int:
+        """Two chunks a worker, so that none waits for the next one to be sent; this bounds the memory."""
         return 2 * max(1, len(self.client.scheduler_info(n_workers=-1)["workers"]))
 
     def __call__(self, chunks: Iterable[Chunk], settings: Settings) -> Iterator[tuple[Chunk, Block]]:
@@ -76,7 +70,7 @@ class Dask:
                 running.add(future)
                 return
 
-        for _ in range(self.width):
+        for _ in range(self._under_way()):
             send()
         for future in running:
             if future.status == "error":

@@ -6,21 +6,21 @@ the same numbers in both. Nothing of a case depends on the others that it is eva
 
 import threading
 from collections import OrderedDict
-from collections.abc import Hashable, Sequence
+from collections.abc import Hashable
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from tribodyn.case import Case
 from tribodyn.dynamics.modes import natural_frequencies
-from tribodyn.dynamics.parameters import LAG, STATES, WORKS, XI
+from tribodyn.dynamics.parameters import STATES, XI, XI_RATE
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.prepare import Prepared, Tabulated, prepare, table_key, tables
-from tribodyn.record.sweep_schema import CASES, DONE, FAILED, UNKNOWN
-from tribodyn.solve import engine
-from tribodyn.solve.ensemble import march
+from tribodyn.record.sweep_schema import CASES, DONE, FAILED
 from tribodyn.solve.initial import initial_state, static_equilibrium
-from tribodyn.sweep.figures import Passage, section, window_figures
+from tribodyn.sweep.figures import window_figures
+from tribodyn.sweep.marched import marched
+from tribodyn.sweep.outcome import Outcome
 from tribodyn.tribology.friction import NONE
 
 #: Tables kept in a process; a table is about 100 kB.
@@ -63,7 +63,7 @@ class Chunk(NamedTuple):
     cases : tuple of n Case or str
         A text where the case could not even be made: why.
     states : (n, STATES) or None
-        Where to start from, before the engagement at phase 0; NaN, or None for all, where a case begins by
+        Where to start from, after the engagement at phase 0; NaN, or None for all, where a case begins by
         itself.
     """
 
@@ -83,114 +83,73 @@ def evaluate(chunk: Chunk, settings: Settings, workers: int | None = None) -> di
         Threads; by default one a core.
     """
     rows = _empty_rows(len(chunk.cases), settings)
-    ready: dict[int, Prepared] = {}
-    states = np.full((len(chunk.cases), STATES), np.nan) if chunk.states is None else chunk.states.copy()
-    continued = np.isfinite(states[:, 0])
+    ready: dict[int, tuple[Prepared, np.ndarray]] = {}
     for i, case in enumerate(chunk.cases):
+        if isinstance(case, str):
+            _fail(rows, i, case)
+            continue
         try:
-            if isinstance(case, str):
-                raise InputError("case", rule=case)
             prepared = prepare(case, tabulated(case))
-            if not continued[i]:
-                states[i] = _start(prepared, settings)
-            ready[i] = prepared
-            rows["mode_frequency"][i] = _padded(natural_frequencies(prepared.model), settings.modes)
+            given = None if chunk.states is None or np.isnan(chunk.states[i, 0]) else chunk.states[i]
+            ready[i] = prepared, _start(prepared, settings) if given is None else given
+            frequencies = natural_frequencies(prepared.model)
+            rows["mode_frequency"][i, : len(frequencies)] = frequencies
         except (InputError, SimulationError) as error:
-            _fail(rows, i, case if isinstance(case, str) else str(error))
-    for fresh in (True, False):  # a start and a continuation stand on different sides of an engagement
-        chosen = [i for i in ready if continued[i] != fresh]
-        for group in _alike([ready[i].case for i in chosen]):
-            numbers = [chosen[k] for k in group]
-            _solve(rows, numbers, [ready[i] for i in numbers], states[numbers], fresh, settings, workers)
+            _fail(rows, i, str(error))
+    for numbers in _alike({i: prepared.case for i, (prepared, _) in ready.items()}):
+        outcomes = _solve([ready[i] for i in numbers], settings, workers)
+        for i, outcome in zip(numbers, outcomes, strict=True):
+            _fill(rows, i, ready[i][0], outcome, settings)
     return rows
 
 
-def _alike(cases: Sequence[Case]) -> list[list[int]]:
-    """Positions of the cases grouped by their solver's tolerance, method and limit, which a batch shares."""
+def _alike(cases: dict[int, Case]) -> list[list[int]]:
+    """Numbers of the cases, grouped by their solver's tolerance, method and limit, which a batch shares."""
     groups: dict[tuple[Any, ...], list[int]] = {}
-    for i, case in enumerate(cases):
-        solver = case.solver
-        groups.setdefault((solver.rtol, solver.method, solver.max_steps), []).append(i)
+    for i, case in cases.items():
+        groups.setdefault((case.solver.rtol, case.solver.method, case.solver.max_steps), []).append(i)
     return list(groups.values())
 
 
 def _solve(
-    rows: dict[str, np.ndarray],
-    numbers: list[int],
-    prepared: list[Prepared],
-    states: np.ndarray,
-    fresh: bool,
-    settings: Settings,
-    workers: int | None,
-) -> None:
-    """Bring cases to the start of their window, march through it, and fill their rows."""
-    solver = prepared[0].case.solver
-    models = [one.model for one in prepared]
+    cases: list[tuple[Prepared, np.ndarray]], settings: Settings, workers: int | None
+) -> list[Outcome]:
+    solver = cases[0][0].case.solver
     common: dict[str, Any] = {
+        "cycles": settings.cycles,
+        "points": settings.points,
+        "samples": settings.samples,
         "rtol": solver.rtol,
         "max_steps": solver.max_steps,
         "method": solver.method,
         "workers": workers,
     }
-    before = settings.cycles - settings.window
-    good = np.arange(len(numbers))
-    sections: list[np.ndarray] = []
+    models, states = [one.model for one, _ in cases], np.array([state for _, state in cases])
     if settings.steady:
-        from tribodyn.sweep.steady import seek
+        from tribodyn.sweep.steady import steady
 
-        states, good = seek(rows, numbers, models, states, fresh, settings, common)
-        before = 0
-    elif before:
-        points = min(settings.points - settings.window, before) if settings.points > settings.window else 0
-        led = march(models, states, cycles=before, window=points, samples=1, started=not fresh, **common)
-        good = _sound(rows, numbers, led.status, led.reached)
-        states, sections = led.state, list(led.samples)
-        rows["cycles"][numbers] += led.reached.astype(int)
-    if not len(good):
-        return
-    lengths = np.array([_whole(settings.window, int(rows["period"][numbers[k]])) for k in good])
-    for length in np.unique(lengths):
-        chosen = good[lengths == length]
-        ran = march(
-            [models[k] for k in chosen],
-            states[chosen],
-            cycles=int(length),
-            window=int(length),
-            samples=settings.samples,
-            started=settings.steady or before > 0 or not fresh,
-            first_cycle=before,
-            **common,
-        )
-        for row, k in enumerate(chosen):
-            i = numbers[k]
-            rows["cycles"][i] += int(ran.reached[row])
-            if ran.status[row] != engine.DONE:
-                _fail(rows, i, _reason(int(ran.status[row]), before + float(ran.reached[row])))
-                continue
-            passed = Passage(before, ran.samples[row], states[k], ran.state[row], settings.samples)
-            led_in = sections[k] if sections else np.empty((0, STATES))
-            _fill(rows, i, prepared[k], passed, led_in, settings)
-
-
-def _whole(window: int, period: int) -> int:
-    """Mesh cycles of the window that are whole periods."""
-    return window // period * period if 0 < period <= window else window
+        return steady(models, states, **common)
+    return marched(models, states, window=settings.window, **common)
 
 
 def _fill(
-    rows: dict[str, np.ndarray],
-    i: int,
-    prepared: Prepared,
-    passed: Passage,
-    led_in: np.ndarray,
-    settings: Settings,
+    rows: dict[str, np.ndarray], i: int, prepared: Prepared, outcome: Outcome, settings: Settings
 ) -> None:
-    for name, value in window_figures(prepared, passed).items():
+    """Put what a case came to into its row."""
+    for name in ("period", "stable", "multiplier_max", "residual", "cycles", "solution", "message"):
+        rows[name][i] = getattr(outcome, name)
+    if outcome.passage is None:
+        rows["status"][i] = FAILED
+        return
+    for name, value in window_figures(prepared, outcome.passage, settings.samples).items():
         rows[name][i] = value
-    error = passed.window[:, XI]
-    rows["transmission_error_rotational"][i, : len(error)] = error
-    rows["poincare_error"][i], rows["poincare_rate"][i] = section(led_in, passed, settings.points)
-    rows["state"][i] = _continued(passed.start if settings.steady else passed.end)
+    error = outcome.passage.window[:, XI]
+    room = settings.window * settings.samples
+    whole = room if outcome.period == 0 else room // error.size * error.size
+    rows["transmission_error_rotational"][i, :whole] = np.resize(error, whole)
+    rows["poincare_error"][i, : len(outcome.section)] = outcome.section[:, XI]
+    rows["poincare_rate"][i, : len(outcome.section)] = outcome.section[:, XI_RATE]
+    rows["state"][i] = outcome.state
     rows["status"][i] = DONE
 
 
@@ -238,24 +197,6 @@ def _start(prepared: Prepared, settings: Settings) -> np.ndarray:
 _equilibria: OrderedDict[Hashable, tuple[Any, np.ndarray]] = OrderedDict()
 
 
-def _continued(state: np.ndarray) -> np.ndarray:
-    """The state that a neighbour starts from: its clock and its audit begin anew."""
-    state = state.copy()
-    state[[LAG, *WORKS]] = 0.0
-    return state
-
-
-def _sound(rows: dict[str, np.ndarray], numbers: list[int], status: np.ndarray, reached: np.ndarray) -> Any:
-    """Positions of the cases that can go on; the others fail."""
-    for k in np.flatnonzero(status != engine.DONE):
-        _fail(rows, numbers[k], _reason(int(status[k]), float(reached[k])))
-    return np.flatnonzero(status == engine.DONE)
-
-
-def _reason(status: int, reached: float) -> str:
-    return f"stopped after {reached:.4g} mesh cycles: {engine.REASONS[status]}"
-
-
 def _fail(rows: dict[str, np.ndarray], i: int, reason: str) -> None:
     rows["status"][i] = FAILED
     rows["message"][i] = reason
@@ -275,9 +216,4 @@ def _empty_rows(count: int, settings: Settings) -> dict[str, np.ndarray]:
         shape = (count, *(inner[dim] for dim in variable.inner))
         text = variable.dtype.startswith("S")
         rows[name] = np.full(shape, "" if text else variable.fill, object if text else variable.dtype)
-    rows["stable"][...] = UNKNOWN
     return rows
-
-
-def _padded(values: np.ndarray, length: int) -> np.ndarray:
-    return np.append(values, np.full(max(0, length - len(values)), np.nan))[:length]

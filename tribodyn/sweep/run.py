@@ -19,8 +19,9 @@ from tribodyn.sweep.evaluate import Settings, tabulated
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.plan import chained_steps, chunk_size, single_steps
 
-#: Mesh cycles that the search for a steady state may take, and that its window has: whole periods up to 4.
-MOST_CYCLES, STEADY_WINDOW = 2000, 4
+#: Mesh cycles that the search for a steady state may take, that its window has (whole periods, up to 4), and
+#: points of the section of a motion that has no period.
+MOST_CYCLES, STEADY_WINDOW, STEADY_POINTS = 2000, 4, 64
 #: The same of a transient: a quarter of its cycles, at most this many; points of its section, half of them.
 TRANSIENT_WINDOW, TRANSIENT_POINTS = 16, 256
 #: Above these a sweep is refused: surely mistyped, or too large for one file.
@@ -54,7 +55,7 @@ def settings_of(grid: Grid, transient: int | None) -> Settings:
     samples = grid.base.output.samples_per_cycle
     modes = _modes(grid)
     if transient is None:
-        return Settings(True, MOST_CYCLES, STEADY_WINDOW, STEADY_WINDOW, samples, modes)
+        return Settings(True, MOST_CYCLES, STEADY_WINDOW, STEADY_POINTS, samples, modes)
     window = max(1, min(TRANSIENT_WINDOW, transient // 4))
     points = max(window, min(TRANSIENT_POINTS, transient // 2))
     return Settings(False, transient, window, points, samples, modes)

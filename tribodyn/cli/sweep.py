@@ -1,0 +1,139 @@
+"""`tribodyn sweep`: a scenario over a grid of its own keys, into one record."""
+
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from tribodyn.cli.overrides import SetOption, overrides
+
+if TYPE_CHECKING:
+    from tribodyn.sweep.run import SweepResult
+
+EXAMPLES = (
+    "\b\nValues of --vary, the unit once at the end:\n"
+    "  100:6000:200rpm    from 100 rpm to at most 6000 rpm in steps of 200 rpm\n"
+    "  100:6000/60rpm     60 values from 100 rpm to 6000 rpm\n"
+    "  100,200,500rpm     these; also names: friction.law=none,coulomb\n"
+    "\b\nExamples:\n"
+    "  tribodyn sweep crc-23-47 --vary operating.pinion_speed=1000:6000:100rpm\n"
+    "  tribodyn sweep crc-23-47 --vary operating.pinion_speed=100:6000/60rpm \\\n"
+    "      --vary operating.gear_torque=100,300,500N*m -o map.h5\n"
+    "  tribodyn sweep crc-23-47 --vary operating.pinion_speed=1000:6000:200rpm --direction both\n"
+    "  tribodyn sweep crc-23-47 --vary drive.pinion.profile_shift=0:0.4:0.1 --transient 40 --resume\n"
+    "  tribodyn plot map.h5 response waterfall"
+)
+
+
+class Direction(StrEnum):
+    """Senses in which the first parameter is followed from case to case."""
+
+    up = "up"
+    down = "down"
+    both = "both"
+
+
+class EngineName(StrEnum):
+    """Where the cases are evaluated."""
+
+    native = "native"
+    jax = "jax"
+    dask = "dask"
+
+
+def sweep(
+    scenario: Annotated[str, typer.Argument(help="A scenario file, or the name of a shipped scenario.")],
+    vary: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--vary",
+            metavar="KEY=VALUES",
+            help="A key of the scenario and its values, see below; several span a grid.",
+        ),
+    ] = None,
+    steady: Annotated[
+        bool, typer.Option("--steady", help="Seek the periodic steady state of each case (the default).")
+    ] = False,
+    transient: Annotated[
+        int | None,
+        typer.Option(
+            "--transient", metavar="N", min=1, help="March N mesh cycles instead; figures of the last ones."
+        ),
+    ] = None,
+    direction: Annotated[
+        Direction | None,
+        typer.Option(
+            help="Follow the first key up, down or both, each case from its neighbour's state: shows jumps."
+        ),
+    ] = None,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Go on with what a stopped sweep of that name left.")
+    ] = False,
+    engine: Annotated[
+        EngineName, typer.Option(help="native: compiled, all cores; jax: diffrax; dask: many machines.")
+    ] = EngineName.native,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(metavar="ADDRESS", help="Dask's scheduler, tcp://host:8786; default: one of its own."),
+    ] = None,
+    workers: Annotated[
+        int | None, typer.Option(min=1, help="Threads, or Dask's worker processes; default: one a core.")
+    ] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", help="The record; default: the scenario's name and the varied keys."),
+    ] = None,
+    settings: SetOption = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace a record of that name.")] = False,
+    json: Annotated[bool, typer.Option("--json", help="Print axes and figures as JSON.")] = False,
+) -> None:
+    """Vary keys of a scenario, one record of all cases."""
+    from tribodyn.cli.outcome import SIMULATION_FAILED, complain
+    from tribodyn.cli.printing import quoted_path
+    from tribodyn.cli.progress import progress_bar
+    from tribodyn.errors import InputError
+    from tribodyn.record.sweep_schema import DIRECTIONS
+    from tribodyn.sweep.engines import engine_of
+    from tribodyn.sweep.grid import Grid, default_output
+    from tribodyn.sweep.run import run, settings_of
+
+    if steady and transient is not None:
+        raise InputError("--steady", None, "contradicts --transient", "give one of them")
+    if resume and force:
+        raise InputError("--resume", None, "contradicts --force", "give one of them")
+    grid = Grid(scenario, vary or [], overrides(settings))
+    record = output or default_output(grid)
+    chosen = DIRECTIONS if direction is Direction.both else (direction.value,) if direction else ()
+    with (
+        engine_of(engine.value, workers, scheduler) as evaluator,
+        progress_bar(f"{grid.name}: {' × '.join(map(str, grid.shape))} cases") as progress,
+    ):
+        result = run(
+            grid,
+            settings_of(grid, transient),
+            evaluator,
+            record,
+            directions=chosen,
+            force=force,
+            resume=resume,
+            follow=lambda done, total: progress(done / total),
+        )
+    _print(result, json)
+    if not json:
+        typer.echo(f"record   {quoted_path(result.path)}")
+    if result.status != "complete":
+        complain(f"{grid.path}: all {result.cases} cases failed; their reasons: {result.path}")
+        raise typer.Exit(SIMULATION_FAILED)
+
+
+def _print(result: "SweepResult", json: bool) -> None:
+    from tribodyn.cli.printing import print_json, print_rich
+    from tribodyn.post.sweep_report import sweep_as_json, sweep_table
+    from tribodyn.record.sweep_reader import SweepRecord
+
+    with SweepRecord(result.path) as record:
+        if json:
+            print_json(sweep_as_json(record))
+        else:
+            print_rich(sweep_table(record))

@@ -1,0 +1,196 @@
+"""Reads the record of a sweep: figures over the varied parameters, windows of single cases."""
+
+import tomllib
+from collections.abc import Iterator
+from functools import cached_property
+from pathlib import Path
+from typing import Any, NamedTuple, Self
+
+import numpy as np
+
+from tribodyn.errors import InputError
+from tribodyn.record import schema
+from tribodyn.record.reader import Record, attributes, open_file, open_record
+from tribodyn.record.sweep_schema import CASES, DONE, FAILED, SWEEP, WAITING
+
+
+class Parameter(NamedTuple):
+    """A varied parameter: its dimension, its key in the scenario, SI unit and values."""
+
+    name: str
+    key: str
+    units: str
+    values: np.ndarray
+
+
+class SweepRecord:
+    """The record of a sweep, open for reading; a context manager.
+
+    Cases that are not done hold NaN.
+
+    Parameters
+    ----------
+    path : Path
+
+    Raises
+    ------
+    InputError
+        If the file is missing, damaged, or not the record of a sweep.
+    """
+
+    kind = SWEEP
+
+    def __init__(self, path: str | Path) -> None:
+        self.path = Path(path)
+        #: What a legend calls the record.
+        self.label = self.path.stem.removesuffix(".partial")
+        self._file: Any = open_file(self.path)  # h5py types no item of a file
+        try:
+            if self._file.attrs.get("kind") != SWEEP:
+                raise InputError(
+                    "record", str(path), "not the record of a sweep", "name a file of tribodyn sweep"
+                )
+            for name in (*CASES, *self.dims, "sample", "cycle", "mode", "summary"):
+                _ = self._file[name]
+        except (OSError, KeyError, RuntimeError) as error:
+            self.close()
+            raise self._damaged(error) from error
+        except InputError:
+            self.close()
+            raise
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Let go of the file."""
+        self._file.close()
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        """Return one dataset in SI units: the cases' dimensions first, in the order of `dims`."""
+        if name not in self:
+            raise InputError("dataset", name, "no such dataset", f"one of {', '.join(self)}")
+        return self._read(name, ...)
+
+    def case(self, name: str, place: tuple[int, ...]) -> np.ndarray:
+        """Return a dataset of the case at one place, without reading the others."""
+        return self._read(name, place)
+
+    def __contains__(self, name: object) -> bool:
+        return name in (*CASES, *self.dims, "sample", "cycle", "mode", "state_variable")
+
+    def __iter__(self) -> Iterator[str]:
+        """Go through the names of the datasets over the cases."""
+        yield from CASES
+
+    def units(self, name: str) -> str:
+        """Return the SI unit of a dataset."""
+        return str(self._file[name].attrs["units"])
+
+    def long_name(self, name: str) -> str:
+        """Return what a dataset means."""
+        return str(self._file[name].attrs["long_name"])
+
+    @cached_property
+    def attrs(self) -> dict[str, Any]:
+        """Attributes of the file's root."""
+        return attributes(self._file)
+
+    @property
+    def status(self) -> str:
+        """`complete`, `partial` or `failed`."""
+        return str(self.attrs["status"])
+
+    @property
+    def message(self) -> str:
+        """Why the record is not complete, or how many cases failed."""
+        return str(self.attrs["message"])
+
+    @cached_property
+    def dims(self) -> tuple[str, ...]:
+        """Names of the cases' dimensions."""
+        return tuple(str(dim[0].name).lstrip("/") for dim in self._file["status"].dims)
+
+    @cached_property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """The varied parameters, in the order of the dimensions."""
+        return tuple(
+            Parameter(name, str(self._file[name].attrs["key"]), self.units(name), self._read(name, ...))
+            for name in self.dims
+            if name != "direction"
+        )
+
+    @cached_property
+    def directions(self) -> tuple[str, ...]:
+        """Senses in which the first parameter was followed; none where every case began by itself."""
+        return tuple(self._read("direction", ...)) if "direction" in self.dims else ()
+
+    @cached_property
+    def samples_per_cycle(self) -> int:
+        """Samples in a mesh cycle of the window."""
+        return int(self.attrs["samples_per_cycle"])
+
+    @cached_property
+    def settings(self) -> dict[str, Any]:
+        """How the cases were brought to their windows."""
+        return tomllib.loads(str(self.attrs["sweep"]))
+
+    @cached_property
+    def scenario(self) -> dict[str, Any]:
+        """The resolved scenario of the first case."""
+        return tomllib.loads(str(self.attrs["scenario"]))
+
+    @cached_property
+    def summary(self) -> dict[str, Any]:
+        """Figures of the whole sweep."""
+        return attributes(self._file["summary"])
+
+    def count(self) -> dict[str, int]:
+        """Count cases by what became of them."""
+        status = self["status"]
+        states = {"done": DONE, "failed": FAILED, "waiting": WAITING}
+        return {"cases": status.size, **{name: int(np.sum(status == one)) for name, one in states.items()}}
+
+    def failures(self) -> list[tuple[dict[str, Any], str]]:
+        """Give parameters and reason of every case that failed."""
+        places = np.argwhere(self["status"] == FAILED)
+        return [(self.at(tuple(place)), str(self.case("message", tuple(place)))) for place in places]
+
+    def at(self, place: tuple[int, ...]) -> dict[str, Any]:
+        """Return the parameters, and the direction, of the case at a place."""
+        scales = [*(one.values for one in self.parameters), np.array(self.directions)]
+        return {
+            name: scale[index].item() for name, scale, index in zip(self.dims, scales, place, strict=False)
+        }
+
+    def _read(self, name: str, part: Any) -> np.ndarray:
+        try:
+            values = np.asarray(self._file[name][part])
+        except (OSError, RuntimeError) as error:
+            raise self._damaged(error) from error
+        return np.char.decode(values, "utf-8") if values.dtype.kind == "S" else values
+
+    def _damaged(self, error: Exception) -> InputError:
+        reason = str(error).strip("'\"")
+        return InputError("record", str(self.path), f"the record is damaged: {reason}", "run the sweep again")
+
+
+AnyRecord = Record | SweepRecord
+"""A record of a run or of a sweep."""
+
+
+def is_sweep(path: str | Path) -> bool:
+    """Whether a file is the record of a sweep; InputError where it cannot be read at all."""
+    with open_file(Path(path)) as file:
+        return file.attrs.get("format") == schema.FORMAT and file.attrs.get("kind") == SWEEP
+
+
+def open_any(path: str | Path) -> AnyRecord:
+    """Open a record of a run or of a sweep."""
+    return SweepRecord(path) if is_sweep(path) else open_record(path)
+
+
+__all__ = ["AnyRecord", "Parameter", "SweepRecord", "is_sweep", "open_any"]

@@ -1,0 +1,78 @@
+"""What a case came to: its way through the window, its Poincaré section, the sort of motion."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from tribodyn.dynamics.parameters import LAG, WORKS
+from tribodyn.record.sweep_schema import UNKNOWN
+from tribodyn.solve.engine import REASONS
+
+
+class Passage(NamedTuple):
+    """A case's way through its window.
+
+    Attributes
+    ----------
+    first_cycle : int
+        Whole mesh cycles done before.
+    window : (cycles · samples, STATES)
+        States over whole mesh cycles, the sample that closes the last not included.
+    start, end : (STATES,)
+        States at both ends; the difference of their works is the window's.
+    """
+
+    first_cycle: int
+    window: np.ndarray
+    start: np.ndarray
+    end: np.ndarray
+
+
+class Outcome(NamedTuple):
+    """What a case came to.
+
+    Attributes
+    ----------
+    passage : Passage or None
+        None where the case failed.
+    state : (STATES,)
+        After the engagement at phase 0, clock and audit at zero: where a neighbour continues.
+    section : (points, STATES)
+        States at the start of mesh cycles, the last ones.
+    solution : str
+        Sort of motion: "period-1", …, "unstable", "not periodic", "transient", "failed".
+    cycles : int
+        Mesh cycles integrated.
+    message : str
+        Why it failed, or what is to be said of it.
+    period, stable, multiplier_max, residual
+        As `sweep_schema.CASES` has them.
+    """
+
+    passage: Passage | None
+    state: np.ndarray
+    section: np.ndarray
+    solution: str
+    cycles: int
+    message: str = ""
+    period: int = 0
+    stable: int = UNKNOWN
+    multiplier_max: float = float("nan")
+    residual: float = float("nan")
+
+
+def failed(state: np.ndarray, cycles: float, reason: str) -> Outcome:
+    """The outcome of a case that could not go on."""
+    return Outcome(None, state, np.empty((0, state.size)), "failed", int(cycles), reason)
+
+
+def stopped(status: int, reached: float) -> str:
+    """Why an integration stopped, and after how many mesh cycles."""
+    return f"stopped after {reached:.4g} mesh cycles: {REASONS[status]}"
+
+
+def continued(state: np.ndarray) -> np.ndarray:
+    """The state with its clock and its audit at zero."""
+    state = state.copy()
+    state[[LAG, *WORKS]] = 0.0
+    return state
