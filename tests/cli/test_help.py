@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 
 from tribodyn.cli.app import app
 
-VERBS = ("run", "check", "gear", "show", "plot", "compare", "list", "init", "schema", "validate")
+VERBS = ("run", "sweep", "check", "gear", "show", "plot", "compare", "list", "init", "schema", "validate")
 HEAVY = ("numpy", "scipy", "jax", "diffrax", "numba", "pydantic", "pint", "h5py", "matplotlib", "rich")
 
 
@@ -44,7 +44,9 @@ def test_every_verb_shows_an_example_that_parses(verb: str):
         command.commands[verb].make_context(verb, words)  # type: ignore[attr-defined]
 
 
-@pytest.mark.parametrize("verb", ["run", "check", "gear", "show", "plot", "compare", "list", "validate"])
+@pytest.mark.parametrize(
+    "verb", ["run", "sweep", "check", "gear", "show", "plot", "compare", "list", "validate"]
+)
 def test_verbs_that_print_results_have_json(verb: str):
     assert "--json" in CliRunner().invoke(app, [verb, "--help"]).stdout
 

@@ -18,11 +18,11 @@ EXAMPLES = (
     "  100,200,500rpm     these; also names: friction.law=none,coulomb\n"
     "\b\nExamples:\n"
     "  tribodyn sweep crc-23-47 --vary operating.pinion_speed=1000:6000:100rpm\n"
-    "  tribodyn sweep crc-23-47 --vary operating.pinion_speed=100:6000/60rpm \\\n"
-    "      --vary operating.gear_torque=100,300,500N*m -o map.h5\n"
-    "  tribodyn sweep crc-23-47 --vary operating.pinion_speed=1000:6000:200rpm --direction both\n"
+    "  tribodyn sweep crc-23-47 --vary operating.pinion_speed=100:6000/60rpm "
+    "--vary operating.gear_torque=100,300N*m -o map.h5\n"
+    "  tribodyn sweep jump-involute-23-47 --vary operating.pinion_speed=380:620:10rad/s --direction both\n"
     "  tribodyn sweep crc-23-47 --vary drive.pinion.profile_shift=0:0.4:0.1 --transient 40 --resume\n"
-    "  tribodyn plot map.h5 response waterfall"
+    "then: tribodyn plot map.h5 response waterfall"
 )
 
 

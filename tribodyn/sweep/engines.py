@@ -1,5 +1,6 @@
 """Where the chunks of a sweep are evaluated: in this process over its cores, or on the workers of Dask."""
 
+import logging
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from typing import Any, Protocol
@@ -104,7 +105,12 @@ def engine_of(name: str, workers: int | None, scheduler: str | None) -> Iterator
         ) from None
     if scheduler is None:
         with (
-            LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None) as cluster,
+            LocalCluster(
+                n_workers=workers,
+                threads_per_worker=1,
+                dashboard_address=None,  # pyright: ignore[reportArgumentType]
+                silence_logs=logging.ERROR,
+            ) as cluster,
             Client(cluster) as client,
         ):
             yield Dask(client)

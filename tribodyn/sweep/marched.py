@@ -40,9 +40,9 @@ def marched(
         models, states, cycles=before, window=max(0, min(points, cycles) - window), samples=1, **solver
     )
     found: list[Outcome | None] = [None] * len(models)
-    for i in np.flatnonzero(led.status != DONE):
+    for i in map(int, np.flatnonzero(led.status != DONE)):
         found[i] = failed(led.state[i], led.reached[i], stopped(int(led.status[i]), led.reached[i]))
-    good = np.flatnonzero(led.status == DONE)
+    good = [int(i) for i in np.flatnonzero(led.status == DONE)]
     ran = march(
         [models[i] for i in good],
         led.state[good],
