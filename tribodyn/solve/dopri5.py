@@ -7,7 +7,15 @@ import numpy as np
 
 from tribodyn.dynamics.contact_forces import QUANTITIES
 from tribodyn.dynamics.equations import derivatives, engagement
-from tribodyn.dynamics.parameters import SLIP, STATES, WORK_IN, WORK_PARAMETRIC, XI_RATE, Model
+from tribodyn.dynamics.parameters import (
+    MECHANICAL,
+    SLIP,
+    STATES,
+    WORK_IN,
+    WORK_PARAMETRIC,
+    XI_RATE,
+    Model,
+)
 from tribodyn.native import kernel
 from tribodyn.solve.dormand_prince import (
     LEAST_REMEMBERED,
@@ -27,9 +35,9 @@ from tribodyn.solve.engine import DONE, NOT_FINITE, STALLED, STEP_TOO_SMALL, TOO
 
 
 def buffers(model: Model) -> tuple[np.ndarray, np.ndarray]:
-    """Scratch for the kernels: the contacts' quantities, and nine states."""
+    """Scratch for the kernels: the contacts' quantities, the stages and one state."""
     pairs = model.table.side.shape[0]
-    return np.zeros((QUANTITIES + pairs, pairs)), np.zeros((STAGES + 2, STATES))
+    return np.zeros((QUANTITIES + pairs, pairs)), np.zeros((STAGES + 1, STATES))
 
 
 @kernel
@@ -43,7 +51,39 @@ def engage(before, phase_before, after, phase_after, y, model, work):
 
 
 @kernel
-def march(model, y, first_cycle, cycles, restart, samples, rtol, atol, step, max_steps, out, work, buffer):
+def stage_state(s, step, y, k, stage):
+    """State at which stage s = 1 … 6 is evaluated; the last one is the new state.
+
+    Written out, so that the compiler takes many states at once; the works are summed at the last stage only,
+    as nothing depends on them.
+    """
+    if s == 1:
+        for i in range(MECHANICAL):
+            stage[i] = y[i] + step * (A[1, 0] * k[0, i])
+    elif s == 2:
+        for i in range(MECHANICAL):
+            stage[i] = y[i] + step * (A[2, 0] * k[0, i] + A[2, 1] * k[1, i])
+    elif s == 3:
+        for i in range(MECHANICAL):
+            stage[i] = y[i] + step * (A[3, 0] * k[0, i] + A[3, 1] * k[1, i] + A[3, 2] * k[2, i])
+    elif s == 4:
+        for i in range(MECHANICAL):
+            total = A[4, 0] * k[0, i] + A[4, 1] * k[1, i] + A[4, 2] * k[2, i] + A[4, 3] * k[3, i]
+            stage[i] = y[i] + step * total
+    elif s == 5:
+        for i in range(MECHANICAL):
+            total = A[5, 0] * k[0, i] + A[5, 1] * k[1, i] + A[5, 2] * k[2, i] + A[5, 3] * k[3, i]
+            stage[i] = y[i] + step * (total + A[5, 4] * k[4, i])
+    else:
+        for i in range(STATES):
+            total = A[6, 0] * k[0, i] + A[6, 2] * k[2, i] + A[6, 3] * k[3, i] + A[6, 4] * k[4, i]
+            stage[i] = y[i] + step * (total + A[6, 5] * k[5, i])
+
+
+@kernel
+def march(
+    model, y, first_cycle, cycles, restart, samples, rtol, atol, step, max_steps, stops, out, work, buffer
+):
     """Integrate `cycles` mesh cycles from the state `y` at the end of the one before.
 
     Parameters
@@ -62,6 +102,8 @@ def march(model, y, first_cycle, cycles, restart, samples, rtol, atol, step, max
         First step to try, mesh cycles.
     max_steps : int
         Greatest number of steps in one mesh cycle.
+    stops : (segments, most)
+        Phases that steps end on, see `reversal.stops`.
     out : (cycles · samples, STATES)
         Receives the states at the samples.
     work, buffer : arrays
@@ -75,7 +117,6 @@ def march(model, y, first_cycle, cycles, restart, samples, rtol, atol, step, max
     segments = table.in_contact.shape[0]
     k = buffer[:STAGES]
     stage = buffer[STAGES]
-    new = buffer[STAGES + 1]
     steps = 0
     evaluations = 0
     written = 0
@@ -84,56 +125,56 @@ def march(model, y, first_cycle, cycles, restart, samples, rtol, atol, step, max
         whole = first_cycle + cycle
         steps_before = steps
         for segment in range(segments):
-            start = table.boundary[segment]
+            phase = table.boundary[segment]
             end = table.boundary[segment + 1]
             if segment > 0:
-                engage(segment - 1, start, segment, start, y, model, work)
+                engage(segment - 1, phase, segment, phase, y, model, work)
             elif restart or cycle > 0:
                 engage(segments - 1, 1.0, 0, 0.0, y, model, work)
-            phase = start
-            derivatives(phase, whole, segment, y, model, work, k[0])
-            evaluations += 1
-            if written < (cycle + 1) * samples and (written - cycle * samples) / samples <= start:
+            if written < (cycle + 1) * samples and (written - cycle * samples) / samples <= phase:
                 for i in range(STATES):
                     out[written, i] = y[i]
                 written += 1
-            step = min(step, end - start)
+            fresh = True
+            stop = 0
             while phase < end:
                 if steps - steps_before >= max_steps:
                     return TOO_MANY_STEPS, cycle + phase, step, steps, evaluations, written
-                last = phase + TOUCHING * step >= end
+                limit = stops[segment, stop]
+                wished = step
+                last = phase + TOUCHING * step >= limit
                 if last:
-                    step = end - phase
+                    step = limit - phase
                 if step < LEAST_STEP:
                     return STEP_TOO_SMALL, cycle + phase, step, steps, evaluations, written
-                for s in range(1, STAGES):
+                if fresh:
                     for i in range(STATES):
-                        total = 0.0
-                        for j in range(s):
-                            total += A[s, j] * k[j, i]
-                        stage[i] = y[i] + step * total
+                        stage[i] = y[i]
+                for s in range(0 if fresh else 1, STAGES):
+                    if s > 0:
+                        stage_state(s, step, y, k, stage)
                     derivatives(phase + C[s] * step, whole, segment, stage, model, work, k[s])
-                evaluations += STAGES - 1
+                    evaluations += 1
+                fresh = False
                 error = 0.0
                 total = 0.0
                 for i in range(STATES):
-                    new[i] = stage[i]
-                    difference = 0.0
-                    for j in range(STAGES):
-                        difference += E[j] * k[j, i]
+                    difference = E[0] * k[0, i] + E[2] * k[2, i] + E[3] * k[3, i]
+                    difference += E[4] * k[4, i] + E[5] * k[5, i] + E[6] * k[6, i]
                     # the worst state decides: states at rest must not dilute the others' error
-                    off = weighed_error(step * difference, y[i], new[i], atol[i], rtol)
+                    off = weighed_error(step * difference, y[i], stage[i], atol[i], rtol)
                     error = max(error, off)
                     total += off  # carries a NaN that max would lose
                 if not np.isfinite(total):
                     if step < 1e-9:
                         return NOT_FINITE, cycle + phase, step, steps, evaluations, written
                     step *= 0.1
+                    fresh = True
                     continue
                 if error <= 1.0:
-                    if model.mechanics.nominal_speed + new[SLIP] <= 0.0:
+                    if model.mechanics.nominal_speed + stage[SLIP] <= 0.0:
                         return STALLED, cycle + phase, step, steps, evaluations, written
-                    next_phase = end if last else phase + step
+                    next_phase = limit if last else phase + step
                     while written < (cycle + 1) * samples:
                         at = (written - cycle * samples) / samples
                         if at >= end or at > next_phase:
@@ -143,15 +184,19 @@ def march(model, y, first_cycle, cycles, restart, samples, rtol, atol, step, max
                             high = 0.0
                             for j in range(STAGES):
                                 high += D[j] * k[j, i]
-                            out[written, i] = dense_output(theta, step, y[i], new[i], k[0, i], k[6, i], high)
+                            out[written, i] = dense_output(
+                                theta, step, y[i], stage[i], k[0, i], k[6, i], high
+                            )
                         written += 1
                     phase = next_phase
                     for i in range(STATES):
-                        y[i] = new[i]
+                        y[i] = stage[i]
                         k[0, i] = k[6, i]
                     steps += 1
-                    if not last:
-                        step *= growth(error, last_error)
+                    step *= growth(error, last_error)
+                    if last:
+                        stop += 1
+                        step = max(step, wished)  # a step cut short says nothing against the one wished for
                     last_error = max(error, LEAST_REMEMBERED)
                 else:
                     step *= shrinkage(error)

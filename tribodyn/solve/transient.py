@@ -19,6 +19,7 @@ from tribodyn.dynamics.parameters import (
 from tribodyn.solve.dormand_prince import FIRST_STEP
 from tribodyn.solve.engine import DONE, NOT_FINITE, REASONS, Block, Engine, Tolerances, absolute_tolerances
 from tribodyn.solve.initial import static_deflection
+from tribodyn.solve.reversal import stops
 from tribodyn.solve.stiffness import EXPLICIT
 
 
@@ -60,6 +61,7 @@ class NativeEngine:
 
         self._march = march
         self._buffers = buffers(model)
+        self._stops = stops(model)
         self.model = model
         self.samples = samples
         self.tolerances = tolerances
@@ -81,6 +83,7 @@ class NativeEngine:
             self.tolerances.atol,
             self.step,
             self.tolerances.max_steps,
+            self._stops,
             out,
             *self._buffers,
         )

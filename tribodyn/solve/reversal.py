@@ -1,0 +1,55 @@
+"""Where friction reverses: phases that a step must end on, so that no step passes over the reversal.
+
+The friction of a pair changes sign about its pitch point, over less than a step of the vibration.
+With the nominal sliding velocity the place is known beforehand, as engagement is; there the force is C1 only.
+A step across it sees the reversal with some of its stages or with none, and its error estimate knows as
+little: on the CRC drive that made the error of the transmission error 30 times what it is without friction.
+"""
+
+from itertools import pairwise
+
+import numpy as np
+
+from tribodyn.dynamics.parameters import Model
+from tribodyn.mesh_cycle import CHANNELS
+
+#: Distances from the pitch point, over the width of reversal: its ends; the pitch point, where the friction
+#: coefficient has a kink in the sliding speed; and places beside it, as a fluid of high viscosity reaches its
+#: limiting shear stress within a small part of the width (Masjedi & Khonsari's law).
+SHARES = (-1.0, -0.2, -0.04, 0.0, 0.04, 0.2, 1.0)
+
+_DISTANCE = CHANNELS.index("signed_distance")
+
+
+def passages(model: Model, segment: int, distance: float) -> list[float]:
+    """Phases at which a pair in contact is at a signed distance from the pitch point (m), in one segment."""
+    table = model.table
+    start, end = (float(x) for x in np.asarray(table.boundary)[segment : segment + 2])
+    coefficients = np.asarray(table.channel)[segment, :, :, _DISTANCE]
+    found = []
+    for slot in np.flatnonzero(np.asarray(table.in_contact)[segment]):
+        nodes = np.append(coefficients[:, slot, 0], np.sum(coefficients[-1, slot])) - distance
+        for cell in np.flatnonzero((nodes[:-1] < 0.0) != (nodes[1:] < 0.0)):
+            c = coefficients[cell, slot]
+            u = nodes[cell] / (nodes[cell] - nodes[cell + 1])
+            for _ in range(4):  # Newton's steps from the chord of a smooth, fine table
+                value = c[0] - distance + u * (c[1] + u * (c[2] + u * c[3]))
+                u -= value / (c[1] + u * (2.0 * c[2] + 3.0 * u * c[3]))
+            found.append(start + (cell + min(max(u, 0.0), 1.0)) / len(coefficients) * (end - start))
+    return found
+
+
+def stops(model: Model) -> np.ndarray:
+    """Phases (segments, most) that steps end on, ascending, each segment's end last and repeated to fill up.
+
+    For every pair: the places of `SHARES`.
+    """
+    boundary = np.asarray(model.table.boundary)
+    width = float(model.mechanics.reversal_width)
+    rows = []
+    for segment, (start, end) in enumerate(pairwise(boundary)):
+        inside = [phase for share in SHARES for phase in passages(model, segment, share * width)]
+        near = 1e-9 * (end - start)
+        rows.append(sorted(phase for phase in inside if start + near < phase < end - near))
+    most = 1 + max(len(row) for row in rows)
+    return np.array([row + [end] * (most - len(row)) for row, end in zip(rows, boundary[1:], strict=True)])
