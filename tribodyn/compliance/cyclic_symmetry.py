@@ -17,6 +17,8 @@ from scipy.sparse.linalg import splu
 
 Array = Any
 
+_SIDES = 4  # right-hand sides solved at a time
+
 
 class HalfSector(NamedTuple):
     """Nodes of half a sector between its axis of symmetry (the x axis) and its edge at the angle π/Z.
@@ -69,7 +71,6 @@ def ring_response(
     readers: Array,
     mirrored: NDArray[np.bool_],
     sectors: NDArray[np.int64],
-    coupled: bool = True,
 ) -> Array:
     """Readings (sector, reader, load) of the ring.
 
@@ -87,35 +88,38 @@ def ring_response(
         reflected displacement.
     sectors : (sector,)
         Pitches from the loaded sector, counted in the sense from x to y.
-    coupled : bool
-        Without, the edges are held and the other sectors stay at rest: for loads that do not reach so far.
     """
     components = stiffness.shape[0] // half.nodes
-    parts = [_reduced(half, stiffness, loads, readers, components, symmetry, coupled) for symmetry in (1, -1)]
+    even, odd = (_reduced(half, stiffness, loads, readers, components, symmetry) for symmetry in (1, -1))
     side = np.where(mirrored, -1.0, 1.0)[:, None]
-    alone = 0.5 * (parts[0].alone + side * parts[1].alone)
-    if not coupled:
-        return alone * (sectors == 0)[:, None, None]
+    alone = 0.5 * (even.alone + side * odd.alone)
 
+    # With x on the edge at −π/Z and z R x on that at +π/Z, z the phase and R the turn, the even and the odd
+    # part of the edge at +π/Z are (z R ± M) x/2; M reflects.
     turn = 2.0 * np.pi / half.teeth
     cosine, sine = np.cos(turn), np.sin(turn)
     one_node = np.eye(components)
     one_node[:2, :2] = [[cosine, -sine], [sine, cosine]]
     rotation = np.kron(np.eye(len(half.edge)), one_node)
-    mirror = np.diag(np.tile([1.0, -1.0, 1.0][:components], len(half.edge)))
+    mirror = np.tile([1.0, -1.0, 1.0][:components], len(half.edge))
+    both = 0.5 * (even.stiffness + odd.stiffness)
+    within = rotation.T @ both @ rotation + mirror[:, None] * both * mirror
+    across = 0.5 * mirror[:, None] * (even.stiffness - odd.stiffness) @ rotation
+    force_ahead = 0.5 * rotation.T @ (even.passed_on + odd.passed_on)
+    force_behind = 0.5 * mirror[:, None] * (even.passed_on - odd.passed_on)
+    read_ahead = 0.5 * (even.per_edge + side * odd.per_edge) @ rotation
+    read_behind = 0.5 * (even.per_edge - side * odd.per_edge) * mirror
+
     seen = np.zeros((len(sectors), len(readers), loads.shape[1]))
     for harmonic in range(half.teeth // 2 + 1):
-        # the edge at +π/Z by that at −π/Z, and both symmetries' shares of the two
-        ahead = np.exp(1j * turn * harmonic) * rotation
-        share = [0.5 * (ahead + mirror), 0.5 * (ahead - mirror)]
-        matrix = sum(2.0 * s.conj().T @ part.stiffness @ s for s, part in zip(share, parts, strict=True))
-        force = sum(s.conj().T @ part.passed_on for s, part in zip(share, parts, strict=True))
-        behind = np.linalg.solve(matrix, force)
-        reading = parts[0].per_edge @ (share[0] @ behind) + side * (parts[1].per_edge @ (share[1] @ behind))
+        z = np.exp(1j * turn * harmonic)
+        edge = np.linalg.solve(
+            within + z * across + z.conjugate() * across.T, z.conjugate() * force_ahead + force_behind
+        )
+        reading = alone - (z * read_ahead + read_behind) @ edge
         # harmonics n and Z − n are each other's conjugates
         weight = (1.0 if harmonic in (0, half.teeth / 2) else 2.0) / half.teeth
-        phase = np.exp(1j * turn * harmonic * sectors)[:, None, None]
-        seen += weight * np.real(phase * (alone - reading))
+        seen += weight * np.real(z ** sectors[:, None, None] * reading)
     return seen
 
 
@@ -126,7 +130,6 @@ def _reduced(
     readers: Array,
     components: int,
     symmetry: int,
-    coupled: bool,
 ) -> Reduced:
     """Reduce the half with displacements that are (1) or are opposite to (-1) their mirror image."""
     unmoved = [1] if symmetry > 0 else [0, 2][: components - 1]  # components on the axis
@@ -141,9 +144,6 @@ def _reduced(
     )
     by_loads = _solved(solver, loads[rest])
     read = readers[:, rest]
-    if not coupled:
-        none = np.zeros((0, 0))
-        return Reduced(none, none, read @ by_loads, none)
     to_edge = inner[:, edges]
     by_edges = _solved(solver, to_edge.toarray())
     return Reduced(
@@ -159,6 +159,9 @@ def _dofs(nodes: NDArray[np.int64], which: Any, components: int) -> NDArray[np.i
 
 
 def _solved(solver: Any, right: Array) -> Array:
-    # One side at a time: with many, SuperLU calls threaded BLAS on tiny blocks, ten times slower where
-    # the cores are busy.
-    return np.stack([solver.solve(np.ascontiguousarray(column)) for column in right.T], axis=-1)
+    # Few sides at a time: with many, SuperLU's calls of BLAS become large enough to be threaded, and ten
+    # times slower where the cores are busy; one at a time takes twice as long as four.
+    parts = range(0, right.shape[1], _SIDES)
+    return np.concatenate(
+        [solver.solve(np.asfortranarray(right[:, at : at + _SIDES])) for at in parts], axis=1
+    )

@@ -8,6 +8,7 @@ from scipy.sparse import csr_matrix
 from tribodyn.compliance.cyclic_symmetry import ring_response
 from tribodyn.compliance.gear_compliance import NEIGHBOURS, GearCompliance, LeadHarmonics
 from tribodyn.compliance.gear_model import GearModel, gear_model
+from tribodyn.compliance.mesh_memory import check_level
 from tribodyn.compliance.root_stress import edge_points, stress_rows
 from tribodyn.compliance.strips import COMPONENTS, plane_stiffness, strip_stiffness
 from tribodyn.geometry.tooth import Tooth
@@ -41,8 +42,9 @@ def gear_compliance(
     Raises
     ------
     InputError
-        If the cells do not fit into a thin rim.
+        If the cells do not fit into a thin rim, or the mesh not into the memory.
     """
+    check_level(level, 2)
     model = gear_model(tooth, teeth, bore_radius, depth, level)
     readers = np.concatenate([model.loads.T, model.inner])
     mirrored = np.concatenate([np.zeros(model.loads.shape[1], dtype=bool), model.beyond])
@@ -70,6 +72,7 @@ def lead_harmonics(
     wave_number : (K,)
         k ≥ 0, rad/m.
     """
+    check_level(level, COMPONENTS)
     model = gear_model(tooth, teeth, bore_radius, depth, level)
     constant, linear, square = strip_stiffness(model.basis, poisson_ratio)
     solved = [

@@ -1,9 +1,9 @@
 """Structured quadrilaterals over one tooth and its share of the ring: a sector of the full gear.
 
-Half a sector has three blocks that meet in the middle of the fillet, where the boundary is smooth, so that
-each of them has a sound corner there: the tooth above, the body under the tooth and the body under the gap.
-Each block is the transfinite (Coons) map of its four edges. The other half is the mirror image, and the full
-gear is the sector repeated, node on node.
+Half a sector has a layer along its profile, flank, fillet and root circle, whose cells stand square to it,
+and three blocks inside the layer that meet under the middle of the fillet: the tooth above, the body under
+the tooth and the body under the gap. Each of these is the transfinite (Coons) map of its four edges. The
+other half is the mirror image, and the full gear is the sector repeated, node on node.
 """
 
 from typing import Any, NamedTuple
@@ -17,10 +17,16 @@ from tribodyn.geometry.tooth import Tooth, fillet_point, flank_point
 Array = Any
 
 #: Cells at level 1: along the flank, along the upper and the lower half of the fillet with the root circle,
-#: across half the tooth, and from the root to the bore.
-_FLANK, _FILLET, _ROOT, _ACROSS, _DEPTH = 10, 2, 4, 4, 7
+#: across the layer, across half the tooth inside it, and from there to the bore.
+_FLANK, _FILLET, _ROOT, _LAYER, _ACROSS, _DEPTH = 10, 2, 4, 1, 4, 7
 _CURVE_POINTS = 400
-# Ratio of the cells' widths, flank to middle of the tooth, and of their depths, bore to root.
+# Thickness of the layer, as a share of half the tooth's thickness at the foot, at the root and at the tip.
+_LAYER_ROOT, _LAYER_TIP = 0.25, 0.1
+# Never more than these shares of half the tip's thickness, and of the rim's.
+_TIP_SHARE, _RIM_SHARE = 0.3, 0.2
+# Times that the layer's direction is averaged with its neighbours': a corner in the profile is rounded off.
+_SMOOTHING = 4
+# Ratio of the cells' widths, flank to middle of the tooth, and of their depths, root to bore.
 _ACROSS_GRADING = 0.45
 _DEPTH_GRADING = 4.0
 # The seam from the fillet to the tooth's axis drops by this share of its length, which gives each of the
@@ -44,6 +50,13 @@ class SectorMesh(NamedTuple):
     cells: NDArray[np.int64]
     flank: NDArray[np.int64]
     root: NDArray[np.int64]
+
+
+def half_sector_cells(level: int) -> tuple[int, int, int, int]:
+    """Numbers of cells: all, and of those the ones along the flank, the root and the sector's edge."""
+    root = _ROOT + _FILLET
+    whole = (_FLANK + root) * _LAYER + (_FLANK + _FILLET + _DEPTH) * _ACROSS + _ROOT * _DEPTH
+    return whole * level**2, _FLANK * level, root * level, (_LAYER + _DEPTH) * level
 
 
 def half_sector_mesh(tooth: Tooth, teeth: int, bore_radius: float, level: int) -> SectorMesh:
@@ -71,38 +84,25 @@ def _joined(blocks: list[Array], level: int) -> SectorMesh:
         numbers.append(number)
         count += rows * columns
     nodes, merged = _merge(np.concatenate(points))
-    profile, gap = merged[numbers[0][:, 0]], merged[numbers[1][0]]
-    above = 2 * _FILLET * level
+    profile, root = merged[numbers[0][0]], 2 * (_ROOT + _FILLET) * level
     return SectorMesh(
         nodes.T.copy(),
         _counter_clockwise(nodes, merged[np.concatenate(cells, axis=1)]),
-        profile[above::2],
-        np.concatenate([gap[:-1], profile[: above + 1]]),
+        profile[root::2],
+        profile[: root + 1],
     )
 
 
 def _half_blocks(tooth: Tooth, teeth: int, bore_radius: float, level: int) -> list[Array]:
-    """Nodes (rows, columns, 2) of the three blocks; columns of the first run from the flank to the axis."""
-    along = np.linspace(0.0, 1.0, _CURVE_POINTS)
-    fillet = np.stack(fillet_point(tooth, np.pi / 2 + along * (tooth.form_angle - np.pi / 2)), axis=-1)
-    flank = np.stack(
-        flank_point(tooth, tooth.form_distance + along * (tooth.tip_distance - tooth.form_distance)), axis=-1
-    )
-    first = float(np.arctan2(fillet[0, 1], fillet[0, 0]))
-    root = _arc(tooth.root_radius, np.pi / teeth, first, _CURVE_POINTS)
-    lengths = _length(fillet)
-    split = int(np.searchsorted(lengths, 0.5 * lengths[-1]))
-    below = np.concatenate([root[:-1], fillet[: split + 1]])
-    above = fillet[split:]
+    """Nodes (rows, columns, 2) of the layer, whose first row is the profile, and of the three blocks."""
+    boundary = _profile(tooth, teeth, level)
+    inner = _below(boundary, tooth, teeth, bore_radius)
+    across_layer = np.linspace(0.0, 1.0, 2 * _LAYER * level + 1)[:, None, None]
+    layer = boundary + across_layer * (inner - boundary)
 
     # every second node is the middle of an edge
-    across, depth, level = 2 * _ACROSS * level, 2 * _DEPTH * level, 2 * level
-    profile = np.concatenate(
-        [
-            _spread(above, np.linspace(0, 1, _FILLET * level + 1))[:-1],
-            _spread(flank, np.linspace(0, 1, _FLANK * level + 1)),
-        ]
-    )
+    across, depth, roots = 2 * _ACROSS * level, 2 * _DEPTH * level, 2 * _ROOT * level
+    gap, profile = inner[: roots + 1], inner[roots:]
     towards_axis = _graded(across, _ACROSS_GRADING)
     corner = profile[0]
     # over a thin rim it drops less, lest it meet the bore
@@ -115,8 +115,6 @@ def _half_blocks(tooth: Tooth, teeth: int, bore_radius: float, level: int) -> li
     axis = seam_end + height[:, None] * (tip[-1] - seam_end)
     upper = _coons(seam, tip, profile, axis)
 
-    roots = _ROOT * level
-    gap = _spread(below, np.linspace(0, 1, roots + 1))
     foot = np.pi / teeth * across / (across + roots)
     inwards = _graded(depth, _DEPTH_GRADING)
     edge = gap[0] + inwards[:, None] * (bore_radius * _unit(np.pi / teeth) - gap[0])
@@ -124,7 +122,65 @@ def _half_blocks(tooth: Tooth, teeth: int, bore_radius: float, level: int) -> li
     centre = seam_end + inwards[:, None] * (np.array([bore_radius, 0.0]) - seam_end)
     under_gap = _coons(gap, bore_radius * _unit(np.linspace(np.pi / teeth, foot, roots + 1)), edge, middle)
     under_tooth = _coons(seam, bore_radius * _unit(foot * (1 - towards_axis)), middle, centre)
-    return [upper, under_gap, under_tooth]
+    return [layer, upper, under_gap, under_tooth]
+
+
+def _profile(tooth: Tooth, teeth: int, level: int) -> Array:
+    """Nodes (columns, 2) from the middle of the gap along root circle, fillet and flank to the tip."""
+    along = np.linspace(0.0, 1.0, _CURVE_POINTS)
+    fillet = np.stack(fillet_point(tooth, np.pi / 2 + along * (tooth.form_angle - np.pi / 2)), axis=-1)
+    flank = np.stack(
+        flank_point(tooth, tooth.form_distance + along * (tooth.tip_distance - tooth.form_distance)), axis=-1
+    )
+    first = float(np.arctan2(fillet[0, 1], fillet[0, 0]))
+    root = _arc(tooth.root_radius, np.pi / teeth, first, _CURVE_POINTS)
+    lengths = _length(fillet)
+    split = int(np.searchsorted(lengths, 0.5 * lengths[-1]))
+    parts = [
+        _spread(curve, np.linspace(0, 1, 2 * cells * level + 1))
+        for curve, cells in (
+            (np.concatenate([root[:-1], fillet[: split + 1]]), _ROOT),
+            (fillet[split:], _FILLET),
+            (flank, _FLANK),
+        )
+    ]
+    return np.concatenate([parts[0][:-1], parts[1][:-1], parts[2]])
+
+
+def _below(boundary: Array, tooth: Tooth, teeth: int, bore_radius: float) -> Array:
+    """Inner side (columns, 2) of the layer under the profile's nodes."""
+    tip_angle = float(np.arctan2(boundary[-1, 1], boundary[-1, 0]))
+    share = _length(boundary) / _length(boundary)[-1]
+    foot = tooth.form_radius * np.sin(np.interp(tooth.form_radius, *_radius_and_angle(boundary)))
+    rim = _RIM_SHARE * (tooth.root_radius - bore_radius)
+    thickness = np.interp(
+        share,
+        [0.0, 1.0],
+        [
+            min(_LAYER_ROOT * foot, rim),
+            min(_LAYER_TIP * foot, rim, _TIP_SHARE * tooth.tip_radius * tip_angle),
+        ],
+    )
+    tangent = np.gradient(boundary, axis=0)
+    inwards = np.stack([tangent[:, 1], -tangent[:, 0]], axis=-1)
+    inwards /= np.linalg.norm(inwards, axis=1, keepdims=True)
+    # at the gap along the sector's edge, at the tip along the tip circle
+    inwards[0] = -_unit(np.pi / teeth)
+    along_tip = np.array([np.sin(tip_angle), -np.cos(tip_angle)])
+    bent = np.clip(2.0 * share - 1.0, 0.0, 1.0)[:, None]
+    inwards = (1.0 - bent) * inwards + bent * along_tip
+    for _ in range(_SMOOTHING):
+        inwards[1:-1] = (inwards[:-2] + 2.0 * inwards[1:-1] + inwards[2:]) / 4.0
+    inwards /= np.linalg.norm(inwards, axis=1, keepdims=True)
+    below = boundary + thickness[:, None] * inwards
+    below[-1] = tooth.tip_radius * _unit(tip_angle - thickness[-1] / tooth.tip_radius)
+    return below
+
+
+def _radius_and_angle(curve: Array) -> tuple[Array, Array]:
+    radius, angle = np.hypot(*curve.T), np.arctan2(curve[:, 1], curve[:, 0])
+    order = np.argsort(radius)
+    return radius[order], angle[order]
 
 
 def _coons(first: Array, last: Array, left: Array, right: Array) -> Array:

@@ -1,0 +1,185 @@
+"""Finite strips: against solid elements, plate theory and the exact state of a stretched bar."""
+
+import numpy as np
+import pytest
+from scipy.sparse.linalg import spsolve
+from skfem import Basis, BilinearForm, ElementHex2, ElementVector, MeshHex
+from skfem.helpers import ddot, eye, sym_grad, trace
+
+from tribodyn.compliance.root_stress import edge_points, stress_rows
+from tribodyn.compliance.strips import curved_basis, plane_stiffness, strip_stiffness
+
+POISSON = 0.3
+SHEAR, LAME = 0.5 / (1 + POISSON), POISSON / ((1 + POISSON) * (1 - 2 * POISSON))
+
+
+def plate(columns, rows, length, height):
+    """Basis of a rectangle 0 < x < length, |y| < height/2."""
+    x, y = np.meshgrid(
+        np.linspace(0, length, 2 * columns + 1),
+        np.linspace(-height / 2, height / 2, 2 * rows + 1),
+        indexing="ij",
+    )
+    number = np.arange(x.size).reshape(x.shape)
+    around = [(0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1), (1, 1)]
+    cells = [number[i : 2 * columns - 1 + i : 2, j : 2 * rows - 1 + j : 2].ravel() for i, j in around]
+    return curved_basis(np.stack([x.ravel(), y.ravel()]), np.stack(cells))
+
+
+def node_at(places, *point):
+    return int(np.argmin(np.sum((places - np.array(point)[:, None]) ** 2, axis=0)))
+
+
+def solve_strip(basis, k, load):
+    """Amplitudes (node, 3) of a body clamped at x = 0 under the nodes' loads (node, 3)."""
+    constant, linear, square = strip_stiffness(basis, POISSON)
+    free = np.flatnonzero(np.repeat(basis.doflocs[0] > 1e-9, 3))
+    matrix = (constant + k * linear + k**2 * square).tocsc()[free][:, free]
+    found = np.zeros(3 * basis.N)
+    found[free] = spsolve(matrix, load.ravel()[free])
+    return found.reshape(-1, 3)
+
+
+@BilinearForm
+def solid_energy(u, v, _):
+    stress = 2 * SHEAR * sym_grad(u) + LAME * eye(trace(sym_grad(u)), 3)
+    return ddot(stress, sym_grad(v))
+
+
+def solid_compliance(section, k, slices, node):
+    """Work of the load -cos kz along the section's node, over a quarter wave's, in a block 0 < z < pi/k.
+
+    The block of solid elements is cut as the strips' section is; w = 0 on both of its ends.
+    """
+    corners = section.mesh.p[:, np.unique(section.mesh.t)]
+    cells = [np.unique(np.round(corners[axis], 12)) for axis in (0, 1)]
+    mesh = MeshHex.init_tensor(*cells, np.linspace(0, np.pi / k, slices + 1))
+    basis = Basis(mesh, ElementVector(ElementHex2()), intorder=5)
+    place, component = basis.doflocs, np.tile([0, 1, 2], basis.N // 3)
+    ends = (place[2] < 1e-9) | (place[2] > np.pi / k - 1e-9)
+    free = np.flatnonzero((place[0] > 1e-9) & ~((component == 2) & ends))
+    line = np.flatnonzero((np.hypot(*(place[:2] - section.doflocs[:, [node]])) < 1e-9) & (component == 1))
+    line = line[np.argsort(place[2, line])]
+    # nodal forces of the line load on quadratic shape functions
+    load = np.zeros(basis.N)
+    points, weights = np.polynomial.legendre.leggauss(8)
+    half = np.pi / k / slices / 2
+    for start in range(0, len(line) - 2, 2):
+        at = place[2, line[start + 1]] + points * half
+        for offset, shape in enumerate((points * (points - 1) / 2, 1 - points**2, points * (points + 1) / 2)):
+            load[line[start + offset]] -= np.sum(weights * shape * np.cos(k * at)) * half
+    stiffness = solid_energy.assemble(basis).tocsc()
+    return load[free] @ spsolve(stiffness[free][:, free], load[free]) / (np.pi / k / 2)
+
+
+@pytest.mark.parametrize("k", [0.7, 2.5])
+def test_strips_are_the_limit_of_solid_elements_with_the_fourth_power(k):
+    section = plate(2, 1, 1.5, 1.0)
+    node = node_at(section.doflocs, 1.5, 0.5)
+    load = np.zeros((section.N, 3))
+    load[node, 1] = -1.0
+    strip = np.sum(load * solve_strip(section, k, load))
+    errors = np.array([1 - solid_compliance(section, k, slices, node) / strip for slices in (1, 2, 4)])
+    assert np.all(errors > 0)  # fewer shape functions are stiffer
+    rates = np.log2(errors[:-1] / errors[1:])
+    assert np.all(rates > 3.5), (errors, rates)
+    assert errors[-1] < 2e-3
+
+
+def kirchhoff(length, k):
+    """Deflection X(x) cos kz of a clamped plate of unit rigidity D, free at x = length under cos kz there.
+
+    S. Timoshenko, S. Woinowsky-Krieger, Theory of Plates and Shells, § 22: X'''' - 2k²X'' + k⁴X = 0 with
+    no edge moment and the edge's shear -(X''' - (2 - nu) k² X') equal to the load.
+    """
+
+    # X = (a + b x) cosh kx + (c + d x) sinh kx with X(0) = X'(0) = 0, hence a = 0 and b + kc = 0
+    def terms(x):
+        """Value and three derivatives of x cosh kx, sinh kx, x sinh kx."""
+        c, s = np.cosh(k * x), np.sinh(k * x)
+        return np.array(
+            [
+                [x * c, c + k * x * s, 2 * k * s + k**2 * x * c, 3 * k**2 * c + k**3 * x * s],
+                [s, k * c, k**2 * s, k**3 * c],
+                [x * s, s + k * x * c, 2 * k * c + k**2 * x * s, 3 * k**2 * s + k**3 * x * c],
+            ]
+        )
+
+    end = terms(length)
+    basis = np.stack([end[0] - end[1] / k, end[2]])
+    moment = basis[:, 2] - POISSON * k**2 * basis[:, 0]
+    shear = -(basis[:, 3] - (2 - POISSON) * k**2 * basis[:, 1])
+    b, d = np.linalg.solve([moment, shear], [0.0, 1.0])
+
+    def shape(x):
+        first, second, third = terms(x)
+        return b * (first - second / k) + d * third
+
+    return shape
+
+
+@pytest.mark.parametrize("k", [0.5, 1.5, 3.0])
+def test_thin_cantilever_plate_bends_as_kirchhoff_says(k):
+    # the free edge's effective shear is right to first order in the thickness
+    rigidity = 1.0 / (12 * (1 - POISSON**2))
+    exact, misses = kirchhoff(1.0, k)(1.0)[0], []
+    for thickness in (0.05, 0.025, 0.0125):
+        basis = plate(24, 1, 1.0, thickness)
+        load = np.zeros((basis.N, 3))
+        load[node_at(basis.doflocs, 1.0, 0.0), 1] = 1.0
+        tip = solve_strip(basis, k, load)[node_at(basis.doflocs, 1.0, -thickness / 2), 1]
+        misses.append(tip * rigidity * thickness**3 / exact - 1)
+    assert abs(misses[2]) < 4e-3
+    assert abs(2 * misses[2] - misses[1]) < 5e-3  # of vanishing thickness
+
+
+def test_surface_stress_of_a_plate_is_that_of_its_moment():
+    # σ = 6 M/t², M = -D (X'' - ν k² X): the part that bends along the clamp counts through w alone
+    k, thickness = 2.0, 0.0125
+    basis = plate(60, 1, 1.0, thickness)
+    load = np.zeros((basis.N, 3))
+    load[node_at(basis.doflocs, 1.0, 0.0), 1] = 1.0
+    found = solve_strip(basis, k, load).ravel()
+    top = np.flatnonzero(np.abs(basis.doflocs[1] - thickness / 2) < 1e-9)
+    top = top[np.argsort(basis.doflocs[0, top])]
+    place = basis.doflocs[:, top]
+    stress = stress_rows(place, top, 3 * basis.N, POISSON, k) @ found
+    x = edge_points(place)[0]
+    shape = [kirchhoff(1.0, k)(at) for at in x]
+    moment = np.array([-(one[2] - POISSON * k**2 * one[0]) for one in shape])
+    away = (x > 0.1) & (x < 0.9)
+    np.testing.assert_allclose(
+        stress[away], 6 * moment[away] / thickness**2, atol=0.01 * 6 * abs(moment[0]) / thickness**2
+    )
+
+
+def test_stretched_bar_carries_the_load_along_itself():
+    # U = -nu e x, V = -nu e y, W = 0 turn into strain energy only through K_2: with w = sin(kz) e/k the
+    # stretch is e cos kz. For k → 0 that is Hooke's bar, energy E e²/2 a volume.
+    basis = plate(2, 2, 1.0, 1.0)
+    x, y = basis.doflocs
+    k = 1e-3
+    field = np.stack([-POISSON * x, -POISSON * y, np.full_like(x, 1 / k)], axis=-1).ravel()
+    constant, linear, square = strip_stiffness(basis, POISSON)
+    matrix = constant + k * linear + k**2 * square
+    assert field @ matrix @ field == pytest.approx(1.0, rel=1e-6)
+
+
+def test_turning_the_section_about_an_axis_across_takes_no_energy():
+    # A rigid rotation about y, u = z, w = -x, is the limit of U = sin kz/k, W = -x cos kz: half a wave away
+    # the same amplitudes (1/k, 0, x) with the strips' own phases have shear γ_xz = W_x - kU = 0.
+    basis = plate(2, 2, 1.0, 1.0)
+    x, _ = basis.doflocs
+    k = 1e-4
+    field = np.stack([np.full_like(x, 1 / k), 0 * x, x], axis=-1).ravel()
+    constant, linear, square = strip_stiffness(basis, POISSON)
+    assert field @ (constant + k * linear + k**2 * square) @ field < 1e-6
+
+
+def test_without_waves_the_strips_are_plane_strain():
+    basis = plate(3, 2, 1.5, 1.0)
+    constant, _, _ = strip_stiffness(basis, POISSON)
+    in_plane = np.setdiff1d(np.arange(3 * basis.N), np.arange(2, 3 * basis.N, 3))
+    difference = constant[in_plane][:, in_plane] - plane_stiffness(basis, POISSON)
+    assert abs(difference).max() < 1e-15
+    assert abs(constant[in_plane][:, 2::3]).max() == 0.0
