@@ -74,7 +74,8 @@ def explain(error: ValidationError, model: type[BaseModel]) -> list[InputError]:
 
 
 def _explain_one(one: dict[str, Any], model: type[BaseModel]) -> InputError:
-    key: Key = one["loc"]
+    # pydantic names the branch of a union that it took; ours stand in parentheses
+    key: Key = tuple(part for part in one["loc"] if not str(part).startswith("("))
     dotted = printable(".".join(map(str, key)))
     context = one.get("ctx", {})
     given = quoted(one["input"])

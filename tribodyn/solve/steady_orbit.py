@@ -28,6 +28,8 @@ NEAR_SLOW = 0.5
 DERIVATIVES = 2
 #: A solution may be this many times the estimated distance away from where marching had come.
 REACH = 10.0
+#: Distance of a multiplier's modulus from 1 within which a state counts as neutral, to rounding.
+NEUTRAL = 1e-9
 
 
 class Orbit(NamedTuple):
@@ -47,7 +49,7 @@ class Orbit(NamedTuple):
     multipliers : (N,) complex
         Floquet multipliers over one period of the motion, greatest first; NaN without a steady state.
     stable : bool
-        All multipliers inside the unit circle.
+        No multiplier outside the unit circle.
     kind : str
         "period-1" … "period-4", "unstable", "not periodic", "failed".
     method : str
@@ -208,7 +210,10 @@ def _judge(period_map, shot: Shot, case: int, period: int, marched: int, toleran
                     shot, period = again, n
                     break
     greatest = float(np.abs(shot.multipliers[0]))
-    stable = greatest < 1.0
+    stable = greatest <= 1.0 + NEUTRAL
+    message = "" if stable else f"an unstable state of period {period}: {_way_out(shot.multipliers[0])}"
+    if stable and greatest >= 1.0 - NEUTRAL:
+        message = "neutral: a multiplier of modulus 1, neighbouring states neither return nor leave"
     return Orbit(
         state=shot.state,
         last=shot.state,
@@ -219,7 +224,7 @@ def _judge(period_map, shot: Shot, case: int, period: int, marched: int, toleran
         kind=f"period-{period}" if stable else "unstable",
         method="shooting" if shot.steps else "marching",
         marched=marched,
-        message="" if stable else f"an unstable state of period {period}: {_way_out(shot.multipliers[0])}",
+        message=message,
     )
 
 
