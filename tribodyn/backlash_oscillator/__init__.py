@@ -1,1 +1,1 @@
-"""The oscillator with backlash, on which the search for steady states is verified: case and frequency sweep."""
+"""The oscillator with backlash, on which the search for steady states is verified: case and sweep."""

@@ -1,4 +1,4 @@
-"""The keys of a scenario of ``kind = "backlash-oscillator"``: plain numbers, since everything is dimensionless."""
+"""The keys of a scenario of ``kind = "backlash-oscillator"``: plain numbers, nothing has a dimension."""
 
 from typing import Annotated, Any, Literal
 
@@ -6,7 +6,7 @@ import numpy as np
 from pydantic import AfterValidator, Discriminator, Field, Tag, create_model
 
 from tribodyn.backlash_oscillator.case import BacklashOscillatorCase
-from tribodyn.scenario.quantity import Count, NotNegative, Positive, Table, Text, broken, written
+from tribodyn.scenario.quantity import NotNegative, Positive, Table, Text, broken, written
 from tribodyn.scenario.schema import Name
 
 #: Greatest number of frequencies of one sweep.

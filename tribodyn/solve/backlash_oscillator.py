@@ -34,7 +34,7 @@ TOUCH = 1e-13
 #: across the corner shorter than that, some 1e-14 deep, counts for none.
 LEAST_STEP = 1e-7
 #: Displacement at which a motion counts as growing without bound, half backlashes.
-UNBOUNDED = 1e8
+UNBOUNDED = 1e4
 
 DONE, GROWS = 0, 1
 REASONS = {GROWS: "the motion grows without bound: the mean force or the varying stiffness feeds it"}

@@ -20,16 +20,16 @@ Method = Literal["auto", "marching", "shooting"]
 MAX_PERIOD = 4
 #: Periods marched between two looks at the states: at least twice MAX_PERIOD.
 BLOCK = 12
-#: Estimated distance from the steady state, over the scale, at which Newton's method takes over.
+#: Estimated distance from the steady state, over the scale, at which Newton's method takes over; it does so
+#: from afar too where marching on would take twice the maps of the derivatives that shooting should need.
 NEAR = 1e-2
-#: The same where marching on would take many times the maps that shooting takes.
-NEAR_SLOW = 0.5
-#: Shooting is expected to take two derivatives and a check, in maps over one period a state and n.
 DERIVATIVES = 2
-#: A solution may be this many times the estimated distance away from where marching had come.
-REACH = 10.0
-#: Distance of a multiplier's modulus from 1 within which a state counts as neutral, to rounding.
-NEUTRAL = 1e-9
+#: Distance within which what shooting found is what marching had come to, whatever the last periods did.
+THERE = 1e-5
+#: Newton steps allowed while marching may go on, and when it may not.
+STEPS, LAST_STEPS = 8, 20
+#: Distance of a multiplier's modulus from 1 within which a state counts as neutral.
+NEUTRAL = 1e-6
 
 
 class Orbit(NamedTuple):
@@ -80,6 +80,7 @@ class _Progress:
         self.next_shot = np.zeros(len(states), dtype=int)
         self.changes = np.full((len(states), MAX_PERIOD), np.inf)
         self.history: list[list[float]] = [[] for _ in states]
+        self.track: dict[int, np.ndarray] = {}
         self.fallback: dict[int, Orbit] = {}
 
     def approaching(self, case: int) -> bool:
@@ -122,7 +123,7 @@ def find(
     so_far = _Progress(states)
     pending = np.arange(count)
     while pending.size:
-        wanted: dict[int, list[tuple[int, float]]] = {}
+        wanted: dict[int, list[int]] = {}
         block = period_map.march(so_far.current[pending], pending, BLOCK, method == "marching")
         for k, case in enumerate(map(int, pending)):
             if block.reasons[k]:
@@ -131,9 +132,10 @@ def find(
             track = np.concatenate([so_far.current[case][None], block.states[k]])
             so_far.current[case] = track[-1]
             so_far.marched[case] += BLOCK
-            period, reach = _candidate(track / period_map.scale[case], so_far, case, tolerance, method)
+            so_far.track[case] = track / period_map.scale[case]
+            period = _candidate(so_far, case, tolerance, method)
             if period:
-                wanted.setdefault(period, []).append((case, reach))
+                wanted.setdefault(period, []).append(case)
         for period, these in wanted.items():
             for case, orbit in _attempt(period_map, so_far, these, period, tolerance, method).items():
                 done[case] = orbit
@@ -146,11 +148,9 @@ def find(
     return [orbit for orbit in done if orbit is not None]
 
 
-def _candidate(
-    track: np.ndarray, so_far: _Progress, case: int, tolerance: float, method: Method
-) -> tuple[int, float]:
-    """Period for which to try shooting, 0 for none, and how far its solution may lie from here."""
-    half = BLOCK // 2
+def _candidate(so_far: _Progress, case: int, tolerance: float, method: Method) -> int:
+    """Period for which to try shooting; 0 for none."""
+    half, track = BLOCK // 2, so_far.track[case]
     for n in range(1, MAX_PERIOD + 1):
         change = np.max(np.abs(track[n:] - track[:-n]), axis=1)
         # the greatest over n periods, so that a passing zero of an oscillating approach deceives nobody
@@ -162,39 +162,47 @@ def _candidate(
         if within:  # about to settle to a period that divides this one
             continue
         if last <= tolerance:
-            return n, np.inf
+            return n
         if method == "marching" or so_far.marched[case] < so_far.next_shot[case]:
             continue
         rate = (last / middle) ** (1.0 / half) if middle > 0.0 else 0.0
         if rate >= 1.0:
-            if last <= 1e-3 * NEAR:  # so slow, or so near, that the contraction cannot be seen
-                return n, NEAR
+            if last <= THERE:  # so slow, or so near, that the contraction cannot be seen
+                return n
             continue
         distance = last / (1.0 - rate**n)
         maps_left = np.log(tolerance / last) / np.log(rate) if rate > 0.0 else 0.0
-        slow = maps_left > 2.0 * n * DERIVATIVES * (track.shape[1] + 2)
-        if distance <= NEAR or (slow and distance <= NEAR_SLOW):
-            return n, REACH * distance
-    return 0, 0.0
+        if distance <= NEAR or maps_left > 2.0 * n * DERIVATIVES * (track.shape[1] + 2):
+            return n
+    return 0
 
 
 def _attempt(period_map, so_far: _Progress, these, period, tolerance, method) -> dict[int, Orbit]:
     """Shoot from where marching stands; returns the orbits that are taken."""
-    cases = np.array([case for case, _ in these])
-    steps = 0 if method == "marching" else 20
+    cases = np.array(these)
+    steps = 0 if method == "marching" else STEPS
     shots = shoot(period_map, so_far.current[cases], cases, period, tolerance, steps)
     taken = {}
-    for (case, reach), shot in zip(these, shots, strict=True):
+    for case, shot in zip(these, shots, strict=True):
         so_far.next_shot[case] = 2 * so_far.marched[case]
         if shot.reason:
             continue
         orbit = _judge(period_map, shot, case, period, int(so_far.marched[case]), tolerance)
-        away = np.max(np.abs(shot.state - so_far.current[case]) / period_map.scale[case])
-        if orbit.stable and away <= reach:
+        neutral = abs(shot.multipliers[0]) >= 1.0 - NEUTRAL
+        if orbit.stable and _heading(
+            so_far.track[case], shot.state / period_map.scale[case], period, neutral
+        ):
             taken[case] = orbit
         else:
             so_far.fallback.setdefault(case, orbit)
     return taken
+
+
+def _heading(track: np.ndarray, target: np.ndarray, period: int, neutral: bool) -> bool:
+    """Whether the last periods marched came nearer to a state, or (needed of a neutral one) had come to it."""
+    away = np.max(np.abs(track[::-period] - target), axis=1)[::-1]
+    half = len(away) // 2
+    return bool(away[-1] <= THERE or (not neutral and np.max(away[half:]) < np.max(away[:half])))
 
 
 def _judge(period_map, shot: Shot, case: int, period: int, marched: int, tolerance: float) -> Orbit:
@@ -207,7 +215,7 @@ def _judge(period_map, shot: Shot, case: int, period: int, marched: int, toleran
             if period % n == 0 and close:
                 again = shoot(period_map, shot.state[None], one, n, tolerance)[0]
                 if not again.reason:
-                    shot, period = again, n
+                    shot, period = again._replace(steps=again.steps + shot.steps), n
                     break
     greatest = float(np.abs(shot.multipliers[0]))
     stable = greatest <= 1.0 + NEUTRAL
@@ -244,7 +252,7 @@ def _last_resort(period_map, so_far: _Progress, late, tolerance, method) -> dict
     shots: list[Shot | None] = [None] * len(late)
     if method == "auto" and late:
         cases = np.array(late)
-        shots = list(shoot(period_map, so_far.current[cases], cases, 1, tolerance))
+        shots = list(shoot(period_map, so_far.current[cases], cases, 1, tolerance, LAST_STEPS))
     for case, shot in zip(late, shots, strict=True):
         marched, last = int(so_far.marched[case]), so_far.current[case].copy()
         orbit = so_far.fallback.get(case)

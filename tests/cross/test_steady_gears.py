@@ -1,0 +1,224 @@
+"""Steady states of gear pairs against exact linear maps, another solver, and each other."""
+
+import numpy as np
+import pytest
+
+from tests.linear_mesh import FREE, OVERRIDES, SEGMENTS, generator, over_a_cycle
+from tribodyn.dynamics.parameters import (
+    LAG,
+    MOTOR_SLIP,
+    SLIP,
+    WORK_DAMPING,
+    WORK_FRICTION,
+    WORK_OUT,
+    WORKS,
+    XI,
+)
+from tribodyn.errors import InputError
+from tribodyn.solve.engine import DONE, Tolerances, absolute_tolerances
+from tribodyn.solve.periodic import steady_states
+from tribodyn.solve.scipy_engine import ScipyEngine
+from tribodyn.solve.transient import engage_next
+
+#: A lightly damped mesh in its parametric resonance, where the load of 100 N m is lost for part of the cycle.
+RESONANT = {
+    **OVERRIDES,
+    "mesh.backlash": "20 um",
+    "mesh.damping_ratio": 0.01,
+    "operating.gear_torque": "100 N*m",
+}
+
+
+@pytest.fixture(scope="module")
+def linear(prepared):
+    return [
+        prepared("involute-23-47", **{**OVERRIDES, "operating.pinion_speed": f"{speed} rad/s"})
+        for speed in (60, 300, 800)
+    ]
+
+
+@pytest.fixture(scope="module")
+def film(prepared):
+    """The CRC drive with mixed-EHL friction, whose forces are neither linear nor smooth."""
+    return [
+        prepared("crc-23-47", **{"operating.pinion_speed": f"{speed} rad/s", "mesh.damping_ratio": 0.05})
+        for speed in (150, 400)
+    ]
+
+
+def models(cases):
+    return [case.model for case in cases]
+
+
+def scaled(model, difference):
+    scale = absolute_tolerances(model, 1.0, 3e-5)
+    return np.max(np.abs(difference[FREE]) / scale[FREE])
+
+
+def by_another_solver(model, state, cycles):
+    """State after some cycles by SciPy's DOP853, engaged into the next."""
+    tolerances = Tolerances(1e-10, absolute_tolerances(model, 1e-10, abs(state[XI])), 10**6)
+    block = ScipyEngine("dop853", model, 8, tolerances).block(state, 0, cycles)
+    assert block.status == DONE
+    end = block.state.copy()
+    engage_next(end, model)
+    return end
+
+
+@pytest.mark.parametrize("method", ["auto", "marching", "shooting"])
+def test_a_linear_mesh_has_the_exact_steady_state_and_multipliers(linear, method):
+    """Its map over a cycle is a product of two matrix exponentials."""
+    for case, steady in zip(linear, steady_states(models(linear), samples=20, method=method), strict=True):
+        exact = over_a_cycle(case)
+        multipliers = np.linalg.eigvals(exact[:10, :10])
+        assert steady.kind == "period-1"
+        assert steady.residual <= 1e-7
+        state = np.linalg.solve(np.eye(10) - exact[:10, :10], exact[:10, 10])
+        difference = np.zeros_like(steady.state)
+        difference[FREE] = steady.state[FREE] - state
+        # a residual of 1e-7 leaves the state as far off as the slowest mode takes to carry it away
+        assert scaled(case.model, difference) <= 2e-7 / (1.0 - np.max(np.abs(multipliers)))
+        for one in multipliers:
+            assert np.min(np.abs(steady.multipliers - one)) < 2e-6
+
+
+def test_their_product_is_what_damping_takes_from_phase_space(linear):
+    """Liouville's formula: the determinant of the monodromy is exp ∫ trace."""
+    boundary = np.asarray(linear[0].model.table.boundary)
+    for case, steady in zip(linear, steady_states(models(linear), samples=1), strict=True):
+        trace = sum(
+            np.trace(generator(case, pairs)) * (boundary[segment + 1] - boundary[segment])
+            for segment, pairs in SEGMENTS
+        )
+        if trace > -20.0:  # otherwise the least multipliers are below the difference quotient's noise
+            assert np.prod(steady.multipliers).real == pytest.approx(np.exp(trace), rel=1e-3)
+
+
+def test_marching_and_shooting_come_to_the_same_state(film):
+    marched = steady_states(models(film), samples=4, method="marching", tolerance=1e-8)
+    shot = steady_states(models(film), samples=4, method="shooting", tolerance=1e-8)
+    for case, one, other in zip(film, marched, shot, strict=True):
+        assert one.kind == other.kind == "period-1"
+        assert (one.method, other.method) == ("marching", "shooting")
+        assert scaled(case.model, one.state - other.state) < 1e-7
+        np.testing.assert_allclose(np.abs(one.multipliers[:4]), np.abs(other.multipliers[:4]), atol=1e-4)
+
+
+def test_another_solver_comes_back_to_the_state(film):
+    for case, steady in zip(film, steady_states(models(film), samples=50), strict=True):
+        end = by_another_solver(case.model, steady.state, 1)
+        assert scaled(case.model, end - steady.state) < 1e-6
+        np.testing.assert_allclose(steady.samples[0], steady.state, rtol=1e-12)
+        assert steady.samples.shape[0] == 50
+        whole = steady.end.copy()
+        engage_next(whole, case.model)
+        work_in, work_out, friction, damping, parametric = whole[list(WORKS)]
+        # over a whole period nothing is stored: what goes in, the varying stiffness included, comes out
+        assert work_in + parametric - work_out - friction - damping == pytest.approx(0.0, abs=1e-6 * work_in)
+        assert friction > 0.0
+
+
+@pytest.fixture(scope="module")
+def resonance(prepared):
+    speeds = (640, 1040, 1076)
+    cases = [
+        prepared("involute-23-47", **{**RESONANT, "operating.pinion_speed": f"{speed} rad/s"})
+        for speed in speeds
+    ]
+    return cases, steady_states(models(cases), samples=50, max_cycles=300)
+
+
+def test_period_doubling_in_the_parametric_resonance(resonance):
+    """Twice the mesh's natural frequency: contact is lost and the motion takes two mesh cycles."""
+    (_, case, _), (single, double, _) = resonance
+    assert (single.kind, double.kind) == ("period-1", "period-2")
+    assert double.samples.shape[0] == 100
+    halfway = by_another_solver(case.model, double.state, 1)
+    back = by_another_solver(case.model, double.state, 2)
+    assert scaled(case.model, back - double.state) < 1e-5
+    assert scaled(case.model, halfway - double.state) > 0.05
+    assert np.min(double.samples[:, XI]) < 0.0 < np.max(double.samples[:, XI])  # the flanks come apart
+
+
+def test_a_motion_that_never_separates_has_the_linear_multipliers(resonance):
+    (case, _, _), (single, _, _) = resonance
+    assert np.min(single.samples[:, XI]) > 0.0
+    greatest = np.max(np.abs(np.linalg.eigvals(over_a_cycle(case)[:10, :10])))
+    assert abs(single.multipliers[0]) == pytest.approx(greatest, abs=1e-4)
+
+
+def test_an_unstable_state_is_found_and_said(resonance):
+    (_, _, case), (_, _, unstable) = resonance
+    assert unstable.kind == "unstable"
+    assert not unstable.stable
+    assert abs(unstable.multipliers[0]) > 1.0
+    assert "unstable state of period" in unstable.message
+    # it is a steady state none the less: another solver comes back to it after its period …
+    end = by_another_solver(case.model, unstable.state, unstable.period)
+    assert scaled(case.model, end - unstable.state) < 1e-5
+    # … and marching is somewhere else
+    assert scaled(case.model, unstable.last - unstable.state) > 1e-2
+
+
+def test_with_a_motor_the_speed_is_a_state(prepared):
+    motor = {
+        "operating.source": "torque",
+        "operating.speed_regulation": "10 N*m*s/rad",
+        "operating.gear_torque": "300 N*m",
+        "operating.pinion_speed": "200 rad/s",
+        "mesh.formulation": "energy-consistent",
+    }
+    with_shaft = {
+        **motor,
+        "operating.shaft_stiffness": "2e4 N*m/rad",
+        "operating.drive_inertia": "0.02 kg*m**2",
+    }
+    cases = [
+        prepared("crc-23-47", **motor),
+        prepared("crc-23-47", **with_shaft, **{"operating.shaft_damping": "2 N*m*s/rad"}),
+    ]
+    for case, steady, states in zip(cases, steady_states(models(cases), samples=1000), (11, 13), strict=True):
+        assert steady.kind == "period-1"
+        assert len(steady.multipliers) == states
+        # the losses slow the motor down along its line: mean slip over the angle = loss torque / regulation
+        loss = (steady.end[WORK_FRICTION] + steady.end[WORK_DAMPING]) / float(case.model.table.pitch_angle)
+        mean = np.mean(steady.samples[:, MOTOR_SLIP if states == 13 else SLIP])
+        assert mean == pytest.approx(-loss / 10.0, rel=2e-3)
+        assert steady.end[LAG] > 0.0
+        turned = 23 / 47 * float(case.model.table.pitch_angle)
+        assert steady.end[WORK_OUT] == pytest.approx(300.0 * turned, rel=1e-4)
+        end = by_another_solver(case.model, steady.state, 1)
+        assert scaled(case.model, end - steady.state) < 1e-6
+
+
+def test_a_case_that_fails_leaves_the_others_alone(prepared, linear):
+    stalls = prepared(
+        "crc-23-47",
+        **{
+            "operating.source": "torque",
+            "operating.pinion_torque": "1 N*m",
+            "operating.pinion_speed": "5 rad/s",
+        },
+    )
+    failed, fine = steady_states([stalls.model, linear[1].model], samples=10)
+    (alone,) = steady_states([linear[1].model], samples=10)
+    assert failed.kind == "failed"
+    assert "came to rest" in failed.message
+    assert len(failed.samples) == 0
+    assert fine.kind == "period-1"
+    np.testing.assert_array_equal(fine.state, alone.state)
+
+
+def test_a_load_that_changes_with_time_is_refused(prepared):
+    for name in ("load-step", "rattle"):
+        with pytest.raises(InputError, match=r"operating\.gear_torque_"):
+            steady_states([prepared(name).model])
+
+
+def test_a_load_that_repeats_with_the_mesh_is_not(prepared):
+    harmonic = {"amplitude": "30 N*m", "frequency": f"{23 * 300} rad/s", "phase": "0 deg"}
+    case = prepared("involute-23-47", **OVERRIDES, **{"operating.gear_torque_harmonics": [harmonic]})
+    (steady,) = steady_states([case.model], samples=10)
+    assert steady.kind == "period-1"
+    end = by_another_solver(case.model, steady.state, 1)
+    assert scaled(case.model, end - steady.state) < 1e-6

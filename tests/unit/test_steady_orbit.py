@@ -1,0 +1,148 @@
+"""The search for steady states on maps whose answer is known in closed form."""
+
+import numpy as np
+import pytest
+
+from tribodyn.solve.period_map import Marched, by_differences
+from tribodyn.solve.steady_orbit import BLOCK, find
+
+TOLERANCE = 1e-9
+
+
+class ClosedForm:
+    """A map given as a function of the state and of one parameter."""
+
+    def __init__(self, step, parameters, size):
+        self.step = step
+        self.parameters = np.array(parameters, dtype=float)
+        self.scale = np.ones((len(self.parameters), size))
+        self.marched = np.zeros(len(self.parameters), dtype=int)
+
+    def march(self, states, cases, periods, fine):
+        x = states.copy()
+        track = []
+        with np.errstate(over="ignore", invalid="ignore"):
+            for _ in range(periods):
+                x = self.step(x, self.parameters[cases])
+                track.append(x)
+        np.add.at(self.marched, cases, periods)
+        states = np.stack(track, axis=1)
+        lost = ~np.all(np.abs(states) < 1e6, axis=(1, 2))
+        return Marched(states, ["it runs away" if one else "" for one in lost])
+
+    def tangent(self, states, cases, periods):
+        return by_differences(self.march, states, cases, periods, 1e-4 * self.scale)
+
+
+def logistic(x, r):
+    return r[:, None] * x * (1.0 - x)
+
+
+def orbits(rates, **options):
+    return find(ClosedForm(logistic, rates, 1), np.full((len(rates), 1), 0.31), tolerance=1e-9, **options)
+
+
+def test_period_doubling_of_the_logistic_map():
+    """Fixed point 1 − 1/r with multiplier 2 − r; the two-cycle's multiplier is 4 + 2r − r²."""
+    one, two, four = orbits([2.8, 3.3, 3.5])
+    assert (one.kind, two.kind, four.kind) == ("period-1", "period-2", "period-4")
+    assert one.state[0] == pytest.approx(1.0 - 1.0 / 2.8, abs=1e-9)
+    assert one.multipliers[0] == pytest.approx(2.0 - 2.8, abs=1e-6)
+    assert two.multipliers[0] == pytest.approx(4.0 + 2.0 * 3.3 - 3.3**2, abs=1e-6)
+    cycle = np.roots([3.3**2, -3.3 * 4.3, 4.3]).real  # x² − (r+1)/r x + (r+1)/r² = 0
+    assert np.min(np.abs(cycle - two.state[0])) < 1e-9
+    assert all(orbit.stable and orbit.residual <= 1e-9 for orbit in (one, two, four))
+
+
+def test_period_three_of_the_logistic_map():
+    """The window of period three opens at 1 + √8, with the multiplier 1."""
+    (three,) = orbits([1.0 + np.sqrt(8.0) + 1e-3])
+    assert three.kind == "period-3"
+    assert 0.0 < three.multipliers[0].real < 1.0
+    track = [three.state]
+    for _ in range(3):
+        track.append(logistic(track[-1], np.array([1.0 + np.sqrt(8.0) + 1e-3]))[0])
+    slopes = [(1.0 + np.sqrt(8.0) + 1e-3) * (1.0 - 2.0 * x[0]) for x in track[:3]]
+    assert three.multipliers[0].real == pytest.approx(np.prod(slopes), abs=1e-5)
+
+
+def test_chaos_is_not_periodic_and_its_unstable_state_is_named():
+    (chaos,) = orbits([3.9], max_periods=200)
+    assert chaos.kind == "unstable"
+    assert chaos.period == 1
+    assert not chaos.stable
+    assert chaos.state[0] == pytest.approx(1.0 - 1.0 / 3.9, abs=1e-8)
+    assert chaos.multipliers[0] == pytest.approx(2.0 - 3.9, abs=1e-6)
+    assert abs(chaos.last[0] - chaos.state[0]) > 1e-3
+    assert "left towards twice the period" in chaos.message
+
+
+def test_shooting_finds_the_unstable_state_that_marching_leaves():
+    (shot,) = find(ClosedForm(logistic, [3.3], 1), np.array([[0.69]]), tolerance=1e-9, method="shooting")
+    assert shot.kind == "unstable"
+    assert shot.multipliers[0] == pytest.approx(2.0 - 3.3, abs=1e-6)
+    (marched,) = orbits([3.3])
+    assert marched.period == 2
+
+
+def rotation(x, modulus):
+    """Turn by one radian and shrink, about (0.3, −0.2)."""
+    c, s = np.cos(1.0), np.sin(1.0)
+    centre = np.array([0.3, -0.2])
+    return centre + modulus[:, None] * ((x - centre) @ np.array([[c, s], [-s, c]]))
+
+
+def test_marching_and_shooting_agree():
+    states = np.zeros((3, 2))
+    results = {
+        method: find(ClosedForm(rotation, [0.3, 0.9, 0.99], 2), states, tolerance=TOLERANCE, method=method)
+        for method in ("auto", "marching", "shooting")
+    }
+    for orbits_ in results.values():
+        for orbit, modulus in zip(orbits_, (0.3, 0.9, 0.99), strict=True):
+            assert orbit.kind == "period-1"
+            # a residual leaves the state as far off as it takes to march it away
+            assert np.max(np.abs(orbit.state - [0.3, -0.2])) <= 2.0 * TOLERANCE / (1.0 - modulus)
+            np.testing.assert_allclose(np.abs(orbit.multipliers), modulus, atol=1e-6)
+            assert abs(np.angle(orbit.multipliers[0])) == pytest.approx(1.0, abs=1e-6)
+    assert [orbit.method for orbit in results["marching"]] == ["marching"] * 3
+
+
+def test_a_slow_case_is_handed_over_to_shooting():
+    """At the multiplier 0.999 marching alone would need some 20 000 periods."""
+    slow = ClosedForm(rotation, [0.999], 2)
+    (orbit,) = find(slow, np.array([[0.4, -0.2]]), tolerance=TOLERANCE)
+    assert orbit.kind == "period-1"
+    assert orbit.method == "shooting"
+    assert orbit.marched <= 8 * BLOCK
+
+
+def test_a_rotation_that_never_settles_is_said_to_be_neutral():
+    (orbit,) = find(ClosedForm(rotation, [1.0], 2), np.array([[0.9, 0.4]]), tolerance=1e-7, max_periods=60)
+    assert orbit.kind == "not periodic"
+    assert orbit.period == 0
+    assert np.all(np.isnan(orbit.multipliers))
+
+
+def test_one_case_that_runs_away_leaves_the_others_alone():
+    alone = orbits([2.8])[0]
+    beside, lost = orbits([2.8, 4.5])
+    assert lost.kind == "failed"
+    assert lost.message == "it runs away"
+    assert beside.kind == "period-1"
+    assert beside.state == alone.state
+
+
+def test_cases_that_are_done_are_not_marched_on():
+    both = ClosedForm(logistic, [2.0, 3.9], 1)
+    done, _ = find(both, np.full((2, 1), 0.31), tolerance=1e-9, max_periods=600)
+    assert done.marched == BLOCK
+    assert both.marched[0] < 100 < both.marched[1]
+
+
+def test_a_map_with_the_multiplier_one_is_told():
+    """x → x + 0.01: there is no fixed point, and nothing for Newton to divide by."""
+    drift = ClosedForm(lambda x, step: x + step[:, None], [0.01], 1)
+    (orbit,) = find(drift, np.zeros((1, 1)), tolerance=1e-9, method="shooting")
+    assert orbit.kind == "failed"
+    assert "not isolated" in orbit.message
