@@ -140,13 +140,6 @@ def test_period_doubling_in_the_parametric_resonance(resonance):
     assert np.min(double.samples[:, XI]) < 0.0 < np.max(double.samples[:, XI])  # the flanks come apart
 
 
-def test_a_motion_that_never_separates_has_the_linear_multipliers(resonance):
-    (case, _, _), (single, _, _) = resonance
-    assert np.min(single.samples[:, XI]) > 0.0
-    greatest = np.max(np.abs(np.linalg.eigvals(over_a_cycle(case)[:10, :10])))
-    assert abs(single.multipliers[0]) == pytest.approx(greatest, abs=1e-4)
-
-
 def test_an_unstable_state_is_found_and_said(resonance):
     (_, _, case), (_, _, unstable) = resonance
     assert unstable.kind == "unstable"

@@ -199,7 +199,7 @@ def _attempt(period_map, so_far: _Progress, these, period, tolerance, method) ->
 
 
 def _heading(track: np.ndarray, target: np.ndarray, period: int, neutral: bool) -> bool:
-    """Whether the last periods marched came nearer to a state, or (needed of a neutral one) had come to it."""
+    """Whether the last periods came nearer to a state, or had come to it: a neutral one attracts nothing."""
     away = np.max(np.abs(track[::-period] - target), axis=1)[::-1]
     half = len(away) // 2
     return bool(away[-1] <= THERE or (not neutral and np.max(away[half:]) < np.max(away[:half])))
