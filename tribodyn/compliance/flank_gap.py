@@ -3,9 +3,9 @@
 Every part is a distance along the common normal, positive where material is missing, at the point of each
 flank that touches: on the path of contact both flanks' points are the path's; beyond its ends the corner of
 the tip stays where it is and the mate's point moves up the flank. First order in the modifications: where the
-nominal flanks touch, the modified ones are taken to be nearest. A slope e' of a relief, along the line of
-action, moves the nearest point and makes the gap smaller by no more than e'² ρ/2 (ρ the equivalent radius, e'
-taken along the arc): 5 % of a linear relief of 20 µm over 2 mm, 1 % over 4 mm, of module 3 mm.
+nominal flanks touch, the modified ones are taken to be nearest. A relief's slope e' along the flank moves the
+nearest point and makes the gap smaller by e'² ρ/2 (ρ the equivalent radius): with module 3 mm by 6 % of a
+linear relief of 20 µm over 2 mm, by 2 % over 4 mm (test_flank_gap).
 """
 
 from typing import Any
