@@ -83,7 +83,9 @@ def press(
     positions, places = gap.shape
     mean = torque / np.max(lever, axis=-1)
     # ξ in units of the deflection that the mean load makes, to keep the systems well conditioned
-    unit = mean * np.mean(np.einsum("...ii->...i", matrix), axis=-1) / places
+    even = np.repeat(mean[:, None] / places, places, axis=-1)
+    softness = np.abs(np.einsum("...ii->...i", matrix)) + local(np.arange(positions), even)[1]
+    unit = mean * np.mean(softness, axis=-1) / places
     active = gap <= (np.min(gap, axis=-1) + unit)[:, None]
     load = active * (mean / np.sum(active, axis=-1))[:, None]
     result = Pressed(np.zeros_like(gap), np.zeros(positions), np.zeros_like(gap), np.zeros(positions))

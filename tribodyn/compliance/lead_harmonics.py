@@ -86,20 +86,14 @@ def at_wave_numbers(gear: GearCompliance, wave_number: Array, poisson_ratio: flo
         return half_space_surface(np.hypot(at, rounding), gear.depth, poisson_ratio)[:, None]
 
     within = np.minimum(k, largest)
-    own = _even_spline(lead.wave_number, own_at_solved(gear, poisson_ratio) - smooth(lead.wave_number), scale)
-    value = own(np.arcsinh(within / scale)) + smooth(within)
+    weights = _even_spline(lead.wave_number, scale)(np.arcsinh(within / scale))
+    value = weights @ (own_at_solved(gear, poisson_ratio) - smooth(lead.wave_number)) + smooth(within)
     beyond = k > largest
     surface = half_space_surface(np.where(beyond, k, largest), gear.depth, poisson_ratio)
     value += (surface - half_space_surface(np.array([largest]), gear.depth, poisson_ratio))[:, None]
-    others = [
-        np.where(
-            beyond.reshape(-1, *[1] * (part.ndim - 1)),
-            0.0,
-            _even_spline(lead.wave_number, part, scale)(np.arcsinh(within / scale)),
-        )
-        for part in (lead.between, lead.root_stress)
-    ]
-    return LeadCompliance(gear.radius, value, others[0], others[1])
+    weights = np.where(beyond[:, None], 0.0, weights)
+    between, root_stress = (np.tensordot(weights, part, 1) for part in (lead.between, lead.root_stress))
+    return LeadCompliance(gear.radius, value, between, root_stress)
 
 
 def own_at_solved(gear: GearCompliance, poisson_ratio: float) -> Array:
@@ -127,8 +121,8 @@ def half_space_surface(wave_number: Array, depth: float, poisson_ratio: float) -
     return (1 + poisson_ratio) / np.pi * (1 + 2 * (1 - poisson_ratio) * logarithm)
 
 
-def _even_spline(wave_number: Array, values: Array, scale: float) -> Any:
-    """Spline over asinh(k/scale) through values that are even in k."""
-    at = np.arcsinh(wave_number / scale)
-    mirrored = np.concatenate([-at[:0:-1], at]), np.concatenate([values[:0:-1], values])
+def _even_spline(wave_number: Array, scale: float) -> Any:
+    """Spline over asinh(k/scale) of the weights with which values that are even in k count at each k (K,)."""
+    at, weights = np.arcsinh(wave_number / scale), np.eye(len(wave_number))
+    mirrored = np.concatenate([-at[:0:-1], at]), np.concatenate([weights[:0:-1], weights])
     return make_interp_spline(*mirrored, k=_ORDER)

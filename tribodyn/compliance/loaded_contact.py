@@ -191,7 +191,8 @@ def harris_map(
     coupled: bool = True,
 ) -> HarrisMap:
     """Loaded static transmission error of one mesh cycle at several torques; else as `roll_through`."""
-    check(flexible, modifications, min(gear_torques), slices)
+    for torque in gear_torques:
+        check(flexible, modifications, torque, slices)
     assembly = flexible.assembly
     pitch = 2.0 * np.pi / float(assembly.drive.pinion.teeth)
     start, _ = roll_limits(assembly)
@@ -250,7 +251,10 @@ def reach(
 
 
 def check(flexible: PairFlexibility, modifications: Modifications, gear_torque: float, slices: int) -> None:
-    """Refuse loads that drive nothing, modifications that are none, and too few slices for them."""
+    """Refuse loads that drive nothing, modifications that are none, too few slices for them, and too many.
+
+    A slice must be as wide as its contact: the loads of narrower ones are not line loads to each other.
+    """
     if gear_torque <= 0:
         raise InputError("operating.gear_torque", gear_torque, "must drive the gear", "use more than 0 N m")
     check_modifications(flexible.assembly, modifications)
@@ -260,6 +264,16 @@ def check(flexible: PairFlexibility, modifications: Modifications, gear_torque: 
             slices,
             f"is less than {LEAST_SLICES}, but flanks or axes differ along the face",
             "leave it away (21 slices), or give more",
+        )
+    motion = pair_geometry(flexible.assembly, np.zeros(1)).motion
+    line_load = gear_torque / motion.gear_normal_arm / flexible.width
+    contact = 2.0 * float(half_width(flexible, motion.relative_curvature, line_load)[0])
+    if slices * contact > flexible.width:
+        raise InputError(
+            "mesh.slices",
+            slices,
+            f"makes slices narrower than the contact at {gear_torque:g} N m, {contact * 1e3:.2g} mm",
+            f"give at most {int(flexible.width / contact)}",
         )
 
 
