@@ -17,6 +17,7 @@ class What(StrEnum):
     families = "families"
     solvers = "solvers"
     plots = "plots"
+    sweep_plots = "sweep-plots"
 
 
 def list(
@@ -55,6 +56,10 @@ def _about(what: What) -> dict[str, str]:
             return dict(load.FAMILIES)
         case What.solvers:
             return dict(load.SOLVERS)
+        case What.sweep_plots:
+            from tribodyn.post.sweep_plots import SWEEP_NAMES
+
+            return dict(SWEEP_NAMES)
         case What.plots:
             from tribodyn.post.plots import NAMES, ROLLING_NAMES
 

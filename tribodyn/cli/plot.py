@@ -1,6 +1,6 @@
 """`tribodyn plot`: pictures of records."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -10,13 +10,18 @@ import typer
 from tribodyn.cli.output import make_folder, unwritable
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from tribodyn.record.reader import Record
+    from tribodyn.record.sweep_reader import SweepRecord
 
 EXAMPLES = (
     "\b\nExamples:\n"
     "  tribodyn plot crc-23-47.h5\n"
     "  tribodyn plot crc-23-47.h5 involute-23-47.h5 film normal-load -o pictures"
     "\n  tribodyn plot crc-23-47.h5 transmission-error --against time --cycles 0 --format pdf"
+    "\n  tribodyn plot jump-involute-23-47-pinion_speed.h5 response campbell"
+    "\n  tribodyn plot jump-involute-23-47-pinion_speed.h5 poincare --at pinion_speed=3000rpm"
 )
 
 
@@ -47,6 +52,12 @@ def plot(
     cycles: Annotated[int, typer.Option(help="Mesh cycles to show, the last ones; 0: the whole run.")] = 2,
     against: Annotated[Against, typer.Option(help="Mesh phase, or time.")] = Against.phase,
     format: Annotated[Format, typer.Option(help="File format.")] = Format.png,
+    at: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--at", metavar="NAME=VALUE", help="The case of a sweep for poincare: pinion_speed=3000rpm."
+        ),
+    ] = None,
     json: Annotated[bool, typer.Option("--json", help="Print the paths as JSON.")] = False,
 ) -> None:
     """Draw figures of records; several are compared."""
@@ -56,22 +67,20 @@ def plot(
     from tribodyn.errors import InputError
     from tribodyn.post.plots import names as figure_names
     from tribodyn.record.reader import open_record
+    from tribodyn.record.sweep_reader import is_sweep
 
     paths = [word for word in what if word.endswith((".h5", ".hdf5")) or Path(word).is_file()]
     names = [word for word in what if word not in paths]
     if not paths:
         raise InputError("record", f'"{what[0]}"', "no such file", "name a record that tribodyn run wrote")
-    prefix = "-".join(Path(path).stem for path in paths)
-    with ExitStack() as stack:
-        records = [stack.enter_context(open_record(path)) for path in paths]
-        chosen = figure_names(records) if not names or "all" in names else names
-        pictures = draw(
-            records,
-            chosen,
-            output / f"{prefix}.{format.value}",
-            cycles=cycles or None,
-            against=against.value,
-        )
+    beside = output / f"{'-'.join(Path(path).stem for path in paths)}.{format.value}"
+    if is_sweep(paths[0]):
+        pictures = _draw_sweeps(paths, names, beside, at or [])
+    else:
+        with ExitStack() as stack:
+            records = [stack.enter_context(open_record(path)) for path in paths]
+            chosen = figure_names(records) if not names or "all" in names else names
+            pictures = draw(records, chosen, beside, cycles=cycles or None, against=against.value)
     if json:
         print_json({"pictures": [str(picture) for picture in pictures]})
     else:
@@ -88,15 +97,60 @@ def draw(
     against: str = "phase",
 ) -> list[Path]:
     """Draw figures by name into files named after `beside`: ``crc.png`` becomes ``crc-film.png``."""
+    from tribodyn.post.plots import figure
+
+    return _save_all(names, beside, lambda name: figure(name, records, cycles=cycles, against=against))
+
+
+def _draw_sweeps(paths: Sequence[str], names: Sequence[str], beside: Path, at: Sequence[str]) -> list[Path]:
+    """Draw figures of sweeps."""
+    from contextlib import ExitStack
+
+    from tribodyn.post.sweep_plots import SWEEP_NAMES, sweep_figure
+    from tribodyn.record.sweep_reader import SweepRecord
+
+    with ExitStack() as stack:
+        records = [stack.enter_context(SweepRecord(path)) for path in paths]
+        place = _place(records[0], at)
+        chosen = SWEEP_NAMES if not names or "all" in names else names
+        return _save_all(chosen, beside, lambda name: sweep_figure(name, records, place))
+
+
+def _place(record: "SweepRecord", at: Sequence[str]) -> dict[str, float | str]:
+    """Read NAME=VALUE, in the unit given or the record's."""
+    from tribodyn.errors import InputError
+    from tribodyn.scenario.units import ANGULAR_SPEED, Kind, NotAQuantity, to_si
+
+    units = {one.name: one.units for one in record.parameters if one.values.dtype.kind in "fi"}
+    place: dict[str, float | str] = {}
+    for one in at:
+        name, equals, text = (part.strip() for part in one.partition("="))
+        if not equals:
+            raise InputError("--at", f'"{one}"', "not NAME=VALUE", "write it like --at pinion_speed=3000rpm")
+        if name not in units:
+            place[name] = text
+            continue
+        try:
+            unit = units[name]
+            kind = ANGULAR_SPEED if unit == ANGULAR_SPEED.si else Kind(name, unit, f"1 {unit}")
+            place[name] = float(text) if unit == "1" else to_si(text, kind)
+        except NotAQuantity as error:
+            raise InputError("--at", f'"{one}"', error.rule, error.remedy) from None
+        except ValueError:
+            raise InputError("--at", f'"{one}"', "not a number", f"write it like {name}=1.5") from None
+    return place
+
+
+def _save_all(names: Iterable[str], beside: Path, make: Callable[[str], "Figure"]) -> list[Path]:
     from tribodyn.cli.progress import progress_bar
-    from tribodyn.post.plots import figure, save
+    from tribodyn.post.style import save
 
     names = list(names)
     pictures = []
     with progress_bar("drawing") as progress:
         for done, name in enumerate(names, start=1):
             picture = beside.with_name(f"{beside.stem}-{name}{beside.suffix}")
-            drawn = figure(name, records, cycles=cycles, against=against)
+            drawn = make(name)
             make_folder(beside.parent)
             try:
                 pictures.append(save(drawn, picture))

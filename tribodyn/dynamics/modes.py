@@ -3,6 +3,7 @@
 import numpy as np
 
 from tribodyn.dynamics.parameters import DRIVE_SHAFT, DRIVE_SPEED, HERTZ_POWER_LAW, Model
+from tribodyn.mesh_cycle import CHANNELS
 
 #: Modes without a compliant shaft, and with one.
 MODES, MODES_WITH_SHAFT = 5, 6
@@ -55,12 +56,11 @@ def _mean_stiffness(model: Model) -> np.ndarray:
     width = np.diff(np.asarray(table.boundary))
     channel = np.asarray(table.channel)[:, :, front]
     stiffness = np.asarray(table.stiffness)[:, :, front][..., front, 0]
-    angle = channel[..., 0, 0]
+    normal = np.stack([channel[..., CHANNELS.index(name), 0] for name in ("cosine", "sine")], axis=-1)
     if model.options.hertz == HERTZ_POWER_LAW:
         stiffness = _at_static_load(model, channel, np.asarray(table.in_contact)[:, front])
-    normal = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     matrix = np.einsum("snij,snik,snjl->snkl", stiffness, normal, normal)
-    return np.einsum("s,skl->kl", width, matrix.mean(axis=1))
+    return np.tensordot(width, matrix.mean(axis=1), axes=1)
 
 
 def _at_static_load(model: Model, channel: np.ndarray, inside: np.ndarray) -> np.ndarray:
@@ -68,5 +68,7 @@ def _at_static_load(model: Model, channel: np.ndarray, inside: np.ndarray) -> np
     table = model.table
     load = abs(float(model.mechanics.load_torque)) / float(table.gear_pitch_radius)
     each = np.maximum(load / np.maximum(inside.sum(axis=1), 1.0), 1.0)[:, None, None]
-    compliance = channel[..., 4, 0] + 0.9 * float(table.hertz_coefficient) * each**-0.1
+    compliance = (
+        channel[..., CHANNELS.index("compliance"), 0] + 0.9 * float(table.hertz_coefficient) * each**-0.1
+    )
     return (inside[:, None, :] / compliance)[..., None] * np.eye(inside.shape[1])

@@ -1,0 +1,84 @@
+"""Modes from the assembled matrices against the Jacobian of the right-hand side itself."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from tribodyn.dynamics.modes import mode_count, natural_frequencies
+from tribodyn.dynamics.parameters import (
+    DISPLACEMENTS,
+    DRIVE_SHAFT,
+    MOTOR_SLIP,
+    SLIP,
+    STATES,
+    TWIST,
+    VELOCITIES,
+)
+from tribodyn.solve.initial import accelerations, static_equilibrium
+from tribodyn.tribology.friction import NONE
+
+PHASES = 40
+
+
+def by_differences(model) -> np.ndarray:
+    """Frequencies (Hz) of the mean over the mesh cycle of the frictionless right-hand side's Jacobian."""
+    model = model._replace(options=model.options._replace(friction_law=NONE))
+    at = static_equilibrium(model)
+    shaft = model.options.drive == DRIVE_SHAFT
+    free = [*DISPLACEMENTS, *([TWIST] if shaft else [])]
+    shift = np.zeros((len(free), STATES))
+    shift[range(len(free)), free] = 1e-9
+    boundary = np.asarray(model.table.boundary)
+    seconds = float(model.table.pitch_angle) / model.mechanics.nominal_speed
+    mean = 0.0
+    for segment, (start, end) in enumerate(pairwise(boundary)):
+        for phase in start + (end - start) * (np.arange(PHASES) + 0.5) / PHASES:
+            up, down = (accelerations(at + sign * shift, phase, segment, model) for sign in (1, -1))
+            slope = (up - down) / 2e-9 / seconds
+            rates = slope[:, list(VELOCITIES)]
+            if shaft:
+                rates = np.column_stack([rates, slope[:, MOTOR_SLIP] - slope[:, SLIP]])
+            mean = mean + rates.T * (end - start) / PHASES
+    return np.sqrt(np.sort(np.linalg.eigvals(-mean).real)) / (2 * np.pi)
+
+
+@pytest.mark.parametrize(
+    ("name", "overrides"),
+    [
+        ("crc-23-47", {}),
+        ("high-contact-ratio", {}),
+        ("rattle", {}),
+        ("load-step", {}),
+        ("load-step", {"operating.shaft_stiffness": "2e6 N*m/rad", "operating.drive_inertia": "0.5 kg*m**2"}),
+    ],
+)
+def test_modes_are_those_of_the_right_hand_side(prepared, name, overrides):
+    model = prepared(name, **overrides).model
+    found = natural_frequencies(model)
+    assert len(found) == mode_count(model)
+    # the mean is over nodes here, over midpoints there
+    np.testing.assert_allclose(found, by_differences(model), rtol=3e-3)
+
+
+def test_a_single_mode_without_bearings_that_give_way(prepared):
+    """Rigid bearings, constant stiffness of single pairs: √(k̄ cos²α / m_e) with k̄ = contact ratio × k."""
+    stiffness = 2e8
+    case = prepared(
+        "involute-23-47",
+        **{
+            "mesh.compliance": "constant",
+            "mesh.stiffness": f"{stiffness} N/m",
+            **{
+                f"bearings.{side}.stiffness_{axis}": "1e14 N/m"
+                for side in ("pinion", "gear")
+                for axis in "xy"
+            },
+        },
+    )
+    m, t = case.model.mechanics, case.model.table
+    cosine = np.cos(float(case.cycle.pressure_angle[0, 0, 0]))
+    mass = m.gear_inertia / t.gear_pitch_radius**2  # the pinion's rotation is prescribed
+    mean = float(case.cycle.contact_ratio) * stiffness
+    expected = np.sqrt(mean * cosine**2 / mass) / (2 * np.pi)
+    assert natural_frequencies(case.model)[0] == pytest.approx(expected, rel=1e-5)

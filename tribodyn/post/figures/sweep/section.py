@@ -1,0 +1,124 @@
+"""Poincaré sections at the start of a mesh cycle: of one case, and over a parameter."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from tribodyn.errors import InputError
+from tribodyn.post.figures.sweep.branch import axis_label, branch_legend, branches, sweep_title, unit
+from tribodyn.post.style import PALETTE, PANEL_HEIGHT, WIDTH, new_figure
+from tribodyn.record.sweep_reader import SweepRecord
+from tribodyn.record.sweep_schema import DONE
+
+
+def bifurcation_figure(records: Sequence[SweepRecord]) -> Figure:
+    """Draw the points of every case's section over the first parameter."""
+    figure = new_figure(WIDTH, PANEL_HEIGHT + 0.9)
+    axes = figure.subplots()
+    drawn = branches(records)
+    for branch in drawn:
+        points = branch.values("poincare_error") * 1e6
+        x = np.repeat(branch.x, points.shape[1]).reshape(points.shape)
+        down = branch.direction == "down"
+        axes.plot(
+            x.ravel(),
+            points.ravel(),
+            linestyle="none",
+            marker="o",
+            markersize=3.2 if down else 1.6,
+            markerfacecolor="none" if down else branch.color,
+            markeredgecolor=branch.color,
+            markeredgewidth=0.5,
+        )
+    axes.set_xlabel(axis_label(records[0].parameters[0]))
+    axes.set_ylabel("Error at phase 0 (µm)")
+    axes.margins(x=0.02)
+    branch_legend(figure, drawn, lines=False)
+    both = "; up filled, down hollow" if any(branch.direction for branch in drawn) else ""
+    figure.suptitle(sweep_title(records) + both, x=0.01, ha="left", fontsize=9)
+    return figure
+
+
+def poincare_figure(records: Sequence[SweepRecord], at: Mapping[str, float | str]) -> Figure:
+    """Draw the section of one case of each record: transmission error and its rate at the start of cycles.
+
+    Parameters
+    ----------
+    records : sequence of SweepRecord
+    at : mapping
+        Parameter's name to value in SI, the nearest case is taken; those not named are chosen so that the
+        section has the most points, and the greatest spread.
+    """
+    figure = new_figure(WIDTH * 0.75, 3.6)
+    axes = figure.subplots()
+    several = len(records) > 1
+    titles = []
+    for number, record in enumerate(records):
+        place = chosen_case(record, at)
+        error, rate = (record.case(name, place) for name in ("poincare_error", "poincare_rate"))
+        where = described(record, place)
+        titles.append(where)
+        axes.plot(
+            error * 1e6,
+            rate * 1e3,
+            linestyle="none",
+            marker="o",
+            markersize=2.5,
+            color=PALETTE[number % len(PALETTE)],
+            label=f"{record.label}: {where}",
+        )
+    axes.set_xlabel("Transmission error (µm)")
+    axes.set_ylabel("Its rate (mm/s)")
+    axes.margins(0.1)
+    if several:
+        figure.legend(loc="outside lower center")
+    title = sweep_title(records) if several else f"{sweep_title(records)}\n{titles[0]}"
+    figure.suptitle(title, x=0.01, ha="left", fontsize=9)
+    return figure
+
+
+def chosen_case(record: SweepRecord, at: Mapping[str, float | str]) -> tuple[int, ...]:
+    """Return the place of the case that `at` describes; raises InputError where there is none."""
+    scales = {one.name: one.values for one in record.parameters}
+    if record.directions:
+        scales["direction"] = np.array(record.directions)
+    for name in at:
+        if name not in scales:
+            raise InputError("--at", name, "not a dimension of the sweep", f"one of {', '.join(scales)}")
+    wanted: list[int | slice] = []
+    for name, values in scales.items():
+        if name not in at:
+            wanted.append(slice(None))
+        elif values.dtype.kind in "fi":
+            wanted.append(int(np.argmin(np.abs(values - float(at[name])))))
+        elif at[name] in values:
+            wanted.append(int(np.flatnonzero(values == at[name])[0]))
+        else:
+            raise InputError("--at", f"{name}={at[name]}", "no such value", f"one of {', '.join(values)}")
+    mask = np.zeros(record["status"].shape, dtype=bool)
+    mask[tuple(wanted)] = True
+    mask &= record["status"] == DONE
+    if not mask.any():
+        raise InputError("record", str(record.path), "no case is done there", "choose another, see --at")
+    points = record["poincare_error"]
+    count = np.sum(np.isfinite(points), axis=-1)
+    # the section with the most different points says the most
+    spread = np.nanmax(np.where(np.isfinite(points), points, -np.inf), axis=-1)
+    spread = spread - np.nanmin(np.where(np.isfinite(points), points, np.inf), axis=-1)
+    score = np.where(mask, count + np.nan_to_num(spread / (np.nanmax(spread[mask]) + 1e-300)), -np.inf)
+    return tuple(int(i) for i in np.unravel_index(int(np.argmax(score)), score.shape))
+
+
+def described(record: SweepRecord, place: tuple[int, ...]) -> str:
+    """Name a case by its parameters in engineers' units, and its sort of motion."""
+    words = []
+    for one, index in zip(record.parameters, place, strict=False):
+        name, factor = unit(one)
+        value = one.values[index]
+        number = f"{float(value) * factor:.5g}" if one.values.dtype.kind in "fi" else str(value)
+        shown = number if name in ("", "1") else f"{number} {name}"
+        words.append(f"{one.name.replace('_', ' ')} {shown}")
+    if record.directions:
+        words.append(record.directions[place[-1]])
+    return f"{', '.join(words)}: {record.case('solution', place)}"

@@ -1,0 +1,82 @@
+"""Spectra over a parameter, one behind the other."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from tribodyn.post.figures.sweep.amplitudes import spectra
+from tribodyn.post.figures.sweep.branch import Branch, axis_label, branches, sweep_title
+from tribodyn.post.style import PALETTE, QUIET, WIDTH, new_figure
+from tribodyn.record.sweep_reader import SweepRecord
+
+#: Spectra in a figure; of more cases, so many are shown.
+MOST_SPECTRA = 60
+#: Orders of the mesh that are shown.
+ORDERS = 6
+#: Spacings of the baselines that the highest line is high.
+HEIGHT = 3.0
+#: Lines weaker than the highest by more than this are not seen, dB.
+RANGE = 60.0
+
+
+def waterfall_figure(records: Sequence[SweepRecord]) -> Figure:
+    """Draw amplitude spectra of the transmission error over frequency, at the parameter of each case.
+
+    Up and down beside each other where both were followed; of several other parameters the first branch.
+    """
+    drawn = branches(records[:1])
+    drawn = [branch for branch in drawn if branch.index[1 : len(records[0].parameters)] == _first(drawn)]
+    figure = new_figure(WIDTH, 4.6)
+    panels = figure.subplots(1, len(drawn), squeeze=False, sharex=True, sharey=True)[0]
+    highest = max(_highest(branch) for branch in drawn)
+    for axes, branch in zip(panels, drawn, strict=True):
+        _draw(axes, branch, highest)
+        if branch.direction:
+            axes.set_title(branch.direction, loc="left")
+        axes.set_xlabel("Frequency (kHz)")
+    panels[0].set_ylabel(axis_label(records[0].parameters[0]))
+    scale = f"highest line {highest * 1e6:.3g} µm, logarithmic over {RANGE:g} dB; modes dashed"
+    figure.suptitle(
+        f"{sweep_title(records)}\nSpectra of the transmission error: {scale}", x=0.01, ha="left", fontsize=9
+    )
+    return figure
+
+
+def _first(drawn: Sequence[Branch]) -> tuple[int | slice, ...]:
+    branch = drawn[0]
+    return branch.index[1 : len(branch.record.parameters)]
+
+
+def _highest(branch: Branch) -> float:
+    return max(float(one.amplitudes[1:].max()) for one in spectra(branch) if one is not None)
+
+
+def _draw(axes: Axes, branch: Branch, highest: float) -> None:
+    found = spectra(branch)
+    frequency = branch.values("mesh_frequency") * 1e-3
+    keep = np.unique(np.linspace(0, len(found) - 1, min(len(found), MOST_SPECTRA)).round().astype(int))
+    spacing = (branch.x.max() - branch.x.min()) / max(1, len(keep) - 1) or 1.0
+    # farthest first, so that the nearer ones hide it
+    for i in sorted(keep, key=lambda i: -branch.x[i]):
+        one = found[i]
+        if one is None:
+            continue
+        shown = (one.orders > 0) & (one.orders <= ORDERS + 0.5)
+        places = np.repeat(one.orders[shown] * frequency[i], 3)
+        heights = np.zeros(places.size)
+        level = 20 * np.log10(np.maximum(one.amplitudes[shown], 1e-300) / highest) / RANGE + 1
+        heights[1::3] = np.maximum(level, 0) * HEIGHT * spacing
+        depth = 2.0 - i / len(found)
+        axes.fill_between(
+            places, branch.x[i], branch.x[i] + heights, facecolor="white", linewidth=0, zorder=depth
+        )
+        axes.plot(places, branch.x[i] + heights, color=PALETTE[0], linewidth=0.7, zorder=depth)
+    limit = float(np.nanmax(frequency)) * min(ORDERS, 4)
+    modes = branch.values("mode_frequency") * 1e-3
+    for mode in range(modes.shape[1]):
+        if np.nanmin(modes[:, mode]) < limit:
+            axes.plot(modes[:, mode], branch.x, color=QUIET, linestyle=(0, (3, 2)), linewidth=0.7, zorder=3)
+    axes.set_xlim(0, limit)
+    axes.grid(False)
