@@ -5,7 +5,17 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from tribodyn.scenario import units
-from tribodyn.scenario.quantity import NotNegative, Number, Positive, Quantity, Reference, Table, Text
+from tribodyn.scenario.modification import Modification
+from tribodyn.scenario.quantity import (
+    NotNegative,
+    Number,
+    Positive,
+    Quantity,
+    Reference,
+    Table,
+    Text,
+    written,
+)
 
 Length = Annotated[float, Quantity(units.positive(units.LENGTH))]
 Angle = Annotated[float, Quantity(units.positive(units.ANGLE_KIND))]
@@ -53,6 +63,7 @@ class Gear(Table):
     mass: Mass | None = Field(None, description="default: from outline, bore and width")
     inertia: Inertia | None = Field(None, description="polar; default: from outline, bore and width")
     material: MaterialReference | None = Field(None, description="default: the drive's")
+    modification: Modification = written({})
 
 
 class DriveTable(Described):

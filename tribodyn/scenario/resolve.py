@@ -34,6 +34,12 @@ CURVES: dict[Key, tuple[str, str]] = {
     ("mesh", "transmission_error", "table"): ("roll_angle", "error"),
 }
 
+_GEARS = ("pinion", "gear")
+CURVES |= {("drive", gear, "modification", "profile_error"): ("roll_angle", "error") for gear in _GEARS}
+
+#: Keys whose string names a CSV file that stands for a list of quantities, and the column that is due.
+LISTS: dict[Key, str] = {("drive", gear, "modification", "pitch_errors"): "error" for gear in _GEARS}
+
 OVERRIDES = "--set"
 
 
@@ -68,7 +74,7 @@ def resolve_table(written: dict[str, Any], path: Path, overrides: Mapping[str, A
         except InputError as error:
             raise origins.locate(error) from None
     errors: list[InputError] = []
-    for key in (*MODEL_FILES, *CURVES):
+    for key in (*MODEL_FILES, *CURVES, *LISTS):
         try:
             _put_content(data, origins, path, key)
         except InputError as error:
@@ -123,20 +129,27 @@ def _put_content(data: dict[str, Any], origins: Origins, path: Path, key: Key) -
     if key in MODEL_FILES:
         file = find_model(name, MODEL_FILES[key], dotted, referring)
         holder[key[-1]] = read_toml(file)
-    elif key in CURVES:
+    elif key in CURVES or key in LISTS:
         file = referring.parent / name
+        due = CURVES.get(key) or (LISTS[key],)
         if not is_file(file):
-            columns = ",".join(f"{column} [unit]" for column in CURVES[key])
+            columns = ",".join(f"{column} [unit]" for column in due)
             raise InputError(
                 dotted,
                 quoted(name),
                 f"no such file: {printable(str(file))}",
                 f"give a CSV file that begins with {columns}",
             )
-        holder[key[-1]] = read_curve(file, dotted, CURVES[key])
+        columns = read_curve(file, dotted, due)
+        holder[key[-1]] = columns if key in CURVES else _quantities(columns[due[0]])
     else:
         return
     origins.put(key, str(file))
+
+
+def _quantities(column: Mapping[str, Any]) -> list[str]:
+    """Write a column as the list of quantities that it stands for."""
+    return [f"{value!r} {column['unit']}" for value in column["values"]]
 
 
 def _at(data: Any, key: Iterable[str | int]) -> Any:

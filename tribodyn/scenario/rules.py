@@ -4,6 +4,13 @@ from collections.abc import Iterator
 
 from tribodyn.errors import InputError
 from tribodyn.scenario.model_files import Bearing, DriveTable
+from tribodyn.scenario.modification_rules import (
+    Face,
+    broken_flank_rules,
+    broken_slice_rules,
+    contradicted_modifications,
+    contradicted_pitch_errors,
+)
 from tribodyn.scenario.schema import Mesh, Operating, Scenario
 
 
@@ -15,6 +22,7 @@ def broken_rules(scenario: Scenario) -> list[InputError]:
         *_bearing("bearings.gear", scenario.bearings.gear),
         *_operating(scenario.operating, scenario.mesh.backlash is not None),
         *_mesh(scenario.mesh),
+        *_face(scenario),
     ]
 
 
@@ -28,6 +36,18 @@ def broken_drive_rules(drive: DriveTable) -> Iterator[InputError]:
                 rule="missing",
                 remedy="give the name of a file in models/materials here, or drive.material for both gears",
             )
+    yield from broken_flank_rules(drive)
+
+
+def _face(scenario: Scenario) -> Iterator[InputError]:
+    mesh = scenario.mesh
+    face = Face(scenario.drive, mesh.misalignment, mesh.slices, mesh.slice_coupling)
+    if mesh.compliance == "fem":
+        yield from broken_slice_rules(face)
+        yield from contradicted_pitch_errors(scenario.drive)
+    else:
+        remedy = 'leave it out, or write compliance = "fem"'
+        yield from contradicted_modifications(face, f'compliance = "{mesh.compliance}"', remedy)
 
 
 def _bearing(key: str, bearing: Bearing) -> Iterator[InputError]:

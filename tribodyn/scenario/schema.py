@@ -10,11 +10,11 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from tribodyn.scenario import units
+from tribodyn.scenario.curves import ErrorCurve, StiffnessCurve, TorqueCurve
 from tribodyn.scenario.model_files import Bearings, DriveTable, Length, Lubricant, Stiffness
+from tribodyn.scenario.modification import MisalignmentTable
 from tribodyn.scenario.quantity import (
-    Column,
     Count,
-    Curve,
     NotNegative,
     Quantity,
     Reference,
@@ -29,30 +29,9 @@ Inertia = Annotated[float, Quantity(units.not_negative(units.INERTIA))]
 TorsionalDamping = Annotated[float, Quantity(units.not_negative(units.TORSIONAL_DAMPING))]
 Angle = Annotated[float, Quantity(units.ANGLE_KIND)]
 SignedLength = Annotated[float, Quantity(units.LENGTH)]
-RollAngles = Annotated[Column, units.ANGLE_KIND]
+Slices = Annotated[int, Field(strict=True, ge=1, le=501)]
 Name = Annotated[str, Field(strict=True, pattern=r"^\w[\w .-]*$")]
 """A scenario's name, which also names its record."""
-
-
-class TorqueCurve(Curve):
-    """Torque over time that is added to the load; held constant outside the points."""
-
-    time: Annotated[Column, units.TIME]
-    torque: Annotated[Column, units.TORQUE]
-
-
-class StiffnessCurve(Curve):
-    """Stiffness of a single pair over the pinion's roll angle from the pitch point."""
-
-    roll_angle: RollAngles
-    stiffness: Annotated[Column, units.positive(units.STIFFNESS)]
-
-
-class ErrorCurve(Curve):
-    """Static transmission error of a pair over the pinion's roll angle from the pitch point."""
-
-    roll_angle: RollAngles
-    error: Annotated[Column, units.LENGTH]
 
 
 class TorqueHarmonic(Table):
@@ -131,6 +110,11 @@ class Mesh(Table):
     )
     points: Annotated[int, Field(strict=True, ge=5)] = Field(65, description="nodes a segment of the table")
     transmission_error: TransmissionError = written({})
+    misalignment: MisalignmentTable = written({})
+    slices: Slices | None = Field(
+        None, description="of the face; default: 21 where anything varies along it, else 1"
+    )
+    slice_coupling: Switch = Field(True, description="slices of one tooth hold each other")
 
 
 class Friction(Table):

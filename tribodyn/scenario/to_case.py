@@ -5,8 +5,13 @@ from typing import cast
 
 from tribodyn import case
 from tribodyn.geometry.drive import Drive, GearBody
+from tribodyn.geometry.modification import Modifications, vary_along_lead
 from tribodyn.scenario import model_files, schema
+from tribodyn.scenario.modification import MisalignmentTable, flank_of, misalignment_of
 from tribodyn.scenario.shape import shape_of
+
+#: Slices along the face where nothing is said and anything varies along it.
+SLICES = 21
 
 
 def case_of(scenario: schema.Scenario, toml: str, sha256: str) -> case.Case:
@@ -27,7 +32,7 @@ def case_of(scenario: schema.Scenario, toml: str, sha256: str) -> case.Case:
         lubricant=lubricant_of(scenario.lubricant),
         bearings=(_bearing(scenario.bearings.pinion), _bearing(scenario.bearings.gear)),
         operating=_operating(scenario.operating),
-        mesh=_mesh(scenario.mesh),
+        mesh=_mesh(scenario),
         friction=case.FrictionData(**scenario.friction.model_dump()),
         solver=case.SolverData(**scenario.solver.model_dump()),
         output=case.OutputData(**scenario.output.model_dump()),
@@ -100,14 +105,30 @@ def _operating(operating: schema.Operating) -> case.OperatingData:
     )
 
 
-def _mesh(mesh: schema.Mesh) -> case.MeshData:
+def _mesh(scenario: schema.Scenario) -> case.MeshData:
+    mesh = scenario.mesh
     error = mesh.transmission_error
+    modifications = modifications_of(scenario.drive, mesh.misalignment)
     return case.MeshData(
         table=mesh.table.in_si() if mesh.table else None,
         error_harmonics=tuple((one.order, one.amplitude, one.phase) for one in error.harmonics),
         error_table=error.table.in_si() if error.table else None,
-        **mesh.model_dump(exclude={"table", "transmission_error"}),
+        modifications=modifications,
+        slices=slices_of(mesh.slices, modifications),
+        **mesh.model_dump(exclude={"table", "transmission_error", "misalignment", "slices"}),
     )
+
+
+def modifications_of(drive: model_files.DriveTable, misalignment: MisalignmentTable) -> Modifications:
+    """Return what is taken off the flanks of a drive, and how its axes stand."""
+    return Modifications(
+        flank_of(drive.pinion.modification), flank_of(drive.gear.modification), misalignment_of(misalignment)
+    )
+
+
+def slices_of(given: int | None, modifications: Modifications) -> int:
+    """Return the number of slices along the face."""
+    return given or (SLICES if vary_along_lead(modifications) else 1)
 
 
 def _mass(gear: model_files.Gear) -> case.BodyMass:

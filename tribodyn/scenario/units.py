@@ -165,6 +165,9 @@ def not_negative(kind: Kind) -> Kind:
 
 LENGTH = Kind("length", "m", "3 mm")
 ROUGHNESS = Kind("length", "m", "0.3 um")
+RELIEF = Kind("length", "m", "20 um")
+DEVIATION = Kind("length", "m", "4 um")
+SMALL_ANGLE = Kind(ANGLE, "rad", "2 arcmin")
 ANGLE_KIND = Kind(ANGLE, "rad", "20 deg")
 ANGULAR_SPEED = Kind(SPEED, "rad/s", "10 rad/s")
 ANGULAR_FREQUENCY = Kind(FREQUENCY, "rad/s", "30 Hz")

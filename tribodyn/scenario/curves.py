@@ -1,0 +1,29 @@
+"""The functions given by points that a scenario may hold, or name as CSV files."""
+
+from typing import Annotated
+
+from tribodyn.scenario import units
+from tribodyn.scenario.quantity import Column, Curve
+
+RollAngles = Annotated[Column, units.ANGLE_KIND]
+
+
+class TorqueCurve(Curve):
+    """Torque over time that is added to the load; held constant outside the points."""
+
+    time: Annotated[Column, units.TIME]
+    torque: Annotated[Column, units.TORQUE]
+
+
+class StiffnessCurve(Curve):
+    """Stiffness of a single pair over the pinion's roll angle from the pitch point."""
+
+    roll_angle: RollAngles
+    stiffness: Annotated[Column, units.positive(units.STIFFNESS)]
+
+
+class ErrorCurve(Curve):
+    """Error of a pair's flanks over the pinion's roll angle from the pitch point."""
+
+    roll_angle: RollAngles
+    error: Annotated[Column, units.LENGTH]

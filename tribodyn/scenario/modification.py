@@ -1,0 +1,79 @@
+"""The tables of what is taken off the flanks, ``[drive.pinion.modification]``, and of the axes' deviations."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from tribodyn.geometry.modification import FlankModification, LeadRelief, Misalignment, Relief
+from tribodyn.scenario import units
+from tribodyn.scenario.curves import ErrorCurve
+from tribodyn.scenario.quantity import Quantity, Reference, Table, written
+
+Amount = Annotated[float, Quantity(units.not_negative(units.RELIEF))]
+Extent = Annotated[float, Quantity(units.positive(units.LENGTH))]
+Shape = Literal["linear", "parabolic"]
+
+_EXPONENT = {"linear": 1.0, "parabolic": 2.0}
+
+
+class Modification(Table):
+    """What is missing on the driving flanks of a gear, along their normal."""
+
+    tip_relief: Amount = written("0 um", description="at the end of the active profile")
+    tip_relief_length: Extent | None = Field(
+        None, description="along the line of action, from the end of the active path"
+    )
+    tip_relief_shape: Shape = "linear"
+    root_relief: Amount = written("0 um", description="at the beginning of the active profile")
+    root_relief_length: Extent | None = Field(
+        None, description="along the line of action, from the end of the active path"
+    )
+    root_relief_shape: Shape = "linear"
+    lead_relief_start: Amount = written("0 um", description="at one end of the face, parabolic")
+    lead_relief_end: Amount = written("0 um", description="at the other end")
+    lead_unmodified: Annotated[float, Quantity(units.not_negative(units.LENGTH))] = written(
+        "0 mm", description="straight part of the face between the two, in its middle"
+    )
+    crowning: Amount | None = Field(
+        None, description="the same at both ends of the face, without a straight part"
+    )
+    profile_error: Annotated[ErrorCurve, Reference("CSV file with columns roll_angle and error")] | None = (
+        Field(None, description="positive where material is missing")
+    )
+    pitch_errors: Annotated[
+        tuple[Annotated[float, Quantity(units.DEVIATION)], ...], Reference("CSV file with a column error")
+    ] = Field((), description="one a tooth, positive where material is missing")
+
+
+class MisalignmentTable(Table):
+    """Angles between the axes of the gears."""
+
+    in_plane: Annotated[float, Quantity(units.SMALL_ANGLE)] = written(
+        "0 arcmin", description="within the plane of action"
+    )
+    out_of_plane: Annotated[float, Quantity(units.SMALL_ANGLE)] = written(
+        "0 arcmin", description="perpendicular to the plane of action"
+    )
+
+
+def flank_of(table: Modification) -> FlankModification:
+    """Return the modification of a gear's driving flanks."""
+    crowning = table.crowning
+    lead = LeadRelief(table.lead_relief_start, table.lead_relief_end, table.lead_unmodified)
+    return FlankModification(
+        tip=_relief(table, "tip"),
+        root=_relief(table, "root"),
+        lead=lead if crowning is None else LeadRelief(crowning, crowning),
+        profile_error=table.profile_error.in_si() if table.profile_error else None,
+        pitch_error=table.pitch_errors,
+    )
+
+
+def misalignment_of(table: MisalignmentTable) -> Misalignment:
+    """Return how the axes stand."""
+    return Misalignment(table.in_plane, table.out_of_plane)
+
+
+def _relief(table: Modification, end: str) -> Relief:
+    amount, length = getattr(table, f"{end}_relief"), getattr(table, f"{end}_relief_length")
+    return Relief(amount, length or 0.0, _EXPONENT[getattr(table, f"{end}_relief_shape")])
