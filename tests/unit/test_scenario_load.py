@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from tribodyn.errors import InputError
+from tribodyn.scenario.kinds import KINDS
 from tribodyn.scenario.load import (
     FAMILIES,
     FRICTION_LAWS,
@@ -217,7 +218,7 @@ def test_registries_know_their_names_and_suggest_near_ones():
 def test_the_json_schema_offers_references_and_the_registries_names():
     schema = json_schema()
     assert schema["$defs"]["Friction"]["properties"]["law"]["enum"] == list(FRICTION_LAWS)
-    kinds = ("Scenario", "RollingScenario", "EfficiencyScenario")
+    kinds = [kind.__name__ for kind in KINDS.values()]
     assert [shape["$ref"] for shape in schema["oneOf"]] == [f"#/$defs/{kind}" for kind in kinds]
     assert schema["$defs"]["EfficiencyFriction"]["properties"]["law"]["enum"] == list(FRICTION_LAWS)
     gear_pair = schema["$defs"]["Scenario"]

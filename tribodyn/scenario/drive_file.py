@@ -14,7 +14,7 @@ from tribodyn.scenario.load import family, load
 from tribodyn.scenario.messages import InputErrors, Origins, explain
 from tribodyn.scenario.model_files import DriveTable
 from tribodyn.scenario.quantity import Table
-from tribodyn.scenario.resolve import resolve_table
+from tribodyn.scenario.resolve import resolve_table, unresolved_keys
 from tribodyn.scenario.rules import broken_drive_rules
 from tribodyn.scenario.shape import shape_errors
 from tribodyn.scenario.sources import find_drive_or_scenario, quoted, read_toml
@@ -79,7 +79,7 @@ def load_drive(model: str, overrides: Mapping[str, Any] | None = None) -> DriveM
     try:
         table = _DriveAlone.model_validate({"drive": data["drive"]}).drive
     except ValidationError as error:
-        known = {one.key for one in unresolved}
+        known = unresolved_keys(unresolved)
         found = [one for one in explain(error, _DriveAlone) if one.key not in known]
         raise InputErrors([origins.locate(one) for one in (*unresolved, *found)]) from None
     with origins.naming():

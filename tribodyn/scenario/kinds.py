@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from tribodyn.scenario.efficiency import EfficiencyScenario
+from tribodyn.scenario.load_contact import LoadContactScenario
 from tribodyn.scenario.quantity import Table
 from tribodyn.scenario.rolling import RollingScenario
 from tribodyn.scenario.schema import Scenario
@@ -12,6 +13,7 @@ KINDS: dict[str, type[Table]] = {
     "gear-pair": Scenario,
     "irefc": RollingScenario,
     "efficiency": EfficiencyScenario,
+    "load-contact": LoadContactScenario,
 }
 
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Union
 
 import tomli_w
 from pydantic import Field, TypeAdapter, ValidationError
@@ -15,19 +15,16 @@ from pydantic import Field, TypeAdapter, ValidationError
 from tribodyn.case import Case
 from tribodyn.efficiency.case import EfficiencyCase
 from tribodyn.errors import InputError
+from tribodyn.load_contact_case import LoadContactCase
 from tribodyn.rolling.case import RollingCase
-from tribodyn.scenario.efficiency import (
-    EfficiencyFriction,
-    EfficiencyScenario,
-    broken_efficiency_rules,
-    efficiency_case_of,
-)
+from tribodyn.scenario.efficiency import EfficiencyScenario, efficiency_case_of
 from tribodyn.scenario.kinds import KINDS, table_of
+from tribodyn.scenario.load_contact import LoadContactScenario, load_contact_case_of
 from tribodyn.scenario.messages import InputErrors, Origins, explain
-from tribodyn.scenario.resolve import Resolved, resolve
+from tribodyn.scenario.resolve import Resolved, resolve, unresolved_keys
 from tribodyn.scenario.rolling import RollingScenario, rolling_case_of
-from tribodyn.scenario.rules import broken_drive_rules, broken_rules
-from tribodyn.scenario.schema import Friction, Scenario
+from tribodyn.scenario.rules import OfGears, broken_rules
+from tribodyn.scenario.schema import Scenario
 from tribodyn.scenario.shape import shape_errors
 from tribodyn.scenario.sources import find_scenario, near_name, quoted
 from tribodyn.scenario.to_case import case_of
@@ -38,7 +35,7 @@ if TYPE_CHECKING:
     from tribodyn.geometry.family import Family
 
 
-AnyCase = Case | RollingCase | EfficiencyCase
+AnyCase = Case | RollingCase | EfficiencyCase | LoadContactCase
 """A case of any kind of scenario."""
 
 
@@ -230,7 +227,7 @@ def loaded_from(resolved: Resolved, path: Path) -> Loaded:
         raise origins.locate(error) from None
     except ValidationError as error:
         # a reference that could not be followed has been complained of already
-        known = {one.key for one in unresolved}
+        known = unresolved_keys(unresolved)
         found = [one for one in explain(error, model) if one.key not in known]
         raise _located([*unresolved, *found], origins) from None
     if unresolved:  # of a key whose value only its family knows to be a file
@@ -239,18 +236,21 @@ def loaded_from(resolved: Resolved, path: Path) -> Loaded:
     digest = hashlib.sha256(toml.encode()).hexdigest()
     if isinstance(table, RollingScenario):
         return Loaded(rolling_case_of(table, toml, digest), path, origins)
-    assert isinstance(table, Scenario | EfficiencyScenario)
-    if isinstance(table, Scenario):
-        rules = broken_rules(table)
-    else:
-        rules = [*broken_drive_rules(table.drive), *broken_efficiency_rules(table.mesh)]
-    errors = rules + _unknown_names(table) + _coefficient(table.friction)
+    assert isinstance(table, OfGears)
+    errors = broken_rules(table) + _unknown_names(table) + _coefficient(table)
     if table.drive.family in FAMILIES:
         errors += shape_errors(table.drive, family(table.drive.family))
     if errors:
         raise _located(errors, origins)
-    case = case_of if isinstance(table, Scenario) else efficiency_case_of
-    return Loaded(case(table, toml, digest), path, origins)  # pyright: ignore[reportArgumentType]
+    return Loaded(_case_of(table, toml, digest), path, origins)
+
+
+def _case_of(table: OfGears, toml: str, digest: str) -> AnyCase:
+    if isinstance(table, EfficiencyScenario):
+        return efficiency_case_of(table, toml, digest)
+    if isinstance(table, LoadContactScenario):
+        return load_contact_case_of(table, toml, digest)
+    return case_of(table, toml, digest)
 
 
 def _located(errors: list[InputError], origins: Origins) -> InputError:
@@ -258,9 +258,11 @@ def _located(errors: list[InputError], origins: Origins) -> InputError:
     return InputErrors(located) if len(located) > 1 else located[0]
 
 
-def _unknown_names(table: Scenario | EfficiencyScenario) -> list[InputError]:
+def _unknown_names(table: OfGears) -> list[InputError]:
     errors = []
-    lookups = [(family, table.drive.family), (friction_law, table.friction.law)]
+    lookups: list[tuple[Callable[[str], Any], str]] = [(family, table.drive.family)]
+    if not isinstance(table, LoadContactScenario):
+        lookups.append((friction_law, table.friction.law))
     if isinstance(table, Scenario):
         lookups.append((solver, table.solver.method))
     for lookup, name in lookups:
@@ -271,7 +273,10 @@ def _unknown_names(table: Scenario | EfficiencyScenario) -> list[InputError]:
     return errors
 
 
-def _coefficient(friction: Friction | EfficiencyFriction) -> list[InputError]:
+def _coefficient(table: OfGears) -> list[InputError]:
+    if isinstance(table, LoadContactScenario):
+        return []
+    friction = table.friction
     law = FRICTION_LAWS.get(friction.law)
     if law is None or law.coefficient == (friction.coefficient is not None):
         return []
@@ -285,7 +290,7 @@ def _coefficient(friction: Friction | EfficiencyFriction) -> list[InputError]:
 
 def json_schema() -> dict[str, Any]:
     """Return the JSON schema of a scenario file, the registries' names included."""
-    kinds = Annotated[Scenario | RollingScenario | EfficiencyScenario, Field(discriminator="kind")]
+    kinds: Any = Annotated[Union[tuple(KINDS.values())], Field(discriminator="kind")]  # noqa: UP007
     schema = {"title": "Scenario", **TypeAdapter(kinds).json_schema()}
     parts = schema["$defs"]
     for table, key, known in (

@@ -1,6 +1,7 @@
-"""The tables of a scenario of ``kind = "load-contact"``: teeth in slow rotation under load, slice by slice."""
+"""The tables of a scenario of ``kind = "load-contact"``: teeth in slow rotation under load."""
 
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -58,14 +59,12 @@ class LoadContactScenario(Table):
 def broken_load_contact_rules(scenario: LoadContactScenario) -> Iterator[InputError]:
     """Go through the rules that tie keys of such a scenario together."""
     mesh = scenario.mesh
-    yield from broken_slice_rules(
-        Face(scenario.drive, mesh.misalignment, mesh.slices, mesh.slice_coupling)
-    )
+    yield from broken_slice_rules(Face(scenario.drive, mesh.misalignment, mesh.slices, mesh.slice_coupling))
     torques = scenario.operating.gear_torques
     if len(torques) == 1:
         rule = "a single torque makes no map"
         yield InputError("operating.gear_torques", f"{torques[0]:g} N*m", rule, "give at least two")
-    for number, (one, next_one) in enumerate(zip(torques, torques[1:], strict=False), start=1):
+    for number, (one, next_one) in enumerate(pairwise(torques), start=1):
         if next_one <= one:
             yield InputError(
                 f"operating.gear_torques.{number}",

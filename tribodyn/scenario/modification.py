@@ -1,4 +1,4 @@
-"""The tables of what is taken off the flanks, ``[drive.pinion.modification]``, and of the axes' deviations."""
+"""The tables of modified flanks, ``[drive.pinion.modification]``, and of the axes' deviations."""
 
 from typing import Annotated, Literal
 

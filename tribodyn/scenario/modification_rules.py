@@ -32,11 +32,12 @@ def broken_flank_rules(drive: DriveTable) -> Iterator[InputError]:
 
 def _flank(key: str, table: Modification, teeth: int, face_width: float) -> Iterator[InputError]:
     for end in ("tip", "root"):
-        if getattr(table, f"{end}_relief") > 0 and getattr(table, f"{end}_relief_length") is None:
+        if (amount := getattr(table, f"{end}_relief")) and getattr(table, f"{end}_relief_length") is None:
             yield InputError(
-                f"{key}.{end}_relief_length",
-                rule=f"missing: {end}_relief needs it",
-                remedy=f'add {end}_relief_length = "3 mm", along the line of action',
+                f"{key}.{end}_relief",
+                _length(amount),
+                "nothing says how far it reaches",
+                f'add {end}_relief_length = "3 mm", along the line of action',
             )
     if table.crowning is not None:
         for name in ("lead_relief_start", "lead_relief_end", "lead_unmodified"):

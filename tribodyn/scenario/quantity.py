@@ -63,7 +63,10 @@ class Reference:
         self.what = what
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
-        return {"anyOf": [{"type": "string", "description": self.what}, handler(schema)]}
+        like = {"type": "string", "description": f"{self.what}: says what this table does not"}
+        table = {"type": "object", "properties": {"like": like}, "required": ["like"]}
+        several = [{"type": "string", "description": self.what}, handler(schema)]
+        return {"anyOf": several if "CSV" in self.what else [*several, table]}
 
 
 def written(default: Any, description: str | None = None) -> Any:

@@ -40,6 +40,9 @@ CURVES |= {("drive", gear, "modification", "profile_error"): ("roll_angle", "err
 #: Keys whose string names a CSV file that stands for a list of quantities, and the column that is due.
 LISTS: dict[Key, str] = {("drive", gear, "modification", "pitch_errors"): "error" for gear in _GEARS}
 
+#: In the table of a model: the name of a file that says everything which the table does not.
+LIKE = "like"
+
 OVERRIDES = "--set"
 
 
@@ -82,6 +85,11 @@ def resolve_table(written: dict[str, Any], path: Path, overrides: Mapping[str, A
     return Resolved(defaults_written_out(data, table_of(data)), origins, errors)
 
 
+def unresolved_keys(errors: Iterable[InputError]) -> set[str]:
+    """Return the keys whose values are missing because a file was not found; complained of already."""
+    return {error.key.removesuffix(f".{LIKE}") for error in errors}
+
+
 def toml_value(text: str) -> Any:
     """Return what `text` means: a TOML value if it is one, else the text itself."""
     try:
@@ -96,7 +104,8 @@ def _override(data: dict[str, Any], origins: Origins, path: Path, dotted: str, v
     key: Key = tuple(int(part) if part.isdecimal() else part for part in dotted.split("."))
     place: Any = data
     for depth, part in enumerate(key[:-1], start=1):
-        _put_content(data, origins, path, key[:depth])
+        if key[depth:] != (LIKE,):  # another model to be like takes the place of the first
+            _put_content(data, origins, path, key[:depth])
         if isinstance(place, dict):
             place = place.setdefault(str(part), {})
         elif isinstance(place, list) and isinstance(part, int) and part < len(place):
@@ -119,13 +128,15 @@ def _override(data: dict[str, Any], origins: Origins, path: Path, dotted: str, v
 def _put_content(data: dict[str, Any], origins: Origins, path: Path, key: Key) -> None:
     """Where the value at `key` names a file, put the file's content in its place."""
     holder = _at(data, key[:-1])
-    if not isinstance(holder, dict) or not isinstance(holder.get(key[-1]), str):
+    if not isinstance(holder, dict):
+        return
+    if isinstance(holder.get(key[-1]), dict) and LIKE in holder[key[-1]] and key in MODEL_FILES:
+        _put_under(data, origins, path, key)
+        return
+    if not isinstance(holder.get(key[-1]), str):
         return
     name: str = holder[key[-1]]
-    said_in = origins.of(key)
-    # what --set names is meant as the scenario would name it
-    referring = path if said_in == OVERRIDES else Path(said_in)
-    dotted = ".".join(map(str, key))
+    referring, dotted = _referring(origins, path, key), ".".join(map(str, key))
     if key in MODEL_FILES:
         file = find_model(name, MODEL_FILES[key], dotted, referring)
         holder[key[-1]] = read_toml(file)
@@ -140,11 +151,52 @@ def _put_content(data: dict[str, Any], origins: Origins, path: Path, key: Key) -
                 f"no such file: {printable(str(file))}",
                 f"give a CSV file that begins with {columns}",
             )
-        columns = read_curve(file, dotted, due)
-        holder[key[-1]] = columns if key in CURVES else _quantities(columns[due[0]])
+        curve = read_curve(file, dotted, due)
+        holder[key[-1]] = curve if key in CURVES else _quantities(curve[due[0]])
     else:
         return
     origins.put(key, str(file))
+
+
+def _put_under(data: dict[str, Any], origins: Origins, path: Path, key: Key) -> None:
+    """Put the content of the model that the table at `key` is like under what the table says itself."""
+    table = _at(data, key)
+    dotted = ".".join(map(str, (*key, LIKE)))
+    name = table[LIKE]
+    holder = _at(data, key[:-1])
+    holder[key[-1]] = name  # until it is found: what is missing in the table then is no mistake of its own
+    if not isinstance(name, str):
+        raise InputError(dotted, quoted(name), "not the name of a model", "write a name in quotes")
+    file = find_model(name, MODEL_FILES[key], dotted, _referring(origins, path, (*key, LIKE)))
+    said_in = {leaf: origins.of((*key, *leaf)) for leaf in _leaves(table)}
+    holder[key[-1]] = _merged(read_toml(file), {name: value for name, value in table.items() if name != LIKE})
+    origins.put(key, str(file))
+    for leaf, where in said_in.items():
+        origins.put((*key, *leaf), where)
+
+
+def _referring(origins: Origins, path: Path, key: Key) -> Path:
+    """Return the file that names another at `key`; what --set names, the scenario might have named."""
+    said_in = origins.of(key)
+    return path if said_in == OVERRIDES else Path(said_in)
+
+
+def _merged(under: dict[str, Any], over: Mapping[str, Any]) -> dict[str, Any]:
+    """Put one table over another, key by key."""
+    merged = dict(under)
+    for name, value in over.items():
+        below = merged.get(name)
+        both = isinstance(below, dict) and isinstance(value, dict) and LIKE not in value
+        merged[name] = _merged(below, value) if both else value
+    return merged
+
+
+def _leaves(table: Mapping[str, Any], above: Key = ()) -> list[Key]:
+    """Return the keys of everything in a table that is no table."""
+    found: list[Key] = []
+    for name, value in table.items():
+        found += _leaves(value, (*above, name)) if isinstance(value, dict) else [(*above, name)]
+    return found
 
 
 def _quantities(column: Mapping[str, Any]) -> list[str]:

@@ -3,7 +3,10 @@
 from collections.abc import Iterator
 
 from tribodyn.errors import InputError
+from tribodyn.scenario.efficiency import EfficiencyScenario, broken_efficiency_rules
+from tribodyn.scenario.load_contact import LoadContactScenario, broken_load_contact_rules
 from tribodyn.scenario.model_files import Bearing, DriveTable
+from tribodyn.scenario.modification import MisalignmentTable
 from tribodyn.scenario.modification_rules import (
     Face,
     broken_flank_rules,
@@ -13,11 +16,22 @@ from tribodyn.scenario.modification_rules import (
 )
 from tribodyn.scenario.schema import Mesh, Operating, Scenario
 
+OfGears = Scenario | EfficiencyScenario | LoadContactScenario
+"""A scenario of any kind that is about a pair of gears."""
 
-def broken_rules(scenario: Scenario) -> list[InputError]:
+
+def broken_rules(scenario: OfGears) -> list[InputError]:
     """Return an error for every rule that the scenario breaks; none: it is consistent."""
+    drive = list(broken_drive_rules(scenario.drive))
+    if isinstance(scenario, LoadContactScenario):
+        return [*drive, *broken_load_contact_rules(scenario)]
+    if isinstance(scenario, EfficiencyScenario):
+        unmodified = Face(scenario.drive, MisalignmentTable(), None, True)
+        remedy = 'leave it out, or use kind = "load-contact"'
+        broken = contradicted_modifications(unmodified, 'kind = "efficiency"', remedy)
+        return [*drive, *broken_efficiency_rules(scenario.mesh), *broken]
     return [
-        *broken_drive_rules(scenario.drive),
+        *drive,
         *_bearing("bearings.pinion", scenario.bearings.pinion),
         *_bearing("bearings.gear", scenario.bearings.gear),
         *_operating(scenario.operating, scenario.mesh.backlash is not None),
