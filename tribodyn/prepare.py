@@ -22,7 +22,7 @@ from tribodyn.dynamics.parameters import (
     Options,
 )
 from tribodyn.mesh_cycle import MeshCycle, Polynomials, polynomials
-from tribodyn.surfaces import Lubricated, contact_of
+from tribodyn.surfaces import Geared, contact_of
 from tribodyn.tribology.contact import logarithms
 
 #: Gauss-Seidel sweeps from the tabulated inverse: only pairs about to separate need more than one.
@@ -229,7 +229,7 @@ def _monotone_slopes(times: np.ndarray, values: np.ndarray) -> np.ndarray:
     return slopes
 
 
-def geometry_arrays(case: Lubricated, cycle: MeshCycle) -> dict[str, Any]:
+def geometry_arrays(case: Geared) -> dict[str, Any]:
     """Outlines, path and circles for a record's pictures, in each body's own frame, m."""
     from tribodyn.geometry.body import gear_polygon
     from tribodyn.geometry.drive import SIDES, body_of, root_radius, tip_radius

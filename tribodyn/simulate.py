@@ -11,6 +11,7 @@ from tribodyn.case import Case
 from tribodyn.dynamics.outputs import outputs
 from tribodyn.efficiency.case import EfficiencyCase
 from tribodyn.errors import SimulationError
+from tribodyn.load_contact_case import LoadContactCase
 from tribodyn.mesh_cycle import as_arrays
 from tribodyn.prepare import Prepared, geometry_arrays, prepare
 from tribodyn.rolling.case import RollingCase
@@ -37,7 +38,7 @@ class RunResult(NamedTuple):
 
 
 def run(
-    case: Case | RollingCase | EfficiencyCase,
+    case: Case | RollingCase | EfficiencyCase | LoadContactCase,
     output: str | Path | None = None,
     force: bool = False,
     progress: Callable[[float], None] | None = None,
@@ -46,7 +47,8 @@ def run(
 
     Parameters
     ----------
-    case : Case, RollingCase of a gear with rolling elements, or EfficiencyCase of a quasi-static study
+    case : Case, RollingCase of a gear with rolling elements, EfficiencyCase or LoadContactCase of a study
+        without dynamics
     output : path, optional
         Name of the record; default ``<case name>.h5`` in the current folder.
     force : bool
@@ -76,6 +78,12 @@ def run(
 
         path, summary = simulate_efficiency.run(case, output, force, progress)
         return RunResult(path, "complete", "", summary)
+    if isinstance(case, LoadContactCase):
+        from tribodyn import simulate_load_contact
+
+        ended = simulate_load_contact.run(case, output, force, progress)
+        status = "failed" if ended.message else "complete"
+        return RunResult(ended.path, status, ended.message, ended.summary)
     path = Path(output) if output is not None else Path(f"{case.name}.h5")
     check_target(path, force)
     prepared = prepare(case)
@@ -97,7 +105,7 @@ def run(
         sha256=case.sha256,
         samples=cycles * samples + 1,
         mesh_cycle=as_arrays(cycle),
-        geometry=geometry_arrays(case, cycle),
+        geometry=geometry_arrays(case),
         force=force,
     ) as record:
         begun = perf_counter()

@@ -99,7 +99,7 @@ def run(
         sha256=case.sha256,
         samples=len(samples),
         mesh_cycle=as_arrays(study.cycle),
-        geometry=geometry_arrays(case, study.cycle),
+        geometry=geometry_arrays(case),
         force=force,
     ) as record:
         record.write(0, _record_arrays(mesh, state, study.duty))

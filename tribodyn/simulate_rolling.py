@@ -41,6 +41,7 @@ def run(
 
     Parameters and errors as those of `tribodyn.simulate.run`; returns the record's path and its summary.
     """
+    from tribodyn.record.schema import ROLLING
     from tribodyn.record.writer import RecordWriter, check_target
 
     path = Path(output) if output is not None else Path(f"{case.name}.h5")
@@ -56,7 +57,8 @@ def run(
         samples=len(angles),
         geometry=geometry_arrays(case),
         force=force,
-        elements=first.element_angle.shape[-1],
+        kind=ROLLING,
+        scales={"element": np.arange(1, first.element_angle.shape[-1] + 1)},
     ) as record:
         for start, part in _blocks(angles, case.samples_per_cycle):
             state = _engage(case, part)

@@ -13,13 +13,18 @@ from tribodyn.tribology.mean_friction import MeanConditions, mean_conditions
 LEAST_ANGLE = math.radians(1.0)
 
 
-class Lubricated(Protocol):
-    """What a case of any kind must tell of its contacts; see `tribodyn.case.Case`."""
+class Geared(Protocol):
+    """What a case of any kind that is about a pair of gears tells of them; see `tribodyn.case.Case`."""
 
     @property
     def family(self) -> str: ...  # noqa: D102
     @property
     def drive(self) -> Drive: ...  # noqa: D102
+
+
+class Lubricated(Geared, Protocol):
+    """What a case must tell of its contacts; see `tribodyn.case.Case`."""
+
     @property
     def materials(self) -> tuple[MaterialData, MaterialData]: ...  # noqa: D102
     @property

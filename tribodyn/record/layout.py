@@ -21,19 +21,15 @@ LIBRARIES = ("numpy", "scipy", "numba", "jax", "diffrax", "h5py")
 
 
 class Head(NamedTuple):
-    """What is known of a run before it starts."""
+    """What is known of a run before it starts; `scales` are the values along its other axes, by name."""
 
     scenario: str
     sha256: str
     created: datetime
     mesh_cycle: dict[str, Any]
     geometry: dict[str, Any]
-    elements: int = 0
-
-    @property
-    def kind(self) -> str:
-        """Kind of scenario, a key of `schema.KINDS`."""
-        return schema.ROLLING if self.elements else schema.GEAR_PAIR
+    kind: str
+    scales: dict[str, Any]
 
 
 class Place(NamedTuple):
@@ -48,12 +44,17 @@ def create(path: Path, head: Head, samples: int) -> dict[str, Place]:
     """Write the file at `path` with room for `samples` samples, and say where each dataset lies."""
     with h5py.File(path, "w", libver=LIBVER) as file:
         write_head(file, head.kind, head.scenario, head.sha256, head.created)
-        datasets = {"time": _empty(file, "time", schema.TIME, (samples,))}
-        size = {"time": samples, **_write_scales(file, head)}
-        datasets["time"].make_scale("time")
-        for name, variable in schema.KINDS[head.kind].samples.items():
-            datasets[name] = _empty(file, name, variable, tuple(size[dim] for dim in variable.dims))
-            attach(file, file, datasets[name], variable)
+        kind, axis = schema.KINDS[head.kind], schema.axis_name(head.kind)
+        datasets = {axis: _empty(file, axis, kind.axis, (samples,))}
+        datasets[axis].makescale(axis)
+        for name, values in head.scales.items():
+            scale(file, name, kind.scales[name], np.asarray(values))
+        size = {axis: samples, **{name: len(values) for name, values in head.scales.items()}}
+        for name, variable in (*kind.samples.items(), *kind.others.items()):
+            if all(dim in size for dim in variable.dims):
+                shape = tuple(size[dim] for dim in variable.dims)
+                datasets[name] = _empty(file, name, variable, shape)
+                attach(file, file, datasets[name], variable)
         written = _empty(file, "samples_written", schema.SAMPLES_WRITTEN, ())
         _write_arrays(file, file.create_group("mesh_cycle"), schema.MESH_CYCLE, head.mesh_cycle)
         _write_arrays(file, file.create_group("geometry"), schema.GEOMETRY, head.geometry)
@@ -63,18 +64,11 @@ def create(path: Path, head: Head, samples: int) -> dict[str, Place]:
     return places
 
 
-def _write_scales(file: h5py.File, head: Head) -> dict[str, int]:
-    """Write the scales of the other axes than time; their lengths."""
-    if head.elements:
-        scale(file, "element", schema.ELEMENT, np.arange(1, head.elements + 1))
-        return {"element": head.elements}
-    side = np.asarray(head.mesh_cycle["side"])
+def pair_scales(side: Any) -> dict[str, Any]:
+    """Give the scales of a gear pair's dynamics, whose pair slots have these sides."""
+    side = np.asarray(side)
     numbers = schema.pair_numbers(int(np.sum(side > 0)), side.size)
-    scale(file, "pair", schema.PAIR, np.array(numbers))
-    # of fixed length, because Octave stops reading at other strings; the attribute makes xarray decode
-    scale(file, "dof", schema.DOF_SCALE, np.array(schema.DOF, dtype="S"))
-    file["dof"].attrs["_Encoding"] = "utf-8"
-    return {"pair": len(numbers), "dof": len(schema.DOF)}
+    return {"pair": np.array(numbers), "dof": np.array(schema.DOF)}
 
 
 def write_summary(file: h5py.File, summary: Mapping[str, Any], prefix: str = "") -> None:
@@ -157,7 +151,11 @@ def describe(dataset: h5py.Dataset, variable: Variable) -> None:
 
 def scale(group: h5py.Group, name: str, variable: Variable, values: np.ndarray) -> None:
     """Write a dimension scale."""
-    dataset = group.create_dataset(name, data=values)
+    text = values.dtype.kind == "U"
+    # of fixed length, because Octave stops reading at other strings; the attribute makes xarray decode
+    dataset = group.create_dataset(name, data=values.astype("S") if text else values)
+    if text:
+        dataset.attrs["_Encoding"] = "utf-8"
     describe(dataset, variable)
     dataset.make_scale(name)
 

@@ -60,19 +60,27 @@ class Record:
         """Return one dataset in SI units, first axis time; `pair` and `dof` give the other axes' labels."""
         dataset = self._dataset(name)
         try:
-            values = dataset[: self.samples] if _over_time(name) else dataset[...]
+            values = dataset[: self.samples] if name in self._along else dataset[...]
         except (OSError, RuntimeError) as error:
             raise self._damaged(error) from error
         return values.astype(str) if values.dtype.kind == "S" else values
 
     def __contains__(self, name: object) -> bool:
         kind = schema.KINDS[self.kind]
-        return (name in kind.samples or name in ("time", *kind.scales)) and name in self._file
+        return (name in self._along or name in kind.scales or name in kind.others) and name in self._file
 
     def __iter__(self) -> Iterator[str]:
-        """Go through the names of the datasets over time."""
-        samples = schema.KINDS[self.kind].samples
-        yield from (name for name in ("time", *samples) if name in self._file)
+        """Go through the names of the datasets over time, or over what takes its place."""
+        yield from (name for name in self._along if name in self._file)
+
+    @cached_property
+    def axis(self) -> str:
+        """Name of the axis on which the run went on: "time", or "phase" in a load contact study."""
+        return schema.axis_name(self.kind)
+
+    @cached_property
+    def _along(self) -> tuple[str, ...]:
+        return self.axis, *schema.KINDS[self.kind].samples
 
     def units(self, name: str) -> str:
         """Return the SI unit of a dataset."""
@@ -99,7 +107,7 @@ class Record:
 
     @cached_property
     def kind(self) -> str:
-        """Kind of the scenario: "gear-pair", or "irefc" for a gear with rolling elements."""
+        """Kind of the record: "gear-pair", "irefc" (a gear with rolling elements) or "load-contact"."""
         return str(self.attrs.get("kind", schema.GEAR_PAIR))
 
     @cached_property
@@ -184,8 +192,10 @@ class Record:
             raise ValueError(f"unknown kind {self.kind}")
         _ = self.pairs, self.elements
         kind = schema.KINDS[self.kind]
+        optional = {dim for variable in kind.others.values() for dim in variable.dims}
         for scale in kind.scales:
-            _ = self[scale]
+            if scale in self or scale not in optional:
+                _ = self[scale]
         for name in (*kind.needed, *self):
             if self._file[name].shape[0] < self.samples:
                 raise ValueError(f"{name} is too short")
@@ -223,7 +233,3 @@ def attributes(item: Any) -> dict[str, Any]:
     return {
         name: value.item() if isinstance(value, np.generic) else value for name, value in item.attrs.items()
     }
-
-
-def _over_time(name: str) -> bool:
-    return name not in ("pair", "dof", "element")

@@ -4,8 +4,13 @@
 only modules that use this one.
 """
 
+from collections.abc import Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import NamedTuple
+
+from tribodyn.record import load_contact
+from tribodyn.record.variable import Variable
 
 FORMAT = "tribodyn-record"
 #: Raised when a reader of the previous version would misread the file.
@@ -22,14 +27,6 @@ DOF = ("x_p", "y_p", "x_g", "y_g", "theta_p", "theta_g")
 
 #: `closure_in_range` where there is no contact to speak of, or nothing was written yet.
 NO_CONTACT = -1
-
-
-class Variable(NamedTuple):
-    """One dataset: its dimensions, SI unit (as xarray and pint read it) and meaning."""
-
-    dims: tuple[str, ...]
-    units: str
-    long_name: str
 
 
 #: Datasets that every record of this version holds; others may be missing in one of an earlier release.
@@ -206,17 +203,52 @@ MESH_CYCLE_SCALARS: dict[str, str] = {
 
 
 class Kind(NamedTuple):
-    """What a record of one kind of scenario holds over time: all its datasets, and those it cannot lack."""
+    """What a record of one kind of scenario holds.
+
+    Attributes
+    ----------
+    samples : dict
+        Datasets along the axis on which a run goes on.
+    needed : tuple of str
+        Those that it cannot lack.
+    scales : dict
+        Scales of the other axes.
+    axis : Variable
+        Scale of the axis on which the run goes on.
+    others : dict
+        Datasets along other axes; left out where an axis of theirs has no scale.
+    """
 
     samples: dict[str, Variable]
     needed: tuple[str, ...]
-    scales: tuple[str, ...]
+    scales: dict[str, Variable]
+    axis: Variable = TIME
+    others: Mapping[str, Variable] = MappingProxyType({})
 
 
-GEAR_PAIR, ROLLING = "gear-pair", "irefc"
+def axis_name(kind: str) -> str:
+    """Name of the axis on which runs of this kind go on: "time", or "phase" in slow rotation."""
+    return KINDS[kind].axis.dims[0]
+
+
+GEAR_PAIR, ROLLING, LOAD_CONTACT = "gear-pair", "irefc", "load-contact"
 KINDS: dict[str, Kind] = {
-    GEAR_PAIR: Kind(SAMPLES, NEEDED, ("pair", "dof")),
-    ROLLING: Kind(ROLLING_SAMPLES, ("time", "input_angle", "element_angle", "normal_load"), ("element",)),
+    GEAR_PAIR: Kind(SAMPLES, NEEDED, {"pair": PAIR, "dof": DOF_SCALE}),
+    ROLLING: Kind(
+        ROLLING_SAMPLES, ("time", "input_angle", "element_angle", "normal_load"), {"element": ELEMENT}
+    ),
+    LOAD_CONTACT: Kind(
+        load_contact.SAMPLES,
+        load_contact.NEEDED,
+        {
+            "pair": PAIR,
+            "slice": load_contact.SLICE,
+            "body": load_contact.BODY,
+            "torque": load_contact.TORQUE,
+        },
+        load_contact.PHASE,
+        load_contact.MAP,
+    ),
 }
 
 #: Curves of the geometry; lengths such as radii are attributes of the group, in m.

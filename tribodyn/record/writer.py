@@ -19,7 +19,7 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.record import layout
-from tribodyn.record.schema import COMPLETE, FAILED, KINDS, STATUS_NOTES, partial_path
+from tribodyn.record.schema import COMPLETE, FAILED, GEAR_PAIR, STATUS_NOTES, axis_name, partial_path
 
 
 def check_target(path: Path, force: bool = False) -> None:
@@ -76,8 +76,11 @@ class RecordWriter:
         `pinion_outline`, `gear_outline`, `path_of_contact`, each (points, 2), and lengths, m.
     force : bool
         Replace an existing record, and the remains of an unfinished run.
-    elements : int
-        Number of rolling elements; 0 in the record of a gear pair, which has a mesh cycle instead.
+    kind : str
+        Kind of record, a key of `schema.KINDS`.
+    scales : dict, optional
+        Values along the axes that the run does not go on along, by name; by default those of a gear pair's
+        dynamics.
 
     Raises
     ------
@@ -95,15 +98,23 @@ class RecordWriter:
         mesh_cycle: Mapping[str, Any] | None = None,
         geometry: Mapping[str, Any] | None = None,
         force: bool = False,
-        elements: int = 0,
+        kind: str = GEAR_PAIR,
+        scales: Mapping[str, Any] | None = None,
     ) -> None:
         self.path = Path(path)
         self.partial = partial_path(self.path)
         self.samples = samples
         self.written = 0
         self._open = False
+        self._axis = axis_name(kind)
         self._head = layout.Head(
-            scenario_toml, sha256, datetime.now(UTC), dict(mesh_cycle or {}), dict(geometry or {}), elements
+            scenario_toml,
+            sha256,
+            datetime.now(UTC),
+            dict(mesh_cycle or {}),
+            dict(geometry or {}),
+            kind,
+            dict(layout.pair_scales((mesh_cycle or {})["side"]) if scales is None else scales),
         )
         check_target(self.path, force)
         scratch = self._scratch()
@@ -140,16 +151,16 @@ class RecordWriter:
         start : int
             Index of the first sample: blocks follow each other without a gap.
         block : dict
-            Arrays (samples of the block, …) in SI units for any of the record's datasets, `time` included;
-            a dataset that no block names stays NaN. `closure_in_range` takes booleans, −1 or NaN standing
-            for "out of contact".
+            Arrays (samples of the block, …) in SI units for any of the record's datasets along `time` (or
+            the axis that takes its place), itself included; one that no block names stays NaN.
+            `closure_in_range` takes booleans, −1 or NaN standing for "out of contact".
 
         Raises
         ------
         KeyError, ValueError
             For a name the schema does not know or a shape that does not fit: errors of the program.
         """
-        length = len(block["time"])
+        length = len(block[self._axis])
         if start != self.written or start + length > self.samples:
             raise ValueError(
                 f"block {start}…{start + length} does not follow {self.written} of {self.samples}"
@@ -166,6 +177,14 @@ class RecordWriter:
         # last, so that whatever moment the process dies at, the count covers only what is there
         self._put(self._place["samples_written"].offset, np.array(start + length, dtype="<i8"))
         self.written = start + length
+
+    def put(self, row: int, values: Mapping[str, Any]) -> None:
+        """Put one row into datasets that lie along other axes (`schema.Kind.others`); raises as `write`."""
+        for name, value in values.items():
+            place, array = self._place[name], layout.encode(name, value)
+            if array.shape != place.row:
+                raise ValueError(f"{name}: shape {array.shape}, not {place.row}")
+            self._put(place.offset + row * place.stride, array)
 
     def finish(self, summary: Mapping[str, Any]) -> Path:
         """Add the summary, mark the record complete and give it its final name, which is returned.
@@ -201,8 +220,9 @@ class RecordWriter:
         source: Any
         target: Any
         with h5py.File(self.partial, "r") as source, h5py.File(scratch, "r+") as target:
-            for name in ("time", *KINDS[self._head.kind].samples):
-                target[name][...] = source[name][: self.written]
+            for name in self._place:
+                if name != "samples_written":
+                    target[name][...] = source[name][tuple(slice(length) for length in target[name].shape)]
             target["samples_written"][...] = self.written
         self._conclude(scratch, FAILED, message, summary or {})
         os.replace(scratch, self.partial)
