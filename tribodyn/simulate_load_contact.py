@@ -1,4 +1,4 @@
-"""From a case of the load contact study to its record: teeth in slow rotation, at one torque or at several."""
+"""From a case of the load contact study to its record: teeth in slow rotation at one torque or several."""
 
 from collections.abc import Callable
 from pathlib import Path

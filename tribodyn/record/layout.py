@@ -46,7 +46,7 @@ def create(path: Path, head: Head, samples: int) -> dict[str, Place]:
         write_head(file, head.kind, head.scenario, head.sha256, head.created)
         kind, axis = schema.KINDS[head.kind], schema.axis_name(head.kind)
         datasets = {axis: _empty(file, axis, kind.axis, (samples,))}
-        datasets[axis].makescale(axis)
+        datasets[axis].make_scale(axis)
         for name, values in head.scales.items():
             scale(file, name, kind.scales[name], np.asarray(values))
         size = {axis: samples, **{name: len(values) for name, values in head.scales.items()}}
