@@ -167,7 +167,7 @@ def figures(study: Study, loaded: LoadedContact) -> dict[str, Any]:
     position, pair = np.unravel_index(np.argmin(np.abs(loaded.roll)), loaded.roll.shape)
     tension, compression = loaded.root_tension, loaded.root_compression
     return {
-        "effective_contact_ratio": float(loaded.contact_ratio),
+        "contact_ratio_effective": float(loaded.contact_ratio),
         "stiffness_single_pair_at_pitch_point": single_pair_stiffness(study),
         "mesh_stiffness_mean": float(np.mean(loaded.mesh_stiffness)),
         "mesh_stiffness_peak_to_peak": float(np.ptp(loaded.mesh_stiffness)),
@@ -184,6 +184,7 @@ def figures(study: Study, loaded: LoadedContact) -> dict[str, Any]:
         "pinion_root_compression_max": float(np.min(compression[0])),
         "gear_root_compression_max": float(np.min(compression[1])),
         "torque_residual": float(np.max(np.abs(torque_residual(study, loaded)))),
+        "gear_torque": study.case.gear_torque,
         "slices": study.case.slices,
     }
 

@@ -10,6 +10,7 @@ from tribodyn.cli.overrides import SetOption, overrides
 if TYPE_CHECKING:
     from tribodyn.case import Case
     from tribodyn.efficiency.case import EfficiencyCase
+    from tribodyn.load_contact_case import LoadContactCase
     from tribodyn.mesh_cycle import MeshCycle
     from tribodyn.rolling.case import RollingCase
     from tribodyn.scenario.load import Loaded
@@ -31,6 +32,7 @@ def check(
     from tribodyn.cli.sheet import print_sheet
     from tribodyn.efficiency.case import EfficiencyCase
     from tribodyn.geometry.sheet import geometry_sheet
+    from tribodyn.load_contact_case import LoadContactCase
     from tribodyn.rolling.case import RollingCase
     from tribodyn.scenario.load import family, load
     from tribodyn.simulate import prepare
@@ -42,13 +44,16 @@ def check(
         _check_rolling(loaded, case, json)
         return
     with loaded.naming():
-        if isinstance(case, EfficiencyCase):
-            model, masses = prepare_efficiency(case), None
+        masses = None
+        if isinstance(case, LoadContactCase):
+            stiffness = _of_load_contact(case)
+        elif isinstance(case, EfficiencyCase):
+            stiffness = _of_cycle(case, prepare_efficiency(case).cycle)
         else:
             model = prepare(case)
             masses = model.masses
+            stiffness = _of_cycle(case, model.cycle)
         sheet = geometry_sheet(family(case.family), case.drive, masses)
-    stiffness = _stiffness(case, model.cycle)
     if json:
         print_json(
             {"scenario": str(loaded.path), "title": case.title, "geometry": sheet, "stiffness": stiffness}
@@ -83,17 +88,44 @@ def _check_rolling(loaded: "Loaded", case: "RollingCase", json: bool) -> None:
     print_table("Gear with rolling elements", ("quantity", "value"), rows)
 
 
-def _stiffness(case: "Case | EfficiencyCase", cycle: "MeshCycle") -> dict[str, Any]:
-    """Return the line load (N/m), and by method the single-pair stiffness at P: N/m, and per width in Pa."""
-    from tribodyn.compliance.iso6336 import single_pair_stiffness as iso6336
-    from tribodyn.scenario.load import family
+def _of_cycle(case: "Case | EfficiencyCase", cycle: "MeshCycle") -> dict[str, Any]:
     from tribodyn.summary import single_pair_stiffness
+
+    torque = abs(case.operating.gear_torque)
+    load = torque / (float(cycle.gear_pitch_radius) * math.cos(_pressure_angle(case)))
+    return _stiffness(
+        case, load, f'compliance = "{case.mesh.compliance}"', single_pair_stiffness(cycle, load)
+    )
+
+
+def _of_load_contact(case: "LoadContactCase") -> dict[str, Any]:
+    from tribodyn.scenario.load import family
+    from tribodyn.simulate_load_contact import prepare, single_pair_stiffness
+
+    study = prepare(case)
+    arm = float(family(case.family).working_path(case.drive).gear_pitch_radius)
+    load = case.gear_torque / (arm * math.cos(_pressure_angle(case)))
+    return _stiffness(case, load, "finite elements", single_pair_stiffness(study))
+
+
+def _pressure_angle(case: "Case | EfficiencyCase | LoadContactCase") -> float:
+    from tribodyn.scenario.load import family
+
+    return float(family(case.family).working_path(case.drive).pressure_angle(0.0))
+
+
+def _stiffness(
+    case: "Case | EfficiencyCase | LoadContactCase", load: float, name: str, found: float
+) -> dict[str, Any]:
+    """Return the line load (N/m), and by method the single-pair stiffness at P: N/m, and per width in Pa.
+
+    `found` is ours in N/m, by the method `name`, under the normal load `load` in N.
+    """
+    from tribodyn.compliance.iso6336 import single_pair_stiffness as iso6336
 
     pinion, gear = case.drive.pinion, case.drive.gear
     width = min(pinion.face_width, gear.face_width)
-    angle = float(family(case.family).working_path(case.drive).pressure_angle(0.0))
-    load = abs(case.operating.gear_torque) / (float(cycle.gear_pitch_radius) * math.cos(angle))
-    per_width = {f'compliance = "{case.mesh.compliance}"': single_pair_stiffness(cycle, load) / width}
+    per_width = {name: found / width}
     if case.family == "involute":
         iso = iso6336(pinion.teeth, gear.teeth, pinion.profile_shift, gear.profile_shift)
         per_width["ISO 6336 c', which contains the measured correction 0.8"] = iso.single_pair

@@ -61,12 +61,21 @@ def _about(what: What) -> dict[str, str]:
 
             return dict(SWEEP_NAMES)
         case What.plots:
-            from tribodyn.post.plots import NAMES, ROLLING_NAMES
+            return _plots()
 
-            of_pairs = {name: name.replace("-", " ") for name in NAMES}
-            rolling = {name: "gear with rolling elements" for name in ROLLING_NAMES}
-            both = {name: f"{of_pairs[name]}, also of rolling elements" for name in NAMES if name in rolling}
-            return {**of_pairs, **rolling, **both}
+
+def _plots() -> dict[str, str]:
+    """Return the names of all figures, and the records that each is of."""
+    from tribodyn.post.plots import LOAD_CONTACT_NAMES, NAMES, ROLLING_NAMES
+
+    also = {"rolling elements": ROLLING_NAMES, "load contact studies": LOAD_CONTACT_NAMES}
+    listed = {}
+    for name in dict.fromkeys((*NAMES, *ROLLING_NAMES, *LOAD_CONTACT_NAMES)):
+        others = [kind for kind, names in also.items() if name in names]
+        what = name.replace("-", " ")
+        told = "; also of " if name in NAMES else ", of "
+        listed[name] = what + (told + " and ".join(others) if others else "")
+    return listed
 
 
 def _titles(folder: Any) -> dict[str, str]:

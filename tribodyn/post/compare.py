@@ -14,7 +14,7 @@ from tribodyn.post.report import GROUPS, Line, shown
 from tribodyn.record.reader import Record
 
 #: Groups of the summary that tell of the gears; how they were solved does not.
-COMPARED = ("Geometry", "Dynamics", "Tribology", "Energy")
+COMPARED = ("Geometry", "Load contact", "Dynamics", "Tribology", "Energy")
 #: The share of the power that is lost, beside the efficiency whose difference it shows better.
 LOSS = Line("loss", "Loss, share of the power in", 100.0, "%", ".3f")
 #: Parts of a scenario that say under which conditions a drive ran, not which drive nor how it was solved.
@@ -138,6 +138,10 @@ def _conditions(scenario: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
             yield part, str(value["title"])
         if value is not None:
             yield from _flat(part, value)
+    for gear in ("pinion", "gear"):
+        modification = scenario.get("drive", {}).get(gear, {}).get("modification")
+        if modification is not None:
+            yield from _flat(f"drive.{gear}.modification", modification)
 
 
 def _flat(key: str, value: Any) -> Iterator[tuple[str, str]]:

@@ -33,6 +33,23 @@ GROUPS: dict[str, tuple[Line, ...]] = {
             "stiffness_single_pair_at_pitch_point", "Stiffness of one pair at the pitch point", 1e-6, "N/µm"
         ),
     ),
+    "Load contact": (
+        Line("gear_torque", "Torque on the gear", 1.0, "N m"),
+        Line("loaded_transmission_error_mean", "Loaded transmission error, mean", 1e6, "µm"),
+        Line("loaded_transmission_error_peak_to_peak", "Loaded transmission error, peak to peak", 1e6, "µm"),
+        Line("unloaded_transmission_error_peak_to_peak", "Unloaded, peak to peak", 1e6, "µm", ".3g"),
+        Line("least_peak_to_peak", "Least peak to peak of all torques", 1e6, "µm"),
+        Line("least_peak_to_peak_torque", "at a torque on the gear of", 1.0, "N m"),
+        Line("mesh_stiffness_mean", "Mesh stiffness, mean", 1e-6, "N/µm"),
+        Line("mesh_stiffness_peak_to_peak", "Mesh stiffness, peak to peak", 1e-6, "N/µm", ".3g"),
+        Line("line_load_max", "Greatest line load", 1e-3, "N/mm"),
+        Line("face_load_factor", "Face load factor there", form=".3f"),
+        Line("face_load_factor_pitch_point", "Face load factor at the pitch point", form=".3f"),
+        Line("pinion_root_tension_max", "Greatest root tension, pinion", 1e-6, "MPa"),
+        Line("gear_root_tension_max", "Greatest root tension, gear", 1e-6, "MPa"),
+        Line("pinion_root_compression_max", "Greatest root compression, pinion", 1e-6, "MPa"),
+        Line("gear_root_compression_max", "Greatest root compression, gear", 1e-6, "MPa"),
+    ),
     "Dynamics": (
         Line("mesh_frequency", "Mesh frequency", 1.0, "Hz"),
         Line("transmission_error_mean", "Transmission error, mean", 1e6, "µm"),
@@ -142,6 +159,13 @@ def trust(record: Record) -> list[str]:
         )
     if summary.get("pitch_point", "regular") != "regular":
         sentences.append(f"At the pitch point {summary['pitch_point']}; pressure there is no merit figure.")
+    slices = summary.get("slices")
+    if slices is not None:
+        what = "in one piece, alike all along" if slices == 1 else f"in {slices} slices"
+        sentences.append(f"Slow rotation, no inertia; the face is taken {what}.")
+    residual = summary.get("torque_residual")
+    if residual is not None:
+        sentences.append(f"The loads carry the torque to within {abs(residual):.1e} of it.")
     residual = summary.get("energy_residual")
     if residual is not None and math.isfinite(residual):
         sentences.append(f"The energy balance closes within {abs(residual):.1e} of the work put in.")

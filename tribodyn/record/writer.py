@@ -181,7 +181,7 @@ class RecordWriter:
     def put(self, row: int, values: Mapping[str, Any]) -> None:
         """Put one row into datasets that lie along other axes (`schema.Kind.others`); raises as `write`."""
         for name, value in values.items():
-            place, array = self._place[name], layout.encode(name, value)
+            place, array = self._place[name], layout.encode(name, value).reshape(np.shape(value))
             if array.shape != place.row:
                 raise ValueError(f"{name}: shape {array.shape}, not {place.row}")
             self._put(place.offset + row * place.stride, array)

@@ -1,0 +1,101 @@
+"""Load contact studies as curves: over the phase of the mesh, and over the roll angle of one pair."""
+
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.errors import InputError
+from tribodyn.record.reader import Record
+
+Array = Any
+
+
+class FaceMap(NamedTuple):
+    """A quantity of one pair over its roll angle and the face.
+
+    Attributes
+    ----------
+    roll : (positions,)
+        Roll angle of the pair, 0 at the pitch point, increasing, rad.
+    face : (slices,)
+        Middles of the slices from the middle of the face, m.
+    values : (positions, slices)
+    """
+
+    roll: Array
+    face: Array
+    values: Array
+
+
+def require_positions(record: Record) -> None:
+    """Refuse a record that holds nothing to draw."""
+    if record.samples < 2:
+        raise InputError("record", str(record.path), "holds no samples to draw", "run the scenario again")
+
+
+def over_phase(record: Record, name: str) -> tuple[Array, Array]:
+    """Give phase and a quantity over it; a study of a single mesh cycle is given twice, for it repeats."""
+    phase, values = record["phase"], record[name]
+    period = _cycles(record)
+    copies = 2 if period == 1 else 1
+    x = np.concatenate([phase + copy * period for copy in range(copies)] + [[copies * period]])
+    return x, np.concatenate([values] * copies + [values[:1]])
+
+
+def pair_over_phase(record: Record, name: str, pair: int) -> tuple[Array, Array]:
+    """Give a pair's quantity over the phase as `over_phase` does, broken where the number passes on.
+
+    At the end of a cycle the teeth that were pair 1 become pair 0: the last point of a piece is taken from
+    there.
+    """
+    x, _ = over_phase(record, "phase")
+    _, values = over_phase(record, name)
+    slot = record.pairs.index(pair)
+    older = values[:, slot - 1] if slot > 0 else np.full(len(x), np.nan)
+    begins = np.flatnonzero(np.diff(np.floor(x + 1e-9), prepend=-1.0))
+    pieces_x, pieces_y = [], []
+    for start, end in pairwise(begins):
+        pieces_x += [x[start : end + 1], [np.nan]]
+        pieces_y += [values[start:end, slot], [older[end], np.nan]]
+    return np.concatenate(pieces_x), np.concatenate(pieces_y)
+
+
+def over_roll(record: Record, values: Array) -> tuple[Array, Array]:
+    """Give roll angle (rad, increasing) and values (…) of one pair, from its first cycle on.
+
+    Parameters
+    ----------
+    values : (phase, pair, …)
+    """
+    first = record["phase"] < 1.0 - 1e-9
+    roll = record["roll_angle"][first].ravel()
+    order = np.argsort(roll, kind="stable")
+    return roll[order], values[first].reshape(len(roll), *values.shape[2:])[order]
+
+
+def face_map(record: Record, name: str) -> FaceMap:
+    """Give a quantity over (phase, pair, slice) as a map of one pair, where the pair carries load."""
+    roll, load = over_roll(record, record["normal_load"])
+    _, values = over_roll(record, record[name])
+    carrying = np.flatnonzero(load > 0.0)
+    part = slice(max(carrying[0] - 1, 0), carrying[-1] + 2) if carrying.size else slice(None)
+    return FaceMap(roll[part], record["slice"], values[part])
+
+
+def face_edges(record: Record) -> Array:
+    """Edges of the slices (slices + 1,), m from the middle of the face."""
+    width = float(record.mesh_cycle["face_width"])
+    return np.linspace(-width / 2, width / 2, len(record["slice"]) + 1)
+
+
+def at_pitch_point(record: Record, name: str) -> Array:
+    """Give a quantity over the face (slices,) where a pair is nearest to the pitch point."""
+    roll = np.abs(record["roll_angle"])
+    position, pair = np.unravel_index(np.argmin(roll), roll.shape)
+    return record[name][position, pair]
+
+
+def _cycles(record: Record) -> int:
+    """Mesh cycles in the record."""
+    return max(1, int(np.floor(record["phase"][-1] + 1e-9)) + 1)
