@@ -9,7 +9,7 @@ import numpy as np
 
 from tribodyn.compliance.load_sharing import PairFlexibility, flexibility, share_load
 from tribodyn.compliance.loaded_contact import LoadedContact, roll_through
-from tribodyn.errors import InputError, SimulationError
+from tribodyn.errors import SimulationError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.corner_contact import pair_geometry, roll_limits
 from tribodyn.load_contact_case import LoadContactCase
@@ -48,7 +48,7 @@ def prepare(case: LoadContactCase) -> Study:
     check(teeth, case.drive)
     assembly = assemble(teeth, case.drive)
     check_modifications(assembly, case.modifications)
-    return Study(case, flexibility(assembly, case.materials))
+    return Study(case, flexibility(assembly, case.materials, lead=True))
 
 
 def roll(study: Study, gear_torque: float) -> LoadedContact:
@@ -57,12 +57,12 @@ def roll(study: Study, gear_torque: float) -> LoadedContact:
     Raises
     ------
     InputError
-        If only one edge of the face touches.
+        If the slices do not resolve what carries.
     SimulationError
         If no state of contact is found.
     """
     case = study.case
-    loaded = roll_through(
+    return roll_through(
         study.flexible,
         case.modifications,
         gear_torque,
@@ -72,8 +72,6 @@ def roll(study: Study, gear_torque: float) -> LoadedContact:
         slices=case.slices,
         coupled=case.slice_coupling,
     )
-    _refuse_edge_contact(case, loaded, gear_torque)
-    return loaded
 
 
 def run(
@@ -106,7 +104,7 @@ def run(
         geometry=geometry_arrays(case),
         force=force,
         kind=LOAD_CONTACT,
-        scales=_scales(case, loaded),
+        scales=_scales(study, loaded),
     ) as record:
         summary: dict[str, Any] = {"contact_ratio": float(study.flexible.assembly.contact_ratio)}
         if loaded is None:
@@ -212,32 +210,19 @@ def _numbers(study: Study) -> dict[str, float]:
     }
 
 
-def _scales(case: LoadContactCase, loaded: LoadedContact | None) -> dict[str, Array]:
+def _scales(study: Study, loaded: LoadedContact | None) -> dict[str, Array]:
     from tribodyn.record.load_contact import BODIES
-    from tribodyn.record.schema import pair_numbers
 
-    pairs = 0 if loaded is None else loaded.roll.shape[1]
+    pairs = np.zeros(0, dtype=int) if loaded is None else pair_numbers(study, loaded)
     places = np.zeros(0) if loaded is None else np.asarray(loaded.slice_position)
-    scales: dict[str, Array] = {
-        "pair": np.array(pair_numbers(pairs, pairs), dtype=int),
-        "slice": places,
-        "body": np.array(BODIES),
-    }
-    return scales | ({"torque": np.array(case.gear_torques)} if case.gear_torques else {})
+    scales: dict[str, Array] = {"pair": pairs, "slice": places, "body": np.array(BODIES)}
+    torques = study.case.gear_torques
+    return scales | ({"torque": np.array(torques)} if torques else {})
 
 
-def _refuse_edge_contact(case: LoadContactCase, loaded: LoadedContact, torque: float) -> None:
-    """Refuse axes that deviate so much that the face is lifted but for the slice at its edge."""
-    touching = np.count_nonzero(loaded.line_load > 0.0, axis=2)
-    if case.slices < 3 or np.max(touching) > 1:
-        return
-    angles = case.modifications.misalignment._asdict()
-    if not any(angles.values()):
-        return
-    name, angle = max(angles.items(), key=lambda item: abs(item[1]))
-    raise InputError(
-        f"mesh.misalignment.{name}",
-        f"{np.degrees(angle) * 60:.4g} arcmin",
-        f"lifts the whole face but one of {case.slices} slices at {torque:g} N*m",
-        "use a smaller angle, a greater torque, or more mesh.slices",
-    )
+def pair_numbers(study: Study, loaded: LoadedContact) -> Array:
+    """Numbers of the pairs: 1 passed the beginning of the path last, 2 is the next to do so."""
+    start, _ = roll_limits(study.flexible.assembly)
+    pitch = 2.0 * np.pi / float(study.case.drive.pinion.teeth)
+    ages = (loaded.roll[0] - start) / pitch - (loaded.phase[0] - np.floor(loaded.phase[0]))
+    return 1 - np.round(ages).astype(int)

@@ -23,9 +23,7 @@ class Kind(StrEnum):
 
 def init(
     name: Annotated[str, typer.Argument(help="Name of the scenario; NAME.toml is written in this folder.")],
-    kind: Annotated[
-        Kind, typer.Option(help="Dynamics of a pair, or load contact.")
-    ] = Kind.gear_pair,
+    kind: Annotated[Kind, typer.Option(help="Dynamics of a pair, or load contact.")] = Kind.gear_pair,
     force: Annotated[bool, typer.Option("--force", help="Replace a file of that name.")] = False,
 ) -> None:
     """Write a commented scenario to run and to edit."""

@@ -3,6 +3,11 @@
 from tribodyn.record.variable import Variable
 
 PHASE = Variable(("phase",), "1", "phase of the mesh in mesh cycles from the first position")
+PAIR = Variable(
+    ("pair",),
+    "1",
+    "pair of teeth: 1 passed the beginning of the path of contact last, 0 the one before it, 2 is the next",
+)
 SLICE = Variable(("slice",), "m", "middle of the slice, from the middle of the face")
 BODY = Variable(("body",), "1", "gear that a root stress is of")
 TORQUE = Variable(("torque",), "N*m", "torque on the gear")

@@ -241,7 +241,7 @@ KINDS: dict[str, Kind] = {
         load_contact.SAMPLES,
         load_contact.NEEDED,
         {
-            "pair": PAIR,
+            "pair": load_contact.PAIR,
             "slice": load_contact.SLICE,
             "body": load_contact.BODY,
             "torque": load_contact.TORQUE,

@@ -16,7 +16,7 @@ from tribodyn.post.figures.load_contact_maps import (
     line_load_figure,
     pressure_map,
 )
-from tribodyn.post.figures.panel import View, pair_label, record_label, record_title
+from tribodyn.post.figures.panel import View, record_label, record_title
 from tribodyn.post.rolled import over_phase, over_roll, pair_over_phase, require_positions
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
 from tribodyn.record.reader import Record
@@ -120,7 +120,7 @@ def draw_loads(axes: Axes, records: Sequence[Record]) -> None:
         for position, pair in enumerate(reversed(loaded)):
             phase, load = pair_over_phase(record, "normal_load", pair)
             which = number if len(records) > 1 else position
-            axes.plot(phase, load, color=colour(which), label=pair_label(pair))
+            axes.plot(phase, load, color=colour(which), label=f"pair {pair}")
     axes.set_ylabel("Normal load of each pair (N)")
     axes.set_ylim(bottom=0)
 
