@@ -18,7 +18,7 @@ from tribodyn.post.figures.load_contact_maps import (
 )
 from tribodyn.post.figures.panel import View, record_label, record_title
 from tribodyn.post.rolled import over_phase, over_roll, pair_over_phase, require_positions
-from tribodyn.post.style import PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
+from tribodyn.post.style import PAIR_STYLES, PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
 from tribodyn.record.reader import Record
 
 HARRIS = "harris"
@@ -114,13 +114,12 @@ def _load_sharing(records: Sequence[Record]) -> Figure:
 def draw_loads(axes: Axes, records: Sequence[Record]) -> None:
     """Draw the normal load of each pair over the phase; colours tell records, or the only one's pairs."""
     for number, record in enumerate(records):
-        loaded = [
-            pair for slot, pair in enumerate(record.pairs) if np.any(record["normal_load"][:, slot] > 0.0)
-        ]
-        for position, pair in enumerate(reversed(loaded)):
+        for pair in reversed(record.pairs):
             phase, load = pair_over_phase(record, "normal_load", pair)
-            which = number if len(records) > 1 else position
-            axes.plot(phase, load, color=colour(which), label=f"pair {pair}")
+            if np.nanmax(load) > 0.0:
+                which = number if len(records) > 1 else 1 - pair
+                style = PAIR_STYLES.get(pair, "-")
+                axes.plot(phase, load, color=colour(which), linestyle=style, label=f"pair {pair}")
     axes.set_ylabel("Normal load of each pair (N)")
     axes.set_ylim(bottom=0)
 
