@@ -185,7 +185,7 @@ def _merged(under: dict[str, Any], over: Mapping[str, Any]) -> dict[str, Any]:
     """Put one table over another, key by key."""
     merged = dict(under)
     for name, value in over.items():
-        below = merged.get(name)
+        below: Any = merged.get(name)
         both = isinstance(below, dict) and isinstance(value, dict) and LIKE not in value
         merged[name] = _merged(below, value) if both else value
     return merged

@@ -238,7 +238,7 @@ def _overview(record: Record) -> Figure:
 
 def _stacked(count: int, sharex: bool = True) -> tuple[Figure, Sequence[Axes]]:
     drawn = new_figure(WIDTH, PANEL_HEIGHT * count + 0.4)
-    return drawn, drawn.subplots(count, 1, squeeze=False, sharex=sharex)[:, 0]
+    return drawn, list(drawn.subplots(count, 1, squeeze=False, sharex=sharex)[:, 0])
 
 
 def _finish(drawn: Figure, panels: Sequence[Axes], records: Sequence[Record], pairs: bool = False) -> Figure:

@@ -67,9 +67,10 @@ def line_load_figure(records: Sequence[Record]) -> Figure:
     """Draw maps of the line load, and below them its course over the face at the pitch point."""
     rows = -(-len(records) // COLUMNS)
     drawn = new_figure(WIDTH, (rows + 1) * PANEL_HEIGHT + 0.4)
-    parts = drawn.subfigures(2, 1, height_ratios=[rows, 1])
-    _maps(parts[0], records, LINE_LOAD)
-    below = parts[1].subplots()
+    parts: Any = drawn.subfigures(2, 1, height_ratios=[rows, 1])
+    upper, lower = parts
+    _maps(upper, records, LINE_LOAD)
+    below = lower.subplots()
     for number, record in enumerate(records):
         draw_across_face(below, record, LINE_LOAD, PALETTE[number % len(PALETTE)])
     below.set_ylim(bottom=0)
