@@ -19,7 +19,7 @@ BODY = GearBody(12, 0.3, 1.0, 1.25, 0.25, 0.02, 8e-3)
 TOOTH = cut_tooth(FAMILY, Drive(3e-3, np.radians(20.0), BODY, BODY), "pinion")
 
 SOLVE = """
-
+import resource
 import sys
 from tests.unit.test_mesh_memory import TOOTH, gear_compliance, lead_harmonics
 def peak(): return 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
