@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from tribodyn.compliance.condensed import Condensed, condense
-from tribodyn.compliance.flank_gap import flank_gap, relief_rolls
+from tribodyn.compliance.flank_gap import flank_gap, relief_rolls, same_every_pitch
 from tribodyn.compliance.gear_compliance import without_neighbours
 from tribodyn.compliance.load_sharing import PairFlexibility, contact_deflection, flexibility, share_load
 from tribodyn.compliance.loaded_contact import check, reach
@@ -146,12 +146,7 @@ def _check(drive: Drive, mesh: "MeshData", gear_torque: float, back: bool) -> No
             'compliance = "fem" is taken at this load, which must be greater than zero',
             'write a torque such as "500 N*m", or use compliance = "energy"',
         )
-    if any(len(flank.pitch_error) for flank in mesh.modifications[:2]):
-        raise InputError(
-            "drive.modification.pitch_errors",
-            rule="differ from tooth to tooth, but the mesh cycle of the dynamics repeats every pitch",
-            remedy='use kind = "load-contact", or leave them away',
-        )
+    same_every_pitch(mesh.modifications)
     if back and mesh.backlash is None:
         raise InputError(
             "mesh.backlash", rule="is needed for the contact of back flanks", remedy="give a length"

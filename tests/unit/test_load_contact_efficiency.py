@@ -6,6 +6,7 @@ import pytest
 from tribodyn.efficiency.load_contact import load_contact
 from tribodyn.errors import InputError
 from tribodyn.geometry.corner_contact import pair_geometry
+from tribodyn.geometry.modification import UNMODIFIED, FlankModification, Misalignment, Modifications, Relief
 from tribodyn.validation.diez_ibarbia_study import drive, elastic
 
 
@@ -42,3 +43,24 @@ def test_loss_is_nearly_proportional_to_friction(pair):
 def test_no_torque_is_refused(pair):
     with pytest.raises(InputError, match="gear_torque"):
         load_contact(pair, 0.0, 0.05)
+
+
+def test_relieved_tips_lose_less(pair):
+    """Load moves from the ends of the path, where flanks slide most, to the pitch point."""
+    tip = FlankModification(tip=Relief(12e-6, 5.4e-3))
+    plain, relieved = (
+        load_contact(pair, 318.3, 0.05, modifications=modified)
+        for modified in (UNMODIFIED, Modifications(tip, tip))
+    )
+    assert 1 - relieved.efficiency < 0.9 * (1 - plain.efficiency)
+    assert relieved.contact_ratio < plain.contact_ratio
+
+
+def test_tilted_axes_share_the_load_of_the_pairs_much_as_before(pair):
+    """Friction sees the pairs' loads; how they lie along the face changes sharing by second order only."""
+    tilted = Modifications(misalignment=Misalignment(2e-4))
+    efficiencies = [
+        load_contact(pair, 318.3, 0.05, 60, modified, slices, coupled=False).efficiency
+        for modified, slices in ((UNMODIFIED, 1), (tilted, 7))
+    ]
+    assert efficiencies[0] == pytest.approx(efficiencies[1], abs=1e-4)

@@ -131,6 +131,23 @@ def check_modifications(assembly: Assembly, modifications: Modifications) -> Non
         _check_flank(assembly, getattr(modifications, side), side)
 
 
+def same_every_pitch(modifications: Modifications) -> None:
+    """Refuse what differs from tooth to tooth, where a mesh cycle stands for all of them.
+
+    Raises
+    ------
+    InputError
+        If there are pitch errors.
+    """
+    for side in SIDES:
+        if len(getattr(modifications, side).pitch_error):
+            raise InputError(
+                f"drive.{side}.modification.pitch_errors",
+                rule="differ from tooth to tooth, but one mesh cycle stands for all teeth here",
+                remedy='use kind = "load-contact", or leave them away',
+            )
+
+
 def _relieved(relief: Relief, distance: Array) -> Array:
     """Relief (m) at a distance (m, along the line of action) from the end of the active profile."""
     if relief.amount == 0.0:

@@ -7,20 +7,23 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.compliance.flank_gap import flank_gap, same_every_pitch
 from tribodyn.compliance.load_sharing import (
     PairFlexibility,
     effective_contact_ratio,
     extended_rolls,
     share_load,
 )
-from tribodyn.errors import InputError
-from tribodyn.geometry.corner_contact import pair_geometry, roll_at_gap
+from tribodyn.compliance.loaded_contact import check, reach
+from tribodyn.compliance.slices import face_positions
+from tribodyn.geometry.corner_contact import pair_geometry
+from tribodyn.geometry.modification import UNMODIFIED, Modifications
 
 Array = Any
 
 #: Positions over one pitch: the efficiency is then known to 1e-6 (test_load_contact_efficiency).
 POSITIONS = 240
-# Corners are followed to this many mean deflections on the pitch circle; two is enough for any load sharing.
+# Corners are followed to this many deflections of a single pair; two is enough for any load sharing.
 _REACH = 2.5
 
 
@@ -47,7 +50,13 @@ class LoadContact(NamedTuple):
 
 
 def load_contact(
-    flexible: PairFlexibility, gear_torque: float, friction_coefficient: float, positions: int = POSITIONS
+    flexible: PairFlexibility,
+    gear_torque: float,
+    friction_coefficient: float,
+    positions: int = POSITIONS,
+    modifications: Modifications = UNMODIFIED,
+    slices: int = 1,
+    coupled: bool = True,
 ) -> LoadContact:
     """Run a pair through one mesh cycle.
 
@@ -61,21 +70,24 @@ def load_contact(
         μ, the same for all pairs.
     positions : int
         Equal steps over one pitch.
+    modifications, slices, coupled
+        As for `loaded_contact.roll_through`, without pitch errors.
 
     Raises
     ------
     InputError
-        If the torque drives nothing.
+        If the torque drives nothing, or as `roll_through` does.
     """
-    if gear_torque <= 0:
-        raise InputError("gear_torque", gear_torque, "must drive the gear", "use more than 0 N m")
+    check(flexible, modifications, gear_torque, slices)
+    same_every_pitch(modifications)
     assembly = flexible.assembly
     ratio = assembly.path.pinion_pitch_radius / assembly.path.gear_pitch_radius
-    single = share_load(flexible, np.zeros((1, 1)), gear_torque)
-    limits = roll_at_gap(assembly, _REACH * float(single.deflection[0]))
+    limits = reach(flexible, modifications, gear_torque, slices, coupled, _REACH)
     roll = extended_rolls(assembly, limits, positions)
-    shared = share_load(flexible, roll, gear_torque, friction_coefficient)
-    sliding = np.abs(pair_geometry(assembly, roll).motion.sliding)
+    geometry = pair_geometry(assembly, roll)
+    gap = flank_gap(assembly, modifications, geometry, face_positions(flexible.width, slices))
+    shared = share_load(flexible, roll, gear_torque, friction_coefficient, gap, slices, coupled)
+    sliding = np.abs(geometry.motion.sliding)
     loss = friction_coefficient * shared.normal_load * sliding
     put_out = gear_torque * ratio
     return LoadContact(
