@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,11 +19,13 @@ from tribodyn.geometry.tooth import cut_tooth
 BODY = GearBody(12, 0.3, 1.0, 1.25, 0.25, 0.02, 8e-3)
 TOOTH = cut_tooth(FAMILY, Drive(3e-3, np.radians(20.0), BODY, BODY), "pinion")
 
+# The peak of this process alone; the system's ru_maxrss starts from that of the process that started it.
+STATUS = Path("/proc/self/status")
 SOLVE = """
-import resource
 import sys
-from tests.unit.test_mesh_memory import TOOTH, gear_compliance, lead_harmonics
-def peak(): return 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+from tests.unit.test_mesh_memory import STATUS, TOOTH, gear_compliance, lead_harmonics
+def peak():
+    return next(1024 * int(s.split()[1]) for s in STATUS.read_text().splitlines() if s.startswith("VmHWM"))
 gear_compliance(TOOTH, 12, 8e-3, 0.3, 0.75e-3, 1)
 before = peak()
 if sys.argv[1] == "2":
@@ -40,13 +43,13 @@ def test_number_of_cells_is_the_mesh_s():
         assert (cells, flank + 1, 2 * root + 1) == (mesh.cells.shape[1], len(mesh.flank), len(mesh.root))
 
 
+@pytest.mark.skipif(not STATUS.exists(), reason="the system does not tell a process's peak of memory")
 @pytest.mark.parametrize(("components", "level"), [(2, 4), (3, 3)])
 def test_estimate_meets_the_peak_of_a_process(components, level):
-    pytest.importorskip("resource")
     done = subprocess.run(
         [sys.executable, "-c", SOLVE, str(components)], capture_output=True, text=True, check=True
     )
-    assert memory_needed(level, components) == pytest.approx(float(done.stdout), rel=0.35)
+    assert memory_needed(level, components) == pytest.approx(float(done.stdout), rel=0.2)
 
 
 @pytest.mark.parametrize("solve", [gear_compliance, lead_harmonics])
