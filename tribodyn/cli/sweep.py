@@ -94,7 +94,7 @@ def sweep(
     from tribodyn.cli.progress import progress_bar
     from tribodyn.errors import InputError
     from tribodyn.record.sweep_schema import DIRECTIONS
-    from tribodyn.sweep.engines import engine_of
+    from tribodyn.sweep.engines import JAX_METHOD, engine_of
     from tribodyn.sweep.grid import Grid, default_output
     from tribodyn.sweep.run import run, settings_of
 
@@ -111,7 +111,7 @@ def sweep(
     ):
         result = run(
             grid,
-            settings_of(grid, transient),
+            settings_of(grid, transient, JAX_METHOD if engine is EngineName.jax else ""),
             evaluator,
             record,
             directions=chosen,

@@ -19,7 +19,7 @@ from tribodyn.scenario.units import Kind, NotAQuantity, to_si
 
 VARY = "--vary"
 #: Values of one axis; beyond, a range was surely mistyped, and the values alone would fill the memory.
-MOST_VALUES = 1_000_000
+MOST_VALUES = 100_000
 GRAMMAR = "write start:stop:step, start:stop/count or value,value,… with the unit once, at the end"
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"

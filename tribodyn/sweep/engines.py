@@ -11,7 +11,9 @@ from tribodyn.errors import InputError, SimulationError
 from tribodyn.sweep.evaluate import Chunk, Settings, evaluate
 
 Block = dict[str, np.ndarray]
-NATIVE, JAX, DASK = "native", "jax", "dask"
+DASK = "dask"
+#: Method of `--engine jax`: diffrax on the same right-hand side, to hold the native kernel against.
+JAX_METHOD = "tsit5"
 
 
 class Engine(Protocol):

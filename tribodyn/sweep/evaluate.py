@@ -43,6 +43,8 @@ class Settings(NamedTuple):
     samples : int
         Samples in a mesh cycle.
     modes : int
+    method : str
+        Integration method instead of the scenario's; empty for the scenario's own.
     """
 
     steady: bool
@@ -51,6 +53,7 @@ class Settings(NamedTuple):
     points: int
     samples: int
     modes: int
+    method: str = ""
 
 
 class Chunk(NamedTuple):
@@ -121,7 +124,7 @@ def _solve(
         "samples": settings.samples,
         "rtol": solver.rtol,
         "max_steps": solver.max_steps,
-        "method": solver.method,
+        "method": settings.method or solver.method,
         "workers": workers,
     }
     models, states = [one.model for one, _ in cases], np.array([state for _, state in cases])

@@ -11,7 +11,7 @@ import tomli_w
 from tribodyn.dynamics.modes import mode_count
 from tribodyn.errors import InputError
 from tribodyn.prepare import prepare
-from tribodyn.record.sweep_schema import CASES, DIRECTIONS, FAILED, FIGURES, WAITING
+from tribodyn.record.sweep_schema import DIRECTIONS, FAILED, FIGURES, WAITING
 from tribodyn.record.sweep_writer import ParameterScale, SweepHead, SweepWriter
 from tribodyn.record.writer import check_target
 from tribodyn.sweep.engines import Engine
@@ -43,7 +43,7 @@ class SweepResult(NamedTuple):
     summary: dict[str, Any]
 
 
-def settings_of(grid: Grid, transient: int | None) -> Settings:
+def settings_of(grid: Grid, transient: int | None, method: str = "") -> Settings:
     """How the cases of a sweep are brought to their windows.
 
     Parameters
@@ -51,14 +51,16 @@ def settings_of(grid: Grid, transient: int | None) -> Settings:
     grid : Grid
     transient : int or None
         Mesh cycles to march; None where steady states are sought.
+    method : str
+        Integration method instead of the scenario's.
     """
     samples = grid.base.output.samples_per_cycle
     modes = _modes(grid)
     if transient is None:
-        return Settings(True, MOST_CYCLES, STEADY_WINDOW, STEADY_POINTS, samples, modes)
+        return Settings(True, MOST_CYCLES, STEADY_WINDOW, STEADY_POINTS, samples, modes, method)
     window = max(1, min(TRANSIENT_WINDOW, transient // 4))
     points = max(window, min(TRANSIENT_POINTS, transient // 2))
-    return Settings(False, transient, window, points, samples, modes)
+    return Settings(False, transient, window, points, samples, modes, method)
 
 
 def _modes(grid: Grid) -> int:
@@ -185,6 +187,3 @@ def _not_absurd(grid: Grid, settings: Settings, directions: Sequence[str]) -> No
             f"{cases:.3g} cases, about {hours:.3g} core hours and {size / 2**30:.3g} GiB",
             f"choose larger steps, or fewer output.samples_per_cycle; at most {MOST_CASES} cases",
         )
-
-
-__all__ = ["CASES", "SweepResult", "run", "settings_of"]

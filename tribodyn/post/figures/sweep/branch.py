@@ -26,7 +26,7 @@ class Branch(NamedTuple):
     Attributes
     ----------
     record : SweepRecord
-    index : tuple
+    place : tuple
         Of its cases in a dataset; a slice stands for the first parameter.
     x : (n,)
         The first parameter as engineers read it.
@@ -40,7 +40,7 @@ class Branch(NamedTuple):
     """
 
     record: SweepRecord
-    index: tuple[int | slice, ...]
+    place: tuple[int | slice, ...]
     x: np.ndarray
     color: str
     style: str | tuple[int, tuple[float, ...]]
@@ -49,8 +49,8 @@ class Branch(NamedTuple):
 
     def values(self, name: str) -> np.ndarray:
         """A dataset along the branch, NaN where a case is not done."""
-        values = self.record[name][self.index]
-        done = self.record["status"][self.index] == DONE
+        values = self.record[name][self.place]
+        done = self.record["status"][self.place] == DONE
         return np.where(done.reshape(done.shape + (1,) * (values.ndim - 1)), values, np.nan)
 
 

@@ -27,7 +27,7 @@ def waterfall_figure(records: Sequence[SweepRecord]) -> Figure:
     Up and down beside each other where both were followed; of several other parameters the first branch.
     """
     drawn = branches(records[:1])
-    drawn = [branch for branch in drawn if branch.index[1 : len(records[0].parameters)] == _first(drawn)]
+    drawn = [branch for branch in drawn if branch.place[1 : len(records[0].parameters)] == _first(drawn)]
     figure = new_figure(WIDTH, 4.6)
     panels = figure.subplots(1, len(drawn), squeeze=False, sharex=True, sharey=True)[0]
     highest = max(_highest(branch) for branch in drawn)
@@ -46,7 +46,7 @@ def waterfall_figure(records: Sequence[SweepRecord]) -> Figure:
 
 def _first(drawn: Sequence[Branch]) -> tuple[int | slice, ...]:
     branch = drawn[0]
-    return branch.index[1 : len(branch.record.parameters)]
+    return branch.place[1 : len(branch.record.parameters)]
 
 
 def _highest(branch: Branch) -> float:

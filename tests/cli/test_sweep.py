@@ -1,0 +1,186 @@
+"""The verb sweep as its user meets it: records, figures, failed cases, what is refused."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray
+from typer.testing import CliRunner
+
+from tribodyn.cli.app import app
+from tribodyn.post.sweep_plots import SWEEP_NAMES
+from tribodyn.record.reader import open_record
+from tribodyn.record.sweep_reader import SweepRecord
+from tribodyn.record.sweep_schema import DONE, FAILED, FIGURES
+
+SPEEDS = "operating.pinion_speed=100:300:100rad/s"
+SHORT = ("--transient", "4", "--set", "output.samples_per_cycle=40")
+
+
+def tribodyn(*words: object) -> str:
+    ended = CliRunner().invoke(app, [str(word) for word in words])
+    assert ended.exit_code == 0, f"{ended.output}\n{ended.exception}"
+    return ended.stdout
+
+
+@pytest.fixture(scope="module")
+def grid(tmp_path_factory) -> Path:
+    """Three speeds, two torques, both directions; and what the verb said as JSON, beside it."""
+    path = tmp_path_factory.mktemp("sweep") / "grid.h5"
+    vary = ("--vary", SPEEDS, "--vary", "operating.gear_torque=100,500 N*m")
+    said = tribodyn("sweep", "crc-23-47", *vary, "--direction", "both", *SHORT, "-o", path, "--json")
+    path.with_suffix(".json").write_text(said, encoding="utf-8")
+    return path
+
+
+def test_the_record_is_a_dataset_over_the_parameters(grid: Path):
+    with xarray.open_dataset(grid, engine="h5netcdf") as data:
+        assert dict(data.efficiency.sizes) == {"pinion_speed": 3, "gear_torque": 2, "direction": 2}
+        assert data.pinion_speed.values.tolist() == [100.0, 200.0, 300.0]
+        assert data.pinion_speed.attrs["units"] == "rad/s"
+        assert data.direction.values.tolist() == ["up", "down"]
+        assert data.transmission_error_rotational.dims[-1] == "sample"
+        assert data.poincare_error.dims[-1] == "cycle"
+        assert (data.status == DONE).all()
+        assert set(data.solution.values.ravel()) == {"transient"}
+        assert data.attrs["status"] == "complete"
+        for name in FIGURES:
+            assert np.isfinite(data[name]).all(), name
+            assert data[name].attrs["units"]
+            assert data[name].attrs["long_name"]
+
+
+def test_json_and_show_say_what_the_record_says(grid: Path):
+    said = json.loads(grid.with_suffix(".json").read_text(encoding="utf-8"))
+    assert said["cases"] == said["done"] == 12
+    assert [one["key"] for one in said["parameters"]] == ["operating.pinion_speed", "operating.gear_torque"]
+    shown = json.loads(tribodyn("show", grid, "--json"))
+    assert {name: shown[name] for name in said} == said
+    with SweepRecord(grid) as record:
+        np.testing.assert_array_equal(said["figures"]["dynamic_factor"]["values"], record["dynamic_factor"])
+    assert "12 cases (3 of operating.pinion_speed, 2 of operating.gear_torque, up and down)" in tribodyn(
+        "show", grid
+    )
+
+
+def test_the_first_case_of_a_direction_is_the_run_of_its_scenario(grid: Path, tmp_path: Path):
+    speed, torque = "operating.pinion_speed=300 rad/s", "operating.gear_torque=500 N*m"
+    run = ("run", "crc-23-47", "--no-plot", "-o", tmp_path / "run.h5", "--set", "solver.cycles=4")
+    tribodyn(*run, "--set", speed, "--set", torque, "--set", "output.samples_per_cycle=40")
+    with open_record(tmp_path / "run.h5") as record, SweepRecord(grid) as sweep:
+        case = (2, 1, 1)  # 300 rad/s is where "down" begins
+        # the same steps but for where blocks end: far inside the solver's tolerance of 1e-6
+        for name in ("dynamic_factor", "efficiency", "mesh_frequency", "power_in_mean"):
+            assert sweep[name][case] == pytest.approx(record.summary[name], rel=1e-7), name
+        np.testing.assert_allclose(
+            sweep["transmission_error_rotational"][case],
+            record["transmission_error_rotational"][-41:-1],
+            rtol=1e-7,
+        )
+
+
+def test_directions_share_the_end_where_one_begins_only_by_their_history(grid: Path):
+    with SweepRecord(grid) as record:
+        states = record["state"]
+        assert not np.array_equal(states[1, :, 0], states[1, :, 1])
+
+
+@pytest.mark.parametrize("name", SWEEP_NAMES)
+def test_every_figure_is_drawn(grid: Path, name: str, tmp_path: Path):
+    at = ("--at", "pinion_speed=1900rpm", "--at", "direction=down") if name == "poincare" else ()
+    said = json.loads(tribodyn("plot", grid, name, *at, "-o", tmp_path, "--json"))
+    assert [Path(picture).name for picture in said["pictures"]] == [f"grid-{name}.png"]
+    assert Path(said["pictures"][0]).stat().st_size > 10_000
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("nonsense",), "no such figure of a sweep"),
+        (("poincare", "--at", "speed=1"), "not a dimension of the sweep"),
+        (("poincare", "--at", "pinion_speed=1mm"), "not a unit of angular speed"),
+        (("poincare", "--at", "direction=left"), "no such value"),
+    ],
+)
+def test_bad_wishes_for_figures_are_refused(grid: Path, words: tuple[str, ...], message: str):
+    refused = CliRunner().invoke(app, ["plot", str(grid), *words])
+    assert refused.exit_code == 2
+    assert message in refused.stderr
+
+
+def test_a_case_that_fails_leaves_the_others_alone(tmp_path: Path):
+    """A pinion of 23 teeth shifted by 1.5 is pointed."""
+    path = tmp_path / "shifts.h5"
+    said = tribodyn(
+        "sweep", "involute-23-47", "--vary", "drive.pinion.profile_shift=0,1.5,0.1", *SHORT, "-o", path
+    )
+    assert "2 done, 1 failed" in said
+    assert "failed at 1.5: " in said
+    with SweepRecord(path) as record:
+        assert record.status == "complete"
+        assert record.message == "1 of 3 cases failed"
+        assert record["status"].tolist() == [DONE, FAILED, DONE]
+        assert "drive.pinion" in record["message"][1]
+        assert np.isnan(record["efficiency"][1])
+        assert record["efficiency"][0] != record["efficiency"][2]
+
+
+def test_all_cases_failed(tmp_path: Path):
+    path = tmp_path / "steps.h5"
+    words = ["sweep", "crc-23-47", "--vary", SPEEDS, *SHORT, "--set", "solver.max_steps=2", "-o", str(path)]
+    ended = CliRunner().invoke(app, words)
+    assert ended.exit_code == 3
+    assert "all 3 cases failed" in ended.stderr
+    assert not path.exists()
+    with SweepRecord(tmp_path / "steps.partial.h5") as record:
+        assert record.status == "failed"
+        assert all("the limit of steps" in message for message in record["message"])
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ((), "nothing is varied"),
+        (("--vary", SPEEDS, "--steady", "--transient", "4"), "contradicts --transient"),
+        (("--vary", SPEEDS, "--resume", "--force"), "contradicts --force"),
+        (("--vary", SPEEDS, "--scheduler", "tcp://localhost:1"), "belongs to --engine dask"),
+        (("--vary", "friction.law=none,coulomb", "--direction", "up"), "law = "),
+        (("--vary", "operating.pinion_speed=1:90000:1rpm", "--vary", "mesh.damping_ratio=0:1/99"), "cases"),
+        (("--vary", "operating.pinion_speed=1:9:1rpm", "-o", "no/such/folder.h5"), "does not exist"),
+    ],
+)
+def test_what_cannot_be_swept_is_refused_at_once(words: tuple[str, ...], message: str, tmp_path: Path):
+    ended = CliRunner().invoke(app, ["sweep", "crc-23-47", *words])
+    assert ended.exit_code == 2, ended.output
+    assert message in ended.stderr
+
+
+def test_only_gear_pairs_in_motion_are_swept():
+    ended = CliRunner().invoke(app, ["sweep", "irefc", "--vary", "operating.input_speed=100,200rpm"])
+    assert ended.exit_code == 2
+    assert "only gear pairs" in ended.stderr
+
+
+def test_an_existing_record_is_kept(grid: Path):
+    ended = CliRunner().invoke(app, ["sweep", "crc-23-47", "--vary", SPEEDS, *SHORT, "-o", str(grid)])
+    assert ended.exit_code == 2
+    assert "--force" in ended.stderr
+
+
+def test_jax_is_never_imported(tmp_path: Path):
+    program = (
+        "import sys\nfrom tribodyn.cli import main\n"
+        f"sys.argv = ['tribodyn', 'sweep', 'crc-23-47', '--vary', '{SPEEDS}', '-o', 's.h5']\n"
+        "try:\n    main()\nexcept SystemExit as end:\n    assert not end.code\n"
+        "print('jax' in sys.modules)"
+    )
+    ended = subprocess.run(
+        [sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True, check=True
+    )
+    assert ended.stdout.splitlines()[-1] == "False"
+    with SweepRecord(tmp_path / "s.h5") as record:
+        assert set(record["solution"]) == {"period-1"}
+        assert (record["multiplier_max"] < 1).all()

@@ -1,0 +1,128 @@
+"""A sweep that is killed leaves a valid record and goes on where it stopped; a cluster loses a worker."""
+
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from tribodyn.cli.app import app
+from tribodyn.record.sweep_reader import SweepRecord
+from tribodyn.record.sweep_schema import DONE, WAITING
+from tribodyn.sweep import plan
+from tribodyn.sweep.engines import Dask, Local
+from tribodyn.sweep.grid import Grid
+from tribodyn.sweep.run import run, settings_of
+
+# one case a chunk, so that there is something between nothing and everything
+ONE_A_CHUNK = (
+    "from tribodyn.sweep import plan\nplan.MOST_IN_CHUNK = 1\n"
+    "from tribodyn.cli import main\nimport sys\nsys.argv = ['tribodyn', 'sweep', *sys.argv[1:]]\nmain()\n"
+)
+WORDS = ("crc-23-47", "--transient", "40", "--set", "output.samples_per_cycle=40")
+VARY = ("--vary", "operating.pinion_speed=20:400/30 rad/s")
+
+
+def same(one: Path, other: Path) -> None:
+    """All datasets are equal, bit for bit."""
+    with h5py.File(one) as a, h5py.File(other) as b:
+        assert set(a) == set(b)
+        for name in a:
+            if isinstance(a[name], h5py.Dataset):
+                assert a[name][...].tobytes() == b[name][...].tobytes(), name  # pyright: ignore
+
+
+@pytest.mark.parametrize("direction", [(), ("--direction", "up")])
+def test_a_killed_sweep_goes_on_where_it_stopped(direction: tuple[str, ...], tmp_path: Path):
+    words = [*WORDS, *VARY, *direction, "-o", "killed.h5"]
+    process = subprocess.Popen([sys.executable, "-c", ONE_A_CHUNK, *words], cwd=tmp_path)
+    partial = tmp_path / "killed.partial.h5"
+    for _ in range(1200):
+        time.sleep(0.05)
+        if partial.exists() and _done(partial) >= 3:
+            break
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    with SweepRecord(partial) as left:
+        assert left.status == "partial"
+        before = left["status"]
+        assert 3 <= np.sum(before == DONE) < 30
+        assert np.isfinite(left["efficiency"][before == DONE]).all()
+        assert np.isnan(left["efficiency"][before == WAITING]).all()
+    for other in (["--set", "operating.gear_torque=1 N*m"], ["--transient", "39"], ["--direction", "down"]):
+        refused = CliRunner().invoke(
+            app, ["sweep", *WORDS, *VARY, *direction, *other, "--resume", "-o", str(tmp_path / "killed.h5")]
+        )
+        assert refused.exit_code == 2
+        assert "--resume" in refused.stderr
+    resumed = ["sweep", *WORDS, *VARY, *direction, "--resume", "-o", str(tmp_path / "killed.h5")]
+    ended = CliRunner().invoke(app, resumed)
+    assert ended.exit_code == 0, ended.output
+    assert not partial.exists()
+    with SweepRecord(tmp_path / "killed.h5") as record:
+        assert (record["status"] == DONE).all()
+        assert record.summary["cases_done_by_this_call"] == np.sum(before == WAITING)
+    whole = ["sweep", *WORDS, *VARY, *direction, "-o", str(tmp_path / "whole.h5")]
+    assert CliRunner().invoke(app, whole).exit_code == 0
+    same(tmp_path / "killed.h5", tmp_path / "whole.h5")
+
+
+def _done(path: Path) -> int:
+    try:
+        with SweepRecord(path) as record:
+            return int(np.sum(record["status"] == DONE))
+    except Exception:  # it is being laid out
+        return 0
+
+
+def test_a_record_of_something_else_is_not_taken_up(tmp_path: Path):
+    with h5py.File(tmp_path / "other.partial.h5", "w") as file:
+        file.attrs["format"] = "tribodyn-record"
+    words = ["sweep", *WORDS, *VARY, "--resume", "-o", str(tmp_path / "other.h5")]
+    refused = CliRunner().invoke(app, words)
+    assert refused.exit_code == 2
+    assert "not what a sweep left" in refused.stderr
+
+
+@pytest.mark.slow
+def test_a_cluster_that_loses_a_worker_gives_the_same_record(tmp_path: Path, monkeypatch):
+    """A scheduler and two workers in processes of their own; one of them is killed half-way."""
+    distributed = pytest.importorskip("distributed")
+    monkeypatch.setattr(plan, "MOST_IN_CHUNK", 1)
+    grid = Grid("crc-23-47", ["operating.pinion_speed=100:400/12 rad/s"], {"output.samples_per_cycle": 40})
+    settings = settings_of(grid, 8)
+    here = run(grid, settings, Local(), tmp_path / "here.h5")
+    address = tmp_path / "scheduler.json"
+    scheduler = _start("dask_scheduler", address, "--port", "0")
+    workers = [_start("dask_worker", address, "--no-nanny", "--nthreads", "1") for _ in range(2)]
+    try:
+        with distributed.Client(scheduler_file=str(address), timeout="60s") as client:
+            client.wait_for_workers(2, timeout=60)
+            done = []
+
+            def follow(so_far: int, total: int) -> None:
+                done.append(so_far)
+                if so_far == total // 2:
+                    workers[0].kill()
+
+            there = run(grid, settings, Dask(client), tmp_path / "there.h5", follow=follow)
+        assert done == list(range(1, 13))  # every case arrives once
+        assert workers[0].wait() == -signal.SIGKILL
+    finally:
+        for process in (*workers, scheduler):
+            if process.poll() is None:
+                process.terminate()
+                process.wait()
+    assert there.failed == 0
+    same(here.path, there.path)
+
+
+def _start(program: str, address: Path, *words: str) -> "subprocess.Popen[bytes]":
+    command = [sys.executable, "-m", f"distributed.cli.{program}", "--scheduler-file", str(address)]
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    return subprocess.Popen([*command, "--no-dashboard", *words], **quiet)
