@@ -63,7 +63,7 @@ def test_quasi_static_mesh_is_the_load_contact_model(case, name):
     np.testing.assert_allclose(loads, shared.normal_load, atol=2e-3 * shared.normal_load.max())
     error = np.abs(still.deflection.ravel() - shared.deflection)
     assert np.max(error) < 3e-3 * np.ptp(shared.deflection)
-    # At a little more load the mesh deflects more as the model does, but for the secant of the local part, 3 %,
+    # At a little more load the mesh deflects more as the model does, but for 3 % of the local part's secant,
     # and the slice that the edge of the contact is in, where the face touches in part.
     more = model(case, cycle, modified, slices, 1.05 * torque).deflection - shared.deflection
     found = quasi_static(cycle, 1.05 * torque).deflection.ravel() - still.deflection.ravel()
