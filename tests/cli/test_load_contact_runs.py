@@ -1,0 +1,147 @@
+"""Load contact studies through the command line: run, show, plot, compare, check; and how they fail."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from tribodyn import simulate_load_contact
+from tribodyn.cli.app import app
+from tribodyn.errors import SimulationError
+from tribodyn.post.figures.load_contact import NAMES
+from tribodyn.record.reader import open_record
+
+PLAIN, RELIEVED = "load-contact-18-36", "harris-18-36-tip-relief"
+SHORT = ("--set", "output.positions_per_cycle=30")
+
+
+def tribodyn(*arguments: str) -> str:
+    done = CliRunner().invoke(app, list(map(str, arguments)))
+    assert done.exit_code == 0, done.stderr
+    return done.stdout
+
+
+@pytest.fixture(scope="module")
+def both(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    """The plain pair and the one with tip relief, run; the pictures of the first are all drawn."""
+    folder = tmp_path_factory.mktemp("studies")
+    paths = {name: folder / f"{name}.h5" for name in (PLAIN, RELIEVED)}
+    torques = 'operating.gear_torques=["200 N*m", "318.3 N*m", "440 N*m"]'
+    tribodyn("run", PLAIN, *SHORT, "-o", paths[PLAIN], "--plot")
+    tribodyn("run", RELIEVED, *SHORT, "--set", torques, "-o", paths[RELIEVED])
+    return paths
+
+
+def test_the_record_carries_the_load(both: dict[str, Path]):
+    with open_record(both[PLAIN]) as record:
+        summary = record.summary
+        assert record.samples == 30
+        assert np.max(np.abs(record["torque_residual"])) < 1e-10
+        # a pair alone carries T_g/(r_g cos 20°); the line load is even
+        alone = 318.3 / (0.054 * np.cos(np.radians(20)))
+        assert summary["normal_load_max"] == pytest.approx(alone, rel=1e-9)
+        assert summary["line_load_max"] == pytest.approx(alone / 0.0267, rel=1e-9)
+        assert summary["face_load_factor"] == pytest.approx(1.0, abs=1e-9)
+        # a separate prototype counts 1.733 grid positions at this torque, ± 0.02
+        assert summary["contact_ratio_effective"] == pytest.approx(1.733, abs=0.02)
+        # unmodified flanks have no error without load
+        assert np.max(np.abs(record["unloaded_transmission_error"])) < 1e-12
+        assert record["root_tension"].max() > 0 > record["root_compression"].min()
+        # the single pair's Hertz pressure at the pitch point: radii r sin 20° of both gears
+        curvature = 1 / (0.027 * np.sin(np.radians(20))) + 1 / (0.054 * np.sin(np.radians(20)))
+        modulus = 207e9 / (2 * (1 - 0.3**2))
+        position, pair = np.unravel_index(np.argmin(np.abs(record["roll_angle"])), (30, len(record.pairs)))
+        assert record["hertz_pressure"][position, pair, 0] == pytest.approx(
+            np.sqrt(record["line_load"][position, pair, 0] * modulus * curvature / np.pi), rel=0.01
+        )
+
+
+def test_relief_of_twice_the_swing_is_least_at_its_torque(both: dict[str, Path]):
+    """S. L. Harris: a long relief as deep as twice what two pairs deflect less than one."""
+    with open_record(both[PLAIN]) as plain, open_record(both[RELIEVED]) as relieved:
+        swing = np.ptp(plain["loaded_transmission_error"])
+        assert 12.4e-6 == pytest.approx(2 * swing, rel=0.02)
+        spread = relieved["map_peak_to_peak"]
+        assert np.argmin(spread) == 1
+        assert spread[1] < 0.25 * swing
+        assert spread[1] == np.ptp(relieved["loaded_transmission_error"])
+        assert relieved.summary["least_peak_to_peak_torque"] == 318.3
+
+
+def test_every_figure_is_drawn_and_listed(both: dict[str, Path]):
+    drawn = {path.name for path in both[PLAIN].parent.glob("*.png")}
+    of_plain = {f"{PLAIN}-{name}.png" for name in ("overview", *NAMES[:-1])}
+    assert drawn == of_plain | {f"{RELIEVED}-overview.png"}
+    listed = json.loads(tribodyn("list", "plots", "--json"))["plots"]
+    assert set(NAMES) <= set(listed)
+
+
+def test_studies_are_compared_with_what_is_modified(both: dict[str, Path]):
+    compared = json.loads(tribodyn("compare", *both.values(), "--json"))
+    quantities = compared["quantities"]
+    spread = quantities["loaded_transmission_error_peak_to_peak"]["values"]
+    assert spread[1] < 0.25 * spread[0]
+    different = compared["different_conditions"]
+    assert different["drive.pinion.modification.tip_relief"] == ["0 um", "12.4 um"]
+
+
+def test_a_study_is_checked_and_shown(both: dict[str, Path]):
+    checked = json.loads(tribodyn("check", PLAIN, "--json"))
+    assert checked["geometry"]["contact ratio"][0] == pytest.approx(1.611, abs=1e-3)
+    ours = next(iter(checked["stiffness"]["by"].values()))["per_width"] * 1e-9
+    assert ours == pytest.approx(13.8, rel=0.05)  # a separate prototype
+    shown = tribodyn("show", str(both[RELIEVED]))
+    assert "Least peak to peak of all torques" in shown
+    assert "The loads carry the torque to within" in shown
+
+
+def test_a_scenario_to_begin_with(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    from tribodyn.scenario.load import load_scenario
+
+    monkeypatch.chdir(tmp_path)
+    tribodyn("init", "mine", "--kind", "load-contact")
+    case = load_scenario("mine.toml")
+    assert case.kind == "load-contact"
+    assert case.slices == 21
+
+
+def test_a_face_that_is_lifted_is_refused(tmp_path: Path):
+    tilted = ("--set", "mesh.misalignment.in_plane=1 deg", "--set", "mesh.slices=5")
+    done = CliRunner().invoke(app, ["run", PLAIN, *tilted, "-o", str(tmp_path / "tilted.h5")])
+    assert done.exit_code == 2
+    (line,) = done.stderr.splitlines()
+    assert "mesh.slices = 5" in line
+    assert "misalignment" in line
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("fails_at", [0, 2])
+def test_a_torque_that_fails_keeps_what_was_before_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, fails_at: int
+):
+    """Of the recorded torque and three of a map."""
+    really, calls = simulate_load_contact.roll_through, []
+
+    def roll_through(*arguments, **named):
+        calls.append(arguments)
+        if len(calls) == fails_at + 1:
+            raise SimulationError("the load contact model does not settle")
+        return really(*arguments, **named)
+
+    monkeypatch.setattr(simulate_load_contact, "roll_through", roll_through)
+    torques = 'operating.gear_torques=["200 N*m", "318.3 N*m", "440 N*m"]'
+    path = tmp_path / "study.h5"
+    done = CliRunner().invoke(app, ["run", PLAIN, *SHORT, "--set", torques, "-o", str(path)])
+    assert done.exit_code == 3
+    (line,) = done.stderr.splitlines()
+    assert "does not settle" in line
+    assert "study.partial.h5" in line
+    with open_record(tmp_path / "study.partial.h5") as record:
+        assert record.status == "failed"
+        assert record.samples == (30 if fails_at else 0)
+        if fails_at:
+            assert "operating.gear_torques.1 = 318.3 N*m" in line
+            assert np.all(record["normal_load"] >= 0)
+            assert np.isfinite(record["map_peak_to_peak"]).tolist() == [True, False, False]
