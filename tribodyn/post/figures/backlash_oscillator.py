@@ -1,0 +1,144 @@
+"""Figures of the oscillator with backlash: its response up and down in frequency, and its stability."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from tribodyn.errors import InputError
+from tribodyn.post.figures.panel import record_label, record_title
+from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, QUIET, WIDTH, mark_panel, new_figure
+from tribodyn.record.reader import Record
+
+NAMES = ("response", "multipliers")
+ABSCISSA = "Frequency of the excitation / natural frequency"
+UP, DOWN = 0, 1
+LINES: dict[int, Any] = {UP: "-", DOWN: (0, (4, 1.6))}
+WORDS = {UP: "up", DOWN: "down"}
+
+
+def figure(name: str, records: Sequence[Record]) -> Figure:
+    """Draw the figure `name` of `NAMES`; the overview is the response of the first record."""
+    for record in records:
+        if record.samples < 1:
+            raise InputError("record", str(record.path), "holds no samples to draw", "run the scenario again")
+    if name == "overview":
+        return _response(records[:1])
+    return _response(records) if name == "response" else _multipliers(records)
+
+
+def _response(records: Sequence[Record]) -> Figure:
+    """RMS over frequency, heavier where contact is lost; below it the share of time without contact."""
+    drawn = new_figure(WIDTH, 2.3 * PANEL_HEIGHT)
+    upper, lower = drawn.subplots(2, 1, sharex=True, height_ratios=(2.2, 1.0))
+    for number, record in enumerate(records):
+        for direction in (UP, DOWN):
+            color = _color(records, number, direction)
+            _branch(upper, record, direction, color)
+            free = 100.0 * record["contact_loss_fraction"][:, direction]
+            lower.plot(record["frequency"], free, color=color, linestyle=LINES[direction])
+            back = 100.0 * record["back_contact_fraction"][:, direction]
+            if np.nanmax(back, initial=0.0) > 0.0:
+                lower.plot(record["frequency"], back, color=color, linestyle=":", linewidth=0.9)
+    upper.set_ylabel("RMS of x about its mean\n(half backlashes)")
+    upper.set_ylim(bottom=0)
+    lower.set_ylabel("Time without\ncontact (%)")
+    lower.set_ylim(bottom=0)
+    _finish(drawn, (upper, lower), records, losing=True)
+    return drawn
+
+
+def _branch(axes: Axes, record: Record, direction: int, color: str) -> None:
+    """One direction: a line through periodic motions broken at jumps, points where nothing repeats."""
+    x, y = record["frequency"], record["rms_displacement"][:, direction]
+    periodic = record["stable"][:, direction] == 1.0
+    losing = periodic & (record["contact_loss_fraction"][:, direction] > 0.0)
+    axes.plot(
+        x,
+        np.where(losing, y, np.nan),
+        color=color,
+        linewidth=4.5,
+        alpha=0.25,
+        solid_capstyle="butt",
+        zorder=1.5,
+    )
+    axes.plot(x, np.where(periodic, y, np.nan), color=color, linestyle=LINES[direction])
+    marker = "^" if direction == UP else "v"
+    axes.plot(x[~periodic], y[~periodic], marker, color=color, markersize=2.5, markeredgewidth=0.0)
+    for place in jumps(y, periodic):
+        # on the way up the motion comes from the left, on the way down from the right
+        start, end = (place, place + 1) if direction == UP else (place + 1, place)
+        axes.annotate(
+            "",
+            (x[end], y[end]),
+            xytext=(x[start], y[start]),
+            arrowprops={"arrowstyle": "-|>", "color": color, "linewidth": 0.9, "shrinkA": 0, "shrinkB": 0},
+        )
+
+
+def jumps(values: np.ndarray, periodic: np.ndarray) -> list[int]:
+    """Places after which a branch jumps: a step ten times its neighbours', of a tenth of the range."""
+    step = np.abs(np.diff(values))
+    both = periodic[:-1] & periodic[1:]
+    spread = np.nanmax(values, initial=0.0) - np.nanmin(values, initial=np.inf)
+    found = []
+    for i in np.flatnonzero(both & (np.nan_to_num(step) > 0.1 * spread)):
+        beside = [step[j] for j in (i - 1, i + 1) if 0 <= j < len(step) and np.isfinite(step[j])]
+        if len(step) > 2 and beside and step[i] > 10.0 * min(beside):
+            found.append(int(i))
+    return found
+
+
+def _multipliers(records: Sequence[Record]) -> Figure:
+    """Greatest modulus, and its angle, of the Floquet multipliers."""
+    drawn = new_figure(WIDTH, 2 * PANEL_HEIGHT)
+    upper, lower = drawn.subplots(2, 1, sharex=True)
+    for number, record in enumerate(records):
+        for direction in (UP, DOWN):
+            color = _color(records, number, direction)
+            modulus = record["multiplier_modulus"][:, direction, 0]
+            angle = np.degrees(np.abs(record["multiplier_angle"][:, direction, 0]))
+            upper.plot(record["frequency"], modulus, color=color, linestyle=LINES[direction])
+            lower.plot(record["frequency"], angle, color=color, linestyle=LINES[direction])
+    upper.axhline(1.0, color=INK, linewidth=0.7)
+    upper.set_ylabel("Greatest multiplier, modulus")
+    upper.set_ylim(bottom=0)
+    lower.set_ylabel("its angle (°)")
+    lower.set_yticks(range(0, 181, 45))
+    _finish(drawn, (upper, lower), records, losing=False)
+    return drawn
+
+
+def _color(records: Sequence[Record], number: int, direction: int) -> str:
+    return PALETTE[(number if len(records) > 1 else direction) % len(PALETTE)]
+
+
+def _finish(drawn: Figure, panels: Sequence[Axes], records: Sequence[Record], losing: bool) -> None:
+    for letter, axes in zip("ab", panels, strict=True):
+        mark_panel(axes, letter)
+    panels[-1].set_xlabel(ABSCISSA)
+    drawn.align_ylabels()
+    several = len(records) > 1
+    handles = [
+        Line2D([], [], color=QUIET if several else PALETTE[direction], linestyle=LINES[direction])
+        for direction in (UP, DOWN)
+    ]
+    labels = [f"frequency {WORDS[direction]}" for direction in (UP, DOWN)]
+    if losing:
+        handles.append(Line2D([], [], color=QUIET, linewidth=4.5, alpha=0.4))
+        labels.append("contact lost for part of the period")
+        if any(np.any(record["stable"] == 0.0) for record in records):
+            handles.append(Line2D([], [], color=QUIET, linestyle="", marker="^", markersize=3.5))
+            labels.append("not periodic")
+        if any(np.nanmax(record["back_contact_fraction"], initial=0.0) > 0.0 for record in records):
+            handles.append(Line2D([], [], color=QUIET, linestyle=":"))
+            labels.append("contact on the back side (b)")
+    if several:
+        handles = [Line2D([], [], color=PALETTE[i % len(PALETTE)]) for i in range(len(records))] + handles
+        labels = [*map(record_label, records), *labels]
+    else:
+        drawn.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
+    drawn.legend(handles, labels, loc="outside lower center", ncols=min(3, len(labels)), handlelength=2.6)
