@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.case import Case
 from tribodyn.dynamics.outputs import outputs
 from tribodyn.efficiency.case import EfficiencyCase
@@ -38,7 +39,7 @@ class RunResult(NamedTuple):
 
 
 def run(
-    case: Case | RollingCase | EfficiencyCase | LoadContactCase,
+    case: Case | RollingCase | EfficiencyCase | LoadContactCase | BacklashOscillatorCase,
     output: str | Path | None = None,
     force: bool = False,
     progress: Callable[[float], None] | None = None,
@@ -48,7 +49,7 @@ def run(
     Parameters
     ----------
     case : Case, RollingCase of a gear with rolling elements, EfficiencyCase or LoadContactCase of a study
-        without dynamics
+        without dynamics, or BacklashOscillatorCase
     output : path, optional
         Name of the record; default ``<case name>.h5`` in the current folder.
     force : bool
@@ -84,6 +85,11 @@ def run(
         ended = simulate_load_contact.run(case, output, force, progress)
         status = "failed" if ended.message else "complete"
         return RunResult(ended.path, status, ended.message, ended.summary)
+    if isinstance(case, BacklashOscillatorCase):
+        from tribodyn import simulate_backlash_oscillator
+
+        path, message, summary = simulate_backlash_oscillator.run(case, output, force, progress)
+        return RunResult(path, "failed" if message else "complete", message, summary)
     path = Path(output) if output is not None else Path(f"{case.name}.h5")
     check_target(path, force)
     prepared = prepare(case)

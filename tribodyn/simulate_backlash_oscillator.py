@@ -34,8 +34,8 @@ def run(
 ) -> tuple[Path, str, dict[str, Any]]:
     """Sweep a case and write its record.
 
-    Parameters and errors as those of `tribodyn.simulate.run`; returns the record's path, why it failed (empty:
-    it did not), and its summary. A sweep fails if no frequency at all has a bounded motion.
+    Parameters and errors as those of `tribodyn.simulate.run`; returns the record's path, why it failed
+    (empty: it did not), and its summary. A sweep fails if no frequency at all has a bounded motion.
     """
     from tribodyn.record.schema import BACKLASH_OSCILLATOR
     from tribodyn.record.writer import RecordWriter, check_target

@@ -20,7 +20,7 @@ LAYERS = (
     "drawing",
     "cli",
 )
-PHYSICS = ("geometry", "compliance", "tribology", "dynamics", "solve", "rolling")
+PHYSICS = ("geometry", "compliance", "tribology", "dynamics", "solve", "rolling", "backlash_oscillator")
 FORBIDDEN = {
     "geometry": {
         "scenario",
@@ -68,6 +68,18 @@ FORBIDDEN = {
         "cli",
         "simulate",
         "simulate_rolling",
+        "prepare",
+    },
+    "backlash_oscillator": {
+        "scenario",
+        "geometry",
+        "compliance",
+        "tribology",
+        "record",
+        "post",
+        "cli",
+        "simulate",
+        "simulate_backlash_oscillator",
         "prepare",
     },
     "record": {

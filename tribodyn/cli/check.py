@@ -8,6 +8,7 @@ import typer
 from tribodyn.cli.overrides import SetOption, overrides
 
 if TYPE_CHECKING:
+    from tribodyn.backlash_oscillator.case import BacklashOscillatorCase
     from tribodyn.case import Case
     from tribodyn.efficiency.case import EfficiencyCase
     from tribodyn.load_contact_case import LoadContactCase
@@ -28,6 +29,7 @@ def check(
     json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
     """Check a scenario; print geometry and stiffness."""
+    from tribodyn.backlash_oscillator.case import BacklashOscillatorCase
     from tribodyn.cli.printing import print_json, print_table
     from tribodyn.cli.sheet import print_sheet
     from tribodyn.efficiency.case import EfficiencyCase
@@ -42,6 +44,9 @@ def check(
     case = loaded.case
     if isinstance(case, RollingCase):
         _check_rolling(loaded, case, json)
+        return
+    if isinstance(case, BacklashOscillatorCase):
+        _check_oscillator(loaded, case, json)
         return
     with loaded.naming():
         masses = None
@@ -86,6 +91,19 @@ def _check_rolling(loaded: "Loaded", case: "RollingCase", json: bool) -> None:
     typer.echo(f"{loaded.path}: {case.title}: sound")
     rows = [("mode", case.mode), *((name, written(*value)) for name, value in sheet.items())]
     print_table("Gear with rolling elements", ("quantity", "value"), rows)
+
+
+def _check_oscillator(loaded: "Loaded", case: "BacklashOscillatorCase", json: bool) -> None:
+    from tribodyn.backlash_oscillator.linear import linear_figures
+    from tribodyn.cli.printing import print_json, print_table
+
+    figures = linear_figures(case)
+    if json:
+        print_json({"scenario": str(loaded.path), "title": case.title, "linear": figures})
+        return
+    typer.echo(f"{loaded.path}: {case.title}: sound")
+    rows = [(name, "none" if value is None else f"{value:.6g}") for name, value in figures.items()]
+    print_table("What linear theory says, while contact lasts", ("quantity", "value"), rows)
 
 
 def _of_cycle(case: "Case | EfficiencyCase", cycle: "MeshCycle") -> dict[str, Any]:

@@ -66,11 +66,15 @@ def _about(what: What) -> dict[str, str]:
 
 def _plots() -> dict[str, str]:
     """Return the names of all figures, and the records that each is of."""
-    from tribodyn.post.plots import LOAD_CONTACT_NAMES, NAMES, ROLLING_NAMES
+    from tribodyn.post.plots import LOAD_CONTACT_NAMES, NAMES, OSCILLATOR_NAMES, ROLLING_NAMES
 
-    also = {"rolling elements": ROLLING_NAMES, "load contact studies": LOAD_CONTACT_NAMES}
+    also = {
+        "rolling elements": ROLLING_NAMES,
+        "load contact studies": LOAD_CONTACT_NAMES,
+        "the oscillator with backlash": OSCILLATOR_NAMES,
+    }
     listed = {}
-    for name in dict.fromkeys((*NAMES, *ROLLING_NAMES, *LOAD_CONTACT_NAMES)):
+    for name in dict.fromkeys((*NAMES, *(one for names in also.values() for one in names))):
         others = [kind for kind, names in also.items() if name in names]
         what = name.replace("-", " ")
         told = "; also of " if name in NAMES else ", of "

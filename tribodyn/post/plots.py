@@ -6,14 +6,14 @@ from difflib import get_close_matches
 from matplotlib.figure import Figure
 
 from tribodyn.errors import InputError
-from tribodyn.post.figures import load_contact, rolling
+from tribodyn.post.figures import backlash_oscillator, load_contact, rolling
 from tribodyn.post.figures import over_phase as panels
 from tribodyn.post.figures.panel import View, draw, legend, record_title
 from tribodyn.post.figures.path_of_contact import draw_path, path_figure
 from tribodyn.post.figures.spectrum import spectrum_figure
 from tribodyn.post.style import house_style, mark_panel, new_figure, save
 from tribodyn.record.reader import Record
-from tribodyn.record.schema import LOAD_CONTACT, ROLLING
+from tribodyn.record.schema import BACKLASH_OSCILLATOR, LOAD_CONTACT, ROLLING
 
 #: Names of the figures of gear pairs, in the order `tribodyn plot` draws them.
 NAMES = (
@@ -30,15 +30,19 @@ NAMES = (
 )
 
 
-#: Those of gears with rolling elements, and of load contact studies.
+#: Those of gears with rolling elements, of load contact studies and of the oscillator with backlash.
 ROLLING_NAMES = rolling.NAMES
 LOAD_CONTACT_NAMES = load_contact.NAMES
+OSCILLATOR_NAMES = backlash_oscillator.NAMES
+
+#: What draws the records of the other kinds.
+_OTHERS = {ROLLING: rolling, LOAD_CONTACT: load_contact, BACKLASH_OSCILLATOR: backlash_oscillator}
 
 
 def names(records: Sequence[Record]) -> tuple[str, ...]:
     """Names of the figures that can be drawn from these records."""
-    of_kind = {ROLLING: rolling.names, LOAD_CONTACT: load_contact.names}.get(_kind(records))
-    return of_kind(records) if of_kind else NAMES
+    other = _OTHERS.get(_kind(records))
+    return other.names(records) if other else NAMES
 
 
 def _kind(records: Sequence[Record]) -> str:
@@ -81,17 +85,15 @@ def figure(name: str, records: Sequence[Record], *, cycles: int | None = 2, agai
     if cycles is not None and cycles < 1:
         raise InputError("cycles", cycles, "at least one mesh cycle is drawn", "1 or more")
     view = View(cycles, against)
-    kind = _kind(records)
-    known = {ROLLING: ROLLING_NAMES, LOAD_CONTACT: LOAD_CONTACT_NAMES}.get(kind, NAMES)
+    other = _OTHERS.get(_kind(records))
+    known = other.NAMES if other else NAMES
     if name not in ("overview", *known):
         near = get_close_matches(name, known, n=1)
         hint = f"did you mean {near[0]}? " if near else ""
         raise InputError("plot", name, "no such figure", f"{hint}There are: {', '.join(known)}")
     with house_style():
-        if kind == ROLLING:
-            return rolling.figure(name, records, view)
-        if kind == LOAD_CONTACT:
-            return load_contact.figure(name, records, view)
+        if other:
+            return other.figure(name, records, view)
         if name == "overview":
             return _overview(records[0], view)
         if name == "spectrum":
@@ -126,4 +128,13 @@ def _overview(record: Record, view: View) -> Figure:
     return drawn
 
 
-__all__ = ["LOAD_CONTACT_NAMES", "NAMES", "ROLLING_NAMES", "figure", "names", "overview", "save"]
+__all__ = [
+    "LOAD_CONTACT_NAMES",
+    "NAMES",
+    "OSCILLATOR_NAMES",
+    "ROLLING_NAMES",
+    "figure",
+    "names",
+    "overview",
+    "save",
+]

@@ -50,6 +50,20 @@ GROUPS: dict[str, tuple[Line, ...]] = {
         Line("pinion_root_compression_max", "Greatest root compression, pinion", 1e-6, "MPa"),
         Line("gear_root_compression_max", "Greatest root compression, gear", 1e-6, "MPa"),
     ),
+    "Response": (
+        Line("points", "Points, up and down", form="d"),
+        Line("points_of_longer_period", "with a longer period than the excitation's", form="d"),
+        Line("points_not_periodic", "not periodic", form="d"),
+        Line("points_failed", "grown without bound", form="d"),
+        Line("rms_max", "Greatest RMS about the mean, in half backlashes"),
+        Line("rms_max_frequency", "at the frequency"),
+        Line("contact_loss_from", "Contact is lost from the frequency"),
+        Line("contact_loss_to", "to the frequency"),
+        Line("contact_loss_fraction_max", "for at most, of the time", 100.0, "%", ".3g"),
+        Line("back_contact_fraction_max", "Contact on the back side, at most", 100.0, "%", ".3g"),
+        Line("bistable_from", "Up and down differ from the frequency"),
+        Line("bistable_to", "to the frequency"),
+    ),
     "Dynamics": (
         Line("mesh_frequency", "Mesh frequency", 1.0, "Hz"),
         Line("transmission_error_mean", "Transmission error, mean", 1e6, "µm"),
@@ -159,6 +173,11 @@ def trust(record: Record) -> list[str]:
         )
     if summary.get("pitch_point", "regular") != "regular":
         sentences.append(f"At the pitch point {summary['pitch_point']}; pressure there is no merit figure.")
+    if summary.get("residual_max") is not None and "points" in summary:
+        sentences.append(f"Periodic motions close within {summary['residual_max']:.1e} of half a backlash.")
+    sentences += [f"At {summary[name]}." for name in sorted(summary) if name.startswith("remark_")]
+    if "remarks_more" in summary:
+        sentences.append(f"And {summary['remarks_more']} more points that are not periodic or failed.")
     slices = summary.get("slices")
     if slices is not None:
         what = "in one piece, alike all along" if slices == 1 else f"in {slices} slices"

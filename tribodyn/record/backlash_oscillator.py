@@ -15,7 +15,7 @@ SAMPLES: dict[str, Variable] = {
     "rms_displacement": Variable(
         _POINT, "1", "root mean square of the displacement about its mean, in half backlashes"
     ),
-    "peak_to_peak_displacement": Variable(_POINT, "1", "peak to peak of the displacement, in half backlashes"),
+    "peak_to_peak_displacement": Variable(_POINT, "1", "peak to peak of displacement, in half backlashes"),
     "mean_displacement": Variable(_POINT, "1", "mean displacement, in half backlashes"),
     "contact_loss_fraction": Variable(_POINT, "1", "share of the time without contact"),
     "back_contact_fraction": Variable(_POINT, "1", "share of the time in contact on the back side"),
@@ -23,8 +23,8 @@ SAMPLES: dict[str, Variable] = {
     "stable": Variable(
         _POINT,
         "1",
-        "1: the motion is periodic and stable; 0: it is not periodic, and its figures are over 100 periods of "
-        "the excitation; NaN: it grew without bound",
+        "1: the motion is periodic and stable; 0: it is not periodic, and its figures are over 100 periods "
+        "of the excitation; NaN: it grew without bound",
     ),
     "multiplier_modulus": Variable(
         _MULTIPLIER,

@@ -9,7 +9,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import NamedTuple
 
-from tribodyn.record import load_contact
+from tribodyn.record import backlash_oscillator, load_contact
 from tribodyn.record.variable import Variable
 
 FORMAT = "tribodyn-record"
@@ -227,11 +227,12 @@ class Kind(NamedTuple):
 
 
 def axis_name(kind: str) -> str:
-    """Name of the axis on which runs of this kind go on: "time", or "phase" in slow rotation."""
+    """Name of the axis on which runs of this kind go on: "time", "phase" in slow rotation, "frequency"."""
     return KINDS[kind].axis.dims[0]
 
 
 GEAR_PAIR, ROLLING, LOAD_CONTACT = "gear-pair", "irefc", "load-contact"
+BACKLASH_OSCILLATOR = "backlash-oscillator"
 KINDS: dict[str, Kind] = {
     GEAR_PAIR: Kind(SAMPLES, NEEDED, {"pair": PAIR, "dof": DOF_SCALE}),
     ROLLING: Kind(
@@ -248,6 +249,12 @@ KINDS: dict[str, Kind] = {
         },
         load_contact.PHASE,
         load_contact.MAP,
+    ),
+    BACKLASH_OSCILLATOR: Kind(
+        backlash_oscillator.SAMPLES,
+        backlash_oscillator.NEEDED,
+        {"direction": backlash_oscillator.DIRECTION, "multiplier": backlash_oscillator.MULTIPLIER},
+        backlash_oscillator.FREQUENCY,
     ),
 }
 

@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 
 from pydantic import ValidationError
 
+from tribodyn.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.case import BodyMass, Case, MaterialData
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive
@@ -103,6 +104,8 @@ def _of_scenario(path: Path, overrides: Mapping[str, Any]) -> DriveModel:
     case, _, origins = load(path, overrides)
     if isinstance(case, RollingCase):
         raise _no_pair(path)
+    if isinstance(case, BacklashOscillatorCase):
+        raise InputError("model", quoted(path.stem), "an oscillator without gears", "name a pair of gears")
     # a quasi-static study needs no masses
     masses = case.masses if isinstance(case, Case) else (BodyMass(), BodyMass())
     return DriveModel(case.title, case.name, case.family, case.drive, case.materials, masses, path, origins)

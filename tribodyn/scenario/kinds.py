@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
+from tribodyn.scenario.backlash_oscillator import BacklashOscillatorScenario
 from tribodyn.scenario.efficiency import EfficiencyScenario
 from tribodyn.scenario.load_contact import LoadContactScenario
 from tribodyn.scenario.quantity import Table
@@ -14,6 +15,7 @@ KINDS: dict[str, type[Table]] = {
     "irefc": RollingScenario,
     "efficiency": EfficiencyScenario,
     "load-contact": LoadContactScenario,
+    "backlash-oscillator": BacklashOscillatorScenario,
 }
 
 

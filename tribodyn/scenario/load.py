@@ -12,11 +12,13 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Union
 import tomli_w
 from pydantic import Field, TypeAdapter, ValidationError
 
+from tribodyn.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.case import Case
 from tribodyn.efficiency.case import EfficiencyCase
 from tribodyn.errors import InputError
 from tribodyn.load_contact_case import LoadContactCase
 from tribodyn.rolling.case import RollingCase
+from tribodyn.scenario.backlash_oscillator import BacklashOscillatorScenario, backlash_oscillator_case_of
 from tribodyn.scenario.efficiency import EfficiencyScenario, efficiency_case_of
 from tribodyn.scenario.kinds import KINDS, table_of
 from tribodyn.scenario.load_contact import LoadContactScenario, load_contact_case_of
@@ -35,7 +37,7 @@ if TYPE_CHECKING:
     from tribodyn.geometry.family import Family
 
 
-AnyCase = Case | RollingCase | EfficiencyCase | LoadContactCase
+AnyCase = Case | RollingCase | EfficiencyCase | LoadContactCase | BacklashOscillatorCase
 """A case of any kind of scenario."""
 
 
@@ -236,6 +238,8 @@ def loaded_from(resolved: Resolved, path: Path) -> Loaded:
     digest = hashlib.sha256(toml.encode()).hexdigest()
     if isinstance(table, RollingScenario):
         return Loaded(rolling_case_of(table, toml, digest), path, origins)
+    if isinstance(table, BacklashOscillatorScenario):
+        return Loaded(backlash_oscillator_case_of(table, toml, digest), path, origins)
     assert isinstance(table, OfGears)
     errors = broken_rules(table) + _unknown_names(table) + _coefficient(table)
     if table.drive.family in FAMILIES:

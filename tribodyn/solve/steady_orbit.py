@@ -193,9 +193,17 @@ def _attempt(period_map, so_far: _Progress, these, period, tolerance, method) ->
             so_far.track[case], shot.state / period_map.scale[case], period, neutral
         ):
             taken[case] = orbit
-        else:
-            so_far.fallback.setdefault(case, orbit)
+            continue
+        if case not in so_far.fallback and not orbit.stable and method == "auto":
+            _push_off(so_far, case, shot.state, period_map.scale[case])
+        so_far.fallback.setdefault(case, orbit)
     return taken
+
+
+def _push_off(so_far: _Progress, case: int, state: np.ndarray, scale: np.ndarray) -> None:
+    """Displace a case that sits on an unstable state, which it would take long to leave by itself."""
+    if np.max(np.abs(so_far.current[case] - state) / scale) <= NEAR:
+        so_far.current[case] = state + NEAR * scale
 
 
 def _heading(track: np.ndarray, target: np.ndarray, period: int, neutral: bool) -> bool:

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from tribodyn.errors import InputError
-from tribodyn.post.figures.panel import record_label, record_title
+from tribodyn.post.figures.panel import View, record_label, record_title
 from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, QUIET, WIDTH, mark_panel, new_figure
 from tribodyn.record.reader import Record
 
@@ -20,8 +20,15 @@ LINES: dict[int, Any] = {UP: "-", DOWN: (0, (4, 1.6))}
 WORDS = {UP: "up", DOWN: "down"}
 
 
-def figure(name: str, records: Sequence[Record]) -> Figure:
+def names(_records: Sequence[Record]) -> tuple[str, ...]:
+    """Names of the figures, which every such record holds enough for."""
+    return NAMES
+
+
+def figure(name: str, records: Sequence[Record], view: View) -> Figure:
     """Draw the figure `name` of `NAMES`; the overview is the response of the first record."""
+    if view.against == "time":
+        raise InputError("against", "time", "a frequency sweep knows no time", "phase")
     for record in records:
         if record.samples < 1:
             raise InputError("record", str(record.path), "holds no samples to draw", "run the scenario again")
@@ -56,19 +63,18 @@ def _branch(axes: Axes, record: Record, direction: int, color: str) -> None:
     x, y = record["frequency"], record["rms_displacement"][:, direction]
     periodic = record["stable"][:, direction] == 1.0
     losing = periodic & (record["contact_loss_fraction"][:, direction] > 0.0)
-    axes.plot(
-        x,
-        np.where(losing, y, np.nan),
-        color=color,
-        linewidth=4.5,
-        alpha=0.25,
-        solid_capstyle="butt",
-        zorder=1.5,
-    )
-    axes.plot(x, np.where(periodic, y, np.nan), color=color, linestyle=LINES[direction])
+    places = jumps(y, periodic)
+    gaps = [place + 1 for place in places]
+
+    def broken(values: np.ndarray) -> np.ndarray:
+        return np.insert(values, gaps, np.nan)
+
+    band: dict[str, Any] = {"linewidth": 4.5, "alpha": 0.25, "solid_capstyle": "butt", "zorder": 1.5}
+    axes.plot(broken(x), broken(np.where(losing, y, np.nan)), color=color, **band)
+    axes.plot(broken(x), broken(np.where(periodic, y, np.nan)), color=color, linestyle=LINES[direction])
     marker = "^" if direction == UP else "v"
     axes.plot(x[~periodic], y[~periodic], marker, color=color, markersize=2.5, markeredgewidth=0.0)
-    for place in jumps(y, periodic):
+    for place in places:
         # on the way up the motion comes from the left, on the way down from the right
         start, end = (place, place + 1) if direction == UP else (place + 1, place)
         axes.annotate(

@@ -1,0 +1,69 @@
+"""Oscillators that cannot be: refused with key and remedy, or failed with the reason."""
+
+import numpy as np
+import pytest
+
+from tribodyn.errors import InputError
+from tribodyn.record.reader import open_record
+from tribodyn.scenario.load import load_scenario
+from tribodyn.simulate import run
+
+NAME = "backlash-oscillator"
+
+
+@pytest.mark.parametrize(
+    ("overrides", "said"),
+    [
+        ({"damping": -0.1}, r"damping = -0\.1: must be at least 0"),
+        ({"damping": "much"}, r'damping = "much": not a plain number'),
+        ({"mean_force": float("nan")}, r"mean_force.*not a finite number"),
+        ({"stiffness_variation": 1.5}, r"stiffness_variation = 1\.5: must be at most 1"),
+        ({"frequency": []}, r"frequency = \[\]: an empty list"),
+        ({"frequency": [0.5, 0.5]}, "frequency = .*does not increase"),
+        ({"frequency": [0.5, "fast"]}, r'frequency\.1 = "fast": not a plain number'),
+        ({"frequency": [0.0, 0.5]}, r"frequency\.0 = 0\.0: must be greater than 0"),
+        ({"frequency": 0.7}, r"frequency = 0\.7: not a list"),
+        ({"frequency.to": 0.1}, r"ends at 0\.1 and starts at 0\.2"),
+        ({"frequency.step": 5.0}, "longer than the range"),
+        ({"frequency.step": 1e-9}, "more than 100000 frequencies"),
+        ({"frequency.stop": 1.0}, r'frequency\.stop = 1\.0: unknown key; did you mean "step"'),
+        ({"frequency": {"from": 0.2, "to": 1.0}}, r"frequency\.step: missing"),
+        ({"solver.max_periods": 3}, r"solver\.max_periods = 3: must be at least 24"),
+        ({"drive": "liu-ni-crc-23-47"}, "drive.*unknown key"),
+        ({"kind": "backlash-osc"}, r'did you mean "backlash-oscillator"'),
+    ],
+    ids=lambda value: str(value)[:40],
+)
+def test_what_is_wrong_is_named(overrides, said):
+    with pytest.raises(InputError, match=said):
+        load_scenario(NAME, overrides)
+
+
+UNBOUNDED = {"damping": 0.005, "mean_force": 50.0, "error_amplitude": 0.02, "stiffness_variation": 0.3}
+
+
+def test_points_without_bounded_motion_are_said_and_the_others_kept(tmp_path):
+    result = run(load_scenario(NAME, {**UNBOUNDED, "frequency": [1.5, 2.0, 2.5]}), tmp_path / "some.h5")
+    assert result.status == "complete"
+    assert result.summary["points_failed"] == 2
+    assert "without bound" in result.summary["remark_1"]
+    with open_record(result.path) as record:
+        assert np.all(np.isnan(record["rms_displacement"][1]))
+        assert np.all(record["stable"][[0, 2]] == 1.0)
+
+
+def test_a_sweep_without_any_bounded_motion_fails(tmp_path):
+    result = run(load_scenario(NAME, {**UNBOUNDED, "frequency": [2.0]}), tmp_path / "none.h5")
+    assert result.status == "failed"
+    assert "without bound" in result.message
+    with open_record(result.path) as record:
+        assert record.status == "failed"
+        assert record.path.name == "none.partial.h5"
+
+
+def test_a_record_is_replaced_only_when_told(tmp_path):
+    case = load_scenario(NAME, {"frequency": [0.5]})
+    run(case, tmp_path / "one.h5")
+    with pytest.raises(InputError, match="the file exists"):
+        run(case, tmp_path / "one.h5")
+    assert run(case, tmp_path / "one.h5", force=True).status == "complete"
