@@ -67,3 +67,13 @@ def test_a_record_is_replaced_only_when_told(tmp_path):
     with pytest.raises(InputError, match="the file exists"):
         run(case, tmp_path / "one.h5")
     assert run(case, tmp_path / "one.h5", force=True).status == "complete"
+
+
+def test_sweeps_are_drawn_together_and_not_compared(tmp_path):
+    from tribodyn.post.compare import compare
+
+    for name in ("one", "two"):
+        run(load_scenario(NAME, {"frequency": [0.5]}), tmp_path / f"{name}.h5")
+    with open_record(tmp_path / "one.h5") as one, open_record(tmp_path / "two.h5") as two:
+        with pytest.raises(InputError, match="draw them into one figure"):
+            compare([one, two])

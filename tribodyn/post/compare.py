@@ -12,6 +12,7 @@ from rich.text import Text
 from tribodyn.errors import InputError
 from tribodyn.post.report import GROUPS, Line, shown
 from tribodyn.record.reader import Record
+from tribodyn.record.schema import BACKLASH_OSCILLATOR
 
 #: Groups of the summary that tell of the gears; how they were solved does not.
 COMPARED = ("Geometry", "Load contact", "Dynamics", "Tribology", "Energy")
@@ -101,6 +102,10 @@ def _refuse(records: Sequence[Record]) -> None:
         if record.kind != records[0].kind:
             rule = f'kind "{record.kind}" and kind "{records[0].kind}" share no quantities to compare'
             raise InputError("record", str(record.path), rule, "compare records of one kind")
+        if record.kind == BACKLASH_OSCILLATOR:
+            rule = "a frequency sweep has no means over a run to compare"
+            remedy = "draw them into one figure: tribodyn plot A.h5 B.h5 response"
+            raise InputError("record", str(record.path), rule, remedy)
 
 
 def distinct_labels(records: Sequence[Record]) -> list[str]:
