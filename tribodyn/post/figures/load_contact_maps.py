@@ -12,8 +12,8 @@ from tribodyn.post.rolled import at_pitch_point, face_edges, face_map
 from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
 from tribodyn.record.reader import Record
 
-#: Most maps beside each other; more records go into further rows.
-COLUMNS = 2
+# Spread over the face, of the greatest value, below which no place on it is marked.
+_EVEN = 1e-6
 
 
 class OverFace(NamedTuple):
@@ -31,7 +31,7 @@ PRESSURE = OverFace("hertz_pressure", 1e-9, "Hertz pressure (GPa)")
 def draw_map(axes: Axes, records: Sequence[Record], record: Record, quantity: OverFace) -> Any:
     """Draw a quantity of one pair over roll angle and face, coloured on a scale for all the records.
 
-    The greatest value is marked with a cross.
+    A cross marks the greatest value, unless it is the same all along the face.
     """
     top = max(float(np.max(one[quantity.dataset])) for one in records) * quantity.factor
     found = face_map(record, quantity.dataset)
@@ -42,8 +42,10 @@ def draw_map(axes: Axes, records: Sequence[Record], record: Record, quantity: Ov
         edges, face_edges(record) * 1e3, values.T, vmin=0.0, vmax=top, cmap="viridis", rasterized=True
     )
     at = np.unravel_index(np.argmax(values), values.shape)
-    axes.plot(roll[at[0]], found.face[at[1]] * 1e3, "x", color="white", markersize=6, markeredgewidth=2.4)
-    axes.plot(roll[at[0]], found.face[at[1]] * 1e3, "x", color=INK, markersize=6, markeredgewidth=1.0)
+    if np.ptp(values[at[0]]) > _EVEN * top:
+        for color, width in (("white", 2.4), (INK, 1.0)):
+            place = roll[at[0]], found.face[at[1]] * 1e3
+            axes.plot(*place, "x", color=color, markersize=6, markeredgewidth=width)
     axes.axvline(0.0, color="white", linewidth=0.7, linestyle=":")
     axes.grid(visible=False)
     axes.margins(0)
@@ -63,9 +65,14 @@ def draw_across_face(axes: Axes, record: Record, quantity: OverFace, color: str)
     axes.set_ylabel(f"{quantity.label}\nat the pitch point")
 
 
+def _columns(maps: int) -> int:
+    """Maps beside each other: up to three, four in a square."""
+    return 2 if maps == 4 else min(maps, 3)
+
+
 def line_load_figure(records: Sequence[Record]) -> Figure:
     """Draw maps of the line load, and below them its course over the face at the pitch point."""
-    rows = -(-len(records) // COLUMNS)
+    rows = -(-len(records) // _columns(len(records)))
     drawn = new_figure(WIDTH, (rows + 1) * PANEL_HEIGHT + 0.4)
     parts: Any = drawn.subfigures(2, 1, height_ratios=[rows, 1])
     upper, lower = parts
@@ -84,7 +91,7 @@ def line_load_figure(records: Sequence[Record]) -> Figure:
 
 def pressure_map(records: Sequence[Record]) -> Figure:
     """Draw maps of the Hertz pressure, on one scale."""
-    rows = -(-len(records) // COLUMNS)
+    rows = -(-len(records) // _columns(len(records)))
     drawn = new_figure(WIDTH, rows * PANEL_HEIGHT + 0.6)
     _maps(drawn, records, PRESSURE)
     if len(records) == 1:
@@ -94,7 +101,7 @@ def pressure_map(records: Sequence[Record]) -> Figure:
 
 def _maps(part: Any, records: Sequence[Record], quantity: OverFace) -> None:
     """Fill a figure or a part of one with a map a record."""
-    columns = min(len(records), COLUMNS)
+    columns = _columns(len(records))
     rows = -(-len(records) // columns)
     grid = part.subplots(rows, columns, squeeze=False, sharey=True, sharex=True)
     for axes in grid.ravel()[len(records) :]:
@@ -107,6 +114,8 @@ def _maps(part: Any, records: Sequence[Record], quantity: OverFace) -> None:
             axes.set_title(record_label(record), loc="right", fontsize=8)
         if number % columns:
             axes.set_ylabel("")
+        if columns > 2:
+            axes.set_xlabel("Roll angle (°)")
         below = number + columns < len(records)
         axes.tick_params(labelbottom=not below)
         if below:

@@ -1,0 +1,74 @@
+"""Pictures of docs/load-contact.md: line loads of misaligned gears, and a Harris map.
+
+python tools/load_contact_pictures.py            # writes docs/pictures/load-contact-*.png
+"""
+
+import argparse
+from contextlib import ExitStack
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from tribodyn import load_scenario, open_record, run
+from tribodyn.post.plots import figure, save
+from tribodyn.record.reader import Record
+
+FOLDER = Path(__file__).parents[1] / "docs" / "pictures"
+UNRELIEVED = {
+    "drive.pinion.modification.lead_relief_start": "0 um",
+    "drive.pinion.modification.lead_relief_end": "0 um",
+}
+FINE = {"output.positions_per_cycle": 120}
+TORQUES = load_scenario("harris-18-36-tip-relief").gear_torques
+#: Pictures: figure, and the runs in it as legend, scenario, overrides.
+PICTURES: dict[str, tuple[str, list[tuple[str, str, dict[str, Any]]]]] = {
+    "load-contact-line-load": (
+        "line-load",
+        [
+            (
+                "aligned",
+                "load-contact-misaligned",
+                {**UNRELIEVED, **FINE, "mesh.misalignment.in_plane": "0 arcmin", "mesh.slices": 21},
+            ),
+            ("2 arcmin", "load-contact-misaligned", {**UNRELIEVED, **FINE}),
+            ("2 arcmin, relieved", "load-contact-misaligned", FINE),
+        ],
+    ),
+    "load-contact-harris": (
+        "harris",
+        [
+            (
+                "without relief",
+                "load-contact-18-36",
+                {"operating.gear_torques": [f"{torque:g} N*m" for torque in TORQUES]},
+            ),
+            ("12.4 µm of tip relief", "harris-18-36-tip-relief", {}),
+        ],
+    ),
+}
+
+
+def figures(record: Record) -> dict[str, float]:
+    """What the page says of a run: face load factor, greatest values."""
+    return {key: value for key, value in record.summary.items() if key.endswith(("_max", "factor"))}
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description="Draw the pictures of docs/load-contact.md.")
+    parser.add_argument("--output", type=Path, default=FOLDER)
+    folder = parser.parse_args().output
+    folder.mkdir(parents=True, exist_ok=True)
+    for picture, (name, runs) in PICTURES.items():
+        with TemporaryDirectory(prefix="tribodyn-") as temporary, ExitStack() as stack:
+            records = []
+            for number, (label, scenario, overrides) in enumerate(runs):
+                result = run(load_scenario(scenario, overrides), Path(temporary) / f"{number}.h5")
+                record = stack.enter_context(open_record(result.path))
+                record.label = label
+                records.append(record)
+                print(label, figures(record))
+            print(save(figure(name, records), folder / f"{picture}.png"))
+
+
+if __name__ == "__main__":
+    main()
