@@ -1,16 +1,30 @@
-"""Jia et al. (2022): the rows that geometry alone decides, and the honest state of the others."""
+"""Jia et al. (2022): closed forms, ratios of line loads and root stresses, and what misses."""
 
 import math
+from pathlib import Path
 
 import pytest
 
 from tribodyn.geometry.parabolic import greatest_coefficient, published_limits
 from tribodyn.geometry.path import kinematics
+from tribodyn.post.style import house_style
 from tribodyn.scenario.load import family, load_scenario
 from tribodyn.validation import validate
+from tribodyn.validation.figures.jia import FIGURES
 from tribodyn.validation.rows import published
 
 GEOMETRY = [f"jia/{name}" for name in ("k1-max", "k2-max", "k-min", "cr-novel", "cr-involute", "hertz-pitch")]
+
+
+MISALIGNED = [
+    f"jia/misaligned-{name}-{sort}-{minutes}"
+    for name in ("involute", "parabolic")
+    for sort in ("unmodified", "crowned")
+    for minutes in (1, 2, 3)
+]
+RELIEVED = [f"jia/crown-{relief}-{relief}-{y3}" for y3 in (0, 8) for relief in (4, 8, 12)]
+# What misses its tolerance, up to 12 %: docs/validation.md has why, and what a model of free ends says.
+MISSED = {f"jia/misaligned-involute-unmodified-{minutes}" for minutes in (1, 2, 3)} | set(RELIEVED)
 
 
 @pytest.fixture(scope="module")
@@ -18,11 +32,14 @@ def rows():
     return {row.id: row for row in validate("jia-2022")}
 
 
-def test_every_row_is_there_and_none_fails(rows):
+@pytest.mark.slow
+def test_every_row_is_there_and_is_judged(rows):
     assert set(rows) == set(published("jia-2022"))
-    assert [row.id for row in rows.values() if row.verdict == "fail"] == []
+    assert {row.id for row in rows.values() if row.verdict == "fail"} == MISSED
+    assert [row.id for row in rows.values() if row.verdict == "reported"] == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("key", GEOMETRY)
 def test_closed_forms_are_within_tolerance(rows, key):
     row = rows[key]
@@ -31,16 +48,61 @@ def test_closed_forms_are_within_tolerance(rows, key):
     assert row.computed == pytest.approx(published("jia-2022")[key]["independent"], rel=1e-4)
 
 
-def test_what_needs_a_load_contact_model_does_not_pass(rows):
-    for key, row in rows.items():
-        if key not in GEOMETRY:
-            assert row.verdict == "reported" or row.computed is not None
+@pytest.mark.slow
+def test_ratios_have_the_papers_order_and_no_miss_is_beyond_an_eighth(rows):
+    for key in (*MISALIGNED, *RELIEVED):
+        assert abs(rows[key].difference) < 0.125, key
+        assert "of greatest Hertz pressures" in rows[key].note
+    for keys in (
+        MISALIGNED[:3],
+        MISALIGNED[3:6],
+        MISALIGNED[6:9],
+        MISALIGNED[9:],
+        RELIEVED[:3],
+        RELIEVED[3:],
+    ):
+        course = [rows[key].computed for key in keys]
+        assert 1.0 < course[0] < course[1] < course[2]
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("key", [key for key in MISALIGNED if key.endswith("3")])
+def test_thin_slices_agree_with_a_separate_prototype(rows, key):
+    """The prototype's slices do not hold each other; 2.5 % for its own slices and mesh."""
+    found = float(rows[key].note.split("hold each other ")[1].split(";")[0])
+    assert found == pytest.approx(published("jia-2022")[key]["independent"], rel=0.025)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("sort", ["compression", "tension"])
+def test_root_stress_of_the_parabolic_gears_is_below_the_involutes(rows, sort):
+    row = rows[f"jia/ratio-{sort}"]
+    assert row.verdict == "pass"
+    assert row.computed == pytest.approx(published("jia-2022")[row.id]["independent"], rel=0.03)
+    assert "do not fit 134 N*m" in row.note
+
+
+@pytest.mark.slow
+def test_line_load_of_the_parabolic_gears_is_below_the_involutes_but_not_their_pressure(rows):
+    row = rows["jia/ratio-contact"]
+    assert row.verdict == "pass"
+    assert "Hertz pressure does not fall" in row.note
+
+
+@pytest.mark.slow
 def test_limits_of_the_geometry_stand_beside_the_papers(rows):
     # 0.486 and 0.461: limits from the actual tip points, found separately from the equations of the paper
     assert "below 0.486" in rows["jia/k1-max"].note
     assert "below 0.461" in rows["jia/k2-max"].note
+
+
+@pytest.mark.slow
+def test_figures_are_drawn(rows):
+    for draw in FIGURES.values():
+        with house_style():
+            drawn = draw(Path())
+        assert drawn.axes[0].get_ylabel()
+        assert drawn.axes[-1].get_xlabel()
 
 
 @pytest.mark.parametrize("teeth", [17.0, 29.0, 60.0])

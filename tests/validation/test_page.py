@@ -17,7 +17,9 @@ def printed(paper: str) -> dict[str, list[str]]:
     return {key: [cell.strip() for cell in cells.split("|")] for key, cells in lines}
 
 
-@pytest.mark.parametrize("paper", ["liu-ni-2022", "diez-ibarbia"])
+@pytest.mark.parametrize(
+    "paper", ["liu-ni-2022", "diez-ibarbia", pytest.param("jia-2022", marks=pytest.mark.slow)]
+)
 def test_the_table_of_the_page_is_up_to_date(paper: str, tmp_path: Path):
     """If this fails: tools/validation_table.py PAPER --into docs/validation.md, and read what it says."""
     rows = {row.id: row for row in validate(paper, folder=tmp_path)}

@@ -18,6 +18,7 @@ PAPERS = {
 #: Paper's name -> module that draws its figures.
 FIGURES = {
     "diez-ibarbia": "tribodyn.validation.figures.diez_ibarbia",
+    "jia-2022": "tribodyn.validation.figures.jia",
 }
 
 

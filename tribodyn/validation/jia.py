@@ -1,4 +1,4 @@
-"""Jia et al., Mathematics 10(22):4290 (2022): limits of k1 and k2, contact ratios, Hertz pressure."""
+"""Jia et al., Mathematics 10(22):4290 (2022): limits of k1 and k2, contact ratios, stresses as ratios."""
 
 import math
 from collections.abc import Callable
@@ -9,19 +9,24 @@ from tribodyn.case import Case
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.parabolic import greatest_coefficient, published_limits
 from tribodyn.geometry.path import kinematics
-from tribodyn.scenario.load import family, load_scenario
+from tribodyn.scenario.load import family
 from tribodyn.tribology.contact import hertz_pressure
+from tribodyn.validation.jia_study import (
+    CROWNED,
+    Name,
+    State,
+    case_of,
+    greatest_line_load,
+    greatest_pressure,
+    greatest_root_stress,
+)
 from tribodyn.validation.rows import Row, compare, published
 
 PAPER = "jia-2022"
-NO_CONTACT_MODEL = "needs stresses of the load contact model over the face width, which are not in yet"
-
-
-def drive_of(name: str) -> Case:
-    """Return the case of one of the paper's two drives."""
-    case = load_scenario(f"jia-{name}-17-29")
-    assert isinstance(case, Case)
-    return case
+#: Reliefs y1 = y2 (µm) and unmodified lengths y3 (mm) of Table 3.
+RELIEFS = [(relief, unmodified) for unmodified in (0, 8) for relief in (4, 8, 12)]
+# Pairs closer to the pitch point, degrees, are left out where pressures of the two families are compared.
+_NEAR = 2.0
 
 
 def contact_ratio(case: Case) -> float:
@@ -39,8 +44,25 @@ def pressure_at_pitch_point(case: Case) -> float:
 
 
 def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[Row]:
-    """All rows of the paper; no run is needed, so that `folder` stays empty."""
-    parabolic, involute = (drive_of(name) for name in ("parabolic", "involute"))
+    """All rows of the paper; no run is recorded, so that `folder` stays empty."""
+    values = _geometry()
+    parts = (
+        lambda: _misaligned("involute", "unmodified", State()),
+        lambda: _misaligned("involute", "crowned", CROWNED),
+        lambda: _misaligned("parabolic", "unmodified", State()),
+        lambda: _misaligned("parabolic", "crowned", CROWNED),
+        lambda: _relieved() | _families(),
+    )
+    for done, part in enumerate(parts, start=1):
+        values |= part()
+        if progress:
+            progress(done / len(parts))
+    table = published(PAPER)
+    return [compare(table[key], *values[key]) for key in table]
+
+
+def _geometry() -> dict[str, tuple[Any, str]]:
+    parabolic, involute = case_of("parabolic"), case_of("involute")
     pinion, gear = parabolic.drive.pinion.teeth, parabolic.drive.gear.teeth
     least, most_k1 = published_limits(gear)
     _, most_k2 = published_limits(pinion)
@@ -49,7 +71,7 @@ def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[
     pressure, ratio = pressure_at_pitch_point(involute), contact_ratio(involute)
     # Z_ε of ISO 6336-2 for spur gears, which takes off the part of the load that a second pair carries
     factor = math.sqrt((4.0 - ratio) / 3.0)
-    values: dict[str, tuple[Any, str]] = {
+    return {
         "jia/k1-max": (most_k1, true.format(actual[0])),
         "jia/k2-max": (most_k2, true.format(actual[1])),
         "jia/k-min": (least, "by the geometry there is no such limit: smaller k only steepens the path"),
@@ -57,7 +79,63 @@ def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[
         "jia/cr-involute": (ratio, ""),
         "jia/hertz-pitch": (factor * pressure, f"{pressure / 1e6:.2f} MPa without Z_eps = {factor:.4f}"),
     }
-    if progress:
-        progress(1.0)
-    table = published(PAPER)
-    return [compare(table[key], *values.get(key, (None, NO_CONTACT_MODEL))) for key in table]
+
+
+def _misaligned(name: Name, sort: str, base: State) -> dict[str, tuple[Any, str]]:
+    """Rows of Tables 4 and 5: over their own value without misalignment."""
+    return {
+        f"jia/misaligned-{name}-{sort}-{minutes}": _ratio(
+            name, base._replace(misalignment=float(minutes)), base, apart=minutes == 3
+        )
+        for minutes in (1, 2, 3)
+    }
+
+
+def _relieved() -> dict[str, tuple[Any, str]]:
+    """Rows of Table 3: over the unmodified."""
+    return {
+        f"jia/crown-{relief}-{relief}-{unmodified}": _ratio(
+            "parabolic", State(float(relief), float(unmodified)), State(), apart=relief == 8
+        )
+        for relief, unmodified in RELIEFS
+    }
+
+
+def _ratio(name: Name, state: State, base: State, apart: bool) -> tuple[float, str]:
+    """Ratio of the greatest line loads; the note has where, and the ratios of other readings."""
+    greatest = greatest_line_load(name, state)
+    pressures = greatest_pressure(name, state).value / greatest_pressure(name, base).value
+    note = (
+        f"ratio of greatest line loads over mesh cycle and face, {greatest.value / 1e3:.0f} N/mm at "
+        f"{greatest.roll:+.1f} deg from the pitch point, {greatest.place:+.0f} mm from the middle; "
+        f"of greatest Hertz pressures {pressures:.4f}"
+    )
+    if apart:
+        free = [greatest_line_load(name, one._replace(coupled=False)).value for one in (state, base)]
+        note += f"; of line loads on slices that do not hold each other {free[0] / free[1]:.4f}"
+    return greatest.value / greatest_line_load(name, base).value, note
+
+
+def _families() -> dict[str, tuple[Any, str]]:
+    """Rows of Table 2: parabolic over involute, neither modified nor misaligned."""
+    ours, theirs = (greatest_line_load(name).value for name in ("parabolic", "involute"))
+    pressure = [greatest_pressure(name).value for name in ("parabolic", "involute")]
+    away = [greatest_pressure(name, away=_NEAR).value for name in ("parabolic", "involute")]
+    found: dict[str, tuple[Any, str]] = {
+        "jia/ratio-contact": (
+            ours / theirs,
+            f"ratio of greatest line loads, {ours / 1e3:.0f} and {theirs / 1e3:.0f} N/mm. Hertz pressure "
+            f"does not fall: {pressure[0] / 1e6:.0f} and {pressure[1] / 1e6:.0f} MPa at most, "
+            f"{away[0] / 1e6:.0f} and {away[1] / 1e6:.0f} MPa more than {_NEAR:g} deg from the pitch point, "
+            "where the parabolic flanks' radius goes to zero",
+        )
+    }
+    for key, tension in (("compression", False), ("tension", True)):
+        parabolic, involute = (greatest_root_stress(name, tension) for name in ("parabolic", "involute"))
+        found[f"jia/ratio-{key}"] = (
+            max(parabolic) / max(involute),
+            "greatest root stress of pinion, gear: "
+            f"parabolic {parabolic[0] / 1e6:.0f}, {parabolic[1] / 1e6:.0f} MPa, "
+            f"involute {involute[0] / 1e6:.0f}, {involute[1] / 1e6:.0f} MPa",
+        )
+    return found

@@ -58,6 +58,9 @@ def compare(row: dict[str, Any], computed: Any, note: str = "") -> Row:
         verdict = REPORTED
     elif kind == "claim":
         verdict = PASS if bool(computed) == bool(value) else REPORTED
+    elif kind == "direction only (below 1)":
+        difference = float(computed) - value
+        verdict = PASS if computed < 1.0 else FAIL
     elif tolerance is None:
         verdict = REPORTED
         if isinstance(value, (int, float)):
