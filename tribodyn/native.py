@@ -18,7 +18,7 @@ from numba.extending import overload, register_jitable
 import tribodyn
 from tribodyn import elementary
 from tribodyn.dynamics import equations  # noqa: F401  (the import of both registers every law)
-from tribodyn.solve import dormand_prince  # noqa: F401
+from tribodyn.solve import dormand_prince, rosenbrock  # noqa: F401
 
 #: Everything that a kernel can contain; the rules of import keep it to these.
 _KERNEL_SOURCES = ("elementary.py", "native.py", "mesh_cycle.py", "tribology", "dynamics", "solve")

@@ -17,7 +17,7 @@ def run(folder, **overrides):
     return simulate.run(load_scenario("crc-23-47", overrides), folder / "out.h5")
 
 
-@pytest.mark.parametrize("method", ["dopri5", "lsoda", "radau"])
+@pytest.mark.parametrize("method", ["dopri5", "rodas4", "lsoda", "radau"])
 def test_too_many_steps(tmp_path, method):
     result = run(tmp_path, **{"solver.method": method, "solver.max_steps": 40, "solver.cycles": 3})
     assert result.status == "failed"
@@ -31,7 +31,8 @@ def test_too_many_steps(tmp_path, method):
     assert np.all(np.isfinite(record["time"]))
 
 
-def test_a_pinion_that_stalls(tmp_path):
+@pytest.mark.parametrize("method", ["dopri5", "rodas4"])
+def test_a_pinion_that_stalls(tmp_path, method):
     """A motor far too weak: the pinion comes to rest, and what was done until then is kept."""
     result = run(
         tmp_path,
@@ -40,6 +41,7 @@ def test_a_pinion_that_stalls(tmp_path):
             "operating.pinion_torque": "1 N*m",
             "operating.drive_inertia": "0.05 kg*m**2",
             "solver.cycles": 20,
+            "solver.method": method,
         },
     )
     assert result.status == "failed"
@@ -76,7 +78,11 @@ def test_a_solution_that_stops_being_finite_is_told(prepared):
     state = static_equilibrium(model)
     broken = model._replace(mechanics=model.mechanics._replace(mesh_damping=float("nan")))
     tolerances = Tolerances(1e-6, absolute_tolerances(model, 1e-6, 3e-5), 100000)
-    for engine in (NativeEngine(broken, 50, tolerances), ScipyEngine("radau", broken, 50, tolerances)):
+    for engine in (
+        NativeEngine(broken, 50, tolerances),
+        NativeEngine(broken, 50, tolerances, "rodas4"),
+        ScipyEngine("radau", broken, 50, tolerances),
+    ):
         block = engine.block(state, 0, 2)
         assert block.status == NOT_FINITE
         assert block.reached < 0.01

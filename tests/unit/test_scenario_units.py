@@ -3,6 +3,7 @@ import math
 import pytest
 
 from tribodyn.scenario import units
+from tribodyn.scenario.common_units import COMMON_UNITS
 from tribodyn.scenario.units import NotAQuantity, factor_to_si, to_si
 
 
@@ -81,3 +82,11 @@ def test_a_unit_alone_has_a_factor():
     assert factor_to_si("ms", units.TIME) == pytest.approx(1e-3, rel=1e-15)
     with pytest.raises(NotAQuantity, match="without a unit"):
         factor_to_si("", units.TIME)
+
+
+@pytest.mark.parametrize(
+    ("kind", "unit"), [(name, unit) for name, known in COMMON_UNITS.items() for unit in known]
+)
+def test_common_units_are_as_pint_has_them(kind, unit):
+    kinds = [value for value in vars(units).values() if isinstance(value, units.Kind) and value.name == kind]
+    assert COMMON_UNITS[kind][unit] == pytest.approx(units._factor_by_pint(unit, kinds[0], ""), rel=2e-16)

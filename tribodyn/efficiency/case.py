@@ -1,10 +1,13 @@
 """A case of the quasi-static efficiency study: everything one run needs to know, in SI units."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from tribodyn.case import FrictionData, LubricantData, MaterialData, MeshData, OperatingData
-from tribodyn.efficiency.places import Sharing
 from tribodyn.geometry.drive import Drive
+
+if TYPE_CHECKING:  # the study's array code, and SciPy with it, is for the run
+    from tribodyn.efficiency.places import Sharing
 
 
 @dataclass(frozen=True)
@@ -39,5 +42,5 @@ class EfficiencyCase:
     operating: OperatingData
     mesh: MeshData
     friction: FrictionData
-    load_sharing: Sharing = "elastic"
+    load_sharing: "Sharing" = "elastic"
     samples_per_cycle: int = 200

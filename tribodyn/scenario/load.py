@@ -138,6 +138,7 @@ SOLVERS = {
     "tsit5": "Tsitouras 5(4), diffrax",
     "dopri8": "Dormand-Prince 8(7), diffrax",
     "kvaerno5": "Kvaerno 5(4), implicit, diffrax",
+    "rodas4": "Rodas4P 4(3), Rosenbrock, native",
     "radau": "Radau IIA 5, implicit, SciPy",
     "bdf": "backward differentiation, implicit, SciPy",
     "lsoda": "Adams/BDF with switching, SciPy",

@@ -1,14 +1,16 @@
 """Quantities with units: the border between TOML ("3 mm") and SI floats.
 
-A quantity in TOML is a string of a number and a unit. Pint reads it; what leaves this module is a float in
-the SI unit of its `Kind`. A bare number, a wrong dimension, NaN and infinity are refused with a sentence that
-says which unit is due.
+A quantity in TOML is a string of a number and a unit. Pint reads what is not in `common_units`; what leaves
+this module is a float in the SI unit of its `Kind`. A bare number, a wrong dimension, NaN and infinity are
+refused with a sentence that says which unit is due.
 """
 
 import re
 from functools import cache
 from math import isfinite, pi
 from typing import Any, NamedTuple
+
+from tribodyn.scenario.common_units import COMMON_UNITS
 
 
 class Kind(NamedTuple):
@@ -121,10 +123,16 @@ def _spelling(text: str) -> str:
 @cache
 def _factor(text: str, kind: Kind, write: str) -> float:
     """Factor from the unit `text` to the SI unit of `kind`; one with a shifted zero, °C, has none."""
-    import pint
-
     if not text.strip():
         raise NotAQuantity("a number without a unit", write)
+    if (known := COMMON_UNITS.get(kind.name, {}).get(text)) is not None:
+        return known
+    return _factor_by_pint(text, kind, write)
+
+
+def _factor_by_pint(text: str, kind: Kind, write: str) -> float:
+    import pint
+
     units = _units(text, write)
     if kind.name in (SPEED, FREQUENCY) and not _has_angle(units):
         if kind.name == SPEED and units.is_compatible_with("1/s"):

@@ -51,7 +51,7 @@ def weighed_error(difference, before, after, atol, rtol):
 @law
 def growth(error, last_error):
     """Factor on the step after an accepted one: PI control on this error and the last, 0.2 … 5."""
-    factor = 0.9 * maximum(error, 1e-10) ** -0.17 * last_error**0.04
+    factor = 0.8 * maximum(error, 1e-10) ** -0.17 * last_error**0.04
     return minimum(5.0, maximum(0.2, factor))
 
 

@@ -20,7 +20,7 @@ from tribodyn.solve.dormand_prince import FIRST_STEP
 from tribodyn.solve.engine import DONE, NOT_FINITE, REASONS, Block, Engine, Tolerances, absolute_tolerances
 from tribodyn.solve.initial import static_deflection
 from tribodyn.solve.reversal import stops
-from tribodyn.solve.stiffness import EXPLICIT
+from tribodyn.solve.stiffness import EXPLICIT, STIFF
 
 
 class Settings(NamedTuple):
@@ -54,10 +54,13 @@ class Stop(NamedTuple):
 
 
 class NativeEngine:
-    """The compiled Dormand-Prince kernel behind the `engine.Engine` interface."""
+    """A compiled kernel behind the `engine.Engine` interface: Dormand-Prince, or Rosenbrock's method."""
 
-    def __init__(self, model: Model, samples: int, tolerances: Tolerances):
-        from tribodyn.solve.dopri5 import buffers, march
+    def __init__(self, model: Model, samples: int, tolerances: Tolerances, method: str = EXPLICIT):
+        if method == STIFF:
+            from tribodyn.solve.rodas4 import buffers, march
+        else:
+            from tribodyn.solve.dopri5 import buffers, march
 
         self._march = march
         self._buffers = buffers(model)
@@ -100,8 +103,8 @@ def tolerances_from(model: Model, state: np.ndarray, rtol: float, max_steps: int
 
 def make_engine(method: str, model: Model, samples: int, tolerances: Tolerances) -> Engine:
     """The engine that a method's name stands for."""
-    if method == EXPLICIT:
-        return NativeEngine(model, samples, tolerances)
+    if method in (EXPLICIT, STIFF):
+        return NativeEngine(model, samples, tolerances, method)
     if method in ("tsit5", "dopri8", "kvaerno5"):
         from tribodyn.solve.diffrax_engine import DiffraxEngine
 
@@ -113,7 +116,7 @@ def make_engine(method: str, model: Model, samples: int, tolerances: Tolerances)
 
 def cycles_per_block(method: str, cycles: int) -> int:
     """Whole mesh cycles between two writes: a quarter of the run, at most 50; one where a cycle is slow."""
-    return max(1, min(cycles // 4, 50)) if method == EXPLICIT else 1
+    return max(1, min(cycles // 4, 50)) if method in (EXPLICIT, STIFF) else 1
 
 
 def transient(model: Model, state: np.ndarray, settings: Settings, method: str) -> Iterator[Chunk | Stop]:

@@ -1,0 +1,175 @@
+"""The native stiff solver: its coefficients, its Jacobian, its order, and its agreement with Radau."""
+
+import numpy as np
+import pytest
+
+from tests.states import random_place, random_state
+from tribodyn.dynamics.contact_forces import QUANTITIES
+from tribodyn.dynamics.parameters import DRIVE_SPEED, MECHANICAL, MOTOR_SLIP, SLIP, STATES, TWIST, XI
+from tribodyn.solve.dopri5 import rhs
+from tribodyn.solve.engine import DONE, Tolerances
+from tribodyn.solve.initial import accelerations, static_equilibrium
+from tribodyn.solve.jacobian import differentiate
+from tribodyn.solve.rosenbrock import ALPHA, GAMMA, GAMMAS, STAGES, A, C
+from tribodyn.solve.stiffness import STIFF, choose
+from tribodyn.solve.transient import NativeEngine, make_engine, tolerances_from
+
+
+@pytest.fixture(scope="module")
+def tableau():
+    """α, β = α + Γ and b of the method in Hairer & Wanner's untransformed form (IV.7)."""
+    gamma = np.linalg.inv(np.eye(STAGES) / GAMMA - np.pad(C, ((0, 0), (0, 1))))
+    alpha = np.pad(A, ((0, 0), (0, 1))) @ gamma
+    return alpha, alpha + gamma, np.append(A[-1], 1.0) @ gamma
+
+
+def test_order_conditions_up_to_four(tableau):
+    """Hairer & Wanner II, table IV.7.1, and that α_i, γ_i are the rows' sums (systems with f(t, y))."""
+    alpha, beta, b = tableau
+    a, e = alpha.sum(axis=1), beta.sum(axis=1)
+    found = [
+        b.sum(),
+        b @ e,
+        b @ a**2,
+        b @ beta @ e,
+        b @ a**3,
+        b @ (a * (alpha @ e)),
+        b @ beta @ a**2,
+        b @ beta @ beta @ e,
+    ]
+    expected = [1, 1 / 2, 1 / 3, 1 / 6, 1 / 4, 1 / 8, 1 / 12, 1 / 24]
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-13)
+    np.testing.assert_allclose(a, ALPHA, atol=1e-13)
+    np.testing.assert_allclose(e - a, GAMMAS, atol=1e-13)
+
+
+def test_it_is_stable_for_every_step(tableau):
+    """|R(z)| ≤ 1 on the imaginary axis and R(∞) = 0, R(z) = 1 + z bᵀ(I − zβ)⁻¹1."""
+    _, beta, b = tableau
+
+    def growth(z):
+        return abs(1 + z * b @ np.linalg.solve(np.eye(STAGES) - z * beta, np.ones(STAGES)))
+
+    assert max(growth(1j * w) for w in np.geomspace(1e-2, 1e4, 200)) < 1 + 1e-12
+    assert growth(-1e9) < 1e-7
+
+
+@pytest.mark.parametrize(
+    "overrides",
+    [
+        {},
+        {"friction.sliding": "dynamic", "mesh.formulation": "energy-consistent"},
+        {
+            "operating.source": "torque",
+            "operating.drive_inertia": "0.02 kg*m**2",
+            "operating.shaft_stiffness": "3000 N*m/rad",
+            "operating.shaft_damping": "0.5 N*m*s/rad",
+            "operating.load_damping": "0.3 N*m*s/rad",
+            "mesh.hertz": "load-dependent",
+        },
+        {
+            "mesh.backlash": "12 um",
+            "operating.gear_torque_harmonics": [
+                {"frequency": "20 Hz", "amplitude": "40 N*m", "phase": "0 deg"}
+            ],
+        },
+    ],
+    ids=["speed", "dynamic", "shaft", "backlash"],
+)
+def test_jacobian_is_the_derivative_of_the_right_hand_side(prepared, rng, overrides):
+    """Against central differences of all columns, over random states, loaded or apart."""
+    model = prepared("crc-23-47", **overrides).model
+    pairs = model.table.side.shape[0]
+    work, scale = np.zeros((QUANTITIES + pairs, pairs)), tolerances_from(model, np.zeros(STATES), 1.0, 1).atol
+    still = [SLIP, TWIST, MOTOR_SLIP] if model.options.drive == DRIVE_SPEED else []
+    columns = [i for i in range(MECHANICAL) if i not in still]
+    # small against the width over which friction reverses, 3e-4 m/s
+    steps = np.diag(np.minimum(1e-6 * scale, 3e-8))[columns]
+    for _ in range(25):
+        y = random_state(rng)
+        y[still] = 0.0
+        phase, segment = random_place(rng, model.table.boundary)
+        f, trial, slope, jacobian = np.empty(STATES), np.empty(STATES), np.empty(STATES), np.empty((19, 19))
+        rhs(phase, 0.0, segment, y, model, work, f)
+        before = y.copy()
+        differentiate(phase, 1.0, 0.0, segment, y, f, scale, model, work, trial, jacobian, slope)
+        np.testing.assert_array_equal(y, before)
+        up, down = (accelerations(y + sign * steps, phase, segment, model) for sign in (1, -1))
+        exact = (up - down).T / (2 * steps.sum(axis=1))
+        size = np.abs(exact * scale[columns]).max(axis=1, keepdims=True)
+        assert np.all(np.abs(jacobian[:, columns] - exact) * scale[columns] <= 1e-4 * size + 1e-12)
+        up, down = (accelerations(y, phase + sign * 1e-7, segment, model) for sign in (1, -1))
+        exact = (up - down) / 2e-7
+        np.testing.assert_allclose(slope, exact, rtol=1e-4, atol=1e-5 * np.abs(exact).max())
+
+
+def solve(model, method, rtol, cycles=2, samples=100):
+    state = static_equilibrium(model)
+    block = make_engine(method, model, samples, tolerances_from(model, state, rtol, 10**6)).block(
+        state, 0, cycles
+    )
+    assert block.status == DONE
+    return block
+
+
+def error(block, exact):
+    return np.max(np.abs(block.samples[:, XI] - exact.samples[:, XI])) / np.ptp(exact.samples[:, XI])
+
+
+@pytest.mark.parametrize("sliding", ["kinematic", "dynamic"])
+def test_order_four(prepared, sliding):
+    """The work grows as tol^(−1/4), the error falls in proportion to the tolerance, works included."""
+    model = prepared("crc-23-47", **{"operating.pinion_speed": "30 rad/s", "friction.sliding": sliding}).model
+    exact = solve(model, "dopri5", 1e-11)
+    tolerances = np.array([1e-5, 1e-6, 1e-7, 1e-8])
+    blocks = [solve(model, "rodas4", rtol) for rtol in tolerances]
+    errors = [error(block, exact) for block in blocks]
+    order = -np.polyfit(np.log([block.steps for block in blocks]), np.log(errors), 1)[0]
+    assert 3.6 < order < 4.6
+    assert errors[1] < 2e-5
+    works = np.max(np.abs(blocks[-1].samples - exact.samples), axis=0) / np.ptp(exact.samples, axis=0).clip(
+        1e-9
+    )
+    assert np.all(works[MECHANICAL:] < 1e-5)
+
+
+@pytest.mark.slow
+def test_it_agrees_with_radau_where_it_is_stiff(prepared):
+    model = prepared(
+        "crc-23-47", **{"operating.pinion_speed": "1 rad/s", "friction.sliding": "dynamic"}
+    ).model
+    choice = choose("auto", model, static_equilibrium(model))
+    assert choice.method == STIFF
+    assert "stiff" in choice.reason
+    theirs = solve(model, "radau", 1e-7, cycles=1)
+    assert error(solve(model, "rodas4", 1e-7, cycles=1), theirs) < 1e-4
+
+
+def test_explicit_and_stiff_are_chosen_by_speed(prepared):
+    methods = []
+    for speed in ("300 rad/s", "10 rad/s", "0.1 rad/s"):
+        model = prepared("crc-23-47", **{"operating.pinion_speed": speed}).model
+        methods.append(choose("auto", model, static_equilibrium(model)).method)
+    assert methods == ["dopri5", "dopri5", "rodas4"]
+
+
+@pytest.mark.parametrize("method", ["dopri5", "rodas4"])
+def test_the_same_run_gives_the_same_bits(prepared, method):
+    model = prepared("crc-23-47").model
+    first, second = (solve(model, method, 1e-6) for _ in range(2))
+    np.testing.assert_array_equal(first.samples, second.samples)
+    assert first.steps == second.steps
+
+
+def test_blocks_join(prepared):
+    """Two cycles in one call, or one after the other: the same up to the first step of the second."""
+    model = prepared("crc-23-47").model
+    state = static_equilibrium(model)
+    engine = NativeEngine(
+        model, 50, Tolerances(1e-9, tolerances_from(model, state, 1e-9, 1).atol, 10**6), STIFF
+    )
+    first = engine.block(state, 0, 1)
+    second = engine.block(first.state, 1, 1)
+    whole = solve(model, "rodas4", 1e-9, samples=50)
+    parts = np.concatenate([first.samples, second.samples])
+    assert np.max(np.abs(parts[:, XI] - whole.samples[:, XI])) < 1e-7 * np.ptp(whole.samples[:, XI])

@@ -1,0 +1,132 @@
+"""Jacobian of the right-hand side, from its structure and a few differences.
+
+The contacts see the bodies through their relative position and motion alone, so a column of the gear's is the
+pinion's with the sign changed, but for the bearings, which are linear. Five differences give all columns of
+the six degrees of freedom; what drive and load add is differenced where they are switched on.
+"""
+
+from tribodyn.dynamics.parameters import (
+    DRIVE_SHAFT,
+    DRIVE_SPEED,
+    LAG,
+    MECHANICAL,
+    MOTOR_SLIP,
+    SLIP,
+    STATES,
+    TWIST,
+    VX_G,
+    VX_P,
+    VY_G,
+    VY_P,
+    WORK_DAMPING,
+    X_G,
+    X_P,
+    XI,
+    XI_RATE,
+    Y_G,
+    Y_P,
+)
+from tribodyn.native import kernel
+from tribodyn.solve.dopri5 import rhs
+
+#: Difference over the scale of a state: rounding then costs 1e-8 of a derivative, and the curvature of the
+#: contact law over its width 1e-5; both are far below what the step needs.
+SHARE = 1e-7
+#: Difference of a velocity over the sliding velocity at which friction has reversed, at most.
+SHARE_OF_REVERSAL = 1e-4
+#: Difference of the phase, mesh cycles.
+PHASE_DIFFERENCE = 1e-7
+
+
+@kernel
+def column(j, difference, phase, cycle, segment, y, f, model, work, trial, jacobian):
+    """One column by a forward difference, returns 1 for the evaluation; `y` is as before afterwards."""
+    kept = y[j]
+    y[j] = kept + difference
+    exact = y[j] - kept
+    rhs(phase, cycle, segment, y, model, work, trial)
+    y[j] = kept
+    for i in range(STATES):
+        jacobian[i, j] = (trial[i] - f[i]) / exact
+    return 1
+
+
+@kernel
+def differentiate(phase, end, cycle, segment, y, f, scale, model, work, trial, jacobian, slope):
+    """Fill `jacobian` (STATES, MECHANICAL at least) with ∂f/∂y and `slope` (STATES,) with ∂f/∂φ.
+
+    Parameters
+    ----------
+    phase, end : float
+        Where, and the end of the segment.
+    cycle, segment, y, model, work
+        As for `dynamics.equations.derivatives`.
+    f : (STATES,)
+        The right-hand side there.
+    scale : (STATES,)
+        Sizes of the states.
+    trial : (STATES,)
+        Scratch.
+
+    Returns
+    -------
+    int
+        Evaluations of the right-hand side that it took.
+    """
+    mechanics, table = model.mechanics, model.table
+    speed = mechanics.nominal_speed
+    rate = table.pitch_angle / (speed + y[SLIP])
+    ratio = table.pinion_pitch_radius / table.gear_pitch_radius
+    greatest = SHARE_OF_REVERSAL * (1.0 + ratio) * mechanics.reversal_width * speed
+    for i in range(STATES):
+        for j in range(MECHANICAL):
+            jacobian[i, j] = 0.0
+    evaluations = 0
+    for j in range(MECHANICAL):
+        difference = SHARE * scale[j]
+        wanted = j == XI or j == Y_P or j == VX_P or j == VY_P or j == XI_RATE
+        if j == VX_P or j == VY_P or j == XI_RATE:
+            difference = min(difference, greatest)
+        elif j == SLIP:
+            wanted = model.options.drive != DRIVE_SPEED
+            difference = min(difference, SHARE * speed)
+        elif j == TWIST or j == MOTOR_SLIP:
+            wanted = model.options.drive == DRIVE_SHAFT
+        elif j == LAG:
+            wanted = mechanics.load_amplitudes.shape[0] > 0 or mechanics.load_times.shape[0] > 1
+        if wanted:
+            evaluations += column(j, difference, phase, cycle, segment, y, f, model, work, trial, jacobian)
+
+    pinion, gear = rate / mechanics.pinion_mass, rate / mechanics.gear_mass
+    for i in range(STATES):
+        jacobian[i, X_P] = jacobian[i, XI]
+        jacobian[i, X_G] = -jacobian[i, XI]
+        jacobian[i, Y_G] = -jacobian[i, Y_P]
+        jacobian[i, VX_G] = -jacobian[i, VX_P]
+        jacobian[i, VY_G] = -jacobian[i, VY_P]
+    # bearings: in the pinion's differenced columns they are there, and came over to the gear's with a minus
+    jacobian[VX_P, X_P] -= pinion * mechanics.pinion_stiffness_x
+    jacobian[VX_G, X_G] -= gear * mechanics.gear_stiffness_x
+    jacobian[VY_P, Y_G] -= pinion * mechanics.pinion_stiffness_y
+    jacobian[VY_G, Y_G] -= gear * mechanics.gear_stiffness_y
+    jacobian[X_P, VX_G] += rate
+    jacobian[Y_P, VY_G] += rate
+    jacobian[X_G, VX_G] += rate
+    jacobian[Y_G, VY_G] += rate
+    jacobian[VX_P, VX_G] -= pinion * mechanics.pinion_damping_x
+    jacobian[VY_P, VY_G] -= pinion * mechanics.pinion_damping_y
+    jacobian[VX_G, VX_G] -= gear * mechanics.gear_damping_x
+    jacobian[VY_G, VY_G] -= gear * mechanics.gear_damping_y
+    jacobian[WORK_DAMPING, VX_G] += (
+        2.0 * rate * (mechanics.pinion_damping_x * y[VX_P] + mechanics.gear_damping_x * y[VX_G])
+    )
+    jacobian[WORK_DAMPING, VY_G] += (
+        2.0 * rate * (mechanics.pinion_damping_y * y[VY_P] + mechanics.gear_damping_y * y[VY_G])
+    )
+
+    difference = PHASE_DIFFERENCE if phase + PHASE_DIFFERENCE < end else -PHASE_DIFFERENCE
+    moved = phase + difference
+    rhs(moved, cycle, segment, y, model, work, trial)
+    for i in range(STATES):
+        slope[i] = (trial[i] - f[i]) / (moved - phase)
+    return evaluations + 1
