@@ -104,6 +104,15 @@ def test_a_pair_is_followed_over_its_roll_angle(plain: Record):
     np.testing.assert_allclose(load[alone], LOAD)
 
 
+def test_where_teeth_differ_one_pair_is_followed(tmp_path: Path):
+    """Through the cycles in which it is the newest, the one before, …"""
+    with open_record(synthetic_load_contact.write(tmp_path / "long.h5", cycles=4, torques=())) as record:
+        tooth = np.floor(record["phase"])[:, None] + np.array(record.pairs)
+        roll, followed = over_roll(record, tooth)
+        assert np.all(np.diff(roll) > 0)
+        np.testing.assert_array_equal(followed, followed[0])
+
+
 def test_a_map_covers_the_contact_and_the_face(records: list[Record]):
     found = face_map(records[1], "line_load")
     assert found.values.shape == (len(found.roll), len(found.face))

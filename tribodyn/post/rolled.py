@@ -62,16 +62,22 @@ def pair_over_phase(record: Record, name: str, pair: int) -> tuple[Array, Array]
 
 
 def over_roll(record: Record, values: Array) -> tuple[Array, Array]:
-    """Give roll angle (rad, increasing) and values (…) of one pair, from its first cycle on.
+    """Give roll angle (rad, increasing) and values (…) of one pair through its life.
+
+    In a study of one cycle all pairs are alike, and each number tells another part of it. Where teeth differ
+    and there are cycles enough, it is the first pair whose beginning is recorded.
 
     Parameters
     ----------
     values : (phase, pair, …)
     """
-    first = record["phase"] < 1.0 - 1e-9
-    roll = record["roll_angle"][first].ravel()
+    cycle = np.floor(record["phase"] + 1e-9).astype(int)
+    pairs = len(record.pairs)
+    enough = _cycles(record) >= pairs
+    parts = [(np.flatnonzero(cycle == (pairs - 1 - slot if enough else 0)), slot) for slot in range(pairs)]
+    roll = np.concatenate([record["roll_angle"][rows, slot] for rows, slot in parts])
     order = np.argsort(roll, kind="stable")
-    return roll[order], values[first].reshape(len(roll), *values.shape[2:])[order]
+    return roll[order], np.concatenate([values[rows, slot] for rows, slot in parts])[order]
 
 
 def face_map(record: Record, name: str) -> FaceMap:
