@@ -66,7 +66,7 @@ def _about(what: What) -> dict[str, str]:
 
 def _plots() -> dict[str, str]:
     """Return the names of all figures, and the records that each is of."""
-    from tribodyn.post.plots import LOAD_CONTACT_NAMES, NAMES, OSCILLATOR_NAMES, ROLLING_NAMES
+    from tribodyn.post.plots import LOAD_CONTACT_NAMES, NAMES, OSCILLATOR_NAMES, ROLLING_NAMES, RUN_UP_NAMES
 
     also = {
         "rolling elements": ROLLING_NAMES,
@@ -79,7 +79,7 @@ def _plots() -> dict[str, str]:
         what = name.replace("-", " ")
         told = "; also of " if name in NAMES else ", of "
         listed[name] = what + (told + " and ".join(others) if others else "")
-    return listed
+    return listed | dict.fromkeys(RUN_UP_NAMES, "orders of the mesh while the speed changes, such as run-up")
 
 
 def _titles(folder: Any) -> dict[str, str]:

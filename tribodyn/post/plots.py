@@ -6,7 +6,7 @@ from difflib import get_close_matches
 from matplotlib.figure import Figure
 
 from tribodyn.errors import InputError
-from tribodyn.post.figures import backlash_oscillator, load_contact, rolling
+from tribodyn.post.figures import backlash_oscillator, load_contact, orders, rolling
 from tribodyn.post.figures import over_phase as panels
 from tribodyn.post.figures.panel import View, draw, legend, record_title
 from tribodyn.post.figures.path_of_contact import draw_path, path_figure
@@ -30,6 +30,8 @@ NAMES = (
 )
 
 
+#: Those of runs whose speed changes.
+RUN_UP_NAMES = (orders.NAME,)
 #: Those of gears with rolling elements, of load contact studies and of the oscillator with backlash.
 ROLLING_NAMES = rolling.NAMES
 LOAD_CONTACT_NAMES = load_contact.NAMES
@@ -42,7 +44,9 @@ _OTHERS = {ROLLING: rolling, LOAD_CONTACT: load_contact, BACKLASH_OSCILLATOR: ba
 def names(records: Sequence[Record]) -> tuple[str, ...]:
     """Names of the figures that can be drawn from these records."""
     other = _OTHERS.get(_kind(records))
-    return other.names(records) if other else NAMES
+    if other:
+        return other.names(records)
+    return (*NAMES, *RUN_UP_NAMES) if orders.worth_tracking(records[0]) else NAMES
 
 
 def _kind(records: Sequence[Record]) -> str:
@@ -86,7 +90,7 @@ def figure(name: str, records: Sequence[Record], *, cycles: int | None = 2, agai
         raise InputError("cycles", cycles, "at least one mesh cycle is drawn", "1 or more")
     view = View(cycles, against)
     other = _OTHERS.get(_kind(records))
-    known = other.NAMES if other else NAMES
+    known = other.NAMES if other else (*NAMES, *RUN_UP_NAMES)
     if name not in ("overview", *known):
         near = get_close_matches(name, known, n=1)
         hint = f"did you mean {near[0]}? " if near else ""
@@ -98,6 +102,8 @@ def figure(name: str, records: Sequence[Record], *, cycles: int | None = 2, agai
             return _overview(records[0], view)
         if name == "spectrum":
             return spectrum_figure(records, view)
+        if name == orders.NAME:
+            return orders.orders_figure(records, view)
         if name == "path-of-contact":
             return path_figure(records, view)
         return panels.over_phase(name, records, view)
@@ -133,6 +139,7 @@ __all__ = [
     "NAMES",
     "OSCILLATOR_NAMES",
     "ROLLING_NAMES",
+    "RUN_UP_NAMES",
     "figure",
     "names",
     "overview",

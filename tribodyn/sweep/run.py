@@ -21,7 +21,7 @@ from tribodyn.sweep.plan import chained_steps, chunk_size, single_steps
 
 #: Mesh cycles that the search for a steady state may take, that its window has (whole periods, up to 4), and
 #: points of the section of a motion that has no period.
-MOST_CYCLES, STEADY_WINDOW, STEADY_POINTS = 2000, 4, 64
+MOST_CYCLES, STEADY_WINDOW, STEADY_POINTS = 2000, 4, 256
 #: The same of a transient: a quarter of its cycles, at most this many; points of its section, half of them.
 TRANSIENT_WINDOW, TRANSIENT_POINTS = 16, 256
 #: Above these a sweep is refused: surely mistyped, or too large for one file.

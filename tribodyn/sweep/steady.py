@@ -1,4 +1,4 @@
-"""Cases brought to their periodic steady states; where there is none, a stretch of the motion instead."""
+"""Cases brought to their periodic steady states; where none is stable, a stretch of the motion instead."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -54,7 +54,7 @@ def steady(
     for i, answer in zip(asked, answers, strict=True):
         if answer.kind == "failed":
             found[i] = failed(answer.last, answer.cycles, answer.message)
-        elif answer.period:
+        elif answer.period and answer.stable:
             found[i] = _periodic(answer, samples)
         else:
             wandering.append((i, answer))
@@ -77,20 +77,20 @@ def steady(
 
 def _periodic(answer: Steady, samples: int) -> Outcome:
     passage = Passage(0, answer.samples, answer.state, answer.end)
-    state = answer.state if answer.stable else answer.last
-    outcome = Outcome(passage, continued(state), answer.samples[::samples], answer.kind, answer.period)
-    return _described(outcome, answer)
+    section = answer.samples[::samples]
+    outcome = Outcome(passage, continued(answer.state), section, answer.kind, answer.period)
+    return _described(outcome, answer)._replace(period=answer.period)
 
 
 def _described(outcome: Outcome, answer: Steady) -> Outcome:
     if outcome.passage is None:
         return outcome
+    # beside an unstable state it is the motion that is recorded, not the state
     known = np.abs(answer.multipliers[np.isfinite(answer.multipliers)])
     return outcome._replace(
-        solution=answer.kind,
+        solution=answer.kind if answer.stable else "not periodic",
         cycles=outcome.cycles + answer.cycles,
         message=answer.message,
-        period=answer.period,
         stable=int(answer.stable),
         multiplier_max=float(known.max()) if known.size else float("nan"),
         residual=float(answer.residual),

@@ -11,11 +11,11 @@ from tribodyn.record.sweep_reader import SweepRecord
 
 #: Dataset, factor from SI, label, whether the axis starts at 0.
 PANELS = (
-    ("transmission_error_rms", 1e6, "Error, RMS (µm)", True),
-    ("transmission_error_peak_to_peak", 1e6, "Error, peak to peak (µm)", True),
+    ("transmission_error_rms", 1e6, "Transmission error,\nRMS (µm)", True),
+    ("transmission_error_peak_to_peak", 1e6, "Transmission error,\npeak to peak (µm)", True),
     ("dynamic_factor", 1.0, "Dynamic factor (–)", False),
-    ("contact_loss_fraction", 100.0, "Without contact (%)", True),
-    ("film_min", 1e6, "Least film (µm)", True),
+    ("contact_loss_fraction", 100.0, "Time without\ncontact (%)", True),
+    ("film_min", 1e6, "Least film\nthickness (µm)", True),
     ("efficiency", 100.0, "Efficiency (%)", False),
 )
 #: Curves that vary by less than this share are constant.
@@ -24,7 +24,7 @@ FLAT = 1e-5
 
 def response_figure(records: Sequence[SweepRecord]) -> Figure:
     """Draw six figures of every case over the first parameter; up and down apart where both were followed."""
-    figure = new_figure(WIDTH, 3 * (PANEL_HEIGHT - 0.5) + 0.6)
+    figure = new_figure(WIDTH, 3 * (PANEL_HEIGHT - 0.4) + 0.6)
     rows = figure.subplots(3, 2, sharex=True)
     drawn = branches(records)
     for letter, axes, (name, factor, label, from_zero) in zip("abcdef", rows.flat, PANELS, strict=True):
@@ -35,7 +35,7 @@ def response_figure(records: Sequence[SweepRecord]) -> Figure:
             axes.set_ylim(bottom=0)
         elif np.ptp(axes.dataLim.intervaly) < FLAT * abs(axes.dataLim.y1):
             # a constant: no scale of rounding errors
-            axes.set_ylim(0.98 * axes.dataLim.y1, 1.005 * axes.dataLim.y1)
+            axes.set_ylim(0.98 * axes.dataLim.y1, 1.0 * axes.dataLim.y1)
         elif np.ptp(axes.get_ylim()) > np.abs(axes.dataLim.intervaly).max() * FLAT:
             pass
         mark_panel(axes, letter)
@@ -44,6 +44,5 @@ def response_figure(records: Sequence[SweepRecord]) -> Figure:
         axes.margins(x=0.02)
     figure.align_ylabels()
     branch_legend(figure, drawn)
-    title = f"{sweep_title(records)}: response in rotational transmission error, load, film and efficiency"
-    figure.suptitle(title, x=0.01, ha="left", fontsize=9)
+    figure.suptitle(sweep_title(records), x=0.01, ha="left", fontsize=9)
     return figure

@@ -8,15 +8,15 @@ from matplotlib.figure import Figure
 
 from tribodyn.post.figures.sweep.amplitudes import spectra
 from tribodyn.post.figures.sweep.branch import Branch, axis_label, branches, sweep_title
-from tribodyn.post.style import PALETTE, QUIET, WIDTH, new_figure
+from tribodyn.post.style import GRID, PALETTE, QUIET, WIDTH, new_figure
 from tribodyn.record.sweep_reader import SweepRecord
 
 #: Spectra in a figure; of more cases, so many are shown.
 MOST_SPECTRA = 60
 #: Orders of the mesh that are shown.
 ORDERS = 6
-#: Spacings of the baselines that the highest line is high.
-HEIGHT = 3.0
+#: Height of the highest line, in spacings of the baselines.
+HEIGHT = 3.5
 #: Lines weaker than the highest by more than this are not seen, dB.
 RANGE = 60.0
 
@@ -56,23 +56,19 @@ def _highest(branch: Branch) -> float:
 def _draw(axes: Axes, branch: Branch, highest: float) -> None:
     found = spectra(branch)
     frequency = branch.values("mesh_frequency") * 1e-3
-    keep = np.unique(np.linspace(0, len(found) - 1, min(len(found), MOST_SPECTRA)).round().astype(int))
-    spacing = (branch.x.max() - branch.x.min()) / max(1, len(keep) - 1) or 1.0
-    # farthest first, so that the nearer ones hide it
-    for i in sorted(keep, key=lambda i: -branch.x[i]):
+    stride = -(-len(found) // MOST_SPECTRA)
+    spacing = stride * (branch.x.max() - branch.x.min()) / max(1, len(found) - 1) or 1.0
+    for i in range(0, len(found), stride):
         one = found[i]
         if one is None:
             continue
         shown = (one.orders > 0) & (one.orders <= ORDERS + 0.5)
-        places = np.repeat(one.orders[shown] * frequency[i], 3)
-        heights = np.zeros(places.size)
         level = 20 * np.log10(np.maximum(one.amplitudes[shown], 1e-300) / highest) / RANGE + 1
-        heights[1::3] = np.maximum(level, 0) * HEIGHT * spacing
-        depth = 2.0 - i / len(found)
-        axes.fill_between(
-            places, branch.x[i], branch.x[i] + heights, facecolor="white", linewidth=0, zorder=depth
+        top = branch.x[i] + np.maximum(level, 0) * HEIGHT * spacing
+        axes.axhline(branch.x[i], color=GRID, linewidth=0.5, zorder=1)
+        axes.vlines(
+            one.orders[shown] * frequency[i], branch.x[i], top, color=PALETTE[0], linewidth=0.9, zorder=2
         )
-        axes.plot(places, branch.x[i] + heights, color=PALETTE[0], linewidth=0.7, zorder=depth)
     limit = float(np.nanmax(frequency)) * min(ORDERS, 4)
     modes = branch.values("mode_frequency") * 1e-3
     for mode in range(modes.shape[1]):

@@ -1,0 +1,131 @@
+"""Order tracking: spectra of the transmission error over the orders of the mesh as the speed changes."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import LogNorm
+from matplotlib.figure import Figure
+
+from tribodyn.errors import InputError
+from tribodyn.post.cycles import last_cycles
+from tribodyn.post.figures.panel import View, record_title
+from tribodyn.post.style import PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
+from tribodyn.record.reader import Record
+
+NAME = "orders"
+#: Mesh cycles in the window of one spectrum, and between two.
+WINDOW, HOP = 16, 4
+#: Orders of the mesh shown, and those followed in the lower panel.
+SHOWN, FOLLOWED = 8.0, 4
+#: Amplitudes below this part of the greatest are off the scale.
+FLOOR = 1e-3
+#: A speed that changes by more than this share is worth tracking.
+CHANGING = 0.05
+
+
+class Track(NamedTuple):
+    """Spectra along a run.
+
+    Attributes
+    ----------
+    speed : (n,)
+        Mean pinion speed in each window, rad/s.
+    time : (n,)
+        At its middle, s.
+    orders : (m,)
+        Orders of the mesh.
+    amplitudes : (n, m)
+        Of the rotational transmission error, m.
+    """
+
+    speed: np.ndarray
+    time: np.ndarray
+    orders: np.ndarray
+    amplitudes: np.ndarray
+
+
+def worth_tracking(record: Record) -> bool:
+    """Whether a run is long enough, and its speed changes enough, for its orders to be tracked."""
+    whole = last_cycles(record, None) if record.samples > 1 else None
+    if whole is None or whole.phase[-1] < 2 * WINDOW:
+        return False
+    speed = _pinion_speed(record)
+    return float(np.ptp(speed)) > CHANGING * float(np.mean(speed))
+
+
+def track(record: Record) -> Track:
+    """Take spectra of windows of whole mesh cycles, tapered by Hann's window, along the whole run.
+
+    Samples are uniform in the phase of the mesh, so that an order is a line whatever the speed does; a line's
+    amplitude is that of the cosine, the window's mean taken out.
+
+    Raises
+    ------
+    InputError
+        For a run shorter than two windows.
+    """
+    whole = last_cycles(record, None)
+    per_cycle = whole.samples_per_cycle
+    size, step = WINDOW * per_cycle, HOP * per_cycle
+    signal = record["transmission_error_rotational"][whole.part]
+    if signal.size < 2 * size:
+        raise InputError(
+            "record",
+            str(record.path),
+            f"holds {signal.size // per_cycle} mesh cycles, too few to track orders",
+            f"run at least {2 * WINDOW}: --set solver.cycles=800",
+        )
+    starts = np.arange(0, signal.size - size, step)
+    part = starts[:, None] + np.arange(size)
+    taper = 0.5 - 0.5 * np.cos(2 * np.pi * np.arange(size) / size)
+    windows = signal[part]
+    windows = windows - windows.mean(axis=1, keepdims=True)
+    amplitudes = 2 * np.abs(np.fft.rfft(windows * taper, axis=1)) / taper.sum()
+    orders = np.arange(amplitudes.shape[1]) / WINDOW
+    keep = orders <= SHOWN + 1e-9
+    speed, time = _pinion_speed(record)[whole.part], record["time"][whole.part]
+    return Track(speed[part].mean(axis=1), time[part].mean(axis=1), orders[keep], amplitudes[:, keep])
+
+
+def orders_figure(records: Sequence[Record], view: View) -> Figure:
+    """Draw the spectrogram of the first record over its speed, or time, and the orders of the mesh below.
+
+    Over time too where the speed does not keep rising or falling.
+    """
+    record = records[0]
+    found = track(record)
+    steady = np.all(np.diff(found.speed) > 0) or np.all(np.diff(found.speed) < 0)
+    over_time = view.against == "time" or not steady
+    x = found.time * 1e3 if over_time else found.speed * 30 / np.pi
+    figure = new_figure(WIDTH, 2 * PANEL_HEIGHT + 0.6)
+    above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
+    _draw_map(figure, above, x, found)
+    for order in range(1, FOLLOWED + 1):
+        line = found.amplitudes[:, order * WINDOW] * 1e6
+        below.plot(x, line, color=PALETTE[order - 1], label=f"order {order}")
+    below.set_ylabel("Amplitude (µm)")
+    below.set_ylim(bottom=0)
+    below.set_xlabel("Time (ms)" if over_time else "Pinion speed (rpm)")
+    below.legend(ncols=2)
+    for letter, axes in zip("ab", (above, below), strict=True):
+        mark_panel(axes, letter)
+    figure.suptitle(record_title(record), x=0.01, ha="left", fontsize=9)
+    return figure
+
+
+def _draw_map(figure: Figure, axes: Axes, x: np.ndarray, found: Track) -> None:
+    greatest = float(found.amplitudes.max()) * 1e6
+    norm = LogNorm(FLOOR * greatest, greatest) if greatest > 0 else None
+    shown = np.maximum(found.amplitudes.T * 1e6, FLOOR * greatest)
+    image = axes.pcolormesh(
+        x, found.orders, shown, norm=norm, cmap="viridis", shading="nearest", rasterized=True
+    )
+    axes.set_ylabel("Order of the mesh (–)")
+    axes.grid(False)
+    figure.colorbar(image, ax=axes, label="Transmission error (µm)", pad=0.02)
+
+
+def _pinion_speed(record: Record) -> np.ndarray:
+    return record["velocity"][:, list(record["dof"]).index("theta_p")]
