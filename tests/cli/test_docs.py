@@ -76,14 +76,14 @@ PAGES_WITH_COMMANDS = sorted({block.page for block in blocks("console")})
 
 @pytest.mark.parametrize("page", PAGES_WITH_COMMANDS, ids=lambda page: page.name)
 def test_commands_run(page: Path, folder: Path):
-    """In the order of the page, in one folder; validations are parsed only, they have tests of their own."""
+    """In the order of the page, in one folder; validations and sweeps, tested elsewhere, are parsed only."""
     for block in blocks("console"):
         if block.page != page:
             continue
         for words in commands(block):
-            if words[0] == "validate":
-                command = get_command(app).commands["validate"]  # type: ignore[attr-defined]
-                command.make_context("validate", words[1:])
+            if words[0] in ("validate", "sweep"):
+                command = get_command(app).commands[words[0]]  # type: ignore[attr-defined]
+                command.make_context(words[0], words[1:])
                 continue
             if words[0] == "run":
                 shorter = ["--set", "solver.cycles=2"] if load_scenario(words[1]).kind == "gear-pair" else []

@@ -184,3 +184,24 @@ def test_jax_is_never_imported(tmp_path: Path):
     with SweepRecord(tmp_path / "s.h5") as record:
         assert set(record["solution"]) == {"period-1"}
         assert (record["multiplier_max"] < 1).all()
+
+
+@pytest.mark.slow
+def test_two_motions_at_one_speed(tmp_path: Path):
+    """Up the drive stays in contact to its resonance; down it rattles on below: a softening spring's jump."""
+    path = tmp_path / "jump.h5"
+    vary = "operating.pinion_speed=470:530:20rad/s"
+    tribodyn("sweep", "jump-involute-23-47", "--vary", vary, "--direction", "both", "-o", path)
+    with SweepRecord(path) as record:
+        assert (record["stable"] == 1).all()
+        assert (record["multiplier_max"] < 1).all()
+        up, down = np.moveaxis(record["contact_loss_fraction"], -1, 0)
+        # 470 rad/s: both; 490 … 530 rad/s: one
+        assert up[0] == 0
+        assert down[0] > 0.2
+        np.testing.assert_allclose(up[1:], down[1:], atol=1e-6)
+        energy = record["transmission_error_rms"]
+        assert energy[0, 1] > 1.5 * energy[0, 0]
+        # the resonance is at the mode that the linearised model has there
+        mode = record["mode_frequency"][0, 0, 0]
+        assert record["mesh_frequency"][:, 0].min() < mode < record["mesh_frequency"][:, 0].max()
