@@ -18,7 +18,7 @@ Array = Any
 
 #: Cells at level 1: along the flank, along the upper and the lower half of the fillet with the root circle,
 #: across the layer, across half the tooth inside it, and from there to the bore.
-_FLANK, _FILLET, _ROOT, _LAYER, _ACROSS, _DEPTH = 10, 2, 4, 1, 4, 7
+_FLANK, _FILLET, _ROOT, _LAYER, _ACROSS, _DEPTH = 10, 2, 4, 1, 4, 6
 _CURVE_POINTS = 400
 # Thickness of the layer, as a share of half the tooth's thickness at the foot, at the root and at the tip.
 _LAYER_ROOT, _LAYER_TIP = 0.25, 0.1
@@ -26,9 +26,10 @@ _LAYER_ROOT, _LAYER_TIP = 0.25, 0.1
 _TIP_SHARE, _RIM_SHARE = 0.3, 0.2
 # Times that the layer's direction is averaged with its neighbours': a corner in the profile is rounded off.
 _SMOOTHING = 4
-# Ratio of the cells' widths, flank to middle of the tooth, and of their depths, root to bore.
+# Ratio of the cells' widths, flank to middle of the tooth, and of their depths, bore to root: the latter at
+# least, and per pitch of the body's depth, so that a deep body's first cells are no wider than a tooth needs.
 _ACROSS_GRADING = 0.45
-_DEPTH_GRADING = 4.0
+_DEPTH_GRADING, _DEPTH_GRADING_PER_PITCH = 4.0, 1.5
 # The seam from the fillet to the tooth's axis drops by this share of its length, which gives each of the
 # three blocks about a third of the straight angle at their common corner.
 _SEAM_DROP = 0.35
@@ -116,7 +117,8 @@ def _half_blocks(tooth: Tooth, teeth: int, bore_radius: float, level: int) -> li
     upper = _coons(seam, tip, profile, axis)
 
     foot = np.pi / teeth * across / (across + roots)
-    inwards = _graded(depth, _DEPTH_GRADING)
+    pitches = (tooth.root_radius - bore_radius) / (2.0 * np.pi / teeth * tooth.root_radius)
+    inwards = _graded(depth, max(_DEPTH_GRADING, _DEPTH_GRADING_PER_PITCH * pitches))
     edge = gap[0] + inwards[:, None] * (bore_radius * _unit(np.pi / teeth) - gap[0])
     middle = corner + inwards[:, None] * (bore_radius * _unit(foot) - corner)
     centre = seam_end + inwards[:, None] * (np.array([bore_radius, 0.0]) - seam_end)
