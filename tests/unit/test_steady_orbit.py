@@ -12,6 +12,8 @@ TOLERANCE = 1e-9
 class ClosedForm:
     """A map given as a function of the state and of one parameter."""
 
+    blur = 0.0
+
     def __init__(self, step, parameters, size):
         self.step = step
         self.parameters = np.array(parameters, dtype=float)

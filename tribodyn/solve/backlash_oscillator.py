@@ -254,6 +254,8 @@ class OscillatorMap:
     The state is (x, dx/dτ) where cos Ωτ = 1, in units of the half backlash; it is its own scale.
     """
 
+    blur = 0.0
+
     def __init__(self, parameters: np.ndarray):
         self.parameters = np.ascontiguousarray(parameters, dtype=float)
         self.scale = np.ones((len(self.parameters), 2))

@@ -56,6 +56,9 @@ class PeriodMap(Protocol):
 
     #: (cases, N): sizes by which states are measured.
     scale: np.ndarray
+    #: Distance, over the scale, within which one derivative has another's multipliers: 0 where it is exact,
+    #: the step of the difference quotient where it is not.
+    blur: float
 
     def march(self, states: np.ndarray, cases: np.ndarray, periods: int, fine: bool) -> Marched:
         """States (R, N) over some periods; `fine` asks for the accuracy that a fixed point needs."""

@@ -28,7 +28,7 @@ from tribodyn.errors import InputError, SimulationError
 from tribodyn.solve.engine import DONE, REASONS, absolute_tolerances
 from tribodyn.solve.ensemble import MAX_STEPS, march
 from tribodyn.solve.initial import static_deflection, static_equilibrium
-from tribodyn.solve.period_map import Marched, Tangent, by_differences
+from tribodyn.solve.period_map import DIFFERENCE, Marched, Tangent, by_differences
 from tribodyn.solve.steady_orbit import Method, Orbit, find
 from tribodyn.solve.stiffness import choose
 from tribodyn.solve.transient import engage_next
@@ -218,6 +218,8 @@ class GearMap:
     solver, rtol, fine_rtol, max_steps, workers
         Method, tolerances of marching and of fixed points, steps a cycle, threads.
     """
+
+    blur = DIFFERENCE
 
     def __init__(
         self,

@@ -9,6 +9,8 @@ from tribodyn.solve.period_map import PeriodMap
 #: Halvings of a Newton step before shooting gives up, and the least relative decrease that it must bring.
 HALVINGS = 7
 DECREASE = 1e-3
+#: A derivative serves the next step too where the last one brought the residual down to this share.
+WELL_DOWN = 0.1
 
 
 class Shot(NamedTuple):
@@ -63,73 +65,108 @@ def shoot(
     -----
     Each row has its own damping: a step is halved until the residual falls. Rows fail on their own.
     """
-    x = states.copy()
-    scale = period_map.scale[cases]
-    steps = np.zeros(len(x), dtype=int)
-    found: list[Shot | None] = [None] * len(x)
-    active = np.arange(len(x))
-    while active.size:
-        tangent = period_map.tangent(x[active], cases[active], periods)
-        direction, residual = _newton_directions(x[active], tangent.image, tangent.jacobian, scale[active])
-        going = []
-        for k, row in enumerate(active):
-            reason = tangent.reasons[k]
-            if not reason and residual[k] > tolerance:
-                if not np.all(np.isfinite(direction[k])):
-                    reason = "the map's derivative has the multiplier 1: the steady state is not isolated"
-                elif steps[row] >= max_steps:
-                    reason = f"shooting ended after {max_steps} steps with the residual {residual[k]:.1e}"
-                else:
-                    going.append(k)
-                    continue
-            found[row] = Shot(
-                x[row].copy(), float(residual[k]), _eigenvalues(tangent.jacobian[k]), int(steps[row]), reason
+    rows = [_Row(state.copy(), case) for state, case in zip(states, map(int, cases), strict=True)]
+    scales = period_map.scale
+    going = rows
+    while going:
+        stale = [row for row in going if row.jacobian is None]
+        if stale:
+            tangent = period_map.tangent(
+                np.array([row.x for row in stale]), np.array([row.case for row in stale]), periods
             )
-        factor = _line_search(
-            period_map, x[active[going]], direction[going], residual[going], cases[active[going]], periods
-        )
-        for k, share in zip(going, factor, strict=True):
-            row = active[k]
-            if share == 0.0:
-                reason = f"shooting found no way down from the residual {residual[k]:.1e}"
-                multipliers = _eigenvalues(tangent.jacobian[k])
-                found[row] = Shot(x[row].copy(), float(residual[k]), multipliers, int(steps[row]), reason)
-            x[row] += share * direction[k]
-            steps[row] += 1
-        active = np.array([row for row in active if found[row] is None], dtype=int)
-    return [one for one in found if one is not None]
+            for k, row in enumerate(stale):
+                row.take(tangent.image[k], tangent.jacobian[k], tangent.reasons[k], scales[row.case])
+        for row in going:
+            row.decide(tolerance, max_steps, scales[row.case], period_map.blur)
+        _search(period_map, [row for row in going if row.direction is not None], periods)
+        going = [row for row in going if not row.done]
+    return [row.shot() for row in rows]
 
 
-def _newton_directions(x, image, jacobian, scale) -> tuple[np.ndarray, np.ndarray]:
-    """Newton steps (R, N), NaN where the equations are singular, and the scaled residuals (R,)."""
-    off = (image - x) / scale
-    residual = np.where(np.all(np.isfinite(off), axis=1), np.max(np.abs(off), axis=1), np.inf)
-    direction = np.full_like(x, np.nan)
-    for k in range(len(x)):
-        # in units of the scale, so that the singular values can be compared
-        matrix = jacobian[k] * scale[k] / scale[k][:, None]
-        if np.all(np.isfinite(matrix)) and np.isfinite(residual[k]):
-            left, values, right = np.linalg.svd(np.eye(len(matrix)) - matrix)
-            if values[-1] > 1e-9 * max(1.0, values[0]):
-                direction[k] = scale[k] * (right.T @ ((left.T @ off[k]) / values))
-    return direction, residual
+class _Row:
+    """One system on its way: state, image, residual, and the derivative with the place it was taken at."""
+
+    def __init__(self, x: np.ndarray, case: int):
+        self.x, self.case = x, case
+        self.residual = np.inf
+        self.steps = 0
+        self.reason = ""
+        self.done = False
+        self.image = self.base = x
+        self.jacobian: np.ndarray | None = None
+        self.last_jacobian = np.full((len(x), len(x)), np.nan)
+        self.direction: np.ndarray | None = None
+
+    def take(self, image: np.ndarray, jacobian: np.ndarray, reason: str, scale: np.ndarray) -> None:
+        """Take a derivative in, and the image that came with it."""
+        self.image, self.base, self.reason = image, self.x, reason
+        self.jacobian = self.last_jacobian = jacobian
+        self.residual = _size(image - self.x, scale)
+
+    def decide(self, tolerance: float, max_steps: int, scale: np.ndarray, blur: float) -> None:
+        """Be done, ask for another derivative, or set out in a direction."""
+        self.direction = None
+        if not self.reason and self.residual > tolerance:
+            assert self.jacobian is not None
+            direction = _newton_direction(self.image - self.x, self.jacobian, scale)
+            if direction is None:
+                self.reason = "the map's derivative has the multiplier 1: the steady state is not isolated"
+            elif self.steps >= max_steps:
+                self.reason = f"shooting ended after {max_steps} steps with the residual {self.residual:.1e}"
+            else:
+                self.direction = direction
+                return
+        if not self.reason and _size(self.x - self.base, scale) > blur:
+            self.jacobian = None
+            return
+        self.done = True
+
+    def shot(self) -> Shot:
+        return Shot(self.x, self.residual, _eigenvalues(self.last_jacobian), self.steps, self.reason)
 
 
-def _line_search(period_map, x, direction, residual, cases, periods) -> np.ndarray:
-    """Shares of the Newton steps that lower the residuals; 0 where none does."""
-    factor = np.ones(len(x))
-    searching = np.arange(len(x))
+def _search(period_map: PeriodMap, rows: list[_Row], periods: int) -> None:
+    """Take the steps of rows, each halved until its residual falls; where none does, the row is done."""
+    share = 1.0
     for _ in range(HALVINGS + 1):
-        if not searching.size:
-            return factor
-        trial = x[searching] + factor[searching, None] * direction[searching]
-        end = period_map.march(trial, cases[searching], periods, True).states[:, -1]
-        off = np.max(np.abs(end - trial) / period_map.scale[cases[searching]], axis=1)
-        lower = off < (1.0 - DECREASE * factor[searching]) * residual[searching]
-        searching = searching[~lower]
-        factor[searching] *= 0.5
-    factor[searching] = 0.0
-    return factor
+        if not rows:
+            return
+        trial = np.array([row.x + share * np.asarray(row.direction) for row in rows])
+        cases = np.array([row.case for row in rows])
+        end = period_map.march(trial, cases, periods, True).states[:, -1]
+        rest = []
+        for row, x, image in zip(rows, trial, end, strict=True):
+            residual = _size(image - x, period_map.scale[row.case])
+            if residual >= (1.0 - DECREASE * share) * row.residual:
+                rest.append(row)
+                continue
+            if residual > WELL_DOWN * row.residual:
+                row.jacobian = None
+            row.x, row.image, row.residual = x, image, residual
+            row.steps += 1
+        rows = rest
+        share *= 0.5
+    for row in rows:
+        if row.base is row.x:
+            row.reason = f"shooting found no way down from the residual {row.residual:.1e}"
+            row.done = True
+        row.jacobian = None  # it was taken elsewhere: try with that of the place
+
+
+def _size(off: np.ndarray, scale: np.ndarray) -> float:
+    return float(np.max(np.abs(off) / scale)) if np.all(np.isfinite(off)) else np.inf
+
+
+def _newton_direction(off: np.ndarray, jacobian: np.ndarray, scale: np.ndarray) -> np.ndarray | None:
+    """Newton step (N,) from the map's defect; None where the equations are singular."""
+    # in units of the scale, so that the singular values can be compared
+    matrix = jacobian * scale / scale[:, None]
+    if not (np.all(np.isfinite(matrix)) and np.all(np.isfinite(off))):
+        return None
+    left, values, right = np.linalg.svd(np.eye(len(matrix)) - matrix)
+    if values[-1] <= 1e-9 * max(1.0, values[0]):
+        return None
+    return scale * (right.T @ ((left.T @ (off / scale)) / values))
 
 
 def _eigenvalues(jacobian: np.ndarray) -> np.ndarray:

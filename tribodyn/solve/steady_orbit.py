@@ -22,7 +22,7 @@ MAX_PERIOD = 4
 BLOCK = 12
 #: Estimated distance from the steady state, over the scale, at which Newton's method takes over; it does so
 #: from afar too where marching on would take twice the maps of the derivatives that shooting should need.
-NEAR = 1e-2
+NEAR = 1e-3
 DERIVATIVES = 2
 #: Distance within which what shooting found is what marching had come to, whatever the last periods did.
 THERE = 1e-5
