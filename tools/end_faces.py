@@ -1,0 +1,137 @@
+"""Free end faces, planes of symmetry, or slices apart: load along a misaligned tooth, by elements in 3D.
+
+python tools/end_faces.py            # minutes; 10 slices
+python tools/end_faces.py 6          # sooner
+
+One sector of the pinion of Jia et al., its edges and bore held, twenty-node bricks; both gears are taken as
+alike. Loads stand on the flank near the pitch circle, displacements are read below it, at a node a third of a
+module deep; Weber-Banaschek's deflection at the mean load stands for what is above. The bodies are stiffer
+than the gears', but the same in all three columns.
+"""
+
+import sys
+from typing import Any
+
+import numpy as np
+from scipy.sparse.linalg import splu
+from skfem import Basis, BilinearForm, ElementHexS2, ElementVector, MeshHex
+from skfem.helpers import ddot, div, sym_grad
+
+from tribodyn.compliance.local import hertz_half_width, weber_banaschek_slope
+from tribodyn.compliance.ring_mesh import sector_mesh
+from tribodyn.geometry.path import kinematics
+from tribodyn.validation.jia_study import ARC_MINUTE, PINION_TORQUE, elastic
+
+BORE, DEPTH = 8e-3, 0.33
+# Within a slice a line load that is even goes to its two ends and its middle like this.
+EVEN = ((0.0, 1 / 6), (0.5, 4 / 6), (1.0, 1 / 6))
+
+
+class Sector:
+    """Elements of one sector over the face width, in slices."""
+
+    def __init__(self, slices: int) -> None:
+        flexible = elastic("involute")
+        drive, self.path = flexible.assembly.drive, flexible.assembly.path
+        self.material, self.width = flexible.materials[0], flexible.width
+        self.teeth, self.module = drive.pinion.teeth, drive.module
+        plane = sector_mesh(flexible.assembly.pinion, round(self.teeth), BORE, 1)
+        used, corners = np.unique(plane.cells[:4], return_inverse=True)
+        quads = corners.reshape(4, -1)
+        self.nodes, count = plane.nodes[:, used], len(used)
+        self.flank = np.searchsorted(used, plane.flank)
+        self.z = np.linspace(0.0, self.width, slices + 1)
+        points = np.vstack([np.tile(self.nodes, slices + 1), np.repeat(self.z, count)])
+        # of scikit-fem: (0,0,0) (0,0,1) (0,1,0) (1,0,0) (0,1,1) (1,0,1) (1,1,0) (1,1,1)
+        order = [(0, 0), (0, 1), (3, 0), (1, 0), (3, 1), (1, 1), (2, 0), (2, 1)]
+        bricks = [
+            np.stack([quads[corner] + (layer + above) * count for corner, above in order])
+            for layer in range(slices)
+        ]
+        self.basis = Basis(MeshHex(points, np.hstack(bricks)), ElementVector(ElementHexS2()), intorder=4)
+        self.axis = np.zeros(self.basis.N, dtype=int)
+        edges: Any = self.basis.edge_dofs
+        for axis in range(3):
+            self.axis[self.basis.nodal_dofs[axis]] = axis
+            self.axis[edges[axis]] = axis
+
+    def compliances(self) -> tuple[np.ndarray, np.ndarray, float]:
+        """Displacement of slices per load (N) on slices, with free and with symmetric ends; depth, m."""
+        nu = self.material.poisson_ratio
+        first, shear = nu / ((1 + nu) * (1 - 2 * nu)), 1 / (2 * (1 + nu))
+
+        @BilinearForm
+        def work(u, v, _):
+            return first * div(u) * div(v) + 2 * shear * ddot(sym_grad(u), sym_grad(v))
+
+        stiffness = work.assemble(self.basis)
+        x, y, z = self.basis.doflocs
+        held = (np.hypot(x, y) < 1.0005 * BORE) | (np.abs(np.arctan2(y, x)) > 0.9995 * np.pi / self.teeth)
+        ends = (self.axis == 2) & ((z < 1e-9) | (z > self.width - 1e-9))
+        surface, inner, into, depth = self._places()
+        loads, reads = (self._lines(node, into) for node in (surface, inner))
+        found = []
+        for fixed in (held, held | ends):
+            free = np.flatnonzero(~fixed)
+            factors = splu(
+                stiffness[free][:, free].tocsc(),
+                permc_spec="MMD_AT_PLUS_A",
+                options={"SymmetricMode": True},
+            )
+            found.append(reads[free].T @ factors.solve(loads[free]) / self.material.youngs_modulus)
+        return found[0], found[1], depth
+
+    def _places(self) -> tuple[int, int, np.ndarray, float]:
+        """Node of the flank next to the pitch circle, the one below it, the way into the tooth, the depth."""
+        radii = np.hypot(*self.nodes[:, self.flank])
+        at = int(np.argmin(np.abs(radii - self.teeth * self.module / 2)))
+        along = self.nodes[:, self.flank[at + 1]] - self.nodes[:, self.flank[at - 1]]
+        into = np.array([along[1], -along[0]]) / np.hypot(*along)
+        into *= -np.sign(into[1])
+        surface = int(self.flank[at])
+        wanted = self.nodes[:, surface] + DEPTH * self.module * into
+        inner = int(np.argmin(np.hypot(*(self.nodes - wanted[:, None]))))
+        return surface, inner, into, float((self.nodes[:, inner] - self.nodes[:, surface]) @ into)
+
+    def _lines(self, node: int, into: np.ndarray) -> np.ndarray:
+        """Even lines (dof, slice) over a node of the plane."""
+        x, y, z = self.basis.doflocs
+        lines = np.zeros((self.basis.N, len(self.z) - 1))
+        over = np.hypot(x - self.nodes[0, node], y - self.nodes[1, node]) < 1e-9
+        for part in range(lines.shape[1]):
+            for place, weight in EVEN:
+                height = self.z[part] + place * (self.z[part + 1] - self.z[part])
+                for axis in (0, 1):
+                    here = over & (np.abs(z - height) < 1e-9) & (self.axis == axis)
+                    lines[here, part] += weight * into[axis]
+        return lines
+
+
+def main() -> None:
+    slices = int(sys.argv[1]) if len(sys.argv) > 1 else 10
+    sector = Sector(slices)
+    free, symmetric, depth = sector.compliances()
+    apart = np.eye(slices) * np.mean(np.sum(symmetric, axis=1))
+    at = kinematics(sector.path, 0.0)
+    load, material = PINION_TORQUE / float(at.pinion_normal_arm), sector.material
+    curvature = float(at.relative_curvature)
+    half = hertz_half_width(load / sector.width, curvature, material, material)
+    above = weber_banaschek_slope(load / sector.width, half, depth, material) * slices / sector.width
+    place = (np.arange(slices) + 0.5) * sector.width / slices - sector.width / 2
+    print("greatest over mean line load, free ends, planes of symmetry, slices apart")
+    for minutes in (0, 1, 2, 3):
+        greatest = []
+        for compliance in (free, symmetric, apart):
+            system = np.block(
+                [
+                    [2 * (compliance + above * np.eye(slices)), -np.ones((slices, 1))],
+                    [np.ones((1, slices)), np.zeros((1, 1))],
+                ]
+            )
+            right = np.append(-minutes * ARC_MINUTE * place, load)
+            greatest.append(np.max(np.linalg.solve(system, right)[:slices]) * slices / load)
+        print(f"{minutes}'", *(f"{value:.3f}" for value in greatest))
+
+
+if __name__ == "__main__":
+    main()
