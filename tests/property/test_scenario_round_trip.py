@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from tribodyn.scenario.load import load_scenario
@@ -78,6 +78,36 @@ OVERRIDES = st.fixed_dictionaries(
     },
 )
 
+SMALL = {"um": 1e-6, "mm": 1e-3, "inch": 0.0254}
+DEVIATIONS = st.floats(-1e3, 1e3)
+FLANKS = {
+    **{
+        f"drive.{gear}.modification.{name}": quantities(SMALL)
+        for gear in ("pinion", "gear")
+        for name in ("tip_relief", "tip_relief_length", "root_relief", "root_relief_length")
+    },
+    "drive.pinion.modification.tip_relief_shape": st.sampled_from(["linear", "parabolic"]),
+    "drive.pinion.modification.crowning": quantities(SMALL),
+    "drive.gear.modification.lead_relief_start": quantities(SMALL),
+    "drive.gear.modification.lead_unmodified": quantities({"um": 1e-6}),
+    "drive.pinion.modification.pitch_errors": st.lists(
+        quantities(SMALL, DEVIATIONS), min_size=18, max_size=18
+    ),
+    "mesh.misalignment.in_plane": quantities({"arcmin": 1, "deg": 60, "mrad": 3}, DEVIATIONS),
+    "mesh.misalignment.out_of_plane": quantities({"arcmin": 1, "deg": 60, "mrad": 3}, DEVIATIONS),
+    "mesh.slices": st.integers(3, 501),
+    "mesh.slice_coupling": st.booleans(),
+    "operating.gear_torques": st.lists(POSITIVE, min_size=2, max_size=5, unique=True).map(
+        lambda torques: [f"{torque!r} N*m" for torque in sorted(torques)]
+    ),
+}
+
+
+def relieved(overrides: dict[str, Any]) -> bool:
+    """Whether every relief has its length."""
+    ends = [key for key in overrides if key.endswith("_relief")]
+    return all(f"{key}_length" in overrides for key in ends)
+
 
 def comparable(value: Any) -> Any:
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
@@ -96,6 +126,18 @@ def test_a_resolved_scenario_loads_to_the_same_case(overrides: dict[str, Any]):
         path.write_text(case.toml, encoding="utf-8", newline="")
         again = load_scenario(path)
     assert comparable(again) == comparable(case)
+
+
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.filter_too_much])
+@given(st.fixed_dictionaries({}, optional=FLANKS).filter(relieved))
+def test_modified_flanks_load_to_the_same_case(overrides: dict[str, Any]):
+    case = load_scenario("load-contact-18-36", overrides)
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "resolved.toml"
+        path.write_text(case.toml, encoding="utf-8", newline="")
+        again = load_scenario(path)
+    assert comparable(again) == comparable(case)
+    assert again.sha256 == case.sha256
 
 
 @settings(max_examples=100, deadline=None)
