@@ -1,0 +1,80 @@
+"""Slices that hold each other beside slices that do not, on the pair 18/36 at 318.3 N m.
+
+python tools/slice_table.py                               # prints the table
+python tools/slice_table.py --into docs/load-contact.md   # and puts it into the page
+"""
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+from marked_block import put
+
+from tribodyn.case import Case
+from tribodyn.compliance.load_sharing import PairFlexibility, flexibility
+from tribodyn.compliance.loaded_contact import LoadedContact, roll_through
+from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.modification import FlankModification, LeadRelief, Misalignment, Modifications
+from tribodyn.scenario.load import family, load_scenario
+
+SLICES, POSITIONS = 21, 60
+CASES = {
+    "unmodified": Modifications(),
+    **{
+        f"axes in the plane of action {tilt * 1e3:g} mrad": Modifications(misalignment=Misalignment(tilt))
+        for tilt in (2.5e-4, 5e-4, 1e-3, 2e-3)
+    },
+    **{
+        f"crowned by {crown * 1e6:g} µm": Modifications(FlankModification(lead=LeadRelief(crown, crown)))
+        for crown in (5e-6, 10e-6, 20e-6)
+    },
+    "crowned by 10 µm, axes 1 mrad": Modifications(
+        FlankModification(lead=LeadRelief(10e-6, 10e-6)), misalignment=Misalignment(1e-3)
+    ),
+}
+
+
+def figures(
+    flexible: PairFlexibility, modifications: Modifications, torque: float, coupled: bool
+) -> list[str]:
+    loaded: LoadedContact = roll_through(
+        flexible, modifications, torque, POSITIONS, slices=SLICES, coupled=coupled
+    )
+    at = np.unravel_index(np.argmin(np.abs(loaded.roll)), loaded.roll.shape)
+    return [
+        f"{loaded.face_load_factor[at]:.2f}",
+        f"{np.max(loaded.pressure[at]) / 1e9:.2f}",
+        f"{np.max(loaded.root_tension[0]) / 1e6:.0f}",
+        f"{np.mean(loaded.mesh_stiffness) / flexible.width * 1e-9:.1f}",
+        f"{loaded.peak_to_peak * 1e6:.2f}",
+    ]
+
+
+def table() -> str:
+    case = load_scenario("involute-18-36-fem")
+    assert isinstance(case, Case)
+    flexible = flexibility(assemble(family(case.family), case.drive), case.materials, lead=True)
+    head = (
+        "| | K_Hβ at the pitch point | greatest pressure there, GPa | pinion's root, greatest tension, MPa "
+        "| mean mesh stiffness, N/(mm µm) | loaded error, peak to peak, µm |"
+    )
+    rows = [head, "|---|---|---|---|---|---|"]
+    for name, modifications in CASES.items():
+        both = (figures(flexible, modifications, case.operating.gear_torque, way) for way in (True, False))
+        cells = [f"{held}, {free}" for held, free in zip(*both, strict=True)]
+        rows.append("| " + " | ".join([name, *cells]) + " |")
+    return "\n".join(rows)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description="Coupled slices beside independent ones.")
+    parser.add_argument("--into", type=Path, help="page with the marked block")
+    page = parser.parse_args().into
+    text = table()
+    print(text)
+    if page:
+        put(page, "slices", text)
+
+
+if __name__ == "__main__":
+    main()
