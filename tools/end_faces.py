@@ -10,7 +10,7 @@ than the gears', but the same in all three columns.
 """
 
 import sys
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from scipy.sparse.linalg import splu
@@ -50,9 +50,9 @@ class Sector:
         ]
         self.basis = Basis(MeshHex(points, np.hstack(bricks)), ElementVector(ElementHexS2()), intorder=4)
         self.axis = np.zeros(self.basis.N, dtype=int)
-        edges: Any = self.basis.edge_dofs
+        corners, edges = cast(Any, self.basis.nodal_dofs), cast(Any, self.basis.edge_dofs)
         for axis in range(3):
-            self.axis[self.basis.nodal_dofs[axis]] = axis
+            self.axis[corners[axis]] = axis
             self.axis[edges[axis]] = axis
 
     def compliances(self) -> tuple[np.ndarray, np.ndarray, float]:

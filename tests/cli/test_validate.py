@@ -61,3 +61,10 @@ def test_every_figure_of_a_paper_is_drawn(tmp_path: Path, monkeypatch: pytest.Mo
     assert [picture.name for picture in pictures] == [f"diez-ibarbia-{name}.png" for name in names]
     assert all(picture.exists() for picture in pictures)
     assert done[-1] == 1.0
+
+
+@pytest.mark.parametrize("paper", tribodyn.validation.FIGURES)
+def test_figures_have_names_of_their_own(paper: str):
+    names = tribodyn.validation.figure_names(paper)
+    assert len(names) > 5
+    assert all(name.startswith("figure-") for name in names)

@@ -17,6 +17,7 @@ PAPERS = {
 }
 #: Paper's name -> module that draws its figures.
 FIGURES = {
+    "veciana-2024": "tribodyn.validation.figures.veciana",
     "diez-ibarbia": "tribodyn.validation.figures.diez_ibarbia",
     "jia-2022": "tribodyn.validation.figures.jia",
 }
