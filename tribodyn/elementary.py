@@ -138,3 +138,8 @@ def last_at_or_below(grid: Any, x: Any) -> Any:
     """Index i of the last grid value ≤ x, limited to 0 … len(grid) − 2; `grid` increases."""
     xp = namespace(grid, x)
     return xp.clip(xp.searchsorted(grid, x, side="right") - 1, 0, grid.shape[0] - 2)
+
+
+def last_axis_of_four(table: Any, a: Any, b: Any, c: Any, d: Any) -> Any:
+    """The four neighbours table[a, b, c, d, 0 … 3], which compiled code can read at once."""
+    return table[a, b, c, d, 0], table[a, b, c, d, 1], table[a, b, c, d, 2], table[a, b, c, d, 3]

@@ -21,7 +21,7 @@ from tribodyn.dynamics import equations  # noqa: F401  (the import of both regis
 from tribodyn.solve import dormand_prince, rosenbrock  # noqa: F401
 
 #: Everything that a kernel can contain; the rules of import keep it to these.
-_KERNEL_SOURCES = ("elementary.py", "native.py", "mesh_cycle.py", "tribology", "dynamics", "solve")
+_KERNEL_SOURCES = ("elementary.py", "native.py", "mesh_cycle.py", "tribology", "dynamics", "solve", "lanes")
 
 
 def _source_digest() -> str:
@@ -50,6 +50,9 @@ numba.core.config.CACHE_DIR = str(_CACHE)  # pyright: ignore[reportAttributeAcce
 #: Without Python's lock, so that batches run on all cores.
 kernel = numba.njit(cache=True, error_model="numpy", nogil=True, _nrt=False)  # pyright: ignore[reportCallIssue]
 
+#: Decorator of a part of kernels, compiled into each that calls it.
+part = register_jitable
+
 
 def _unary(function, implementation):
     @overload(function)
@@ -74,7 +77,7 @@ def _log1p(x):
         shifted = 1.0 + x
         return math.log(shifted) + (x - (shifted - 1.0)) / shifted
 
-    return implementation
+    return implementation if isinstance(x, types.Number) else None
 
 
 @overload(elementary.expm1)
@@ -91,12 +94,12 @@ def _expm1(x):
         fourth = square * square
         return x * (low + fourth * (middle + fourth * high))
 
-    return implementation
+    return implementation if isinstance(x, types.Number) else None
 
 
 @overload(elementary.skippable)
 def _skippable(condition):
-    return lambda condition: condition
+    return (lambda condition: condition) if isinstance(condition, types.Boolean) else None
 
 
 @overload(elementary.arctan2)
@@ -128,6 +131,14 @@ def _last_at_or_below(grid, x):
         return min(max(index, 0), grid.shape[0] - 2)
 
     return implementation if isinstance(grid, types.Array) else None
+
+
+@overload(elementary.last_axis_of_four)
+def _last_axis_of_four(table, a, b, c, d):
+    def implementation(table, a, b, c, d):
+        return table[a, b, c, d, 0], table[a, b, c, d, 1], table[a, b, c, d, 2], table[a, b, c, d, 3]
+
+    return implementation if isinstance(table, types.Array) else None
 
 
 for _law in elementary.LAWS:

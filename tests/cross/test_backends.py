@@ -5,14 +5,11 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from tests.states import random_place, random_state
+from tests.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
 from tests.unit.test_tribology import LIU_NI
-from tribodyn.dynamics.contact_forces import QUANTITIES
-from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.parameters import STATES
 from tribodyn.native import kernel
 from tribodyn.solve.diffrax_engine import right_hand_side
-from tribodyn.solve.dopri5 import rhs
 from tribodyn.tribology.contact import logarithms
 from tribodyn.tribology.friction import (
     BENEDICT_KELLEY,
@@ -99,25 +96,7 @@ def test_friction_has_a_gradient():
 )
 def test_right_hand_sides_agree_over_random_states(prepared, rng, overrides):
     model = prepared("crc-23-47", **overrides).model
-    pairs = model.table.side.shape[0]
-    work = np.zeros((QUANTITIES + pairs, pairs))
-    numbers = jax.tree.map(jnp.asarray, (model.table, model.mechanics, model.contact))
-    traced = jax.jit(
-        lambda phase, y, cycle, segment: right_hand_side(
-            phase, y, (cycle, segment, model._replace(table=numbers[0]))
-        )
-    )
-    for _ in range(40):
-        y = random_state(rng)
-        phase, segment = random_place(rng, model.table.boundary)
-        plain: dict = {}
-        derivatives(phase, 2.0, segment, y, model, {}, plain)
-        expected = np.array([plain[i] for i in range(STATES)])
-        native = np.empty(STATES)
-        rhs(phase, 2.0, segment, y, model, work, native)
-        scale = 1e-12 * np.abs(expected).max()
-        np.testing.assert_allclose(native, expected, rtol=1e-12, atol=scale)
-        np.testing.assert_allclose(traced(phase, y, 2.0, segment), expected, rtol=1e-12, atol=scale)
+    assert_right_hand_sides_agree(at_several_conditions(model), rng, 1e-12)
 
 
 def test_a_changed_number_compiles_nothing_again(prepared):

@@ -5,18 +5,13 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from tests.states import random_place, random_state
+from tests.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
 from tribodyn.case import MaterialData, MeshData
-from tribodyn.dynamics.contact_forces import QUANTITIES
-from tribodyn.dynamics.equations import derivatives
-from tribodyn.dynamics.parameters import STATES
 from tribodyn.geometry import cycloidal
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.record.reader import open_record
 from tribodyn.scenario.load import load_scenario
 from tribodyn.simulate import run
-from tribodyn.solve.diffrax_engine import right_hand_side
-from tribodyn.solve.dopri5 import rhs
 from tribodyn.tabulate import pair_slots, tabulate
 
 STEEL = MaterialData("steel", 206e9, 0.3, 7850.0, 46.0, 470.0, 6e9)
@@ -41,27 +36,7 @@ def test_points_of_a_path_give_the_drive_that_has_it(prepared):
 def test_right_hand_side_agrees_between_numpy_numba_and_jax(name, prepared, rng):
     model = prepared(name).model
     assert model.options.averaged == 1
-    pairs = model.table.side.shape[0]
-    work = np.zeros((QUANTITIES + pairs, pairs))
-    numbers = jax.tree.map(jnp.asarray, (model.table, model.mechanics, model.contact))
-    traced = jax.jit(
-        lambda phase, y, segment: right_hand_side(
-            phase,
-            y,
-            (2.0, segment, model._replace(table=numbers[0], mechanics=numbers[1], contact=numbers[2])),
-        )
-    )
-    for _ in range(20):
-        y = random_state(rng)
-        phase, segment = random_place(rng, model.table.boundary)
-        plain: dict = {}
-        derivatives(phase, 2.0, segment, y, model, {}, plain)
-        expected = np.array([plain[i] for i in range(STATES)])
-        native = np.empty(STATES)
-        rhs(phase, 2.0, segment, y, model, work, native)
-        scale = 1e-12 * np.abs(expected).max()
-        np.testing.assert_allclose(native, expected, rtol=1e-11, atol=scale)
-        np.testing.assert_allclose(traced(phase, y, segment), expected, rtol=1e-11, atol=scale)
+    assert_right_hand_sides_agree(at_several_conditions(model), rng, 1e-11)
 
 
 def drive(shape):

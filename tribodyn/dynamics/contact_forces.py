@@ -21,7 +21,7 @@ from tribodyn.dynamics.parameters import (
     Y_P,
 )
 from tribodyn.dynamics.smooth import positive_part, positive_part_integral, power_law_force, ramp, sign
-from tribodyn.elementary import law, maximum, skippable, sqrt, where
+from tribodyn.elementary import last_axis_of_four, law, maximum, skippable, sqrt, where
 from tribodyn.tribology.contact import averaged_radius
 from tribodyn.tribology.friction import friction_coefficient
 
@@ -62,18 +62,15 @@ def out_of_reach(segment, i, model):
 @law
 def cubic(c, segment, cell, slot, channel, u):
     """Value at u ∈ [0, 1] of one channel's spline in a cell."""
-    return c[segment, cell, slot, channel, 0] + u * (
-        c[segment, cell, slot, channel, 1]
-        + u * (c[segment, cell, slot, channel, 2] + u * c[segment, cell, slot, channel, 3])
-    )
+    c0, c1, c2, c3 = last_axis_of_four(c, segment, cell, slot, channel)
+    return c0 + u * (c1 + u * (c2 + u * c3))
 
 
 @law
 def cubic_slope(c, segment, cell, slot, channel, u):
     """Its derivative with respect to u."""
-    return c[segment, cell, slot, channel, 1] + u * (
-        2.0 * c[segment, cell, slot, channel, 2] + 3.0 * u * c[segment, cell, slot, channel, 3]
-    )
+    _, c1, c2, c3 = last_axis_of_four(c, segment, cell, slot, channel)
+    return c1 + u * (2.0 * c2 + 3.0 * u * c3)
 
 
 @law

@@ -8,7 +8,6 @@ import numpy as np
 from tribodyn.dynamics.contact_forces import QUANTITIES
 from tribodyn.dynamics.equations import derivatives, engagement
 from tribodyn.dynamics.parameters import (
-    MECHANICAL,
     SLIP,
     STATES,
     WORK_IN,
@@ -22,13 +21,12 @@ from tribodyn.solve.dormand_prince import (
     LEAST_STEP,
     STAGES,
     TOUCHING,
-    A,
     C,
-    D,
-    E,
     dense_output,
+    embedded_difference,
     growth,
     shrinkage,
+    stage_state,
     weighed_error,
 )
 from tribodyn.solve.engine import DONE, NOT_FINITE, STALLED, STEP_TOO_SMALL, TOO_MANY_STEPS
@@ -48,36 +46,6 @@ def engage(before, phase_before, after, phase_after, y, model, work):
     y[XI_RATE] += xi_rate
     y[WORK_IN] += work_in
     y[WORK_PARAMETRIC] += parametric
-
-
-@kernel
-def stage_state(s, step, y, k, stage):
-    """State at which stage s = 1 … 6 is evaluated; the last one is the new state.
-
-    Written out, so that the compiler takes many states at once; the works are summed at the last stage only,
-    as nothing depends on them.
-    """
-    if s == 1:
-        for i in range(MECHANICAL):
-            stage[i] = y[i] + step * (A[1, 0] * k[0, i])
-    elif s == 2:
-        for i in range(MECHANICAL):
-            stage[i] = y[i] + step * (A[2, 0] * k[0, i] + A[2, 1] * k[1, i])
-    elif s == 3:
-        for i in range(MECHANICAL):
-            stage[i] = y[i] + step * (A[3, 0] * k[0, i] + A[3, 1] * k[1, i] + A[3, 2] * k[2, i])
-    elif s == 4:
-        for i in range(MECHANICAL):
-            total = A[4, 0] * k[0, i] + A[4, 1] * k[1, i] + A[4, 2] * k[2, i] + A[4, 3] * k[3, i]
-            stage[i] = y[i] + step * total
-    elif s == 5:
-        for i in range(MECHANICAL):
-            total = A[5, 0] * k[0, i] + A[5, 1] * k[1, i] + A[5, 2] * k[2, i] + A[5, 3] * k[3, i]
-            stage[i] = y[i] + step * (total + A[5, 4] * k[4, i])
-    else:
-        for i in range(STATES):
-            total = A[6, 0] * k[0, i] + A[6, 2] * k[2, i] + A[6, 3] * k[3, i] + A[6, 4] * k[4, i]
-            stage[i] = y[i] + step * (total + A[6, 5] * k[5, i])
 
 
 @kernel
@@ -159,8 +127,7 @@ def march(
                 error = 0.0
                 total = 0.0
                 for i in range(STATES):
-                    difference = E[0] * k[0, i] + E[2] * k[2, i] + E[3] * k[3, i]
-                    difference += E[4] * k[4, i] + E[5] * k[5, i] + E[6] * k[6, i]
+                    difference = embedded_difference(k, i)
                     # the worst state decides: states at rest must not dilute the others' error
                     off = weighed_error(step * difference, y[i], stage[i], atol[i], rtol)
                     error = max(error, off)
@@ -181,12 +148,7 @@ def march(
                             break
                         theta = (at - phase) / step
                         for i in range(STATES):
-                            high = 0.0
-                            for j in range(STAGES):
-                                high += D[j] * k[j, i]
-                            out[written, i] = dense_output(
-                                theta, step, y[i], stage[i], k[0, i], k[6, i], high
-                            )
+                            out[written, i] = dense_output(theta, step, y[i], stage[i], k, i)
                         written += 1
                     phase = next_phase
                     for i in range(STATES):

@@ -6,6 +6,7 @@ Written as laws, so that the kernel for one case and the one for many cases side
 
 import numpy as np
 
+from tribodyn.dynamics.parameters import MECHANICAL, STATES
 from tribodyn.elementary import absolute, law, maximum, minimum
 
 A = np.array(
@@ -43,6 +44,42 @@ LEAST_REMEMBERED = 1e-4
 
 
 @law
+def stage_state(s, step, y, k, stage):
+    """State at which stage s = 1 … 6 is evaluated; the last one is the new state.
+
+    Written out, so that the compiler takes many states at once; the works are summed at the last stage only,
+    as nothing depends on them.
+    """
+    if s == 1:
+        for i in range(MECHANICAL):
+            stage[i] = y[i] + step * (A[1, 0] * k[0, i])
+    elif s == 2:
+        for i in range(MECHANICAL):
+            stage[i] = y[i] + step * (A[2, 0] * k[0, i] + A[2, 1] * k[1, i])
+    elif s == 3:
+        for i in range(MECHANICAL):
+            stage[i] = y[i] + step * (A[3, 0] * k[0, i] + A[3, 1] * k[1, i] + A[3, 2] * k[2, i])
+    elif s == 4:
+        for i in range(MECHANICAL):
+            total = A[4, 0] * k[0, i] + A[4, 1] * k[1, i] + A[4, 2] * k[2, i] + A[4, 3] * k[3, i]
+            stage[i] = y[i] + step * total
+    elif s == 5:
+        for i in range(MECHANICAL):
+            total = A[5, 0] * k[0, i] + A[5, 1] * k[1, i] + A[5, 2] * k[2, i] + A[5, 3] * k[3, i]
+            stage[i] = y[i] + step * (total + A[5, 4] * k[4, i])
+    else:
+        for i in range(STATES):
+            total = A[6, 0] * k[0, i] + A[6, 2] * k[2, i] + A[6, 3] * k[3, i] + A[6, 4] * k[4, i]
+            stage[i] = y[i] + step * (total + A[6, 5] * k[5, i])
+
+
+@law
+def embedded_difference(k, i):
+    """Difference of the two methods over the step, for state i."""
+    return E[0] * k[0, i] + E[2] * k[2, i] + E[3] * k[3, i] + E[4] * k[4, i] + E[5] * k[5, i] + E[6] * k[6, i]
+
+
+@law
 def weighed_error(difference, before, after, atol, rtol):
     """Error of one state over its tolerance."""
     return absolute(difference) / (atol + rtol * maximum(absolute(before), absolute(after)))
@@ -62,10 +99,11 @@ def shrinkage(error):
 
 
 @law
-def dense_output(theta, step, before, after, first_rate, last_rate, high):
-    """State at the share `theta` of a step, fourth order; `high` is Σ D k."""
+def dense_output(theta, step, before, after, k, i):
+    """State i at the share `theta` of a step, fourth order."""
+    high = D[0] * k[0, i] + D[2] * k[2, i] + D[3] * k[3, i] + D[4] * k[4, i] + D[5] * k[5, i] + D[6] * k[6, i]
     rise = after - before
-    bend = step * first_rate - rise
+    bend = step * k[0, i] - rise
     return before + theta * (
-        rise + (1.0 - theta) * (bend + theta * (rise - step * last_rate - bend + (1.0 - theta) * step * high))
+        rise + (1.0 - theta) * (bend + theta * (rise - step * k[6, i] - bend + (1.0 - theta) * step * high))
     )

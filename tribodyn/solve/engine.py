@@ -36,6 +36,18 @@ class Tolerances(NamedTuple):
     max_steps: int
 
 
+class March(NamedTuple):
+    """What all cases of a batch share; see `ensemble.march`."""
+
+    first_cycle: int
+    cycles: int
+    window: int
+    samples: int
+    started: bool
+    rtol: float
+    max_steps: int
+
+
 class Block(NamedTuple):
     """A run of whole mesh cycles.
 

@@ -13,10 +13,14 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.dynamics.parameters import STATES, Model
-from tribodyn.solve.engine import DONE
-from tribodyn.solve.stiffness import choose
+from tribodyn.solve.engine import DONE, TOO_MANY_STEPS, March
+from tribodyn.solve.stiffness import EXPLICIT, choose
 from tribodyn.solve.transient import cycles_per_block, make_engine, tolerances_from
 
+#: Explicit steps in one mesh cycle above which a case of a batch is taken out of the lanes and begun anew by
+#: itself, with the method that `stiffness.choose` finds for it: the estimate costs as much as many cycles, so
+#: that it is made for few.
+HANDED_OVER = 5000
 #: Greatest number of steps in one mesh cycle, as a scenario's `solver.max_steps` has it by default.
 MAX_STEPS = 1_000_000
 
@@ -89,7 +93,8 @@ def march(
     first_cycle : int
         Whole mesh cycles done before; with the phase and the lag they give the time.
     method : str
-        "auto" chooses case by case between explicit and stiff, see `stiffness.choose`.
+        "auto": explicit, and where that takes too many steps what `stiffness.choose` finds; or a method's
+        name, see `transient.make_engine`.
     workers : int, optional
         Threads; by default one a core that this process may use.
     progress : callable, optional
@@ -101,31 +106,67 @@ def march(
         raise ValueError(f"states have shape {states.shape}, not ({cases}, {STATES}) for {cases} models")
     if not 0 <= window <= cycles:
         raise ValueError(f"a window of {window} cycles does not fit into {cycles}")
-    found = Ensemble(
-        states.copy(),
-        np.full((cases, window * samples, STATES), np.nan),
-        np.zeros(cases, dtype=int),
-        np.zeros(cases),
-        np.zeros(cases, dtype=int),
-        np.zeros(cases, dtype=int),
-    )
+    count = workers or usable_cores()
+    shared = March(first_cycle, cycles, window, samples, started, float(rtol), max_steps)
+    if method not in ("auto", EXPLICIT):
+        return one_by_one(models, states, method, shared, count, progress)
+    limit = max_steps if method == EXPLICIT else min(max_steps, HANDED_OVER)
+    found = in_lanes(models, states, shared._replace(max_steps=limit), count, progress)
+    dear = np.flatnonzero((found.status == TOO_MANY_STEPS) & (limit < max_steps)).tolist()
+    if dear:
+        again = one_by_one([models[case] for case in dear], states[dear], method, shared, count, progress)
+        for whole, part in zip(found, again, strict=True):
+            whole[dear] = part
+    return found
+
+
+def in_lanes(
+    models: Sequence[Model],
+    states: np.ndarray,
+    shared: March,
+    workers: int,
+    progress: Callable[[float], None] | None = None,
+) -> Ensemble:
+    """Integrate with the explicit method, many cases side by side in the lanes of vectors."""
+    from tribodyn.solve.lane_batch import batches, run_threads
+
+    found = _empty(states, shared)
+    batches_ = batches(models, states, shared)
+    run_threads(batches_, shared, workers, progress)
+    for batch in batches_:
+        for name in Ensemble._fields:
+            getattr(found, name)[batch.places] = getattr(batch.queue, name)
+    return found
+
+
+def one_by_one(
+    models: Sequence[Model],
+    states: np.ndarray,
+    method: str,
+    shared: March,
+    workers: int,
+    progress: Callable[[float], None] | None = None,
+) -> Ensemble:
+    """Integrate each case with its own engine, as a single run does, one case a thread."""
+    found = _empty(states, shared)
     cancelled = threading.Event()
+    opening = shared.cycles - shared.window
 
     def one(case: int) -> None:
         model = models[case]
-        chosen = choose(method, model, found.state[case]).method
-        tolerances = tolerances_from(model, found.state[case], rtol, max_steps)
-        engine = make_engine(chosen, model, samples, tolerances)
-        engine.started = started
-        size = cycles_per_block(chosen, cycles)
+        chosen = choose(method, model, states[case]).method
+        tolerances = tolerances_from(model, states[case], shared.rtol, shared.max_steps)
+        engine = make_engine(chosen, model, shared.samples, tolerances)
+        engine.started = shared.started
+        size = cycles_per_block(chosen, shared.cycles)
         done = 0
-        while done < cycles and not cancelled.is_set():
+        while done < shared.cycles and not cancelled.is_set():
             # blocks end where the window begins, so that nothing before it is kept for long
-            end = cycles - window if done < cycles - window else cycles
-            count = min(size, end - done)
-            block = engine.block(found.state[case], first_cycle + done, count)
-            first = (done - (cycles - window)) * samples
-            if first >= 0:
+            end = opening if done < opening else shared.cycles
+            cycles = min(size, end - done)
+            block = engine.block(found.state[case], shared.first_cycle + done, cycles)
+            if done >= opening:
+                first = (done - opening) * shared.samples
                 found.samples[case, first : first + len(block.samples)] = block.samples
             found.state[case] = block.state
             found.reached[case] += block.reached
@@ -134,16 +175,28 @@ def march(
             if block.status != DONE:
                 found.status[case] = block.status
                 return
-            done += count
+            done += cycles
 
-    pool = ThreadPoolExecutor(workers or usable_cores())
-    try:
-        jobs = [pool.submit(one, case) for case in range(cases)]
-        for done, job in enumerate(as_completed(jobs), 1):
-            job.result()
-            if progress:
-                progress(done / cases)
-    finally:
-        cancelled.set()
-        pool.shutdown(cancel_futures=True)
+    with ThreadPoolExecutor(workers) as pool:
+        try:
+            jobs = [pool.submit(one, case) for case in range(len(models))]
+            for done, job in enumerate(as_completed(jobs), 1):
+                job.result()
+                if progress:
+                    progress(done / len(jobs))
+        finally:
+            cancelled.set()
+            pool.shutdown(cancel_futures=True)
     return found
+
+
+def _empty(states: np.ndarray, shared: March) -> Ensemble:
+    count = len(states)
+    return Ensemble(
+        states.copy(),
+        np.full((count, shared.window * shared.samples, STATES), np.nan),
+        np.zeros(count, dtype=int),
+        np.zeros(count),
+        np.zeros(count, dtype=int),
+        np.zeros(count, dtype=int),
+    )

@@ -1,0 +1,1 @@
+"""Lanes: the laws compiled for vectors of cases, one case a lane."""

@@ -1,0 +1,125 @@
+"""Many models as rows of numbers and addresses, from which a block of lanes is filled."""
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.dynamics.parameters import Model, Options
+from tribodyn.lanes.tables import Field, LaneRecord
+from tribodyn.lanes.vectors import WIDTH
+
+#: The model's named tuples of numbers and tables.
+RECORDS = tuple(name for name in Model._fields if name != "options")
+#: Tables that models of one kind have in common, value for value: branches may hang on them.
+SHARED = ("side", "in_contact")
+
+
+class Kind(NamedTuple):
+    """What must be the same over the lanes of a block: the options, and the shape of every field."""
+
+    options: Options
+    shapes: tuple[tuple[tuple[int, ...], ...], ...]
+    contacts: bytes  # side of every slot, and which are in contact in which segment
+
+    @property
+    def pairs(self) -> int:
+        """Number of pair slots."""
+        return self.shapes[0][2][0]
+
+
+class Kept(NamedTuple):
+    """A table as it came, as contiguous floats, and where these are."""
+
+    given: Any
+    array: np.ndarray
+    address: int
+
+
+class Packed(NamedTuple):
+    """Models of one kind.
+
+    Attributes
+    ----------
+    kind : Kind
+    fields : fields of every record
+    numbers : (C, F) float64
+    addresses : (C, T) int64
+    lengths : (L,) int64
+    kept : what the addresses point into
+    """
+
+    kind: Kind
+    fields: tuple[tuple[Field, ...], ...]
+    numbers: np.ndarray
+    addresses: np.ndarray
+    lengths: np.ndarray
+    kept: list[Kept]
+
+
+def kind_of(model: Model) -> Kind:
+    """What a model has to share with another one to run beside it."""
+    shapes = tuple(
+        tuple(getattr(value, "shape", ()) for value in getattr(model, record)) for record in RECORDS
+    )
+    contacts = b"".join(np.asarray(getattr(model.table, name), dtype=float).tobytes() for name in SHARED)
+    return Kind(model.options, shapes, contacts)
+
+
+def pack(models: Sequence[Model]) -> Packed:
+    """Rows of models of one kind; tables stay where they are."""
+    kind = kind_of(models[0])
+    fields, lengths = _fields(models[0], kind)
+    kept: dict[int, Kept] = {}
+    numbers = np.empty((len(models), sum(f.ndim == 0 for group in fields for f in group)))
+    addresses = np.empty((len(models), sum(f.ndim > 0 for group in fields for f in group)), dtype=np.int64)
+    rows: dict[int, tuple[Any, list[float], list[int]]] = {}
+    for case, model in enumerate(models):
+        first_number = first_address = 0
+        for name, group in zip(RECORDS, fields, strict=True):
+            record = getattr(model, name)
+            if id(record) not in rows:
+                rows[id(record)] = (record, *_row(record, group, kept))
+            _, own_numbers, own_addresses = rows[id(record)]
+            numbers[case, first_number : first_number + len(own_numbers)] = own_numbers
+            addresses[case, first_address : first_address + len(own_addresses)] = own_addresses
+            first_number += len(own_numbers)
+            first_address += len(own_addresses)
+    return Packed(kind, fields, numbers, addresses, np.array(lengths, dtype=np.int64), list(kept.values()))
+
+
+def _fields(model: Model, kind: Kind) -> tuple[tuple[tuple[Field, ...], ...], list[int]]:
+    found, lengths = [], []
+    number = address = 0
+    for name, shapes in zip(RECORDS, kind.shapes, strict=True):
+        group = []
+        for field, shape in zip(getattr(model, name)._fields, shapes, strict=True):
+            row = address if shape else number
+            group.append(Field(field, len(shape), row, len(lengths), field in SHARED))
+            number += not shape
+            address += bool(shape)
+            lengths += shape
+        found.append(tuple(group))
+    return tuple(found), lengths
+
+
+def _row(record: Any, fields: tuple[Field, ...], kept: dict[int, Kept]) -> tuple[list[float], list[int]]:
+    """Numbers and addresses of one record; a table that several records share is kept once."""
+    numbers, addresses = [], []
+    for value, field in zip(record, fields, strict=True):
+        if not field.ndim:
+            numbers.append(float(value))
+            continue
+        if id(value) not in kept:
+            array = np.ascontiguousarray(value, dtype=np.float64)
+            kept[id(value)] = Kept(value, array, array.ctypes.data)
+        addresses.append(kept[id(value)].address)
+    return numbers, addresses
+
+
+def lane_model(packed: Packed) -> tuple[Model, np.ndarray, np.ndarray]:
+    """A model over the lanes, and its numbers (F, WIDTH) and addresses (T, WIDTH), all of the first case."""
+    numbers = np.repeat(packed.numbers[0][:, None], WIDTH, axis=1)
+    addresses = np.repeat(packed.addresses[0][:, None], WIDTH, axis=1)
+    records: list[Any] = [LaneRecord(group, numbers, addresses, packed.lengths) for group in packed.fields]
+    return Model(**dict(zip(RECORDS, records, strict=True)), options=packed.kind.options), numbers, addresses
