@@ -1,6 +1,7 @@
 """The verb sweep as its user meets it: records, figures, failed cases, what is refused."""
 
 import json
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -162,6 +163,26 @@ def test_only_gear_pairs_in_motion_are_swept():
     ended = CliRunner().invoke(app, ["sweep", "irefc", "--vary", "operating.input_speed=100,200rpm"])
     assert ended.exit_code == 2
     assert "only gear pairs" in ended.stderr
+
+
+def test_verbs_for_runs_refuse_a_sweep(grid: Path, tmp_path: Path):
+    copy = shutil.copy(grid, tmp_path / "copy.h5")
+    ended = CliRunner().invoke(app, ["compare", str(grid), str(copy)])
+    assert ended.exit_code == 2
+    assert "the record of a sweep, not of a run" in ended.stderr
+
+
+def test_diffrax_holds_the_native_kernel_to_account(tmp_path: Path):
+    found = {}
+    for engine in ("native", "jax"):
+        path = tmp_path / f"{engine}.h5"
+        vary = ("--vary", "operating.pinion_speed=300,400rad/s", "--transient", "2", *SHORT[2:])
+        tribodyn("sweep", "crc-23-47", *vary, "--engine", engine, "-o", path)
+        with SweepRecord(path) as record:
+            found[engine] = record["transmission_error_rotational"]
+    native, jax = found.values()
+    assert not np.array_equal(native, jax)
+    np.testing.assert_allclose(native, jax, atol=2e-5 * np.ptp(jax))
 
 
 def test_an_existing_record_is_kept(grid: Path):

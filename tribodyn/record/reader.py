@@ -12,6 +12,7 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.record import schema
+from tribodyn.record.sweep_schema import SWEEP
 
 
 class Record:
@@ -188,6 +189,13 @@ class Record:
             )
         if self.status not in (schema.PARTIAL, schema.COMPLETE, schema.FAILED):
             raise ValueError(f"unknown status {self.status}")
+        if self.kind == SWEEP:
+            raise InputError(
+                "record",
+                str(self.path),
+                "the record of a sweep, not of a run",
+                "tribodyn show and plot read it",
+            )
         if self.kind not in schema.KINDS:
             raise ValueError(f"unknown kind {self.kind}")
         _ = self.pairs, self.elements
