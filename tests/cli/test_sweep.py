@@ -172,6 +172,7 @@ def test_verbs_for_runs_refuse_a_sweep(grid: Path, tmp_path: Path):
     assert "the record of a sweep, not of a run" in ended.stderr
 
 
+@pytest.mark.slow
 def test_diffrax_holds_the_native_kernel_to_account(tmp_path: Path):
     found = {}
     for engine in ("native", "jax"):
