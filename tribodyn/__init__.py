@@ -13,6 +13,9 @@ from typing import TYPE_CHECKING, Any
 
 __version__ = "0.1.0"
 
+#: Whether this process runs the command line and nothing else.
+OWN_PROCESS = False
+
 if TYPE_CHECKING:
     from tribodyn.errors import InputError, SimulationError
     from tribodyn.record.reader import open_record

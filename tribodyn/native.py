@@ -7,6 +7,8 @@ import `kernel` from here and nothing else of numba.
 import hashlib
 import math
 import os
+import sys
+from importlib import import_module
 from pathlib import Path
 
 import numba
@@ -42,13 +44,30 @@ def _cache_folder() -> Path:
     return user_cache_path("tribodyn")
 
 
+def _load_numba_without_blas() -> None:
+    """Import what numba looks for BLAS with while SciPy's seems absent: no kernel of ours uses it.
+
+    It would import all of `scipy.linalg`, a tenth of a short run's time. In a process of the command line
+    only, which no one else's kernels share.
+    """
+    if tribodyn.OWN_PROCESS and "scipy.linalg" not in sys.modules:
+        sys.modules["scipy.linalg"] = None  # pyright: ignore[reportArgumentType]
+        try:
+            import_module("numba.np.arraymath")
+        finally:
+            del sys.modules["scipy.linalg"]
+
+
+_load_numba_without_blas()
 _CACHE = _cache_folder() / f"kernels-{_source_digest()}"
 numba.core.config.CACHE_DIR = str(_CACHE)  # pyright: ignore[reportAttributeAccessIssue]
 
 #: Decorator of a compiled kernel: cached between processes, IEEE division, no reordering. Without numba's
 #: reference counts, which would cost a quarter of the right-hand side: so a kernel is handed its buffers.
 #: Without Python's lock, so that batches run on all cores.
-kernel = numba.njit(cache=True, error_model="numpy", nogil=True, _nrt=False)  # pyright: ignore[reportCallIssue]
+kernel = numba.njit(  # pyright: ignore[reportCallIssue]
+    cache=True, error_model="numpy", nogil=True, no_cfunc_wrapper=True, _nrt=False
+)
 
 #: Decorator of a part of kernels, compiled into each that calls it.
 part = register_jitable
@@ -142,4 +161,4 @@ def _last_axis_of_four(table, a, b, c, d):
 
 
 for _law in elementary.LAWS:
-    register_jitable(forceinline=True)(_law)
+    register_jitable(forceinline=True, no_cfunc_wrapper=True)(_law)

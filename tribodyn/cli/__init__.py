@@ -3,6 +3,8 @@
 
 def main() -> None:
     """Run the command line; the entry point of the `tribodyn` command."""
+    import tribodyn
     from tribodyn.cli.app import app
 
+    tribodyn.OWN_PROCESS = True
     app(prog_name="tribodyn")

@@ -95,10 +95,9 @@ def march(
         for segment in range(segments):
             phase = table.boundary[segment]
             end = table.boundary[segment + 1]
-            if segment > 0:
-                engage(segment - 1, phase, segment, phase, y, model, work)
-            elif restart or cycle > 0:
-                engage(segments - 1, 1.0, 0, 0.0, y, model, work)
+            if segment > 0 or restart or cycle > 0:
+                before = segment - 1 if segment > 0 else segments - 1
+                engage(before, table.boundary[before + 1], segment, phase, y, model, work)
             if written < (cycle + 1) * samples and (written - cycle * samples) / samples <= phase:
                 for i in range(STATES):
                     out[written, i] = y[i]
