@@ -172,20 +172,6 @@ def test_verbs_for_runs_refuse_a_sweep(grid: Path, tmp_path: Path):
     assert "the record of a sweep, not of a run" in ended.stderr
 
 
-@pytest.mark.slow
-def test_diffrax_holds_the_native_kernel_to_account(tmp_path: Path):
-    found = {}
-    for engine in ("native", "jax"):
-        path = tmp_path / f"{engine}.h5"
-        vary = ("--vary", "operating.pinion_speed=300,400rad/s", "--transient", "2", *SHORT[2:])
-        tribodyn("sweep", "crc-23-47", *vary, "--engine", engine, "-o", path)
-        with SweepRecord(path) as record:
-            found[engine] = record["transmission_error_rotational"]
-    native, jax = found.values()
-    assert not np.array_equal(native, jax)
-    np.testing.assert_allclose(native, jax, atol=2e-5 * np.ptp(jax))
-
-
 def test_an_existing_record_is_kept(grid: Path):
     ended = CliRunner().invoke(app, ["sweep", "crc-23-47", "--vary", SPEEDS, *SHORT, "-o", str(grid)])
     assert ended.exit_code == 2
