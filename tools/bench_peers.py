@@ -1,0 +1,186 @@
+"""Speed beside other programs, at equal error, in one run: ratios of medians, never a time alone.
+
+python tools/bench_peers.py                              # everything that is installed, to the terminal
+python tools/bench_peers.py --into docs/performance.md   # and into the page
+python tools/bench_peers.py --only tribodyn LSODA        # programs whose names contain a word
+
+Single: the CRC drive at 300 rad/s over 20 mesh cycles. Every program gets the loosest tolerance (of a ladder)
+with which the greatest error of the transmission error, over its range, is within TARGET of the solution at
+1e-12; compilation, tables and files are outside. Batch: the same drive at many speeds.
+"""
+
+import argparse
+import os
+import platform
+from collections.abc import Callable
+from pathlib import Path
+from time import perf_counter
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tools.marked_block import put
+from tools.peers.batch import BATCHES, Batch, speeds, threads
+from tools.peers.numpy_model import check
+from tools.peers.single import Problem, Runner, octave, octave_timed, peers, tribodyn_engine
+from tribodyn.prepare import prepare
+from tribodyn.scenario.load import load_scenario
+from tribodyn.solve.initial import static_equilibrium
+from tribodyn.solve.transient import NativeEngine
+
+Array = Any
+
+TARGET = 2e-5
+CYCLES, SAMPLES = 20, 200
+LADDER = (1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8, 1e-8, 1e-9)
+REFERENCE = "SciPy BDF, NumPy"
+
+
+class Timed(NamedTuple):
+    """One program's figures: tolerance, error achieved, median seconds of the repeats."""
+
+    name: str
+    rtol: float
+    error: float
+    seconds: float
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--into", type=Path, help="page whose marked blocks receive the tables")
+    parser.add_argument("--only", nargs="+", default=[""], help="programs whose names contain one of these")
+    parser.add_argument("--repeats", type=int, default=5)
+    parser.add_argument("--part", choices=("single", "batch", "both"), default="both")
+    chosen = parser.parse_args()
+    words = [word.lower() for word in chosen.only]
+
+    def wanted(name: str) -> bool:
+        return any(word in name.lower() for word in words)
+
+    parts = {}
+    if chosen.part != "batch":
+        parts["single"] = single(wanted, chosen.repeats)
+    if chosen.part != "single":
+        parts["batch"] = batch(wanted, chosen.repeats)
+    for name, text in parts.items():
+        print(f"\n{text}\n")
+        if chosen.into:
+            put(chosen.into, name, text)
+
+
+def problem(cycles: int = CYCLES) -> Problem:
+    """The case of the comparison."""
+    case: Any = load_scenario("crc-23-47-300")
+    model = prepare(case).model
+    return Problem(model, static_equilibrium(model), cycles, SAMPLES)
+
+
+def single(wanted: Callable[[str], bool], repeats: int) -> str:
+    """Table of single runs."""
+    posed = problem()
+    exact = tribodyn_engine("dopri5")(posed, 1e-12)
+    engine = NativeEngine(posed.model, SAMPLES, posed.tolerances(1e-9))
+    visited = engine.block(posed.state, 0, 2).samples[:-1]
+    same = check(posed.model, visited, np.arange(len(visited)) % SAMPLES / SAMPLES)
+    found = []
+    for name, run in peers().items():
+        if wanted(name):
+            one = _timed(name, run, posed, exact, repeats)
+            print(
+                f"{one.name:24s} rtol {one.rtol:.0e}  error {one.error:.1e}  {1e3 * one.seconds:.2f} ms",
+                flush=True,
+            )
+            found.append(one)
+    ours = next((one for one in found if one.name == "tribodyn dopri5"), None)
+    rows = ["| program | rtol | error | ms | times ours |", "|---|--:|--:|--:|--:|"]
+    for one in sorted(found, key=lambda one: one.seconds):
+        ratio = f"{one.seconds / ours.seconds:.3g}" if ours else ""
+        rows.append(f"| {one.name} | {one.rtol:.0e} | {one.error:.1e} | {1e3 * one.seconds:.3g} | {ratio} |")
+    rows += [
+        "",
+        f"{_machine()}; medians of {repeats}. The NumPy and Octave models differ from tribodyn's "
+        f"right-hand side by {same:.0e} of its range (they interpolate the same tables).",
+    ]
+    return "\n".join(rows)
+
+
+def _timed(name: str, run: Runner, posed: Problem, exact: Array, repeats: int) -> Timed:
+    """Find the loosest tolerance that serves, then time it."""
+    run(posed._replace(cycles=1), LADDER[0])  # compiles
+    rtol, error = loosest(lambda rtol: run(posed, rtol), exact)
+    seconds = []
+    for _ in range(repeats):
+        begun = perf_counter()
+        if run is octave:
+            seconds.append(octave_timed(posed, rtol)[1])
+            continue
+        run(posed, rtol)
+        seconds.append(perf_counter() - begun)
+    return Timed(name, rtol, error, float(np.median(seconds)))
+
+
+def loosest(run: Callable[[float], Array], exact: Array) -> tuple[float, float]:
+    """Loosest tolerance of the ladder that meets the target, or its tightest, and the error with it."""
+    span = np.ptp(exact, axis=-1, keepdims=True)
+    rtol, error = LADDER[0], np.inf
+    for rtol in LADDER:
+        error = float(np.max(np.abs(run(rtol) - exact) / span))
+        if error <= TARGET:
+            break
+    return rtol, error
+
+
+def _marching(program: Batch, cases: tuple[list[Any], Array]) -> Callable[[float], Array]:
+    return lambda rtol: program.march(*cases, program.cycles, rtol)
+
+
+def batch(wanted: Callable[[str], bool], repeats: int) -> str:
+    """Table of batches: mesh cycles × cases a second."""
+    posed = problem()
+    found: dict[str, tuple[float, float, float]] = {}
+    for name, program in BATCHES.items():
+        if not wanted(name):
+            continue
+        few = speeds(posed, 8)
+        exact = threads("dopri5")(*few, program.cycles, 1e-11)
+        rtol, error = loosest(_marching(program, few), exact)
+        cases = speeds(posed, program.cases)
+        program.march(*cases, program.cycles, rtol)  # compiles
+        times = []
+        for _ in range(repeats):
+            begun = perf_counter()
+            program.march(*cases, program.cycles, rtol)
+            times.append(perf_counter() - begun)
+        rate = program.cases * program.cycles / float(np.median(times))
+        found[name] = rtol, error, rate
+        print(
+            f"{name:32s} rtol {rtol:.0e}  error {error:.1e}  {rate:.0f} cycles x cases a second", flush=True
+        )
+    ours = next(iter(found.values()))[2]
+    rows = ["| program | rtol | error | cycles × cases a second | ours over it |", "|---|--:|--:|--:|--:|"]
+    rows += [
+        f"| {name} | {rtol:.0e} | {error:.1e} | {rate:.3g} | {ours / rate:.3g} |"
+        for name, (rtol, error, rate) in found.items()
+    ]
+    return "\n".join(
+        [
+            *rows,
+            "",
+            f"{_machine()}; pinion speeds from 100 to 600 rad/s, medians of {repeats}; error at eight of them.",
+        ]
+    )
+
+
+def _machine() -> str:
+    model = platform.processor() or platform.machine()
+    cpuinfo = Path("/proc/cpuinfo")
+    if cpuinfo.is_file():
+        lines = cpuinfo.read_text(encoding="utf-8").splitlines()
+        model = next(
+            (line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), model
+        )
+    return f"{model}, {os.cpu_count()} cores"
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,139 @@
+"""The gear pair's equations as an engineer would write them on NumPy, fast: arrays over the pairs in contact.
+
+For one kind of case only, the one the comparison is made on: prescribed speed, constant load torque,
+friction by Masjedi & Khonsari with kinematic sliding, a linear contact, pairs that stay in contact. Ten
+states: x and y of both gears, the rotational transmission error, and their rates. `check` compares it with
+tribodyn's own right-hand side, so that what is timed is the same mathematics.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from tribodyn.dynamics.equations import derivatives
+from tribodyn.dynamics.parameters import DISPLACEMENTS, STATES, VELOCITIES, Model
+
+Array = Any
+
+MOVING = [*DISPLACEMENTS, *VELOCITIES]
+
+
+class NumpyModel:
+    """Right-hand side over mesh phase; `segment` says which pairs are in contact.
+
+    Parameters
+    ----------
+    model : Model
+    """
+
+    def __init__(self, model: Model):
+        self.m, self.c, self.t = model.mechanics, model.contact, model.table
+        self.boundary = np.asarray(self.t.boundary)
+        self.pairs = [np.flatnonzero(row) for row in np.asarray(self.t.in_contact)]
+        cells = self.t.channel.shape[1]
+        self.cells = cells
+        self.channel, self.stiffness = [], []
+        for segment, pairs in enumerate(self.pairs):
+            # (cell, power, channel, pair): one row of coefficients a look-up
+            self.channel.append(np.ascontiguousarray(self.t.channel[segment][:, pairs].transpose(0, 3, 2, 1)))
+            block = self.t.stiffness[segment][:, pairs][:, :, pairs]
+            self.stiffness.append(np.ascontiguousarray(block.transpose(0, 3, 1, 2)))
+        self.w = float(self.t.pinion_pitch_radius) / float(self.t.gear_pitch_radius)
+        self.omega = float(self.m.nominal_speed)
+        self.rate = float(self.t.pitch_angle) / self.omega
+        modulus, roughness = self.c.effective_modulus, self.c.roughness
+        self.material = self.c.pressure_viscosity * modulus
+        self.hardness = self.c.hardness / modulus
+        self.asperity = (
+            self.c.asperity_log_factor * roughness**6.015 * self.hardness**1.168 * self.material**-2.898
+        )
+        self.rough = 0.2 * roughness**1.222 * self.hardness**0.223 * self.material**-0.842
+
+    def __call__(self, phase: float, y: Array, segment: int) -> Array:
+        """Derivative of the ten states per mesh cycle."""
+        m, t = self.m, self.t
+        start, end = self.boundary[segment], self.boundary[segment + 1]
+        place = min(max((phase - start) / (end - start) * self.cells, 0.0), self.cells - 1e-9)
+        cell = int(place)
+        u = place - cell
+        c0, c1, c2, c3 = self.channel[segment][cell]
+        cosine, r, radius, speed, compliance, gap, sine = c0 + u * (c1 + u * (c2 + u * c3))
+        slope = (c1 + u * (2.0 * c2 + 3.0 * u * c3)) * (self.cells / (end - start) / t.pitch_angle)
+        k0, k1, k2, k3 = self.stiffness[segment][cell]
+        stiffness = k0 + u * (k1 + u * (k2 + u * k3))
+
+        towards, across = y[4] + y[0] - y[2], y[1] - y[3]
+        towards_rate, across_rate = y[9] + y[5] - y[7], y[6] - y[8]
+        approach = towards * cosine + across * sine - gap
+        moved = (towards * slope[0] + across * slope[6] - slope[5]) * self.omega
+        approach_rate = towards_rate * cosine + across_rate * sine + moved
+        normal = np.maximum(stiffness @ approach, 0.0) + m.mesh_damping * approach_rate / np.sqrt(compliance)
+        normal = np.maximum(normal, 0.0)
+        u_p = self.omega * speed
+        sliding = self.omega * (1.0 + self.w) * r
+        turned = np.clip(r / m.reversal_width, -1.0, 1.0)
+        tangential = self.friction(normal / t.face_width, radius, u_p, u_p - sliding, np.abs(sliding))
+        tangential = tangential * normal * 0.5 * turned * (3.0 - turned * turned)
+
+        force_x = -np.sum(normal * cosine + tangential * sine)
+        force_y = np.sum(tangential * cosine - normal * sine)
+        gear_radius = float(t.gear_pitch_radius)
+        moment = np.sum(normal * gear_radius * cosine + tangential * (gear_radius * sine - r))
+        acceleration = np.array(
+            [
+                (force_x - m.pinion_stiffness_x * y[0] - m.pinion_damping_x * y[5]) / m.pinion_mass,
+                (force_y - m.pinion_stiffness_y * y[1] - m.pinion_damping_y * y[6]) / m.pinion_mass,
+                (-force_x - m.gear_stiffness_x * y[2] - m.gear_damping_x * y[7]) / m.gear_mass,
+                (-force_y - m.gear_stiffness_y * y[3] - m.gear_damping_y * y[8]) / m.gear_mass,
+                -gear_radius * (moment - m.load_torque) / m.gear_inertia,
+            ]
+        )
+        return self.rate * np.concatenate([y[5:], acceleration])
+
+    def friction(self, load: Array, radius: Array, u_p: Array, u_g: Array, sliding: Array) -> Array:
+        """Friction coefficient of each pair, Masjedi & Khonsari."""
+        c = self.c
+        modulus = c.effective_modulus
+        load = np.maximum(load, 1.0)
+        W = load / (modulus * radius)
+        U = c.inlet_viscosity * 0.5 * np.abs(u_p + u_g) / (modulus * radius)
+        inner = self.asperity * radius**-6.015 * W**0.485 * U**-3.741
+        share = np.minimum(5e-5 * W**-0.408 * U**-0.088 * self.material**0.103 * np.log1p(inner), 1.0)
+        film = 2.691 * W**-0.135 * U**0.705 * self.material**0.556 * radius
+        film = film * (1.0 + self.rough * radius**-1.222 * W**-0.229 * U**-0.748)
+        half = np.sqrt(8.0 * load * radius / (np.pi * modulus))
+        pressure = load / (2.0 * half)
+        limit = c.limiting_shear_coefficient * pressure * (1.0 - c.limiting_share * share)
+        flux = (
+            sliding * pressure * (c.asperity_friction * share + c.limiting_shear_coefficient * (1.0 - share))
+        )
+        conducted = 0.0
+        for flank, conductivity, capacity in (
+            (u_p, c.pinion_conductivity, c.pinion_heat_capacity),
+            (u_g, c.gear_conductivity, c.gear_heat_capacity),
+        ):
+            peclet = half * np.abs(flank) * capacity / (2.0 * conductivity)
+            conducted = conducted + conductivity * np.sqrt(1.0 + peclet)
+        rise = 2.0 * half * flux / (np.sqrt(np.pi) * conducted)
+        fluid = c.viscosity_pressure_factor * pressure * (1.0 - share)
+        exponent = (np.log(c.inlet_viscosity) + 9.67) * (
+            (1.0 + 5.1e-9 * fluid) ** c.viscosity_pressure_index - 1.0
+        )
+        viscosity = c.inlet_viscosity * np.exp(exponent - c.temperature_viscosity * rise)
+        newtonian = np.minimum(viscosity * sliding / (limit * film), 600.0)
+        return c.asperity_friction * share - limit / pressure * np.expm1(-newtonian)
+
+
+def check(model: Model, states: Array, phases: Array) -> float:
+    """Greatest difference from tribodyn's right-hand side, over each rate's greatest, at given states."""
+    ours = NumpyModel(model)
+    expected, found = [], []
+    for phase, state in zip(phases, states, strict=True):
+        segment = int(np.searchsorted(ours.boundary, phase, side="right")) - 1
+        full, rates = np.zeros(STATES), {}
+        full[MOVING] = state[MOVING]
+        derivatives(float(phase), 0.0, segment, full, model, {}, rates)
+        expected.append([rates[i] for i in MOVING])
+        found.append(ours(float(phase), full[MOVING], segment))
+    difference = np.abs(np.array(found) - np.array(expected))
+    return float(np.max(difference / np.max(np.abs(expected), axis=0)))

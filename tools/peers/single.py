@@ -1,0 +1,195 @@
+"""Programs that integrate one case: from a relative tolerance to samples of the transmission error."""
+
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Callable
+from importlib.util import find_spec
+from itertools import pairwise
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.integrate import solve_ivp
+from scipy.io import loadmat, savemat
+
+from tools.peers.numpy_model import MOVING, NumpyModel
+from tribodyn.dynamics.parameters import STATES, XI, Model
+from tribodyn.solve.dopri5 import buffers, rhs
+from tribodyn.solve.engine import DONE, Tolerances, absolute_tolerances
+from tribodyn.solve.transient import make_engine
+
+Array = Any
+
+
+class Problem(NamedTuple):
+    """What all of them solve: CYCLES mesh cycles from a state, sampled."""
+
+    model: Model
+    state: Array
+    cycles: int
+    samples: int
+
+    def tolerances(self, rtol: float) -> Tolerances:
+        """Tolerances scaled to the case, the same for every program."""
+        return Tolerances(rtol, absolute_tolerances(self.model, rtol, float(self.state[XI])), 10**6)
+
+    def segments(self) -> list[tuple[int, float, float, Array]]:
+        """Segments of one mesh cycle: number, both ends and the phases to sample."""
+        boundary = np.asarray(self.model.table.boundary)
+        at = np.arange(self.samples) / self.samples
+        return [
+            (k, float(a), float(b), at[(at >= a) & (at < b)]) for k, (a, b) in enumerate(pairwise(boundary))
+        ]
+
+
+Runner = Callable[[Problem, float], Array]
+
+
+def tribodyn_engine(method: str) -> Runner:
+    """One of tribodyn's own engines."""
+
+    def run(problem: Problem, rtol: float) -> Array:
+        engine = make_engine(method, problem.model, problem.samples, problem.tolerances(rtol))
+        block = engine.block(problem.state, 0, problem.cycles)
+        if block.status != DONE:
+            raise RuntimeError(f"{method}: {block.message or block.status}")
+        return block.samples[:, XI]
+
+    return run
+
+
+def scipy_on_numpy(method: str) -> Runner:
+    """SciPy on the NumPy model, restarted at every engagement."""
+
+    def run(problem: Problem, rtol: float) -> Array:
+        function = NumpyModel(problem.model)
+        atol = problem.tolerances(rtol).atol[MOVING]
+        y = problem.state[MOVING].copy()
+        found = []
+        for _ in range(problem.cycles):
+            for segment, start, end, at in problem.segments():
+                solution = solve_ivp(
+                    function,
+                    (start, end),
+                    y,
+                    method=method,
+                    rtol=rtol,
+                    atol=atol,
+                    t_eval=np.append(at, end),
+                    args=(segment,),
+                )
+                found.append(solution.y[4, :-1])
+                y = solution.y[:, -1]
+        return np.concatenate(found)
+
+    return run
+
+
+def cvode(problem: Problem, rtol: float) -> Array:
+    """CVODE's BDF through scikit-sundae, on tribodyn's compiled right-hand side."""
+    from sksundae.cvode import CVODE
+
+    model = problem.model
+    work, _ = buffers(model)
+    atol = problem.tolerances(rtol).atol[MOVING]
+    y = problem.state[MOVING].copy()
+    found = []
+    for cycle in range(problem.cycles):
+        for segment, start, end, at in problem.segments():
+            # of three or more times the solver reports exactly these
+            times = np.unique(np.concatenate([[start], at, [end]]))
+            function = _right_hand_side(model, work, float(cycle), segment)
+            solver = CVODE(function, method="BDF", rtol=rtol, atol=atol, max_num_steps=10**6)
+            solution = solver.solve(times, y)
+            found.append(solution.y[np.isin(times, at), 4])
+            y = solution.y[-1].copy()
+    return np.concatenate(found)
+
+
+def _right_hand_side(model: Model, work: Array, cycle: float, segment: int) -> Callable[..., None]:
+    full, rates = np.zeros(STATES), np.zeros(STATES)
+
+    def function(t: float, y: Array, out: Array) -> None:
+        full[MOVING] = y
+        rhs(t, cycle, segment, full, model, work, rates)
+        out[:] = rates[MOVING]
+
+    return function
+
+
+def octave(problem: Problem, rtol: float) -> Array:
+    """Octave's ode15s on the model in Octave; times itself, so that its start does not count."""
+    return octave_timed(problem, rtol)[0]
+
+
+def octave_timed(problem: Problem, rtol: float) -> tuple[Array, float]:
+    """Samples, and the seconds that Octave took for the integration alone."""
+    model = NumpyModel(problem.model)
+    numbers = {
+        name: np.asarray(value, dtype=float)
+        for part in (problem.model.mechanics, problem.model.contact)
+        for name, value in part._asdict().items()
+        if np.ndim(value) == 0
+    }
+    table = problem.model.table
+    numbers |= {
+        "face_width": float(table.face_width),
+        "gear_pitch_radius": float(table.gear_pitch_radius),
+        "pitch_angle": float(table.pitch_angle),
+        "w": model.w,
+        "omega": model.omega,
+        "rate": model.rate,
+        "material": model.material,
+        "asperity": model.asperity,
+        "rough": model.rough,
+    }
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        channel, stiffness = (np.empty(len(model.pairs), dtype=object) for _ in range(2))
+        for segment in range(len(model.pairs)):
+            channel[segment], stiffness[segment] = model.channel[segment], model.stiffness[segment]
+        savemat(
+            folder / "case.mat",
+            {
+                "p": numbers,
+                "channel": channel,
+                "stiffness": stiffness,
+                "boundary": model.boundary,
+                "y0": problem.state[MOVING][:, None],
+                "rtol": rtol,
+                "atol": problem.tolerances(rtol).atol[MOVING],
+                "cycles": float(problem.cycles),
+                "samples": float(problem.samples),
+            },
+        )
+        script = Path(__file__).with_name("gear_pair.m")
+        subprocess.run(
+            ["octave-cli", "--quiet", "--no-init-file", str(script), str(folder)],
+            check=True,
+            capture_output=True,
+            text=True,
+        )
+        found: Any = loadmat(folder / "found.mat")
+    return found["xi"].ravel(), float(found["seconds"].item())
+
+
+def peers() -> dict[str, Runner]:
+    """All programs that can be run here, ours first."""
+    found: dict[str, Runner] = {
+        "tribodyn dopri5": tribodyn_engine("dopri5"),
+        "tribodyn rodas4": tribodyn_engine("rodas4"),
+        "SciPy BDF, NumPy": scipy_on_numpy("BDF"),
+        "SciPy LSODA, NumPy": scipy_on_numpy("LSODA"),
+        "SciPy BDF, numba": tribodyn_engine("bdf"),
+        "SciPy LSODA, numba": tribodyn_engine("lsoda"),
+        "SciPy DOP853, numba": tribodyn_engine("dop853"),
+        "diffrax Tsit5": tribodyn_engine("tsit5"),
+        "diffrax Dopri8": tribodyn_engine("dopri8"),
+        "diffrax Kvaerno5": tribodyn_engine("kvaerno5"),
+    }
+    if find_spec("sksundae"):
+        found["CVODE BDF, numba"] = cvode
+    if shutil.which("octave-cli"):
+        found["Octave ode15s"] = octave
+    return found
