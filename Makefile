@@ -2,6 +2,8 @@
 # make test   lint, types and all tests, the slow ones and the speed ratios included
 # make quick  the tests that take seconds
 PYTHON ?= python3
+# two test processes share the cores; a BLAS's own threads would only stand in their way
+export OPENBLAS_NUM_THREADS ?= 1
 VENV := .venv
 BIN := $(VENV)/bin
 # the constraints also hold for what builds the package

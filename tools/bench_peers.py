@@ -166,7 +166,7 @@ def batch(wanted: Callable[[str], bool], repeats: int) -> str:
         [
             *rows,
             "",
-            f"{_machine()}; pinion speeds from 100 to 600 rad/s, medians of {repeats}; error at eight of them.",
+            f"{_machine()}; speeds from 100 to 600 rad/s, error at eight of them; medians of {repeats}.",
         ]
     )
 

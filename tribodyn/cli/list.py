@@ -73,13 +73,15 @@ def _plots() -> dict[str, str]:
         "load contact studies": LOAD_CONTACT_NAMES,
         "the oscillator with backlash": OSCILLATOR_NAMES,
     }
-    listed = {}
+    listed: dict[str, str] = {}
     for name in dict.fromkeys((*NAMES, *(one for names in also.values() for one in names))):
         others = [kind for kind, names in also.items() if name in names]
         what = name.replace("-", " ")
         told = "; also of " if name in NAMES else ", of "
         listed[name] = what + (told + " and ".join(others) if others else "")
-    return listed | dict.fromkeys(RUN_UP_NAMES, "orders of the mesh while the speed changes, such as run-up")
+    for name in RUN_UP_NAMES:
+        listed[name] = "orders of the mesh while the speed changes, such as run-up"
+    return listed
 
 
 def _titles(folder: Any) -> dict[str, str]:
