@@ -73,7 +73,9 @@ def _engaged(y: Any, before: Any, segment: Any, model: Model) -> Any:
 
 
 @partial(jax.jit, static_argnames=("method", "options", "cycles", "most"))
-def _march(method, options, cycles, most, numbers, y, first_cycle, restart, at, rtol, atol, max_steps):
+def march_segments(
+    method, options, cycles, most, numbers, y, first_cycle, restart, at, rtol, atol, max_steps
+):
     """Scan over the segments of `cycles` cycles; `at` (segments, most) holds each segment's sample phases."""
     table, mechanics, contact = numbers
     model = Model(table, mechanics, contact, options, logarithms(contact))
@@ -84,12 +86,16 @@ def _march(method, options, cycles, most, numbers, y, first_cycle, restart, at, 
         controller = diffrax.PIDController(rtol=rtol, atol=atol)
 
     def one(carry, index):
-        y, dead = carry
+        kept, dead = carry
+        y = kept
         segment = index % segments
         cycle = first_cycle + index // segments
         start, end = table.boundary[segment], table.boundary[segment + 1]
         jumped = _engaged(y, (segment - 1) % segments, segment, model)
         y = jnp.where((index > 0) | restart, jumped, y)
+        # a case that failed waits for the others of its batch at a harmless state, over next to nothing
+        y = jnp.where(dead, 0.0, y)
+        end = jnp.where(dead, start + 1e-9 * (end - start), end)
         solution = diffrax.diffeqsolve(
             diffrax.ODETerm(right_hand_side),
             SOLVERS[method](),
@@ -98,7 +104,7 @@ def _march(method, options, cycles, most, numbers, y, first_cycle, restart, at, 
             (end - start) * 1e-3,
             y,
             args=(cycle.astype(float), segment, model),
-            saveat=diffrax.SaveAt(ts=at[segment], t1=True),
+            saveat=diffrax.SaveAt(ts=jnp.where(dead, start, at[segment]), t1=True),
             stepsize_controller=controller,
             max_steps=None,
             throw=False,
@@ -112,7 +118,7 @@ def _march(method, options, cycles, most, numbers, y, first_cycle, restart, at, 
             | (reached > max_steps)
         )
         stalled = solution.result == diffrax.RESULTS.event_occurred
-        return (jnp.where(dead, y, states[-1]), dead | failed), (
+        return (jnp.where(dead, kept, states[-1]), dead | failed), (
             states[:-1],
             jnp.asarray(failed),
             stalled,
@@ -121,6 +127,49 @@ def _march(method, options, cycles, most, numbers, y, first_cycle, restart, at, 
         )
 
     return jax.lax.scan(one, (y, jnp.asarray(False)), jnp.arange(cycles * segments))
+
+
+def sample_phases(boundary: np.ndarray, samples: int) -> tuple[np.ndarray, list[int]]:
+    """Phases of the samples in every segment, filled up with its end, and how many are samples.
+
+    Filled up to the whole cycle's number, so that another contact ratio compiles nothing again.
+    """
+    phases = np.arange(samples) / max(samples, 1)
+    groups = [phases[(phases >= a) & (phases < b)] for a, b in pairwise(boundary)]
+    filled = [
+        np.append(group, np.full(max(samples, 1) - len(group), end))
+        for group, end in zip(groups, boundary[1:], strict=True)
+    ]
+    return np.array(filled), [len(group) for group in groups]
+
+
+def outcome(
+    samples: np.ndarray,
+    failed: np.ndarray,
+    stalled: np.ndarray,
+    steps: np.ndarray,
+    boundary: np.ndarray,
+    counts: list[int],
+    cycles: int,
+    max_steps: int,
+    method: str,
+) -> Block:
+    """What `march_segments` brought, less the state: samples up to the first segment that failed, and why."""
+    segments = len(counts)
+    kept = []
+    status, reached = DONE, float(cycles)
+    for index in range(cycles * segments):
+        if failed[index]:
+            status = STALLED if stalled[index] else NOT_FINITE
+            if steps[index] > max_steps:
+                status = TOO_MANY_STEPS
+            reached = index // segments + float(boundary[index % segments])
+            break
+        kept.append(samples[index, : counts[index % segments]])
+    done = int(np.sum(steps[: len(kept)]))
+    stages = {"tsit5": 6, "dopri8": 13, "kvaerno5": 7}[method]
+    found = np.concatenate(kept) if kept else np.empty((0, STATES))
+    return Block(found, np.full(STATES, np.nan), status, reached, done, done * stages)
 
 
 class DiffraxEngine:
@@ -140,25 +189,18 @@ class DiffraxEngine:
         self.method = method
         self.options: Options = model.options
         self.numbers = jax.tree.map(jnp.asarray, (model.table, model.mechanics, model.contact))
-        boundary = np.asarray(model.table.boundary)
-        phases = np.arange(samples) / samples
-        groups = [phases[(phases >= a) & (phases < b)] for a, b in pairwise(boundary)]
-        self.counts = [len(group) for group in groups]
-        # padded to the whole cycle, so that another contact ratio compiles nothing again
-        self.most = samples
-        self.at = jnp.asarray(
-            [np.append(g, np.full(self.most - len(g), b)) for g, b in zip(groups, boundary[1:], strict=True)]
-        )
+        at, self.counts = sample_phases(np.asarray(model.table.boundary), samples)
+        self.at = jnp.asarray(at)
         self.tolerances = tolerances
         self.started = False
 
     def block(self, state: np.ndarray, first_cycle: int, cycles: int) -> Block:
         """See `engine.Engine`."""
-        (y, _), (samples, failed, stalled, steps, _) = _march(
+        (y, _), (samples, failed, stalled, steps, _) = march_segments(
             self.method,
             self.options,
             cycles,
-            self.most,
+            self.at.shape[1],
             self.numbers,
             jnp.asarray(state),
             first_cycle,
@@ -169,25 +211,14 @@ class DiffraxEngine:
             self.tolerances.max_steps,
         )
         self.started = True
-        samples, failed, stalled, steps = (np.asarray(x) for x in (samples, failed, stalled, steps))
-        segments = len(self.counts)
-        kept = []
-        status, reached = DONE, float(cycles)
-        for index in range(cycles * segments):
-            if failed[index]:
-                status = STALLED if stalled[index] else NOT_FINITE
-                if steps[index] > self.tolerances.max_steps:
-                    status = TOO_MANY_STEPS
-                reached = index // segments + float(self.numbers[0].boundary[index % segments])
-                break
-            kept.append(samples[index, : self.counts[index % segments]])
-        done = int(np.sum(steps[: len(kept)]))
-        stages = {"tsit5": 6, "dopri8": 13, "kvaerno5": 7}[self.method]
-        return Block(
-            np.concatenate(kept) if kept else np.empty((0, STATES)),
-            np.array(y),
-            status,
-            reached,
-            done,
-            done * stages,
-        )
+        return outcome(
+            np.asarray(samples),
+            np.asarray(failed),
+            np.asarray(stalled),
+            np.asarray(steps),
+            np.asarray(self.numbers[0].boundary),
+            self.counts,
+            cycles,
+            self.tolerances.max_steps,
+            self.method,
+        )._replace(state=np.array(y))
