@@ -88,7 +88,7 @@ def scipy_on_numpy(method: str) -> Runner:
 
 def cvode(problem: Problem, rtol: float) -> Array:
     """CVODE's BDF through scikit-sundae, on tribodyn's compiled right-hand side."""
-    from sksundae.cvode import CVODE
+    from sksundae.cvode import CVODE  # pyright: ignore[reportMissingImports]
 
     model = problem.model
     work, _ = buffers(model)
