@@ -144,8 +144,7 @@ def roll_through(
     assembly = flexible.assembly
     pitch = 2.0 * np.pi / float(assembly.drive.pinion.teeth)
     start, _ = roll_limits(assembly)
-    first, last = math.floor((limits[0] - start) / pitch), math.ceil((limits[1] - start) / pitch) - 1
-    ages = np.arange(last, first - 1, -1)
+    ages = _ages(limits, start, pitch)
     phase = np.arange(positions * cycles) / positions
     cycle = np.arange(positions * cycles) // positions
     roll = start + pitch * ((phase - cycle)[:, None] + ages)
@@ -197,9 +196,7 @@ def harris_map(
     pitch = 2.0 * np.pi / float(assembly.drive.pinion.teeth)
     start, _ = roll_limits(assembly)
     limits = reach(flexible, modifications, max(gear_torques), slices, coupled)
-    ages = np.arange(
-        math.ceil((limits[1] - start) / pitch) - 1, math.floor((limits[0] - start) / pitch) - 1, -1
-    )
+    ages = _ages(limits, start, pitch)
     phase = np.arange(positions) / positions
     roll = start + pitch * (phase[:, None] + ages)
     gap = flank_gap(
@@ -275,6 +272,12 @@ def check(flexible: PairFlexibility, modifications: Modifications, gear_torque: 
             f"makes slices narrower than the contact at {gear_torque:g} N m, {contact * 1e3:.2g} mm",
             f"give at most {int(flexible.width / contact)}",
         )
+
+
+def _ages(limits: tuple[float, float], start: float, pitch: float) -> Array:
+    """Whole pitches since the pairs that can touch began their path, the pair that entered first in front."""
+    first, last = math.floor((limits[0] - start) / pitch), math.ceil((limits[1] - start) / pitch) - 1
+    return np.arange(last, first - 1, -1)
 
 
 def _nearest(flexible: PairFlexibility, modifications: Modifications, roll: Array, face: Array) -> Array:

@@ -130,7 +130,7 @@ def in_lanes(
     """Integrate with the explicit method, many cases side by side in the lanes of vectors."""
     from tribodyn.solve.lane_batch import batches, run_threads
 
-    found = _empty(states, shared)
+    found = nothing_yet(states, shared.window * shared.samples)
     batches_ = batches(models, states, shared)
     run_threads(batches_, shared, workers, progress)
     for batch in batches_:
@@ -148,7 +148,7 @@ def one_by_one(
     progress: Callable[[float], None] | None = None,
 ) -> Ensemble:
     """Integrate each case with its own engine, as a single run does, one case a thread."""
-    found = _empty(states, shared)
+    found = nothing_yet(states, shared.window * shared.samples)
     cancelled = threading.Event()
     opening = shared.cycles - shared.window
 
@@ -190,11 +190,12 @@ def one_by_one(
     return found
 
 
-def _empty(states: np.ndarray, shared: March) -> Ensemble:
+def nothing_yet(states: np.ndarray, kept: int) -> Ensemble:
+    """Results before anything is integrated, with room for `kept` samples a case."""
     count = len(states)
     return Ensemble(
         states.copy(),
-        np.full((count, shared.window * shared.samples, STATES), np.nan),
+        np.full((count, kept, STATES), np.nan),
         np.zeros(count, dtype=int),
         np.zeros(count),
         np.zeros(count, dtype=int),

@@ -11,11 +11,11 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from tribodyn.dynamics.parameters import STATES, Model
+from tribodyn.dynamics.parameters import Model
 from tribodyn.lanes.packing import Kind, kind_of
 from tribodyn.solve.diffrax_engine import march_segments, outcome, sample_phases, use_compilation_cache
 from tribodyn.solve.engine import DONE
-from tribodyn.solve.ensemble import MAX_STEPS, Ensemble
+from tribodyn.solve.ensemble import MAX_STEPS, Ensemble, nothing_yet
 from tribodyn.solve.transient import tolerances_from
 
 
@@ -42,15 +42,7 @@ def march(
     """
     use_compilation_cache()
     states = np.asarray(states, dtype=float)
-    count = len(models)
-    found = Ensemble(
-        states.copy(),
-        np.full((count, window * samples, STATES), np.nan),
-        np.zeros(count, dtype=int),
-        np.zeros(count),
-        np.zeros(count, dtype=int),
-        np.zeros(count, dtype=int),
-    )
+    found = nothing_yet(states, window * samples)
     groups: dict[Kind, list[int]] = {}
     for case, model in enumerate(models):
         groups.setdefault(kind_of(model), []).append(case)
