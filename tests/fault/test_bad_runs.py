@@ -119,19 +119,22 @@ def test_a_simulation_that_gives_up_says_when_and_keeps_what_it_has(tmp_path: Pa
     assert "failed" in shown.stdout
 
 
-def _heed_interrupts():
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
+# a shell's background job ignores the signal, and so would its children
+HEEDING_INTERRUPTS = """
+import signal
+signal.signal(signal.SIGINT, signal.default_int_handler)
+from tribodyn.cli import main
+main()
+"""
 
 
 def test_an_interrupted_run_keeps_what_it_has(tmp_path: Path):
     process = subprocess.Popen(
-        [sys.executable, "-m", "tribodyn", "run", "crc-23-47", "--set", "solver.cycles=100000", "--no-plot"],
+        [sys.executable, "-c", HEEDING_INTERRUPTS, "run", "crc-23-47", "--set", "solver.cycles=100000"],
         cwd=tmp_path,
         stderr=subprocess.PIPE,
         text=True,
         env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])},
-        # a shell's background job ignores the signal, and so would its children
-        preexec_fn=_heed_interrupts,
     )
     partial = tmp_path / "crc-23-47.partial.h5"
     started = time.monotonic()
