@@ -93,7 +93,7 @@ def test_pairs_are_numbered_from_the_newest(tmp_path: Path):
 def test_the_name_appears_only_when_complete(tmp_path: Path):
     with writer(tmp_path / "run.h5") as record:
         record.write(0, block(0, 10))
-        assert [file.name for file in tmp_path.iterdir()] == ["run.partial.h5"]
+        assert {file.name for file in tmp_path.iterdir()} == {"run.partial.h5", "run.partial.lock"}
         with open_record(tmp_path / "run.partial.h5") as running:
             assert running.status == "partial"
             np.testing.assert_array_equal(running["time"], np.arange(10.0))
@@ -107,7 +107,7 @@ def test_a_failed_run_is_trimmed_and_says_why(tmp_path: Path):
     with writer(tmp_path / "run.h5") as record:
         record.write(0, block(0, 7))
         path = record.fail("stopped at t = 7 s: step too small", {"steps": 12})
-    assert [file.name for file in tmp_path.iterdir()] == ["run.partial.h5"]
+    assert {file.name for file in tmp_path.iterdir()} == {"run.partial.h5", "run.partial.lock"}
     with open_record(path) as failed:
         assert (failed.status, failed.message) == ("failed", "stopped at t = 7 s: step too small")
         assert failed.summary == {"steps": 12}

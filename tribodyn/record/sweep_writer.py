@@ -18,7 +18,8 @@ from tribodyn.errors import InputError
 from tribodyn.record import layout, sweep_schema
 from tribodyn.record.schema import COMPLETE, FAILED, FORMAT, PARTIAL, STATUS_NOTES, Variable, partial_path
 from tribodyn.record.sweep_schema import CASES, SWEEP
-from tribodyn.record.writer import check_target
+from tribodyn.record.writer import check_target, refuse_existing
+from tribodyn.record.writing_lock import WritingLock
 
 #: What the root says of a sweep that is not complete.
 NOTE = "the sweep is going on, or was stopped: cases whose status is 0 are still to be done"
@@ -99,30 +100,46 @@ class SweepWriter:
     def __init__(self, path: str | Path, head: SweepHead, *, force: bool = False, resume: bool = False):
         self.path = Path(path)
         self.partial = partial_path(self.path)
-        if resume and not force and self.partial.exists():
-            self._places = _places_of(self.partial, head)
-        else:
+        if not (resume and not force and self.partial.exists()):
             check_target(self.path, force)
-            scratch = self.path.with_name(f"{self.path.stem}.{os.getpid()}.tmp")
-            try:
-                self._places = _create(scratch, head)
-                os.replace(scratch, self.partial)
-            except OSError as error:
-                if scratch.exists():
-                    scratch.unlink()
-                reason = error.strerror or str(error)
-                raise InputError(
-                    "output", str(path), f"cannot be written: {reason}", "choose another file"
-                ) from error
-        with h5py.File(self.partial, "r") as file:
-            self.status: np.ndarray = file["status"][...].ravel()  # pyright: ignore
-        self._file = self.partial.open("r+b", buffering=0)
+        try:
+            self._lock = WritingLock(self.path)
+        except OSError as error:
+            raise self._unwritable(error) from error
+        try:
+            self._places = self._laid_out(head, force, resume)
+            with h5py.File(self.partial, "r") as file:
+                self.status: np.ndarray = file["status"][...].ravel()  # pyright: ignore
+            self._file = self.partial.open("r+b", buffering=0)
+        except BaseException:
+            self._lock.release()
+            raise
+
+    def _laid_out(self, head: SweepHead, force: bool, resume: bool) -> dict[str, layout.Place]:
+        """Places of all datasets in what is left, or in a file made anew."""
+        if resume and not force and self.partial.exists():
+            return _places_of(self.partial, head)
+        refuse_existing(self.path, force)  # another may just have ended
+        scratch = self.path.with_name(f"{self.path.stem}.{os.getpid()}.tmp")
+        try:
+            places = _create(scratch, head)
+            os.replace(scratch, self.partial)
+        except OSError as error:
+            if scratch.exists():
+                scratch.unlink()
+            raise self._unwritable(error) from error
+        return places
+
+    def _unwritable(self, error: OSError) -> InputError:
+        reason = error.strerror or str(error)
+        return InputError("output", str(self.path), f"cannot be written: {reason}", "choose another file")
 
     def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:
         self._file.close()
+        self._lock.release()
 
     def write(self, cases: np.ndarray, block: Mapping[str, Any]) -> None:
         """Put the results of cases in their place.

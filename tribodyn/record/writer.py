@@ -20,6 +20,7 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.record import layout
 from tribodyn.record.schema import COMPLETE, FAILED, GEAR_PAIR, STATUS_NOTES, axis_name, partial_path
+from tribodyn.record.writing_lock import WritingLock, refuse_if_written
 
 
 def check_target(path: Path, force: bool = False) -> None:
@@ -28,8 +29,8 @@ def check_target(path: Path, force: bool = False) -> None:
     Raises
     ------
     InputError
-        If the folder is missing or unwritable, or if the record or the remains of an earlier run are
-        there and `force` is not given.
+        If the folder is missing or unwritable, if another process is writing that record, or if the record
+        or the remains of an earlier run are there and `force` is not given.
     """
     path = Path(path)
     folder = path.parent
@@ -41,6 +42,12 @@ def check_target(path: Path, force: bool = False) -> None:
         raise InputError(
             "output", str(path), "the folder cannot be written to", "choose another with --output"
         )
+    refuse_if_written(path)
+    refuse_existing(path, force)
+
+
+def refuse_existing(path: Path, force: bool) -> None:
+    """Raise InputError if the record or what an unfinished run left is there, and `force` is not given."""
     if force:
         return
     if os.path.exists(path):
@@ -118,13 +125,19 @@ class RecordWriter:
         )
         check_target(self.path, force)
         scratch = self._scratch()
+        self._lock: WritingLock | None = None
         try:
+            self._lock = WritingLock(self.path)
+            refuse_existing(self.path, force)  # another may just have ended
             self._place = layout.create(scratch, self._head, samples)
             os.replace(scratch, self.partial)
             self._file = self.partial.open("r+b", buffering=0)
-        except OSError as error:
+        except BaseException as error:
             if os.path.exists(scratch):
                 scratch.unlink()
+            self._unlock()
+            if not isinstance(error, OSError):
+                raise
             reason = error.strerror or str(error)
             raise InputError(
                 "output", str(path), f"cannot be written: {reason}", "choose another file"
@@ -137,11 +150,13 @@ class RecordWriter:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        if self._open:
-            if isinstance(error, KeyboardInterrupt):
+        try:
+            if self._open and isinstance(error, KeyboardInterrupt):
                 self.fail("interrupted by the user")
-            else:
+            elif self._open:
                 self.fail(f"{kind.__name__}: {error}" if kind else "the run ended without a summary")
+        finally:
+            self._unlock()
 
     def write(self, start: int, block: Mapping[str, Any]) -> None:
         """Put samples `start`, `start + 1`, … in their place.
@@ -202,6 +217,7 @@ class RecordWriter:
         self._conclude(scratch, COMPLETE, STATUS_NOTES[COMPLETE], summary)
         os.replace(scratch, self.path)
         self.partial.unlink()
+        self._unlock()
         return self.path
 
     def fail(self, message: str, summary: Mapping[str, Any] | None = None) -> Path:
@@ -226,6 +242,7 @@ class RecordWriter:
             target["samples_written"][...] = self.written
         self._conclude(scratch, FAILED, message, summary or {})
         os.replace(scratch, self.partial)
+        self._unlock()
         return self.partial
 
     def _conclude(self, path: Path, status: str, message: str, summary: Mapping[str, Any]) -> None:
@@ -245,6 +262,10 @@ class RecordWriter:
             raise ValueError("the record is closed")
         self._open = False
         self._file.close()
+
+    def _unlock(self) -> None:
+        if self._lock:
+            self._lock.release()
 
     def _scratch(self) -> Path:
         return self.path.with_name(f"{self.path.stem}.{os.getpid()}.tmp")
