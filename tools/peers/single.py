@@ -15,6 +15,7 @@ from scipy.io import loadmat, savemat
 
 from tools.peers.numpy_model import MOVING, NumpyModel
 from tribodyn.dynamics.parameters import STATES, XI, Model
+from tribodyn.native import laid_out
 from tribodyn.solve.dopri5 import buffers, rhs
 from tribodyn.solve.engine import DONE, Tolerances, absolute_tolerances
 from tribodyn.solve.transient import make_engine
@@ -109,10 +110,11 @@ def cvode(problem: Problem, rtol: float) -> Array:
 
 def _right_hand_side(model: Model, work: Array, cycle: float, segment: int) -> Callable[..., None]:
     full, rates = np.zeros(STATES), np.zeros(STATES)
+    laid = [laid_out(one) for one in (full, model, work, rates)]
 
     def function(t: float, y: Array, out: Array) -> None:
         full[MOVING] = y
-        rhs(t, cycle, segment, full, model, work, rates)
+        rhs(t, cycle, segment, *laid)
         out[:] = rates[MOVING]
 
     return function

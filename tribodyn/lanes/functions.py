@@ -7,7 +7,6 @@ branches: reduction to a small interval, a polynomial, and the exponent put back
 import operator
 
 from numba.core import types
-from numba.extending import overload, register_jitable
 
 from tribodyn import elementary
 from tribodyn.lanes.tables import LaneTableType, rows_of_four
@@ -26,6 +25,7 @@ from tribodyn.lanes.vectors import (
     square_root,
     to_indices,
 )
+from tribodyn.native.compiler import part, part_instead
 
 LOG2_E = 1.4426950408889634
 #: ln 2 in two parts; the first ends in zeros, so that its products with exponents are exact.
@@ -47,7 +47,7 @@ INFINITE, UNDEFINED = float("inf"), float("nan")
 LEAST_NORMAL = 2.2250738585072014e-308
 
 
-@register_jitable
+@part
 def exponential_parts(x):
     """N and e^r − 1 of e^x = 2^n e^r, |r| ≤ ½ ln 2; |x| < 1e15."""
     shifted = x * LOG2_E + ROUNDER
@@ -62,13 +62,13 @@ def exponential_parts(x):
     return bits_of(shifted) - ROUNDER_BITS, r + r2 * (low + r4 * (middle + r4 * high))
 
 
-@register_jitable
+@part
 def power_of_two(n):
     """2^n, −1022 ≤ n ≤ 1023."""
     return from_bits(shift_left(n + 1023, 52))
 
 
-@register_jitable
+@part
 def exp_lanes(x):
     """Exponential."""
     bounded = select(x < 710.0, select(x > -750.0, x, -750.0), 710.0)
@@ -78,7 +78,7 @@ def exp_lanes(x):
     return select(x == x, result, x)
 
 
-@register_jitable
+@part
 def expm1_lanes(x):
     """exp(x) − 1, accurate for small x."""
     bounded = select(x < 710.0, select(x > -50.0, x, -50.0), 710.0)
@@ -89,7 +89,7 @@ def expm1_lanes(x):
     return select(x == x, result, x)
 
 
-@register_jitable
+@part
 def log_lanes(x):
     """Natural logarithm."""
     tiny = x < LEAST_NORMAL
@@ -110,7 +110,7 @@ def log_lanes(x):
     return select(x > 0.0, select(x < INFINITE, result, x), select(x == 0.0, -INFINITE, UNDEFINED))
 
 
-@register_jitable
+@part
 def log1p_lanes(x):
     """log(1 + x), accurate for small x."""
     sum_ = 1.0 + x
@@ -118,7 +118,7 @@ def log1p_lanes(x):
     return log_lanes(sum_) + select((sum_ > 0.0) & (x < 1e15), lost, 0.0)
 
 
-@register_jitable
+@part
 def quadrant(x):
     """Quadrant of an angle, what is left of it, |r| ≤ π/4, and what r lost in rounding; |x| ≤ 1.6e6."""
     shifted = x * (2.0 / 3.141592653589793) + ROUNDER
@@ -130,7 +130,7 @@ def quadrant(x):
     return bits_of(shifted), r, lost - n * RIGHT_ANGLE[3]
 
 
-@register_jitable
+@part
 def sine_of_small(r, lost):
     """Sine, |r| ≤ π/4."""
     z = r * r
@@ -139,7 +139,7 @@ def sine_of_small(r, lost):
     return r + (z * r * (-1.66666666666666324348e-01 + z * low) + lost * (1.0 - 0.5 * z))
 
 
-@register_jitable
+@part
 def cosine_of_small(r, lost):
     """Cosine, |r| ≤ π/4."""
     z = r * r
@@ -150,21 +150,21 @@ def cosine_of_small(r, lost):
     return whole + (((1.0 - whole) - half) + (z * z * (4.16666666666666019037e-02 + z * low) - r * lost))
 
 
-@register_jitable
+@part
 def turned(q, r, lost):
     """Sine of the angle r in quadrant q."""
     value = select(bit_and(q, 1) == 1, cosine_of_small(r, lost), sine_of_small(r, lost))
     return select(bit_and(q, 2) == 2, -value, value)
 
 
-@register_jitable
+@part
 def sin_lanes(x):
     """Sine."""
     q, r, lost = quadrant(x)
     return turned(q, r, lost)
 
 
-@register_jitable
+@part
 def cos_lanes(x):
     """Cosine."""
     q, r, lost = quadrant(x)
@@ -172,7 +172,7 @@ def cos_lanes(x):
 
 
 def _for_lanes(function, implementation):
-    @overload(function)
+    @part_instead(function)
     def _(x):
         return implementation if x is LANES else None
 
@@ -188,46 +188,46 @@ _for_lanes(elementary.absolute, lambda x: magnitude(x))
 _for_lanes(elementary.truncate, lambda x: to_indices(x))
 
 
-@overload(operator.pow)
+@part_instead(operator.pow)
 def _pow(x, exponent):
     if x is LANES and isinstance(exponent, (types.Float, Vector)):
         return lambda x, exponent: exp_lanes(exponent * log_lanes(x))
     return None
 
 
-@overload(elementary.where)
+@part_instead(elementary.where)
 def _where(condition, a, b):
     return (lambda condition, a, b: select(condition, a, b)) if condition is MASK else None
 
 
-@overload(elementary.skippable)
+@part_instead(elementary.skippable)
 def _skippable(condition):
     # only where no lane needs it: what it leaves out has no weight, so that company changes no bits
     return (lambda condition: not any_of(~condition)) if condition is MASK else None
 
 
-@overload(elementary.minimum)
+@part_instead(elementary.minimum)
 def _minimum(a, b):
     if LANES not in (a, b):
         return None
     return lambda a, b: select((b < a) | (b != b), b, a)
 
 
-@overload(elementary.maximum)
+@part_instead(elementary.maximum)
 def _maximum(a, b):
     if LANES not in (a, b):
         return None
     return lambda a, b: select((b > a) | (b != b), b, a)
 
 
-@overload(elementary.last_axis_of_four)
+@part_instead(elementary.last_axis_of_four)
 def _last_axis_of_four(table, a, b, c, d):
     if not isinstance(table, LaneTableType):
         return None
     return lambda table, a, b, c, d: rows_of_four(table, (a, b, c, d))
 
 
-@overload(elementary.last_at_or_below)
+@part_instead(elementary.last_at_or_below)
 def _last_at_or_below(grid, x):
     if not isinstance(grid, LaneTableType):
         return None

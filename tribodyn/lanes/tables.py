@@ -6,6 +6,7 @@ and nothing is copied.
 """
 
 import operator
+import struct
 from typing import NamedTuple
 
 import numpy as np
@@ -18,14 +19,11 @@ from numba.core.typing.templates import (
     signature,
 )
 from numba.extending import (
-    NativeValue,
     lower_builtin,
     lower_getattr,
     lower_getattr_generic,
     models,
     register_model,
-    typeof_impl,
-    unbox,
 )
 
 from tribodyn.lanes.arrays import ALIGNMENT, indices_of, row_at, subscripts
@@ -42,6 +40,7 @@ from tribodyn.lanes.vectors import (
     intrinsic,
     of_operator,
 )
+from tribodyn.native import Laid
 
 _FLOATS_AT = types.CPointer(types.float64)
 _INTEGERS_AT = types.CPointer(types.int64)
@@ -108,6 +107,23 @@ class LaneRecord(NamedTuple):
     addresses: np.ndarray
     lengths: np.ndarray
 
+    def laid_out(self) -> Laid:
+        """As kernels read it: the addresses of the three arrays; the caller keeps them alive."""
+        addresses = (array.ctypes.data for array in (self.numbers, self.addresses, self.lengths))
+        return Laid(LaneLayout(self.fields), struct.pack("=3q", *addresses))
+
+
+class LaneLayout(NamedTuple):
+    """Layout of a `LaneRecord` among a kernel's arguments."""
+
+    fields: tuple[Field, ...]
+    words: int = 3
+
+    @property
+    def type(self) -> LaneRecordType:
+        """Its type to numba."""
+        return LaneRecordType(self.fields)
+
 
 @register_model(LaneTableType)
 class _LaneTableModel(models.StructModel):
@@ -121,28 +137,6 @@ class _LaneRecordModel(models.StructModel):
     def __init__(self, manager, record):
         members = [("numbers", _FLOATS_AT), ("addresses", _INTEGERS_AT), ("lengths", _INTEGERS_AT)]
         super().__init__(manager, record, members)
-
-
-@typeof_impl.register(LaneRecord)
-def _typeof_record(record, context):
-    return LaneRecordType(record.fields)
-
-
-@unbox(LaneRecordType)
-def _unbox_record(record, given, c):
-    """The addresses of the three arrays; the caller keeps them alive."""
-    value = cgutils.create_struct_proxy(record)(c.context, c.builder)
-    for name, kind in (
-        ("numbers", types.Array(types.float64, 2, "C")),
-        ("addresses", types.Array(types.int64, 2, "C")),
-        ("lengths", types.Array(types.int64, 1, "C")),
-    ):
-        attribute = c.pyapi.object_getattr_string(given, name)
-        array = c.context.make_array(kind)(c.context, c.builder, c.unbox(kind, attribute).value)
-        c.pyapi.decref(attribute)
-        setattr(value, name, array.data)
-    failed = cgutils.is_not_null(c.builder, c.pyapi.err_occurred())
-    return NativeValue(value._getvalue(), is_error=failed)
 
 
 @of_operator(operator.getitem)

@@ -13,7 +13,8 @@ from tribodyn.elementary import maximum, where
 from tribodyn.lanes import functions  # noqa: F401  (its import gives the laws their functions over lanes)
 from tribodyn.lanes.arrays import rows_of
 from tribodyn.lanes.vectors import WIDTH, any_of
-from tribodyn.native import kernel, part
+from tribodyn.native import kernel
+from tribodyn.native.compiler import part
 from tribodyn.solve.dormand_prince import (
     LEAST_REMEMBERED,
     LEAST_STEP,

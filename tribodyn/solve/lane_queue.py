@@ -10,7 +10,7 @@ from tribodyn.elementary import where
 from tribodyn.lanes.arrays import rows_of
 from tribodyn.lanes.packing import Packed
 from tribodyn.lanes.vectors import WIDTH, count
-from tribodyn.native import part
+from tribodyn.native.compiler import part
 from tribodyn.solve.dormand_prince import FIRST_STEP, LEAST_REMEMBERED, STAGES
 from tribodyn.solve.engine import DONE
 

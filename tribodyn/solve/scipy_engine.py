@@ -6,6 +6,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from tribodyn.dynamics.parameters import SLIP, STATES, Model
+from tribodyn.native import laid_out
 from tribodyn.solve.dopri5 import buffers, engage, rhs
 from tribodyn.solve.engine import DONE, GAVE_UP, NOT_FINITE, STALLED, TOO_MANY_STEPS, Block, Tolerances
 
@@ -43,6 +44,8 @@ class ScipyEngine:
         boundary = np.asarray(table.boundary)
         segments = len(boundary) - 1
         work, _ = buffers(model)
+        place, rates = np.empty(STATES), np.empty(STATES)
+        laid = [laid_out(one) for one in (place, model, work, rates)]
         y = state.copy()
         found: list[np.ndarray] = []
         steps = evaluations = 0
@@ -66,11 +69,11 @@ class ScipyEngine:
                         raise _Stop(TOO_MANY_STEPS, phase)
                     if model.mechanics.nominal_speed + y[SLIP] <= 0.0:
                         raise _Stop(STALLED, phase)
-                    dy = np.empty(STATES)
-                    rhs(phase, whole, segment, y, model, work, dy)
-                    if not np.all(np.isfinite(dy)):
+                    place[:] = y
+                    rhs(phase, whole, segment, *laid)
+                    if not np.all(np.isfinite(rates)):
                         raise _Stop(NOT_FINITE, phase)
-                    return dy
+                    return rates.copy()
 
                 at = phases[(phases >= start) & (phases < end)]
                 with warnings.catch_warnings():

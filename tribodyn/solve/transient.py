@@ -16,6 +16,7 @@ from tribodyn.dynamics.parameters import (
     XI_RATE,
     Model,
 )
+from tribodyn.native import laid_out
 from tribodyn.solve.dormand_prince import FIRST_STEP
 from tribodyn.solve.engine import DONE, NOT_FINITE, REASONS, Block, Engine, Tolerances, absolute_tolerances
 from tribodyn.solve.initial import static_deflection
@@ -65,6 +66,7 @@ class NativeEngine:
         self._march = march
         self._buffers = buffers(model)
         self._stops = stops(model)
+        self._laid = laid_out(model)
         self.model = model
         self.samples = samples
         self.tolerances = tolerances
@@ -76,7 +78,7 @@ class NativeEngine:
         y = state.copy()
         out = np.empty((cycles * self.samples, STATES))
         status, reached, self.step, steps, evaluations, written = self._march(
-            self.model,
+            self._laid,
             y,
             float(first_cycle),
             cycles,

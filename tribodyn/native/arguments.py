@@ -1,0 +1,113 @@
+"""How a kernel's arguments lie in memory: one block of words of 8 bytes, the same for every caller.
+
+A number is a word; an array its address and lengths; a named tuple its fields one after the other. What is
+called a layout here says which, and is all that the machine code of a kernel depends on: numbers and lengths
+are never compiled in.
+"""
+
+import struct
+from functools import cache
+from typing import Any, NamedTuple
+
+import numpy as np
+
+
+class Numeric(NamedTuple):
+    """A number: "float", "int" or "bool"."""
+
+    name: str
+
+
+class Array(NamedTuple):
+    """An array: type of its elements, number of axes, and whether it is contiguous ("C") or not ("A")."""
+
+    dtype: str
+    ndim: int
+    order: str
+
+    @property
+    def words(self) -> int:
+        """Words that it takes: address, lengths, and strides where they do not follow from the lengths."""
+        return 1 + self.ndim * (1 if self.order == "C" else 2)
+
+
+class Record:
+    """A named tuple: its name, and the layout of every field. One object for all that are equal.
+
+    Get one from `record`.
+    """
+
+    def __init__(self, name: str, fields: tuple[tuple[str, Any], ...]):
+        self.name = name
+        self.fields = fields
+
+    def __repr__(self) -> str:
+        return f"{self.name}({', '.join(f'{name}={layout!r}' for name, layout in self.fields)})"
+
+
+class Laid(NamedTuple):
+    """A value as the kernels read it; stands for it among a kernel's arguments.
+
+    What many calls have in common is laid out once. Arrays inside are pointed at, so they must be kept alive.
+
+    Attributes
+    ----------
+    layout : Numeric, Array, Record, or that of an object with a method `laid_out` of its own
+    words : bytes
+    """
+
+    layout: Any
+    words: bytes
+
+
+FLOAT, INT, BOOL = Numeric("float"), Numeric("int"), Numeric("bool")
+_float, _int = struct.Struct("=d").pack, struct.Struct("=q").pack
+_array = cache(Array)
+
+
+@cache
+def record(name: str, names: tuple[str, ...], layouts: tuple[Any, ...]) -> Record:
+    """The layout of a named tuple."""
+    return Record(name, tuple(zip(names, layouts, strict=True)))
+
+
+def laid_out(value: Any) -> Laid:
+    """Lay a value out.
+
+    Raises
+    ------
+    TypeError
+        For what kernels do not take: an error of the program.
+    """
+    if isinstance(value, Laid):
+        return value
+    if isinstance(value, float):
+        return Laid(FLOAT, _float(value))
+    if isinstance(value, np.ndarray):
+        return _laid_array(value)
+    if isinstance(value, (bool, np.bool_)):
+        return Laid(BOOL, _int(value))
+    if isinstance(value, (int, np.integer)):
+        return Laid(INT, _int(value))
+    if hasattr(value, "laid_out"):
+        return value.laid_out()
+    if isinstance(value, tuple) and hasattr(value, "_fields"):
+        return together(type(value).__qualname__, value._fields, value)  # pyright: ignore[reportAttributeAccessIssue]
+    raise TypeError(f"a kernel takes numbers, arrays and named tuples of them, not {type(value).__name__}")
+
+
+def _laid_array(array: np.ndarray) -> Laid:
+    if array.ndim == 0:
+        return laid_out(array.item())
+    contiguous = array.flags.c_contiguous
+    described = (array.ctypes.data, *array.shape)
+    if not contiguous:
+        described += array.strides
+    layout = _array(array.dtype.str, array.ndim, "C" if contiguous else "A")
+    return Laid(layout, struct.pack(f"={len(described)}q", *described))
+
+
+def together(name: str, names: tuple[str, ...], values: tuple[Any, ...]) -> Laid:
+    """Lay several values out as the fields of one record."""
+    layouts, words = zip(*map(laid_out, values), strict=True)
+    return Laid(record(name, names, layouts), b"".join(words))
