@@ -34,7 +34,7 @@ def is_jax(value: Any) -> bool:
 
 def namespace(*values: Any) -> Any:
     """`jax.numpy` if any leaf of `values` (nested tuples and lists allowed) is a JAX array, else `numpy`."""
-    if any(_has_jax(value) for value in values):
+    if "jax" in sys.modules and any(_has_jax(value) for value in values):
         import jax.numpy as jnp
 
         return jnp

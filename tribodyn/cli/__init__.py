@@ -3,10 +3,15 @@
 
 def main() -> None:
     """Run the command line; the entry point of the `tribodyn` command."""
+    import gc
     import os
 
+    # start-up makes objects that stay: to look for cycles at every 700th would be a tenth of its time
+    gc.set_threshold(50_000)
     # the load contact model solves many small systems: a BLAS's threads spin over them for ten times the work
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    # pydantic would look through all that is installed for plugins of its own
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     import tribodyn
     from tribodyn.cli.app import app
 

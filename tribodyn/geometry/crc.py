@@ -21,6 +21,7 @@ from tribodyn.geometry.drive import Drive, reference_radius, tip_radius
 from tribodyn.geometry.family import Family, unshifted
 from tribodyn.geometry.path import Path, integrated_rotation, inverted_rotation
 from tribodyn.iteration import newton
+from tribodyn.remembered import remembered
 
 Array = Any
 
@@ -133,6 +134,7 @@ def reach(ratio: Any, height: Any) -> Any:
     return xi
 
 
+@remembered
 def working_path(drive: Drive) -> Path:
     """Path of contact from the depth of the pinion's rack to the depth of the gear's."""
     xp = namespace(drive)

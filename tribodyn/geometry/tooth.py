@@ -26,6 +26,7 @@ from tribodyn.geometry.path import (
     sine_at_pitch_point,
 )
 from tribodyn.iteration import newton
+from tribodyn.remembered import remembered
 
 Array = Any
 
@@ -116,6 +117,7 @@ class ToothContact(NamedTuple):
     load_angle: Array
 
 
+@remembered
 def cut_tooth(family: Family, drive: Drive, side: Side) -> Tooth:
     """Cut a tooth of one body by its rack."""
     body = body_of(drive, side)

@@ -16,7 +16,8 @@ from tribodyn.scenario.units import Kind, NotAQuantity, factor_to_si, to_si
 class Table(BaseModel):
     """A TOML table: frozen, no unknown keys, defaults held to the same rules as what the user writes."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True)
+    # deferred: of all tables only those that a file is held against are made ready
+    model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True, defer_build=True)
 
 
 class Quantity:
