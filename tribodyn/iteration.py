@@ -35,7 +35,7 @@ def newton(step: Callable[..., Any], start: Any, count: int, *parameters: Any) -
 
     Under JAX only the last step is differentiated: at the root that is the implicit function theorem, because
     the derivative of a Newton step by its start vanishes there. First derivatives are exact (in both modes),
-    higher ones are not. The step must be Newton's with the exact slope.
+    higher ones are not. The step must be Newton's with the exact slope, or become it at the root.
 
     Parameters
     ----------

@@ -97,6 +97,8 @@ def tabulate(
 
     r_nodes = path.signed_distance(curve.nodes())
     r = curve.interpolate(r_nodes, roll)
+    if family.corner:  # paths that may be steep at their ends: one of Newton's steps from the series
+        r = r - (path.rotation(r) - roll) * path.pinion_pitch_radius * cos(path.pressure_angle(r))
     motion = kinematics(path, r)
     vanishing = pitch_point(path)
     width = _common_width(drive)

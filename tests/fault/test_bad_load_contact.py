@@ -20,6 +20,28 @@ MISTAKES = {
         "at most",
         "give",
     ),
+    "crowning deeper than a modification": (
+        (f"{PINION}.crowning=0.4 mm",),
+        f"{PINION}.crowning = 400 um",
+        "at most 300 um, the tenth of the module",
+        "give",
+    ),
+    "misalignment that lifts the face": (
+        (
+            "mesh.misalignment.in_plane=40 arcmin",
+            "drive.gear.modification.crowning=4 um",
+            "operating.gear_torque=20 N*m",
+        ),
+        "mesh.misalignment.in_plane = 40 arcmin",
+        "lifts the flanks off each other",
+        "give less, or more torque",
+    ),
+    "crowning that lifts the face": (
+        ("drive.gear.modification.crowning=250 um", "mesh.misalignment.in_plane=1 arcmin", "mesh.slices=5"),
+        "drive.gear.modification.crowning = 250 um",
+        "of 5 slices carry the heaviest pair",
+        "more mesh.slices",
+    ),
     "relief longer than the path": (
         (f"{PINION}.tip_relief=20 um", f"{PINION}.tip_relief_length=30 mm"),
         f"{PINION}.tip_relief_length",

@@ -170,6 +170,7 @@ def test_kinks_of_linear_reliefs_are_known():
         (FlankModification(root=Relief(1e-3, 2e-3)), "root_relief"),
         (FlankModification(lead=LeadRelief(1e-3, 0.0)), "lead_relief_start"),
         (FlankModification(lead=LeadRelief(0.0, 1e-5, WIDTH)), "lead_unmodified"),
+        (FlankModification(lead=LeadRelief(crowning=1e-3)), "crowning"),
         (FlankModification(pitch_error=(1e-6, 2e-6)), "pitch_errors"),
     ],
 )

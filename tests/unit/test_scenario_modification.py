@@ -61,7 +61,7 @@ def test_quantities_in_si():
 
 def test_crowning_is_the_same_relief_at_both_ends():
     case = load_scenario(STUDY, {PINION + "crowning": "8 um"})
-    assert case.modifications.pinion.lead == LeadRelief(8e-6, 8e-6, 0.0)
+    assert case.modifications.pinion.lead == LeadRelief(crowning=8e-6)
 
 
 @pytest.mark.parametrize(

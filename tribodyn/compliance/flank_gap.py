@@ -15,7 +15,7 @@ import numpy as np
 from tribodyn.compliance.table import check_cover, interpolate
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.corner_contact import PairGeometry, roll_limits
+from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry, roll_limits
 from tribodyn.geometry.drive import SIDES, Side, body_of, tip_radius
 from tribodyn.geometry.modification import FlankModification, LeadRelief, Misalignment, Modifications, Relief
 from tribodyn.geometry.tooth import thickness_half_angle
@@ -109,6 +109,25 @@ def pitch_gap(modifications: Modifications, tooth: Array) -> Array:
     return total
 
 
+def lead_amounts(lead: LeadRelief) -> dict[str, float]:
+    """What is missing along the face, m, by the keys of a scenario."""
+    return {"lead_relief_start": lead.start, "lead_relief_end": lead.end, "crowning": lead.crowning}
+
+
+def greatest_along_lead(assembly: Assembly, modifications: Modifications) -> tuple[str, str]:
+    """Key and value of what opens the flanks most along the face: an angle of the axes, or a relief."""
+    width = min(float(body_of(assembly.drive, side).face_width) for side in SIDES)
+    ends, geometry = np.array([-width, width]) / 2.0, pair_geometry(assembly, np.array(roll_limits(assembly)))
+    found = []
+    for name, angle in modifications.misalignment._asdict().items():
+        opened = np.max(np.abs(misalignment_gap(assembly, Misalignment(**{name: angle}), geometry, ends)))
+        found.append((opened, f"mesh.misalignment.{name}", f"{np.degrees(angle) * 60:.6g} arcmin"))
+    for side in SIDES:
+        for name, amount in lead_amounts(getattr(modifications, side).lead).items():
+            found.append((amount, f"drive.{side}.modification.{name}", f"{amount * 1e6:.6g} um"))
+    return max(found)[1:]
+
+
 def relief_rolls(assembly: Assembly, modifications: Modifications) -> list[float]:
     """Pinion angles (rad from the pitch point) on the path where a linear relief begins: kinks of the gap."""
     start, end = assembly.r_start, assembly.r_end
@@ -159,7 +178,8 @@ def _relieved(relief: Relief, distance: Array) -> Array:
 def _along_face(lead: LeadRelief, width: float, position: Array) -> Array:
     straight = lead.unmodified / 2.0
     share = np.maximum(np.abs(position) - straight, 0.0) / (width / 2.0 - straight)
-    return np.where(position < 0.0, lead.start, lead.end) * share**2
+    crowned = lead.crowning * (2.0 * position / width) ** 2
+    return crowned + np.where(position < 0.0, lead.start, lead.end) * share**2
 
 
 def _check_flank(assembly: Assembly, flank: FlankModification, side: Side) -> None:
@@ -175,7 +195,7 @@ def _check_flank(assembly: Assembly, flank: FlankModification, side: Side) -> No
         if relief.amount:
             path = assembly.r_end - assembly.r_start
             _require(key + name + "_length", relief.length, 0.0, path, "path of contact", above=True)
-    for name, amount in (("lead_relief_start", flank.lead.start), ("lead_relief_end", flank.lead.end)):
+    for name, amount in lead_amounts(flank.lead).items():
         _require(key + name, amount, 0.0, greatest, "tenth of the module")
     if flank.lead.start or flank.lead.end:
         _require(key + "lead_unmodified", flank.lead.unmodified, 0.0, width * (1 - 1e-9), "face width")

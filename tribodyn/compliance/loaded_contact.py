@@ -11,10 +11,16 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.compliance.face_root_stress import root_stress
-from tribodyn.compliance.flank_gap import check_modifications, flank_gap, pitch_gap
+from tribodyn.compliance.flank_gap import (
+    check_modifications,
+    flank_gap,
+    greatest_along_lead,
+    pitch_gap,
+)
 from tribodyn.compliance.load_sharing import PairFlexibility, SharedLoad, half_width, share_load
 from tribodyn.compliance.slices import LEAST_SLICES, face_positions
 from tribodyn.errors import InputError
+from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry, roll_at_gap, roll_limits
 from tribodyn.geometry.modification import Modifications, vary_along_lead
 
@@ -154,7 +160,7 @@ def roll_through(
     gap = flank_gap(assembly, modifications, geometry, face)
     gap = gap + pitch_gap(modifications, cycle[:, None] - ages)[..., None]
     shared = share_load(flexible, roll, gear_torque, friction_coefficient, gap, slices, coupled)
-    _check_resolved(shared, modifications, gear_torque)
+    check_resolved(assembly, shared, modifications, gear_torque)
 
     line_load = shared.slice_load * (slices / flexible.width)
     half = half_width(flexible, geometry.motion.relative_curvature[..., None], line_load)
@@ -292,8 +298,10 @@ def _unloaded(geometry: PairGeometry, gap: Array) -> Array:
     return np.min(whole, axis=(1, 2))
 
 
-def _check_resolved(shared: SharedLoad, modifications: Modifications, gear_torque: float) -> None:
-    """Refuse a result whose heaviest pair rests on fewer slices than a distribution needs."""
+def check_resolved(
+    assembly: Assembly, shared: SharedLoad, modifications: Modifications, gear_torque: float
+) -> None:
+    """Refuse what leaves the heaviest pair on fewer slices than a distribution along the face needs."""
     slices = shared.slice_load.shape[-1]
     if slices < LEAST_SLICES or not vary_along_lead(modifications):
         return
@@ -301,11 +309,10 @@ def _check_resolved(shared: SharedLoad, modifications: Modifications, gear_torqu
     touching = np.sum(np.take_along_axis(shared.slice_load, heaviest, axis=1)[:, 0] > 0.0, axis=-1)
     if np.any(touching < LEAST_SLICES):
         raise InputError(
-            "mesh.slices",
-            slices,
-            f"at {gear_torque:g} N m only {int(np.min(touching))} of these slices carry the heaviest pair: "
-            "misalignment or lead relief is too great for what the load deflects, or the slices are too wide",
-            "give more slices or more torque, or less misalignment or lead relief",
+            *greatest_along_lead(assembly, modifications),
+            f"lifts the flanks off each other: at {gear_torque:g} N m only {int(np.min(touching))} "
+            f"of {slices} slices carry the heaviest pair",
+            "give less, or more torque; or more mesh.slices, to resolve so narrow a contact",
         )
 
 

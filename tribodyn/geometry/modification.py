@@ -32,7 +32,7 @@ class Relief(NamedTuple):
 
 
 class LeadRelief(NamedTuple):
-    """Relief along the face: parabola, straight part in the middle, parabola (Jia et al., y1, y2, y3).
+    """Relief along the face: parabola, straight part, parabola (Jia et al., y1, y2, y3); crowning.
 
     Parameters
     ----------
@@ -40,11 +40,14 @@ class LeadRelief(NamedTuple):
         Material missing at both ends of the face, m along the normal.
     unmodified : float
         Length of the straight part, m.
+    crowning : float
+        Material missing at both ends of a parabola over the whole face, m; adds to the relief.
     """
 
     start: float = 0.0
     end: float = 0.0
     unmodified: float = 0.0
+    crowning: float = 0.0
 
 
 class FlankModification(NamedTuple):
@@ -102,4 +105,6 @@ UNMODIFIED = Modifications()
 def vary_along_lead(modifications: Modifications) -> bool:
     """Whether anything differs from place to place along the face."""
     both = (modifications.pinion, modifications.gear)
-    return any(modifications.misalignment) or any(flank.lead.start or flank.lead.end for flank in both)
+    return any(modifications.misalignment) or any(
+        flank.lead.start or flank.lead.end or flank.lead.crowning for flank in both
+    )

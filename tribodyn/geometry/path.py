@@ -21,6 +21,8 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
 _NODES, _WEIGHTS = (1 + _NODES) / 2, _WEIGHTS / 2
 # Newton starts within a few per cent of the root: the error is at rounding after four steps.
 _NEWTON_STEPS = 6
+# Where a path is steep at its end, some steps go to find its end first.
+_BRACKETED_STEPS = 12
 # Where the flanks' speeds and radii vanish (a cycloid's pitch point), a radius of this share
 # of the pitch radius stands for zero. The same distance tells the two sides of the pitch point apart.
 _VANISHING = 1e-12
@@ -167,15 +169,23 @@ def distance_at_radius(path: Path, pinion_radius: Array) -> Array:
     quadratic = 1 + 2 * r_p * xp.where(square < 0, -before, after)
     arm = r_p * sine
     root = sqrt(xp.maximum(arm**2 + quadratic * square, (1e-3 * arm) ** 2 + (_BESIDE * r_p) ** 2))
-    return newton(_step_to_radius, square / (arm + root), _NEWTON_STEPS, path, pinion_radius)
+    start = square / (arm + root)
+    anywhere = r_p / _VANISHING + 0.0 * start
+    state = start, -anywhere, anywhere
+    return newton(_step_to_radius, state, _BRACKETED_STEPS, path, pinion_radius)[0]
 
 
-def _step_to_radius(r: Array, path: Path, pinion_radius: Array) -> Array:
+def _step_to_radius(state: tuple[Array, Array, Array], path: Path, pinion_radius: Array) -> Any:
+    """Newton's step between bounds; to their middle where it leaves them, as at the end of a steep path."""
+    r, lower, upper = state
     r_p = path.pinion_pitch_radius
     alpha = path.pressure_angle(r)
     residual = r**2 + 2 * r_p * r * sin(alpha) + r_p**2 - pinion_radius**2
     slope = 2 * (r + r_p * sin(alpha) + r * r_p * cos(alpha) * path.pressure_angle_slope(r))
-    return r - residual / where(absolute(slope) < _VANISHING * r_p, _VANISHING * r_p, slope)
+    lower, upper = where(residual < 0, r, lower), where(residual > 0, r, upper)
+    following = r - residual / where(absolute(slope) < _VANISHING * r_p, _VANISHING * r_p, slope)
+    outside = (following < lower - _BESIDE * r_p) | (following > upper + _BESIDE * r_p)
+    return where(outside, (lower + upper) / 2, following), lower, upper
 
 
 def contact_limits(path: Path, pinion_tip_radius: Array, gear_tip_radius: Array) -> tuple[Array, Array]:

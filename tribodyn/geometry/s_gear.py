@@ -6,10 +6,11 @@ line where cot α = dη/dξ, so that at the height |y| over the pitch line, h = 
 
     cot α = n a_P (1 − h/a_P)^((n − 1)/n),
 
-and the path of contact is r = y/sin α. Contact is convex-concave at both ends and like an involute's at P,
-where the pressure angle acot(n a_P) is the smallest. The power law serves up to one module from the pitch
-line, as high as the teeth are; the rack goes on straight from there to its rounded tip. Soon above (at 1.02
-modules for the usual a_P = 1.31, n = 1.9) r would be greatest and the path turn back.
+and the path of contact is r = y/sin α, where the pinion has turned by r_p φ = y cot α + m ξ. Contact is
+convex-concave at both ends and like an involute's at P, where the pressure angle acot(n a_P) is the smallest.
+The power law serves up to one module from the pitch line, as high as the teeth are; the rack goes on straight
+from there to its rounded tip. Soon above (at 1.02 modules for the usual a_P = 1.31, n = 1.9) r would be
+greatest and the path turn back.
 """
 
 from typing import Any, NamedTuple
@@ -20,13 +21,13 @@ from tribodyn.elementary import absolute, arctan2, cos, namespace, sin, where
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import SIDES, Drive, reference_radius, tip_radius
 from tribodyn.geometry.family import Family, Parameter, unshifted
-from tribodyn.geometry.path import integrated_rotation, inverted_rotation
+from tribodyn.geometry.path import inverted_rotation
 from tribodyn.geometry.reach import refuse_shift, require_reach
 from tribodyn.iteration import newton
 
 Array = Any
 
-_NEWTON_STEPS = 10
+_NEWTON_STEPS = 6
 
 
 class PowerRackPath(NamedTuple):
@@ -50,18 +51,29 @@ class PowerRackPath(NamedTuple):
 
     def _cotangent(self, y: Array) -> tuple[Array, Array]:
         """Cotangent of α at the height y ≥ 0, and its derivative by y."""
-        power = (self.exponent - 1) / self.exponent
         inside = 1.0 * (y < self.module)
-        left = 1 - namespace(self, y).clip(y, 0.0, self.module) / (self.form * self.module)
-        cotangent = self.exponent * self.form * left**power
-        return cotangent, -inside * power * cotangent / (left * self.form * self.module)
+        left = self._left(y)
+        cotangent = self.exponent * self.form * left**self._power
+        return cotangent, -inside * self._power * cotangent / (left * self.form * self.module)
+
+    @property
+    def _power(self) -> Any:
+        return (self.exponent - 1) / self.exponent
+
+    def _left(self, y: Array) -> Array:
+        """Share 1 − h/a_P of the power law's height that is left above y."""
+        return 1 - namespace(self, y).clip(y, 0.0, self.module) / (self.form * self.module)
 
     def _height(self, r: Array) -> Array:
         """Height |y| of the contact over the pitch line at the signed distance r: y √(1 + cot² α) = |r|."""
-        distance = absolute(namespace(self, r).asarray(r, dtype=float))
-        # From below, where the concave r(y) brings Newton's steps up to the root one-sidedly.
-        start = distance / (1 + (self.exponent * self.form) ** 2) ** 0.5
-        return newton(_step_to_height, start, _NEWTON_STEPS, self, distance)
+        xp = namespace(self, r)
+        distance = absolute(xp.asarray(r, dtype=float))
+        stretch = (1 + self._cotangent(self.module)[0] ** 2) ** 0.5
+        beyond = xp.maximum(distance - self.module * stretch, 0.0)
+        # From below, where the concave r(y) brings the steps up to the root one-sidedly.
+        reached = xp.minimum(distance, self.module * stretch)
+        start = reached / (1 + (self.exponent * self.form) ** 2) ** 0.5
+        return newton(_step_to_height, start, _NEWTON_STEPS, self, reached) + beyond / stretch
 
     def pressure_angle(self, r: Array) -> Array:
         """Pressure angle, rad."""
@@ -79,8 +91,13 @@ class PowerRackPath(NamedTuple):
         return where(namespace(r).asarray(r) < 0, -slope, slope)
 
     def rotation(self, r: Array) -> Array:
-        """Pinion angle φ, rad."""
-        return integrated_rotation(self, r)
+        """Pinion angle φ, rad: the rack goes on by the contact's x and by the flank's."""
+        y = self._height(r)
+        cotangent, _ = self._cotangent(y)
+        flank = self.module * (1 - self._left(y) ** (1 / self.exponent))
+        flank = flank + namespace(self, y).maximum(y - self.module, 0.0) / cotangent
+        turned = (y * cotangent + flank) / self.pinion_pitch_radius
+        return where(namespace(r).asarray(r) < 0, -turned, turned)
 
     def signed_distance(self, rotation: Array) -> Array:
         """Signed distance r (m) at the pinion angle φ."""
@@ -88,10 +105,18 @@ class PowerRackPath(NamedTuple):
 
 
 def _step_to_height(y: Array, path: PowerRackPath, distance: Array) -> Array:
+    """Euler's step, to the parabola's root: Newton's would only halve the way where r is nearly greatest."""
+    xp = namespace(y, path, distance)
+    y = xp.minimum(y, path.module * (1 - 1e-15))
+    left = path.form * path.module - y
     cotangent, rate = path._cotangent(y)
     stretch = (1 + cotangent**2) ** 0.5
-    slope = stretch + y * cotangent * rate / stretch
-    return y - (y * stretch - distance) / slope
+    product = cotangent * rate  # ½ d(cot² α)/dy
+    first = product / stretch
+    second = product * (1 - 2 * path._power) / (left * stretch) - first**2 / stretch
+    residual = y * stretch - distance
+    slope, bend = stretch + y * first, 2 * first + y * second
+    return y - 2 * residual / (slope + xp.sqrt(xp.maximum(slope**2 - 2 * residual * bend, 0.0)))
 
 
 class Shape(NamedTuple):

@@ -58,12 +58,12 @@ class MisalignmentTable(Table):
 
 def flank_of(table: Modification) -> FlankModification:
     """Return the modification of a gear's driving flanks."""
-    crowning = table.crowning
-    lead = LeadRelief(table.lead_relief_start, table.lead_relief_end, table.lead_unmodified)
     return FlankModification(
         tip=_relief(table, "tip"),
         root=_relief(table, "root"),
-        lead=lead if crowning is None else LeadRelief(crowning, crowning),
+        lead=LeadRelief(
+            table.lead_relief_start, table.lead_relief_end, table.lead_unmodified, table.crowning or 0.0
+        ),
         profile_error=table.profile_error.in_si() if table.profile_error else None,
         pitch_error=table.pitch_errors,
     )
