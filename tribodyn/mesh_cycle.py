@@ -52,6 +52,9 @@ class MeshCycle(NamedTuple):
     coupling : (S, N, Q, Q)
         Deflection of the pair in one slot per load on the pair in another, through the common gear
         bodies; zero diagonal, symmetric; m/N.
+    line_load_friction, line_load_peak : (S, N, Q)
+        Line loads over their mean along the whole face, at the load of the table, ≥ 1: the one at which
+        friction acts as it does on the uneven face, and the greatest, K_Hβ (`compliance.line_load`).
     hertz_coefficient : float
         A of the load-dependent Hertz deflection A F^0.9, m/N^0.9; 0 where the Hertz contact is linear.
     pinion_pitch_radius, gear_pitch_radius : float
@@ -95,6 +98,8 @@ class MeshCycle(NamedTuple):
     roll_end: Any
     pitch_point_length: Any = 0.0
     pitch_point_rate: Any = 0.0
+    line_load_friction: Any = 1.0
+    line_load_peak: Any = 1.0
 
     @property
     def pairs(self) -> int:
@@ -121,6 +126,8 @@ CHANNELS = (
     "compliance",
     "gap",
     "sine",
+    "line_load_friction",
+    "line_load_peak",
 )
 
 
@@ -196,6 +203,7 @@ def polynomials(cycle: MeshCycle) -> Polynomials:
         raise TypeError(f"the mesh cycle is {cycle.compliance.dtype}, not float64: enable jax_enable_x64")
     angle = {"cosine": xp.cos(cycle.pressure_angle), "sine": xp.sin(cycle.pressure_angle)}
     found = [angle[name] if name in angle else getattr(cycle, name) for name in CHANNELS]
+    found = [xp.broadcast_to(values, cycle.compliance.shape) for values in found]
     channels = xp.stack(found, axis=-1)
     return Polynomials(
         boundary=cycle.boundary,
@@ -214,12 +222,18 @@ def polynomials(cycle: MeshCycle) -> Polynomials:
     )
 
 
+# 1 wherever the load is even along the face, and then a number may stand for the table.
+_RATIOS = ("line_load_friction", "line_load_peak")
+
+
 def as_arrays(cycle: MeshCycle) -> dict[str, Any]:
     """Flat arrays for a record: dims (phase,), (phase, pair) and (phase, pair, pair); scalars as floats."""
     segments, nodes, _ = cycle.compliance.shape
     arrays: dict[str, Any] = {}
     for name, value in cycle._asdict().items():
         array = np.asarray(value, dtype=float)
+        if name in _RATIOS:
+            array = np.broadcast_to(array, cycle.compliance.shape)
         if name == "in_contact":
             array = np.repeat(array, nodes, axis=0)
         elif array.ndim >= 2:
@@ -234,6 +248,8 @@ def from_arrays(arrays: dict[str, Any]) -> MeshCycle:
     nodes = len(arrays["phase"]) // segments
     fields = {}
     for name in MeshCycle._fields:
+        if name in _RATIOS and name not in arrays:
+            continue  # a record of before the ratios were in the table
         value = np.asarray(arrays[name], dtype=float)
         if name == "in_contact":
             value = value[::nodes]

@@ -8,12 +8,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.compliance.load_sharing import (
-    PairFlexibility,
-    effective_contact_ratio,
-    flexibility,
-    share_load,
-)
+from tribodyn.compliance.gear_compliance import without_neighbours
+from tribodyn.compliance.load_sharing import effective_contact_ratio, flexibility
+from tribodyn.compliance.loaded_flanks import LoadedFlanks
 from tribodyn.efficiency.along_path import CycleEfficiency, Duty, Engagement, cycle_efficiency, engage
 from tribodyn.efficiency.case import EfficiencyCase
 from tribodyn.efficiency.loss_factor import exact, hoehn, tip_contact_ratios
@@ -30,14 +27,14 @@ from tribodyn.surfaces import contact_of
 class Study(NamedTuple):
     """A case made ready: the table of the mesh, the path it was made from, and what the mesh has to do.
 
-    `flexible` is the load contact model that shares the load, where the scenario asks for it.
+    `flanks` are those of the load contact model that shares the load, where the scenario asks for it.
     """
 
     case: EfficiencyCase
     cycle: MeshCycle
     path: PathOfContact
     duty: Duty
-    flexible: PairFlexibility | None = None
+    flanks: LoadedFlanks | None = None
 
 
 def prepare(case: EfficiencyCase) -> Study:
@@ -55,13 +52,15 @@ def prepare(case: EfficiencyCase) -> Study:
 
     teeth = family(case.family)
     check(teeth, case.drive)
-    flexible = None
-    if case.mesh.compliance == "fem":
-        cycle = tabulate_loaded(teeth, case.drive, case.materials, case.mesh, case.operating.gear_torque)
-        flexible = flexibility(assemble(teeth, case.drive), case.materials)
-        if not case.mesh.foundation_coupling:
-            apart = [gear._replace(between=0.0 * gear.between) for gear in flexible.gears]
+    flanks, mesh = None, case.mesh
+    if mesh.compliance == "fem":
+        cycle = tabulate_loaded(teeth, case.drive, case.materials, mesh, case.operating.gear_torque)
+        lead = mesh.slice_coupling and mesh.slices > 1
+        flexible = flexibility(assemble(teeth, case.drive), case.materials, lead=lead)
+        if not mesh.foundation_coupling:
+            apart = [without_neighbours(gear) for gear in flexible.gears]
             flexible = flexible._replace(gears=(apart[0], apart[1]))
+        flanks = LoadedFlanks(flexible, mesh.modifications, mesh.slices, mesh.slice_coupling)
     else:
         cycle = tabulate(teeth, case.drive, case.materials, case.mesh, pairs=pair_slots(teeth, case.drive))
     duty = Duty(
@@ -71,7 +70,7 @@ def prepare(case: EfficiencyCase) -> Study:
         contact_of(case),
         case.load_sharing,
     )
-    return Study(case, cycle, teeth.working_path(case.drive), duty, flexible)
+    return Study(case, cycle, teeth.working_path(case.drive), duty, flanks)
 
 
 def run(
@@ -110,7 +109,7 @@ def run(
 
 def _sampled(study: Study) -> tuple[Places, Engagement, np.ndarray]:
     phase = np.linspace(0.0, 1.0, study.case.samples_per_cycle + 1)
-    mesh = places(study.cycle, study.path, phase, study.duty.sharing, study.flexible)
+    mesh = places(study.cycle, study.path, phase, study.duty.sharing, study.flanks)
     return mesh, engage(mesh, study.duty), phase
 
 
@@ -126,9 +125,7 @@ def efficiencies(
     for sharing in SHARINGS:
         duty = study.duty._replace(sharing=sharing)
         try:
-            means = known.get(sharing) or cycle_efficiency(
-                study.cycle, study.path, duty, flexible=study.flexible
-            )
+            means = known.get(sharing) or cycle_efficiency(study.cycle, study.path, duty, flanks=study.flanks)
         except InputError:
             continue
         found[f"efficiency_{sharing.replace('-', '_')}"] = means.efficiency
@@ -164,16 +161,16 @@ def _by_loss_factor(study: Study) -> dict[str, float]:
 
 def _effective_contact_ratio(mesh: Places, state: Engagement, duty: Duty) -> dict[str, float]:
     """Contact ratio under load, where the load sharing knows corner contact."""
-    if mesh.flexible is None:
+    if mesh.flanks is None:
         return {}
     roll, friction = mesh.roll[:-1], state.friction_coefficient[:-1]
-    shared = share_load(mesh.flexible, roll, duty.gear_torque, friction)
+    shared = mesh.flanks.share(roll, duty.gear_torque, friction)
     return {"contact_ratio_effective": effective_contact_ratio(roll, shared, float(mesh.cycle.pitch_angle))}
 
 
 def _figures(study: Study, mesh: Places, state: Engagement) -> dict[str, Any]:
     cycle, duty = study.cycle, study.duty
-    means = cycle_efficiency(cycle, study.path, duty, flexible=study.flexible)
+    means = cycle_efficiency(cycle, study.path, duty, flanks=study.flanks)
     loaded = state.normal_load > 0
     share = 1.0 / len(state.power_in[:-1])
     balance = means.power_in - means.power_out - means.power_friction

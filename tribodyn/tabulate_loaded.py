@@ -88,7 +88,8 @@ def tabulate_loaded(
     full = gear_torque / pair_geometry(assembly, np.zeros(1)).motion.gear_normal_arm[0]
     compliance, gap = np.zeros_like(geometry.gap), np.zeros_like(geometry.gap)
     coupling = np.zeros((*gap.shape, slots))
-    compliance[:, front], coupling[:, front, front], gap[:, front] = _driving(
+    uneven, peak = np.ones_like(gap), np.ones_like(gap)
+    driving = _driving(
         flexible,
         mesh,
         gear_torque,
@@ -96,6 +97,9 @@ def tabulate_loaded(
         roll[..., front].reshape(-1, pairs),
         error[..., front].reshape(-1, pairs),
     )
+    compliance[:, front], gap[:, front] = driving.compliance, driving.gap
+    coupling[:, front, front] = driving.coupling
+    uneven[:, front], peak[:, front] = driving.line_load_friction, driving.line_load_peak
     if back:
         mates = _slots(geometry, behind)
         compliance[:, behind], coupling[:, behind, behind] = _under_load(flexible, mates, full)
@@ -126,6 +130,8 @@ def tabulate_loaded(
         roll_end=limits[1],
         pitch_point_length=vanishing.length,
         pitch_point_rate=vanishing.speed_per_radius,
+        line_load_friction=uneven.reshape(roll.shape),
+        line_load_peak=peak.reshape(roll.shape),
     )
 
 

@@ -194,13 +194,25 @@ ELSEWHERE = {
         "involute-18-36-fem",
         (PITCH_ERRORS,),
         f"{PINION}.pitch_errors = 18 values",
-        "repeat one mesh cycle",
+        "repeats one mesh cycle",
     ),
-    "relief in an efficiency study": (
+    "relief in an efficiency study by the energy method": (
         "efficiency-involute-18-36",
         TIP,
         f"{PINION}.tip_relief = 20 um",
-        'kind = "efficiency"',
+        'compliance = "energy"',
+    ),
+    "misalignment in an efficiency study by the energy method": (
+        "efficiency-involute-18-36",
+        ("mesh.misalignment.in_plane=3 arcmin",),
+        "mesh.misalignment.in_plane = 3 arcmin",
+        'compliance = "energy"',
+    ),
+    "pitch errors in an efficiency study": (
+        "efficiency-involute-18-36",
+        ("mesh.compliance=fem", PITCH_ERRORS),
+        f"{PINION}.pitch_errors = 18 values",
+        "repeats one mesh cycle",
     ),
 }
 

@@ -8,6 +8,7 @@ from tribodyn.efficiency.load_contact import load_contact
 from tribodyn.efficiency.places import places
 from tribodyn.errors import InputError
 from tribodyn.geometry.corner_contact import roll_limits
+from tribodyn.geometry.modification import UNMODIFIED
 from tribodyn.record.reader import open_record
 from tribodyn.scenario.load import load_scenario
 from tribodyn.simulate import run
@@ -32,8 +33,8 @@ def coulomb(study, mu):
 def test_with_coulomb_friction_it_is_the_load_contact_models_efficiency(study, mu):
     """Two quadratures over one mesh cycle: crowded Gauss nodes here, equal steps there."""
     duty = coulomb(study, mu)
-    found = cycle_efficiency(study.cycle, study.path, duty, flexible=study.flexible).efficiency
-    other = load_contact(study.flexible, duty.gear_torque, mu, positions=960).efficiency
+    found = cycle_efficiency(study.cycle, study.path, duty, flanks=study.flanks).efficiency
+    other = load_contact(study.flanks.flexible, duty.gear_torque, mu, positions=960).efficiency
     assert found == pytest.approx(other, abs=1e-6)
 
 
@@ -58,32 +59,68 @@ def test_other_load_sharings_know_only_the_path(study, sharing):
     """The same as on a table by the energy method, which has no corner contact."""
     duty = study.duty._replace(sharing=sharing)
     plain = prepare(load_scenario(INVOLUTE))
-    found = cycle_efficiency(study.cycle, study.path, duty, flexible=study.flexible).efficiency
+    found = cycle_efficiency(study.cycle, study.path, duty, flanks=study.flanks).efficiency
     assert found == pytest.approx(cycle_efficiency(plain.cycle, plain.path, duty).efficiency, abs=1e-11)
 
 
 @pytest.mark.parametrize("law", [COULOMB, MASJEDI_KHONSARI])
 def test_torque_and_power_balance_corners_included(study, law):
     duty = coulomb(study, 0.06)._replace(friction_law=law)
-    mesh = places(study.cycle, study.path, np.linspace(0.003, 0.997, 61), "elastic", study.flexible)
+    mesh = places(study.cycle, study.path, np.linspace(0.003, 0.997, 61), "elastic", study.flanks)
     state = engage(mesh, duty)
     np.testing.assert_allclose(state.gear_torque, duty.gear_torque, rtol=1e-9)
     np.testing.assert_allclose(state.power_in, state.power_out + state.power_friction, rtol=1e-9)
-    start, end = roll_limits(study.flexible.assembly)
+    start, end = roll_limits(study.flanks.flexible.assembly)
     beyond = (mesh.roll < start) | (mesh.roll > end)
     assert np.any(state.normal_load[beyond] > 0)
     assert np.all(state.central_film_thickness[state.normal_load > 0] > 0)
 
 
+@pytest.mark.parametrize(
+    "modified",
+    [
+        {
+            **{f"drive.{gear}.modification.tip_relief": "12 um" for gear in ("pinion", "gear")},
+            **{f"drive.{gear}.modification.tip_relief_length": "3 mm" for gear in ("pinion", "gear")},
+        },
+        {"mesh.misalignment.in_plane": "1 arcmin", "mesh.slices": 11},
+    ],
+    ids=["tips", "tilt"],
+)
+def test_of_modified_flanks_it_is_the_load_contact_models_efficiency(modified):
+    """One coefficient of friction: the same loads as the load contact model's, slices and all."""
+    study = prepare(load_scenario(INVOLUTE, {**FEM, **modified}))
+    duty = coulomb(study, 0.06)
+    found = cycle_efficiency(study.cycle, study.path, duty, flanks=study.flanks).efficiency
+    flexible, modifications, slices, coupled = study.flanks
+    other = load_contact(flexible, duty.gear_torque, 0.06, 240, modifications, slices, coupled)
+    assert found == pytest.approx(other.efficiency, abs=3e-6)
+    plain = load_contact(flexible, duty.gear_torque, 0.06, 240)
+    if slices == 1:
+        assert abs(found - plain.efficiency) > 3e-5
+    else:
+        assert other.contact_ratio != pytest.approx(plain.contact_ratio, abs=1e-3)
+        mesh = places(study.cycle, study.path, np.array([0.3, 0.7]), "elastic", study.flanks)
+        even = places(
+            study.cycle,
+            study.path,
+            np.array([0.3, 0.7]),
+            "elastic",
+            study.flanks._replace(modifications=UNMODIFIED),
+        )
+        tilted, level = engage(mesh, duty), engage(even, duty)
+        assert np.max(tilted.hertz_pressure) > 1.1 * np.max(level.hertz_pressure)
+
+
 def test_no_friction_no_loss(study):
     duty = study.duty._replace(friction_law=NONE)
-    found = cycle_efficiency(study.cycle, study.path, duty, flexible=study.flexible)
+    found = cycle_efficiency(study.cycle, study.path, duty, flanks=study.flanks)
     assert found.efficiency == pytest.approx(1.0, abs=1e-12)
 
 
 def test_the_quadrature_resolves_where_corners_begin_to_carry(study):
     coarse, fine = (
-        cycle_efficiency(study.cycle, study.path, study.duty, n, study.flexible).efficiency for n in (20, 120)
+        cycle_efficiency(study.cycle, study.path, study.duty, n, study.flanks).efficiency for n in (20, 120)
     )
     assert coarse == pytest.approx(fine, abs=1e-6)
 

@@ -53,7 +53,7 @@ def test_the_rack_goes_on_straight_above_one_module():
 def test_contact_ends_on_the_tip_circles_where_the_path_is_steep(shape):
     """From the left of a steep end Newton's step to a radius leads past it."""
     bodies = [GearBody(z, 0.0, 1.0, 1.25, 0.1, 0.02, 0.01) for z in (23.0, 47.0)]
-    drive = Drive(MODULE, 0.0, *bodies, shape)
+    drive = Drive(MODULE, 0.0, bodies[0], bodies[1], shape)
     path = working_path(drive)
     start, end = contact_limits(path, tip_radius(drive, "pinion"), tip_radius(drive, "gear"))
     assert radius(path, end) == pytest.approx(tip_radius(drive, "pinion"), rel=1e-12)

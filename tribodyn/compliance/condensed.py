@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.compliance.line_load import friction_ratio, peak_ratio
 from tribodyn.compliance.load_sharing import PairFlexibility, SharedLoad, contact_deflection, press_pairs
 from tribodyn.compliance.slices import by_slices, modes
 from tribodyn.geometry.corner_contact import PairGeometry
@@ -28,11 +29,16 @@ _LEAST_SLICE = 1e-3
 
 
 class Condensed(NamedTuple):
-    """Compliance and gap (position, pair), coupling (position, pair, pair; zero diagonal), m/N and m."""
+    """Compliance and gap (position, pair), coupling (position, pair, pair; zero diagonal), m/N and m.
+
+    The ratios of `line_load` (position, pair) are those of the loads at which the pairs are linearised.
+    """
 
     compliance: Array
     coupling: Array
     gap: Array
+    line_load_friction: Array
+    line_load_peak: Array
 
 
 def condense(
@@ -92,7 +98,7 @@ def condense(
     weight = np.where(total[..., None] > 0, load / np.maximum(total, 1e-300)[..., None], touching)
     reached = gap + moved + _deflection(harmonics * np.eye(pairs), load) + secant * load
     left = np.sum(weight * reached, axis=-1) - compliance * total - np.einsum("tjk,tk->tj", coupling, total)
-    return Condensed(compliance, coupling, left)
+    return Condensed(compliance, coupling, left, friction_ratio(alone), peak_ratio(alone))
 
 
 def _deflection(harmonics: Array, load: Array) -> Array:

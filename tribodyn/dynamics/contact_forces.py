@@ -50,7 +50,7 @@ COUPLING = 20  # deflection per load on slot 0, and on from here per load on the
 QUANTITIES = 20  # and one more for every slot
 
 # Channels of mesh_cycle.Polynomials.channel.
-_COSINE, _DISTANCE, _RADIUS, _SPEED, _COMPLIANCE, _GAP, _SINE = range(7)
+_COSINE, _DISTANCE, _RADIUS, _SPEED, _COMPLIANCE, _GAP, _SINE, _UNEVEN, PEAK = range(9)
 
 
 @law
@@ -211,10 +211,12 @@ def contact_forces(segment, cell, u, cells_per_radian, y, model, work):
             sliding = work[SLIDING, i]
         speed_p = work[PINION_SPEED, i]
         speed_g = work[GEAR_SPEED, i]
+        # the line load at which friction acts as it does along the uneven face
+        line_load = load / table.face_width * cubic(table.channel, segment, cell, i, _UNEVEN, u)
         if model.options.averaged:
             radius = work[RADIUS, i]
             averaged = averaged_radius(
-                radius, load / table.face_width, model.contact.effective_modulus, table.pitch_point_length
+                radius, line_load, model.contact.effective_modulus, table.pitch_point_length
             )
             # entrainment is averaged with the radius, to which it is proportional there; sliding is not
             added = (
@@ -230,7 +232,7 @@ def contact_forces(segment, cell, u, cells_per_radian, y, model, work):
             work[GEAR_SPEED, i] = speed_g
         coefficient = friction_coefficient(
             model.options.friction_law,
-            load / table.face_width,
+            line_load,
             1.0 / work[RADIUS, i],
             0.5 * (speed_p + speed_g),
             sliding,

@@ -1,9 +1,10 @@
-"""Modes of the model linearised at its mean mesh stiffness: what the orders of the mesh can meet."""
+"""Modes of the model linearised at its mean stiffness under load: what the orders of the mesh can meet."""
 
 import numpy as np
 
-from tribodyn.dynamics.parameters import DRIVE_SHAFT, DRIVE_SPEED, HERTZ_POWER_LAW, Model
-from tribodyn.mesh_cycle import CHANNELS
+from tribodyn.dynamics.parameters import DRIVE_SHAFT, DRIVE_SPEED, Model
+from tribodyn.mesh_cycle import MeshCycle
+from tribodyn.quasi_static import quasi_static
 
 #: Modes without a compliant shaft, and with one.
 MODES, MODES_WITH_SHAFT = 5, 6
@@ -14,16 +15,18 @@ def mode_count(model: Model) -> int:
     return MODES_WITH_SHAFT if model.options.drive == DRIVE_SHAFT else MODES
 
 
-def natural_frequencies(model: Model) -> np.ndarray:
+def natural_frequencies(model: Model, cycle: MeshCycle) -> np.ndarray:
     """Undamped natural frequencies, lowest first, Hz.
 
     The coordinates are x_p, y_p, x_g, y_g, ξ and, with a compliant shaft, its twist; the rigid rotation is
-    not among them. Stiffness is the mean over a mesh cycle of the driving pairs in contact, friction is left
-    out, and a load-dependent Hertz contact is taken at the static load shared evenly.
+    not among them. Stiffness is the tangent at the static load, the mean over the mesh cycle that the model
+    was made from: at every phase of those driving pairs that carry when the load is shared by compliances,
+    gaps and the bearings' give, each at its own load where the Hertz contact stiffens with it. Friction is
+    left out.
     """
     m, t = model.mechanics, model.table
     rp, rg = float(t.pinion_pitch_radius), float(t.gear_pitch_radius)
-    mesh = _mean_stiffness(model)  # of (x_p − x_g + ξ, y_p − y_g)
+    mesh = _mean_stiffness(model, cycle)  # of (x_p − x_g + ξ, y_p − y_g)
     # a force along x and a turning of ξ are one: ξ stands where x_p does
     to_mesh = np.array([[1.0, 0.0, -1.0, 0.0, 1.0], [0.0, 1.0, 0.0, -1.0, 0.0]])
     force = to_mesh.T @ mesh @ to_mesh
@@ -49,26 +52,31 @@ def natural_frequencies(model: Model) -> np.ndarray:
     return np.sqrt(np.sort(np.maximum(squared, 0.0))) / (2 * np.pi)
 
 
-def _mean_stiffness(model: Model) -> np.ndarray:
-    """Mean over the mesh cycle of Σ_ij k_ij n_i n_jᵀ of the driving flanks, n = (cos α, sin α); N/m."""
-    table = model.table
-    front = np.asarray(table.side) > 0
-    width = np.diff(np.asarray(table.boundary))
-    channel = np.asarray(table.channel)[:, :, front]
-    stiffness = np.asarray(table.stiffness)[:, :, front][..., front, 0]
-    normal = np.stack([channel[..., CHANNELS.index(name), 0] for name in ("cosine", "sine")], axis=-1)
-    if model.options.hertz == HERTZ_POWER_LAW:
-        stiffness = _at_static_load(model, channel, np.asarray(table.in_contact)[:, front])
-    matrix = np.einsum("snij,snik,snjl->snkl", stiffness, normal, normal)
-    return np.tensordot(width, matrix.mean(axis=1), axes=1)
-
-
-def _at_static_load(model: Model, channel: np.ndarray, inside: np.ndarray) -> np.ndarray:
-    """Stiffness of uncoupled pairs whose Hertz contact stiffens with the load, (S, N, Q, Q), N/m."""
-    table = model.table
-    load = abs(float(model.mechanics.load_torque)) / float(table.gear_pitch_radius)
-    each = np.maximum(load / np.maximum(inside.sum(axis=1), 1.0), 1.0)[:, None, None]
-    compliance = (
-        channel[..., CHANNELS.index("compliance"), 0] + 0.9 * float(table.hertz_coefficient) * each**-0.1
+def _mean_stiffness(model: Model, cycle: MeshCycle) -> np.ndarray:
+    """Mean over the mesh cycle of Σ_ij k_ij n_i n_jᵀ of the pairs that carry, n = (cos α, sin α); N/m."""
+    still = np.sin(cycle.pressure_angle) * np.where(cycle.side > 0, 1.0, 0.0)
+    mechanics = model.mechanics
+    # what a load on one pair moves the axes apart, it takes from the others: one more compliance they share
+    bearings = 1.0 / mechanics.pinion_stiffness_y + 1.0 / mechanics.gear_stiffness_y
+    shared = bearings * still[..., :, None] * still[..., None, :]
+    own = np.einsum("...ii->...i", shared)
+    moving = cycle._replace(
+        compliance=cycle.compliance + own,
+        coupling=cycle.coupling + shared - own[..., None] * np.eye(own.shape[-1]),
     )
-    return (inside[:, None, :] / compliance)[..., None] * np.eye(inside.shape[1])
+    load = quasi_static(moving, _static_torque(model)).normal_load
+    carrying = np.where(load > 0.0, 1.0, 0.0)
+    contact = carrying * 0.9 * float(cycle.hertz_coefficient) * np.maximum(load, 1e-6) ** -0.1
+    both = carrying[..., :, None] * carrying[..., None, :]
+    tangent = cycle.coupling * both + np.eye(own.shape[-1]) * (cycle.compliance + contact)[..., None]
+    scale = float(np.mean(cycle.compliance))
+    stiffness = np.linalg.inv(tangent / scale) / scale * both
+    normal = np.stack([np.cos(cycle.pressure_angle), np.sin(cycle.pressure_angle)], axis=-1)
+    matrix = np.einsum("snij,snik,snjl->snkl", stiffness, normal, normal)
+    inside = (matrix[:, 1:] + matrix[:, :-1]).mean(axis=1) / 2.0
+    return np.tensordot(np.diff(cycle.boundary), inside, axes=1)
+
+
+def _static_torque(model: Model) -> float:
+    """Constant part of the load, N m; 1 N on the pitch circle where there is none."""
+    return max(abs(float(model.mechanics.load_torque)), float(model.table.gear_pitch_radius))

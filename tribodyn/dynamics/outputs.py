@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.dynamics import contact_forces as contact
-from tribodyn.dynamics.equations import derivatives, stored_energy
+from tribodyn.dynamics.equations import derivatives, locate, stored_energy
 from tribodyn.dynamics.parameters import (
     LAG,
     SLIDING_DYNAMIC,
@@ -101,7 +101,7 @@ def outputs(cycles: np.ndarray, states: np.ndarray, model: Model) -> dict[str, n
     with np.errstate(over="ignore", under="ignore"):
         surface = friction(
             model.options.friction_law,
-            load / table.face_width,
+            load / table.face_width * _peak(phase, segment, model),
             1.0 / per_pair(contact.RADIUS),
             0.5 * (speed_p + speed_g),
             per_pair(contact.RELATIVE_VELOCITY if dynamic else contact.SLIDING),
@@ -111,6 +111,8 @@ def outputs(cycles: np.ndarray, states: np.ndarray, model: Model) -> dict[str, n
         )
     result = {name: contacting(values) for name, values in zip(SURFACE_QUANTITIES, surface, strict=True)}
     result |= {
+        # of the whole face; the others of the surface are where the line load is greatest
+        "friction_coefficient": contacting(per_pair(contact.FRICTION_COEFFICIENT)),
         # geometry exists on the whole path of contact, loaded or not
         "transmission_error": contacting(per_pair(contact.TRANSMISSION_ERROR), inside),
         "pressure_angle": contacting(np.arctan2(per_pair(contact.SIN), per_pair(contact.COS)), inside),
@@ -142,6 +144,14 @@ def outputs(cycles: np.ndarray, states: np.ndarray, model: Model) -> dict[str, n
         "efficiency": efficiency(power_in, sliding_loss),
     }
     return result
+
+
+def _peak(phase: np.ndarray, segment: np.ndarray, model: Model) -> np.ndarray:
+    """Greatest over mean line load along the face of each pair (n, pairs)."""
+    cell, u, _ = locate(phase, segment, model.table)
+    pairs = range(model.table.side.shape[0])
+    c = model.table.channel
+    return np.stack([contact.cubic(c, segment, cell, i, contact.PEAK, u) for i in pairs], axis=-1)
 
 
 def efficiency(power_in: np.ndarray, loss: np.ndarray) -> np.ndarray:

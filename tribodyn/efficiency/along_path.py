@@ -8,7 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.compliance.load_sharing import PairFlexibility, share_load
+from tribodyn.compliance.line_load import friction_ratio, peak_ratio
+from tribodyn.compliance.loaded_flanks import LoadedFlanks
 from tribodyn.efficiency.contact_friction import contact_friction
 from tribodyn.efficiency.places import Places, Sharing, places
 from tribodyn.efficiency.quadrature import Array, piecewise
@@ -35,7 +36,7 @@ class Engagement(NamedTuple):
     entrainment, sliding : m/s
     radius : equivalent radius, averaged over the contact where it vanishes at the pitch point, m
     asperity_load_ratio, central_film_thickness, flash_temperature_rise, hertz_pressure, in_range
-        As `tribodyn.tribology.friction` gives them.
+        As `tribodyn.tribology.friction` gives them, where the line load along the face is greatest.
     deflection : (K,)
         r_p θ_p − r_g θ_g, m; NaN where the load sharing knows no elasticity.
     pinion_torque, gear_torque : (K,)
@@ -97,10 +98,10 @@ def engage(mesh: Places, duty: Duty) -> Engagement:
     width = cycle.face_width
     mu, change = np.zeros_like(side), np.inf
     for _ in range(STEPS):
-        load, deflection = _loads(mesh, duty, side * mu)
+        load, deflection, uneven, peak = _loads(mesh, duty, side * mu)
         contact = contact_friction(
             duty.friction_law,
-            load / width,
+            load / width * uneven,
             mesh.radius,
             *rolling,
             duty.surfaces,
@@ -118,6 +119,16 @@ def engage(mesh: Places, duty: Duty) -> Engagement:
             break
     else:
         raise SimulationError(f"load and friction coefficient do not settle: still moving by {change:.1e}")
+    if np.any(peak != uneven):
+        contact = contact_friction(
+            duty.friction_law,
+            load / width * peak,
+            mesh.radius,
+            *rolling,
+            duty.surfaces,
+            cycle.pitch_point_length,
+            speed * cycle.pitch_point_rate,
+        )
     arms = mesh.normal_arm + side * mu * mesh.friction_arm
     pinion_torque, gear_torque = np.sum(load * arms, axis=-1)
     ratio = cycle.pinion_pitch_radius / cycle.gear_pitch_radius
@@ -142,17 +153,22 @@ def engage(mesh: Places, duty: Duty) -> Engagement:
     )
 
 
-def _loads(mesh: Places, duty: Duty, signed_friction: Array) -> tuple[Array, Array]:
-    """Loads (K, Q) that give the gear's torque with the friction of the last step, and deflection (K,)."""
-    if mesh.flexible is not None:
-        shared = share_load(mesh.flexible, mesh.roll, duty.gear_torque, np.abs(signed_friction))
-        return mesh.carrying * shared.normal_load, shared.deflection
+def _loads(mesh: Places, duty: Duty, signed_friction: Array) -> tuple[Array, Array, Array, Array]:
+    """Loads (K, Q) that give the gear's torque with the friction of the last step, and deflection (K,).
+
+    With the ratios (K, Q) of `compliance.line_load`: 1 for an even load along the face.
+    """
+    if mesh.flanks is not None:
+        shared = mesh.flanks.share(mesh.roll, duty.gear_torque, np.abs(signed_friction))
+        ratios = friction_ratio(shared.slice_load), peak_ratio(shared.slice_load)
+        return mesh.carrying * shared.normal_load, shared.deflection, *ratios
+    even = np.ones_like(mesh.roll)
     if duty.sharing == "elastic":
         found = quasi_static(mesh.cycle, duty.gear_torque, signed_friction[:, None])
-        return found.normal_load[:, 0], found.deflection[:, 0]
+        return found.normal_load[:, 0], found.deflection[:, 0], even, even
     arms = mesh.normal_arm[1] + signed_friction * mesh.friction_arm[1]
     load = mesh.carrying * duty.gear_torque / np.sum(mesh.carrying * arms, axis=-1, keepdims=True)
-    return load, np.full(len(mesh.phase), np.nan)
+    return load, np.full(len(mesh.phase), np.nan), even, even
 
 
 class CycleEfficiency(NamedTuple):
@@ -177,7 +193,7 @@ def cycle_efficiency(
     path: Path,
     duty: Duty,
     points: int = POINTS,
-    flexible: PairFlexibility | None = None,
+    flanks: LoadedFlanks | None = None,
 ) -> CycleEfficiency:
     """Integrate power in, out and lost over a mesh cycle.
 
@@ -193,13 +209,13 @@ def cycle_efficiency(
     duty : Duty
     points : int
         Nodes between two breaks.
-    flexible : PairFlexibility, optional
+    flanks : LoadedFlanks, optional
         As in `places`.
     """
     pitch = cycle.pitch_point_phase - np.arange(cycle.front_pairs - 1.0, -1.0, -1.0)
     breaks = np.unique(np.concatenate([cycle.boundary, (cycle.pitch_point_phase + np.array([0.5])) % 1.0]))
     phase, weight = piecewise(breaks, pitch, points)
-    state = engage(places(cycle, path, phase, duty.sharing, flexible), duty)
+    state = engage(places(cycle, path, phase, duty.sharing, flanks), duty)
     power_in, power_out, lost = (
         float(weight @ power) for power in (state.power_in, state.power_out, state.power_friction)
     )

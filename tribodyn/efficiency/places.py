@@ -4,7 +4,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from tribodyn.compliance.load_sharing import PairFlexibility
+from tribodyn.compliance.loaded_flanks import LoadedFlanks
 from tribodyn.efficiency.quadrature import Array
 from tribodyn.errors import InputError
 from tribodyn.geometry.corner_contact import pair_geometry, roll_limits
@@ -36,7 +36,7 @@ class Places(NamedTuple):
         Equivalent radius, m.
     roll : (K, Q)
         Pinion angles of the pairs from the pitch point, rad.
-    flexible : PairFlexibility or None
+    flanks : LoadedFlanks or None
         By what the pairs share the load; None: by the table's compliances, or not elastically.
     """
 
@@ -47,7 +47,7 @@ class Places(NamedTuple):
     friction_arm: Array
     radius: Array
     roll: Array
-    flexible: PairFlexibility | None
+    flanks: LoadedFlanks | None
 
 
 def places(
@@ -55,7 +55,7 @@ def places(
     path: Path,
     phase: Array,
     sharing: Sharing = "elastic",
-    flexible: PairFlexibility | None = None,
+    flanks: LoadedFlanks | None = None,
 ) -> Places:
     """Look up the mesh at phases 0 … 1: compliance and gap from the table, kinematics from the path.
 
@@ -68,7 +68,7 @@ def places(
     phase : (K,)
         Mesh cycles.
     sharing : one of `SHARINGS`
-    flexible : PairFlexibility, optional
+    flanks : LoadedFlanks, optional
         The load contact model that the table was made from (`tabulate_loaded`). Pairs that share elastically
         then touch beyond the path as well, where a corner meets a flank; the others know the path only.
 
@@ -82,9 +82,9 @@ def places(
     position = phase[:, None] + np.arange(pairs - 1.0, -1.0, -1.0)
     roll = cycle.roll_start + cycle.pitch_angle * position
     start, end = float(cycle.roll_start), float(cycle.roll_end)
-    corners = flexible is not None and sharing == "elastic"
-    if flexible is not None and not corners:
-        start, end = roll_limits(flexible.assembly)
+    corners = flanks is not None and sharing == "elastic"
+    if flanks is not None and not corners:
+        start, end = roll_limits(flanks.flexible.assembly)
     # closed at the beginning, and open at the end by more than rounding
     inside = ((roll >= start - 1e-12) & (roll < end - 1e-12)).astype(float)
     if sharing == "single-pair":
@@ -98,8 +98,8 @@ def places(
             )
         inside = inside * ((roll >= -half) & (roll < half))
     motion: Kinematics
-    if flexible is not None and corners:
-        motion = pair_geometry(flexible.assembly, roll).motion
+    if flanks is not None and corners:
+        motion = pair_geometry(flanks.flexible.assembly, roll).motion
     else:
         motion = kinematics(path, path.signed_distance(np.clip(roll, start, end)))
     at = _Lookup(polynomials(cycle), cycle.boundary, segment, phase)
@@ -123,7 +123,7 @@ def places(
         np.stack([motion.pinion_friction_arm, motion.gear_friction_arm]),
         1.0 / motion.relative_curvature,
         roll,
-        flexible if corners else None,
+        flanks if corners else None,
     )
 
 

@@ -179,6 +179,12 @@ MESH_CYCLE: dict[str, Variable] = {
         ("phase", "pair"), "m/N", "deflection of one pair along its normal per normal load"
     ),
     "gap": Variable(("phase", "pair"), "m", "static transmission error; for back flanks the normal backlash"),
+    "line_load_friction": Variable(
+        ("phase", "pair"), "1", "line load at which friction acts as on the uneven face, over the mean"
+    ),
+    "line_load_peak": Variable(
+        ("phase", "pair"), "1", "greatest line load along the face over the mean, K_Hbeta"
+    ),
     "coupling": Variable(
         ("phase", "pair", "other_pair"),
         "m/N",

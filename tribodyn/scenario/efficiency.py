@@ -10,9 +10,18 @@ from tribodyn.efficiency.case import EfficiencyCase
 from tribodyn.errors import InputError
 from tribodyn.scenario import units
 from tribodyn.scenario.model_files import DriveTable, Lubricant
+from tribodyn.scenario.modification import MisalignmentTable
+from tribodyn.scenario.modification_rules import Face, broken_face_rules
 from tribodyn.scenario.quantity import NotNegative, Quantity, Reference, Switch, Table, Text, written
-from tribodyn.scenario.schema import Name
-from tribodyn.scenario.to_case import drive_of, lubricant_of, materials_of, mean_roughness
+from tribodyn.scenario.schema import Name, Slices
+from tribodyn.scenario.to_case import (
+    drive_of,
+    lubricant_of,
+    materials_of,
+    mean_roughness,
+    modifications_of,
+    slices_of,
+)
 
 
 class EfficiencyOperating(Table):
@@ -37,6 +46,11 @@ class EfficiencyMesh(Table):
     )
     hertz: Literal["linear", "load-dependent"] = Field("linear", description="contact part of the compliance")
     foundation_coupling: Switch = Field(True, description="pairs that share a body share its foundation")
+    misalignment: MisalignmentTable = written({})
+    slices: Slices | None = Field(
+        None, description="of the face; default: 21 where anything varies along it, else 1"
+    )
+    slice_coupling: Switch = Field(True, description="slices of one tooth hold each other")
 
 
 class EfficiencyFriction(Table):
@@ -66,8 +80,11 @@ class EfficiencyScenario(Table):
     output: EfficiencyOutput = written({})
 
 
-def broken_efficiency_rules(mesh: EfficiencyMesh) -> Iterator[InputError]:
-    """Go through the rules that the mesh of an efficiency study breaks."""
+def broken_efficiency_rules(scenario: EfficiencyScenario) -> Iterator[InputError]:
+    """Go through the rules that the mesh and flanks of an efficiency study break."""
+    mesh = scenario.mesh
+    face = Face(scenario.drive, mesh.misalignment, mesh.slices, mesh.slice_coupling)
+    yield from broken_face_rules(face, mesh.compliance)
     if mesh.hertz == "load-dependent" and mesh.compliance != "energy":
         yield InputError(
             "mesh.hertz",
@@ -80,6 +97,7 @@ def broken_efficiency_rules(mesh: EfficiencyMesh) -> Iterator[InputError]:
 def efficiency_case_of(scenario: EfficiencyScenario, toml: str, sha256: str) -> EfficiencyCase:
     """Return the case of a scenario that has passed schema and rules."""
     drive, mesh, operating = scenario.drive, scenario.mesh, scenario.operating
+    modifications = modifications_of(drive, mesh.misalignment)
     return EfficiencyCase(
         title=scenario.title,
         name=scenario.name or "scenario",
@@ -94,7 +112,13 @@ def efficiency_case_of(scenario: EfficiencyScenario, toml: str, sha256: str) -> 
         lubricant=lubricant_of(scenario.lubricant),
         operating=OperatingData("speed", operating.pinion_speed, operating.gear_torque),
         mesh=MeshData(
-            mesh.compliance, damping_ratio=0.0, hertz=mesh.hertz, foundation_coupling=mesh.foundation_coupling
+            mesh.compliance,
+            damping_ratio=0.0,
+            hertz=mesh.hertz,
+            foundation_coupling=mesh.foundation_coupling,
+            modifications=modifications,
+            slices=slices_of(mesh.slices, modifications),
+            slice_coupling=mesh.slice_coupling,
         ),
         friction=FrictionData(scenario.friction.law, scenario.friction.coefficient),
         load_sharing=mesh.load_sharing,

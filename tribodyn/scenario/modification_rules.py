@@ -74,7 +74,17 @@ def broken_slice_rules(face: Face) -> Iterator[InputError]:
         )
 
 
-def contradicted_modifications(face: Face, contradiction: str, remedy: str) -> Iterator[InputError]:
+def broken_face_rules(face: Face, compliance: str) -> Iterator[InputError]:
+    """Go through the rules of a run that repeats one mesh cycle, by finite elements or without them."""
+    if compliance == "fem":
+        yield from broken_slice_rules(face)
+        yield from _contradicted_pitch_errors(face.drive)
+    else:
+        remedy = 'leave it out, or write compliance = "fem"'
+        yield from _contradicted_modifications(face, f'compliance = "{compliance}"', remedy)
+
+
+def _contradicted_modifications(face: Face, contradiction: str, remedy: str) -> Iterator[InputError]:
     """Refuse everything of the sort in a run that does not know it.
 
     Parameters
@@ -88,13 +98,13 @@ def contradicted_modifications(face: Face, contradiction: str, remedy: str) -> I
         yield InputError(key, value, f"contradicts {contradiction}", remedy)
 
 
-def contradicted_pitch_errors(drive: DriveTable) -> Iterator[InputError]:
+def _contradicted_pitch_errors(drive: DriveTable) -> Iterator[InputError]:
     """Refuse errors of single teeth in a run whose mesh repeats with every pitch."""
     for key, value in _pitch_errors(drive):
         yield InputError(
             key,
             value,
-            "the dynamics repeat one mesh cycle, in which all teeth are alike",
+            "the run repeats one mesh cycle, in which all teeth are alike",
             'leave it out, or use kind = "load-contact"',
         )
 

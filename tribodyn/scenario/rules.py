@@ -6,13 +6,10 @@ from tribodyn.errors import InputError
 from tribodyn.scenario.efficiency import EfficiencyScenario, broken_efficiency_rules
 from tribodyn.scenario.load_contact import LoadContactScenario, broken_load_contact_rules
 from tribodyn.scenario.model_files import Bearing, DriveTable
-from tribodyn.scenario.modification import MisalignmentTable
 from tribodyn.scenario.modification_rules import (
     Face,
+    broken_face_rules,
     broken_flank_rules,
-    broken_slice_rules,
-    contradicted_modifications,
-    contradicted_pitch_errors,
 )
 from tribodyn.scenario.schema import Mesh, Operating, Scenario
 
@@ -26,17 +23,14 @@ def broken_rules(scenario: OfGears) -> list[InputError]:
     if isinstance(scenario, LoadContactScenario):
         return [*drive, *broken_load_contact_rules(scenario)]
     if isinstance(scenario, EfficiencyScenario):
-        unmodified = Face(scenario.drive, MisalignmentTable(), None, True)
-        remedy = 'leave it out, or use kind = "load-contact"'
-        broken = contradicted_modifications(unmodified, 'kind = "efficiency"', remedy)
-        return [*drive, *broken_efficiency_rules(scenario.mesh), *broken]
+        return [*drive, *broken_efficiency_rules(scenario)]
     return [
         *drive,
         *_bearing("bearings.pinion", scenario.bearings.pinion),
         *_bearing("bearings.gear", scenario.bearings.gear),
         *_operating(scenario.operating, scenario.mesh.backlash is not None),
         *_mesh(scenario.mesh),
-        *_face(scenario),
+        *broken_face_rules(_face(scenario), scenario.mesh.compliance),
     ]
 
 
@@ -53,15 +47,9 @@ def broken_drive_rules(drive: DriveTable) -> Iterator[InputError]:
     yield from broken_flank_rules(drive)
 
 
-def _face(scenario: Scenario) -> Iterator[InputError]:
+def _face(scenario: Scenario) -> Face:
     mesh = scenario.mesh
-    face = Face(scenario.drive, mesh.misalignment, mesh.slices, mesh.slice_coupling)
-    if mesh.compliance == "fem":
-        yield from broken_slice_rules(face)
-        yield from contradicted_pitch_errors(scenario.drive)
-    else:
-        remedy = 'leave it out, or write compliance = "fem"'
-        yield from contradicted_modifications(face, f'compliance = "{mesh.compliance}"', remedy)
+    return Face(scenario.drive, mesh.misalignment, mesh.slices, mesh.slice_coupling)
 
 
 def _bearing(key: str, bearing: Bearing) -> Iterator[InputError]:

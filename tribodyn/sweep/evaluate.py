@@ -95,7 +95,7 @@ def evaluate(chunk: Chunk, settings: Settings, workers: int | None = None) -> di
             prepared = prepare(case, tabulated(case))
             given = None if chunk.states is None or np.isnan(chunk.states[i, 0]) else chunk.states[i]
             ready[i] = prepared, _start(prepared, settings) if given is None else given
-            frequencies = natural_frequencies(prepared.model)
+            frequencies = natural_frequencies(prepared.model, prepared.cycle)
             rows["mode_frequency"][i, : len(frequencies)] = frequencies
         except (InputError, SimulationError) as error:
             _fail(rows, i, str(error))

@@ -1,0 +1,40 @@
+"""The flanks of a pair as they are: elastic, modified, on axes as they stand, in slices along the face."""
+
+from typing import Any, NamedTuple
+
+from tribodyn.compliance.flank_gap import flank_gap
+from tribodyn.compliance.load_sharing import PairFlexibility, SharedLoad, share_load
+from tribodyn.compliance.slices import face_positions
+from tribodyn.geometry.corner_contact import pair_geometry
+from tribodyn.geometry.modification import UNMODIFIED, Modifications
+
+Array = Any
+
+
+class LoadedFlanks(NamedTuple):
+    """What the load contact model needs to know but position, load and friction.
+
+    Attributes
+    ----------
+    flexible : PairFlexibility
+        With `lead` where slices hold each other.
+    modifications : Modifications
+        Without pitch errors: all teeth are alike.
+    slices : int
+        Equal slices of the face.
+    coupled : bool
+        Whether slices hold each other through the teeth and bodies.
+    """
+
+    flexible: PairFlexibility
+    modifications: Modifications = UNMODIFIED
+    slices: int = 1
+    coupled: bool = True
+
+    def share(self, roll: Array, gear_torque: float, friction_coefficient: Array | float = 0.0) -> SharedLoad:
+        """Share the gear's torque among pairs at the roll angles (position, pair), as `share_load` does."""
+        flexible = self.flexible
+        geometry = pair_geometry(flexible.assembly, roll)
+        face = face_positions(flexible.width, self.slices)
+        gap = flank_gap(flexible.assembly, self.modifications, geometry, face)
+        return share_load(flexible, roll, gear_torque, friction_coefficient, gap, self.slices, self.coupled)
