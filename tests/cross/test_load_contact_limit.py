@@ -5,10 +5,12 @@ import dataclasses
 import numpy as np
 import pytest
 
+from tribodyn.case import FrictionData
 from tribodyn.compliance.flank_gap import flank_gap
 from tribodyn.compliance.load_sharing import flexibility, share_load
+from tribodyn.compliance.loaded_flanks import LoadedFlanks
 from tribodyn.compliance.slices import face_positions
-from tribodyn.dynamics.outputs import outputs
+from tribodyn.dynamics.outputs import outputs, segment_of
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.modification import UNMODIFIED, FlankModification, Misalignment, Modifications, Relief
@@ -16,6 +18,7 @@ from tribodyn.prepare import prepare
 from tribodyn.scenario.load import family
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.transient import Chunk, Settings, transient
+from tribodyn.tribology.friction import friction
 
 SAMPLES = 100
 TIP = FlankModification(tip=Relief(12e-6, 3e-3))
@@ -56,6 +59,55 @@ def test_creeping_run_is_the_load_contact_model(prepared, modified, slices):
     outside = (roll < -0.2954 - 1e-3) | ((roll > 0.2670 + 1e-3) & (roll < cycle.roll_end))
     touches = np.any(found[:SAMPLES][outside] > 0.01 * expected.max())
     assert touches or modified != UNMODIFIED
+
+
+def test_friction_power_in_slow_rotation_is_that_of_the_slices(prepared):
+    """Misaligned: one friction a pair in the right-hand side, against the sum over the slices.
+
+    At rest but for creep; oil thick enough for the mixed regime, in which friction depends on the line load.
+    """
+    slow = {
+        "operating.pinion_speed": "0.01 rad/s",
+        "lubricant.inlet_viscosity": "100 Pa*s",
+        "mesh.misalignment.in_plane": "2 arcmin",
+        "mesh.slices": 11,
+    }
+    case = prepared("involute-18-36-fem", **slow).case
+    run = prepare(dataclasses.replace(case, friction=FrictionData("masjedi-khonsari")))
+    model, cycle = run.model, run.cycle
+    phase = (np.arange(24) + 0.5) / 24
+    states = np.stack([static_equilibrium(model, at, int(segment_of(at, cycle.boundary))) for at in phase])
+    found = outputs(phase, states, model)
+    # the creep's own flow has no share in the friction: nominal sliding
+    power = np.abs(found["friction_force"] * np.nan_to_num(found["sliding_speed"]))
+
+    case, surfaces = run.case, model.contact
+    flexible = flexibility(assemble(family(case.family), case.drive), case.materials, lead=True)
+    flanks = LoadedFlanks(flexible, case.mesh.modifications, 11)
+    roll = cycle.roll_start + cycle.pitch_angle * (phase[:, None] + np.arange(cycle.pairs - 1.0, -1.0, -1.0))
+    shared = flanks.share(roll, case.operating.gear_torque, np.nan_to_num(found["friction_coefficient"]))
+    np.testing.assert_allclose(found["normal_load"], shared.normal_load, atol=0.01 * shared.normal_load.max())
+    radius = found["equivalent_radius"][..., None]
+    entrainment, sliding = found["entrainment_speed"][..., None], found["sliding_speed"][..., None]
+    with np.errstate(under="ignore", over="ignore", invalid="ignore"):
+        surface = friction(
+            model.options.friction_law,
+            np.maximum(shared.slice_load, 1e-3) * 11 / flexible.width,
+            1.0 / radius,
+            entrainment,
+            sliding,
+            entrainment + sliding / 2.0,
+            entrainment - sliding / 2.0,
+            surfaces,
+        )
+    exact = np.sum(np.nan_to_num(surface[0]) * shared.slice_load, axis=-1)
+    exact = exact * np.abs(np.nan_to_num(found["sliding_speed"]))
+    assert np.sum(power) == pytest.approx(np.sum(exact), rel=0.015)
+    touching = shared.slice_load > 0.0
+    heaviest = np.nanmax(np.where(touching, surface[4], np.nan))
+    assert np.nanmax(found["hertz_pressure"]) == pytest.approx(heaviest, rel=0.01)
+    thinnest = np.nanmin(np.where(touching, surface[2], np.nan))
+    assert np.nanmin(found["central_film_thickness"]) == pytest.approx(thinnest, rel=0.01)
 
 
 def test_relieved_tips_quieten_the_running_pair(prepared):

@@ -55,19 +55,29 @@ SAMPLES: dict[str, Variable] = {
     "friction_force": Variable(
         ("time", "pair"), "N", "sliding friction on the pinion's flank along the tangent, positive in recess"
     ),
-    "friction_coefficient": Variable(("time", "pair"), "1", "friction coefficient of the pair"),
-    "asperity_load_ratio": Variable(("time", "pair"), "1", "share of the load that asperities carry"),
+    "friction_coefficient": Variable(
+        ("time", "pair"), "1", "friction coefficient of the pair, its whole face"
+    ),
+    "asperity_load_ratio": Variable(
+        ("time", "pair"), "1", "share of the load that asperities carry, where the line load is greatest"
+    ),
     "film_parameter": Variable(
         ("time", "pair"), "1", "film parameter: central film thickness over composite roughness"
     ),
-    "central_film_thickness": Variable(("time", "pair"), "m", "central film thickness"),
+    "central_film_thickness": Variable(
+        ("time", "pair"), "m", "central film thickness where the line load is greatest"
+    ),
     "equivalent_radius": Variable(
         ("time", "pair"),
         "m",
         "equivalent radius of the two flanks; averaged over the contact where it vanishes at the pitch point",
     ),
-    "hertz_pressure": Variable(("time", "pair"), "Pa", "greatest Hertz pressure, at the equivalent radius"),
-    "flash_temperature_rise": Variable(("time", "pair"), "K", "flash temperature rise in the contact"),
+    "hertz_pressure": Variable(
+        ("time", "pair"), "Pa", "greatest Hertz pressure along the face, at the equivalent radius"
+    ),
+    "flash_temperature_rise": Variable(
+        ("time", "pair"), "K", "flash temperature rise where the line load is greatest"
+    ),
     "entrainment_speed": Variable(
         ("time", "pair"),
         "m/s",
