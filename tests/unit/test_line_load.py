@@ -64,7 +64,8 @@ def test_the_table_has_the_friction_film_and_pressure_of_the_slices(case, name):
                 1.0 / radius[shape],
                 sum(rolling) / 2.0,
                 rolling[0] - rolling[1],
-                *rolling,
+                rolling[0],
+                rolling[1],
                 surfaces,
             )
 
