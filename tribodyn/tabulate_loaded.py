@@ -16,7 +16,7 @@ from tribodyn.compliance.condensed import Condensed, condense
 from tribodyn.compliance.flank_gap import flank_gap, relief_rolls, same_every_pitch
 from tribodyn.compliance.gear_compliance import without_neighbours
 from tribodyn.compliance.load_sharing import PairFlexibility, contact_deflection, flexibility, share_load
-from tribodyn.compliance.loaded_contact import check, reach
+from tribodyn.compliance.loaded_contact import check, check_resolved, reach
 from tribodyn.compliance.slices import face_positions, pair_harmonics
 from tribodyn.compliance.table import check_cover, interpolate
 from tribodyn.errors import InputError
@@ -173,6 +173,7 @@ def _driving(
     face = face_positions(flexible.width, slices)
     gap = error[..., None] + flank_gap(flexible.assembly, mesh.modifications, geometry, face)
     shared = share_load(flexible, roll, gear_torque, 0.0, gap, slices, mesh.slice_coupling)
+    check_resolved(flexible.assembly, shared, mesh.modifications, gear_torque)
     harmonics = pair_harmonics(flexible, geometry, slices, mesh.slice_coupling)
     whole = geometry.gap[..., None] + gap
     return condense(flexible, geometry, harmonics, whole, shared, least_load)

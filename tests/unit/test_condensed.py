@@ -70,6 +70,12 @@ def test_quasi_static_mesh_is_the_load_contact_model(case, name):
     assert np.mean(found) == pytest.approx(np.mean(more), rel=0.1 if name == "lift" else 0.04)
 
 
+def test_a_lifted_face_is_refused_by_its_own_key(case):
+    with pytest.raises(InputError, match="lifts the flanks") as refused:
+        table(case, Modifications(misalignment=Misalignment(8e-3)), 11)
+    assert refused.value.key == "mesh.misalignment.in_plane"
+
+
 def test_coupling_is_symmetric_and_everything_finite(case):
     cycle = table(case, *CASES["all"])
     np.testing.assert_allclose(cycle.coupling, np.swapaxes(cycle.coupling, -1, -2), atol=1e-22)
