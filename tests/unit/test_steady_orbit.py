@@ -148,3 +148,19 @@ def test_a_map_with_the_multiplier_one_is_told():
     (orbit,) = find(drift, np.zeros((1, 1)), tolerance=1e-9, method="shooting")
     assert orbit.kind == "failed"
     assert "not isolated" in orbit.message
+
+
+def test_noise_of_the_integration_is_not_taken_for_a_motion():
+    """Fast contractions whose rough march never comes to rest: every fixed point is found, and soon."""
+
+    class Rough(ClosedForm):
+        def march(self, states, cases, periods, fine):
+            self.step = lambda x, r: r[:, None] * x + (0.0 if fine else 2e-3 * np.sin(1e7 * x + 1.0))
+            return super().march(states, cases, periods, fine)
+
+    rates = np.linspace(-0.4, 0.4, 33)
+    found = find(Rough(None, rates, 1), np.full((33, 1), 0.7), tolerance=TOLERANCE, max_periods=8 * BLOCK)
+    for rate, orbit in zip(rates, found, strict=True):
+        assert orbit.kind == "period-1", orbit.message
+        assert abs(orbit.state[0]) <= 1e-8
+        assert abs(orbit.multipliers[0]) == pytest.approx(abs(rate), abs=1e-6)

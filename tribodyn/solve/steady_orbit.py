@@ -6,7 +6,7 @@ there sooner; a state that shooting found is taken only if it is stable and near
 for, otherwise marching goes on. What marching leaves, it leaves: no average of an unstable state is returned.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -26,6 +26,11 @@ NEAR = 1e-3
 DERIVATIVES = 2
 #: Distance within which what shooting found is what marching had come to, whatever the last periods did.
 THERE = 1e-5
+#: Changes of a motion that falls no further, over the scale, which may be the integration's own noise: where
+#: contact opens and closes marching at 1e-6 leaves up to a few 1e-4. It is marched finely from then on; and
+#: the blocks over which a change must halve not to count as stuck.
+NOISE = 1e-2
+STUCK = 2
 #: Newton steps allowed while marching may go on, and when it may not.
 STEPS, LAST_STEPS = 8, 20
 #: Distance of a multiplier's modulus from 1 within which a state counts as neutral.
@@ -82,12 +87,22 @@ class _Progress:
         self.history: list[list[float]] = [[] for _ in states]
         self.track: dict[int, np.ndarray] = {}
         self.fallback: dict[int, Orbit] = {}
+        self.fine = np.zeros(len(states), dtype=bool)
 
     def approaching(self, case: int) -> bool:
         """Whether the change over a period fell over the second half of what was marched."""
         blocks = self.history[case]
         quarter = max(1, len(blocks) // 4)
         return max(blocks[-quarter:]) < 0.5 * max(blocks[-2 * quarter : -quarter] or [0.0])
+
+    def refine_where_stuck(self, case: int) -> None:
+        """March finely, and shoot anew, where the change over a period is small and falls no further."""
+        blocks = self.history[case]
+        if self.fine[case] or len(blocks) < 2 * STUCK or max(blocks[-STUCK:]) > NOISE:
+            return
+        if max(blocks[-STUCK:]) >= 0.5 * max(blocks[-2 * STUCK : -STUCK]):
+            self.fine[case] = True
+            self.next_shot[case] = 0
 
 
 def find(
@@ -124,18 +139,18 @@ def find(
     pending = np.arange(count)
     while pending.size:
         wanted: dict[int, list[int]] = {}
-        block = period_map.march(so_far.current[pending], pending, BLOCK, method == "marching")
-        for k, case in enumerate(map(int, pending)):
-            if block.reasons[k]:
-                done[case] = _failed(so_far.current[case], int(so_far.marched[case]), block.reasons[k])
+        for case, states_on, reason in _block(period_map, so_far, pending, method):
+            if reason:
+                done[case] = _failed(so_far.current[case], int(so_far.marched[case]), reason)
                 continue
-            track = np.concatenate([so_far.current[case][None], block.states[k]])
+            track = np.concatenate([so_far.current[case][None], states_on])
             so_far.current[case] = track[-1]
             so_far.marched[case] += BLOCK
             so_far.track[case] = track / period_map.scale[case]
             period = _candidate(so_far, case, tolerance, method)
             if period:
                 wanted.setdefault(period, []).append(case)
+            so_far.refine_where_stuck(case)
         for period, these in wanted.items():
             for case, orbit in _attempt(period_map, so_far, these, period, tolerance, method).items():
                 done[case] = orbit
@@ -146,6 +161,18 @@ def find(
         if progress:
             progress(1.0 - len(pending) / count)
     return [orbit for orbit in done if orbit is not None]
+
+
+def _block(
+    period_map: PeriodMap, so_far: _Progress, pending: np.ndarray, method: Method
+) -> Iterator[tuple[int, np.ndarray, str]]:
+    """March all pending systems over a block: number, states (BLOCK, N) and what stopped it."""
+    fine = so_far.fine[pending] | (method == "marching")
+    for exactly in (False, True):
+        cases = pending[fine == exactly]
+        if cases.size:
+            found = period_map.march(so_far.current[cases], cases, BLOCK, exactly)
+            yield from zip(map(int, cases), found.states, found.reasons, strict=True)
 
 
 def _candidate(so_far: _Progress, case: int, tolerance: float, method: Method) -> int:
