@@ -7,6 +7,7 @@ from rich.console import Group
 from rich.table import Table
 from rich.text import Text
 
+from tribodyn.post.shown_units import shown
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE, FIGURES
 
@@ -81,14 +82,9 @@ def _row(record: SweepRecord, column: Column, values: np.ndarray) -> list[str]:
 
 
 def _place(record: SweepRecord, at: dict[str, Any]) -> str:
-    """Name a case by its values, in the order of the dimensions."""
+    """Name a case by its values in engineers' units, in the order of the dimensions."""
     units = {one.name: one.units for one in record.parameters}
-    words = []
-    for name, value in at.items():
-        unit = units.get(name, "")
-        number = f"{value:.5g}" if isinstance(value, float) else str(value)
-        words.append(number if unit in ("", "1") else f"{number} {unit}")
-    return ", ".join(words)
+    return ", ".join(shown(value, units.get(name, "")) for name, value in at.items())
 
 
 def sweep_as_json(record: SweepRecord) -> dict[str, Any]:

@@ -1,23 +1,31 @@
 """Curves of a sweep: the first parameter along the abscissa, a branch for every value of the others."""
 
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
 from tribodyn.errors import InputError
+from tribodyn.post.shown_units import shown, shown_unit
 from tribodyn.post.style import PALETTE, QUIET
 from tribodyn.record.sweep_reader import Parameter, SweepRecord
-from tribodyn.record.sweep_schema import DONE
+from tribodyn.record.sweep_schema import DONE, UNKNOWN
 
 #: Branches that a figure tells apart; of more, so many are shown.
 MOST_BRANCHES = 6
-#: Units that engineers read, for SI units: name and factor.
-SHOWN_IN = {"rad/s": ("rpm", 30 / np.pi), "N*m": ("N m", 1.0), "m": ("mm", 1e3), "rad": ("deg", 180 / np.pi)}
 UP, DOWN = "-", (0, (3, 1.5))
+#: Shade of the range in which contact is lost.
+LOST = "#f1e8dc"
+#: Motions that are marked: label and marks.
+MOTIONS: tuple[tuple[str, dict[str, Any]], ...] = (
+    ("repeats after several mesh cycles", {"marker": "D", "markersize": 4, "markerfacecolor": "none"}),
+    ("does not repeat", {"marker": "x", "markersize": 5}),
+)
 
 
 class Branch(NamedTuple):
@@ -87,54 +95,95 @@ def branches(records: Sequence[SweepRecord]) -> list[Branch]:
         for d, direction in enumerate(record.directions or ("",)):
             index = (slice(None), *place, *((d,) if direction else ()))
             style = DOWN if direction == "down" else UP
-            x = record.parameters[0].values * unit(record.parameters[0])[1]
+            x = record.parameters[0].values * shown_unit(record.parameters[0].units)[1]
             drawn.append(Branch(record, index, x, PALETTE[number], style, label, direction))
     return drawn
-
-
-def unit(parameter: Parameter) -> tuple[str, float]:
-    """Unit that engineers read a parameter in, and the factor from SI."""
-    return SHOWN_IN.get(parameter.units, (parameter.units, 1.0))
 
 
 def axis_label(parameter: Parameter) -> str:
     """Label an axis: "Pinion speed (rpm)"."""
     name = parameter.name.replace("_", " ").capitalize()
-    shown = unit(parameter)[0]
-    return name if shown in ("", "1") else f"{name} ({shown})"
+    unit = shown_unit(parameter.units)[0]
+    return f"{name} ({unit})" if unit else name
 
 
 def _value(parameter: Parameter, index: int) -> str:
-    value = parameter.values[index]
-    name, factor = unit(parameter)
-    if parameter.values.dtype.kind not in "fi":
-        return str(value)
-    number = f"{float(value) * factor:.4g}"
-    return f"{parameter.name.replace('_', ' ')} {number}" if name == "1" else f"{number} {name}"
+    text = shown(parameter.values[index].item(), parameter.units, 4)
+    return f"{parameter.name.replace('_', ' ')} {text}" if parameter.units == "1" else text
+
+
+def named(branch: Branch) -> str:
+    """What tells a branch apart, its direction included; empty where there is only one."""
+    return ", ".join(word for word in (branch.label, branch.direction) if word)
 
 
 def draw_branch(axes: Axes, branch: Branch, values: np.ndarray) -> None:
-    """Draw a curve, broken where cases failed, with dots where the cases stand close enough to matter."""
-    marker = "." if len(branch.x) <= 80 else ""
+    """Draw a curve, broken where cases failed, with dots where they can be told apart: hollow downwards.
+
+    Where the motion does not repeat with the mesh there is a greater mark, by `MOTIONS`.
+    """
+    marker = "o" if len(branch.x) <= 80 else ""
     axes.plot(
         branch.x,
         values,
         color=branch.color,
         linestyle=branch.style,
         marker=marker,
-        markersize=3,
+        markersize=2.4 if branch.direction == "down" else 1.8,
+        markerfacecolor="white" if branch.direction == "down" else branch.color,
+        markeredgewidth=0.6,
         linewidth=1.0,
     )
+    for _, style, chosen in motions(branch):
+        axes.plot(branch.x[chosen], values[chosen], color=branch.color, linestyle="none", zorder=3, **style)
 
 
-def branch_legend(figure: Figure, drawn: Sequence[Branch], lines: bool = True) -> None:
+def motions(branch: Branch) -> Iterator[tuple[str, dict[str, Any], np.ndarray]]:
+    """Label, marks and cases (n,) of every sort of motion that does not repeat with the mesh."""
+    steady = branch.record["stable"][branch.place] != UNKNOWN
+    period, solution = (branch.record[name][branch.place] for name in ("period", "solution"))
+    wandering = steady & (solution == "not periodic")
+    for (label, style), chosen in zip(MOTIONS, (steady & (period > 1), wandering), strict=True):
+        if chosen.any():
+            yield label, style, chosen
+
+
+def shade_contact_loss(axes: Axes, drawn: Sequence[Branch]) -> None:
+    """Shade where contact is lost at times, on any of the branches."""
+    for branch in drawn:
+        if len(branch.x) < 2:
+            continue
+        order = np.argsort(branch.x)
+        x, lost = branch.x[order], branch.values("contact_loss_fraction")[order] > 0.0
+        middle = (x[1:] + x[:-1]) / 2.0
+        edges = np.concatenate([x[:1], middle, x[-1:]])
+        starts = np.flatnonzero(np.diff(np.concatenate([[False], lost, [False]]).astype(int)))
+        for first, behind in zip(starts[::2], starts[1::2], strict=True):
+            axes.axvspan(edges[first], edges[behind], color=LOST, linewidth=0, zorder=0)
+
+
+def regime_handles(drawn: Sequence[Branch]) -> list[Artist]:
+    """Entries of a legend for the motions that are marked, and for the loss of contact that is shaded."""
+    marks = {label: style for branch in drawn for label, style, _ in motions(branch)}
+    handles: list[Artist] = [
+        Line2D([], [], color=QUIET, linestyle="none", label=label, **style) for label, style in marks.items()
+    ]
+    if any(np.nanmax(branch.values("contact_loss_fraction"), initial=0.0) > 0.0 for branch in drawn):
+        handles.append(Patch(color=LOST, label="a curve loses contact"))
+    return handles
+
+
+def branch_legend(
+    figure: Figure, drawn: Sequence[Branch], lines: bool = True, marks: Sequence[Artist] = ()
+) -> None:
     """Put one legend below the figure: branches by colour, directions by line where there are `lines`."""
     labels = {branch.label: branch.color for branch in drawn if branch.label}
-    handles = [Line2D([], [], color=color, label=label) for label, color in labels.items()]
+    handles: list[Artist] = [Line2D([], [], color=color, label=label) for label, color in labels.items()]
     if lines and any(branch.direction == "down" for branch in drawn):
         handles.append(Line2D([], [], color=QUIET, linestyle=UP, label="up"))
         handles.append(Line2D([], [], color=QUIET, linestyle=DOWN, label="down"))
-    if len(handles) > 1:
+    handles += list(marks)
+    if len(handles) > 1 or marks:
         figure.legend(
             handles=handles, loc="outside lower center", ncols=min(4, len(handles)), handlelength=2.6
         )

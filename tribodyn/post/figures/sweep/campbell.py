@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribodyn.post.figures.sweep.amplitudes import order_amplitudes
-from tribodyn.post.figures.sweep.branch import Branch, axis_label, branches, sweep_title
+from tribodyn.post.figures.sweep.branch import Branch, axis_label, branches, named, sweep_title
 from tribodyn.post.style import INK, PALETTE, QUIET, WIDTH, new_figure
 from tribodyn.record.sweep_reader import SweepRecord
 
@@ -29,7 +29,8 @@ def campbell_figure(records: Sequence[SweepRecord]) -> Figure:
     _draw_orders(axes, branch)
     axes.set_xlabel(axis_label(records[0].parameters[0]))
     axes.set_ylabel("Frequency (kHz)")
-    figure.suptitle(sweep_title(records), x=0.01, ha="left", fontsize=9)
+    shown = f": {named(branch)}" if named(branch) else ""
+    figure.suptitle(sweep_title(records) + shown, x=0.01, ha="left", fontsize=9)
     return figure
 
 

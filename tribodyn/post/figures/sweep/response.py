@@ -5,7 +5,15 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
-from tribodyn.post.figures.sweep.branch import axis_label, branch_legend, branches, draw_branch, sweep_title
+from tribodyn.post.figures.sweep.branch import (
+    axis_label,
+    branch_legend,
+    branches,
+    draw_branch,
+    regime_handles,
+    shade_contact_loss,
+    sweep_title,
+)
 from tribodyn.post.style import PANEL_HEIGHT, WIDTH, mark_panel, new_figure
 from tribodyn.record.sweep_reader import SweepRecord
 
@@ -23,26 +31,28 @@ FLAT = 1e-5
 
 
 def response_figure(records: Sequence[SweepRecord]) -> Figure:
-    """Draw six figures of every case over the first parameter; up and down apart where both were followed."""
+    """Draw six figures of every case over the first parameter; up and down apart where both were followed.
+
+    Shaded where contact is lost at times; marked where the motion does not repeat with the mesh.
+    """
     figure = new_figure(WIDTH, 3 * (PANEL_HEIGHT - 0.4) + 0.6)
     rows = figure.subplots(3, 2, sharex=True)
     drawn = branches(records)
     for letter, axes, (name, factor, label, from_zero) in zip("abcdef", rows.flat, PANELS, strict=True):
         for branch in drawn:
             draw_branch(axes, branch, branch.values(name) * factor)
+        axes.margins(x=0.02)
         axes.set_ylabel(label)
         if from_zero:
             axes.set_ylim(bottom=0)
         elif np.ptp(axes.dataLim.intervaly) < FLAT * abs(axes.dataLim.y1):
             # a constant: no scale of rounding errors
-            axes.set_ylim(0.98 * axes.dataLim.y1, 1.0 * axes.dataLim.y1)
-        elif np.ptp(axes.get_ylim()) > np.abs(axes.dataLim.intervaly).max() * FLAT:
-            pass
+            axes.set_ylim(0.98 * axes.dataLim.y1, 1.004 * axes.dataLim.y1)
+        shade_contact_loss(axes, drawn)
         mark_panel(axes, letter)
     for axes in rows[-1]:
         axes.set_xlabel(axis_label(records[0].parameters[0]))
-        axes.margins(x=0.02)
     figure.align_ylabels()
-    branch_legend(figure, drawn)
+    branch_legend(figure, drawn, marks=regime_handles(drawn))
     figure.suptitle(sweep_title(records), x=0.01, ha="left", fontsize=9)
     return figure

@@ -6,7 +6,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from tribodyn.errors import InputError
-from tribodyn.post.figures.sweep.branch import axis_label, branch_legend, branches, sweep_title, unit
+from tribodyn.post.figures.sweep.branch import axis_label, branch_legend, branches, sweep_title
+from tribodyn.post.shown_units import shown
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, WIDTH, new_figure
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE
@@ -114,11 +115,7 @@ def described(record: SweepRecord, place: tuple[int, ...]) -> str:
     """Name a case by its parameters in engineers' units, and its sort of motion."""
     words = []
     for one, index in zip(record.parameters, place, strict=False):
-        name, factor = unit(one)
-        value = one.values[index]
-        number = f"{float(value) * factor:.5g}" if one.values.dtype.kind in "fi" else str(value)
-        shown = number if name in ("", "1") else f"{number} {name}"
-        words.append(f"{one.name.replace('_', ' ')} {shown}")
+        words.append(f"{one.name.replace('_', ' ')} {shown(one.values[index].item(), one.units)}")
     if record.directions:
         words.append(record.directions[place[-1]])
     return f"{', '.join(words)}: {record.case('solution', place)}"

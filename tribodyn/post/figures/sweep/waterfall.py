@@ -38,9 +38,9 @@ def waterfall_figure(records: Sequence[SweepRecord]) -> Figure:
         axes.set_xlabel("Frequency (kHz)")
     panels[0].set_ylabel(axis_label(records[0].parameters[0]))
     scale = f"highest line {highest * 1e6:.3g} µm, logarithmic over {RANGE:g} dB; modes dashed"
-    figure.suptitle(
-        f"{sweep_title(records)}\nSpectra of the transmission error: {scale}", x=0.01, ha="left", fontsize=9
-    )
+    shown = f": {drawn[0].label}" if drawn[0].label else ""
+    title = f"{sweep_title(records)}{shown}\nSpectra of the transmission error: {scale}"
+    figure.suptitle(title, x=0.01, ha="left", fontsize=9)
     return figure
 
 
