@@ -159,7 +159,7 @@ def shade_contact_loss(axes: Axes, drawn: Sequence[Branch]) -> None:
         edges = np.concatenate([x[:1], middle, x[-1:]])
         starts = np.flatnonzero(np.diff(np.concatenate([[False], lost, [False]]).astype(int)))
         for first, behind in zip(starts[::2], starts[1::2], strict=True):
-            axes.axvspan(edges[first], edges[behind], color=LOST, linewidth=0, zorder=0)
+            axes.axvspan(float(edges[first]), float(edges[behind]), color=LOST, linewidth=0, zorder=0)
 
 
 def regime_handles(drawn: Sequence[Branch]) -> list[Artist]:
