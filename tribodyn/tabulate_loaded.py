@@ -21,7 +21,7 @@ from tribodyn.compliance.slices import face_positions, pair_harmonics
 from tribodyn.compliance.table import check_cover, interpolate
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry, roll_limits
+from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry, part_of, roll_limits
 from tribodyn.geometry.drive import SIDES, Drive, body_of
 from tribodyn.geometry.family import Family
 from tribodyn.geometry.pitch_point import pitch_point
@@ -101,7 +101,7 @@ def tabulate_loaded(
     coupling[:, front, front] = driving.coupling
     uneven[:, front], peak[:, front] = driving.line_load_friction, driving.line_load_peak
     if back:
-        mates = _slots(geometry, behind)
+        mates = part_of(geometry, np.s_[..., behind])
         compliance[:, behind], coupling[:, behind, behind] = _under_load(flexible, mates, full)
         gap[:, behind] = mates.gap + mesh.backlash
     side = np.where(np.arange(slots) < pairs, 1.0, -1.0)
@@ -174,9 +174,8 @@ def _driving(
     gap = error[..., None] + flank_gap(flexible.assembly, mesh.modifications, geometry, face)
     shared = share_load(flexible, roll, gear_torque, 0.0, gap, slices, mesh.slice_coupling)
     check_resolved(flexible.assembly, shared, mesh.modifications, gear_torque)
-    harmonics = pair_harmonics(flexible, geometry, slices, mesh.slice_coupling)
     whole = geometry.gap[..., None] + gap
-    return condense(flexible, geometry, harmonics, whole, shared, least_load)
+    return condense(flexible, geometry, whole, shared, least_load, mesh.slice_coupling)
 
 
 def _under_load(flexible: PairFlexibility, geometry: PairGeometry, load: float) -> tuple[Array, Array]:
@@ -186,13 +185,6 @@ def _under_load(flexible: PairFlexibility, geometry: PairGeometry, load: float) 
     matrix = pair_harmonics(flexible, geometry)[0]
     own = np.einsum("...ii->...i", matrix)
     return own + deflection / load, matrix * ~np.eye(own.shape[-1], dtype=bool)
-
-
-def _slots(geometry: PairGeometry, part: slice) -> PairGeometry:
-    motion, *others = geometry
-    return PairGeometry(
-        motion._make(field[..., part] for field in motion), *(field[..., part] for field in others)
-    )
 
 
 def _phases(

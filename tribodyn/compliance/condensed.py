@@ -14,10 +14,16 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.compliance.face_compliance import slice_compliance
 from tribodyn.compliance.line_load import friction_ratio, peak_ratio
-from tribodyn.compliance.load_sharing import PairFlexibility, SharedLoad, contact_deflection, press_pairs
-from tribodyn.compliance.slices import by_slices, modes
-from tribodyn.geometry.corner_contact import PairGeometry
+from tribodyn.compliance.load_sharing import (
+    PairFlexibility,
+    SharedLoad,
+    contact_deflection,
+    in_batches,
+    press_pairs,
+)
+from tribodyn.geometry.corner_contact import PairGeometry, part_of
 
 Array = Any
 
@@ -44,10 +50,10 @@ class Condensed(NamedTuple):
 def condense(
     flexible: PairFlexibility,
     geometry: PairGeometry,
-    harmonics: Array,
     gap: Array,
     shared: SharedLoad,
     least_load: float,
+    coupled: bool = True,
 ) -> Condensed:
     """Condense the state of the mesh to pairs.
 
@@ -56,8 +62,6 @@ def condense(
     flexible : PairFlexibility
     geometry : PairGeometry
         Of the pairs (position, pair).
-    harmonics : (n, position, pair, pair)
-        `slices.pair_harmonics`.
     gap : (position, pair, slice)
         All of it, m.
     shared : SharedLoad
@@ -65,19 +69,43 @@ def condense(
     least_load : float
         Load, N, with which a pair is linearised that carries less or nothing: pressed alone, as the others'
         loads leave its flank.
+    coupled : bool
+        Whether slices hold each other.
     """
-    load, total = shared.slice_load, shared.normal_load
+    parts = [
+        _condensed(
+            flexible,
+            geometry.motion.relative_curvature[rows],
+            slice_compliance(flexible, part_of(geometry, rows), gap.shape[-1], coupled),
+            gap[rows],
+            shared.slice_load[rows],
+            least_load,
+        )
+        for rows in in_batches(gap.shape)
+    ]
+    return Condensed(*(np.concatenate(field) for field in zip(*parts, strict=True)))
+
+
+def _condensed(
+    flexible: PairFlexibility,
+    curvature: Array,
+    matrix: Array,
+    gap: Array,
+    load: Array,
+    least_load: float,
+) -> Condensed:
+    """Condense pairs under loads (position, pair, slice) with Λ (position, pair, slice, pair, slice)."""
     positions, pairs, slices = load.shape
-    across = harmonics * ~np.eye(pairs, dtype=bool)
-    moved = _deflection(across, load)
-    own = np.einsum("ntjj->ntj", harmonics)
-    curvature = geometry.motion.relative_curvature
+    total = np.sum(load, axis=-1)
+    own = np.einsum("tjmjn->tjmn", matrix)
+    across = matrix * ~np.eye(pairs, dtype=bool)[:, None, :, None]
+    moved = np.einsum("tjmkn,tkn->tjm", across, load)
     level = np.hypot(total, least_load)
     one = np.ones((positions * pairs, 1))
     alone = press_pairs(
         flexible,
         curvature.reshape(-1, 1),
-        own.reshape(len(own), -1, 1, 1),
+        own.reshape(-1, 1, slices, 1, slices),
         one,
         one,
         (gap + moved).reshape(-1, 1, slices),
@@ -88,35 +116,22 @@ def condense(
     width = flexible.width / slices
     secant = contact_deflection(flexible, curvature[..., None], at / width)[0] / at
     compliance, share = _stiff_together(own, secant, alone)
-    basis = modes(len(harmonics), slices)
-    parts = share @ basis.T
-    coupling = np.einsum(
-        "ntjk,tjn,tkn->tjk", np.broadcast_to(across, (slices, *across.shape[1:])), parts, parts
-    )
+    coupling = np.einsum("tjm,tjmkn,tkn->tjk", share, across, share, optimize=True)
 
     touching = np.argmin(gap + moved, axis=-1)[..., None] == np.arange(slices)
     weight = np.where(total[..., None] > 0, load / np.maximum(total, 1e-300)[..., None], touching)
-    reached = gap + moved + _deflection(harmonics * np.eye(pairs), load) + secant * load
+    reached = gap + moved + np.einsum("tjmn,tjn->tjm", own, load) + secant * load
     left = np.sum(weight * reached, axis=-1) - compliance * total - np.einsum("tjk,tk->tj", coupling, total)
     return Condensed(compliance, coupling, left, friction_ratio(alone), peak_ratio(alone))
-
-
-def _deflection(harmonics: Array, load: Array) -> Array:
-    """Λ f (position, pair, slice), m, of loads of that shape."""
-    slices = load.shape[-1]
-    basis = modes(len(harmonics), slices)
-    every = np.broadcast_to(harmonics, (slices, *harmonics.shape[1:]))
-    return np.einsum("ntjk,tkn->tjn", every, load @ basis.T) @ basis
 
 
 def _stiff_together(own: Array, secant: Array, load: Array) -> tuple[Array, Array]:
     """Compliance (position, pair), m/N, of slices that touch under the loads, and their shares of a load."""
     slices = load.shape[-1]
     joined = np.clip(load / (_JOINING * np.mean(load, axis=-1, keepdims=True)), 0.0, 1.0)
-    joined = (joined**2 * (3.0 - 2.0 * joined)).reshape(-1, slices)
-    matrix = by_slices(own.reshape(len(own), -1, 1, 1), slices).reshape(-1, slices, slices)
+    joined = joined**2 * (3.0 - 2.0 * joined)
     # A x = 1 with A = Λ + s/j, as (j Λ + s) x = j, which holds for j = 0 too
-    matrix = matrix * joined[..., None] + np.eye(slices) * secant.reshape(-1, slices)[..., None]
-    stiffness = np.linalg.solve(matrix, joined[..., None])[..., 0].reshape(load.shape)
+    matrix = own * joined[..., None] + np.eye(slices) * secant[..., None]
+    stiffness = np.linalg.solve(matrix, joined[..., None])[..., 0]
     whole = np.sum(stiffness, axis=-1)
     return 1.0 / whole, stiffness / whole[..., None]

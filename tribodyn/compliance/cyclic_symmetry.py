@@ -45,7 +45,7 @@ class Reduced(NamedTuple):
     """Half a sector of one symmetry as seen from its edge: what loads and edge do to the readers."""
 
     stiffness: Array  # (edge, edge)
-    passed_on: Array  # (edge, load): forces that the loads pass on to the held edge, reversed
+    passed_on: Array  # (edge, load): forces of the loads on the edge, those that the half passes on included
     alone: Array  # (reader, load) with the edge held
     per_edge: Array  # (reader, edge): reading is alone − per_edge @ edge
 
@@ -64,15 +64,33 @@ def half_sector(place: Array, teeth: int, bore_radius: float) -> HalfSector:
     )
 
 
-def ring_response(
-    half: HalfSector,
-    stiffness: Any,
-    loads: Array,
-    readers: Array,
-    mirrored: NDArray[np.bool_],
-    sectors: NDArray[np.int64],
-) -> Array:
-    """Readings (sector, reader, load) of the ring.
+class Ring(NamedTuple):
+    """A ring under loads that differ by a phase from sector to sector, reduced to the sectors' edges.
+
+    Of L loads on the half y > 0 of a sector, R readers, and E components on an edge.
+    """
+
+    alone: Array  # (R, L): readings with the edges held
+    within: Array  # (E, E): stiffness of an edge's two sides
+    across: Array  # (E, E): of one edge of a sector against the other
+    force_ahead: Array  # (E, L): of the loads on the sector's edge at +π/Z, with what it passes on to it
+    force_behind: Array  # (E, L): to that at −π/Z
+    read_ahead: Array  # (R, E): what the edges take off the readings
+    read_behind: Array
+
+    def at_phase(self, phase: complex) -> Array:
+        """Readings (R, L), complex, in sector 0 of loads that are `phase` times those one sector before."""
+        z, back = phase, np.conjugate(phase)
+        edge = np.linalg.solve(
+            self.within + z * self.across + back * self.across.T, back * self.force_ahead + self.force_behind
+        )
+        return self.alone - (z * self.read_ahead + self.read_behind) @ edge
+
+
+def reduced_ring(
+    half: HalfSector, stiffness: Any, loads: Array, readers: Array, mirrored: NDArray[np.bool_]
+) -> Ring:
+    """Reduce a ring to its sectors' edges.
 
     Parameters
     ----------
@@ -86,13 +104,10 @@ def ring_response(
     mirrored : (reader,)
         Whether the reader looks at the mirror image of the half: reads, at y < 0, what its row says of the
         reflected displacement.
-    sectors : (sector,)
-        Pitches from the loaded sector, counted in the sense from x to y.
     """
     components = stiffness.shape[0] // half.nodes
     even, odd = (_reduced(half, stiffness, loads, readers, components, symmetry) for symmetry in (1, -1))
     side = np.where(mirrored, -1.0, 1.0)[:, None]
-    alone = 0.5 * (even.alone + side * odd.alone)
 
     # With x on the edge at −π/Z and z R x on that at +π/Z, z the phase and R the turn, the even and the odd
     # part of the edge at +π/Z are (z R ± M) x/2; M reflects.
@@ -103,23 +118,48 @@ def ring_response(
     rotation = np.kron(np.eye(len(half.edge)), one_node)
     mirror = np.tile([1.0, -1.0, 1.0][:components], len(half.edge))
     both = 0.5 * (even.stiffness + odd.stiffness)
-    within = rotation.T @ both @ rotation + mirror[:, None] * both * mirror
-    across = 0.5 * mirror[:, None] * (even.stiffness - odd.stiffness) @ rotation
-    force_ahead = 0.5 * rotation.T @ (even.passed_on + odd.passed_on)
-    force_behind = 0.5 * mirror[:, None] * (even.passed_on - odd.passed_on)
-    read_ahead = 0.5 * (even.per_edge + side * odd.per_edge) @ rotation
-    read_behind = 0.5 * (even.per_edge - side * odd.per_edge) * mirror
+    return Ring(
+        alone=0.5 * (even.alone + side * odd.alone),
+        within=rotation.T @ both @ rotation + mirror[:, None] * both * mirror,
+        across=0.5 * mirror[:, None] * (even.stiffness - odd.stiffness) @ rotation,
+        force_ahead=0.5 * rotation.T @ (even.passed_on + odd.passed_on),
+        force_behind=0.5 * mirror[:, None] * (even.passed_on - odd.passed_on),
+        read_ahead=0.5 * (even.per_edge + side * odd.per_edge) @ rotation,
+        read_behind=0.5 * (even.per_edge - side * odd.per_edge) * mirror,
+    )
 
+
+def phases(teeth: int) -> list[tuple[complex, float]]:
+    """Phases z of the harmonics, one of each pair n and Z − n of conjugates, and weights.
+
+    The reading s sectors ahead of a load on one sector is the sum of weight · Re(zˢ reading at z).
+    """
+    turn = 2.0 * np.pi / teeth
+    return [
+        (complex(np.exp(1j * turn * n)), (1.0 if n in (0, teeth / 2) else 2.0) / teeth)
+        for n in range(teeth // 2 + 1)
+    ]
+
+
+def ring_response(
+    half: HalfSector,
+    stiffness: Any,
+    loads: Array,
+    readers: Array,
+    mirrored: NDArray[np.bool_],
+    sectors: NDArray[np.int64],
+) -> Array:
+    """Readings (sector, reader, load) of the ring under loads on one sector; else as `reduced_ring`.
+
+    Parameters
+    ----------
+    sectors : (sector,)
+        Pitches from the loaded sector, counted in the sense from x to y.
+    """
+    ring = reduced_ring(half, stiffness, loads, readers, mirrored)
     seen = np.zeros((len(sectors), len(readers), loads.shape[1]))
-    for harmonic in range(half.teeth // 2 + 1):
-        z = np.exp(1j * turn * harmonic)
-        edge = np.linalg.solve(
-            within + z * across + z.conjugate() * across.T, z.conjugate() * force_ahead + force_behind
-        )
-        reading = alone - (z * read_ahead + read_behind) @ edge
-        # harmonics n and Z − n are each other's conjugates
-        weight = (1.0 if harmonic in (0, half.teeth / 2) else 2.0) / half.teeth
-        seen += weight * np.real(z ** sectors[:, None, None] * reading)
+    for z, weight in phases(half.teeth):
+        seen += weight * np.real(z ** sectors[:, None, None] * ring.at_phase(z))
     return seen
 
 
@@ -148,7 +188,7 @@ def _reduced(
     by_edges = _solved(solver, to_edge.toarray())
     return Reduced(
         stiffness[edges][:, edges].toarray() - to_edge.T @ by_edges,
-        -to_edge.T @ by_loads,
+        loads[edges] - to_edge.T @ by_loads,
         read @ by_loads,
         read @ by_edges - readers[:, edges],
     )

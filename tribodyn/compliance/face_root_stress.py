@@ -1,11 +1,13 @@
 """Stress at the roots of teeth whose load varies along the face, their neighbours' loads included."""
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from tribodyn.compliance.gear_compliance import NEIGHBOURS
+from tribodyn.compliance.face_compliance import end_modes
+from tribodyn.compliance.gear_compliance import NEIGHBOURS, FreeEnds
 from tribodyn.compliance.lead_harmonics import at_wave_numbers
 from tribodyn.compliance.load_sharing import PairFlexibility
 from tribodyn.compliance.slices import modes, wave_numbers
@@ -53,10 +55,13 @@ def root_stress(
     ):
         per_load = at_wave_numbers(gear, wave_number, material.poisson_ratio).root_stress
         place = CubicSpline(gear.radius, np.eye(len(gear.radius)))
+        ends = gear.ends if len(wave_number) > 1 else None
         for first in range(0, positions, _BATCH):
             rows = slice(first, first + _BATCH)
             at = np.clip(reach[rows], gear.radius[0], gear.radius[-1])
             found = _of_one_gear(per_load, place(at), amplitude[rows], sign) @ basis
+            if ends is not None:
+                found += _of_free_ends(ends, flexible.width, reach[rows], line_load[rows], sign)
             tension[body, rows], compression[body, rows] = np.max(found, axis=0), np.min(found, axis=0)
     return tension, compression
 
@@ -70,11 +75,36 @@ def _of_one_gear(per_load: Array, place: Array, amplitude: Array, sign: int) -> 
     positions, pairs, count = amplitude.shape
     every = np.broadcast_to(per_load, (count, *per_load.shape[1:]))
     total = np.zeros((count, np.prod(per_load.shape[2:4]), positions, pairs))
-    for pitches in range(-min(pairs - 1, NEIGHBOURS), min(pairs - 1, NEIGHBOURS) + 1):
-        # the tooth that is read entered `pitches` before the loaded one
-        read = slice(max(-pitches, 0), pairs - max(pitches, 0))
-        loaded = slice(max(pitches, 0), pairs - max(-pitches, 0))
-        rows = every[:, NEIGHBOURS + sign * pitches].reshape(count, -1, per_load.shape[-1])
+    for sector, read, loaded in _sectors(pairs, sign):
+        rows = every[:, sector].reshape(count, -1, per_load.shape[-1])
         loads = place[:, loaded, :, None] * amplitude[:, loaded, None, :]
         total[..., read] += np.einsum("npm,tjmn->nptj", rows, loads, optimize=True)
     return total.transpose(1, 2, 3, 0)
+
+
+def _of_free_ends(ends: FreeEnds, width: float, reach: Array, line_load: Array, sign: int) -> Array:
+    """What free end faces add to the stress (point, position, pair, slice), Pa."""
+    positions, pairs, slices = line_load.shape
+    along = end_modes(ends, width, slices)
+    at = np.clip(reach, ends.radius[0], ends.radius[-1])
+    place = CubicSpline(ends.radius, np.eye(len(ends.radius)))(at)
+    waves, points = len(ends.wave_number), np.prod(ends.root_stress.shape[4:6])
+    total = np.zeros((points, positions, pairs, slices))
+    for parity in (0, 1):
+        counted = line_load * (width / slices) @ along[parity]
+        for sector, read, loaded in _sectors(pairs, sign):
+            rows = ends.root_stress[parity, :, :, sector].reshape(waves, waves, points, -1)
+            loads = place[:, loaded, :, None] * counted[:, loaded, None, :]
+            found = np.einsum("klpm,tjml->ptjk", rows, loads, optimize=True)
+            total[:, :, read] += found @ along[parity].T
+    return total
+
+
+def _sectors(pairs: int, sign: int) -> Iterator[tuple[int, slice, slice]]:
+    """Sector, the pairs that are read and those that load them, for all that are near enough."""
+    nearest = min(pairs - 1, NEIGHBOURS)
+    for pitches in range(-nearest, nearest + 1):
+        # the tooth that is read entered `pitches` before the loaded one
+        read = slice(max(-pitches, 0), pairs - max(pitches, 0))
+        loaded = slice(max(pitches, 0), pairs - max(-pitches, 0))
+        yield NEIGHBOURS + sign * pitches, read, loaded

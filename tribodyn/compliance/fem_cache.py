@@ -17,11 +17,11 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from tribodyn.compliance.gear_compliance import NEIGHBOURS, GearCompliance, LeadHarmonics
+from tribodyn.compliance.gear_compliance import NEIGHBOURS, FreeEnds, GearCompliance, LeadHarmonics
 from tribodyn.compliance.lead_harmonics import wave_numbers
 from tribodyn.geometry.tooth import Tooth, tooth_outline
 
-Kept = TypeVar("Kept", GearCompliance, LeadHarmonics)
+Kept = TypeVar("Kept", GearCompliance, LeadHarmonics, FreeEnds)
 
 _SECTORS = 2 * NEIGHBOURS + 1
 _SOURCES = (
@@ -32,6 +32,8 @@ _SOURCES = (
     "strips.py",
     "cyclic_symmetry.py",
     "root_stress.py",
+    "end_faces.py",
+    "free_ends.py",
 )
 
 
@@ -51,7 +53,7 @@ def cached_gear_compliance(
     poisson_ratio: float,
     depth: float,
     level: int,
-    lead: bool = False,
+    width: float | None = None,
 ) -> GearCompliance:
     """Look a gear up in the cache, or solve it and keep it there.
 
@@ -59,13 +61,14 @@ def cached_gear_compliance(
     ----------
     tooth, teeth, bore_radius, poisson_ratio, depth, level
         As for `fem.gear_compliance`.
-    lead : bool
-        With the response to loads that vary along the teeth and the root stress: some seconds more, once.
+    width : float, optional
+        Face width, m: with the response to loads that vary along teeth of this width and the root stress.
+        Some seconds more, once; another width then needs a part of them again.
     """
     numbers = (teeth, bore_radius, poisson_ratio, depth, level)
     plane = _kept(GearCompliance, _plane_fits, _digest(tooth, *numbers), lambda: _plane(tooth, *numbers))
     plane = plane._replace(depth=float(plane.depth))
-    if not lead:
+    if width is None:
         return plane
     module = 2.0 * float(tooth.path.pinion_pitch_radius) / teeth
     waves = wave_numbers(module, float(tooth.root_radius))
@@ -75,7 +78,13 @@ def cached_gear_compliance(
         "lead-" + _digest(tooth, *numbers, *waves),
         lambda: _lead(tooth, *numbers, waves),
     )
-    return plane._replace(lead=harmonics)
+    ends = _kept(
+        FreeEnds,
+        lambda found: _ends_fit(found, harmonics),
+        "ends-" + _digest(tooth, *numbers, *waves, width),
+        lambda: _ends(tooth, *numbers, waves, width),
+    )
+    return plane._replace(lead=harmonics, ends=ends)
 
 
 def _plane(*arguments: Any) -> GearCompliance:
@@ -88,6 +97,12 @@ def _lead(*arguments: Any) -> LeadHarmonics:
     from tribodyn.compliance import fem
 
     return fem.lead_harmonics(*arguments)
+
+
+def _ends(*arguments: Any) -> FreeEnds:
+    from tribodyn.compliance.free_ends import free_ends
+
+    return free_ends(*arguments)
 
 
 def _kept(kind: type[Kept], fits: Callable[[Kept], bool], name: str, solve: Callable[[], Kept]) -> Kept:
@@ -114,6 +129,16 @@ def _lead_fits(found: LeadHarmonics, waves: int, count: int) -> bool:
         and found.between.shape == (waves, _SECTORS, count, count)
         and found.root_position.shape == (2, points)
         and found.root_stress.shape == (waves, _SECTORS, 2, points, count)
+    )
+
+
+def _ends_fit(found: FreeEnds, lead: LeadHarmonics) -> bool:
+    waves, count, points = len(lead.wave_number), len(found.radius), lead.root_position.shape[-1]
+    return (
+        found.wave_number.shape == (waves,)
+        and found.own.shape == (2, waves, waves, count)
+        and found.between.shape == (2, waves, waves, _SECTORS, count, count)
+        and found.root_stress.shape == (2, waves, waves, _SECTORS, 2, points, count)
     )
 
 
@@ -147,7 +172,7 @@ def _arrays(kind: Any) -> list[str]:
     return [name for name in kind._fields if name not in kind._field_defaults]
 
 
-def _write(file: Path, solved: GearCompliance | LeadHarmonics) -> None:
+def _write(file: Path, solved: GearCompliance | LeadHarmonics | FreeEnds) -> None:
     """Keep it, or do without where the folder cannot be written: the cache is a convenience."""
     try:
         file.parent.mkdir(parents=True, exist_ok=True)

@@ -35,6 +35,35 @@ class LeadHarmonics(NamedTuple):
     root_stress: Array
 
 
+class FreeEnds(NamedTuple):
+    """What a gear of one width gives way more because its end faces are free, for unit Young's modulus.
+
+    Amplitude of a deflection or stress cos k'z per line load cos kz, z from one end, over c'/b, c' = 2 or, for
+    k' = 0, 1: at the K wave numbers that were solved, between which a spline goes on. k and k' are even (0) or
+    odd (1) numbers of half waves over the width b, both the same. M positions of the load, P along the root as
+    in `LeadHarmonics`.
+
+    Attributes
+    ----------
+    wave_number : (K,)
+        k, rad/m.
+    radius : (M,)
+        As in `GearCompliance`; fewer.
+    own : (2, K', K, M)
+        Of a loaded position's surface, m.
+    between : (2, K', K, 2 NEIGHBOURS + 1, M, M)
+        As in `GearCompliance`, m.
+    root_stress : (2, K', K, 2 NEIGHBOURS + 1, 2, P, M)
+        As in `LeadHarmonics`.
+    """
+
+    wave_number: Array
+    radius: Array
+    own: Array
+    between: Array
+    root_stress: Array
+
+
 class GearCompliance(NamedTuple):
     """Compliances of a gear's flanks in plane strain, for unit Young's modulus and width.
 
@@ -54,6 +83,8 @@ class GearCompliance(NamedTuple):
         Depth below the surface to which `inside` refers, m.
     lead : LeadHarmonics or None
         Loads that vary along the teeth, and root stress, where they were asked for.
+    ends : FreeEnds or None
+        With `lead`: that the end faces are free; without it they are planes of symmetry.
     """
 
     radius: Array
@@ -61,9 +92,11 @@ class GearCompliance(NamedTuple):
     between: Array
     depth: float
     lead: LeadHarmonics | None = None
+    ends: FreeEnds | None = None
 
 
 def without_neighbours(gear: GearCompliance) -> GearCompliance:
     """Return a gear whose teeth do not know of each other's loads."""
     lead = gear.lead and gear.lead._replace(between=0.0 * gear.lead.between)
-    return gear._replace(between=0.0 * gear.between, lead=lead)
+    ends = gear.ends and gear.ends._replace(between=0.0 * gear.ends.between)
+    return gear._replace(between=0.0 * gear.between, lead=lead, ends=ends)

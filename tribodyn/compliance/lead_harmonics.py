@@ -78,7 +78,7 @@ def at_wave_numbers(gear: GearCompliance, wave_number: Array, poisson_ratio: flo
     if lead is None:
         raise ValueError("the gear was solved for loads that are even along the teeth only")
     k = np.asarray(wave_number, dtype=float)
-    scale, largest = lead.wave_number[1], lead.wave_number[-1]
+    largest = lead.wave_number[-1]
     # the half-space's logarithm, rounded off at k = 0, is taken out of what is interpolated
     rounding = largest / LARGEST
 
@@ -86,7 +86,7 @@ def at_wave_numbers(gear: GearCompliance, wave_number: Array, poisson_ratio: flo
         return half_space_surface(np.hypot(at, rounding), gear.depth, poisson_ratio)[:, None]
 
     within = np.minimum(k, largest)
-    weights = _even_spline(lead.wave_number, scale)(np.arcsinh(within / scale))
+    weights = spline_weights(lead.wave_number, within)
     value = weights @ (own_at_solved(gear, poisson_ratio) - smooth(lead.wave_number)) + smooth(within)
     beyond = k > largest
     surface = half_space_surface(np.where(beyond, k, largest), gear.depth, poisson_ratio)
@@ -121,8 +121,9 @@ def half_space_surface(wave_number: Array, depth: float, poisson_ratio: float) -
     return (1 + poisson_ratio) / np.pi * (1 + 2 * (1 - poisson_ratio) * logarithm)
 
 
-def _even_spline(wave_number: Array, scale: float) -> Any:
-    """Spline over asinh(k/scale) of the weights with which values that are even in k count at each k (K,)."""
-    at, weights = np.arcsinh(wave_number / scale), np.eye(len(wave_number))
+def spline_weights(solved: Array, wave_number: Array) -> Array:
+    """Weights (N, K) with which values at the wave numbers solved, even in k, count at others up to them."""
+    scale = solved[1]
+    at, weights = np.arcsinh(solved / scale), np.eye(len(solved))
     mirrored = np.concatenate([-at[:0:-1], at]), np.concatenate([weights[:0:-1], weights])
-    return make_interp_spline(*mirrored, k=_ORDER)
+    return make_interp_spline(*mirrored, k=_ORDER)(np.arcsinh(wave_number / scale))

@@ -17,12 +17,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.compliance.active_set import press
+from tribodyn.compliance.face_compliance import slice_compliance
 from tribodyn.compliance.fem_cache import cached_gear_compliance
 from tribodyn.compliance.gear_compliance import GearCompliance
 from tribodyn.compliance.local import Elastic, hertz_half_width, weber_banaschek, weber_banaschek_slope
-from tribodyn.compliance.slices import by_slices, pair_harmonics
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.corner_contact import pair_geometry
+from tribodyn.geometry.corner_contact import pair_geometry, part_of
 from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.tribology.contact import averaged_radius
@@ -105,9 +105,10 @@ def flexibility(
     level : int
         Refinement of the mesh.
     lead : bool
-        Also for loads that vary along the teeth, and with root stress.
+        Also for loads that vary along the teeth, with free end faces, and with root stress.
     """
     drive = assembly.drive
+    width = min(float(drive.pinion.face_width), float(drive.gear.face_width))
     gears = [
         cached_gear_compliance(
             assembly.tooth(side),
@@ -116,11 +117,10 @@ def flexibility(
             material.poisson_ratio,
             depth * float(drive.module),
             level,
-            lead,
+            width if lead else None,
         )
         for side, material in zip(SIDES, materials, strict=True)
     ]
-    width = min(float(drive.pinion.face_width), float(drive.gear.face_width))
     return PairFlexibility(assembly, materials, width, (gears[0], gears[1]))
 
 
@@ -192,21 +192,32 @@ def share_load(
     extra = np.asarray(gap, dtype=float)
     extra = extra if extra.ndim == 3 else extra[..., None]
     whole = np.broadcast_to(geometry.gap[..., None] + extra, (*roll.shape, slices))
-    return press_pairs(
-        flexible,
-        motion.relative_curvature,
-        pair_harmonics(flexible, geometry, slices, coupled),
-        np.cos(motion.pressure_angle),
-        lever,
-        whole,
-        np.full(len(roll), float(gear_torque)),
-    )
+    parts = [
+        press_pairs(
+            flexible,
+            motion.relative_curvature[rows],
+            slice_compliance(flexible, part_of(geometry, rows), slices, coupled),
+            np.cos(motion.pressure_angle[rows]),
+            lever[rows],
+            whole[rows],
+            np.full(len(roll[rows]), float(gear_torque)),
+        )
+        for rows in in_batches(whole.shape)
+    ]
+    return SharedLoad(*(np.concatenate(field) for field in zip(*parts, strict=True)))
+
+
+def in_batches(shape: tuple[int, ...]) -> list[slice]:
+    """Part positions of arrays (position, pair, slice) so that the systems of a part bound the memory."""
+    positions, pairs, slices = shape
+    most = max(1, _ENTRIES // (pairs * slices) ** 2)
+    return [slice(first, min(positions, first + most)) for first in range(0, positions, most)]
 
 
 def press_pairs(
     flexible: PairFlexibility,
     curvature: Array,
-    harmonics: Array,
+    compliance: Array,
     arm: Array,
     lever: Array,
     gap: Array,
@@ -214,30 +225,25 @@ def press_pairs(
 ) -> SharedLoad:
     """Share torques (position,) among pairs of slices; arrays (position, pair), the gap (…, slice).
 
-    `harmonics` as made by `slices.pair_harmonics`. Positions are taken a few at a time, to bound the memory.
+    `compliance` (position, pair, slice, pair, slice) as made by `face_compliance.slice_compliance`.
     """
     positions, pairs, slices = gap.shape
     places = pairs * slices
     width = flexible.width / slices
-    parts = []
-    for first in range(0, positions, max(1, _ENTRIES // places**2)):
-        rows = slice(first, min(positions, first + max(1, _ENTRIES // places**2)))
-        bent = np.repeat(curvature[rows], slices, axis=-1)
+    bent = np.repeat(curvature, slices, axis=-1)
 
-        def local(chosen: Array, load: Array, bent: Array = bent) -> tuple[Array, Array]:
-            value, slope = contact_deflection(flexible, bent[chosen], load / width)
-            return value, slope / width
+    def local(chosen: Array, load: Array) -> tuple[Array, Array]:
+        value, slope = contact_deflection(flexible, bent[chosen], load / width)
+        return value, slope / width
 
-        found = press(
-            by_slices(harmonics[:, rows], slices).reshape(-1, places, places),
-            local,
-            np.repeat(arm[rows], slices, axis=-1),
-            np.repeat(lever[rows], slices, axis=-1),
-            gap[rows].reshape(-1, places),
-            torque[rows],
-        )
-        parts.append(found)
-    load, deflection, overlap, stiffness = (np.concatenate(field) for field in zip(*parts, strict=True))
+    load, deflection, overlap, stiffness = press(
+        compliance.reshape(positions, places, places),
+        local,
+        np.repeat(arm, slices, axis=-1),
+        np.repeat(lever, slices, axis=-1),
+        gap.reshape(positions, places),
+        torque,
+    )
     load = load.reshape(gap.shape)
     taken, _ = contact_deflection(flexible, curvature[..., None], load / width)
     return SharedLoad(load, deflection, overlap.reshape(gap.shape), taken, stiffness)

@@ -55,6 +55,20 @@ def stress_rows(place: Array, nodes: NDArray[np.int64], size: int, poisson_ratio
     return rows.reshape(2 * edges, size)
 
 
+def edge_parameters(edges: int, refined: int) -> Array:
+    """Where the points stand, in edges from the first one's beginning, when each is cut into `refined`."""
+    return (np.arange(edges * refined)[:, None] + (1.0 + _GAUSS) / 2.0).ravel() / refined
+
+
+def edge_values(corners: NDArray[np.int64], size: int) -> Array:
+    """Rows (2 R, size) that take values at R + 1 corners to the same points, linearly on each edge."""
+    rows = np.zeros((len(corners) - 1, 2, size))
+    edges = np.arange(len(corners) - 1)
+    rows[edges, :, corners[:-1]] = (1.0 - _GAUSS) / 2.0
+    rows[edges, :, corners[1:]] = (1.0 + _GAUSS) / 2.0
+    return rows.reshape(-1, size)
+
+
 def _by_edge(place: Array) -> Array:
     """Nodes (2, 3, R) of every edge."""
     return np.stack([place[:, :-2:2], place[:, 1::2], place[:, 2::2]], axis=1)

@@ -40,7 +40,7 @@ def curved_basis(nodes: Array, cells: NDArray[np.int64]) -> Basis:
 
 def plane_stiffness(basis: Basis, poisson_ratio: float) -> csr_matrix:
     """Plane strain for unit Young's modulus; u and v of a node of `curved_basis` follow each other."""
-    shear, lame = _moduli(poisson_ratio)
+    shear, lame = moduli(poisson_ratio)
     xx, xy, yy = (_assembled(basis, gradients(a, b)) for a, b in ((0, 0), (0, 1), (1, 1)))
     return csr_matrix(
         kron((lame + 2.0 * shear) * xx + shear * yy, _unit(2, 0, 0))
@@ -55,7 +55,7 @@ def strip_stiffness(basis: Basis, poisson_ratio: float) -> tuple[csr_matrix, csr
 
     A load per length f cos kz at a node works on U and V with its amplitude f.
     """
-    shear, lame = _moduli(poisson_ratio)
+    shear, lame = moduli(poisson_ratio)
     plane: Any = plane_stiffness(basis, poisson_ratio)
     nodes = plane.shape[0] // 2
     in_plane = csr_matrix((np.ones(2), ([0, 1], [0, 1])), shape=(2, COMPONENTS))
@@ -87,7 +87,7 @@ def _assembled(basis: Basis, form: BilinearForm) -> csr_matrix:
     return csr_matrix(form.assemble(basis))
 
 
-def _moduli(poisson_ratio: float) -> tuple[float, float]:
+def moduli(poisson_ratio: float) -> tuple[float, float]:
     """Shear modulus and Lamé's first constant for unit Young's modulus."""
     return (
         0.5 / (1.0 + poisson_ratio),

@@ -47,6 +47,12 @@ class PairGeometry(NamedTuple):
     gear_place: Array
 
 
+def part_of(geometry: PairGeometry, index: Any) -> PairGeometry:
+    """The same at some of the pairs: every field at the index."""
+    motion, *others = geometry
+    return PairGeometry(motion._make(field[index] for field in motion), *(field[index] for field in others))
+
+
 def roll_limits(assembly: Assembly) -> tuple[float, float]:
     """Pinion angles at which the path of contact begins and ends, rad from the pitch point."""
     path = assembly.path

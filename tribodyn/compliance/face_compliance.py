@@ -1,0 +1,84 @@
+"""What slices of the face give way under each other's loads: harmonics of the face, and its free ends."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from tribodyn.compliance.gear_compliance import NEIGHBOURS, FreeEnds
+from tribodyn.compliance.lead_harmonics import spline_weights
+from tribodyn.compliance.slices import by_slices, face_positions, pair_harmonics
+from tribodyn.geometry.corner_contact import PairGeometry
+
+if TYPE_CHECKING:
+    from tribodyn.compliance.load_sharing import PairFlexibility
+
+Array = Any
+
+
+def slice_compliance(
+    flexible: "PairFlexibility", geometry: PairGeometry, slices: int = 1, coupled: bool = True
+) -> Array:
+    """Λ (position, pair, slice, pair, slice), m/N, without the slices' own local deflection.
+
+    Parameters
+    ----------
+    flexible : PairFlexibility
+    geometry : PairGeometry
+        Of the pairs (position, pair), one pitch apart, the one that entered first in front.
+    slices : int
+        One is plane strain.
+    coupled : bool
+        Whether slices hold each other through the teeth and bodies, and the end faces are free; else each
+        slice is in plane strain by itself.
+    """
+    matrix = by_slices(pair_harmonics(flexible, geometry, slices, coupled), slices)
+    if coupled and slices > 1:
+        _add_free_ends(matrix, flexible, geometry)
+    return matrix
+
+
+def end_modes(ends: FreeEnds, width: float, slices: int) -> Array:
+    """What loads on slices count for in `FreeEnds`' wave numbers, and what slices see of these (2, S, K), 1/m.
+
+    For even and odd numbers of half waves; of loads in N that are even in a slice, and the mean over a slice of
+    what is seen. Waves shorter than those that were solved do not notice the ends.
+    """
+    largest = ends.wave_number[-1]
+    number = np.arange(int(largest * width / np.pi) + 1)
+    wave_number = number * np.pi / width
+    from_end = face_positions(width, slices)[:, None] + width / 2.0
+    # sinc: the mean of the cosine over a slice
+    wave = np.cos(wave_number * from_end) * np.sinc(number / (2.0 * slices))
+    wave = wave * np.where(number > 0, 2.0, 1.0) / width
+    weights = spline_weights(ends.wave_number, wave_number)
+    return np.stack([wave[:, parity::2] @ weights[parity::2] for parity in (0, 1)])
+
+
+def _add_free_ends(matrix: Array, flexible: "PairFlexibility", geometry: PairGeometry) -> None:
+    pairs, slices = matrix.shape[1:3]
+    reaches = geometry.pinion_radius, geometry.gear_radius
+    # On the pinion the earlier tooth stands on the loaded flank's side, on the gear on the other.
+    for gear, material, reach, sign in zip(flexible.gears, flexible.materials, reaches, (1, -1), strict=True):
+        ends = gear.ends
+        if ends is None:
+            continue
+        along = end_modes(ends, flexible.width, slices)
+        at = np.clip(reach, ends.radius[0], ends.radius[-1])
+        place = CubicSpline(ends.radius, np.eye(len(ends.radius)))(at)
+        for later in range(pairs):
+            own = np.einsum("pklm,tm->tpkl", ends.own, place[:, later])
+            matrix[:, later, :, later] += _spread(along, own) / material.youngs_modulus
+            for earlier in range(max(0, later - NEIGHBOURS), later):
+                rows = ends.between[:, :, :, NEIGHBOURS + sign * (later - earlier)]
+                found = np.einsum(
+                    "pklmn,tm,tn->tpkl", rows, place[:, earlier], place[:, later], optimize=True
+                )
+                value = _spread(along, found) / material.youngs_modulus
+                matrix[:, earlier, :, later] += value
+                matrix[:, later, :, earlier] += value.swapaxes(1, 2)
+
+
+def _spread(along: Array, found: Array) -> Array:
+    """Matrices (position, slice, slice) of those over the wave numbers (position, parity, K, K)."""
+    return np.sum(along @ found @ along.swapaxes(1, 2), axis=1)
