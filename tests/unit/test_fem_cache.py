@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tribodyn.compliance.fem_cache import cache_folder, cached_gear_compliance
-from tribodyn.compliance.gear_compliance import GearCompliance, LeadHarmonics
+from tribodyn.compliance.gear_compliance import FreeEnds, GearCompliance, LeadHarmonics
 from tribodyn.compliance.lead_harmonics import wave_numbers
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.involute import FAMILY
@@ -16,9 +16,9 @@ BODY = GearBody(12, 0.3, 1.0, 1.25, 0.25, 0.02, 8e-3)
 DRIVE = Drive(3e-3, np.radians(20.0), BODY, BODY)
 
 
-def solve(poisson_ratio: float = 0.3, bore: float = 8e-3, lead: bool = False) -> GearCompliance:
+def solve(poisson_ratio: float = 0.3, bore: float = 8e-3, width: float | None = None) -> GearCompliance:
     tooth = cut_tooth(FAMILY, DRIVE, "pinion")
-    return cached_gear_compliance(tooth, 12, bore, poisson_ratio, 0.75e-3, 1, lead)
+    return cached_gear_compliance(tooth, 12, bore, poisson_ratio, 0.75e-3, 1, width)
 
 
 @pytest.fixture
@@ -29,7 +29,7 @@ def folder(tmp_path, monkeypatch):
 
 
 def same(one: GearCompliance, other: GearCompliance) -> bool:
-    both = [[*gear[:-1], *(gear.lead or ())] for gear in (one, other)]
+    both = [[*gear[:-2], *(gear.lead or ()), *(gear.ends or ())] for gear in (one, other)]
     return all(np.array_equal(a, b) for a, b in zip(*both, strict=True))
 
 
@@ -81,41 +81,59 @@ def test_runs_at_the_same_time_agree(folder):
     assert len(list(folder.iterdir())) == 1
 
 
+def any_ends(waves: int, width: float = 1.0) -> FreeEnds:
+    """Any numbers of the right shape, for they take no time."""
+    both = waves, waves
+    sizes = [(waves,), (11,), (2, *both, 11), (2, *both, 5, 11, 11), (2, *both, 5, 2, 12, 11)]
+    return FreeEnds(*(np.full(size, width) for size in sizes))
+
+
 def test_loads_that_vary_are_solved_only_where_asked_for_and_kept_apart(folder, monkeypatch):
+    ends = "tribodyn.compliance.free_ends.free_ends"
+    monkeypatch.setattr(ends, lambda *given: any_ends(len(given[-2]), given[-1]))
     plane = solve()
     assert plane.lead is None
-    first = solve(lead=True)
-    assert same(plane, first._replace(lead=None))
-    assert sorted(file.name.startswith("lead-") for file in folder.iterdir()) == [False, True]
+    first = solve(width=0.02)
+    assert same(plane, first._replace(lead=None, ends=None))
+    assert {"ends", "lead"} < {file.name.partition("-")[0] for file in folder.iterdir()}
     monkeypatch.setattr("tribodyn.compliance.fem.gear_compliance", None)
     monkeypatch.setattr("tribodyn.compliance.fem.lead_harmonics", None)
-    assert same(first, solve(lead=True))
+    wider = solve(width=0.03)  # needs the ends alone
+    assert not same(first, wider)
+    assert len(list(folder.iterdir())) == 4
+    monkeypatch.setattr(ends, None)
+    assert same(first, solve(width=0.02))
+    assert same(wider, solve(width=0.03))
     assert same(plane, solve())
 
 
+@pytest.mark.parametrize("name", ["lead", "ends"])
 @pytest.mark.parametrize("change", ["missing", "shape", "nan", "type", "cut"])
-def test_damaged_file_of_loads_that_vary_is_made_anew(folder, monkeypatch, change):
+def test_damaged_file_of_loads_that_vary_is_made_anew(folder, monkeypatch, name, change):
     tooth = cut_tooth(FAMILY, DRIVE, "pinion")
     waves = wave_numbers(3e-3, tooth.root_radius)
     # any numbers of the right shape, for they take no time
     numbers = [(2, 11), (5, 11, 11), (2, 12), (5, 2, 12, 11)]
     shapes = [np.ones(shape if shape == (2, 12) else (len(waves), *shape)) for shape in numbers]
     monkeypatch.setattr("tribodyn.compliance.fem.lead_harmonics", lambda *_: LeadHarmonics(waves, *shapes))
-    first = solve(lead=True)
-    file = next(folder.glob("lead-*"))
+    ends = any_ends(len(waves))
+    monkeypatch.setattr("tribodyn.compliance.free_ends.free_ends", lambda *_: ends)
+    first = solve(width=0.02)
+    file = next(folder.glob(f"{name}-*"))
     whole = file.read_bytes()
     with np.load(file) as stored:
         parts = dict(stored)
     if change == "missing":
         del parts["root_stress"]
     elif change == "shape":
-        parts["inside"] = parts["inside"][:, :1]
+        field = "inside" if name == "lead" else "own"
+        parts[field] = parts[field][:, :1]
     elif change == "nan":
         parts["between"][0, 0, 0, 0] = np.nan
     elif change == "type":
-        parts["root_position"] = parts["root_position"].astype("U8")
+        parts["root_stress"] = parts["root_stress"].astype("U8")
     np.savez(file, **parts)
     if change == "cut":
         file.write_bytes(whole[: len(whole) // 2])
-    assert same(first, solve(lead=True))
+    assert same(first, solve(width=0.02))
     assert file.read_bytes() == whole

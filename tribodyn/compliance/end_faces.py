@@ -12,12 +12,12 @@ and the potential is least where the faces carry nothing,
     Σ_n (c_n/b) S_n d = −Σ_n r_n q_n,   S_n = D − F_nᵀ K_n⁻¹ F_n,   r_n = F_nᵀ K_n⁻¹ p,
 
 D the stiffness of the opening by itself, r_n the stress that a load q_n cos kz makes on the faces while they
-are held. Even and odd harmonics, displacements alike and opposite in both halves of the width, each have their
-own d. The load's place then gives way by (c_m/b) r_mᵀ (Σ (c/b) S)⁻¹ r_n q_n more in every harmonic m of n's
-parity, and the work of a load is never less. In the middle of a long body, and for a uniform load where
-Poisson's ratio is 0, that is nothing. S_n falls like k⁻⁴ where the opening changes slowly against k along the
-section, so that the sum is short. (This is the method of displacement discontinuities, S. L. Crouch, Int. J.
-Numer. Meth. Engng 10 (1976) 301, on the body and its mirror images.)
+are held. Even and odd harmonics, displacements alike and opposite in both halves of the width, have a d each.
+The load's place then gives way by (c_m/b) r_mᵀ (Σ (c/b) S)⁻¹ r_n q_n more in every harmonic m of n's parity,
+and the work of a load is never less. In the middle of a long body, and for a uniform load where Poisson's
+ratio is 0, that is nothing. S_n falls like k⁻⁴ where the opening changes slowly against k along the section,
+so that the sum is short. (This is the method of displacement discontinuities, S. L. Crouch, Int. J. Numer.
+Meth. Engng 10 (1976) 301, on the body and its mirror images.)
 """
 
 from typing import Any, NamedTuple

@@ -39,10 +39,10 @@ def slice_compliance(
 
 
 def end_modes(ends: FreeEnds, width: float, slices: int) -> Array:
-    """What loads on slices count for in `FreeEnds`' wave numbers, and what slices see of these (2, S, K), 1/m.
+    """What loads on slices count for in `FreeEnds`' waves, and what slices see of them: (2, S, K), 1/m.
 
-    For even and odd numbers of half waves; of loads in N that are even in a slice, and the mean over a slice of
-    what is seen. Waves shorter than those that were solved do not notice the ends.
+    For even and odd numbers of half waves; of loads in N that are even in a slice, and the mean over a slice
+    of what is seen. Over the last octave of the wave numbers that were solved they fade away.
     """
     largest = ends.wave_number[-1]
     number = np.arange(int(largest * width / np.pi) + 1)
@@ -51,6 +51,8 @@ def end_modes(ends: FreeEnds, width: float, slices: int) -> Array:
     # sinc: the mean of the cosine over a slice
     wave = np.cos(wave_number * from_end) * np.sinc(number / (2.0 * slices))
     wave = wave * np.where(number > 0, 2.0, 1.0) / width
+    # cut off at once they would ripple along the face
+    wave = wave * np.cos(np.pi / 2.0 * np.clip(2.0 * wave_number / largest - 1.0, 0.0, 1.0)) ** 2
     weights = spline_weights(ends.wave_number, wave_number)
     return np.stack([wave[:, parity::2] @ weights[parity::2] for parity in (0, 1)])
 

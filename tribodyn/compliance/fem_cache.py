@@ -18,7 +18,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from tribodyn.compliance.gear_compliance import NEIGHBOURS, FreeEnds, GearCompliance, LeadHarmonics
-from tribodyn.compliance.lead_harmonics import wave_numbers
+from tribodyn.compliance.lead_harmonics import LARGEST_AT_ENDS, wave_numbers
 from tribodyn.geometry.tooth import Tooth, tooth_outline
 
 Kept = TypeVar("Kept", GearCompliance, LeadHarmonics, FreeEnds)
@@ -78,11 +78,12 @@ def cached_gear_compliance(
         "lead-" + _digest(tooth, *numbers, *waves),
         lambda: _lead(tooth, *numbers, waves),
     )
+    shorter = wave_numbers(module, float(tooth.root_radius), LARGEST_AT_ENDS)
     ends = _kept(
         FreeEnds,
-        lambda found: _ends_fit(found, harmonics),
-        "ends-" + _digest(tooth, *numbers, *waves, width),
-        lambda: _ends(tooth, *numbers, waves, width),
+        lambda found: _ends_fit(found, len(shorter), harmonics.root_position.shape[-1]),
+        "ends-" + _digest(tooth, *numbers, *shorter, width),
+        lambda: _ends(tooth, *numbers, shorter, width),
     )
     return plane._replace(lead=harmonics, ends=ends)
 
@@ -132,8 +133,8 @@ def _lead_fits(found: LeadHarmonics, waves: int, count: int) -> bool:
     )
 
 
-def _ends_fit(found: FreeEnds, lead: LeadHarmonics) -> bool:
-    waves, count, points = len(lead.wave_number), len(found.radius), lead.root_position.shape[-1]
+def _ends_fit(found: FreeEnds, waves: int, points: int) -> bool:
+    count = len(found.radius)
     return (
         found.wave_number.shape == (waves,)
         and found.own.shape == (2, waves, waves, count)

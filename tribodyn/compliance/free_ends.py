@@ -1,8 +1,8 @@
 """What the free end faces of a gear make its flanks and roots give way more, as `end_faces` finds it.
 
 The openings of all teeth's end faces differ by a phase from tooth to tooth, like the loads
-(`cyclic_symmetry`); the face of a sector is two halves that meet on the tooth's axis. By reciprocity the stress
-that a load makes on a held face is also what an opening moves the flank by.
+(`cyclic_symmetry`); the face of a sector is two halves that meet on the tooth's axis. By reciprocity the
+stress that a load makes on a held face is also what an opening moves the flank by.
 """
 
 from typing import Any, NamedTuple
@@ -81,21 +81,21 @@ def free_ends(
     level : int
         That of the root's points at which the stress is wanted; the elements are those of `LEVEL`.
     wave_number : (K,)
-        Of `lead_harmonics.wave_numbers`, rad/m.
+        Of `lead_harmonics.wave_numbers` up to `LARGEST_AT_ENDS`/module, rad/m.
     width : float
         b, m.
     """
     model = gear_model(tooth, teeth, bore_radius, depth, LEVEL)
-    face = _face(model, openings(model.basis, poisson_ratio))
+    face = face_of(model, openings(model.basis, poisson_ratio))
     matrices = strip_stiffness(model.basis, poisson_ratio)
-    harmonics = [_harmonic(model, face.openings, matrices, poisson_ratio, k) for k in wave_number]
+    harmonics = [harmonic_of(model, face.openings, matrices, poisson_ratio, k) for k in wave_number]
     weights = parity_weights(np.asarray(wave_number), width)
     count, flank = len(wave_number), model.loads.shape[1]
     roots = harmonics[0].on_root.shape[0]
     flanks = np.zeros((2, len(_SECTORS), count * flank, count * flank))
     stress = np.zeros((2, len(_SECTORS), count * 2 * roots, count * flank))
     for phase, weight in phases(teeth):
-        held, reached, seen = _at_phase(harmonics, face, phase)
+        held, reached, seen = at_phase(harmonics, face, phase)
         turns = weight * phase ** _SECTORS[:, None, None]
         for parity in (0, 1):
             stiffness = np.tensordot(weights[parity], held, 1)
@@ -115,7 +115,7 @@ def free_ends(
     )
 
 
-def _face(model: GearModel, opening: Openings) -> Face:
+def face_of(model: GearModel, opening: Openings) -> Face:
     """Openings vanish where the body is held, are one on the axis and follow each other on the edges."""
     half, nodes = model.half, KDTree(model.basis.doflocs.T)
     number = np.asarray(nodes.query(opening.place.T)[1])
@@ -135,13 +135,14 @@ def _face(model: GearModel, opening: Openings) -> Face:
     )
 
 
-def _harmonic(
+def harmonic_of(
     model: GearModel,
     opening: Openings,
     matrices: tuple[csr_matrix, csr_matrix, csr_matrix],
     poisson_ratio: float,
     wave_number: float,
 ) -> Harmonic:
+    """Reduce the ring under a wave number, rad/m, with the three matrices of `strip_stiffness`."""
     k = float(wave_number)
     stiffness = csr_matrix(matrices[0] + k * matrices[1] + k**2 * matrices[2])
     forces = opening.forces(k)
@@ -158,7 +159,7 @@ def _harmonic(
     return Harmonic(ring, opening.stiffness, on_root)
 
 
-def _at_phase(harmonics: list[Harmonic], face: Face, phase: complex) -> tuple[Array, Array, Array]:
+def at_phase(harmonics: list[Harmonic], face: Face, phase: complex) -> tuple[Array, Array, Array]:
     """S (K, O, O); stress on the held faces per flank load (O, K M); on the roots per opening (K 2 P, O)."""
     joined = face.joined(phase)
     held, reached, seen = [], [], []

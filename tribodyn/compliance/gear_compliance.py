@@ -38,10 +38,10 @@ class LeadHarmonics(NamedTuple):
 class FreeEnds(NamedTuple):
     """What a gear of one width gives way more because its end faces are free, for unit Young's modulus.
 
-    Amplitude of a deflection or stress cos k'z per line load cos kz, z from one end, over c'/b, c' = 2 or, for
-    k' = 0, 1: at the K wave numbers that were solved, between which a spline goes on. k and k' are even (0) or
-    odd (1) numbers of half waves over the width b, both the same. M positions of the load, P along the root as
-    in `LeadHarmonics`.
+    Amplitude of a deflection or stress cos k'z per line load cos kz, z from one end, over c'/b with c' = 2,
+    or 1 for k' = 0: at the K wave numbers that were solved, between which a spline goes on. k and k' are even
+    (0) or odd (1) numbers of half waves over the width b, both the same. M positions of the load, P along the
+    root as in `LeadHarmonics`.
 
     Attributes
     ----------

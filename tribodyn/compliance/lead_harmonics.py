@@ -27,6 +27,8 @@ Array = Any
 
 #: Largest wave number solved, in 1/module; beyond it loads act on their neighbourhood only.
 LARGEST = 6.0
+#: The same for what free ends add, which is to be resolved along the face.
+LARGEST_AT_ENDS = 12.0
 # Wave number, over 1/root radius, at which the grid turns from even to geometric, and its step in the
 # logarithm: interpolation within 0.2 % (test_lead_harmonics).
 _TURN = 0.6
@@ -55,9 +57,9 @@ class LeadCompliance(NamedTuple):
     root_stress: Array
 
 
-def wave_numbers(module: float, root_radius: float) -> Array:
-    """Wave numbers to solve, rad/m: from 0, dense enough for body and teeth, to `LARGEST`/module."""
-    turn, largest = _TURN / root_radius, LARGEST / module
+def wave_numbers(module: float, root_radius: float, most: float = LARGEST) -> Array:
+    """Wave numbers to solve, rad/m: from 0, dense enough for body and teeth, to `most`/module."""
+    turn, largest = _TURN / root_radius, most / module
     reach = np.arcsinh(largest / turn)
     return turn * np.sinh(np.linspace(0.0, reach, int(np.ceil(reach / _STEP)) + 1))
 
