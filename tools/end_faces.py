@@ -3,10 +3,11 @@
 python tools/end_faces.py            # minutes; 10 slices
 python tools/end_faces.py 6          # sooner
 
-One sector of the pinion of Jia et al., its edges and bore held, twenty-node bricks; both gears are taken as
-alike. Loads stand on the flank near the pitch circle, displacements are read below it, at a node a third of a
-module deep; Weber-Banaschek's deflection at the mean load stands for what is above. The bodies are stiffer
-than the gears', but the same in all three columns.
+One sector of the pinion of Jia et al., its edges and bore held, of twenty-node bricks, and the same sector by
+harmonics along the face and the openings of its ends; both gears are taken as alike. Loads stand on the flank
+near the pitch circle, displacements are read below it, at a node a third of a module deep; Weber-Banaschek's
+deflection at the mean load stands for what is above. The bodies are stiffer than the gears', but the same in
+all columns.
 """
 
 import sys
@@ -17,12 +18,16 @@ from scipy.sparse.linalg import splu
 from skfem import Basis, BilinearForm, ElementHexS2, ElementVector, MeshHex
 from skfem.helpers import ddot, div, sym_grad
 
+from tribodyn.compliance.end_faces import openings
 from tribodyn.compliance.local import hertz_half_width, weber_banaschek_slope
 from tribodyn.compliance.ring_mesh import sector_mesh
+from tribodyn.compliance.strips import curved_basis, strip_stiffness
 from tribodyn.geometry.path import kinematics
 from tribodyn.validation.jia_study import ARC_MINUTE, PINION_TORQUE, elastic
 
 BORE, DEPTH = 8e-3, 0.33
+# Half waves over the face.
+WAVES = 48
 # Within a slice a line load that is even goes to its two ends and its middle like this.
 EVEN = ((0.0, 1 / 6), (0.5, 4 / 6), (1.0, 1 / 6))
 
@@ -36,6 +41,7 @@ class Sector:
         self.material, self.width = flexible.materials[0], flexible.width
         self.teeth, self.module = drive.pinion.teeth, drive.module
         plane = sector_mesh(flexible.assembly.pinion, round(self.teeth), BORE, 1)
+        self.section = curved_basis(plane.nodes, plane.cells)
         used, corners = np.unique(plane.cells[:4], return_inverse=True)
         quads = corners.reshape(4, -1)
         self.nodes, count = plane.nodes[:, used], len(used)
@@ -66,7 +72,7 @@ class Sector:
 
         stiffness = work.assemble(self.basis)
         x, y, z = self.basis.doflocs
-        held = (np.hypot(x, y) < 1.0005 * BORE) | (np.abs(np.arctan2(y, x)) > 0.9995 * np.pi / self.teeth)
+        held = self._held(x, y)
         ends = (self.axis == 2) & ((z < 1e-9) | (z > self.width - 1e-9))
         surface, inner, into, depth = self._places()
         loads, reads = (self._lines(node, into) for node in (surface, inner))
@@ -80,6 +86,43 @@ class Sector:
             )
             found.append(reads[free].T @ factors.solve(loads[free]) / self.material.youngs_modulus)
         return found[0], found[1], depth
+
+    def by_harmonics(self) -> tuple[np.ndarray, np.ndarray]:
+        """The same by harmonics along the face, and the openings of its ends."""
+        nu, slices = self.material.poisson_ratio, len(self.z) - 1
+        opening, matrices = openings(self.section, nu), strip_stiffness(self.section, nu)
+        free, faces = (~self._held(*place) for place in (self.section.doflocs, opening.place))
+        free = np.flatnonzero(np.repeat(free, 3))
+        surface, inner, into, _ = self._places()
+        lines = np.zeros((3 * self.section.N, 2))
+        for column, node in enumerate((surface, inner)):
+            away = np.hypot(*(self.section.doflocs - self.nodes[:, [node]]))
+            lines[3 * int(np.argmin(away)) + np.arange(2), column] = into
+        number = np.arange(WAVES)
+        count = np.where(number > 0, 2.0, 1.0) / self.width
+        middle = (np.arange(slices) + 0.5) / slices
+        wave = np.cos(np.pi * number * middle[:, None]) * np.sinc(number / (2.0 * slices))
+        own, reached, stiffness = np.zeros(WAVES), [], []
+        for n in number:
+            k = n * np.pi / self.width
+            matrix = (matrices[0] + k * matrices[1] + k**2 * matrices[2]).tocsc()[free][:, free]
+            forces = opening.forces(k)[np.ix_(free, faces)]
+            found = splu(matrix).solve(np.hstack([lines[free], forces]))
+            own[n] = lines[free, 1] @ found[:, 0]
+            reached.append(forces.T @ found[:, :2])
+            stiffness.append(count[n] * (opening.stiffness[np.ix_(faces, faces)] - forces.T @ found[:, 2:]))
+        symmetric = wave * own * count @ wave.T
+        more = np.zeros_like(symmetric)
+        for part in (slice(0, None, 2), slice(1, None, 2)):
+            load, read = (
+                np.stack([one[:, column] for one in reached[part]]).T @ (count[part] * wave[:, part]).T
+                for column in (0, 1)
+            )
+            more += read.T @ np.linalg.solve(np.sum(stiffness[part], axis=0), load)
+        return (symmetric + more) / self.material.youngs_modulus, symmetric / self.material.youngs_modulus
+
+    def _held(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        return (np.hypot(x, y) < 1.0005 * BORE) | (np.abs(np.arctan2(y, x)) > 0.9995 * np.pi / self.teeth)
 
     def _places(self) -> tuple[int, int, np.ndarray, float]:
         """Node of the flank next to the pitch circle, the one below it, the way into the tooth, the depth."""
@@ -118,10 +161,15 @@ def main() -> None:
     half = hertz_half_width(load / sector.width, curvature, material, material)
     above = weber_banaschek_slope(load / sector.width, half, depth, material) * slices / sector.width
     place = (np.arange(slices) + 0.5) * sector.width / slices - sector.width / 2
-    print("greatest over mean line load, free ends, planes of symmetry, slices apart")
+    print(
+        print(
+            "greatest over mean line load: ends free, symmetric; slices apart; by harmonics as the first two"
+        )
+    )
+    columns = free, symmetric, apart, *sector.by_harmonics()
     for minutes in (0, 1, 2, 3):
         greatest = []
-        for compliance in (free, symmetric, apart):
+        for compliance in columns:
             system = np.block(
                 [
                     [2 * (compliance + above * np.eye(slices)), -np.ones((slices, 1))],

@@ -141,7 +141,7 @@ def solid_block(layers):
     for held in (place[0] < 1e-9, (place[0] < 1e-9) | ends):
         free = np.flatnonzero(~held)
         found = np.zeros(basis.N)
-        found[free] = spsolve(stiffness[free][:, free], load[free])
+        found[free] = np.asarray(spsolve(stiffness[free][:, free], load[free]))
         deflection.append(np.interp(MIDDLES, place[2, other], -found[other]))
     return deflection
 

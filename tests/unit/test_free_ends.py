@@ -62,7 +62,8 @@ def whole_sector(model, wave_number, phase):
     stresses = []
     for sign in (1.0, -1.0):
         place = model.root_position * np.array([[1.0], [sign]])
-        root, corners = nodes.query(place.T)[1], KDTree(opening.place.T).query(place[:, ::2].T)[1]
+        root = np.asarray(nodes.query(place.T)[1])
+        corners = np.asarray(KDTree(opening.place.T).query(place[:, ::2].T)[1])
         own = edge_values(corners, opening.place.shape[1]) * POISSON / (1 - POISSON**2)
         rows = stress_rows(place, root, 3 * basis.N, POISSON, wave_number)
         stresses.append(rows @ by_opening - own @ face)

@@ -46,7 +46,7 @@ def pair():
 
 def test_nothing_modified_is_the_plane_model(pair):
     found = roll_through(pair, UNMODIFIED, TORQUE, 60)
-    sliced = roll_through(pair, UNMODIFIED, TORQUE, 60, slices=9)
+    sliced = roll_through(pair, UNMODIFIED, TORQUE, 60, slices=9, coupled=False)
     plane = share_load(pair, found.roll, TORQUE)
     np.testing.assert_allclose(found.normal_load, plane.normal_load, rtol=1e-9, atol=1e-6)
     np.testing.assert_allclose(sliced.normal_load, plane.normal_load, rtol=1e-8, atol=1e-5)
@@ -109,22 +109,36 @@ def test_equal_gears_with_equal_tips_and_crowning_share_symmetrically():
 
 
 def test_loads_converge_with_the_slices(pair):
-    """Inside the face to second order; the slice at its end, where the images meet in a kink, to first."""
     tilted = Modifications(misalignment=Misalignment(5e-4))
-    inside, end, deflection, stress = [], [], [], []
-    for slices in (11, 21, 42):
+    loads, deflection, stress = [], [], []
+    for slices in (21, 42, 84):
         found = roll_through(pair, tilted, TORQUE, 3, slices=slices)
         load = found.line_load[1, np.argmax(found.normal_load[1])]
-        inside.append(np.interp(-0.3 * WIDTH, found.slice_position, load) / load.mean())
-        end.append(load[0] / load.mean())
+        loads.append(load.reshape(21, -1).mean(axis=1) / load.mean())
         deflection.append(found.deflection[1])
         stress.append(found.root_tension[0].max())
-    assert abs(inside[1] / inside[2] - 1) < 2e-3
-    assert abs(inside[1] - inside[2]) < 0.5 * abs(inside[0] - inside[1])
-    assert abs(deflection[1] / deflection[2] - 1) < 2e-4
-    assert abs(stress[1] / stress[2] - 1) < 5e-3
-    assert abs(end[1] - end[2]) < 0.8 * abs(end[0] - end[1])
-    assert abs(end[1] / end[2] - 1) < 0.05
+    np.testing.assert_allclose(loads[:2], loads[1:], atol=3e-3)
+    np.testing.assert_allclose(deflection[:2], deflection[1:], rtol=2e-4)
+    # the greatest is that of the last slice, at the end of the face
+    assert abs(stress[1] - stress[2]) < 0.5 * abs(stress[0] - stress[1]) < 5e-3 * stress[2]
+
+
+def test_free_ends_give_way_more_and_leave_their_load_to_the_places_next_to_them(pair):
+    """Plane strain in the middle of the face; the very ends are softer, what is next to them carries more."""
+    plane = roll_through(pair, UNMODIFIED, TORQUE, 12)
+    free = roll_through(pair, UNMODIFIED, TORQUE, 12, slices=42)
+    softer = free.deflection / plane.deflection
+    assert np.all(softer > 1.01)
+    assert np.all(softer < 1.04)
+    np.testing.assert_allclose(free.normal_load, plane.normal_load, atol=0.01 * plane.normal_load.max())
+    single = np.argmax(np.max(free.normal_load, axis=1))
+    load = free.line_load[single, np.argmax(free.normal_load[single])]
+    load = load / load.mean()
+    np.testing.assert_allclose(load, load[::-1], rtol=1e-6)
+    assert load[0] < 1.0
+    assert 1.02 < np.max(load) < 1.07
+    assert np.argmax(load[:21]) in (1, 2, 3)
+    np.testing.assert_allclose(load[6:36], 1.0, atol=0.012)
 
 
 def test_slices_that_hold_each_other_even_out_less(pair):
@@ -132,7 +146,7 @@ def test_slices_that_hold_each_other_even_out_less(pair):
     held, free = (
         roll_through(pair, tilted, TORQUE, 6, slices=21, coupled=coupled) for coupled in (True, False)
     )
-    assert np.nanmin(held.face_load_factor / free.face_load_factor) > 1.1
+    assert np.nanmin(held.face_load_factor / free.face_load_factor) > 1.05
 
 
 def test_misalignment_costs_stiffness_and_strains_the_roots_of_one_end(pair):

@@ -23,8 +23,8 @@ MISALIGNED = [
     for minutes in (1, 2, 3)
 ]
 RELIEVED = [f"jia/crown-{relief}-{relief}-{y3}" for y3 in (0, 8) for relief in (4, 8, 12)]
-# What misses its tolerance, up to 12 %: docs/validation.md has why, and what a model of free ends says.
-MISSED = {f"jia/misaligned-involute-unmodified-{minutes}" for minutes in (1, 2, 3)} | set(RELIEVED)
+# What misses its tolerance of 5 %, by less than a hundredth: docs/validation.md has what is known of it.
+MISSED = {"jia/crown-8-8-0", "jia/crown-12-12-8"}
 
 
 @pytest.fixture(scope="module")
@@ -49,9 +49,9 @@ def test_closed_forms_are_within_tolerance(rows, key):
 
 
 @pytest.mark.slow
-def test_ratios_have_the_papers_order_and_no_miss_is_beyond_an_eighth(rows):
+def test_ratios_have_the_papers_order_and_no_miss_is_beyond_six_per_cent(rows):
     for key in (*MISALIGNED, *RELIEVED):
-        assert abs(rows[key].difference) < 0.125, key
+        assert abs(rows[key].difference) < 0.06, key
         assert "of greatest Hertz pressures" in rows[key].note
     for keys in (
         MISALIGNED[:3],

@@ -1,5 +1,7 @@
 """Face width in slices: how the load of one slice moves the others, of its own tooth and of the neighbours.
 
+Between planes of symmetry; what free end faces add is in `face_compliance`.
+
 A spur tooth is the same all along z, so a line load q cos kz displaces it by λ(k) q cos kz. With planes of
 symmetry at the end faces (z from one of them) the loads of S equal slices are the sum of the cosines
 
