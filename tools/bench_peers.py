@@ -6,7 +6,8 @@ python tools/bench_peers.py --only tribodyn LSODA        # programs whose names 
 
 Single: the CRC drive at 300 rad/s over 20 mesh cycles. Every program gets the loosest tolerance (of a ladder)
 with which the greatest error of the transmission error, over its range, is within TARGET of the solution at
-1e-12; compilation, tables and files are outside. Batch: the same drive at many speeds.
+1e-12; compilation, tables and files are outside. Batch: the same drive at many speeds. Steady: its periodic
+steady states over the speed, and LSODA marching to them.
 """
 
 import argparse
@@ -20,6 +21,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tools.marked_block import put
+from tools.peers import steady
 from tools.peers.batch import BATCHES, Batch, speeds, threads
 from tools.peers.numpy_model import check
 from tools.peers.single import Problem, Runner, octave, octave_timed, peers, tribodyn_engine
@@ -50,19 +52,22 @@ def main() -> None:
     parser.add_argument("--into", type=Path, help="page whose marked blocks receive the tables")
     parser.add_argument("--only", nargs="+", default=[""], help="programs whose names contain one of these")
     parser.add_argument("--repeats", type=int, default=5)
-    parser.add_argument("--part", choices=("single", "batch", "both"), default="both")
+    parser.add_argument("--part", nargs="+", choices=("single", "batch", "steady"), help="default: all")
     chosen = parser.parse_args()
     words = [word.lower() for word in chosen.only]
 
     def wanted(name: str) -> bool:
         return any(word in name.lower() for word in words)
 
-    parts = {}
-    if chosen.part != "batch":
-        parts["single"] = single(wanted, chosen.repeats)
-    if chosen.part != "single":
-        parts["batch"] = batch(wanted, chosen.repeats)
-    for name, text in parts.items():
+    made = {
+        "single": lambda: single(wanted, chosen.repeats),
+        "batch": lambda: batch(wanted, chosen.repeats),
+        "steady": lambda: steady.table(chosen.repeats),
+    }
+    for name, make in made.items():
+        if chosen.part and name not in chosen.part:
+            continue
+        text = make()
         print(f"\n{text}\n")
         if chosen.into:
             put(chosen.into, name, text)

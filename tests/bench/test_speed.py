@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from tools.peers import steady
 from tribodyn.dynamics.equations import derivatives, engagement
 from tribodyn.dynamics.parameters import MECHANICAL, SLIP, STATES, WORK_IN, WORK_PARAMETRIC, XI, XI_RATE
 from tribodyn.solve.engine import Tolerances, absolute_tolerances
@@ -122,6 +123,24 @@ def test_native_run_is_faster_than_lsoda_on_the_compiled_right_hand_side(case, c
             f"(DTE error {error:.1e}) takes {ratio:.1f} times the native run"
         )
     assert ratio > 10.0
+
+
+def test_a_steady_sweep_is_20_times_faster_than_marching_with_lsoda(capsys):
+    """All of the sweep but the compilation, against LSODA at two speeds, told when the motion repeats."""
+    speeds = steady.grid(0.05, 32)
+    steady.sweep(speeds)  # compiles
+    ours = steady.sweep(speeds)
+    theirs = steady.lsoda(speeds, [8, 20], ours)
+    with capsys.disabled():
+        print(
+            f"\n32 steady speeds: {ours.seconds:.2f} s of one core, "
+            f"{100 * steady.share(ours, theirs):.1f} % of LSODA's "
+            f"for {theirs.cycles.mean():.0f} cycles (error {theirs.error:.0e})"
+        )
+    assert ours.solutions == {"period-1": 32}
+    assert ours.residual <= 1e-7
+    assert theirs.error < 1e-4
+    assert steady.share(ours, theirs) <= 0.05
 
 
 def test_native_kernel(case, benchmark):

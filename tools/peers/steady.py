@@ -1,0 +1,179 @@
+"""Periodic steady states over the speed: the sweep of the command line, and LSODA marching to the same.
+
+An expert would march every speed with SciPy's LSODA on the compiled right-hand side until the motion repeats.
+LSODA is told beforehand how many mesh cycles that takes: those after which the change over one period is
+within TOLERANCE by the sweep's own measure, found by marching at a tight tolerance. It gets the tolerance
+with which its transmission error is as exact as the single runs are asked to be.
+"""
+
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from time import process_time
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.dynamics.parameters import XI, Model
+from tribodyn.prepare import prepare
+from tribodyn.record.sweep_reader import SweepRecord
+from tribodyn.solve.engine import Tolerances, absolute_tolerances
+from tribodyn.solve.initial import static_equilibrium
+from tribodyn.solve.periodic import GearMap, moving_states
+from tribodyn.solve.scipy_engine import ScipyEngine
+from tribodyn.sweep.engines import Local
+from tribodyn.sweep.evaluate import tabulated
+from tribodyn.sweep.grid import Grid
+from tribodyn.sweep.run import MOST_CYCLES, run, settings_of
+
+Array = Any
+
+SCENARIO, SPEEDS = "crc-23-47", "100:600"  # rad/s
+#: Speeds of the comparison, every how many LSODA takes one, and the damping ratios.
+COUNT, EVERY = 256, 16
+DAMPING = (0.05, 0.01)
+#: Greatest scaled change over a period: what `steady_states` asks for.
+TOLERANCE = 1e-7
+#: Tolerance of LSODA: the loosest of the ladder whose error is within the target, see the batches.
+LSODA_RTOL = 1e-6
+#: Mesh cycles that LSODA really marches at one speed; what is beyond is taken in proportion.
+MOST_MARCHED = 200
+PERIODS = (1, 2, 3, 4)
+
+
+class Ours(NamedTuple):
+    """What the sweep came to.
+
+    Attributes
+    ----------
+    seconds : float
+        Processor time of all threads, from the grid to the file.
+    residual : float
+        Greatest over the periodic states.
+    solutions : dict
+        Sort of motion to number of speeds.
+    windows : (speeds, samples)
+        Transmission error over the window, m.
+    cycles : (speeds,)
+        Mesh cycles marched.
+    """
+
+    seconds: float
+    residual: float
+    solutions: dict[str, int]
+    windows: Array
+    cycles: Array
+
+
+class Theirs(NamedTuple):
+    """What LSODA came to at some of the speeds: processor seconds, cycles marched, greatest error."""
+
+    seconds: Array
+    cycles: Array
+    error: float
+
+
+def grid(damping: float, count: int) -> Grid:
+    """The speeds of the comparison."""
+    vary = f"operating.pinion_speed={SPEEDS}/{count}rad/s"
+    return Grid(SCENARIO, [vary], {"mesh.damping_ratio": damping})
+
+
+def sweep(speeds: Grid, workers: int | None = None) -> Ours:
+    """What `tribodyn sweep --steady` does, file included."""
+    with TemporaryDirectory() as folder:
+        begun = process_time()
+        found = run(speeds, settings_of(speeds, None), Local(workers), Path(folder) / "steady.h5")
+        seconds = process_time() - begun
+        with SweepRecord(found.path) as record:
+            names, counts = np.unique(record["solution"], return_counts=True)
+            return Ours(
+                seconds,
+                float(np.nanmax(np.where(record["period"] > 0, record["residual"], np.nan))),
+                dict(zip(map(str, names), map(int, counts), strict=True)),
+                record["transmission_error_rotational"],
+                record["cycles"],
+            )
+
+
+def lsoda(speeds: Grid, numbers: list[int], ours: Ours) -> Theirs:
+    """LSODA from the same start at some of the speeds, one after the other."""
+    models = [prepare(case, tabulated(case)).model for case in (speeds.case((i,)) for i in numbers)]
+    starts = np.array([static_equilibrium(model) for model in models])
+    needed = cycles_needed(models, starts)
+    samples = speeds.base.output.samples_per_cycle
+    seconds, errors = [], []
+    for model, start, number, cycles in zip(models, starts, numbers, needed, strict=True):
+        atol = absolute_tolerances(model, LSODA_RTOL, float(start[XI]))
+        engine = ScipyEngine("lsoda", model, samples, Tolerances(LSODA_RTOL, atol, 10**6))
+        marched = min(int(cycles), MOST_MARCHED)
+        begun = process_time()
+        block = engine.block(start, 0, marched)
+        seconds.append((process_time() - begun) * int(cycles) / marched)
+        if marched == cycles:
+            window = ours.windows[number, :samples]
+            errors.append(float(np.max(np.abs(block.samples[-samples:, XI] - window)) / np.ptp(window)))
+    return Theirs(np.array(seconds), needed, max(errors))
+
+
+def share(ours: Ours, theirs: Theirs) -> float:
+    """Processor time of the sweep over that of LSODA at all its speeds."""
+    return ours.seconds / (float(np.mean(theirs.seconds)) * len(ours.cycles))
+
+
+def table(repeats: int) -> str:
+    """Table of both at each damping; the sweep's medians, LSODA once at every sixteenth speed."""
+    sweep(grid(DAMPING[0], EVERY))  # compiles
+    lsoda(grid(DAMPING[0], 2), [0], sweep(grid(DAMPING[0], 2)))
+    rows = [
+        "| damping ratio | program | mesh cycles a speed, median (most) | s of one core | share |",
+        "|--:|---|--:|--:|--:|",
+    ]
+    said = []
+    for damping in DAMPING:
+        speeds = grid(damping, COUNT)
+        runs = sorted((sweep(speeds) for _ in range(repeats)), key=lambda one: one.seconds)
+        ours = runs[len(runs) // 2]
+        theirs = lsoda(speeds, list(range(EVERY // 2, COUNT, EVERY)), ours)
+        rows += [
+            f"| {damping:g} | tribodyn sweep --steady | {_spread(ours.cycles)} | {ours.seconds:.3g} "
+            f"| {100 * share(ours, theirs):.2g} % |",
+            f"| {damping:g} | SciPy LSODA, numba, marching | {_spread(theirs.cycles)} "
+            f"| {np.mean(theirs.seconds) * COUNT:.3g} | 100 % |",
+        ]
+        kinds = ", ".join(f"{number} {kind}" for kind, number in ours.solutions.items())
+        said.append(
+            f"at {damping:g}: {kinds}; residual of the periodic ones at most {ours.residual:.0e}, error of "
+            f"LSODA's transmission error up to {theirs.error:.1e} of its range"
+        )
+        print("\n".join(rows[-2:]), said[-1], sep="\n", flush=True)
+    return "\n".join([*rows, "", f"{COUNT} speeds from 100 to 600 rad/s; {'; '.join(said)}."])
+
+
+def _spread(cycles: Array) -> str:
+    return f"{np.median(cycles):.0f} ({np.max(cycles):.0f})"
+
+
+def cycles_needed(models: list[Model], starts: Array) -> Array:
+    """Mesh cycles after which each motion repeats within TOLERANCE, at most as many as the sweep takes."""
+    moving = moving_states(models[0])
+    period_map = GearMap(
+        models, starts, moving, solver="dopri5", rtol=1e-9, fine_rtol=1e-9, max_steps=10**6, workers=None
+    )
+    needed = np.full(len(models), MOST_CYCLES)
+    way = starts[:, None, list(moving)]
+    open_cases, before = np.arange(len(models)), 0
+    while open_cases.size and before < MOST_CYCLES:
+        on = period_map.march(way[:, -1], open_cases, 50, True).states
+        way = np.concatenate([way[:, -max(PERIODS) :], on], axis=1)
+        kept = way.shape[1] - on.shape[1]
+        change = np.array(
+            [
+                np.abs(on - way[:, kept - p : way.shape[1] - p]) if p <= kept else np.full(on.shape, np.inf)
+                for p in PERIODS
+            ]
+        )
+        closed = np.min(np.max(change / period_map.scale[open_cases][:, None], axis=-1), axis=0) <= TOLERANCE
+        done = closed.any(axis=1)
+        needed[open_cases[done]] = before + 1 + closed[done].argmax(axis=1)
+        open_cases, way, before = open_cases[~done], way[~done], before + on.shape[1]
+    return np.minimum(needed, MOST_CYCLES)
