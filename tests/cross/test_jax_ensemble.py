@@ -1,20 +1,56 @@
-"""Batches through JAX against batches in lanes."""
+"""Batches and sweeps through JAX against those in lanes: one compiled function serves all tests here."""
 
+from pathlib import Path
+
+import h5py
+import jax
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
+from tribodyn.cli.app import app
 from tribodyn.dynamics.parameters import XI
+from tribodyn.record.sweep_reader import SweepRecord
+from tribodyn.record.sweep_schema import DONE as RECORDED
+from tribodyn.record.sweep_schema import FAILED, FIGURES
 from tribodyn.solve import ensemble, jax_ensemble
-from tribodyn.solve.engine import DONE, STALLED, STEP_TOO_SMALL
+from tribodyn.solve.engine import DONE, STALLED, STEP_TOO_SMALL, TOO_MANY_STEPS
 from tribodyn.solve.initial import static_equilibrium
+from tribodyn.sweep import plan
+from tribodyn.sweep.engines import Local
+from tribodyn.sweep.grid import Grid
+from tribodyn.sweep.run import run, settings_of
 
 pytestmark = pytest.mark.slow
 
+#: Of the native engine and JAX alike, as a share of the transmission error's range, at rtol 1e-8.
+AGREE = 2e-6
+MOTOR = {"operating.source": "torque", "output.samples_per_cycle": 40}
 
-def test_jax_and_lanes_agree_and_tell_the_same_failure(prepared):
-    """Three motors that carry their load and one that does not."""
+
+@pytest.fixture(autouse=True)
+def narrow(monkeypatch):
+    """Eight cases side by side: what is tested is the same, and a third of the time."""
+    monkeypatch.setattr(jax_ensemble, "WIDTH_ON_CPU", 8)
+
+
+@pytest.fixture(scope="module")
+def compiled():
+    """Names of what XLA compiled so far, which grows."""
+    found: list[str] = []
+
+    def note(event: str, seconds: float, **_):
+        if event.endswith("backend_compile_duration"):
+            found.append(event)
+
+    jax.monitoring.register_event_duration_secs_listener(note)
+    return found
+
+
+@pytest.fixture
+def motors(prepared):
+    """Three motors that carry their load and one that does not: models and states."""
     balanced = 500.0 * 23 / 47
-    settings = {"cycles": 3, "window": 1, "samples": 12, "rtol": 1e-8}
     base = prepared("crc-23-47-300", **{"operating.source": "torque"}).model
     models = [
         base._replace(
@@ -28,16 +64,122 @@ def test_jax_and_lanes_agree_and_tell_the_same_failure(prepared):
     ]
     states = np.array([static_equilibrium(model) for model in models])
     states[2] = 0.0
+    return models, states
+
+
+def test_jax_and_lanes_agree_and_tell_the_same_failure(motors):
+    models, states = motors
+    settings = {"cycles": 3, "window": 1, "samples": 12, "rtol": 1e-8}
     native = ensemble.march(models, states, **settings)
-    jax = jax_ensemble.march(models, states, **settings)
-    assert jax.status.tolist() == [DONE, DONE, STALLED, DONE]
-    assert native.status[[0, 1, 3]].tolist() == [DONE, DONE, DONE]
-    # the rates grow without bound towards rest, so that the step may vanish before the speed does
-    assert native.status[2] in (STALLED, STEP_TOO_SMALL)
+    mapped = ensemble.march(models, states, method="tsit5", **settings)
+    for found in (native, mapped):
+        assert found.status[[0, 1, 3]].tolist() == [DONE, DONE, DONE]
+        # the rates grow without bound towards rest, so that the step may vanish before the speed does
+        assert found.status[2] in (STALLED, STEP_TOO_SMALL)
     assert 0 < native.reached[2] < 3
     # JAX tells the segment, lanes the phase
-    assert 0 <= native.reached[2] - jax.reached[2] < 1
+    assert 0 <= native.reached[2] - mapped.reached[2] < 1
+    assert np.isnan(mapped.samples[2]).all()
     for case in (0, 1, 3):
-        ours, theirs = native.samples[case, :, XI], jax.samples[case, :, XI]
-        assert np.max(np.abs(ours - theirs)) < 2e-5 * np.ptp(ours)
-        assert jax.state[case, XI] == pytest.approx(native.state[case, XI], rel=1e-5)
+        ours, theirs = native.samples[case, :, XI], mapped.samples[case, :, XI]
+        assert np.max(np.abs(ours - theirs)) < AGREE * np.ptp(ours)
+        assert mapped.state[case, XI] == pytest.approx(native.state[case, XI], rel=AGREE)
+
+
+def test_neither_numbers_nor_fewer_cases_compile_anything_again(motors, compiled):
+    """And a case has the same bits in any company."""
+    models, states = motors
+    settings = {"cycles": 2, "window": 1, "rtol": 1e-6}
+    whole = jax_ensemble.march(models, states, samples=40, **settings)
+    before = len(compiled)
+    order = [3, 1]
+    fewer = jax_ensemble.march([models[i] for i in order], states[order], samples=40, **settings)
+    for name in whole._fields:
+        np.testing.assert_array_equal(getattr(fewer, name), getattr(whole, name)[order], err_msg=name)
+    heavier = [
+        model._replace(
+            mechanics=model.mechanics._replace(
+                load_torque=1.1 * model.mechanics.load_torque, mesh_damping=0.5 * model.mechanics.mesh_damping
+            ),
+            contact=model.contact._replace(inlet_viscosity=2.0 * model.contact.inlet_viscosity),
+        )
+        for model in models
+    ]
+    others = jax_ensemble.march(
+        [*heavier, *models, *heavier], np.tile(states, (3, 1)), samples=17, **settings
+    )
+    assert np.sum(others.status == DONE) == 9
+    hurried = jax_ensemble.march(models[:2], states[:2], samples=40, max_steps=10, **settings)
+    assert np.all(hurried.status == TOO_MANY_STEPS)
+    assert len(compiled) == before
+
+
+def swept(engine: str, path: Path, *words: str) -> Path:
+    options = [word for key, value in MOTOR.items() for word in ("--set", f"{key}={value}")]
+    ended = CliRunner().invoke(
+        app, ["sweep", "crc-23-47", *options, *words, "--engine", engine, "-o", str(path)]
+    )
+    assert ended.exit_code == 0, f"{ended.output}\n{ended.exception}"
+    return path
+
+
+def assert_alike(jax_path: Path, native_path: Path, figures: float) -> None:
+    """The same statuses, transmission errors, and figures to a relative tolerance."""
+    with SweepRecord(jax_path) as one, SweepRecord(native_path) as other:
+        np.testing.assert_array_equal(one["status"], other["status"])
+        for a, b in zip(
+            one["transmission_error_rotational"], other["transmission_error_rotational"], strict=True
+        ):
+            assert np.isfinite(a).all() == np.isfinite(b).all()
+            assert not np.isfinite(b).all() or np.max(np.abs(a - b)) < AGREE * np.ptp(b)
+        for name in FIGURES:
+            np.testing.assert_allclose(one[name], other[name], rtol=figures, atol=0.0, err_msg=name)
+
+
+def test_the_verb_gives_the_record_of_the_native_engine(tmp_path: Path):
+    """One speed of four takes more steps in a mesh cycle than it may."""
+    words = ("--vary", "operating.pinion_speed=40,250,300,350rad/s", "--transient", "4")
+    words += ("--set", "solver.max_steps=400", "--set", "solver.rtol=1e-8")
+    native = swept("native", tmp_path / "native.h5", *words)
+    mapped = swept("jax", tmp_path / "jax.h5", *words)
+    assert_alike(mapped, native, 1e-5)
+    with SweepRecord(mapped) as record:
+        assert record["status"].tolist() == [FAILED, RECORDED, RECORDED, RECORDED]
+        assert "the limit of steps" in record["message"][0]
+
+
+def test_steady_states_through_jax(tmp_path: Path):
+    """Marched, closed by Newton's method, and judged by their multipliers, all with the mapped batch."""
+    words = ("--vary", "operating.pinion_speed=300,400rad/s")
+    words += ("--set", "operating.speed_regulation=10 N*m*s/rad", "--set", "mesh.damping_ratio=0.1")
+    native = swept("native", tmp_path / "native.h5", *words)
+    mapped = swept("jax", tmp_path / "jax.h5", *words)
+    assert_alike(mapped, native, 1e-5)
+    with SweepRecord(mapped) as one, SweepRecord(native) as other:
+        assert set(one["solution"]) == {"period-1"}
+        assert (one["residual"] <= 1e-7).all()
+        np.testing.assert_allclose(one["multiplier_max"], other["multiplier_max"], atol=1e-3)
+
+
+def test_a_stopped_sweep_goes_on_and_compiles_nothing_again(tmp_path: Path, compiled, monkeypatch):
+    monkeypatch.setattr(plan, "MOST_IN_CHUNK", 8)
+    words = ("--vary", "operating.pinion_speed=250:400/11rad/s", "--transient", "4")
+    whole = swept("jax", tmp_path / "whole.h5", *words)
+
+    class Stops(Local):
+        def __call__(self, chunks, settings):
+            yield next(iter(super().__call__(chunks, settings)))
+            raise KeyboardInterrupt
+
+    grid = Grid("crc-23-47", [words[1]], MOTOR)
+    with pytest.raises(KeyboardInterrupt):
+        run(grid, settings_of(grid, 4, "tsit5"), Stops(width=8), tmp_path / "stopped.h5")
+    before = len(compiled)
+    resumed = swept("jax", tmp_path / "stopped.h5", *words, "--resume")
+    assert len(compiled) == before
+    with h5py.File(whole) as a, h5py.File(resumed) as b:
+        for name in a:
+            if isinstance(a[name], h5py.Dataset):
+                assert a[name][...].tobytes() == b[name][...].tobytes(), name
+    with SweepRecord(resumed) as record:
+        assert record.summary["cases_done_by_this_call"] == 3

@@ -71,7 +71,8 @@ def sweep(
         bool, typer.Option("--resume", help="Go on with what a stopped sweep of that name left.")
     ] = False,
     engine: Annotated[
-        EngineName, typer.Option(help="native: compiled, all cores; jax: diffrax; dask: many machines.")
+        EngineName,
+        typer.Option(help="native: compiled, all cores; jax: diffrax, on its device; dask: many machines."),
     ] = EngineName.native,
     scheduler: Annotated[
         str | None,
@@ -94,7 +95,7 @@ def sweep(
     from tribodyn.cli.progress import progress_bar
     from tribodyn.errors import InputError
     from tribodyn.record.sweep_schema import DIRECTIONS
-    from tribodyn.sweep.engines import JAX_METHOD, engine_of
+    from tribodyn.sweep.engines import engine_of, method_of
     from tribodyn.sweep.grid import Grid, default_output
     from tribodyn.sweep.run import run, settings_of
 
@@ -111,7 +112,7 @@ def sweep(
     ):
         result = run(
             grid,
-            settings_of(grid, transient, JAX_METHOD if engine is EngineName.jax else ""),
+            settings_of(grid, transient, method_of(engine.value, grid.base.solver.method)),
             evaluator,
             record,
             directions=chosen,

@@ -59,11 +59,32 @@ class Packed(NamedTuple):
 
 def kind_of(model: Model) -> Kind:
     """What a model has to share with another one to run beside it."""
-    shapes = tuple(
-        tuple(getattr(value, "shape", ()) for value in getattr(model, record)) for record in RECORDS
-    )
-    contacts = b"".join(np.asarray(getattr(model.table, name), dtype=float).tobytes() for name in SHARED)
-    return Kind(model.options, shapes, contacts)
+    return Kind(model.options, tuple(_shapes(getattr(model, name)) for name in RECORDS), _contacts(model))
+
+
+def by_kind(models: Sequence[Model]) -> list[np.ndarray]:
+    """Places of the models of each kind; a record that many have in common is looked at once."""
+    shapes: dict[int, tuple[tuple[int, ...], ...]] = {}
+    contacts: dict[int, bytes] = {}
+    groups: dict[Kind, list[int]] = {}
+    for place, model in enumerate(models):
+        records = [getattr(model, name) for name in RECORDS]
+        for record in records:
+            if id(record) not in shapes:
+                shapes[id(record)] = _shapes(record)
+        if id(model.table) not in contacts:
+            contacts[id(model.table)] = _contacts(model)
+        kind = Kind(model.options, tuple(shapes[id(one)] for one in records), contacts[id(model.table)])
+        groups.setdefault(kind, []).append(place)
+    return [np.array(places) for places in groups.values()]
+
+
+def _shapes(record: Any) -> tuple[tuple[int, ...], ...]:
+    return tuple(getattr(value, "shape", ()) for value in record)
+
+
+def _contacts(model: Model) -> bytes:
+    return b"".join(np.asarray(getattr(model.table, name), dtype=float).tobytes() for name in SHARED)
 
 
 def pack(models: Sequence[Model]) -> Packed:

@@ -88,16 +88,23 @@ class Engine(Protocol):
         ...
 
 
-def absolute_tolerances(model: Model, rtol: float, deflection: float) -> np.ndarray:
+def mean_stiffness(model: Model) -> float:
+    """Stiffness of one pair, from its mean compliance over the mesh cycle, N/m."""
+    return 1.0 / float(np.mean(np.asarray(model.table.channel)[..., 4, 0]))
+
+
+def absolute_tolerances(
+    model: Model, rtol: float, deflection: float, stiffness: float | None = None
+) -> np.ndarray:
     """Rtol times the scale of every state, from the static deflection of the mesh (m).
 
     Displacements scale with the deflection, velocities with the deflection times the mesh's natural
-    frequency, works with the energy transmitted in one mesh cycle.
+    frequency, works with the energy transmitted in one mesh cycle. `stiffness` is `mean_stiffness`, if known.
     """
     mechanics, table = model.mechanics, model.table
     pinion_radius, gear_radius = float(table.pinion_pitch_radius), float(table.gear_pitch_radius)
     mass = 1.0 / (pinion_radius**2 / mechanics.pinion_inertia + gear_radius**2 / mechanics.gear_inertia)
-    stiffness = 1.0 / float(np.mean(np.asarray(table.channel)[..., 4, 0]))
+    stiffness = stiffness or mean_stiffness(model)
     frequency = np.sqrt(stiffness / mass)
     velocity = deflection * frequency
     scale = np.empty(STATES)

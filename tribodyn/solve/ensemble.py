@@ -14,7 +14,7 @@ import numpy as np
 
 from tribodyn.dynamics.parameters import STATES, Model
 from tribodyn.solve.engine import DONE, TOO_MANY_STEPS, March
-from tribodyn.solve.stiffness import EXPLICIT, choose
+from tribodyn.solve.stiffness import EXPLICIT, THROUGH_JAX, choose
 from tribodyn.solve.transient import cycles_per_block, make_engine, tolerances_from
 
 #: Explicit steps in one mesh cycle above which a case of a batch is taken out of the lanes and begun anew by
@@ -94,7 +94,7 @@ def march(
         Whole mesh cycles done before; with the phase and the lag they give the time.
     method : str
         "auto": explicit, and where that takes too many steps what `stiffness.choose` finds; or a method's
-        name, see `transient.make_engine`.
+        name, see `transient.make_engine`; those of diffrax are mapped over the cases, see `jax_ensemble`.
     workers : int, optional
         Threads; by default one a core that this process may use.
     progress : callable, optional
@@ -106,6 +106,23 @@ def march(
         raise ValueError(f"states have shape {states.shape}, not ({cases}, {STATES}) for {cases} models")
     if not 0 <= window <= cycles:
         raise ValueError(f"a window of {window} cycles does not fit into {cycles}")
+    if method in THROUGH_JAX:
+        from tribodyn.solve import jax_ensemble
+
+        return jax_ensemble.march(
+            models,
+            states,
+            cycles=cycles,
+            window=window,
+            samples=samples,
+            rtol=rtol,
+            max_steps=max_steps,
+            started=started,
+            first_cycle=first_cycle,
+            method=method,
+            workers=workers,
+            progress=progress,
+        )
     count = workers or usable_cores()
     shared = March(first_cycle, cycles, window, samples, started, float(rtol), max_steps)
     if method not in ("auto", EXPLICIT):

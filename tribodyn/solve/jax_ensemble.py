@@ -1,22 +1,62 @@
 """Batches through JAX: diffrax over stacked models, on whatever device JAX has.
 
 The same right-hand side, mapped over the cases. For a GPU, and to compare with; on a CPU the lanes of
-`ensemble.march` are much faster, as all cases here wait for the slowest in every step.
+`ensemble.march` are much faster, as all cases of a part wait for the slowest in every segment.
 """
 
-from collections.abc import Sequence
-from typing import Any
+import threading
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from functools import partial
+from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 
-from tribodyn.dynamics.parameters import Model
-from tribodyn.lanes.packing import Kind, kind_of
-from tribodyn.solve.diffrax_engine import march_segments, outcome, sample_phases, use_compilation_cache
-from tribodyn.solve.engine import DONE
-from tribodyn.solve.ensemble import MAX_STEPS, Ensemble, nothing_yet
-from tribodyn.solve.transient import tolerances_from
+from tribodyn.dynamics.parameters import Model, Options
+from tribodyn.lanes.packing import by_kind
+from tribodyn.solve.diffrax_engine import (
+    Carried,
+    How,
+    Segment,
+    beginning,
+    over_cycle,
+    sample_phases,
+    steps_end_on,
+    use_compilation_cache,
+)
+from tribodyn.solve.engine import DONE, March
+from tribodyn.solve.ensemble import MAX_STEPS, Ensemble, nothing_yet, usable_cores
+from tribodyn.solve.transient import tolerances_of_many
+
+#: Cases that are integrated side by side: a batch is done in parts of exactly so many, the last one filled up
+#: with copies of its last case, so that fewer cases compile nothing again. On a processor a thread a part.
+WIDTH, WIDTH_ON_CPU = 1024, 64
+
+
+def width_here() -> int:
+    """Cases that are integrated side by side on the device that JAX has."""
+    return WIDTH_ON_CPU if jax.default_backend() == "cpu" else WIDTH
+
+
+class Part(NamedTuple):
+    """Cases that are integrated side by side, by their places in the batch.
+
+    Attributes
+    ----------
+    method : str
+    width : int
+        At least the number of cases; what is missing is filled up.
+    shared : bool
+        Whether all cases of this kind have one table.
+    places : (n,) int
+    """
+
+    method: str
+    width: int
+    shared: bool
+    places: np.ndarray
 
 
 def march(
@@ -31,98 +71,152 @@ def march(
     started: bool = False,
     first_cycle: int = 0,
     method: str = "tsit5",
+    workers: int | None = None,
+    progress: Callable[[float], None] | None = None,
+    width: int | None = None,
 ) -> Ensemble:
     """Integrate every case over the same number of mesh cycles; see `ensemble.march`.
 
-    A failed case's state is the one at the end of the segment before, and `max_steps` counts in one segment.
+    A failed case's state is the one at the end of the segment before, where `reached` points too.
 
     Parameters
     ----------
     method : {"tsit5", "dopri8", "kvaerno5"}
+    workers : int, optional
+        Threads on a processor, by default one a core; elsewhere there is one.
+    width : int, optional
+        Cases side by side, see `width_here`.
+
+    Notes
+    -----
+    Compiled once for a method, a width, a kind of models (`lanes.packing.Kind`), tables that are shared or
+    not, and every `diffrax_engine.ROOM` samples a cycle; for no number, and not for fewer cases.
     """
     use_compilation_cache()
     states = np.asarray(states, dtype=float)
+    asked = March(first_cycle, cycles, window, samples, started, float(rtol), max_steps)
     found = nothing_yet(states, window * samples)
-    groups: dict[Kind, list[int]] = {}
-    for case, model in enumerate(models):
-        groups.setdefault(kind_of(model), []).append(case)
-    for places in groups.values():
-        mine = [models[case] for case in places]
-        atol = np.array(
-            [
-                tolerances_from(model, states[case], rtol, max_steps).atol
-                for model, case in zip(mine, places, strict=True)
-            ]
-        )
-        parts = ((0, cycles - window, 0), (cycles - window, window, samples))
-        for done, more, wanted in parts:
-            if more:
-                going = np.array(places)[found.status[places] == DONE]
-                chosen = [places.index(case) for case in going]
-                _go_on(
-                    [mine[i] for i in chosen],
-                    atol[chosen],
-                    found,
-                    going,
-                    (done, more, wanted, first_cycle + done, started or done > 0, rtol, max_steps, method),
-                )
+    parts = _parts(models, method, width or width_here())
+    threads = (workers or usable_cores()) if jax.default_backend() == "cpu" else 1
+    cancelled = threading.Event()
+    ticks: list[Part] = []
+
+    def one(part: Part) -> None:
+        for _ in _cycles(part, models, asked, found):
+            ticks.append(part)
+            if progress:
+                progress(len(ticks) / (len(parts) * cycles))
+            if cancelled.is_set():
+                return
+
+    with ThreadPoolExecutor(threads) as pool:
+        try:
+            for job in as_completed([pool.submit(one, part) for part in parts]):
+                job.result()
+        finally:
+            cancelled.set()
+            pool.shutdown(cancel_futures=True)
     return found
 
 
-def _go_on(models: list[Model], atol: np.ndarray, found: Ensemble, places: np.ndarray, how: tuple) -> None:
-    """Integrate the cases at some places further, and note what became of them."""
-    done, cycles, samples, first_cycle, restart, rtol, max_steps, method = how
-    if not models:
-        return
-    numbers, axes = stacked([(model.table, model.mechanics, model.contact) for model in models])
-    phases = [sample_phases(np.asarray(model.table.boundary), samples) for model in models]
+def _parts(models: Sequence[Model], method: str, width: int) -> list[Part]:
+    """Parts of cases of one kind, slow and so dear ones side by side."""
+    parts = []
+    for group in by_kind(models):
+        shared = all(models[case].table is models[group[0]].table for case in group)
+        order = np.array(sorted(group, key=lambda case: float(models[case].mechanics.nominal_speed)))
+        parts += [Part(method, width, shared, order[i : i + width]) for i in range(0, len(order), width)]
+    return parts
 
-    def one(numbers: Any, y: Any, at: Any, atol: Any) -> Any:
-        return march_segments(
-            method,
-            models[0].options,
-            cycles,
-            at.shape[1],
-            numbers,
-            y,
-            first_cycle,
-            restart,
-            at,
-            rtol,
-            atol,
-            max_steps,
-        )
 
-    (_, _), results = jax.vmap(one, in_axes=(axes, 0, 0, 0))(
-        numbers,
-        jnp.asarray(found.state[places]),
-        jnp.asarray(np.array([at for at, _ in phases])),
-        jnp.asarray(atol),
+def _cycles(part: Part, models: Sequence[Model], asked: March, found: Ensemble):
+    """Integrate a part, mesh cycle by mesh cycle, and put what comes into `found`."""
+    places = part.places
+    rows = np.pad(places, (0, part.width - len(places)), mode="edge")
+    mine = [models[case] for case in rows]
+    tables = [model.table for model in mine]
+    numbers = (
+        jax.tree.map(jnp.asarray, tables[0]) if part.shared else stacked(tables),
+        stacked([model.mechanics for model in mine]),
+        stacked([model.contact for model in mine]),
     )
-    sampled, failed, stalled, steps, ends = (np.asarray(x) for x in results)
-    for i, case in enumerate(places):
-        boundary, counts = np.asarray(models[i].table.boundary), phases[i][1]
-        block = outcome(
-            sampled[i], failed[i], stalled[i], steps[i], boundary, counts, cycles, max_steps, method
+    boundary = np.array([np.asarray(table.boundary) for table in tables])
+    grids = [sample_phases(row, asked.samples) for row in boundary]
+    dense = np.array([at for at, _ in grids])
+    how = How(
+        jnp.full(dense.shape, np.nan),
+        jnp.asarray(np.array([steps_end_on(model) for model in mine])),
+        jnp.full(part.width, asked.rtol),
+        jnp.asarray(tolerances_of_many(mine, found.state[rows], asked.rtol)),
+        jnp.full(part.width, asked.max_steps),
+    )
+    carried = beginning(found.state[rows])
+    for done in range(asked.cycles):
+        kept = done - (asked.cycles - asked.window)
+        if kept == 0:
+            how = how._replace(at=jnp.asarray(dense))
+        carried, segments = _compiled(
+            part, mine[0].options, numbers, carried, asked.first_cycle + done, asked.started or done > 0, how
         )
-        if len(block.samples):
-            found.samples[case, : len(block.samples)] = block.samples
-        whole = len(ends[i]) if block.status == DONE else int(np.argmax(failed[i]))
-        if whole:
-            found.state[case] = ends[i][whole - 1]
-        found.status[case] = block.status
-        found.reached[case] = done + block.reached
-        found.steps[case] += block.steps
-        found.evaluations[case] += block.evaluations
+        cases = slice(len(places))
+        status = np.asarray(segments.status)[cases]
+        whole = np.argmax(np.pad(status, ((0, 0), (0, 1)), constant_values=-1) != DONE, axis=1)
+        found.reached[places] += boundary[np.arange(len(places)), whole]
+        found.steps[places] += np.sum(np.asarray(segments.steps)[cases], axis=1)
+        found.evaluations[places] += np.sum(np.asarray(segments.evaluations)[cases], axis=1)
+        if kept >= 0 and asked.samples:
+            sampled = np.asarray(segments.samples)
+            for i, case in enumerate(places):
+                block = [sampled[i, k, : grids[i][1][k]] for k in range(whole[i])]
+                block = np.concatenate([*block, np.empty((0, sampled.shape[-1]))])
+                first = kept * asked.samples
+                found.samples[case, first : first + len(block)] = block
+        found.state[places] = np.asarray(carried.y)[cases]
+        found.status[places] = status[:, -1]
+        yield done
+        if np.all(status[:, -1] != DONE):
+            return
 
 
-def stacked(trees: list[Any]) -> tuple[Any, Any]:
-    """Pytrees of arrays as one with a leading axis, and that axis of every leaf: None where all share one."""
-    leaves = [jax.tree.leaves(tree) for tree in trees]
-    structure = jax.tree.structure(trees[0])
-    values, axes = [], []
-    for column in zip(*leaves, strict=True):
-        shared = all(value is column[0] for value in column)
-        values.append(jnp.asarray(column[0] if shared else np.array(column, dtype=float)))
-        axes.append(None if shared else 0)
-    return jax.tree.unflatten(structure, values), jax.tree.unflatten(structure, axes)
+def _compiled(
+    part: Part, options: Options, numbers: Any, carried: Carried, cycle: int, restart: bool, how: How
+) -> tuple[Carried, Segment]:
+    """Give `over_one_cycle`; what was not yet compiled is compiled by one thread while the others wait."""
+    shapes = tuple((x.shape, x.dtype) for x in jax.tree.leaves((numbers, how)))
+    key = (part.method, options, part.shared, shapes)
+    call = partial(over_one_cycle, part.method, options, part.shared)
+    arguments = (numbers, carried, cycle, restart, how)
+    if key not in _known:
+        with _lock:
+            result = jax.block_until_ready(call(*arguments))
+            _known.add(key)
+            return result
+    return call(*arguments)
+
+
+_lock = threading.Lock()
+_known: set[tuple[Any, ...]] = set()
+
+
+@partial(jax.jit, static_argnames=("method", "options", "shared"))
+def over_one_cycle(
+    method: str,
+    options: Options,
+    shared: bool,
+    numbers: Any,
+    carried: Carried,
+    cycle: Any,
+    restart: Any,
+    how: How,
+) -> tuple[Carried, Segment]:
+    """`diffrax_engine.over_cycle` mapped over the cases: a leading axis on all but cycle and restart."""
+
+    def one(numbers: Any, carried: Carried, how: How) -> tuple[Carried, Segment]:
+        return over_cycle(method, options, numbers, carried, cycle, restart, how)
+
+    return jax.vmap(one, in_axes=((None if shared else 0, 0, 0), 0, 0))(numbers, carried, how)
+
+
+def stacked(trees: list[Any]) -> Any:
+    """Pytrees of numbers and arrays as one with a leading axis."""
+    return jax.tree.map(lambda *leaves: jnp.asarray(np.array(leaves, dtype=float)), *trees)

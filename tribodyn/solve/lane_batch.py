@@ -2,18 +2,18 @@
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from tribodyn.dynamics.parameters import STATES, Model
-from tribodyn.lanes.packing import Packed, kind_of, lane_model, pack
+from tribodyn.lanes.packing import Packed, by_kind, lane_model, pack
 from tribodyn.lanes.vectors import WIDTH
 from tribodyn.solve.engine import March
 from tribodyn.solve.lane_march import march_lanes
 from tribodyn.solve.lane_queue import Queue, make_block
 from tribodyn.solve.reversal import stops
-from tribodyn.solve.transient import tolerances_from
+from tribodyn.solve.transient import tolerances_of_many
 
 #: How often progress is told, s.
 INTERVAL = 0.1
@@ -29,10 +29,7 @@ class Batch(NamedTuple):
 
 def batches(models: Sequence[Model], states: np.ndarray, march: March) -> list[Batch]:
     """One batch a kind, the slow and so dear cases first: lanes of a block then cost about the same."""
-    groups: dict[Any, list[int]] = {}
-    for case, model in enumerate(models):
-        groups.setdefault(kind_of(model), []).append(case)
-    return [_batch(models, states, march, np.array(group)) for group in groups.values()]
+    return [_batch(models, states, march, places) for places in by_kind(models)]
 
 
 def _batch(models: Sequence[Model], states: np.ndarray, march: March, places: np.ndarray) -> Batch:
@@ -44,12 +41,7 @@ def _batch(models: Sequence[Model], states: np.ndarray, march: March, places: np
     queue = Queue(
         numbers=packed.numbers,
         addresses=packed.addresses,
-        atol=np.array(
-            [
-                tolerances_from(model, states[case], march.rtol, march.max_steps).atol
-                for model, case in zip(mine, places, strict=True)
-            ]
-        ),
+        atol=tolerances_of_many(mine, states[places], march.rtol),
         stops=_stops(mine),
         state=states[places],
         samples=np.full((count, march.window * march.samples, STATES), np.nan),
@@ -66,15 +58,18 @@ def _batch(models: Sequence[Model], states: np.ndarray, march: March, places: np
 
 def _stops(models: Sequence[Model]) -> np.ndarray:
     """Phases that steps end on, (C, segments, most); found once for all models that have them in common."""
-    known: dict[tuple[int, float], np.ndarray] = {}
+    numbers: dict[tuple[int, float], int] = {}
+    found: list[np.ndarray] = []
     rows = []
     for model in models:
         key = (id(model.table), float(model.mechanics.reversal_width))
-        if key not in known:
-            known[key] = stops(model)
-        rows.append(known[key])
-    most = max(row.shape[1] for row in rows)
-    return np.array([np.pad(row, ((0, 0), (0, most - row.shape[1])), mode="edge") for row in rows])
+        if key not in numbers:
+            numbers[key] = len(found)
+            found.append(stops(model))
+        rows.append(numbers[key])
+    most = max(one.shape[1] for one in found)
+    filled = [np.pad(one, ((0, 0), (0, most - one.shape[1])), mode="edge") for one in found]
+    return np.array(filled)[rows]
 
 
 def run_threads(

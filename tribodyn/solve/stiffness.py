@@ -16,6 +16,8 @@ from tribodyn.solve.engine import absolute_tolerances
 from tribodyn.solve.initial import accelerations
 
 EXPLICIT, STIFF = "dopri5", "rodas4"
+#: Methods that run through JAX.
+THROUGH_JAX = ("tsit5", "dopri8", "kvaerno5")
 
 #: Explicit steps per mesh cycle, by stability alone, above which the stiff solver is the cheaper one, with
 #: the nominal sliding velocity and with the vibration's. Measured on the CRC drive at rtol 1e-6: the native

@@ -1,6 +1,6 @@
 """Transient runs: blocks of whole mesh cycles one after the other, and what happens on a failure."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -18,10 +18,19 @@ from tribodyn.dynamics.parameters import (
 )
 from tribodyn.native import laid_out
 from tribodyn.solve.dormand_prince import FIRST_STEP
-from tribodyn.solve.engine import DONE, NOT_FINITE, REASONS, Block, Engine, Tolerances, absolute_tolerances
+from tribodyn.solve.engine import (
+    DONE,
+    NOT_FINITE,
+    REASONS,
+    Block,
+    Engine,
+    Tolerances,
+    absolute_tolerances,
+    mean_stiffness,
+)
 from tribodyn.solve.initial import static_deflection
 from tribodyn.solve.reversal import stops
-from tribodyn.solve.stiffness import EXPLICIT, STIFF
+from tribodyn.solve.stiffness import EXPLICIT, STIFF, THROUGH_JAX
 
 
 class Settings(NamedTuple):
@@ -98,16 +107,28 @@ class NativeEngine:
 
 def tolerances_from(model: Model, state: np.ndarray, rtol: float, max_steps: int) -> Tolerances:
     """Tolerances scaled by the deflection that the mesh has in `state` or would have under the load."""
-    static = static_deflection(model, float(model.mechanics.load_torque))
-    deflection = max(abs(float(state[XI])), static, 1e-9)
-    return Tolerances(rtol, absolute_tolerances(model, rtol, deflection), max_steps)
+    return Tolerances(rtol, tolerances_of_many([model], state[None], rtol)[0], max_steps)
+
+
+def tolerances_of_many(models: Sequence[Model], states: np.ndarray, rtol: float) -> np.ndarray:
+    """Absolute tolerances (C, STATES) of many cases; what only a table decides is found once a table."""
+    known: dict[int, tuple[float, float]] = {}
+    found = np.empty((len(models), STATES))
+    for case, model in enumerate(models):
+        if id(model.table) not in known:
+            known[id(model.table)] = mean_stiffness(model), static_deflection(model, 1.0)
+        stiffness, per_torque = known[id(model.table)]
+        static = per_torque * abs(float(model.mechanics.load_torque))
+        deflection = max(abs(float(states[case, XI])), static, 1e-9)
+        found[case] = absolute_tolerances(model, rtol, deflection, stiffness)
+    return found
 
 
 def make_engine(method: str, model: Model, samples: int, tolerances: Tolerances) -> Engine:
     """The engine that a method's name stands for."""
     if method in (EXPLICIT, STIFF):
         return NativeEngine(model, samples, tolerances, method)
-    if method in ("tsit5", "dopri8", "kvaerno5"):
+    if method in THROUGH_JAX:
         from tribodyn.solve.diffrax_engine import DiffraxEngine
 
         return DiffraxEngine(method, model, samples, tolerances)

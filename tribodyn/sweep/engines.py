@@ -1,4 +1,4 @@
-"""Where the chunks of a sweep are evaluated: in this process over its cores, or on the workers of Dask."""
+"""Where the chunks of a sweep are evaluated: in this process over its cores or through JAX, or by Dask."""
 
 import logging
 from collections.abc import Iterable, Iterator
@@ -8,16 +8,18 @@ from typing import Any, Protocol
 import numpy as np
 
 from tribodyn.errors import InputError, SimulationError
+from tribodyn.solve.stiffness import THROUGH_JAX
 from tribodyn.sweep.evaluate import Chunk, Settings, evaluate
 
 Block = dict[str, np.ndarray]
-DASK = "dask"
-#: Method of `--engine jax`: diffrax on the same right-hand side, to hold the native kernel against.
-JAX_METHOD = "tsit5"
+JAX, DASK = "jax", "dask"
 
 
 class Engine(Protocol):
     """Evaluates chunks; results come in any order, each once."""
+
+    #: Cases that are integrated side by side at the price of one.
+    width: int
 
     def __call__(self, chunks: Iterable[Chunk], settings: Settings) -> Iterator[tuple[Chunk, Block]]:
         """Evaluate; takes the next chunks only as results go out."""
@@ -31,10 +33,13 @@ class Local:
     ----------
     workers : int, optional
         Threads; by default one a core.
+    width : int
+        See `Engine`.
     """
 
-    def __init__(self, workers: int | None = None) -> None:
+    def __init__(self, workers: int | None = None, width: int = 1) -> None:
         self.workers = workers
+        self.width = width
 
     def __call__(self, chunks: Iterable[Chunk], settings: Settings) -> Iterator[tuple[Chunk, Block]]:
         """See `Engine`."""
@@ -49,6 +54,8 @@ class Dask:
     ----------
     client : distributed.Client
     """
+
+    width = 1
 
     def __init__(self, client: Any) -> None:
         self.client = client
@@ -85,6 +92,17 @@ class Dask:
             yield chunk, block
 
 
+def method_of(engine: str, method: str) -> str:
+    """The method that an engine integrates with instead of the scenario's own; empty for the latter."""
+    return "tsit5" if engine == JAX and method not in THROUGH_JAX else ""
+
+
+def _jax_width() -> int:
+    from tribodyn.solve.jax_ensemble import width_here
+
+    return width_here()
+
+
 @contextmanager
 def engine_of(name: str, workers: int | None, scheduler: str | None) -> Iterator[Engine]:
     """Give the engine of a name; a local cluster lives as long as the block.
@@ -97,7 +115,7 @@ def engine_of(name: str, workers: int | None, scheduler: str | None) -> Iterator
     if name != DASK:
         if scheduler is not None:
             raise InputError("--scheduler", scheduler, "belongs to --engine dask", "add --engine dask")
-        yield Local(workers)
+        yield Local(workers, _jax_width() if name == JAX else 1)
         return
     try:
         from distributed import Client, LocalCluster

@@ -14,14 +14,27 @@ from tribodyn.sweep.grid import Grid
 #: Bytes of states that the cases of a chunk may fill: what bounds the memory of a sweep.
 CHUNK_BYTES = 32 * 2**20
 MOST_IN_CHUNK = 256
+#: A sweep is done in at least this many chunks, so that its progress shows; but in none of fewer cases.
+CHUNKS, LEAST_IN_CHUNK = 16, 32
 
 #: Gives what was recorded of cases: (numbers) -> statuses (n,), states (n, STATES).
 Recorded = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 
-def chunk_size(window: int, samples: int) -> int:
-    """Cases to be evaluated together, by the room that their windows take."""
-    return max(1, min(MOST_IN_CHUNK, CHUNK_BYTES // (window * samples * STATES * 8)))
+def chunk_size(window: int, samples: int, total: int, width: int) -> int:
+    """Cases to be evaluated together, by the room that their windows take.
+
+    Parameters
+    ----------
+    window, samples : int
+        Mesh cycles that are kept of a case, and samples in each.
+    total : int
+        Cases to be done.
+    width : int
+        Cases that an engine takes side by side, whether there are as many or not: no chunk has fewer.
+    """
+    by_room = max(1, min(MOST_IN_CHUNK, CHUNK_BYTES // (window * samples * STATES * 8)))
+    return max(width, min(by_room, max(LEAST_IN_CHUNK, total // CHUNKS)))
 
 
 def single_steps(grid: Grid, waiting: np.ndarray, size: int) -> Iterator[list[Chunk]]:

@@ -26,8 +26,6 @@ MOST_CYCLES, STEADY_WINDOW, STEADY_POINTS = 2000, 4, 256
 TRANSIENT_WINDOW, TRANSIENT_POINTS = 16, 256
 #: Above these a sweep is refused: surely mistyped, or too large for one file.
 MOST_CASES, MOST_BYTES = 1_000_000, 64 * 2**30
-#: A sweep is done in at least this many chunks, so that its progress shows; but in none of fewer cases.
-CHUNKS, LEAST_IN_CHUNK = 16, 32
 #: Seconds that a case takes on one core, for what is said of a sweep too large.
 SECONDS_A_CASE = 0.02
 
@@ -114,7 +112,7 @@ def run(
     with SweepWriter(output, head, force=force, resume=resume) as record:
         waiting = record.status == WAITING
         total, done = int(waiting.sum()), 0
-        size = min(chunk_size(settings.window, settings.samples), max(LEAST_IN_CHUNK, total // CHUNKS))
+        size = chunk_size(settings.window, settings.samples, total, engine.width)
 
         def recorded(numbers: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
             return record.status[numbers], record.read("state", numbers)

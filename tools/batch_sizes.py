@@ -1,0 +1,121 @@
+"""Throughput of batches by their size, from 64 to a million cases, and what share of the processor it is.
+
+python tools/batch_sizes.py --into docs/performance.md      # lanes, and diffrax up to DIFFRAX_UP_TO cases
+python tools/batch_sizes.py --engine jax --width 16384      # on a GPU: whatever device JAX has
+
+The CRC drive at speeds from 100 to 600 rad/s in no order, at the tolerances of `bench_peers` for an error of
+2e-5. Counted is the march of models that are there; large batches are done in parts, as the page on batches
+says, and of every case only the peak to peak transmission error is kept.
+"""
+
+import argparse
+import resource
+import sys
+from pathlib import Path
+from time import perf_counter, process_time
+from typing import NamedTuple
+
+import numpy as np
+
+from tools.bench_peers import machine, problem
+from tools.marked_block import put
+from tribodyn.dynamics.parameters import XI
+from tribodyn.solve import jax_ensemble
+from tribodyn.solve.ensemble import march
+
+SIZES = (64, 256, 1024, 10_000, 100_000, 1_000_000)
+DIFFRAX_UP_TO = 1024
+#: Cases at a time: their models are Python objects of some kB each.
+PART = 2**15
+#: Mesh cycles of a case by the size of the batch, and samples in the last of them.
+CYCLES = {64: 40, 256: 40, 1024: 20, 10_000: 10, 100_000: 3, 1_000_000: 1}
+SAMPLES = 16
+#: Method and tolerance that bring the error to 2e-5 of the range, see the table of `bench_peers`.
+ENGINES = {"native": ("dopri5", 3e-5), "jax": ("tsit5", 3e-6)}
+#: Operations of one evaluation, and what a core does in a nanosecond: "Against what the processor can do".
+OPERATIONS, A_NANOSECOND = 1500, 40
+
+
+class Measured(NamedTuple):
+    """Seconds on the clock and of the processor, evaluations of the right-hand side, cases that failed."""
+
+    wall: float
+    processor: float
+    evaluations: float
+    failed: int
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--into", type=Path, help="page whose marked block `sizes` receives the table")
+    parser.add_argument("--engine", choices=(*ENGINES, "both"), default="both")
+    parser.add_argument("--sizes", type=int, nargs="+", default=SIZES)
+    parser.add_argument("--width", type=int, help="cases that JAX takes side by side, see `jax_ensemble`")
+    chosen = parser.parse_args()
+    if chosen.width:
+        jax_ensemble.WIDTH = jax_ensemble.WIDTH_ON_CPU = chosen.width
+    text = table([one for one in ENGINES if chosen.engine in (one, "both")], sorted(chosen.sizes))
+    print(f"\n{text}\n")
+    if chosen.into:
+        put(chosen.into, "sizes", text)
+
+
+def table(engines: list[str], sizes: list[int]) -> str:
+    """Table of the page."""
+    rows = [
+        "| engine | cases | cycles | cycles × cases a second | a second of one core "
+        "| ns an evaluation | of the roofline | peak memory |",
+        "|---|--:|--:|--:|--:|--:|--:|--:|",
+    ]
+    for engine in engines:
+        for cases in sizes:
+            if engine == "jax" and len(engines) > 1 and cases > DIFFRAX_UP_TO:
+                continue
+            cycles = next(n for size, n in CYCLES.items() if cases <= size)
+            one = measured(engine, cases, cycles, 5 if cases <= 1024 else 1)
+            each = 1e9 * one.processor / one.evaluations
+            memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**10
+            rows.append(
+                f"| {_name(engine)} | {cases} | {cycles} | {cases * cycles / one.wall:.3g} "
+                f"| {cases * cycles / one.processor:.3g} | {each:.3g} "
+                f"| {OPERATIONS / A_NANOSECOND / each:.1%} | {memory:.0f} MiB |"
+            )
+            print(rows[-1], f"{one.failed} failed" if one.failed else "", file=sys.stderr, flush=True)
+    return "\n".join([*rows, "", f"{machine()}; up to 1024 cases medians of 5."])
+
+
+def measured(engine: str, cases: int, cycles: int, repeats: int) -> Measured:
+    """The median march of so many cases."""
+    posed = problem()
+    method, rtol = ENGINES[engine]
+    mechanics = posed.model.mechanics
+    speeds = np.random.default_rng(1).uniform(100.0, 600.0, cases)
+    swing = np.full(cases, np.nan)
+
+    def part(first: int) -> Measured:
+        models = [
+            posed.model._replace(mechanics=mechanics._replace(nominal_speed=float(speed)))
+            for speed in speeds[first : first + PART]
+        ]
+        states = np.tile(posed.state, (len(models), 1))
+        begun = perf_counter(), process_time()
+        found = march(models, states, cycles=cycles, window=1, samples=SAMPLES, rtol=rtol, method=method)
+        spent = perf_counter() - begun[0], process_time() - begun[1]
+        swing[first : first + PART] = np.ptp(found.samples[..., XI], axis=1)
+        return Measured(*spent, float(np.sum(found.evaluations)), int(np.sum(found.status != 0)))
+
+    part(cases - 64)  # compiles
+    runs = [np.sum([part(first) for first in range(0, cases, PART)], axis=0) for _ in range(repeats)]
+    return Measured(*np.median(runs, axis=0))
+
+
+def _name(engine: str) -> str:
+    if engine == "native":
+        return "lanes"
+    import jax
+
+    return f"diffrax, {jax.devices()[0].device_kind}"
+
+
+if __name__ == "__main__":
+    main()
