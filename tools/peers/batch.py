@@ -85,6 +85,6 @@ BATCHES = {
     "tribodyn, lanes": Batch(lanes, 256, 40),
     "tribodyn, one case a thread": Batch(threads("dopri5"), 256, 40),
     "SciPy LSODA, numba, one by one": Batch(threads("lsoda"), 8, 20),
-    "diffrax Tsit5, vmapped": Batch(diffrax, 128, 40),
-    "diffrax Tsit5, vmapped, no stops": Batch(plain_diffrax, 128, 40),
+    "diffrax Tsit5, vmapped": Batch(diffrax, 128, 20),
+    "diffrax Tsit5, vmapped, no stops": Batch(plain_diffrax, 64, 20),
 }
