@@ -71,10 +71,10 @@ def diffrax(models: Sequence[Model], states: Array, cycles: int, rtol: float) ->
 
 def plain_diffrax(models: Sequence[Model], states: Array, cycles: int, rtol: float) -> Array:
     """The same, but that only engagement ends a step: what its user would write who knows no more of it."""
-    from tribodyn.solve import jax_ensemble
+    from tribodyn.solve import diffrax_engine, jax_ensemble
 
     def ends(model: Model) -> Array:
-        stops = jax_ensemble.steps_end_on(model)
+        stops = diffrax_engine.steps_end_on(model)
         return np.broadcast_to(stops[:, -1:], stops.shape)
 
     with patch.object(jax_ensemble, "steps_end_on", ends):
