@@ -133,6 +133,17 @@ def test_order_four(prepared, sliding):
     assert np.all(works[MECHANICAL:] < 1e-5)
 
 
+def test_samples_between_long_steps_are_within_the_tolerance_of_a_step(prepared):
+    """Long before the first change of pairs, at phase 0.52, the start's vibration has died at 1 rad/s."""
+    model = prepared("crc-23-47", **{"operating.pinion_speed": "1 rad/s"}).model
+    rtol = 1e-6
+    found, exact = (
+        solve(model, method, tolerance, cycles=1).samples[25:50, XI]
+        for method, tolerance in (("rodas4", rtol), ("dopri5", 1e-11))
+    )
+    assert np.max(np.abs(found - exact)) < 2.0 * rtol * np.max(np.abs(exact))
+
+
 @pytest.mark.slow
 def test_it_agrees_with_radau_where_it_is_stiff(prepared):
     model = prepared(

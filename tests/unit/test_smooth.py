@@ -12,7 +12,7 @@ X = np.linspace(-3.0, 3.0, 60001)
     [
         (lambda x: positive_part(x, 0.5), lambda x: np.maximum(x, 0.0)),
         (sign, np.sign),
-        (ramp, lambda x: np.heaviside(x - 0.5, 0.5)),
+        (lambda x: ramp(x, 1.0), lambda x: np.heaviside(x - 0.5, 0.5)),
     ],
     ids=["positive_part", "sign", "ramp"],
 )

@@ -137,7 +137,10 @@ def elastic_loads(segment, cell, u, model, work):
     coupled = model.options.sweeps > 1
     for i in range(pairs):
         work[ELASTIC_LOAD, i] = 0.0
-        if out_of_reach(segment, i, model) or not coupled:
+        if out_of_reach(segment, i, model):
+            continue
+        work[STIFFNESS, i] = 1.0 / work[COMPLIANCE, i]
+        if not coupled:
             continue
         load = 0.0
         for j in range(pairs):
@@ -159,13 +162,12 @@ def elastic_loads(segment, cell, u, model, work):
                     if j != i and not out_of_reach(segment, j, model):
                         free = free - work[COUPLING + j, i] * work[ELASTIC_LOAD, j]
             deflection = positive_part(free, width)
-            compliance = work[COMPLIANCE, i]
             if model.options.hertz == HERTZ_POWER_LAW:
+                compliance = work[COMPLIANCE, i]
                 load = power_law_force(deflection, compliance, coefficient)
                 root = (maximum(load, 1e-6)) ** -0.1
                 work[STIFFNESS, i] = 1.0 / (compliance + 0.9 * coefficient * root)
             else:
-                work[STIFFNESS, i] = 1.0 / compliance
                 load = deflection * work[STIFFNESS, i]
             work[EFFECTIVE_APPROACH, i] = free
             work[ELASTIC_LOAD, i] = model.table.in_contact[segment, i] * load
@@ -194,14 +196,14 @@ def contact_forces(segment, cell, u, cells_per_radian, y, model, work):
     mechanics = model.mechanics
     table = model.table
     ratio = table.pinion_pitch_radius / table.gear_pitch_radius
-    reversal_speed = (1.0 + ratio) * mechanics.reversal_width * mechanics.nominal_speed
+    reversals = 1.0 / ((1.0 + ratio) * mechanics.reversal_width * mechanics.nominal_speed)
     for i in range(table.side.shape[0]):
         if out_of_reach(segment, i, model):
             work[NORMAL_LOAD, i] = 0.0
             work[FRICTION_FORCE, i] = 0.0
             continue
         stiffness = work[STIFFNESS, i]
-        engaged = ramp(work[EFFECTIVE_APPROACH, i] / mechanics.contact_width)
+        engaged = ramp(work[EFFECTIVE_APPROACH, i], mechanics.contact_width)
         damping = mechanics.mesh_damping * sqrt(stiffness) * work[APPROACH_RATE, i]
         load = work[ELASTIC_LOAD, i] + table.in_contact[segment, i] * engaged * damping
         load = positive_part(load, mechanics.contact_width * stiffness)
@@ -243,20 +245,21 @@ def contact_forces(segment, cell, u, cells_per_radian, y, model, work):
         )
         work[NORMAL_LOAD, i] = load
         work[FRICTION_COEFFICIENT, i] = coefficient
-        work[FRICTION_FORCE, i] = coefficient * load * sign(sliding / reversal_speed)
+        work[FRICTION_FORCE, i] = coefficient * load * sign(sliding * reversals)
 
 
 @law
 def pair_energy(i, model, work):
     """Strain energy of one pair without the coupling, J."""
-    compliance = work[COMPLIANCE, i]
     load = work[ELASTIC_LOAD, i]
     if model.options.hertz == HERTZ_POWER_LAW:
         coefficient = model.table.hertz_coefficient
-        energy = 0.5 * compliance * load * load + coefficient * 0.9 / 1.9 * maximum(load, 1e-9) ** 1.9
+        energy = (
+            0.5 * work[COMPLIANCE, i] * load * load + coefficient * 0.9 / 1.9 * maximum(load, 1e-9) ** 1.9
+        )
     else:
         width = model.mechanics.contact_width
-        energy = positive_part_integral(work[EFFECTIVE_APPROACH, i], width) / compliance
+        energy = positive_part_integral(work[EFFECTIVE_APPROACH, i], width) * work[STIFFNESS, i]
     return where(load > 0.0, energy, 0.0)
 
 
@@ -293,7 +296,7 @@ def parametric_torque(segment, cell, u, cells_per_radian, model, work):
         if model.options.hertz == HERTZ_POWER_LAW:
             stored = 0.5 * load * load
         else:
-            stored = pair_energy(i, model, work) / work[COMPLIANCE, i]
+            stored = pair_energy(i, model, work) * work[STIFFNESS, i]
         torque = torque - stored * work[COMPLIANCE_SLOPE, i] + work[NORMAL_LOAD, i] * work[APPROACH_SLOPE, i]
         if model.options.sweeps > 1:
             for j in range(i):

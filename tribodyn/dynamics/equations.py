@@ -173,6 +173,7 @@ def derivatives(phase, cycle, segment, y, model, work, dy):
     power_out = resisting * gear_speed
 
     rate = table.pitch_angle / pinion_speed  # seconds per mesh cycle
+    pinion, gear = rate / mechanics.pinion_mass, rate / mechanics.gear_mass
     dy[X_P] = rate * y[VX_P]
     dy[Y_P] = rate * y[VY_P]
     dy[X_G] = rate * y[VX_G]
@@ -180,26 +181,14 @@ def derivatives(phase, cycle, segment, y, model, work, dy):
     dy[LAG] = rate - nominal_time
     dy[XI] = rate * y[XI_RATE]
     dy[TWIST] = rate * twist_rate
-    dy[VX_P] = (
-        rate
-        * (force_x - mechanics.pinion_stiffness_x * y[X_P] - mechanics.pinion_damping_x * y[VX_P])
-        / mechanics.pinion_mass
+    dy[VX_P] = pinion * (
+        force_x - mechanics.pinion_stiffness_x * y[X_P] - mechanics.pinion_damping_x * y[VX_P]
     )
-    dy[VY_P] = (
-        rate
-        * (force_y - mechanics.pinion_stiffness_y * y[Y_P] - mechanics.pinion_damping_y * y[VY_P])
-        / mechanics.pinion_mass
+    dy[VY_P] = pinion * (
+        force_y - mechanics.pinion_stiffness_y * y[Y_P] - mechanics.pinion_damping_y * y[VY_P]
     )
-    dy[VX_G] = (
-        rate
-        * (-force_x - mechanics.gear_stiffness_x * y[X_G] - mechanics.gear_damping_x * y[VX_G])
-        / mechanics.gear_mass
-    )
-    dy[VY_G] = (
-        rate
-        * (-force_y - mechanics.gear_stiffness_y * y[Y_G] - mechanics.gear_damping_y * y[VY_G])
-        / mechanics.gear_mass
-    )
+    dy[VX_G] = gear * (-force_x - mechanics.gear_stiffness_x * y[X_G] - mechanics.gear_damping_x * y[VX_G])
+    dy[VY_G] = gear * (-force_y - mechanics.gear_stiffness_y * y[Y_G] - mechanics.gear_damping_y * y[VY_G])
     dy[SLIP] = rate * pinion_acceleration
     dy[XI_RATE] = rate * (
         table.pinion_pitch_radius * pinion_acceleration - table.gear_pitch_radius * gear_acceleration

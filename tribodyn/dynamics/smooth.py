@@ -1,11 +1,13 @@
 """Smoothed versions of the model's non-smooth functions, each C1 with its width stated."""
 
-from tribodyn.elementary import exp, law, log, maximum, minimum, where
+from tribodyn.elementary import exp, law, log, maximum, minimum, skippable, where
 
 
 @law
 def positive_part(x, width):
     """max(x, 0) made C1 without offset: x²(2w − x)/w² for 0 < x < w, exact outside."""
+    if skippable(x >= width):
+        return x
     inner = minimum(maximum(x, 0.0), width)
     return where(x >= width, x, inner * inner * (2.0 * width - inner) / (width * width))
 
@@ -13,15 +15,20 @@ def positive_part(x, width):
 @law
 def positive_part_integral(x, width):
     """The integral of `positive_part` from −∞ to x."""
+    whole = 0.5 * x * x - width * width * (1.0 / 12.0)
+    if skippable(x >= width):
+        return whole
     inner = minimum(maximum(x, 0.0), width)
     ramp = inner * inner * inner * (2.0 * width / 3.0 - inner / 4.0) / (width * width)
-    return where(x >= width, 0.5 * x * x - width * width / 12.0, ramp)
+    return where(x >= width, whole, ramp)
 
 
 @law
-def ramp(x):
-    """0 for x ≤ 0, 1 for x ≥ 1, and the cubic 3x² − 2x³ between."""
-    inner = minimum(maximum(x, 0.0), 1.0)
+def ramp(x, width):
+    """0 for x ≤ 0, 1 for x ≥ w, and the cubic 3s² − 2s³ of s = x/w between."""
+    if skippable(x >= width):
+        return 1.0
+    inner = minimum(maximum(x / width, 0.0), 1.0)
     return inner * inner * (3.0 - 2.0 * inner)
 
 

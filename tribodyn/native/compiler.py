@@ -14,6 +14,7 @@ from numba.core import types
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler, Flags, compile_extra
 from numba.core.compiler_lock import global_compiler_lock
+from numba.core.cpu_options import FastMathOptions
 from numba.core.registry import cpu_target
 from numba.extending import overload, typeof_impl
 
@@ -21,6 +22,9 @@ from tribodyn.native.arguments import Record
 from tribodyn.native.kernel import Kernel
 from tribodyn.native.records import WORDS, RecordType, fields_of, letter_of, put
 from tribodyn.native.store import Compiled
+
+#: What LLVM may do with floats: make one rounding of a product and a sum.
+FUSE = {"contract"}
 
 
 class _NotLoaded:
@@ -116,7 +120,9 @@ def part_instead(function: Callable[..., Any]) -> Callable[..., Any]:
 def _typeof_kernel(kernel, c):
     """Inside another kernel a kernel is a part as any other."""
     if not hasattr(kernel, "part"):
-        kernel.part = cast(Any, numba.njit)(**_PART, error_model="numpy", _nrt=False)(kernel.function)
+        kernel.part = cast(Any, numba.njit)(**_PART, error_model="numpy", fastmath=FUSE, _nrt=False)(
+            kernel.function
+        )
     return types.Dispatcher(kernel.part)
 
 
@@ -165,11 +171,12 @@ def compiled(function: Callable[..., Any], layout: Record) -> Compiled:
     def entry(block, results):
         put(results, kernel(*fields_of(block)))
 
-    # IEEE division, no reordering; none of numba's reference counts, which would cost a quarter of the
-    # right-hand side: so a kernel is handed its buffers
+    # IEEE division, no reordering, but a product and a sum may be one rounding; none of numba's reference
+    # counts, which would cost a quarter of the right-hand side: so a kernel is handed its buffers
     flags: Any = Flags()
     flags.nrt = False
     flags.error_model = "numpy"
+    flags.fastmath = FastMathOptions(FUSE)
     flags.no_cpython_wrapper = flags.no_cfunc_wrapper = True
     flags.no_compile = True  # not before the C function is there
     typing, target = cast(Any, cpu_target.typing_context), cast(Any, cpu_target.target_context)

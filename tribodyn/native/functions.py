@@ -118,10 +118,10 @@ def _expm1(x):
         if abs(x) > 0.35:
             return math.exp(x) - 1.0
         square = x * x
-        low = 1.0 + x / 2.0 + square * (1.0 / 6.0 + x / 24.0)
-        middle = 1.0 / 120.0 + x / 720.0 + square * (1.0 / 5040.0 + x / 40320.0)
-        high = 1.0 / 362880.0 + x / 3628800.0 + square * (1.0 / 39916800.0 + x / 479001600.0)
-        high = high + square * square / 6227020800.0
+        low = 1.0 + x * (1 / 2) + square * (1 / 6 + x * (1 / 24))
+        middle = 1 / 120 + x * (1 / 720) + square * (1 / 5040 + x * (1 / 40320))
+        high = 1 / 362880 + x * (1 / 3628800) + square * (1 / 39916800 + x * (1 / 479001600))
+        high = high + square * square * (1 / 6227020800)
         fourth = square * square
         return x * (low + fourth * (middle + fourth * high))
 

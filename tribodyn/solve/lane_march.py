@@ -51,9 +51,7 @@ from tribodyn.solve.lane_queue import (
     keep_sample,
     take_cases,
 )
-
-#: A step that still gives no finite numbers is given up below this.
-LEAST_TO_RETRY = 1e-9
+from tribodyn.solve.marching import LEAST_TO_RETRY
 
 
 @kernel

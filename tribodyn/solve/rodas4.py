@@ -7,12 +7,11 @@ states a 7 by 7 matrix is factorised. The works depend on the mechanics only and
 import numpy as np
 
 from tribodyn.dynamics.contact_forces import QUANTITIES
-from tribodyn.dynamics.parameters import MECHANICAL, SLIP, STATES, Model
+from tribodyn.dynamics.parameters import MECHANICAL, STATES, Model
 from tribodyn.native import kernel
-from tribodyn.solve.dopri5 import engage, rhs
-from tribodyn.solve.dormand_prince import LEAST_REMEMBERED, LEAST_STEP, TOUCHING, weighed_error
-from tribodyn.solve.engine import DONE, NOT_FINITE, STALLED, STEP_TOO_SMALL, TOO_MANY_STEPS
+from tribodyn.solve.dopri5 import rhs
 from tribodyn.solve.jacobian import differentiate
+from tribodyn.solve.marching import NEW, OFF, OWN, march_with
 from tribodyn.solve.rosenbrock import (
     ALPHA,
     GAMMA,
@@ -28,17 +27,18 @@ from tribodyn.solve.rosenbrock import (
 
 #: Coordinates; state HALF + i is the velocity of state i.
 HALF = MECHANICAL // 2
-#: Share of the nominal speed below which steps that vanish mean that the pinion comes to rest: rates with
-#: respect to phase grow without bound there.
-STANDSTILL = 1e-3
-_STAGE = STAGES
-_RATE, _TRIAL, _SLOPE, _RIGHT, _ORDER = range(_STAGE + 1, _STAGE + 6)
+#: Longest step, mesh cycles. A stiff solution that just follows the mesh would let steps grow to a tenth of a
+#: cycle; the samples between their ends are of third order only, and no error estimate sees them. Over this
+#: length a third-order interpolant of what the geometry does in a cycle is exact to 1e-6 or better.
+LONGEST_STEP = 1 / 64
+_U = OWN
+_RATE, _TRIAL, _SLOPE, _RIGHT, _ORDER = range(_U + STAGES, _U + STAGES + 5)
 _JACOBIAN = _ORDER + 1
 _MATRIX = _JACOBIAN + STATES
 
 
 def buffers(model: Model) -> tuple[np.ndarray, np.ndarray]:
-    """Scratch for the kernel: the contacts' quantities; stages, states, Jacobian and matrix, a row each."""
+    """Scratch for the kernel: the contacts' quantities; new state, error, stages, Jacobian, matrix."""
     pairs = model.table.side.shape[0]
     return np.zeros((QUANTITIES + pairs, pairs)), np.zeros((_MATRIX + HALF, STATES))
 
@@ -102,115 +102,91 @@ def resolve(shift, jacobian, matrix, order, right, found):
 
 
 @kernel
+def attempt(fresh, phase, step, whole, segment, end, y, rtol, atol, model, work, buffer):
+    """See `marching`; the Jacobian is of the step's start, and kept while the step is tried again."""
+    stage, off = buffer[NEW], buffer[OFF]
+    rate, trial, slope = buffer[_RATE], buffer[_TRIAL], buffer[_SLOPE]
+    right, order = buffer[_RIGHT], buffer[_ORDER]
+    u, jacobian, matrix = buffer[_U : _U + STAGES], buffer[_JACOBIAN:_MATRIX], buffer[_MATRIX:]
+    evaluations = STAGES - 1
+    if fresh:
+        rhs(phase, whole, segment, y, model, work, rate)
+        for i in range(STATES):
+            stage[i] = atol[i] / rtol  # the size of the state
+        evaluations += 1 + differentiate(
+            phase, end, whole, segment, y, rate, stage, model, work, trial, jacobian, slope
+        )
+    shift = 1.0 / (GAMMA * step)
+    factorise(shift, jacobian, matrix, order)
+    for s in range(STAGES):
+        if s > 0:
+            for i in range(STATES):
+                total = 0.0
+                for j in range(s):
+                    total += A[s, j] * u[j, i]
+                stage[i] = y[i] + total
+            rhs(phase + ALPHA[s] * step, whole, segment, stage, model, work, trial)
+        for i in range(STATES):
+            total = 0.0
+            for j in range(s):
+                total += C[s, j] * u[j, i]
+            f = rate[i] if s == 0 else trial[i]
+            right[i] = f + total / step + GAMMAS[s] * step * slope[i]
+        resolve(shift, jacobian, matrix, order, right, u[s])
+    for i in range(STATES):
+        off[i] = u[STAGES - 1, i]
+        stage[i] += off[i]
+    return evaluations
+
+
+@kernel
+def sample(theta, step, y, buffer, out):
+    """See `marching`."""
+    for i in range(STATES):
+        first = 0.0
+        second = 0.0
+        for j in range(STAGES - 1):
+            first += D[0, j] * buffer[_U + j, i]
+            second += D[1, j] * buffer[_U + j, i]
+        out[i] = dense_output(theta, y[i], buffer[NEW, i], first, second)
+
+
+@kernel
+def accept(buffer):
+    """See `marching`: there is a new Jacobian for every step."""
+    return True
+
+
+@kernel
+def adapted(step, error, last_error):
+    """See `marching`."""
+    if error > 1.0:
+        return step * shrinkage(error)
+    return min(step * growth(error, last_error), LONGEST_STEP)
+
+
+@kernel
 def march(
     model, y, first_cycle, cycles, restart, samples, rtol, atol, step, max_steps, stops, out, work, buffer
 ):
-    """Integrate `cycles` mesh cycles from the state `y` at the end of the one before.
-
-    Parameters and return as for `dopri5.march`; evaluations include those for the Jacobian.
-    """
-    table = model.table
-    segments = table.in_contact.shape[0]
-    stage, rate, trial, slope = buffer[_STAGE], buffer[_RATE], buffer[_TRIAL], buffer[_SLOPE]
-    right, order = buffer[_RIGHT], buffer[_ORDER]
-    u, jacobian, matrix = buffer[:STAGES], buffer[_JACOBIAN:_MATRIX], buffer[_MATRIX:]
-    steps = 0
-    evaluations = 0
-    written = 0
-    last_error = LEAST_REMEMBERED
-    for cycle in range(cycles):
-        whole = first_cycle + cycle
-        steps_before = steps
-        for segment in range(segments):
-            phase = table.boundary[segment]
-            end = table.boundary[segment + 1]
-            if segment > 0 or restart or cycle > 0:
-                before = segment - 1 if segment > 0 else segments - 1
-                engage(before, table.boundary[before + 1], segment, phase, y, model, work)
-            if written < (cycle + 1) * samples and (written - cycle * samples) / samples <= phase:
-                for i in range(STATES):
-                    out[written, i] = y[i]
-                written += 1
-            moved = True
-            stop = 0
-            while phase < end:
-                if steps - steps_before >= max_steps:
-                    return TOO_MANY_STEPS, cycle + phase, step, steps, evaluations, written
-                limit = stops[segment, stop]
-                wished = step
-                last = phase + TOUCHING * step >= limit
-                if last:
-                    step = limit - phase
-                if step < LEAST_STEP:
-                    speed = model.mechanics.nominal_speed
-                    halted = speed + y[SLIP] < STANDSTILL * speed
-                    status = STALLED if halted else STEP_TOO_SMALL
-                    return status, cycle + phase, step, steps, evaluations, written
-                if moved:
-                    rhs(phase, whole, segment, y, model, work, rate)
-                    for i in range(STATES):
-                        stage[i] = atol[i] / rtol  # the size of the state
-                    evaluations += 1 + differentiate(
-                        phase, end, whole, segment, y, rate, stage, model, work, trial, jacobian, slope
-                    )
-                    moved = False
-                shift = 1.0 / (GAMMA * step)
-                factorise(shift, jacobian, matrix, order)
-                for s in range(STAGES):
-                    if s > 0:
-                        for i in range(STATES):
-                            total = 0.0
-                            for j in range(s):
-                                total += A[s, j] * u[j, i]
-                            stage[i] = y[i] + total
-                        rhs(phase + ALPHA[s] * step, whole, segment, stage, model, work, trial)
-                        evaluations += 1
-                    for i in range(STATES):
-                        total = 0.0
-                        for j in range(s):
-                            total += C[s, j] * u[j, i]
-                        f = rate[i] if s == 0 else trial[i]
-                        right[i] = f + total / step + GAMMAS[s] * step * slope[i]
-                    resolve(shift, jacobian, matrix, order, right, u[s])
-                error = 0.0
-                total = 0.0
-                for i in range(STATES):
-                    stage[i] += u[STAGES - 1, i]
-                    off = weighed_error(u[STAGES - 1, i], y[i], stage[i], atol[i], rtol)
-                    error = max(error, off)
-                    total += off  # carries a NaN that max would lose
-                if not np.isfinite(total):
-                    if step < 1e-9:
-                        return NOT_FINITE, cycle + phase, step, steps, evaluations, written
-                    step *= 0.1
-                    continue
-                if error <= 1.0:
-                    if model.mechanics.nominal_speed + stage[SLIP] <= 0.0:
-                        return STALLED, cycle + phase, step, steps, evaluations, written
-                    next_phase = limit if last else phase + step
-                    while written < (cycle + 1) * samples:
-                        at = (written - cycle * samples) / samples
-                        if at >= end or at > next_phase:
-                            break
-                        theta = (at - phase) / step
-                        for i in range(STATES):
-                            first = 0.0
-                            second = 0.0
-                            for j in range(STAGES - 1):
-                                first += D[0, j] * u[j, i]
-                                second += D[1, j] * u[j, i]
-                            out[written, i] = dense_output(theta, y[i], stage[i], first, second)
-                        written += 1
-                    phase = next_phase
-                    for i in range(STATES):
-                        y[i] = stage[i]
-                    moved = True
-                    steps += 1
-                    step *= growth(error, last_error)
-                    if last:
-                        stop += 1
-                        step = max(step, wished)
-                    last_error = max(error, LEAST_REMEMBERED)
-                else:
-                    step *= shrinkage(error)
-    return DONE, float(cycles), step, steps, evaluations, written
+    """Integrate mesh cycles, see `marching.march_with`; evaluations include those for the Jacobian."""
+    return march_with(
+        attempt,
+        sample,
+        accept,
+        adapted,
+        model,
+        y,
+        first_cycle,
+        cycles,
+        restart,
+        samples,
+        rtol,
+        atol,
+        step,
+        max_steps,
+        stops,
+        out,
+        work,
+        buffer,
+    )

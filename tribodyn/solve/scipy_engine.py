@@ -7,8 +7,9 @@ from scipy.integrate import solve_ivp
 
 from tribodyn.dynamics.parameters import SLIP, STATES, Model
 from tribodyn.native import laid_out
-from tribodyn.solve.dopri5 import buffers, engage, rhs
+from tribodyn.solve.dopri5 import buffers, rhs
 from tribodyn.solve.engine import DONE, GAVE_UP, NOT_FINITE, STALLED, TOO_MANY_STEPS, Block, Tolerances
+from tribodyn.solve.marching import engage
 
 METHODS = {"radau": "Radau", "bdf": "BDF", "lsoda": "LSODA", "dop853": "DOP853"}
 

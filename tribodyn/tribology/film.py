@@ -4,6 +4,8 @@ Masjedi & Khonsari, "Film thickness and asperity load formulas for line-contact 
 lubrication with provision for surface roughness", J. Tribol. 134 (2012) 011503; Liu & Ni (19), (24).
 """
 
+import math
+
 from tribodyn.elementary import exp, law, log1p, maximum, minimum, where
 
 #: Ranges over which the regressions were fitted: load W, speed U, material G, roughness σ/ρ, hardness V.
@@ -24,6 +26,8 @@ _V_LOW, _V_HIGH = FITTED_RANGE["V"]
 
 #: Half width of the C1 blend by which the asperity load ratio is held at 1.
 CAP_WIDTH = 0.01
+_LOG_FILM_FACTOR = math.log(2.691)
+_CAP_BEND = 1.0 / (4.0 * CAP_WIDTH)
 
 
 @law
@@ -34,22 +38,23 @@ def asperity_load_ratio(log_W, log_U, log_G, log_S, log_V, log_factor):
     logarithms of the dimensionless groups and of the factor. Liu & Ni (19) print 447 for 4470; it is a
     parameter so that both can be run. The cap at 100 % is blended over 1 ± `CAP_WIDTH`.
     """
-    inner = log_factor + 6.015 * log_S + 1.168 * log_V + 0.485 * log_W - 3.741 * log_U - 2.898 * log_G
+    inner = log_factor + 1.168 * log_V - 2.898 * log_G + 6.015 * log_S - 3.741 * log_U + 0.485 * log_W
     logarithm = where(inner > 30.0, inner, log1p(exp(minimum(inner, 30.0))))
-    ratio = 0.00005 * exp(-0.408 * log_W - 0.088 * log_U + 0.103 * log_G) * logarithm
+    ratio = 0.00005 * exp(0.103 * log_G - 0.088 * log_U - 0.408 * log_W) * logarithm
     excess = minimum(maximum(ratio - 1.0 + CAP_WIDTH, 0.0), 2.0 * CAP_WIDTH)
-    return minimum(ratio, 1.0 + CAP_WIDTH) - excess * excess / (4.0 * CAP_WIDTH)
+    return minimum(ratio, 1.0 + CAP_WIDTH) - excess * excess * _CAP_BEND
 
 
 @law
-def central_film_thickness(log_W, log_U, log_G, log_S, log_V, curvature):
-    """Central film thickness h_c, m, from the logarithms of the dimensionless groups.
+def central_film_thickness(log_W, log_U, log_G, log_S, log_V, log_curvature):
+    """Central film thickness h_c of smooth surfaces, ln of m, and the factor by which roughness raises it.
 
+    From the logarithms of the dimensionless groups and of the curvature 1/ρ in 1/m:
     h_c = 2.691 W^−0.135 U^0.705 G^0.556 ρ (1 + 0.2 σ̄^1.222 V^0.223 W^−0.229 U^−0.748 G^−0.842)
     """
-    smooth = 2.691 * exp(-0.135 * log_W + 0.705 * log_U + 0.556 * log_G)
-    rough = 0.2 * exp(1.222 * log_S + 0.223 * log_V - 0.229 * log_W - 0.748 * log_U - 0.842 * log_G)
-    return smooth * (1.0 + rough) / curvature
+    smooth = _LOG_FILM_FACTOR + 0.556 * log_G + 0.705 * log_U - log_curvature - 0.135 * log_W
+    rough = 0.2 * exp(0.223 * log_V - 0.842 * log_G + 1.222 * log_S - 0.748 * log_U - 0.229 * log_W)
+    return smooth, 1.0 + rough
 
 
 @law

@@ -29,4 +29,4 @@ def flash_temperature_rise(
     conducted = sqrt(pinion_conductivity * (pinion_conductivity + pinion_flow)) + sqrt(
         gear_conductivity * (gear_conductivity + gear_flow)
     )
-    return 2.0 * half_width * heat_flux / (ROOT_PI * conducted)
+    return heat_flux * (2.0 / ROOT_PI * half_width / conducted)

@@ -6,12 +6,12 @@ and temperature are known whatever law makes the friction.
 
 import math
 
-from tribodyn.elementary import absolute, expm1, law, log, maximum, minimum
+from tribodyn.elementary import absolute, exp, expm1, law, log, maximum, minimum, skippable
 from tribodyn.tribology.contact import hertz_half_width, hertz_pressure, logarithms
 from tribodyn.tribology.empirical import benedict_kelley, xu
 from tribodyn.tribology.film import asperity_load_ratio, central_film_thickness, in_fitted_range
 from tribodyn.tribology.flash import flash_temperature_rise
-from tribodyn.tribology.rheology import limiting_shear_stress, roelands_viscosity
+from tribodyn.tribology.rheology import limiting_shear_share, log_roelands_viscosity
 
 NONE = 0
 COULOMB = 1
@@ -54,13 +54,13 @@ def mixed_film(line_load, curvature, entrainment, sliding, pinion_speed, gear_sp
     log_U = log(entrainment) + log_curvature + logs.inlet_viscosity - logs.modulus
     log_S = log_curvature + logs.roughness
     share = asperity_load_ratio(log_W, log_U, logs.material, log_S, logs.hardness, logs.asperity_factor)
-    film = central_film_thickness(log_W, log_U, logs.material, log_S, logs.hardness, curvature)
+    log_smooth, rough = central_film_thickness(
+        log_W, log_U, logs.material, log_S, logs.hardness, log_curvature
+    )
 
     half_width = hertz_half_width(line_load, curvature, contact.effective_modulus)
     pressure = line_load / (2.0 * half_width)
-    shear_limit = limiting_shear_stress(
-        pressure, share, contact.limiting_shear_coefficient, contact.limiting_share
-    )
+    shear_share = limiting_shear_share(share, contact.limiting_shear_coefficient, contact.limiting_share)
     heat_flux = (
         sliding
         * pressure
@@ -76,7 +76,7 @@ def mixed_film(line_load, curvature, entrainment, sliding, pinion_speed, gear_sp
         contact.pinion_heat_capacity,
         contact.gear_heat_capacity,
     )
-    viscosity = roelands_viscosity(
+    log_viscosity = log_roelands_viscosity(
         contact.viscosity_pressure_factor * pressure * (1.0 - share),
         temperature_rise,
         logs.inlet_viscosity,
@@ -84,9 +84,18 @@ def mixed_film(line_load, curvature, entrainment, sliding, pinion_speed, gear_sp
         contact.temperature_viscosity,
     )
     # where asperities carry everything the fluid has no shear limit left, and no weight either
-    newtonian = minimum(viscosity * sliding / (maximum(shear_limit, 1.0) * film), 600.0)
-    coefficient = contact.asperity_friction * share - shear_limit / pressure * expm1(-newtonian)
-    return coefficient, share, film, temperature_rise, GREATEST_OVER_MEAN * pressure
+    per_viscosity = sliding / (maximum(shear_share * pressure, 1.0) * rough)
+    newtonian = minimum(exp(log_viscosity - log_smooth) * per_viscosity, 600.0)
+    coefficient = contact.asperity_friction * share + shear_share * saturated(newtonian)
+    return coefficient, share, exp(log_smooth) * rough, temperature_rise, GREATEST_OVER_MEAN * pressure
+
+
+@law
+def saturated(x):
+    """1 − exp(−x) for x ≥ 0. From 38 on it is 1 to the last bit, and what x is need not be waited for."""
+    if skippable(x >= 38.0):
+        return 1.0
+    return -expm1(-x)
 
 
 @law

@@ -7,8 +7,8 @@ GREATEST_EXPONENT = 600.0
 
 
 @law
-def roelands_viscosity(pressure, temperature_rise, log_inlet_viscosity, index, temperature_coefficient):
-    """Average viscosity in the contact, Pa·s, from the logarithm of the one at the inlet, η0 in Pa·s.
+def log_roelands_viscosity(pressure, temperature_rise, log_inlet_viscosity, index, temperature_coefficient):
+    """Average viscosity in the contact, ln of Pa·s, from the logarithm of the one at the inlet, η0 in Pa·s.
 
     η = η0 exp{(ln η0 + 9.67) [−1 + (1 + 5.1e-9 p)^z] − K_T ΔT}, Roelands (1966); Liu & Ni (21). The exponent
     is clipped (near a cycloid's pitch point the Hertz pressure diverges).
@@ -16,13 +16,13 @@ def roelands_viscosity(pressure, temperature_rise, log_inlet_viscosity, index, t
     rise = exp(index * log(1.0 + 5.1e-9 * pressure)) - 1.0
     exponent = (log_inlet_viscosity + 9.67) * rise - temperature_coefficient * temperature_rise
     exponent = maximum(minimum(exponent, GREATEST_EXPONENT), -GREATEST_EXPONENT)
-    return exp(log_inlet_viscosity + exponent)
+    return log_inlet_viscosity + exponent
 
 
 @law
-def limiting_shear_stress(pressure, asperity_share, coefficient, limiting_share):
-    """Shear stress that the fluid cannot exceed, τ_lim = Λ_lim p (1 − λ), Pa; Liu & Ni (20).
+def limiting_shear_share(asperity_share, coefficient, limiting_share):
+    """Shear stress that the fluid cannot exceed over the pressure, τ_lim/p = Λ_lim (1 − λ); Liu & Ni (20).
 
-    With `limiting_share` 0 it is Λ_lim p: the variant that brings Liu & Ni's friction levels closest.
+    With `limiting_share` 0 it is Λ_lim: the variant that brings Liu & Ni's friction levels closest.
     """
-    return coefficient * pressure * (1.0 - limiting_share * asperity_share)
+    return coefficient * (1.0 - limiting_share * asperity_share)
