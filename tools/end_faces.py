@@ -161,11 +161,7 @@ def main() -> None:
     half = hertz_half_width(load / sector.width, curvature, material, material)
     above = weber_banaschek_slope(load / sector.width, half, depth, material) * slices / sector.width
     place = (np.arange(slices) + 0.5) * sector.width / slices - sector.width / 2
-    print(
-        print(
-            "greatest over mean line load: ends free, symmetric; slices apart; by harmonics as the first two"
-        )
-    )
+    print("greatest over mean line load: ends free, symmetric; slices apart; by harmonics as the first two")
     columns = free, symmetric, apart, *sector.by_harmonics()
     for minutes in (0, 1, 2, 3):
         greatest = []
