@@ -22,7 +22,8 @@ from tribodyn.geometry.tooth import Tooth
 
 Array = Any
 
-#: Refinement of the mesh: what the ends add is within 2 % of its limit (test_free_ends).
+#: Refinement of the mesh. On a sector, twice as fine a one adds 2 % to what the ends are worth to the last of
+#: ten slices, and 0.2 % elsewhere.
 LEVEL = 1
 _SECTORS = np.arange(-NEIGHBOURS, NEIGHBOURS + 1)
 
@@ -104,8 +105,9 @@ def free_ends(
             stress[parity] += np.real(turns * (seen @ opened))
     flanks = flanks.reshape(2, -1, count, flank, count, flank).transpose(0, 2, 4, 1, 3, 5)
     stress = stress.reshape(2, -1, count, 2, roots, count, flank).transpose(0, 2, 5, 1, 3, 4, 6)
-    between_points = CubicSpline(edge_parameters(roots // 2, LEVEL), np.eye(roots))
-    along = between_points(edge_parameters(roots // 2, level))
+    edges = roots // (2 * LEVEL)
+    between_points = CubicSpline(edge_parameters(edges, LEVEL), np.eye(roots))
+    along = between_points(edge_parameters(edges, level))
     return FreeEnds(
         wave_number=np.asarray(wave_number, dtype=float),
         radius=np.hypot(*model.position),
