@@ -4,6 +4,10 @@
 PYTHON ?= python3
 # two test processes share the cores; a BLAS's own threads would only stand in their way
 export OPENBLAS_NUM_THREADS ?= 1
+# the tests run XLA's programs once or twice: its older code generator makes them in a third to a half of the time
+TESTS_XLA := --xla_cpu_use_fusion_emitters=false
+# a file's tests share what it prepares; the longest files come first (tests/conftest.py)
+IN_PARALLEL := -n 2 --dist loadfile --no-loadscope-reorder --benchmark-disable
 VENV := .venv
 BIN := $(VENV)/bin
 # the constraints also hold for what builds the package
@@ -25,11 +29,11 @@ types: $(VENV)/.testing
 	$(BIN)/basedpyright
 
 tests: $(VENV)/.testing
-	$(BIN)/python -m pytest -n 2 --dist loadfile --benchmark-disable -m "not bench"
+	XLA_FLAGS="$(TESTS_XLA)" $(BIN)/python -m pytest $(IN_PARALLEL) -m "not bench"
 	$(BIN)/python -m pytest -m bench
 
 quick: $(VENV)/.testing
-	$(BIN)/python -m pytest -n 2 --dist loadfile --benchmark-disable -m "not bench and not slow"
+	XLA_FLAGS="$(TESTS_XLA)" $(BIN)/python -m pytest $(IN_PARALLEL) -m "not bench and not slow"
 
 wheel: $(VENV)/.testing
 	$(BIN)/python -m build --outdir dist

@@ -87,7 +87,8 @@ def test_commands_run(page: Path, folder: Path):
                 continue
             if words[0] == "run":
                 shorter = ["--set", "solver.cycles=2"] if load_scenario(words[1]).kind == "gear-pair" else []
-                words = [*words, *shorter, "--force"]
+                picture = () if "--plot" in words else ("--no-plot",)  # every scenario's is tested elsewhere
+                words = [*words, *shorter, *picture, "--force"]
             ended = CliRunner().invoke(app, words)
             assert ended.exit_code == 0, f"{block}: {shlex.join(words)}\n{ended.output}\n{ended.exception}"
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.forked_verbs import ForkedVerbs
 from tribodyn.record.reader import open_record
 from tribodyn.scenario.load import load_scenario
 from tribodyn.scenario.sources import names, shipped
@@ -29,11 +30,13 @@ def tribodyn(*arguments: str, folder: Path) -> str:
 
 
 @pytest.mark.parametrize("name", names(shipped("scenarios")))
-def test_it_runs(name: str, tmp_path: Path):
+def test_it_runs(name: str, tmp_path: Path, forked: ForkedVerbs):
     still = load_scenario(name).kind != "gear-pair"  # solves no equation of motion and takes no time
     shorter = () if still else ("--set", "solver.cycles=2")
-    said = tribodyn("run", name, *shorter, "--json", folder=tmp_path)
-    result = json.loads(said)
+    ended = forked("run", name, *shorter, "--json", folder=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    assert ended.stderr == ""  # no progress bar where nobody watches
+    result = json.loads(ended.stdout)
     assert result["status"] == "complete"
     residuals = ("torque_residual", "energy_residual", "residual_max")
     balance = next(result["summary"][one] for one in residuals if one in result["summary"])

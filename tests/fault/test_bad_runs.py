@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.forked_verbs import ForkedVerbs
 from tribodyn.record.reader import open_record
 
 SHORT = ("--set", "solver.cycles=1", "--set", "output.samples_per_cycle=16", "--no-plot")
@@ -64,12 +65,14 @@ COMMANDS = {
 
 
 @pytest.mark.parametrize(("arguments", "said"), COMMANDS.values(), ids=list(COMMANDS))
-def test_one_line_and_nothing_touched(tmp_path: Path, arguments: tuple[str, ...], said: tuple[str, ...]):
+def test_one_line_and_nothing_touched(
+    tmp_path: Path, arguments: tuple[str, ...], said: tuple[str, ...], forked: ForkedVerbs
+):
     (tmp_path / "folder").mkdir()
     for name in ("there.h5", "dead.partial.h5", "text.h5", "mine.toml"):
         (tmp_path / name).write_text("precious", encoding="utf-8")
     before = contents(tmp_path)
-    ended = tribodyn(*arguments, folder=tmp_path)
+    ended = forked(*arguments, folder=tmp_path)
     assert ended.returncode == 2, ended.stderr
     assert ended.stdout == ""
     (line,) = ended.stderr.splitlines()

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from tests.unit.test_friction_laws import VECIANA
@@ -16,7 +16,7 @@ from tribodyn.tribology.mean_friction import iso_14179_1, mean_conditions, niema
 
 teeth = st.integers(14, 60)
 ratios = st.floats(1.0, 5.0)
-often = settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.filter_too_much])
+often = settings(max_examples=60, deadline=None)
 
 
 def duty(radius):

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from tests.random_drives import DEGENERATE, drives
@@ -26,9 +26,7 @@ def limits_of(family, drive):
 
 
 fraction = st.floats(0.0, 1.0)
-over_pairs = settings(
-    max_examples=60, deadline=None, suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow]
-)
+over_pairs = settings(max_examples=60, deadline=None)
 
 
 @over_pairs

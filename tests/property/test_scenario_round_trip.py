@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tribodyn.scenario.load import load_scenario
@@ -128,7 +128,7 @@ def test_a_resolved_scenario_loads_to_the_same_case(overrides: dict[str, Any]):
     assert comparable(again) == comparable(case)
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.filter_too_much])
+@settings(max_examples=60, deadline=None)
 @given(st.fixed_dictionaries({}, optional=FLANKS).filter(relieved))
 def test_modified_flanks_load_to_the_same_case(overrides: dict[str, Any]):
     case = load_scenario("load-contact-18-36", overrides)
