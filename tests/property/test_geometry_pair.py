@@ -5,7 +5,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from tests.random_drives import DEGENERATE, drives
+from tests.random_drives import DEGENERATE, FAMILIES, drives
 from tribodyn.geometry import involute
 from tribodyn.geometry.body import gear_polygon, section_area_and_inertia
 from tribodyn.geometry.drive import SIDES, tip_radius
@@ -15,6 +15,7 @@ from tribodyn.geometry.path import (
     distance_at_radius,
     kinematics,
     position,
+    radius,
     seen_from,
 )
 from tribodyn.geometry.tooth import cut_tooth, flank_point, outline, thickness_half_angle
@@ -108,6 +109,19 @@ def test_flanks_touch_along_a_common_normal_through_the_pitch_point(pair, where)
     flank = thickness_half_angle(tooth, distance[beside])
     gap = (angle[beside] + thickness_half_angle(tooth, pitch) - rotation - flank) * distance[beside]
     assert gap.min() > -1e-9 * module / 0.003
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+@settings(max_examples=20, deadline=None)
+@given(st.data())
+def test_every_radius_of_a_flank_is_found_on_its_path(name, data):
+    family, drive = data.draw(drives((name,)))
+    for side in SIDES:
+        tooth = cut_tooth(family, drive, side)
+        radii = np.linspace(tooth.form_radius, tooth.tip_radius, 60)
+        distance = distance_at_radius(tooth.path, radii)
+        np.testing.assert_allclose(radius(tooth.path, distance), radii, rtol=1e-14)
+        assert np.all(np.diff(distance) > 0)  # not where the path comes back to the same radius
 
 
 @over_pairs

@@ -170,22 +170,29 @@ def distance_at_radius(path: Path, pinion_radius: Array) -> Array:
     arm = r_p * sine
     root = sqrt(xp.maximum(arm**2 + quadratic * square, (1e-3 * arm) ** 2 + (_BESIDE * r_p) ** 2))
     start = square / (arm + root)
-    anywhere = r_p / _VANISHING + 0.0 * start
-    state = start, -anywhere, anywhere
+    # Above the pitch circle r² ≤ R² − r_p²; below it the radius is least, the path at an end, before −r_p.
+    furthest = xp.where(square < 0, -r_p, sqrt(xp.maximum(square, 0.0)))
+    lower, upper = xp.minimum(furthest, 0.0), xp.maximum(furthest, 0.0)
+    state = xp.clip(start, lower, upper), lower, upper
     return newton(_step_to_radius, state, _BRACKETED_STEPS, path, pinion_radius)[0]
 
 
 def _step_to_radius(state: tuple[Array, Array, Array], path: Path, pinion_radius: Array) -> Any:
-    """Newton's step between bounds; to their middle where it leaves them, as at the end of a steep path."""
+    """Newton's step between bounds, of which r becomes one; to their middle where it goes beyond that.
+
+    So a corner of a steep path does not send the steps to and fro.
+    """
     r, lower, upper = state
     r_p = path.pinion_pitch_radius
     alpha = path.pressure_angle(r)
     residual = r**2 + 2 * r_p * r * sin(alpha) + r_p**2 - pinion_radius**2
     slope = 2 * (r + r_p * sin(alpha) + r * r_p * cos(alpha) * path.pressure_angle_slope(r))
-    lower, upper = where(residual < 0, r, lower), where(residual > 0, r, upper)
+    beyond = slope < -_VANISHING * r_p  # the least radius, where it grows again
+    short = (residual < 0) | beyond
+    lower, upper = where(short, r, lower), where(short, upper, r)
     following = r - residual / where(absolute(slope) < _VANISHING * r_p, _VANISHING * r_p, slope)
-    outside = (following < lower - _BESIDE * r_p) | (following > upper + _BESIDE * r_p)
-    return where(outside, (lower + upper) / 2, following), lower, upper
+    far = beyond | (absolute(following - r) > (upper - lower) / 2 + _BESIDE * r_p)
+    return where(far, (lower + upper) / 2, following), lower, upper
 
 
 def contact_limits(path: Path, pinion_tip_radius: Array, gear_tip_radius: Array) -> tuple[Array, Array]:
