@@ -43,12 +43,14 @@ def test_a_killed_sweep_goes_on_where_it_stopped(direction: tuple[str, ...], tmp
     process = subprocess.Popen([sys.executable, "-c", ONE_A_CHUNK, *words], cwd=tmp_path)
     partial = tmp_path / "killed.partial.h5"
     started = time.monotonic()
-    while not partial.exists() or _done(partial) < 3:
-        assert process.poll() is None
-        assert time.monotonic() - started < 300
-        time.sleep(0.05)
-    process.send_signal(signal.SIGKILL)
-    process.wait()
+    try:
+        while not partial.exists() or _done(partial) < 3:
+            assert process.poll() is None
+            assert time.monotonic() - started < 300
+            time.sleep(0.05)
+    finally:
+        process.kill()
+        assert process.wait() == -signal.SIGKILL
     with SweepRecord(partial) as left:
         assert left.status == "partial"
         before = left["status"]
