@@ -36,6 +36,10 @@ from tribodyn.solve.transient import engage_next
 #: The integration's relative tolerance for a fixed point, as a share of the residual asked for: a map that
 #: carries more noise than a tenth of the residual cannot be brought to it.
 FINE = 1e-2
+#: Least change of a motion that did not repeat, over the scale, which may be noise of the fine integration:
+#: where contact opens and closes it is a few hundred times the tolerance. Such a case is marched once more,
+#: over so many mesh cycles at the fine tolerance, with fixed points at a hundredth of that.
+NOISE, ONCE_MORE = 1e-5, 120
 
 
 class Steady(NamedTuple):
@@ -143,28 +147,31 @@ def steady_states(
     for case in starts:
         groups.setdefault(moving_states(models[case]), []).append(case)
     for moving, cases in groups.items():
-        period_map = GearMap(
-            [models[case] for case in cases],
-            np.array([starts[case] for case in cases]),
-            moving,
-            solver=solver,
-            rtol=rtol,
-            fine_rtol=FINE * tolerance,
-            max_steps=max_steps,
-            workers=workers,
-        )
-        begin = np.array([starts[case] for case in cases])[:, list(moving)]
-        orbits = find(
-            period_map,
-            begin,
-            tolerance=tolerance,
-            max_periods=max_cycles,
-            method=method,
-            progress=progress,
-        )
+        settings: dict[str, Any] = {"solver": solver, "max_steps": max_steps, "workers": workers}
+        begin = np.array([starts[case] for case in cases])
+        rtols = {"rtol": rtol, "fine_rtol": FINE * tolerance}
+        period_map = GearMap([models[case] for case in cases], begin, moving, **rtols, **settings)
+        limits: dict[str, Any] = {"tolerance": tolerance, "max_periods": max_cycles, "method": method}
+        orbits = find(period_map, begin[:, list(moving)], progress=progress, **limits)
+        if method == "auto":
+            _once_more(period_map, orbits, tolerance, settings)
         for case, steady in zip(cases, _sampled(period_map, orbits, samples), strict=True):
             found[case] = steady
     return [steady for steady in found if steady is not None]
+
+
+def _once_more(before: "GearMap", orbits: list[Orbit], tolerance: float, settings: dict[str, Any]) -> None:
+    """Seek from where marching ended, more finely, what all but repeated."""
+    noisy = [i for i, one in enumerate(orbits) if one.kind == "not periodic" and one.residual <= NOISE]
+    if not noisy:
+        return
+    models, begin = [before.models[i] for i in noisy], np.array([orbits[i].last for i in noisy])
+    rtol = {"rtol": FINE * tolerance, "fine_rtol": FINE**2 * tolerance}
+    finest = GearMap(models, before.full(begin), tuple(before.moving), **rtol, **settings)
+    found = find(finest, begin, tolerance=tolerance, max_periods=ONCE_MORE)
+    for i, orbit in zip(noisy, found, strict=True):
+        if orbit.period and orbit.stable:
+            orbits[i] = orbit._replace(marched=orbits[i].marched + orbit.marched)
 
 
 def refuse_time_dependent(model: Model) -> None:
