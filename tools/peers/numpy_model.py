@@ -12,10 +12,14 @@ import numpy as np
 
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.parameters import DISPLACEMENTS, STATES, VELOCITIES, Model
+from tribodyn.mesh_cycle import CHANNELS
 
 Array = Any
 
 MOVING = [*DISPLACEMENTS, *VELOCITIES]
+
+#: Channels read, from the first; those that follow say how unevenly a face is loaded, and this one is evenly.
+NEEDED = CHANNELS.index("sine") + 1
 
 
 class NumpyModel:
@@ -35,7 +39,8 @@ class NumpyModel:
         self.channel, self.stiffness = [], []
         for segment, pairs in enumerate(self.pairs):
             # (cell, power, channel, pair): one row of coefficients a look-up
-            self.channel.append(np.ascontiguousarray(self.t.channel[segment][:, pairs].transpose(0, 3, 2, 1)))
+            coefficients = self.t.channel[segment][:, pairs, :NEEDED]
+            self.channel.append(np.ascontiguousarray(coefficients.transpose(0, 3, 2, 1)))
             block = self.t.stiffness[segment][:, pairs][:, :, pairs]
             self.stiffness.append(np.ascontiguousarray(block.transpose(0, 3, 1, 2)))
         self.w = float(self.t.pinion_pitch_radius) / float(self.t.gear_pitch_radius)
