@@ -68,6 +68,16 @@ def test_a_march_goes_on_where_it_stopped(cases):
     assert np.max(np.abs(second.samples - whole.samples)[..., XI]) < 1e-6 * scale
 
 
+def test_a_march_over_no_cycle_leaves_everything_as_it_is(cases):
+    models, states = cases
+    for method in ("auto", "rodas4", "tsit5"):
+        still = march(models, states, cycles=0, window=0, samples=16, rtol=1e-6, method=method)
+        np.testing.assert_array_equal(still.state, states)
+        assert still.samples.shape == (len(models), 0, STATES)
+        assert (still.status == DONE).all()
+        assert (still.reached == 0.0).all()
+
+
 def test_a_failed_case_tells_why_and_leaves_the_others_alone(cases, prepared):
     """One pinion driven by too small a torque comes to rest; another may take no more than ten steps."""
     models, states = list(cases[0]), cases[1].copy()
