@@ -83,6 +83,21 @@ def test_the_first_case_of_a_direction_is_the_run_of_its_scenario(grid: Path, tm
         )
 
 
+def test_a_single_cycle_is_the_first_of_a_run(tmp_path: Path):
+    """Nothing comes before the window of `--transient 1`."""
+    samples = ("--set", "output.samples_per_cycle=40")
+    tribodyn("sweep", "crc-23-47", "--vary", SPEEDS, "--transient", "1", *samples, "-o", tmp_path / "s.h5")
+    once = ("--set", "operating.pinion_speed=200 rad/s", "--set", "solver.cycles=1")
+    tribodyn("run", "crc-23-47", "--no-plot", *once, *samples, "-o", tmp_path / "run.h5")
+    with open_record(tmp_path / "run.h5") as record, SweepRecord(tmp_path / "s.h5") as sweep:
+        np.testing.assert_allclose(
+            sweep["transmission_error_rotational"][1],
+            record["transmission_error_rotational"][:-1],
+            rtol=1e-7,
+        )
+        assert sweep["cycles"].tolist() == [1, 1, 1]
+
+
 def test_directions_share_the_end_where_one_begins_only_by_their_history(grid: Path):
     with SweepRecord(grid) as record:
         states = record["state"]
@@ -147,6 +162,7 @@ def test_all_cases_failed(tmp_path: Path):
         ((), "nothing is varied"),
         (("--vary", SPEEDS, "--steady", "--transient", "4"), "contradicts --transient"),
         (("--vary", SPEEDS, "--resume", "--force"), "contradicts --force"),
+        (("--vary", SPEEDS, "--set", "operating.pinion_speed=5 rpm"), "is varied too"),
         (("--vary", SPEEDS, "--scheduler", "tcp://localhost:1"), "belongs to --engine dask"),
         (("--vary", "friction.law=none,coulomb", "--direction", "up"), "law = "),
         (("--vary", "operating.pinion_speed=1:90000:1rpm", "--vary", "mesh.damping_ratio=0:1/99"), "cases"),
@@ -157,6 +173,15 @@ def test_what_cannot_be_swept_is_refused_at_once(words: tuple[str, ...], message
     ended = CliRunner().invoke(app, ["sweep", "crc-23-47", *words])
     assert ended.exit_code == 2, ended.output
     assert message in ended.stderr
+
+
+def test_a_load_that_changes_over_time_has_no_steady_state(tmp_path: Path):
+    path = tmp_path / "s.h5"
+    words = ["sweep", "load-step", "--vary", "mesh.damping_ratio=0.04,0.05", "-o", str(path)]
+    ended = CliRunner().invoke(app, words)
+    assert ended.exit_code == 2
+    assert "operating.gear_torque_table" in ended.stderr
+    assert not list(tmp_path.iterdir())
 
 
 def test_only_gear_pairs_in_motion_are_swept():
@@ -178,17 +203,17 @@ def test_an_existing_record_is_kept(grid: Path):
     assert "--force" in ended.stderr
 
 
-def test_jax_is_never_imported(tmp_path: Path):
+def test_neither_jax_nor_dask_nor_matplotlib_is_imported(tmp_path: Path):
     program = (
         "import sys\nfrom tribodyn.cli import main\n"
         f"sys.argv = ['tribodyn', 'sweep', 'crc-23-47', '--vary', '{SPEEDS}', '-o', 's.h5']\n"
         "try:\n    main()\nexcept SystemExit as end:\n    assert not end.code\n"
-        "print('jax' in sys.modules)"
+        "print({'jax', 'dask', 'distributed', 'matplotlib', 'xarray', 'pint'} & set(sys.modules))"
     )
     ended = subprocess.run(
         [sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True, check=True
     )
-    assert ended.stdout.splitlines()[-1] == "False"
+    assert ended.stdout.splitlines()[-1] == "set()"
     with SweepRecord(tmp_path / "s.h5") as record:
         assert set(record["solution"]) == {"period-1"}
         assert (record["multiplier_max"] < 1).all()

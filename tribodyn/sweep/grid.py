@@ -41,6 +41,9 @@ class Grid:
         self.path = find_scenario(scenario)
         self.overrides = dict(overrides)
         self.axes: Sequence[Axis] = axes_of(vary, table_of(read_toml(self.path)))
+        for axis in self.axes:
+            if axis.key in self.overrides:
+                raise InputError("--set", axis.key, f"is varied too, with {VARY}", "give it once")
         # texts may name files, which have to be read before anything inside them is set
         self._texts = [i for i, axis in enumerate(self.axes) if not axis.numeric]
         self._resolved = lru_cache(maxsize=16)(self._resolve)

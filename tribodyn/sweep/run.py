@@ -14,6 +14,7 @@ from tribodyn.prepare import prepare
 from tribodyn.record.sweep_schema import DIRECTIONS, FAILED, FIGURES, WAITING
 from tribodyn.record.sweep_writer import ParameterScale, SweepHead, SweepWriter
 from tribodyn.record.writer import check_target
+from tribodyn.solve.periodic import refuse_time_dependent
 from tribodyn.sweep.engines import Engine
 from tribodyn.sweep.evaluate import Settings, tabulated
 from tribodyn.sweep.grid import Grid
@@ -107,7 +108,7 @@ def run(
     head = _head(grid, settings, directions)
     if not resume:
         check_target(Path(output), force)
-    _sound_somewhere(grid)
+    _sound_somewhere(grid, settings)
     begun = perf_counter()
     with SweepWriter(output, head, force=force, resume=resume) as record:
         waiting = record.status == WAITING
@@ -160,13 +161,16 @@ def _head(grid: Grid, settings: Settings, directions: Sequence[str]) -> SweepHea
     )
 
 
-def _sound_somewhere(grid: Grid) -> None:
+def _sound_somewhere(grid: Grid, settings: Settings) -> None:
     """A mistake that all cases share is told at once: a case at each end of the grid is prepared."""
     refused = None
     for place in ((0,) * len(grid.shape), tuple(size - 1 for size in grid.shape)):
         try:
             case = grid.case(place)
-            mode_count(prepare(case, tabulated(case)).model)
+            model = prepare(case, tabulated(case)).model
+            mode_count(model)
+            if settings.steady:
+                refuse_time_dependent(model)
             return
         except InputError as error:
             refused = refused or error
