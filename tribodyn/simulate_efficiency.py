@@ -8,8 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.compliance.gear_compliance import without_neighbours
-from tribodyn.compliance.load_sharing import effective_contact_ratio, flexibility
+from tribodyn.compliance.load_sharing import effective_contact_ratio
 from tribodyn.compliance.loaded_flanks import LoadedFlanks
 from tribodyn.efficiency.along_path import CycleEfficiency, Duty, Engagement, cycle_efficiency, engage
 from tribodyn.efficiency.case import EfficiencyCase
@@ -48,19 +47,14 @@ def prepare(case: EfficiencyCase) -> Study:
     from tribodyn.geometry.checks import check
     from tribodyn.scenario.load import family, friction_law
     from tribodyn.tabulate import pair_slots, tabulate
-    from tribodyn.tabulate_loaded import tabulate_loaded
+    from tribodyn.tabulate_loaded import flanks_of, tabulate_loaded
 
     teeth = family(case.family)
     check(teeth, case.drive)
     flanks, mesh = None, case.mesh
     if mesh.compliance == "fem":
         cycle = tabulate_loaded(teeth, case.drive, case.materials, mesh, case.operating.gear_torque)
-        lead = mesh.slice_coupling and mesh.slices > 1
-        flexible = flexibility(assemble(teeth, case.drive), case.materials, lead=lead)
-        if not mesh.foundation_coupling:
-            apart = [without_neighbours(gear) for gear in flexible.gears]
-            flexible = flexible._replace(gears=(apart[0], apart[1]))
-        flanks = LoadedFlanks(flexible, mesh.modifications, mesh.slices, mesh.slice_coupling)
+        flanks = flanks_of(assemble(teeth, case.drive), case.materials, mesh)
     else:
         cycle = tabulate(teeth, case.drive, case.materials, case.mesh, pairs=pair_slots(teeth, case.drive))
     duty = Duty(

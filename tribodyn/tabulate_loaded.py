@@ -17,10 +17,11 @@ from tribodyn.compliance.flank_gap import flank_gap, relief_rolls, same_every_pi
 from tribodyn.compliance.gear_compliance import without_neighbours
 from tribodyn.compliance.load_sharing import PairFlexibility, contact_deflection, flexibility, share_load
 from tribodyn.compliance.loaded_contact import check, check_resolved, reach
+from tribodyn.compliance.loaded_flanks import LoadedFlanks
 from tribodyn.compliance.slices import face_positions, pair_harmonics
 from tribodyn.compliance.table import check_cover, interpolate
 from tribodyn.errors import InputError
-from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.assembly import Assembly, assemble
 from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry, part_of, roll_limits
 from tribodyn.geometry.drive import SIDES, Drive, body_of
 from tribodyn.geometry.family import Family
@@ -61,11 +62,7 @@ def tabulate_loaded(
     """
     _check(drive, mesh, gear_torque, back)
     assembly = assemble(family, drive)
-    flexible = flexibility(assembly, materials, lead=mesh.slice_coupling and mesh.slices > 1)
-    if not mesh.foundation_coupling:
-        apart = [without_neighbours(gear) for gear in flexible.gears]
-        flexible = flexible._replace(gears=(apart[0], apart[1]))
-    modifications = mesh.modifications
+    flexible, modifications, *_ = flanks_of(assembly, materials, mesh)
     check(flexible, modifications, gear_torque, mesh.slices)
     # where the mesh vibrates by more than this reach, contact begins too late in the model
     limits = reach(flexible, modifications, gear_torque, mesh.slices, mesh.slice_coupling)
@@ -133,6 +130,17 @@ def tabulate_loaded(
         line_load_friction=uneven.reshape(roll.shape),
         line_load_peak=peak.reshape(roll.shape),
     )
+
+
+def flanks_of(
+    assembly: Assembly, materials: tuple["MaterialData", "MaterialData"], mesh: "MeshData"
+) -> LoadedFlanks:
+    """The flanks that the load contact model presses together, as a scenario's mesh describes them."""
+    flexible = flexibility(assembly, materials, lead=mesh.slice_coupling and mesh.slices > 1)
+    if not mesh.foundation_coupling:
+        apart = [without_neighbours(gear) for gear in flexible.gears]
+        flexible = flexible._replace(gears=(apart[0], apart[1]))
+    return LoadedFlanks(flexible, mesh.modifications, mesh.slices, mesh.slice_coupling)
 
 
 def _check(drive: Drive, mesh: "MeshData", gear_torque: float, back: bool) -> None:

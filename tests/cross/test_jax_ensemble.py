@@ -89,11 +89,11 @@ def test_jax_and_lanes_agree_and_tell_the_same_failure(motors):
 def test_neither_numbers_nor_fewer_cases_compile_anything_again(motors, compiled):
     """And a case has the same bits in any company."""
     models, states = motors
-    settings = {"cycles": 2, "window": 1, "rtol": 1e-6}
-    whole = jax_ensemble.march(models, states, samples=40, **settings)
+    settings = {"cycles": 2, "window": 1, "rtol": 1e-6, "method": "tsit5"}
+    whole = ensemble.march(models, states, samples=40, **settings)
     before = len(compiled)
     order = [3, 1]
-    fewer = jax_ensemble.march([models[i] for i in order], states[order], samples=40, **settings)
+    fewer = ensemble.march([models[i] for i in order], states[order], samples=40, **settings)
     for name in whole._fields:
         np.testing.assert_array_equal(getattr(fewer, name), getattr(whole, name)[order], err_msg=name)
     heavier = [
@@ -105,11 +105,9 @@ def test_neither_numbers_nor_fewer_cases_compile_anything_again(motors, compiled
         )
         for model in models
     ]
-    others = jax_ensemble.march(
-        [*heavier, *models, *heavier], np.tile(states, (3, 1)), samples=17, **settings
-    )
+    others = ensemble.march([*heavier, *models, *heavier], np.tile(states, (3, 1)), samples=17, **settings)
     assert np.sum(others.status == DONE) == 9
-    hurried = jax_ensemble.march(models[:2], states[:2], samples=40, max_steps=10, **settings)
+    hurried = ensemble.march(models[:2], states[:2], samples=40, max_steps=10, **settings)
     assert np.all(hurried.status == TOO_MANY_STEPS)
     assert len(compiled) == before
 

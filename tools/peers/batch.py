@@ -44,8 +44,12 @@ def speeds(posed: Problem, count: int) -> tuple[list[Model], Array]:
 
 def lanes(models: Sequence[Model], states: Array, cycles: int, rtol: float) -> Array:
     """Vectors of cases on all cores."""
+    return _together("dopri5", models, states, cycles, rtol)
+
+
+def _together(method: str, models: Sequence[Model], states: Array, cycles: int, rtol: float) -> Array:
     found = ensemble.march(
-        models, states, cycles=cycles, window=WINDOW, samples=SAMPLES, rtol=rtol, method="dopri5"
+        models, states, cycles=cycles, window=WINDOW, samples=SAMPLES, rtol=rtol, method=method
     )
     return found.samples[..., XI]
 
@@ -63,19 +67,16 @@ def threads(method: str) -> Callable[[Sequence[Model], Array, int, float], Array
 
 def diffrax(models: Sequence[Model], states: Array, cycles: int, rtol: float) -> Array:
     """Vmapped over 64 similar speeds at a time, a core each; steps end where friction reverses."""
-    from tribodyn.solve import jax_ensemble
-
-    found = jax_ensemble.march(models, states, cycles=cycles, window=WINDOW, samples=SAMPLES, rtol=rtol)
-    return found.samples[..., XI]
+    return _together("tsit5", models, states, cycles, rtol)
 
 
 def plain_diffrax(models: Sequence[Model], states: Array, cycles: int, rtol: float) -> Array:
     """The same, but that only engagement ends a step: what its user would write who knows no more of it."""
     from tribodyn.solve import diffrax_engine, jax_ensemble
 
-    def ends(model: Model) -> Array:
-        stops = diffrax_engine.steps_end_on(model)
-        return np.broadcast_to(stops[:, -1:], stops.shape)
+    def ends(models: Sequence[Model]) -> Array:
+        stops = diffrax_engine.steps_end_on(models)
+        return np.broadcast_to(stops[..., -1:], stops.shape)
 
     with patch.object(jax_ensemble, "steps_end_on", ends):
         return diffrax(models, states, cycles, rtol)

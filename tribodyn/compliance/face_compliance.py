@@ -3,9 +3,8 @@
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
-from tribodyn.compliance.gear_compliance import NEIGHBOURS, FreeEnds
+from tribodyn.compliance.gear_compliance import NEIGHBOURS, FreeEnds, at_radii
 from tribodyn.compliance.lead_harmonics import spline_weights
 from tribodyn.compliance.slices import by_slices, face_positions, pair_harmonics
 from tribodyn.geometry.corner_contact import PairGeometry
@@ -66,8 +65,7 @@ def _add_free_ends(matrix: Array, flexible: "PairFlexibility", geometry: PairGeo
         if ends is None:
             continue
         along = end_modes(ends, flexible.width, slices)
-        at = np.clip(reach, ends.radius[0], ends.radius[-1])
-        place = CubicSpline(ends.radius, np.eye(len(ends.radius)))(at)
+        place = at_radii(ends.radius, reach)
         for later in range(pairs):
             own = np.einsum("pklm,tm->tpkl", ends.own, place[:, later])
             matrix[:, later, :, later] += _spread(along, own) / material.youngs_modulus

@@ -4,10 +4,9 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from tribodyn.compliance.face_compliance import end_modes
-from tribodyn.compliance.gear_compliance import NEIGHBOURS, FreeEnds
+from tribodyn.compliance.gear_compliance import NEIGHBOURS, FreeEnds, at_radii
 from tribodyn.compliance.lead_harmonics import at_wave_numbers
 from tribodyn.compliance.load_sharing import PairFlexibility
 from tribodyn.compliance.slices import modes, wave_numbers
@@ -46,7 +45,7 @@ def root_stress(
     positions, _, slices = line_load.shape
     wave_number = wave_numbers(flexible.width, slices, coupled)
     basis = modes(len(wave_number), slices)
-    amplitude = line_load @ basis.T / slices
+    amplitude, slice_load = line_load @ basis.T / slices, line_load * (flexible.width / slices)
     tension, compression = np.empty((2, *line_load.shape)), np.empty((2, *line_load.shape))
     reaches = geometry.pinion_radius, geometry.gear_radius
     # on the pinion the earlier tooth stands on the loaded flank's side, on the gear on the other
@@ -54,14 +53,15 @@ def root_stress(
         zip(flexible.gears, flexible.materials, reaches, (1, -1), strict=True)
     ):
         per_load = at_wave_numbers(gear, wave_number, material.poisson_ratio).root_stress
-        place = CubicSpline(gear.radius, np.eye(len(gear.radius)))
+        place = at_radii(gear.radius, reach)
         ends = gear.ends if len(wave_number) > 1 else None
+        if ends is not None:
+            along, at_ends = end_modes(ends, flexible.width, slices), at_radii(ends.radius, reach)
         for first in range(0, positions, _BATCH):
             rows = slice(first, first + _BATCH)
-            at = np.clip(reach[rows], gear.radius[0], gear.radius[-1])
-            found = _of_one_gear(per_load, place(at), amplitude[rows], sign) @ basis
+            found = _of_one_gear(per_load, place[rows], amplitude[rows], sign) @ basis
             if ends is not None:
-                found += _of_free_ends(ends, flexible.width, reach[rows], line_load[rows], sign)
+                found += _of_free_ends(ends, along, at_ends[rows], slice_load[rows], sign)
             tension[body, rows], compression[body, rows] = np.max(found, axis=0), np.min(found, axis=0)
     return tension, compression
 
@@ -82,16 +82,16 @@ def _of_one_gear(per_load: Array, place: Array, amplitude: Array, sign: int) -> 
     return total.transpose(1, 2, 3, 0)
 
 
-def _of_free_ends(ends: FreeEnds, width: float, reach: Array, line_load: Array, sign: int) -> Array:
-    """What free end faces add to the stress (point, position, pair, slice), Pa."""
-    positions, pairs, slices = line_load.shape
-    along = end_modes(ends, width, slices)
-    at = np.clip(reach, ends.radius[0], ends.radius[-1])
-    place = CubicSpline(ends.radius, np.eye(len(ends.radius)))(at)
+def _of_free_ends(ends: FreeEnds, along: Array, place: Array, slice_load: Array, sign: int) -> Array:
+    """What free end faces add to the stress (point, position, pair, slice), Pa.
+
+    `along` as made by `end_modes`, `place` (position, pair, M) as in `_of_one_gear`.
+    """
+    positions, pairs, slices = slice_load.shape
     waves, points = len(ends.wave_number), np.prod(ends.root_stress.shape[4:6])
     total = np.zeros((points, positions, pairs, slices))
     for parity in (0, 1):
-        counted = line_load * (width / slices) @ along[parity]
+        counted = slice_load @ along[parity]
         for sector, read, loaded in _sectors(pairs, sign):
             rows = ends.root_stress[parity, :, :, sector].reshape(waves, waves, points, -1)
             loads = place[:, loaded, :, None] * counted[:, loaded, None, :]

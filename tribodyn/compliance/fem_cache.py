@@ -17,6 +17,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from tribodyn.cache_folder import cache_folder
 from tribodyn.compliance.gear_compliance import NEIGHBOURS, FreeEnds, GearCompliance, LeadHarmonics
 from tribodyn.compliance.lead_harmonics import LARGEST_AT_ENDS, wave_numbers
 from tribodyn.geometry.tooth import Tooth, tooth_outline
@@ -35,15 +36,6 @@ _SOURCES = (
     "end_faces.py",
     "free_ends.py",
 )
-
-
-def cache_folder() -> Path:
-    """Folder of the cached compliances: in TRIBODYN_CACHE if that is set, else in the user's cache folder."""
-    if given := os.environ.get("TRIBODYN_CACHE"):
-        return Path(given) / "fem"
-    from platformdirs import user_cache_path
-
-    return user_cache_path("tribodyn") / "fem"
 
 
 def cached_gear_compliance(
@@ -108,7 +100,7 @@ def _ends(*arguments: Any) -> FreeEnds:
 
 def _kept(kind: type[Kept], fits: Callable[[Kept], bool], name: str, solve: Callable[[], Kept]) -> Kept:
     """Arrays of a file, or of `solve`, which are then kept in it."""
-    file = cache_folder() / f"{name}.npz"
+    file = cache_folder() / "fem" / f"{name}.npz"
     found = _read(kind, file)
     if found is not None and fits(found):
         return found

@@ -2,6 +2,9 @@
 
 from typing import Any, NamedTuple
 
+import numpy as np
+from scipy.interpolate import CubicSpline
+
 Array = Any
 
 #: Teeth on either side whose compliances are kept: as many pairs as can touch beside the loaded one.
@@ -93,6 +96,11 @@ class GearCompliance(NamedTuple):
     depth: float
     lead: LeadHarmonics | None = None
     ends: FreeEnds | None = None
+
+
+def at_radii(solved: Array, radius: Array) -> Array:
+    """Weights (…, M) with which values at the radii solved count at others; beyond those at the nearest."""
+    return CubicSpline(solved, np.eye(len(solved)))(np.clip(radius, solved[0], solved[-1]))
 
 
 def without_neighbours(gear: GearCompliance) -> GearCompliance:

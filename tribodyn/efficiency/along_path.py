@@ -10,7 +10,7 @@ import numpy as np
 
 from tribodyn.compliance.line_load import friction_ratio, peak_ratio
 from tribodyn.compliance.loaded_flanks import LoadedFlanks
-from tribodyn.efficiency.contact_friction import contact_friction
+from tribodyn.efficiency.contact_friction import ContactFriction, contact_friction
 from tribodyn.efficiency.places import Places, Sharing, places
 from tribodyn.efficiency.quadrature import Array, piecewise
 from tribodyn.errors import SimulationError
@@ -96,18 +96,22 @@ def engage(mesh: Places, duty: Duty) -> Engagement:
     rolling = speed * cycle.pinion_speed[:, 0], speed * cycle.gear_speed[:, 0]
     sliding = rolling[0] - rolling[1]
     width = cycle.face_width
-    mu, change = np.zeros_like(side), np.inf
-    for _ in range(STEPS):
-        load, deflection, uneven, peak = _loads(mesh, duty, side * mu)
-        contact = contact_friction(
+
+    def contact_at(line_load: Array) -> ContactFriction:
+        return contact_friction(
             duty.friction_law,
-            load / width * uneven,
+            line_load,
             mesh.radius,
             *rolling,
             duty.surfaces,
             cycle.pitch_point_length,
             speed * cycle.pitch_point_rate,
         )
+
+    mu, change = np.zeros_like(side), np.inf
+    for _ in range(STEPS):
+        load, deflection, uneven, peak = _loads(mesh, duty, side * mu)
+        contact = contact_at(load / width * uneven)
         found = contact.coefficient * mesh.carrying
         if np.any(mesh.carrying * (mesh.normal_arm + side * found * mesh.friction_arm) < 0.0):
             worst = float(np.max(found))
@@ -120,15 +124,7 @@ def engage(mesh: Places, duty: Duty) -> Engagement:
     else:
         raise SimulationError(f"load and friction coefficient do not settle: still moving by {change:.1e}")
     if np.any(peak != uneven):
-        contact = contact_friction(
-            duty.friction_law,
-            load / width * peak,
-            mesh.radius,
-            *rolling,
-            duty.surfaces,
-            cycle.pitch_point_length,
-            speed * cycle.pitch_point_rate,
-        )
+        contact = contact_at(load / width * peak)
     arms = mesh.normal_arm + side * mu * mesh.friction_arm
     pinion_torque, gear_torque = np.sum(load * arms, axis=-1)
     ratio = cycle.pinion_pitch_radius / cycle.gear_pitch_radius

@@ -57,34 +57,34 @@ class Packed(NamedTuple):
     kept: list[Kept]
 
 
-def kind_of(model: Model) -> Kind:
-    """What a model has to share with another one to run beside it."""
-    return Kind(model.options, tuple(_shapes(getattr(model, name)) for name in RECORDS), _contacts(model))
+def kind_of(model: Model, known: dict[int, tuple[Any, ...]] | None = None) -> Kind:
+    """What a model has to share with another one to run beside it.
+
+    `known` keeps what is found, by record, for models that have some in common.
+    """
+    known = {} if known is None else known
+    shapes, contacts = [], b""
+    for name in RECORDS:
+        record = getattr(model, name)
+        if id(record) not in known:
+            tables = [getattr(record, one) for one in SHARED] if name == "table" else []
+            known[id(record)] = (
+                tuple(getattr(value, "shape", ()) for value in record),
+                b"".join(np.asarray(one, dtype=float).tobytes() for one in tables),
+            )
+        found = known[id(record)]
+        shapes.append(found[0])
+        contacts += found[1]
+    return Kind(model.options, tuple(shapes), contacts)
 
 
 def by_kind(models: Sequence[Model]) -> list[np.ndarray]:
     """Places of the models of each kind; a record that many have in common is looked at once."""
-    shapes: dict[int, tuple[tuple[int, ...], ...]] = {}
-    contacts: dict[int, bytes] = {}
+    known: dict[int, tuple[Any, ...]] = {}
     groups: dict[Kind, list[int]] = {}
     for place, model in enumerate(models):
-        records = [getattr(model, name) for name in RECORDS]
-        for record in records:
-            if id(record) not in shapes:
-                shapes[id(record)] = _shapes(record)
-        if id(model.table) not in contacts:
-            contacts[id(model.table)] = _contacts(model)
-        kind = Kind(model.options, tuple(shapes[id(one)] for one in records), contacts[id(model.table)])
-        groups.setdefault(kind, []).append(place)
+        groups.setdefault(kind_of(model, known), []).append(place)
     return [np.array(places) for places in groups.values()]
-
-
-def _shapes(record: Any) -> tuple[tuple[int, ...], ...]:
-    return tuple(getattr(value, "shape", ()) for value in record)
-
-
-def _contacts(model: Model) -> bytes:
-    return b"".join(np.asarray(getattr(model.table, name), dtype=float).tobytes() for name in SHARED)
 
 
 def pack(models: Sequence[Model]) -> Packed:

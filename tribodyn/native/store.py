@@ -21,6 +21,7 @@ import llvmlite
 import llvmlite.binding as llvm
 
 import tribodyn
+from tribodyn.cache_folder import cache_folder
 from tribodyn.native.kernel import Code
 
 #: Everything that a kernel can contain; the rules of import keep it to these.
@@ -63,15 +64,6 @@ def machine_code(function: Callable[..., Any], layout: Any) -> Code:
         code = loaded(made)
         assert code is not None
     return code
-
-
-def cache_folder() -> Path:
-    """Where compiled code is kept: `TRIBODYN_CACHE`, or the user's cache folder."""
-    if given := os.environ.get("TRIBODYN_CACHE"):
-        return Path(given)
-    from platformdirs import user_cache_path
-
-    return user_cache_path("tribodyn")
 
 
 @cache

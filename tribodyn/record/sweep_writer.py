@@ -18,7 +18,7 @@ from tribodyn.errors import InputError
 from tribodyn.record import layout, sweep_schema
 from tribodyn.record.schema import COMPLETE, FAILED, FORMAT, PARTIAL, STATUS_NOTES, Variable, partial_path
 from tribodyn.record.sweep_schema import CASES, SWEEP
-from tribodyn.record.writer import check_target, refuse_existing
+from tribodyn.record.writer import check_target, refuse_existing, unwritable
 from tribodyn.record.writing_lock import WritingLock
 
 #: What the root says of a sweep that is not complete.
@@ -105,7 +105,7 @@ class SweepWriter:
         try:
             self._lock = WritingLock(self.path)
         except OSError as error:
-            raise self._unwritable(error) from error
+            raise unwritable(self.path, error) from error
         try:
             self._places = self._laid_out(head, force, resume)
             with h5py.File(self.partial, "r") as file:
@@ -127,12 +127,8 @@ class SweepWriter:
         except OSError as error:
             if scratch.exists():
                 scratch.unlink()
-            raise self._unwritable(error) from error
+            raise unwritable(self.path, error) from error
         return places
-
-    def _unwritable(self, error: OSError) -> InputError:
-        reason = error.strerror or str(error)
-        return InputError("output", str(self.path), f"cannot be written: {reason}", "choose another file")
 
     def __enter__(self) -> Self:
         return self

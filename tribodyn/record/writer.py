@@ -46,6 +46,12 @@ def check_target(path: Path, force: bool = False) -> None:
     refuse_existing(path, force)
 
 
+def unwritable(path: Path, error: OSError) -> InputError:
+    """What is said of a record that the operating system refuses."""
+    reason = error.strerror or str(error)
+    return InputError("output", str(path), f"cannot be written: {reason}", "choose another file")
+
+
 def refuse_existing(path: Path, force: bool) -> None:
     """Raise InputError if the record or what an unfinished run left is there, and `force` is not given."""
     if force:
@@ -138,10 +144,7 @@ class RecordWriter:
             self._unlock()
             if not isinstance(error, OSError):
                 raise
-            reason = error.strerror or str(error)
-            raise InputError(
-                "output", str(path), f"cannot be written: {reason}", "choose another file"
-            ) from error
+            raise unwritable(self.path, error) from error
         self._open = True
 
     def __enter__(self) -> Self:

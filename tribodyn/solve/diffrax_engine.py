@@ -6,6 +6,7 @@ that no number of the scenario is compiled in. Steps end where friction reverses
 """
 
 import os
+from collections.abc import Sequence
 from functools import lru_cache
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -18,6 +19,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
+from tribodyn.cache_folder import cache_folder
 from tribodyn.dynamics.equations import derivatives, engagement
 from tribodyn.dynamics.parameters import (
     DRIVE_SPEED,
@@ -39,7 +41,7 @@ from tribodyn.solve.engine import (
     Block,
     Tolerances,
 )
-from tribodyn.solve.reversal import SHARES, stops
+from tribodyn.solve.reversal import SHARES, filled_up, stops_of_many
 from tribodyn.tribology.contact import logarithms
 
 jax.config.update("jax_enable_x64", True)
@@ -55,10 +57,7 @@ ROOM = 256
 @lru_cache(maxsize=1)
 def use_compilation_cache() -> None:
     """Keep XLA's compiled code between processes, beside the native kernel's."""
-    from platformdirs import user_cache_path
-
-    folder = os.environ.get("TRIBODYN_CACHE") or user_cache_path("tribodyn")
-    jax.config.update("jax_compilation_cache_dir", os.path.join(folder, "xla"))
+    jax.config.update("jax_compilation_cache_dir", str(cache_folder() / "xla"))
     jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.2)
 
 
@@ -213,11 +212,10 @@ def sample_phases(boundary: np.ndarray, samples: int) -> tuple[np.ndarray, list[
     return np.array(filled), [len(group) for group in groups]
 
 
-def steps_end_on(model: Model) -> np.ndarray:
-    """Phases (S, n) that steps end on, see `reversal.stops`, with an n that only the pair slots decide."""
-    found = stops(model)
-    most = 1 + len(SHARES) * np.asarray(model.table.in_contact).shape[1]
-    return np.pad(found, ((0, 0), (0, most - found.shape[1])), mode="edge")
+def steps_end_on(models: Sequence[Model]) -> np.ndarray:
+    """Phases (C, S, n) that steps end on, see `reversal.stops`, with an n that only the pair slots decide."""
+    most = 1 + len(SHARES) * np.asarray(models[0].table.in_contact).shape[1]
+    return filled_up(stops_of_many(models), most)
 
 
 class DiffraxEngine:
@@ -240,7 +238,7 @@ class DiffraxEngine:
         at, self.counts = sample_phases(np.asarray(model.table.boundary), samples)
         self.how = How(
             jnp.asarray(at),
-            jnp.asarray(steps_end_on(model)),
+            jnp.asarray(steps_end_on([model])[0]),
             tolerances.rtol,
             jnp.asarray(tolerances.atol),
             tolerances.max_steps,

@@ -107,26 +107,14 @@ def march(
     if not 0 <= window <= cycles:
         raise ValueError(f"a window of {window} cycles does not fit into {cycles}")
     if cycles == 0 or cases == 0:
-        return nothing_yet(states, 0)  # no kernel is made for it: they all do a cycle before they look
-    if method in THROUGH_JAX:
-        from tribodyn.solve import jax_ensemble
-
-        return jax_ensemble.march(
-            models,
-            states,
-            cycles=cycles,
-            window=window,
-            samples=samples,
-            rtol=rtol,
-            max_steps=max_steps,
-            started=started,
-            first_cycle=first_cycle,
-            method=method,
-            workers=workers,
-            progress=progress,
-        )
+        # no kernel is made for it: they all do a cycle before they look
+        return nothing_yet(states, window * samples)
     count = workers or usable_cores()
     shared = March(first_cycle, cycles, window, samples, started, float(rtol), max_steps)
+    if method in THROUGH_JAX:
+        from tribodyn.solve.jax_ensemble import through_jax
+
+        return through_jax(models, states, method, shared, count, progress)
     if method not in ("auto", EXPLICIT):
         return one_by_one(models, states, method, shared, count, progress)
     limit = max_steps if method == EXPLICIT else min(max_steps, HANDED_OVER)

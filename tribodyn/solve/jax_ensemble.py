@@ -27,7 +27,7 @@ from tribodyn.solve.diffrax_engine import (
     use_compilation_cache,
 )
 from tribodyn.solve.engine import DONE, March
-from tribodyn.solve.ensemble import MAX_STEPS, Ensemble, nothing_yet, usable_cores
+from tribodyn.solve.ensemble import Ensemble, nothing_yet
 from tribodyn.solve.transient import tolerances_of_many
 
 #: Cases that are integrated side by side: a batch is done in parts of exactly so many, the last one filled up
@@ -48,44 +48,29 @@ class Part(NamedTuple):
     method : str
     width : int
         At least the number of cases; what is missing is filled up.
-    shared : bool
-        Whether all cases of this kind have one table.
+    one_table : bool
+        Whether all cases of this kind have the same.
     places : (n,) int
     """
 
     method: str
     width: int
-    shared: bool
+    one_table: bool
     places: np.ndarray
 
 
-def march(
+def through_jax(
     models: Sequence[Model],
     states: np.ndarray,
-    *,
-    cycles: int,
-    window: int,
-    samples: int,
-    rtol: float,
-    max_steps: int = MAX_STEPS,
-    started: bool = False,
-    first_cycle: int = 0,
-    method: str = "tsit5",
-    workers: int | None = None,
+    method: str,
+    shared: March,
+    workers: int,
     progress: Callable[[float], None] | None = None,
-    width: int | None = None,
 ) -> Ensemble:
-    """Integrate every case over the same number of mesh cycles; see `ensemble.march`.
+    """Integrate with a method of diffrax, mapped over the cases: what `ensemble.march` does with those.
 
-    A failed case's state is the one at the end of the segment before, where `reached` points too.
-
-    Parameters
-    ----------
-    method : {"tsit5", "dopri8", "kvaerno5"}
-    workers : int, optional
-        Threads on a processor, by default one a core; elsewhere there is one.
-    width : int, optional
-        Cases side by side, see `width_here`.
+    A failed case's state is the one at the end of the segment before, where `reached` points too. On a
+    processor the parts go to `workers` threads; elsewhere there is one.
 
     Notes
     -----
@@ -93,19 +78,17 @@ def march(
     not, and every `diffrax_engine.ROOM` samples a cycle; for no number, and not for fewer cases.
     """
     use_compilation_cache()
-    states = np.asarray(states, dtype=float)
-    asked = March(first_cycle, cycles, window, samples, started, float(rtol), max_steps)
-    found = nothing_yet(states, window * samples)
-    parts = _parts(models, method, width or width_here())
-    threads = (workers or usable_cores()) if jax.default_backend() == "cpu" else 1
+    found = nothing_yet(states, shared.window * shared.samples)
+    parts = _parts(models, method, width_here())
+    threads = workers if jax.default_backend() == "cpu" else 1
     cancelled = threading.Event()
     ticks: list[Part] = []
 
     def one(part: Part) -> None:
-        for _ in _cycles(part, models, asked, found):
+        for _ in _cycles(part, models, shared, found):
             ticks.append(part)
             if progress:
-                progress(len(ticks) / (len(parts) * cycles))
+                progress(len(ticks) / (len(parts) * shared.cycles))
             if cancelled.is_set():
                 return
 
@@ -123,40 +106,46 @@ def _parts(models: Sequence[Model], method: str, width: int) -> list[Part]:
     """Parts of cases of one kind, slow and so dear ones side by side."""
     parts = []
     for group in by_kind(models):
-        shared = all(models[case].table is models[group[0]].table for case in group)
+        one_table = all(models[case].table is models[group[0]].table for case in group)
         order = np.array(sorted(group, key=lambda case: float(models[case].mechanics.nominal_speed)))
-        parts += [Part(method, width, shared, order[i : i + width]) for i in range(0, len(order), width)]
+        parts += [Part(method, width, one_table, order[i : i + width]) for i in range(0, len(order), width)]
     return parts
 
 
-def _cycles(part: Part, models: Sequence[Model], asked: March, found: Ensemble):
+def _cycles(part: Part, models: Sequence[Model], shared: March, found: Ensemble):
     """Integrate a part, mesh cycle by mesh cycle, and put what comes into `found`."""
     places = part.places
     rows = np.pad(places, (0, part.width - len(places)), mode="edge")
     mine = [models[case] for case in rows]
     tables = [model.table for model in mine]
     numbers = (
-        jax.tree.map(jnp.asarray, tables[0]) if part.shared else stacked(tables),
+        jax.tree.map(jnp.asarray, tables[0]) if part.one_table else stacked(tables),
         stacked([model.mechanics for model in mine]),
         stacked([model.contact for model in mine]),
     )
     boundary = np.array([np.asarray(table.boundary) for table in tables])
-    grids = [sample_phases(row, asked.samples) for row in boundary]
+    grids = [sample_phases(row, shared.samples) for row in boundary]
     dense = np.array([at for at, _ in grids])
     how = How(
         jnp.full(dense.shape, np.nan),
-        jnp.asarray(np.array([steps_end_on(model) for model in mine])),
-        jnp.full(part.width, asked.rtol),
-        jnp.asarray(tolerances_of_many(mine, found.state[rows], asked.rtol)),
-        jnp.full(part.width, asked.max_steps),
+        jnp.asarray(steps_end_on(mine)),
+        jnp.full(part.width, shared.rtol),
+        jnp.asarray(tolerances_of_many(mine, found.state[rows], shared.rtol)),
+        jnp.full(part.width, shared.max_steps),
     )
     carried = beginning(found.state[rows])
-    for done in range(asked.cycles):
-        kept = done - (asked.cycles - asked.window)
+    for done in range(shared.cycles):
+        kept = done - (shared.cycles - shared.window)
         if kept == 0:
             how = how._replace(at=jnp.asarray(dense))
         carried, segments = _compiled(
-            part, mine[0].options, numbers, carried, asked.first_cycle + done, asked.started or done > 0, how
+            part,
+            mine[0].options,
+            numbers,
+            carried,
+            shared.first_cycle + done,
+            shared.started or done > 0,
+            how,
         )
         cases = slice(len(places))
         status = np.asarray(segments.status)[cases]
@@ -164,12 +153,12 @@ def _cycles(part: Part, models: Sequence[Model], asked: March, found: Ensemble):
         found.reached[places] += boundary[np.arange(len(places)), whole]
         found.steps[places] += np.sum(np.asarray(segments.steps)[cases], axis=1)
         found.evaluations[places] += np.sum(np.asarray(segments.evaluations)[cases], axis=1)
-        if kept >= 0 and asked.samples:
+        if kept >= 0 and shared.samples:
             sampled = np.asarray(segments.samples)
             for i, case in enumerate(places):
                 block = [sampled[i, k, : grids[i][1][k]] for k in range(whole[i])]
                 block = np.concatenate([*block, np.empty((0, sampled.shape[-1]))])
-                first = kept * asked.samples
+                first = kept * shared.samples
                 found.samples[case, first : first + len(block)] = block
         found.state[places] = np.asarray(carried.y)[cases]
         found.status[places] = status[:, -1]
@@ -183,8 +172,8 @@ def _compiled(
 ) -> tuple[Carried, Segment]:
     """Give `over_one_cycle`; what was not yet compiled is compiled by one thread while the others wait."""
     shapes = tuple((x.shape, x.dtype) for x in jax.tree.leaves((numbers, how)))
-    key = (part.method, options, part.shared, shapes)
-    call = partial(over_one_cycle, part.method, options, part.shared)
+    key = (part.method, options, part.one_table, shapes)
+    call = partial(over_one_cycle, part.method, options, part.one_table)
     arguments = (numbers, carried, cycle, restart, how)
     if key not in _known:
         with _lock:
@@ -198,11 +187,11 @@ _lock = threading.Lock()
 _known: set[tuple[Any, ...]] = set()
 
 
-@partial(jax.jit, static_argnames=("method", "options", "shared"))
+@partial(jax.jit, static_argnames=("method", "options", "one_table"))
 def over_one_cycle(
     method: str,
     options: Options,
-    shared: bool,
+    one_table: bool,
     numbers: Any,
     carried: Carried,
     cycle: Any,
@@ -214,7 +203,7 @@ def over_one_cycle(
     def one(numbers: Any, carried: Carried, how: How) -> tuple[Carried, Segment]:
         return over_cycle(method, options, numbers, carried, cycle, restart, how)
 
-    return jax.vmap(one, in_axes=((None if shared else 0, 0, 0), 0, 0))(numbers, carried, how)
+    return jax.vmap(one, in_axes=((None if one_table else 0, 0, 0), 0, 0))(numbers, carried, how)
 
 
 def stacked(trees: list[Any]) -> Any:

@@ -12,7 +12,7 @@ from tribodyn.lanes.vectors import WIDTH
 from tribodyn.solve.engine import March
 from tribodyn.solve.lane_march import march_lanes
 from tribodyn.solve.lane_queue import Queue, make_block
-from tribodyn.solve.reversal import stops
+from tribodyn.solve.reversal import stops_of_many
 from tribodyn.solve.transient import tolerances_of_many
 
 #: How often progress is told, s.
@@ -42,7 +42,7 @@ def _batch(models: Sequence[Model], states: np.ndarray, march: March, places: np
         numbers=packed.numbers,
         addresses=packed.addresses,
         atol=tolerances_of_many(mine, states[places], march.rtol),
-        stops=_stops(mine),
+        stops=stops_of_many(mine),
         state=states[places],
         samples=np.full((count, march.window * march.samples, STATES), np.nan),
         status=np.zeros(count, dtype=np.int64),
@@ -54,22 +54,6 @@ def _batch(models: Sequence[Model], states: np.ndarray, march: March, places: np
         stop=np.zeros(1, dtype=np.int64),
     )
     return Batch(places, packed, queue)
-
-
-def _stops(models: Sequence[Model]) -> np.ndarray:
-    """Phases that steps end on, (C, segments, most); found once for all models that have them in common."""
-    numbers: dict[tuple[int, float], int] = {}
-    found: list[np.ndarray] = []
-    rows = []
-    for model in models:
-        key = (id(model.table), float(model.mechanics.reversal_width))
-        if key not in numbers:
-            numbers[key] = len(found)
-            found.append(stops(model))
-        rows.append(numbers[key])
-    most = max(one.shape[1] for one in found)
-    filled = [np.pad(one, ((0, 0), (0, most - one.shape[1])), mode="edge") for one in found]
-    return np.array(filled)[rows]
 
 
 def run_threads(

@@ -10,6 +10,8 @@ error:
 - `adapted(step, error, last_error)` is the next step to try.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from tribodyn.dynamics.equations import engagement
@@ -25,6 +27,38 @@ NEW, OFF, OWN = 0, 1, 2
 STANDSTILL = 1e-3
 #: A step that still gives no finite numbers is given up below this.
 LEAST_TO_RETRY = 1e-9
+
+
+class Asked(NamedTuple):
+    """What a march is to do.
+
+    Attributes
+    ----------
+    first_cycle : float
+        Whole cycles done before.
+    cycles, samples : int
+        Cycles to do, samples in each.
+    restart : bool
+        Whether the state stands before the engagement at phase 0 (False at the very start of a run).
+    rtol : float
+    atol : (STATES,)
+    step : float
+        First step to try, mesh cycles.
+    max_steps : int
+        Greatest number of steps in one mesh cycle.
+    stops : (segments, most)
+        Phases that steps end on, see `reversal.stops`.
+    """
+
+    first_cycle: float
+    cycles: int
+    samples: int
+    restart: bool
+    rtol: float
+    atol: np.ndarray
+    step: float
+    max_steps: int
+    stops: np.ndarray
 
 
 @kernel
@@ -51,27 +85,8 @@ def worst_error(y, buffer, atol, rtol):
 
 
 @kernel
-def march_with(
-    attempt,
-    sample,
-    accept,
-    adapted,
-    model,
-    y,
-    first_cycle,
-    cycles,
-    restart,
-    samples,
-    rtol,
-    atol,
-    step,
-    max_steps,
-    stops,
-    out,
-    work,
-    buffer,
-):
-    """Integrate `cycles` mesh cycles from the state `y` at the end of the one before.
+def march_with(attempt, sample, accept, adapted, model, y, asked, out, work, buffer):
+    """Integrate mesh cycles from the state `y` at the end of the one before.
 
     Parameters
     ----------
@@ -79,20 +94,7 @@ def march_with(
         The method, see above.
     model : Model
     y : (STATES,) float64, changed in place to the state reached
-    first_cycle : float
-        Whole cycles done before.
-    cycles, samples : int
-        Cycles to do, samples in each.
-    restart : bool
-        Whether `y` stands before the engagement at phase 0 (False at the very start of a run).
-    rtol : float
-    atol : (STATES,)
-    step : float
-        First step to try, mesh cycles.
-    max_steps : int
-        Greatest number of steps in one mesh cycle.
-    stops : (segments, most)
-        Phases that steps end on, see `reversal.stops`.
+    asked : Asked
     out : (cycles · samples, STATES)
         Receives the states at the samples.
     work, buffer : arrays
@@ -102,6 +104,8 @@ def march_with(
     -------
     status, reached (cycles since first_cycle), step, steps, evaluations, samples written
     """
+    cycles, samples, max_steps, stops = asked.cycles, asked.samples, asked.max_steps, asked.stops
+    rtol, atol, step = asked.rtol, asked.atol, asked.step
     table = model.table
     segments = table.in_contact.shape[0]
     speed = model.mechanics.nominal_speed
@@ -110,12 +114,12 @@ def march_with(
     written = 0
     last_error = LEAST_REMEMBERED
     for cycle in range(cycles):
-        whole = first_cycle + cycle
+        whole = asked.first_cycle + cycle
         steps_before = steps
         for segment in range(segments):
             phase = table.boundary[segment]
             end = table.boundary[segment + 1]
-            if segment > 0 or restart or cycle > 0:
+            if segment > 0 or asked.restart or cycle > 0:
                 before = segment - 1 if segment > 0 else segments - 1
                 engage(before, table.boundary[before + 1], segment, phase, y, model, work)
             if written < (cycle + 1) * samples and (written - cycle * samples) / samples <= phase:

@@ -6,6 +6,7 @@ A step across it sees the reversal with some of its stages or with none, and its
 little: on the CRC drive that made the error of the transmission error 30 times what it is without friction.
 """
 
+from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -53,3 +54,24 @@ def stops(model: Model) -> np.ndarray:
         rows.append(sorted(phase for phase in inside if start + near < phase < end - near))
     most = 1 + max(len(row) for row in rows)
     return np.array([row + [end] * (most - len(row)) for row, end in zip(rows, boundary[1:], strict=True)])
+
+
+def stops_of_many(models: Sequence[Model]) -> np.ndarray:
+    """`stops` of many cases (C, segments, most); found once for all that have them in common."""
+    numbers: dict[tuple[int, float], int] = {}
+    found: list[np.ndarray] = []
+    rows = []
+    for model in models:
+        key = (id(model.table), float(model.mechanics.reversal_width))
+        if key not in numbers:
+            numbers[key] = len(found)
+            found.append(stops(model))
+        rows.append(numbers[key])
+    most = max(one.shape[1] for one in found)
+    return np.array([filled_up(one, most) for one in found])[rows]
+
+
+def filled_up(stops: np.ndarray, most: int) -> np.ndarray:
+    """Stops (…, segments, most): the last of each segment, its end, again and again."""
+    behind = most - stops.shape[-1]
+    return np.concatenate([stops, np.repeat(stops[..., -1:], behind, axis=-1)], axis=-1)

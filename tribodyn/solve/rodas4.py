@@ -166,27 +166,6 @@ def adapted(step, error, last_error):
 
 
 @kernel
-def march(
-    model, y, first_cycle, cycles, restart, samples, rtol, atol, step, max_steps, stops, out, work, buffer
-):
+def march(model, y, asked, out, work, buffer):
     """Integrate mesh cycles, see `marching.march_with`; evaluations include those for the Jacobian."""
-    return march_with(
-        attempt,
-        sample,
-        accept,
-        adapted,
-        model,
-        y,
-        first_cycle,
-        cycles,
-        restart,
-        samples,
-        rtol,
-        atol,
-        step,
-        max_steps,
-        stops,
-        out,
-        work,
-        buffer,
-    )
+    return march_with(attempt, sample, accept, adapted, model, y, asked, out, work, buffer)

@@ -29,6 +29,7 @@ from tribodyn.solve.engine import (
     mean_stiffness,
 )
 from tribodyn.solve.initial import static_deflection
+from tribodyn.solve.marching import Asked
 from tribodyn.solve.reversal import stops
 from tribodyn.solve.stiffness import EXPLICIT, STIFF, THROUGH_JAX
 
@@ -86,20 +87,20 @@ class NativeEngine:
         """See `engine.Engine`."""
         y = state.copy()
         out = np.empty((cycles * self.samples, STATES))
-        status, reached, self.step, steps, evaluations, written = self._march(
-            self._laid,
-            y,
+        rtol, atol, max_steps = self.tolerances
+        asked = Asked(
             float(first_cycle),
             cycles,
-            self.started,
             self.samples,
-            self.tolerances.rtol,
-            self.tolerances.atol,
+            self.started,
+            rtol,
+            atol,
             self.step,
-            self.tolerances.max_steps,
+            max_steps,
             self._stops,
-            out,
-            *self._buffers,
+        )
+        status, reached, self.step, steps, evaluations, written = self._march(
+            self._laid, y, asked, out, *self._buffers
         )
         self.started = True
         return Block(out[:written], y, status, reached, steps, evaluations)
