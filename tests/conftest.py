@@ -8,26 +8,26 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, settings
 
-from tests.forked_verbs import ForkedVerbs
-from tribodyn.prepare import Prepared, prepare
-from tribodyn.scenario.load import load_scenario
+from tests.support.forked_verbs import ForkedVerbs
+from tribodyn.studies.gear_pair.prepare import Prepared, prepare
+from tribodyn.studies.load import load_scenario
 
 #: Files that take longest, longest first: begun last, one would keep a worker busy after the others are done.
 LONGEST = (
     "cross/test_solvers_agree.py",
-    "unit/test_tabulate.py",
+    "unit/mesh/test_tabulate.py",
     "cross/test_backends.py",
     "cli/test_shipped_scenarios.py",
     "cli/test_docs.py",
-    "unit/test_geometry_gradients.py",
+    "unit/geometry/test_geometry_gradients.py",
     "cross/test_families.py",
     "cross/test_jax_ensemble.py",
     "property/test_geometry_pair.py",
-    "unit/test_ensemble.py",
+    "unit/solve/test_ensemble.py",
     "validation/test_jia.py",
     "fault/test_bad_runs.py",
     "fault/test_killed_sweep.py",
-    "unit/test_plots.py",
+    "unit/studies/gear_pair/test_plots.py",
     "cli/test_sweep.py",
 )
 TESTS = Path(__file__).parent

@@ -25,10 +25,10 @@ from tools.peers import steady
 from tools.peers.batch import BATCHES, Batch, speeds, threads
 from tools.peers.numpy_model import check
 from tools.peers.single import Problem, Runner, octave, octave_timed, peers, tribodyn_engine
-from tribodyn.prepare import prepare
-from tribodyn.scenario.load import load_scenario
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.transient import NativeEngine
+from tribodyn.studies.gear_pair.prepare import prepare
+from tribodyn.studies.load import load_scenario
 
 Array = Any
 

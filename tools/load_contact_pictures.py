@@ -10,8 +10,8 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from tribodyn import load_scenario, open_record, run
-from tribodyn.post.plots import figure, save
 from tribodyn.record.reader import Record
+from tribodyn.studies.pictures import figure, save
 
 FOLDER = Path(__file__).parents[1] / "docs" / "pictures"
 UNRELIEVED = {

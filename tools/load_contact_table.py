@@ -12,15 +12,17 @@ from typing import NamedTuple
 import numpy as np
 from marked_block import put
 
-from tribodyn.case import Case, MeshData
 from tribodyn.compliance.load_sharing import flexibility
-from tribodyn.efficiency.load_contact import load_contact
 from tribodyn.geometry.assembly import assemble
-from tribodyn.mesh_cycle import MeshCycle
-from tribodyn.quasi_static import cycle_mean, quasi_static
-from tribodyn.scenario.load import family, load_scenario
-from tribodyn.tabulate import pair_slots, tabulate
-from tribodyn.tabulate_loaded import tabulate_loaded
+from tribodyn.geometry.families import family
+from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.mesh.data import MeshData
+from tribodyn.mesh.quasi_static import cycle_mean, quasi_static
+from tribodyn.mesh.tabulate import pair_slots, tabulate
+from tribodyn.mesh.tabulate_loaded import tabulate_loaded
+from tribodyn.studies.efficiency.load_contact import load_contact
+from tribodyn.studies.gear_pair.case import Case
+from tribodyn.studies.load import load_scenario
 
 DRIVES = (
     "diez-ibarbia-18-36",

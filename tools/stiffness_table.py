@@ -13,7 +13,6 @@ from pathlib import Path
 import numpy as np
 from marked_block import put
 
-from tribodyn.case import MaterialData, MeshData
 from tribodyn.compliance.energy import (
     LoadedTooth,
     ToothCompliance,
@@ -24,13 +23,15 @@ from tribodyn.compliance.energy import (
 )
 from tribodyn.compliance.foundation import ring_compliance
 from tribodyn.compliance.iso6336 import single_pair_stiffness
-from tribodyn.geometry import crc, involute
 from tribodyn.geometry.drive import SIDES, Drive, GearBody
+from tribodyn.geometry.families import crc, involute
 from tribodyn.geometry.family import Family
+from tribodyn.geometry.material import MaterialData
 from tribodyn.geometry.path import kinematics
 from tribodyn.geometry.tooth import contact_in_tooth_frame
-from tribodyn.quasi_static import cycle_mean, quasi_static
-from tribodyn.tabulate import pair_slots, tabulate
+from tribodyn.mesh.data import MeshData
+from tribodyn.mesh.quasi_static import cycle_mean, quasi_static
+from tribodyn.mesh.tabulate import pair_slots, tabulate
 
 WIDTH, LINE_LOAD = 0.0267, 235e3  # m, N/m
 STEEL = MaterialData("steel", 207e9, 0.3, 7850.0, 46.0, 470.0, 6e9)

@@ -19,8 +19,8 @@ OWN_PROCESS = False
 if TYPE_CHECKING:
     from tribodyn.errors import InputError, SimulationError
     from tribodyn.record.reader import open_record
-    from tribodyn.scenario.load import load_scenario
-    from tribodyn.simulate import run
+    from tribodyn.studies.load import load_scenario
+    from tribodyn.studies.run import run
 
 __all__ = ["InputError", "SimulationError", "__version__", "load_scenario", "open_record", "run"]
 
@@ -28,9 +28,9 @@ __all__ = ["InputError", "SimulationError", "__version__", "load_scenario", "ope
 _PLACES = {
     "InputError": "tribodyn.errors",
     "SimulationError": "tribodyn.errors",
-    "load_scenario": "tribodyn.scenario.load",
+    "load_scenario": "tribodyn.studies.load",
     "open_record": "tribodyn.record.reader",
-    "run": "tribodyn.simulate",
+    "run": "tribodyn.studies.run",
 }
 
 

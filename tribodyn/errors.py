@@ -1,6 +1,8 @@
 """The two ways a run can end badly: bad input, and a simulation that could not go on."""
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 
 @dataclass
@@ -36,6 +38,18 @@ class InputError(Exception):
         return f"{place}{self.key}{given}: {self.rule}{remedy}"
 
 
+class InputErrors(InputError):
+    """Several mistakes found at once, one a line; the first stands for them where only one is looked at."""
+
+    def __init__(self, errors: Sequence[InputError]):
+        first = errors[0]
+        super().__init__(first.key, first.value, first.rule, first.remedy, first.file)
+        self.errors = tuple(errors)
+
+    def __str__(self) -> str:
+        return "\n".join(map(str, self.errors))
+
+
 @dataclass
 class SimulationError(Exception):
     """A simulation that could not go on; what it has is kept and the exit status is 3.
@@ -53,3 +67,46 @@ class SimulationError(Exception):
 
     def __str__(self) -> str:
         return f"stopped at t = {self.time:.6g} s: {self.reason}"
+
+
+def near_name(name: str, known: Iterable[str]) -> str:
+    """Return the known name that looks most like `name`, or ""."""
+    from difflib import get_close_matches
+
+    known = list(known)
+    close = get_close_matches(name, known, n=1, cutoff=0.6)
+    close = close or [other for other in known if name and (name in other or other in name)]
+    return close[0] if close else ""
+
+
+def quoted(value: Any) -> str:
+    """Return a value as TOML would write it, on one line and cut where it is long."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        text = f'"{printable(value)}"'
+    elif isinstance(value, dict):
+        text = "{" + ", ".join(f"{printable(key)} = {quoted(item)}" for key, item in value.items()) + "}"
+    elif isinstance(value, (list, tuple)):
+        text = "[" + ", ".join(map(quoted, value)) + "]"
+    else:
+        text = str(value)
+    most = 240 if isinstance(value, str) else 80  # a path of a file is told whole
+    return text if len(text) <= most else text[: most - 3] + "..."
+
+
+def printable(text: str) -> str:
+    """Return text with line ends and other invisible characters escaped, so that it stays on one line."""
+    return "".join(
+        character if character.isprintable() else character.encode("unicode_escape").decode()
+        for character in text
+    )
+
+
+def require_known(key: str, name: str, known: Iterable[str], what: str) -> None:
+    """Raise InputError unless a name is among the known ones; `what` says what they are names of."""
+    known = list(known)
+    if name not in known:
+        near = near_name(name, known)
+        mean = f'did you mean "{near}"? ' if near else ""
+        raise InputError(key, quoted(name), f"no such {what}", f"{mean}there is: {', '.join(known)}")

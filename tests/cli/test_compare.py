@@ -7,12 +7,12 @@ import h5py
 import pytest
 from typer.testing import CliRunner
 
-from tests import synthetic_record
+from tests.support import synthetic_record
 from tribodyn.cli.app import app
 from tribodyn.post.compare import compare as side_by_side
 from tribodyn.post.compare import comparison_table
-from tribodyn.post.plots import NAMES
 from tribodyn.record.reader import open_record
+from tribodyn.studies.pictures import NAMES
 
 SHORT = ("--set", "solver.cycles=2")
 

@@ -18,8 +18,8 @@ from typer.main import get_command
 from typer.testing import CliRunner
 
 from tribodyn.cli.app import app
-from tribodyn.scenario.load import load_scenario
 from tribodyn.scenario.sources import find_scenario
+from tribodyn.studies.load import load_scenario
 
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]

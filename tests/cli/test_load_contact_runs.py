@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from tribodyn import simulate_load_contact
 from tribodyn.cli.app import app
 from tribodyn.errors import SimulationError
-from tribodyn.post.figures.load_contact import NAMES
 from tribodyn.record.reader import open_record
+from tribodyn.studies.load_contact import run as simulate_load_contact
+from tribodyn.studies.load_contact.figures import NAMES
 
 PLAIN, RELIEVED = "load-contact-18-36", "harris-18-36-tip-relief"
 SHORT = ("--set", "output.positions_per_cycle=30")
@@ -98,7 +98,7 @@ def test_a_study_is_checked_and_shown(both: dict[str, Path]):
 
 
 def test_a_scenario_to_begin_with(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    from tribodyn.scenario.load import load_scenario
+    from tribodyn.studies.load import load_scenario
 
     monkeypatch.chdir(tmp_path)
     tribodyn("init", "mine", "--kind", "load-contact")

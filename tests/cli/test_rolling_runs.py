@@ -8,10 +8,10 @@ import pytest
 from typer.testing import CliRunner
 
 from tribodyn.cli.app import app
-from tribodyn.post.plots import ROLLING_NAMES, names
 from tribodyn.record.reader import open_record
-from tribodyn.scenario.load import load_scenario
-from tribodyn.simulate import run
+from tribodyn.studies.load import load_scenario
+from tribodyn.studies.pictures import ROLLING_NAMES, names
+from tribodyn.studies.run import run
 
 
 @pytest.fixture(scope="module")

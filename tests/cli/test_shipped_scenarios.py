@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from tests.forked_verbs import ForkedVerbs
+from tests.support.forked_verbs import ForkedVerbs
 from tribodyn.record.reader import open_record
-from tribodyn.scenario.load import load_scenario
 from tribodyn.scenario.sources import names, shipped
+from tribodyn.studies.load import load_scenario
 
 
 def tribodyn(*arguments: str, folder: Path) -> str:

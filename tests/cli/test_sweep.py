@@ -12,10 +12,10 @@ import xarray
 from typer.testing import CliRunner
 
 from tribodyn.cli.app import app
-from tribodyn.post.sweep_plots import SWEEP_NAMES
 from tribodyn.record.reader import open_record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE, FAILED, FIGURES
+from tribodyn.sweep.pictures import SWEEP_NAMES
 
 SPEEDS = "operating.pinion_speed=100:300:100rad/s"
 SHORT = ("--transient", "4", "--set", "output.samples_per_cycle=40")

@@ -8,7 +8,7 @@ from tribodyn.dynamics.parameters import XI
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.reversal import SHARES, stops
 from tribodyn.solve.transient import Chunk, Settings, transient
-from tribodyn.summary import energy_residual
+from tribodyn.studies.gear_pair.summary import energy_residual
 
 SAMPLES = 100
 

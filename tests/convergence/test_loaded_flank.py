@@ -17,9 +17,10 @@ from tribodyn.compliance.strips import curved_basis, plane_stiffness
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.drive import SIDES, body_of
+from tribodyn.geometry.families import family
 from tribodyn.geometry.path import kinematics
 from tribodyn.geometry.tooth import flank_point
-from tribodyn.scenario.load import family, load_scenario
+from tribodyn.studies.load import load_scenario
 
 LINE_LOAD = 235e3
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tests.states import random_place, random_state
+from tests.support.states import random_place, random_state
 from tribodyn.dynamics.contact_forces import QUANTITIES
 from tribodyn.dynamics.parameters import DRIVE_SPEED, MECHANICAL, MOTOR_SLIP, SLIP, STATES, TWIST, XI
 from tribodyn.solve.dopri5 import rhs

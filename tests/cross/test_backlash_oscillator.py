@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from tests.harmonic_balance import HarmonicBalance, restoring, turning_points
-from tribodyn.backlash_oscillator.case import BacklashOscillatorCase
-from tribodyn.backlash_oscillator.response import (
+from tests.support.harmonic_balance import HarmonicBalance, restoring, turning_points
+from tribodyn.solve.steady_orbit import find
+from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
+from tribodyn.studies.backlash_oscillator.motion import OscillatorMap
+from tribodyn.studies.backlash_oscillator.response import (
     DOWN,
     STABLE,
     UNSTABLE,
@@ -14,8 +16,6 @@ from tribodyn.backlash_oscillator.response import (
     frequency_response,
     oscillator_at,
 )
-from tribodyn.solve.backlash_oscillator import OscillatorMap
-from tribodyn.solve.steady_orbit import find
 
 
 def oscillator(frequencies, damping=0.05, mean_force=0.1, error=0.05, variation=0.0, **more):

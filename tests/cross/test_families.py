@@ -5,14 +5,15 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from tests.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
-from tribodyn.case import MaterialData, MeshData
-from tribodyn.geometry import cycloidal
+from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
 from tribodyn.geometry.drive import Drive, GearBody
+from tribodyn.geometry.families import cycloidal
+from tribodyn.geometry.material import MaterialData
+from tribodyn.mesh.data import MeshData
+from tribodyn.mesh.tabulate import pair_slots, tabulate
 from tribodyn.record.reader import open_record
-from tribodyn.scenario.load import load_scenario
-from tribodyn.simulate import run
-from tribodyn.tabulate import pair_slots, tabulate
+from tribodyn.studies.load import load_scenario
+from tribodyn.studies.run import run
 
 STEEL = MaterialData("steel", 206e9, 0.3, 7850.0, 46.0, 470.0, 6e9)
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from tests.linear_mesh import FREE, OVERRIDES, SEGMENTS, generator, matrices
+from tests.support.linear_mesh import FREE, OVERRIDES, SEGMENTS, generator, matrices
 from tribodyn.dynamics.parameters import DISPLACEMENTS, SLIP, STATES
 from tribodyn.solve.initial import accelerations, static_equilibrium
 from tribodyn.solve.transient import Chunk, Settings, transient

@@ -5,7 +5,6 @@ import dataclasses
 import numpy as np
 import pytest
 
-from tribodyn.case import FrictionData
 from tribodyn.compliance.flank_gap import flank_gap
 from tribodyn.compliance.load_sharing import flexibility, share_load
 from tribodyn.compliance.loaded_flanks import LoadedFlanks
@@ -13,11 +12,12 @@ from tribodyn.compliance.slices import face_positions
 from tribodyn.dynamics.outputs import outputs, segment_of
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.corner_contact import pair_geometry
+from tribodyn.geometry.families import family
 from tribodyn.geometry.modification import UNMODIFIED, FlankModification, Misalignment, Modifications, Relief
-from tribodyn.prepare import prepare
-from tribodyn.scenario.load import family
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.transient import Chunk, Settings, transient
+from tribodyn.studies.gear_pair.prepare import prepare
+from tribodyn.tribology.data import FrictionData
 from tribodyn.tribology.friction import friction
 
 SAMPLES = 100

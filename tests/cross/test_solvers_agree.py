@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from tribodyn.dynamics.parameters import XI
-from tribodyn.scenario.load import SOLVERS
 from tribodyn.solve.initial import static_equilibrium
+from tribodyn.solve.methods import SOLVERS
 from tribodyn.solve.transient import Chunk, Settings, Stop, transient
 
 CYCLES, SAMPLES = 6, 100

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tests.linear_mesh import FREE, OVERRIDES, SEGMENTS, generator, over_a_cycle
+from tests.support.linear_mesh import FREE, OVERRIDES, SEGMENTS, generator, over_a_cycle
 from tribodyn.dynamics.parameters import (
     LAG,
     MOTOR_SLIP,

@@ -6,7 +6,7 @@ from scipy.optimize import brentq
 
 from tribodyn.dynamics.parameters import XI
 from tribodyn.geometry.drive import tip_radius
-from tribodyn.geometry.involute import FAMILY
+from tribodyn.geometry.families.involute import FAMILY
 from tribodyn.geometry.path import contact_limits, contact_ratio
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.transient import Chunk, Settings, Stop, transient

@@ -3,8 +3,8 @@
 import pytest
 
 from tribodyn.errors import InputError, SimulationError
-from tribodyn.scenario.load import load_scenario
-from tribodyn.simulate import run
+from tribodyn.studies.load import load_scenario
+from tribodyn.studies.run import run
 
 STUDY = "efficiency-involute-18-36"
 

@@ -257,7 +257,7 @@ def test_a_mistake_in_a_list_of_errors(refused: Refused, tmp_path: Path, text: s
 
 
 def test_time_and_single_torques_cannot_be_drawn(refused: Refused, tmp_path: Path):
-    from tests import synthetic_load_contact
+    from tests.support import synthetic_load_contact
 
     record = synthetic_load_contact.write(tmp_path / "study.h5", torques=())
     code, (line,) = refused("plot", str(record), "loaded-error", "--against", "time")
@@ -272,7 +272,7 @@ def test_time_and_single_torques_cannot_be_drawn(refused: Refused, tmp_path: Pat
 
 
 def test_studies_of_other_kinds_are_not_compared(refused: Refused, tmp_path: Path):
-    from tests import synthetic_load_contact, synthetic_record
+    from tests.support import synthetic_load_contact, synthetic_record
 
     first = synthetic_load_contact.write(tmp_path / "study.h5")
     second = synthetic_record.write(tmp_path / "run.h5", per_cycle=20)

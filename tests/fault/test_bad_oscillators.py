@@ -5,8 +5,8 @@ import pytest
 
 from tribodyn.errors import InputError
 from tribodyn.record.reader import open_record
-from tribodyn.scenario.load import load_scenario
-from tribodyn.simulate import run
+from tribodyn.studies.load import load_scenario
+from tribodyn.studies.run import run
 
 NAME = "backlash-oscillator"
 

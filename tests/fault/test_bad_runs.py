@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.forked_verbs import ForkedVerbs
+from tests.support.forked_verbs import ForkedVerbs
 from tribodyn.record.reader import open_record
 
 SHORT = ("--set", "solver.cycles=1", "--set", "output.samples_per_cycle=16", "--no-plot")

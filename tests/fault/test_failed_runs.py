@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from tribodyn import simulate
 from tribodyn.errors import SimulationError
 from tribodyn.record.reader import open_record
-from tribodyn.scenario.load import load_scenario
 from tribodyn.solve.engine import NOT_FINITE, Tolerances, absolute_tolerances
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.scipy_engine import ScipyEngine
 from tribodyn.solve.transient import NativeEngine
+from tribodyn.studies.gear_pair import run as simulate
+from tribodyn.studies.load import load_scenario
 
 
 def run(folder, **overrides):

@@ -7,7 +7,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from tests.record_samples import block
+from tests.support.record_samples import block
 from tribodyn.record.reader import open_record
 
 BLOCK, BLOCKS, KILLS = 50, 40, 60
@@ -17,7 +17,7 @@ BLOCK, BLOCKS, KILLS = 50, 40, 60
 WRITERS = """
 import os, random, signal, sys, time
 from pathlib import Path
-from tests.record_samples import block, geometry, mesh_cycle
+from tests.support.record_samples import block, geometry, mesh_cycle
 from tribodyn.record.writer import RecordWriter
 
 folder, length, blocks, kills = Path(sys.argv[1]), *map(int, sys.argv[2:])

@@ -5,10 +5,10 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from tests.random_drives import DEGENERATE, FAMILIES, drives
-from tribodyn.geometry import involute
+from tests.support.random_drives import DEGENERATE, FAMILIES, drives
 from tribodyn.geometry.body import gear_polygon, section_area_and_inertia
 from tribodyn.geometry.drive import SIDES, tip_radius
+from tribodyn.geometry.families import involute
 from tribodyn.geometry.path import (
     contact_limits,
     contact_ratio,

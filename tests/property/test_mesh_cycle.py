@@ -5,11 +5,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.random_drives import drives
-from tribodyn.case import MaterialData, MeshData
-from tribodyn.mesh_cycle import as_arrays, from_arrays
-from tribodyn.quasi_static import quasi_static
-from tribodyn.tabulate import pair_slots, tabulate
+from tests.support.random_drives import drives
+from tribodyn.geometry.material import MaterialData
+from tribodyn.mesh.cycle import as_arrays, from_arrays
+from tribodyn.mesh.data import MeshData
+from tribodyn.mesh.quasi_static import quasi_static
+from tribodyn.mesh.tabulate import pair_slots, tabulate
 
 STEEL = MaterialData("steel", 206e9, 0.3, 7850.0, 46.0, 470.0, 6e9)
 BRONZE = MaterialData("bronze", 110e9, 0.34, 8800.0, 60.0, 380.0, 2e9)

@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from tests.record_samples import block, geometry, mesh_cycle
-from tribodyn.mesh_cycle import as_arrays, from_arrays
+from tests.support.record_samples import block, geometry, mesh_cycle
+from tribodyn.mesh.cycle import as_arrays, from_arrays
 from tribodyn.record.reader import open_record
 from tribodyn.record.writer import RecordWriter
 

@@ -4,9 +4,9 @@ import numpy as np
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from tribodyn.rolling.checks import check, element_radius_limits
-from tribodyn.rolling.engagement import RollingFriction, element_angles, engage
-from tribodyn.rolling.geometry import (
+from tribodyn.studies.rolling.checks import check, element_radius_limits
+from tribodyn.studies.rolling.engagement import RollingFriction, element_angles, engage
+from tribodyn.studies.rolling.geometry import (
     RollingDrive,
     cam_outline,
     contact_points,

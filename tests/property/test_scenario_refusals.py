@@ -6,11 +6,10 @@ from typing import Any
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tribodyn.errors import InputError
-from tribodyn.scenario.load import load_scenario
-from tribodyn.scenario.messages import InputErrors
+from tribodyn.errors import InputError, InputErrors
 from tribodyn.scenario.resolve import CURVES, MODEL_FILES
-from tribodyn.scenario.schema import Scenario
+from tribodyn.studies.gear_pair.scenario import Scenario
+from tribodyn.studies.load import load_scenario
 
 
 def keys(table: Any = Scenario, above: str = "") -> list[str]:

@@ -3,13 +3,7 @@
 import pytest
 
 from tribodyn.validation import validate
-from tribodyn.validation.diez_ibarbia_study import (
-    at_load,
-    loss_factors,
-    mean_friction,
-    pair_of,
-    peak,
-)
+from tribodyn.validation.diez_ibarbia_study import at_load, loss_factors, mean_friction, pair_of, peak
 from tribodyn.validation.rows import published
 
 #: A separate prototype: (scenario, shift) -> Höhn's efficiency at OC1, and by the integral.

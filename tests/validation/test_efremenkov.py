@@ -3,8 +3,8 @@
 import pytest
 
 from tribodyn.record.reader import open_record
-from tribodyn.scenario.load import load_scenario
-from tribodyn.simulate import run
+from tribodyn.studies.load import load_scenario
+from tribodyn.studies.run import run
 from tribodyn.validation import validate
 from tribodyn.validation.rows import PASS, published
 

@@ -5,10 +5,11 @@ from pathlib import Path
 
 import pytest
 
-from tribodyn.geometry.parabolic import greatest_coefficient, published_limits
+from tribodyn.geometry.families import family
+from tribodyn.geometry.families.parabolic import greatest_coefficient, published_limits
 from tribodyn.geometry.path import kinematics
 from tribodyn.post.style import house_style
-from tribodyn.scenario.load import family, load_scenario
+from tribodyn.studies.load import load_scenario
 from tribodyn.validation import validate
 from tribodyn.validation.figures.jia import FIGURES
 from tribodyn.validation.rows import published

@@ -12,7 +12,7 @@ import numpy as np
 
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.parameters import DISPLACEMENTS, STATES, VELOCITIES, Model
-from tribodyn.mesh_cycle import CHANNELS
+from tribodyn.mesh.cycle import CHANNELS
 
 Array = Any
 

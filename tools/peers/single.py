@@ -15,7 +15,7 @@ from scipy.io import loadmat, savemat
 
 from tools.peers.numpy_model import MOVING, NumpyModel
 from tribodyn.dynamics.parameters import STATES, XI, Model
-from tribodyn.native import laid_out
+from tribodyn.kernels.native import laid_out
 from tribodyn.solve.dopri5 import buffers, rhs
 from tribodyn.solve.engine import DONE, Tolerances, absolute_tolerances
 from tribodyn.solve.transient import make_engine

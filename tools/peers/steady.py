@@ -14,14 +14,14 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.dynamics.parameters import XI, Model
-from tribodyn.prepare import prepare
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.solve.engine import Tolerances, absolute_tolerances
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.periodic import GearMap, moving_states
 from tribodyn.solve.scipy_engine import ScipyEngine
+from tribodyn.studies.gear_pair.batch.evaluate import tabulated
+from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.sweep.engines import Local
-from tribodyn.sweep.evaluate import tabulated
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.run import MOST_CYCLES, run, settings_of
 

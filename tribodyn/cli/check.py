@@ -8,13 +8,13 @@ import typer
 from tribodyn.cli.overrides import SetOption, overrides
 
 if TYPE_CHECKING:
-    from tribodyn.backlash_oscillator.case import BacklashOscillatorCase
-    from tribodyn.case import Case
-    from tribodyn.efficiency.case import EfficiencyCase
-    from tribodyn.load_contact_case import LoadContactCase
-    from tribodyn.mesh_cycle import MeshCycle
-    from tribodyn.rolling.case import RollingCase
-    from tribodyn.scenario.load import Loaded
+    from tribodyn.mesh.cycle import MeshCycle
+    from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
+    from tribodyn.studies.efficiency.case import EfficiencyCase
+    from tribodyn.studies.gear_pair.case import Case
+    from tribodyn.studies.load import Loaded
+    from tribodyn.studies.load_contact.case import LoadContactCase
+    from tribodyn.studies.rolling.case import RollingCase
 
 EXAMPLES = (
     "\b\nExamples:\n"
@@ -29,16 +29,17 @@ def check(
     json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
     """Check a scenario; print geometry and stiffness."""
-    from tribodyn.backlash_oscillator.case import BacklashOscillatorCase
     from tribodyn.cli.printing import print_json, print_table
     from tribodyn.cli.sheet import print_sheet
-    from tribodyn.efficiency.case import EfficiencyCase
+    from tribodyn.geometry.families import family
     from tribodyn.geometry.sheet import geometry_sheet
-    from tribodyn.load_contact_case import LoadContactCase
-    from tribodyn.rolling.case import RollingCase
-    from tribodyn.scenario.load import family, load
-    from tribodyn.simulate import prepare
-    from tribodyn.simulate_efficiency import prepare as prepare_efficiency
+    from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
+    from tribodyn.studies.efficiency.case import EfficiencyCase
+    from tribodyn.studies.efficiency.run import prepare as prepare_efficiency
+    from tribodyn.studies.gear_pair.prepare import prepare
+    from tribodyn.studies.load import load
+    from tribodyn.studies.load_contact.case import LoadContactCase
+    from tribodyn.studies.rolling.case import RollingCase
 
     loaded = load(scenario, overrides(settings))
     case = loaded.case
@@ -79,8 +80,8 @@ def check(
 def _check_rolling(loaded: "Loaded", case: "RollingCase", json: bool) -> None:
     from tribodyn.cli.printing import print_json, print_table
     from tribodyn.cli.sheet import written
-    from tribodyn.rolling.sheet import geometry_sheet
-    from tribodyn.simulate_rolling import prepare
+    from tribodyn.studies.rolling.run import prepare
+    from tribodyn.studies.rolling.sheet import geometry_sheet
 
     with loaded.naming():
         prepare(case)
@@ -94,8 +95,8 @@ def _check_rolling(loaded: "Loaded", case: "RollingCase", json: bool) -> None:
 
 
 def _check_oscillator(loaded: "Loaded", case: "BacklashOscillatorCase", json: bool) -> None:
-    from tribodyn.backlash_oscillator.linear import linear_figures
     from tribodyn.cli.printing import print_json, print_table
+    from tribodyn.studies.backlash_oscillator.linear import linear_figures
 
     figures = linear_figures(case)
     if json:
@@ -107,7 +108,7 @@ def _check_oscillator(loaded: "Loaded", case: "BacklashOscillatorCase", json: bo
 
 
 def _of_cycle(case: "Case | EfficiencyCase", cycle: "MeshCycle") -> dict[str, Any]:
-    from tribodyn.summary import single_pair_stiffness
+    from tribodyn.mesh.stiffness import single_pair_stiffness
 
     torque = abs(case.operating.gear_torque)
     load = torque / (float(cycle.gear_pitch_radius) * math.cos(_pressure_angle(case)))
@@ -117,8 +118,8 @@ def _of_cycle(case: "Case | EfficiencyCase", cycle: "MeshCycle") -> dict[str, An
 
 
 def _of_load_contact(case: "LoadContactCase") -> dict[str, Any]:
-    from tribodyn.scenario.load import family
-    from tribodyn.simulate_load_contact import prepare, single_pair_stiffness
+    from tribodyn.geometry.families import family
+    from tribodyn.studies.load_contact.run import prepare, single_pair_stiffness
 
     study = prepare(case)
     arm = float(family(case.family).working_path(case.drive).gear_pitch_radius)
@@ -127,7 +128,7 @@ def _of_load_contact(case: "LoadContactCase") -> dict[str, Any]:
 
 
 def _pressure_angle(case: "Case | EfficiencyCase | LoadContactCase") -> float:
-    from tribodyn.scenario.load import family
+    from tribodyn.geometry.families import family
 
     return float(family(case.family).working_path(case.drive).pressure_angle(0.0))
 

@@ -11,7 +11,7 @@ from tribodyn.cli.overrides import SetOption, overrides
 from tribodyn.cli.plot import Format
 
 if TYPE_CHECKING:
-    from tribodyn.scenario.load import Loaded
+    from tribodyn.studies.load import Loaded
 
 EXAMPLES = (
     "\b\nExamples:\n"
@@ -42,8 +42,8 @@ def compare(
     from tribodyn.cli.plot import draw
     from tribodyn.cli.printing import print_json, print_rich, quoted_path
     from tribodyn.post import compare as comparing
-    from tribodyn.post.plots import names
     from tribodyn.record.reader import open_record
+    from tribodyn.studies.pictures import names
 
     scenarios = _scenarios(what, overrides(settings))
     pictures: list[Path] = []
@@ -75,7 +75,7 @@ def _scenarios(what: list[str], settings: Mapping[str, str]) -> dict[str, "Loade
     from tribodyn.errors import InputError
     from tribodyn.record.reader import open_record
     from tribodyn.record.schema import GEAR_PAIR, KINDS
-    from tribodyn.scenario.load import load
+    from tribodyn.studies.load import load
 
     if len(what) < 2:
         raise InputError(
@@ -117,7 +117,7 @@ def _run(loaded: "Loaded", folder: Path, force: bool) -> Path:
     """Run a scenario into a folder; return its record."""
     from tribodyn.cli.outcome import SIMULATION_FAILED, complain
     from tribodyn.cli.progress import progress_bar
-    from tribodyn.simulate import run as simulate
+    from tribodyn.studies.run import run as simulate
 
     name = loaded.case.name
     with loaded.naming(), progress_bar(name) as progress:

@@ -10,7 +10,7 @@ from tribodyn.cli.overrides import SetOption, overrides
 
 if TYPE_CHECKING:
     from tribodyn.geometry.family import Family
-    from tribodyn.scenario.drive_file import DriveModel
+    from tribodyn.studies.drive_file import DriveModel
 
 EXAMPLES = (
     "\b\nExamples:\n"
@@ -36,9 +36,9 @@ def gear(
     from tribodyn.cli.sheet import print_sheet
     from tribodyn.geometry.body import body_masses
     from tribodyn.geometry.checks import check
+    from tribodyn.geometry.families import family
     from tribodyn.geometry.sheet import geometry_sheet
-    from tribodyn.scenario.drive_file import load_drive
-    from tribodyn.scenario.load import family
+    from tribodyn.studies.drive_file import load_drive
 
     loaded = load_drive(model, overrides(settings))
     teeth = family(loaded.family)

@@ -37,8 +37,8 @@ def list(
 
 def _about(what: What) -> dict[str, str]:
     """Return name and description of everything of one sort."""
-    from tribodyn.scenario import load
     from tribodyn.scenario.sources import shipped
+    from tribodyn.studies import load
 
     match what:
         case What.scenarios:
@@ -53,11 +53,11 @@ def _about(what: What) -> dict[str, str]:
         case What.laws:
             return {name: law.about for name, law in load.FRICTION_LAWS.items()}
         case What.families:
-            return dict(load.FAMILIES)
+            return {name: one.about for name, one in load.FAMILIES.items()}
         case What.solvers:
             return dict(load.SOLVERS)
         case What.sweep_plots:
-            from tribodyn.post.sweep_plots import SWEEP_NAMES
+            from tribodyn.sweep.pictures import SWEEP_NAMES
 
             return dict(SWEEP_NAMES)
         case What.plots:
@@ -66,7 +66,13 @@ def _about(what: What) -> dict[str, str]:
 
 def _plots() -> dict[str, str]:
     """Return the names of all figures, and the records that each is of."""
-    from tribodyn.post.plots import LOAD_CONTACT_NAMES, NAMES, OSCILLATOR_NAMES, ROLLING_NAMES, RUN_UP_NAMES
+    from tribodyn.studies.pictures import (
+        LOAD_CONTACT_NAMES,
+        NAMES,
+        OSCILLATOR_NAMES,
+        ROLLING_NAMES,
+        RUN_UP_NAMES,
+    )
 
     also = {
         "rolling elements": ROLLING_NAMES,

@@ -65,9 +65,9 @@ def plot(
 
     from tribodyn.cli.printing import print_json, quoted_path
     from tribodyn.errors import InputError
-    from tribodyn.post.plots import names as figure_names
     from tribodyn.record.reader import open_record
     from tribodyn.record.sweep_reader import is_sweep
+    from tribodyn.studies.pictures import names as figure_names
 
     paths = [word for word in what if word.endswith((".h5", ".hdf5")) or Path(word).is_file()]
     names = [word for word in what if word not in paths]
@@ -97,7 +97,7 @@ def draw(
     against: str = "phase",
 ) -> list[Path]:
     """Draw figures by name into files named after `beside`: ``crc.png`` becomes ``crc-film.png``."""
-    from tribodyn.post.plots import figure
+    from tribodyn.studies.pictures import figure
 
     return _save_all(names, beside, lambda name: figure(name, records, cycles=cycles, against=against))
 
@@ -106,8 +106,8 @@ def _draw_sweeps(paths: Sequence[str], names: Sequence[str], beside: Path, at: S
     """Draw figures of sweeps."""
     from contextlib import ExitStack
 
-    from tribodyn.post.sweep_plots import SWEEP_NAMES, sweep_figure
     from tribodyn.record.sweep_reader import SweepRecord
+    from tribodyn.sweep.pictures import SWEEP_NAMES, sweep_figure
 
     with ExitStack() as stack:
         records = [stack.enter_context(SweepRecord(path)) for path in paths]

@@ -34,8 +34,8 @@ def run(
     from tribodyn.cli.outcome import SIMULATION_FAILED, complain
     from tribodyn.cli.printing import print_json, quoted_path
     from tribodyn.cli.progress import progress_bar
-    from tribodyn.scenario.load import load
-    from tribodyn.simulate import run as simulate
+    from tribodyn.studies.load import load
+    from tribodyn.studies.run import run as simulate
 
     loaded = load(scenario, overrides(settings))
     case = loaded.case
@@ -74,8 +74,8 @@ def _as_json(path: Path) -> dict[str, Any]:
 
 def _draw(path: Path, *, everything: bool) -> list[Path]:
     from tribodyn.cli.plot import draw
-    from tribodyn.post.plots import names
     from tribodyn.record.reader import open_record
+    from tribodyn.studies.pictures import names
 
     with open_record(path) as record:
         chosen = ["overview", *names([record])] if everything else ["overview"]

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from tribodyn.compliance.foundation import foundation_compliance, ring_compliance
-from tribodyn.elementary import cos, namespace, sin, tan
 from tribodyn.geometry.drive import Drive, GearBody, Side, body_of
 from tribodyn.geometry.family import Family
 from tribodyn.geometry.path import Path, distance_at_radius, seen_from
@@ -25,10 +24,11 @@ from tribodyn.geometry.tooth import (
     fillet_point,
     thickness_half_angle,
 )
-from tribodyn.iteration import chebyshev_basis
+from tribodyn.numerics.elementary import cos, namespace, sin, tan
+from tribodyn.numerics.iteration import chebyshev_basis
 
 if TYPE_CHECKING:
-    from tribodyn.case import MaterialData
+    from tribodyn.geometry.material import MaterialData
 
 Array = Any
 

@@ -55,12 +55,14 @@ def root_stress(
         per_load = at_wave_numbers(gear, wave_number, material.poisson_ratio).root_stress
         place = at_radii(gear.radius, reach)
         ends = gear.ends if len(wave_number) > 1 else None
-        if ends is not None:
-            along, at_ends = end_modes(ends, flexible.width, slices), at_radii(ends.radius, reach)
+        weights = (
+            None if ends is None else (end_modes(ends, flexible.width, slices), at_radii(ends.radius, reach))
+        )
         for first in range(0, positions, _BATCH):
             rows = slice(first, first + _BATCH)
             found = _of_one_gear(per_load, place[rows], amplitude[rows], sign) @ basis
-            if ends is not None:
+            if ends is not None and weights is not None:
+                along, at_ends = weights
                 found += _of_free_ends(ends, along, at_ends[rows], slice_load[rows], sign)
             tension[body, rows], compression[body, rows] = np.max(found, axis=0), np.min(found, axis=0)
     return tension, compression

@@ -17,10 +17,10 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from tribodyn.cache_folder import cache_folder
 from tribodyn.compliance.gear_compliance import NEIGHBOURS, FreeEnds, GearCompliance, LeadHarmonics
 from tribodyn.compliance.lead_harmonics import LARGEST_AT_ENDS, wave_numbers
 from tribodyn.geometry.tooth import Tooth, tooth_outline
+from tribodyn.numerics.cache import cache_folder
 
 Kept = TypeVar("Kept", GearCompliance, LeadHarmonics, FreeEnds)
 

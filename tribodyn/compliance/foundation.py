@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.elementary import cos, log, namespace, sin
+from tribodyn.numerics.elementary import cos, log, namespace, sin
 
 Array = Any
 

@@ -11,12 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.compliance.face_root_stress import root_stress
-from tribodyn.compliance.flank_gap import (
-    check_modifications,
-    flank_gap,
-    greatest_along_lead,
-    pitch_gap,
-)
+from tribodyn.compliance.flank_gap import check_modifications, flank_gap, greatest_along_lead, pitch_gap
 from tribodyn.compliance.load_sharing import PairFlexibility, SharedLoad, half_width, share_load
 from tribodyn.compliance.slices import LEAST_SLICES, face_positions
 from tribodyn.errors import InputError

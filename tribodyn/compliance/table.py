@@ -4,8 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.elementary import is_jax, namespace
 from tribodyn.errors import InputError
+from tribodyn.numerics.elementary import is_jax, namespace
 
 Array = Any
 

@@ -21,7 +21,7 @@ from tribodyn.dynamics.parameters import (
     Y_P,
 )
 from tribodyn.dynamics.smooth import positive_part, positive_part_integral, power_law_force, ramp, sign
-from tribodyn.elementary import last_axis_of_four, law, maximum, skippable, sqrt, where
+from tribodyn.numerics.elementary import last_axis_of_four, law, maximum, skippable, sqrt, where
 from tribodyn.tribology.contact import averaged_radius
 from tribodyn.tribology.friction import friction_coefficient
 

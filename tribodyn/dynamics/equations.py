@@ -44,7 +44,7 @@ from tribodyn.dynamics.parameters import (
     Y_G,
     Y_P,
 )
-from tribodyn.elementary import last_at_or_below, law, maximum, minimum, sin, sqrt, truncate
+from tribodyn.numerics.elementary import last_at_or_below, law, maximum, minimum, sin, sqrt, truncate
 
 
 @law

@@ -3,8 +3,8 @@
 import numpy as np
 
 from tribodyn.dynamics.parameters import DRIVE_SHAFT, DRIVE_SPEED, Model
-from tribodyn.mesh_cycle import MeshCycle
-from tribodyn.quasi_static import quasi_static
+from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.mesh.quasi_static import quasi_static
 
 #: Modes without a compliant shaft, and with one.
 MODES, MODES_WITH_SHAFT = 5, 6

@@ -1,6 +1,6 @@
 """Smoothed versions of the model's non-smooth functions, each C1 with its width stated."""
 
-from tribodyn.elementary import exp, law, log, maximum, minimum, skippable, where
+from tribodyn.numerics.elementary import exp, law, log, maximum, minimum, skippable, where
 
 
 @law

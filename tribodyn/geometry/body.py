@@ -5,11 +5,11 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.elementary import arctan2, cos, namespace, sin, sqrt
 from tribodyn.geometry.drive import SIDES, Drive, Side, body_of
 from tribodyn.geometry.family import Family
 from tribodyn.geometry.path import seen_from
 from tribodyn.geometry.tooth import ToothOutline, cut_tooth, outline, thickness_half_angle, tooth_outline
+from tribodyn.numerics.elementary import arctan2, cos, namespace, sin, sqrt
 
 Array = Any
 

@@ -50,6 +50,8 @@ class Family(NamedTuple):
         Whether a drive gives its pressure angle; where not, it is 0 at the pitch point.
     corner : bool
         Whether α(r) has a corner at the pitch point; the mesh cycle then begins a segment there.
+    about : str
+        What it is, in a line.
     """
 
     name: str
@@ -61,6 +63,7 @@ class Family(NamedTuple):
     parameters: tuple[Parameter, ...] = ()
     pressure_angle: bool = True
     corner: bool = False
+    about: str = ""
 
 
 def unshifted(

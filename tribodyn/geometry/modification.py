@@ -8,7 +8,7 @@ from the middle of the faces; `start` is at the most negative z, `end` at the mo
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    from tribodyn.case import Table
+    from tribodyn.numerics.curve import Table
 
 
 class Relief(NamedTuple):

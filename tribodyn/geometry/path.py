@@ -10,9 +10,9 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from tribodyn.elementary import absolute, cos, namespace, sin, sqrt, where
 from tribodyn.geometry.drive import Side
-from tribodyn.iteration import newton
+from tribodyn.numerics.elementary import absolute, cos, namespace, sin, sqrt, where
+from tribodyn.numerics.iteration import newton
 
 Array = Any
 

@@ -19,8 +19,8 @@ carries it on to contacts beside P).
 import math
 from typing import Any, NamedTuple
 
-from tribodyn.elementary import namespace, sqrt
 from tribodyn.geometry.path import Path, sine_at_pitch_point
+from tribodyn.numerics.elementary import namespace, sqrt
 
 _BETA = math.gamma(0.25) * math.gamma(1.5) / math.gamma(1.75) / 2
 # A pressure angle at P below this (rad) is zero but for rounding.

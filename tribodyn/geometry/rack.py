@@ -8,11 +8,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.elementary import cos, sin
 from tribodyn.geometry.drive import Drive, Side, body_of
 from tribodyn.geometry.family import Family
 from tribodyn.geometry.path import position
 from tribodyn.geometry.tooth import Tooth, cut_tooth, tangent_distance
+from tribodyn.numerics.elementary import cos, sin
 
 Array = Any
 

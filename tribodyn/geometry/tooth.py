@@ -14,19 +14,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.elementary import arctan2, cos, namespace, sin, sqrt, tan
 from tribodyn.geometry.drive import Drive, Side, body_of, tip_radius
 from tribodyn.geometry.family import Family
-from tribodyn.geometry.path import (
-    Path,
-    distance_at_radius,
-    kinematics,
-    position,
-    radius,
-    sine_at_pitch_point,
-)
-from tribodyn.iteration import newton
-from tribodyn.remembered import remembered
+from tribodyn.geometry.path import Path, distance_at_radius, kinematics, position, radius, sine_at_pitch_point
+from tribodyn.numerics.elementary import arctan2, cos, namespace, sin, sqrt, tan
+from tribodyn.numerics.iteration import newton
+from tribodyn.numerics.remembered import remembered
 
 Array = Any
 

@@ -145,7 +145,7 @@ class Record:
 
     @cached_property
     def mesh_cycle(self) -> dict[str, Any]:
-        """The table the run was made from; `tribodyn.mesh_cycle.from_arrays` takes it."""
+        """The table the run was made from; `tribodyn.mesh.cycle.from_arrays` takes it."""
         return self._group("mesh_cycle", schema.MESH_CYCLE)
 
     @cached_property

@@ -9,8 +9,9 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import NamedTuple
 
-from tribodyn.record import backlash_oscillator, load_contact
-from tribodyn.record.variable import Variable
+from tribodyn.numerics.variable import Variable
+from tribodyn.studies.backlash_oscillator import layout as backlash_oscillator
+from tribodyn.studies.load_contact import layout as load_contact
 
 FORMAT = "tribodyn-record"
 #: Raised when a reader of the previous version would misread the file.

@@ -84,7 +84,7 @@ class RecordWriter:
         Number of samples that a complete run has, the first at phase 0 and the last at a whole cycle.
     mesh_cycle : dict
         The table the run is made from: arrays over (phase, pair) and numbers, as
-        `tribodyn.mesh_cycle.as_arrays` gives them. Its `side` also says how many pair slots there are.
+        `tribodyn.mesh.cycle.as_arrays` gives them. Its `side` also says how many pair slots there are.
     geometry : dict
         `pinion_outline`, `gear_outline`, `path_of_contact`, each (points, 2), and lengths, m.
     force : bool

@@ -1,28 +1,15 @@
 """One clear line for every mistake: pydantic's findings, and where the value at fault stands."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
-from tribodyn.errors import InputError
+from tribodyn.errors import InputError, InputErrors, near_name, printable, quoted
 from tribodyn.scenario.quantity import Reference
-from tribodyn.scenario.sources import near_name, printable, quoted
 
 Key = tuple[str | int, ...]
-
-
-class InputErrors(InputError):
-    """Several mistakes found at once, one a line; the first stands for them where only one is looked at."""
-
-    def __init__(self, errors: Sequence[InputError]):
-        first = errors[0]
-        super().__init__(first.key, first.value, first.rule, first.remedy, first.file)
-        self.errors = tuple(errors)
-
-    def __str__(self) -> str:
-        return "\n".join(map(str, self.errors))
 
 
 class Origins:

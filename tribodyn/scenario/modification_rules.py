@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 from tribodyn.errors import InputError
 from tribodyn.geometry.modification import vary_along_lead
+from tribodyn.scenario.drive_data import modifications_of
 from tribodyn.scenario.model_files import DriveTable
 from tribodyn.scenario.modification import MisalignmentTable, Modification
-from tribodyn.scenario.to_case import modifications_of
 
 #: Fewest slices that say anything about what varies along the face: its ends and its middle.
 LEAST_SLICES = 3

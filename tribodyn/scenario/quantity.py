@@ -132,3 +132,20 @@ class Curve(Table):
         if not (steps > 0).all():
             row = int(np.argmin(steps > 0)) + 2
             raise broken(f"{first} does not increase at point {row}", f"sort the points by {first}")
+
+
+def defaults_written_out(raw: dict[str, Any], table: type[Table]) -> dict[str, Any]:
+    """Return the TOML data `raw` with every default of the schema written where a key is missing.
+
+    Keys that the schema does not know stay as they are, for the validation to name.
+    """
+    full = dict(raw)
+    for key, field in table.model_fields.items():
+        if key not in full and not field.is_required():
+            default = field.get_default(call_default_factory=True)
+            if default is not None:
+                full[key] = list(default) if isinstance(default, tuple) else default
+        inner = field.annotation
+        if isinstance(inner, type) and issubclass(inner, Table) and isinstance(full.get(key), dict):
+            full[key] = defaults_written_out(full[key], inner)
+    return full

@@ -10,11 +10,11 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tribodyn.errors import InputError
-from tribodyn.scenario.kinds import table_of
+from tribodyn.errors import InputError, printable, quoted
 from tribodyn.scenario.messages import Key, Origins
-from tribodyn.scenario.schema import defaults_written_out
-from tribodyn.scenario.sources import find_model, is_file, printable, quoted, read_curve, read_toml
+from tribodyn.scenario.quantity import defaults_written_out
+from tribodyn.scenario.sources import find_model, is_file, read_curve, read_toml
+from tribodyn.studies.kinds import table_of
 
 #: Keys whose string names a file of `models/`, and the folder there; a drive comes before what it names.
 MODEL_FILES: dict[Key, str] = {

@@ -5,12 +5,11 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 
-from tribodyn.errors import InputError
+from tribodyn.errors import InputError, near_name, quoted
 from tribodyn.geometry.family import Family, Parameter
 from tribodyn.scenario import units
 from tribodyn.scenario.model_files import DriveTable
 from tribodyn.scenario.quantity import Column
-from tribodyn.scenario.sources import near_name, quoted
 
 _LENGTHS = {"length": units.positive(units.LENGTH), "signed length": units.LENGTH}
 

@@ -4,11 +4,10 @@ import csv
 import re
 import tomllib
 from collections.abc import Iterable
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
-from tribodyn.errors import InputError
+from tribodyn.errors import InputError, near_name, printable, quoted
 
 _PACKAGE = Path(__file__).resolve().parents[1]
 _HEADER = re.compile(r"\s*(?P<name>\w+)\s*\[(?P<unit>[^\]]*)\]\s*$")
@@ -97,38 +96,6 @@ def _not_found(key: str, name: str, what: str, folders: Iterable[Path]) -> Input
     there = ", ".join(known) or "nothing"
     places = " and ".join(map(str, looked))
     return InputError(key, quoted(name), f"no such {what}; looked in {places}", f"{remedy}there is: {there}")
-
-
-def near_name(name: str, known: Iterable[str]) -> str:
-    """Return the known name that looks most like `name`, or ""."""
-    known = list(known)
-    close = get_close_matches(name, known, n=1, cutoff=0.6)
-    close = close or [other for other in known if name and (name in other or other in name)]
-    return close[0] if close else ""
-
-
-def quoted(value: Any) -> str:
-    """Return a value as TOML would write it, on one line and cut where it is long."""
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, str):
-        text = f'"{printable(value)}"'
-    elif isinstance(value, dict):
-        text = "{" + ", ".join(f"{printable(key)} = {quoted(item)}" for key, item in value.items()) + "}"
-    elif isinstance(value, (list, tuple)):
-        text = "[" + ", ".join(map(quoted, value)) + "]"
-    else:
-        text = str(value)
-    most = 240 if isinstance(value, str) else 80  # a path of a file is told whole
-    return text if len(text) <= most else text[: most - 3] + "..."
-
-
-def printable(text: str) -> str:
-    """Return text with line ends and other invisible characters escaped, so that it stays on one line."""
-    return "".join(
-        character if character.isprintable() else character.encode("unicode_escape").decode()
-        for character in text
-    )
 
 
 def read_text(path: Path) -> str:

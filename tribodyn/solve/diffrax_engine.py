@@ -19,7 +19,6 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from tribodyn.cache_folder import cache_folder
 from tribodyn.dynamics.equations import derivatives, engagement
 from tribodyn.dynamics.parameters import (
     DRIVE_SPEED,
@@ -31,16 +30,9 @@ from tribodyn.dynamics.parameters import (
     Model,
     Options,
 )
+from tribodyn.numerics.cache import cache_folder
 from tribodyn.solve.dormand_prince import FIRST_STEP, LEAST_STEP
-from tribodyn.solve.engine import (
-    DONE,
-    NOT_FINITE,
-    STALLED,
-    STEP_TOO_SMALL,
-    TOO_MANY_STEPS,
-    Block,
-    Tolerances,
-)
+from tribodyn.solve.engine import DONE, NOT_FINITE, STALLED, STEP_TOO_SMALL, TOO_MANY_STEPS, Block, Tolerances
 from tribodyn.solve.reversal import SHARES, filled_up, stops_of_many
 from tribodyn.tribology.contact import logarithms
 

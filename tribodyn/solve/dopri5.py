@@ -8,7 +8,7 @@ import numpy as np
 from tribodyn.dynamics.contact_forces import QUANTITIES
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.parameters import STATES, Model
-from tribodyn.native import kernel
+from tribodyn.kernels.native import kernel
 from tribodyn.solve.dormand_prince import (
     STAGES,
     C,

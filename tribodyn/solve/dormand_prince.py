@@ -7,7 +7,7 @@ Written as laws, so that the kernel for one case and the one for many cases side
 import numpy as np
 
 from tribodyn.dynamics.parameters import MECHANICAL, STATES
-from tribodyn.elementary import absolute, law, maximum, minimum
+from tribodyn.numerics.elementary import absolute, law, maximum, minimum
 
 A = np.array(
     [

@@ -17,7 +17,7 @@ from tribodyn.dynamics.parameters import (
     Model,
 )
 from tribodyn.errors import SimulationError
-from tribodyn.mesh_cycle import CHANNELS
+from tribodyn.mesh.cycle import CHANNELS
 
 
 def accelerations(states: np.ndarray, phase: Any, segment: Any, model: Model) -> np.ndarray:

@@ -26,7 +26,7 @@ from tribodyn.dynamics.parameters import (
     Y_G,
     Y_P,
 )
-from tribodyn.native import kernel
+from tribodyn.kernels.native import kernel
 from tribodyn.solve.dopri5 import rhs
 
 #: Difference over the scale of a state: rounding then costs 1e-8 of a derivative, and the curvature of the

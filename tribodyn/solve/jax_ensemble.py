@@ -15,7 +15,6 @@ import jax.numpy as jnp
 import numpy as np
 
 from tribodyn.dynamics.parameters import Model, Options
-from tribodyn.lanes.packing import by_kind
 from tribodyn.solve.diffrax_engine import (
     Carried,
     How,
@@ -28,6 +27,7 @@ from tribodyn.solve.diffrax_engine import (
 )
 from tribodyn.solve.engine import DONE, March
 from tribodyn.solve.ensemble import Ensemble, nothing_yet
+from tribodyn.solve.lane_packing import by_kind
 from tribodyn.solve.transient import tolerances_of_many
 
 #: Cases that are integrated side by side: a batch is done in parts of exactly so many, the last one filled up

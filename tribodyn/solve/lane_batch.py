@@ -7,10 +7,10 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.dynamics.parameters import STATES, Model
-from tribodyn.lanes.packing import Packed, by_kind, lane_model, pack
-from tribodyn.lanes.vectors import WIDTH
+from tribodyn.kernels.lanes.vectors import WIDTH
 from tribodyn.solve.engine import March
 from tribodyn.solve.lane_march import march_lanes
+from tribodyn.solve.lane_packing import Packed, by_kind, lane_model, pack
 from tribodyn.solve.lane_queue import Queue, make_block
 from tribodyn.solve.reversal import stops_of_many
 from tribodyn.solve.transient import tolerances_of_many

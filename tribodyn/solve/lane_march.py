@@ -9,12 +9,11 @@ import numpy as np
 
 from tribodyn.dynamics.equations import derivatives, engagement
 from tribodyn.dynamics.parameters import SLIP, STATES, WORK_IN, WORK_PARAMETRIC, XI_RATE
-from tribodyn.elementary import maximum, where
-from tribodyn.lanes import functions  # noqa: F401  (its import gives the laws their functions over lanes)
-from tribodyn.lanes.arrays import rows_of
-from tribodyn.lanes.vectors import WIDTH, any_of
-from tribodyn.native import kernel
-from tribodyn.native.compiler import part
+from tribodyn.kernels.lanes.arrays import rows_of
+from tribodyn.kernels.lanes.vectors import WIDTH, any_of
+from tribodyn.kernels.native import kernel
+from tribodyn.kernels.native.compiler import part
+from tribodyn.numerics.elementary import maximum, where
 from tribodyn.solve.dormand_prince import (
     LEAST_REMEMBERED,
     LEAST_STEP,

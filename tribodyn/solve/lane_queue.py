@@ -6,13 +6,13 @@ import numpy as np
 
 from tribodyn.dynamics.contact_forces import QUANTITIES
 from tribodyn.dynamics.parameters import STATES
-from tribodyn.elementary import where
-from tribodyn.lanes.arrays import rows_of
-from tribodyn.lanes.packing import Packed
-from tribodyn.lanes.vectors import WIDTH, count
-from tribodyn.native.compiler import part
+from tribodyn.kernels.lanes.arrays import rows_of
+from tribodyn.kernels.lanes.vectors import WIDTH, count
+from tribodyn.kernels.native.compiler import part
+from tribodyn.numerics.elementary import where
 from tribodyn.solve.dormand_prince import FIRST_STEP, LEAST_REMEMBERED, STAGES
 from tribodyn.solve.engine import DONE
+from tribodyn.solve.lane_packing import Packed
 
 # Rows of what the integrator knows of every lane.
 PHASE = 0  # mesh cycles, 0 … 1

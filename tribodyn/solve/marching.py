@@ -16,7 +16,7 @@ import numpy as np
 
 from tribodyn.dynamics.equations import engagement
 from tribodyn.dynamics.parameters import SLIP, STATES, WORK_IN, WORK_PARAMETRIC, XI_RATE
-from tribodyn.native import kernel
+from tribodyn.kernels.native import kernel
 from tribodyn.solve.dormand_prince import LEAST_REMEMBERED, LEAST_STEP, TOUCHING, weighed_error
 from tribodyn.solve.engine import DONE, NOT_FINITE, STALLED, STEP_TOO_SMALL, TOO_MANY_STEPS
 

@@ -12,7 +12,7 @@ from itertools import pairwise
 import numpy as np
 
 from tribodyn.dynamics.parameters import Model
-from tribodyn.mesh_cycle import CHANNELS
+from tribodyn.mesh.cycle import CHANNELS
 
 #: Distances from the pitch point, over the width of reversal: its ends; the pitch point, where the friction
 #: coefficient has a kink in the sliding speed; and places beside it, as a fluid of high viscosity reaches its

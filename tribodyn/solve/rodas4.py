@@ -8,22 +8,11 @@ import numpy as np
 
 from tribodyn.dynamics.contact_forces import QUANTITIES
 from tribodyn.dynamics.parameters import MECHANICAL, STATES, Model
-from tribodyn.native import kernel
+from tribodyn.kernels.native import kernel
 from tribodyn.solve.dopri5 import rhs
 from tribodyn.solve.jacobian import differentiate
 from tribodyn.solve.marching import NEW, OFF, OWN, march_with
-from tribodyn.solve.rosenbrock import (
-    ALPHA,
-    GAMMA,
-    GAMMAS,
-    STAGES,
-    A,
-    C,
-    D,
-    dense_output,
-    growth,
-    shrinkage,
-)
+from tribodyn.solve.rosenbrock import ALPHA, GAMMA, GAMMAS, STAGES, A, C, D, dense_output, growth, shrinkage
 
 #: Coordinates; state HALF + i is the velocity of state i.
 HALF = MECHANICAL // 2

@@ -12,7 +12,7 @@ y_1 = y + Σ m_j U_j with the last stage as the error.
 
 import numpy as np
 
-from tribodyn.elementary import law, maximum, minimum
+from tribodyn.numerics.elementary import law, maximum, minimum
 
 STAGES = 6
 GAMMA = 0.25

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from tribodyn.dynamics.parameters import SLIP, STATES, Model
-from tribodyn.native import laid_out
+from tribodyn.kernels.native import laid_out
 from tribodyn.solve.dopri5 import buffers, rhs
 from tribodyn.solve.engine import DONE, GAVE_UP, NOT_FINITE, STALLED, TOO_MANY_STEPS, Block, Tolerances
 from tribodyn.solve.marching import engage

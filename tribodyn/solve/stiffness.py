@@ -4,14 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics.parameters import (
-    MECHANICAL,
-    SLIDING_DYNAMIC,
-    SLIDING_KINEMATIC,
-    STATES,
-    XI,
-    Model,
-)
+from tribodyn.dynamics.parameters import MECHANICAL, SLIDING_DYNAMIC, SLIDING_KINEMATIC, STATES, XI, Model
 from tribodyn.solve.engine import absolute_tolerances
 from tribodyn.solve.initial import accelerations
 

@@ -6,17 +6,8 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.dynamics.equations import engagement
-from tribodyn.dynamics.parameters import (
-    LAG,
-    SLIP,
-    STATES,
-    WORK_IN,
-    WORK_PARAMETRIC,
-    XI,
-    XI_RATE,
-    Model,
-)
-from tribodyn.native import laid_out
+from tribodyn.dynamics.parameters import LAG, SLIP, STATES, WORK_IN, WORK_PARAMETRIC, XI, XI_RATE, Model
+from tribodyn.kernels.native import laid_out
 from tribodyn.solve.dormand_prince import FIRST_STEP
 from tribodyn.solve.engine import (
     DONE,

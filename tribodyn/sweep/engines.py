@@ -9,7 +9,7 @@ import numpy as np
 
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.solve.stiffness import THROUGH_JAX
-from tribodyn.sweep.evaluate import Chunk, Settings, evaluate
+from tribodyn.studies.gear_pair.batch.evaluate import Chunk, Settings, evaluate
 
 Block = dict[str, np.ndarray]
 JAX, DASK = "jax", "dask"

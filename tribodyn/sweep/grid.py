@@ -8,15 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.case import Case
-from tribodyn.errors import InputError
-from tribodyn.prepare import table_key
-from tribodyn.scenario.kinds import table_of
-from tribodyn.scenario.load import loaded_from
-from tribodyn.scenario.messages import InputErrors
+from tribodyn.errors import InputError, InputErrors
 from tribodyn.scenario.resolve import OVERRIDES, Resolved, resolve
 from tribodyn.scenario.sources import find_scenario, read_toml
 from tribodyn.scenario.vary import VARY, Axis, axes_of
+from tribodyn.studies.gear_pair.case import Case
+from tribodyn.studies.gear_pair.prepare import table_key
+from tribodyn.studies.kinds import table_of
+from tribodyn.studies.load import loaded_from
 
 
 class Grid:

@@ -4,11 +4,11 @@ from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
-from tribodyn.case import Case
 from tribodyn.dynamics.parameters import STATES
 from tribodyn.errors import InputError
 from tribodyn.record.sweep_schema import DONE
-from tribodyn.sweep.evaluate import Chunk
+from tribodyn.studies.gear_pair.batch.evaluate import Chunk
+from tribodyn.studies.gear_pair.case import Case
 from tribodyn.sweep.grid import Grid
 
 #: Bytes of states that the cases of a chunk may fill: what bounds the memory of a sweep.

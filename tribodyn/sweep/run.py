@@ -10,13 +10,13 @@ import tomli_w
 
 from tribodyn.dynamics.modes import mode_count
 from tribodyn.errors import InputError
-from tribodyn.prepare import prepare
 from tribodyn.record.sweep_schema import DIRECTIONS, FAILED, FIGURES, WAITING
 from tribodyn.record.sweep_writer import ParameterScale, SweepHead, SweepWriter
 from tribodyn.record.writer import check_target
 from tribodyn.solve.periodic import refuse_time_dependent
+from tribodyn.studies.gear_pair.batch.evaluate import Settings, tabulated
+from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.sweep.engines import Engine
-from tribodyn.sweep.evaluate import Settings, tabulated
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.plan import chained_steps, chunk_size, single_steps
 

@@ -3,7 +3,7 @@
 import math
 from typing import Any, NamedTuple
 
-from tribodyn.elementary import exp, law, log, maximum, sqrt
+from tribodyn.numerics.elementary import exp, law, log, maximum, sqrt
 
 
 class Contact(NamedTuple):

@@ -1,6 +1,6 @@
 """Friction coefficients by regression over local contact conditions: Xu's EHL formula, Benedict & Kelley."""
 
-from tribodyn.elementary import absolute, exp, law, log, maximum, minimum
+from tribodyn.numerics.elementary import absolute, exp, law, log, maximum, minimum
 
 LN10 = 2.302585092994046
 

@@ -6,7 +6,7 @@ lubrication with provision for surface roughness", J. Tribol. 134 (2012) 011503;
 
 import math
 
-from tribodyn.elementary import exp, law, log1p, maximum, minimum, where
+from tribodyn.numerics.elementary import exp, law, log1p, maximum, minimum, where
 
 #: Ranges over which the regressions were fitted: load W, speed U, material G, roughness σ/ρ, hardness V.
 #: The bounds are given from memory of the literature and have not been checked against the paper; the flag

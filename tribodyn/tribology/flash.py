@@ -2,7 +2,7 @@
 
 import math
 
-from tribodyn.elementary import absolute, law, sqrt
+from tribodyn.numerics.elementary import absolute, law, sqrt
 
 ROOT_PI = math.sqrt(math.pi)
 

@@ -6,7 +6,7 @@ and temperature are known whatever law makes the friction.
 
 import math
 
-from tribodyn.elementary import absolute, exp, expm1, law, log, maximum, minimum, skippable
+from tribodyn.numerics.elementary import absolute, exp, expm1, law, log, maximum, minimum, skippable
 from tribodyn.tribology.contact import hertz_half_width, hertz_pressure, logarithms
 from tribodyn.tribology.empirical import benedict_kelley, xu
 from tribodyn.tribology.film import asperity_load_ratio, central_film_thickness, in_fitted_range

@@ -6,7 +6,7 @@ Evaluated once before a run; the contact then has the coefficient as a Coulomb c
 import math
 from typing import Any, NamedTuple
 
-from tribodyn.elementary import exp, log
+from tribodyn.numerics.elementary import exp, log
 
 
 class MeanConditions(NamedTuple):

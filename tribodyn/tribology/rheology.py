@@ -1,6 +1,6 @@
 """Viscosity and limiting shear stress of the lubricant in the contact."""
 
-from tribodyn.elementary import exp, law, log, maximum, minimum
+from tribodyn.numerics.elementary import exp, law, log, maximum, minimum
 
 #: Above this the exponential overflows; 1 − exp(−η …) has long reached 1.
 GREATEST_EXPONENT = 600.0

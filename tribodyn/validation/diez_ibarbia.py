@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from tribodyn.compliance.load_sharing import PairFlexibility, share_load
-from tribodyn.efficiency.load_contact import load_contact
-from tribodyn.efficiency.loss_factor import tip_contact_ratios
-from tribodyn.efficiency.shift import SCENARIOS, Scenario
-from tribodyn.geometry.involute import FAMILY
+from tribodyn.geometry.families.involute import FAMILY
+from tribodyn.studies.efficiency.load_contact import load_contact
+from tribodyn.studies.efficiency.loss_factor import tip_contact_ratios
+from tribodyn.studies.efficiency.shift import SCENARIOS, Scenario
 from tribodyn.validation.diez_ibarbia_study import (
     CONDITIONS,
     at_load,

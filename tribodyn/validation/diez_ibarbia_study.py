@@ -11,18 +11,18 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tribodyn.case import Case
 from tribodyn.compliance.load_sharing import LEVEL, PairFlexibility, flexibility
-from tribodyn.efficiency.load_contact import LoadContact, load_contact
-from tribodyn.efficiency.loss_factor import exact, hoehn, tip_contact_ratios
-from tribodyn.efficiency.shift import Scenario, shifted
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import Drive
-from tribodyn.geometry.involute import FAMILY
+from tribodyn.geometry.families.involute import FAMILY
 from tribodyn.geometry.path import kinematics
-from tribodyn.scenario.load import load_scenario
-from tribodyn.surfaces import nominal_conditions
+from tribodyn.studies.efficiency.load_contact import LoadContact, load_contact
+from tribodyn.studies.efficiency.loss_factor import exact, hoehn, tip_contact_ratios
+from tribodyn.studies.efficiency.shift import Scenario, shifted
+from tribodyn.studies.gear_pair.case import Case
+from tribodyn.studies.load import load_scenario
 from tribodyn.tribology.mean_friction import niemann
+from tribodyn.tribology.surfaces import nominal_conditions
 
 Array = NDArray[np.float64]
 

@@ -5,11 +5,11 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from tribodyn.case import Case
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.parabolic import greatest_coefficient, published_limits
+from tribodyn.geometry.families import family
+from tribodyn.geometry.families.parabolic import greatest_coefficient, published_limits
 from tribodyn.geometry.path import kinematics
-from tribodyn.scenario.load import family
+from tribodyn.studies.gear_pair.case import Case
 from tribodyn.tribology.contact import hertz_pressure
 from tribodyn.validation.jia_study import (
     CROWNED,

@@ -10,12 +10,13 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from tribodyn.case import Case
 from tribodyn.compliance.load_sharing import PairFlexibility, flexibility
 from tribodyn.compliance.loaded_contact import LoadedContact, roll_through
 from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.families import family
 from tribodyn.geometry.modification import FlankModification, LeadRelief, Misalignment, Modifications
-from tribodyn.scenario.load import family, load_scenario
+from tribodyn.studies.gear_pair.case import Case
+from tribodyn.studies.load import load_scenario
 
 Name = Literal["involute", "parabolic"]
 

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from tribodyn.efficiency.torque_ratio import UnitContact
+from tribodyn.studies.efficiency.torque_ratio import UnitContact
 from tribodyn.tribology.friction import friction
 from tribodyn.validation.veciana_study import (
     EFFECTIVE_MODULUS,

@@ -5,7 +5,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from tribodyn.efficiency.torque_ratio import (
+from tribodyn.studies.efficiency.torque_ratio import (
     TorqueRatio,
     UnitContact,
     cycloid_contact,

@@ -1,1 +1,1 @@
-"""The figures, one subject a file; `tribodyn.post.plots` names them."""
+"""The figures, one subject a file; `tribodyn.studies.pictures` names them."""

@@ -10,8 +10,8 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tribodyn.efficiency.shift import Scenario
 from tribodyn.post.style import INK, PALETTE, QUIET, mark_panel, new_figure
+from tribodyn.studies.efficiency.shift import Scenario
 from tribodyn.validation.diez_ibarbia_study import (
     CONDITIONS,
     Course,

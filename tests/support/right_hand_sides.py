@@ -1,0 +1,83 @@
+"""The right-hand side under every compiler: plain NumPy, numba for one case and for lanes, JAX."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from tests.support.states import random_place, random_state
+from tribodyn.dynamics.contact_forces import QUANTITIES
+from tribodyn.dynamics.equations import derivatives
+from tribodyn.dynamics.parameters import STATES, Model
+from tribodyn.kernels.lanes.arrays import rows_of
+from tribodyn.kernels.lanes.vectors import WIDTH
+from tribodyn.kernels.native import kernel
+from tribodyn.solve.diffrax_engine import right_hand_side
+from tribodyn.solve.dopri5 import rhs
+from tribodyn.solve.lane_packing import lane_model, pack
+
+#: Whole cycles before; the load may depend on time.
+CYCLE = 2.0
+
+
+@kernel
+def _lanes(phase, segment, y, model, work, dy):
+    derivatives(rows_of(phase)[0], CYCLE, segment, rows_of(y), model, rows_of(work), rows_of(dy))
+
+
+def assert_right_hand_sides_agree(models: list[Model], rng: np.random.Generator, rtol: float) -> None:
+    """Every compiler's derivatives at random states of every model; small ones within 1e-12 of the greatest.
+
+    The models are of one kind and run in the lanes of the same vectors.
+    """
+    pairs = models[0].table.side.shape[0]
+    packed = pack(models)
+    lanes, numbers, addresses = lane_model(packed)
+    work, lane_work = np.zeros((QUANTITIES + pairs, pairs)), np.zeros((QUANTITIES + pairs, pairs, WIDTH))
+    options = models[0].options
+    fields = [name for name in Model._fields if name != "options"]
+    traced = jax.jit(
+        lambda phase, y, segment, numbers: right_hand_side(
+            phase, y, (CYCLE, segment, Model(**numbers, options=options))
+        )
+    )
+    for segment in range(len(models[0].table.boundary) - 1):
+        for start in range(0, 2 * len(models), WIDTH):
+            cases = [(start + lane) % len(models) for lane in range(WIDTH)]
+            numbers[:], addresses[:] = packed.numbers[cases].T, packed.addresses[cases].T
+            phases, rates = np.empty((1, WIDTH)), np.empty((STATES, WIDTH))
+            states = np.stack([random_state(rng) for _ in range(WIDTH)], axis=1)
+            for lane, case in enumerate(cases):
+                boundary = models[case].table.boundary[segment : segment + 2]
+                phases[0, lane] = random_place(rng, boundary)[0]
+            _lanes(phases, segment, states, lanes, lane_work, rates)
+            for lane, case in enumerate(cases):
+                model, y, phase = models[case], states[:, lane].copy(), float(phases[0, lane])
+                plain: dict = {}
+                derivatives(phase, CYCLE, segment, y, model, {}, plain)
+                expected = np.array([plain[i] for i in range(STATES)])
+                native = np.empty(STATES)
+                rhs(phase, CYCLE, segment, y, model, work, native)
+                arrays = jax.tree.map(jnp.asarray, {name: getattr(model, name) for name in fields})
+                found = {
+                    "native": native,
+                    "lanes": rates[:, lane],
+                    "jax": traced(phase, y, segment, arrays),
+                }
+                scale = 1e-12 * np.abs(expected).max()
+                for name, values in found.items():
+                    np.testing.assert_allclose(values, expected, rtol=rtol, atol=scale, err_msg=name)
+
+
+def at_several_conditions(model: Model, count: int = WIDTH) -> list[Model]:
+    """The model at other speeds, loads and dampings, so that no two lanes are alike."""
+    share = 1.0 + 0.4 * np.arange(count) / count
+    return [
+        model._replace(
+            mechanics=model.mechanics._replace(
+                nominal_speed=model.mechanics.nominal_speed * s,
+                load_torque=model.mechanics.load_torque * s,
+                mesh_damping=model.mechanics.mesh_damping / s,
+            )
+        )
+        for s in share.tolist()
+    ]

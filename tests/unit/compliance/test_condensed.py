@@ -1,0 +1,121 @@
+"""Faces in slices condensed to one spring and gap a pair: exact at the operating load, tangent beside it."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from tribodyn.compliance.flank_gap import flank_gap
+from tribodyn.compliance.load_sharing import flexibility, share_load
+from tribodyn.compliance.slices import face_positions
+from tribodyn.errors import InputError
+from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.corner_contact import pair_geometry, roll_limits
+from tribodyn.geometry.families import family
+from tribodyn.geometry.modification import FlankModification, LeadRelief, Misalignment, Modifications, Relief
+from tribodyn.mesh.quasi_static import quasi_static
+from tribodyn.mesh.tabulate_loaded import tabulate_loaded
+from tribodyn.studies.load import load_scenario
+
+TIP = FlankModification(tip=Relief(12e-6, 3e-3))
+CASES = {
+    "tips": (Modifications(TIP, TIP), 1),
+    "tilt": (Modifications(misalignment=Misalignment(5e-4)), 11),
+    "lift": (Modifications(misalignment=Misalignment(1.5e-3)), 11),
+    "all": (
+        Modifications(TIP._replace(lead=LeadRelief(5e-6, 8e-6, 3e-3)), TIP, Misalignment(-4e-4, 2e-4)),
+        11,
+    ),
+}
+
+
+@pytest.fixture(scope="module")
+def case():
+    return load_scenario("involute-18-36-fem")
+
+
+def table(case, modified, slices, **changes):
+    mesh = dataclasses.replace(case.mesh, modifications=modified, slices=slices, points=33, **changes)
+    torque = case.operating.gear_torque
+    back = mesh.backlash is not None
+    return tabulate_loaded(family(case.family), case.drive, case.materials, mesh, torque, back)
+
+
+def model(case, cycle, modified, slices, torque, coupled=True):
+    """Loads and deflection of the load contact model at the nodes of the table."""
+    flexible = flexibility(assemble(family(case.family), case.drive), case.materials, lead=slices > 1)
+    pairs = cycle.front_pairs
+    position = cycle.phase[..., None] + np.arange(pairs - 1.0, -1.0, -1.0)
+    roll = np.clip(cycle.roll_start + cycle.pitch_angle * position, cycle.roll_start, cycle.roll_end)
+    roll = roll.reshape(-1, pairs)
+    face = face_positions(flexible.width, slices)
+    gap = flank_gap(flexible.assembly, modified, pair_geometry(flexible.assembly, roll), face)
+    return share_load(flexible, roll, torque, 0.0, gap, slices, coupled)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_quasi_static_mesh_is_the_load_contact_model(case, name):
+    modified, slices = CASES[name]
+    cycle = table(case, modified, slices)
+    torque = case.operating.gear_torque
+    shared = model(case, cycle, modified, slices, torque)
+    still = quasi_static(cycle, torque)
+    loads = still.normal_load.reshape(shared.normal_load.shape)
+    np.testing.assert_allclose(loads, shared.normal_load, atol=2e-3 * shared.normal_load.max())
+    error = np.abs(still.deflection.ravel() - shared.deflection)
+    assert np.max(error) < 3e-3 * np.ptp(shared.deflection)
+    # At a little more load the mesh deflects more as the model does, but for 3 % of the local part's secant,
+    # and the slice that the edge of the contact is in, where the face touches in part.
+    more = model(case, cycle, modified, slices, 1.05 * torque).deflection - shared.deflection
+    found = quasi_static(cycle, 1.05 * torque).deflection.ravel() - still.deflection.ravel()
+    assert np.mean(found) == pytest.approx(np.mean(more), rel=0.1 if name == "lift" else 0.04)
+
+
+def test_a_lifted_face_is_refused_by_its_own_key(case):
+    with pytest.raises(InputError, match="lifts the flanks") as refused:
+        table(case, Modifications(misalignment=Misalignment(8e-3)), 11)
+    assert refused.value.key == "mesh.misalignment.in_plane"
+
+
+def test_coupling_is_symmetric_and_everything_finite(case):
+    cycle = table(case, *CASES["all"])
+    np.testing.assert_allclose(cycle.coupling, np.swapaxes(cycle.coupling, -1, -2), atol=1e-22)
+    assert np.all(cycle.compliance > 0)
+    assert all(np.all(np.isfinite(np.asarray(field))) for field in cycle)
+
+
+def test_slices_of_straight_flanks_change_nothing_but_that_their_ends_are_free(case):
+    plain, sliced, apart = (
+        table(case, Modifications(), slices, slice_coupling=coupled)
+        for slices, coupled in ((1, True), (7, True), (7, False))
+    )
+    for name in ("compliance", "gap", "coupling"):
+        one, other = getattr(plain, name), getattr(apart, name)
+        np.testing.assert_allclose(other, one, rtol=1e-7, atol=1e-7 * np.abs(one).max())
+    softer = sliced.compliance / plain.compliance
+    print(softer.min(), softer.max())
+    assert np.all(softer > 1.0)
+    assert np.all(softer < 1.04)
+
+
+def test_relief_begins_on_the_boundary_of_a_segment(case):
+    cycle = table(case, *CASES["tips"])
+    assembly = assemble(family(case.family), case.drive)
+    start, end = roll_limits(assembly)
+    reach = float(assembly.path.rotation(assembly.r_start + 3e-3)) - start
+    for roll in (start + reach, float(assembly.path.rotation(assembly.r_end - 3e-3))):
+        phase = (roll - cycle.roll_start) / cycle.pitch_angle % 1.0
+        assert np.min(np.abs(cycle.boundary - phase)) < 1e-9
+    assert end > start
+
+
+def test_back_flanks_are_left_as_they_are(case):
+    cycle = table(case, *CASES["all"], backlash=5e-5)
+    behind = cycle.side < 0
+    assert cycle.gap[..., behind].min() == pytest.approx(5e-5, abs=1e-9)
+
+
+def test_errors_of_single_teeth_are_refused_in_the_dynamics(case):
+    one = FlankModification(pitch_error=(1e-6,) * 18)
+    with pytest.raises(InputError, match="pitch_errors"):
+        table(case, Modifications(pinion=one), 1)

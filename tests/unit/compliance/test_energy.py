@@ -1,0 +1,152 @@
+"""Energy method: closed forms of the beam and of the contact, similarity, symmetry, ISO 6336."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from tribodyn.compliance.energy import (
+    _POINTS,
+    beam_compliance,
+    hertz_coefficient,
+    hertz_linear,
+    loaded_tooth,
+    neighbour_coupling,
+    section_integrals,
+    tooth_compliance,
+)
+from tribodyn.compliance.iso6336 import single_pair_stiffness
+from tribodyn.geometry.drive import SIDES, Drive, GearBody
+from tribodyn.geometry.families import crc, involute
+from tribodyn.geometry.material import MaterialData
+from tribodyn.geometry.tooth import contact_in_tooth_frame, tooth_outline
+
+STEEL = MaterialData("steel", 207e9, 0.3, 7850.0, 46.0, 470.0, 6e9)
+
+
+def body(teeth, bore, width=0.0267):
+    return GearBody(float(teeth), 0.0, 1.0, 1.25, 0.25, width, bore)
+
+
+def drive(pressure_angle=20.0, pinion=None, gear=None):
+    pinion, gear = pinion or body(18, 0.012), gear or body(36, 0.025)
+    return Drive(0.003, math.radians(pressure_angle), pinion, gear)
+
+
+def loaded(family, pair, side):
+    return loaded_tooth(family, pair, side, family.working_path(pair))
+
+
+def pair_compliance(family, pair, material, r, width=0.0267):
+    parts = [tooth_compliance(loaded(family, pair, s), material, width, np.asarray(r)) for s in SIDES]
+    return parts[0].total + parts[1].total + hertz_linear(material, material, width)
+
+
+class TestBeam:
+    def test_prism_is_the_timoshenko_cantilever(self):
+        length, half, lever, angle, nu = 5e-3, 2e-3, 4e-3, 0.3, 0.3
+        x = 0.02 + length * (1 + _POINTS) / 2
+        totals = section_integrals(x, np.full_like(x, half), 0.02).sum(axis=0)
+        bending, shear, axial = beam_compliance(totals, lever, angle, nu)
+        inertia, area = (2 * half) ** 3 / 12, 2 * half
+        moment_squared = (lever**3 - (lever - length) ** 3) / 3  # ∫ (u − s)² ds
+        assert bending == pytest.approx(math.cos(angle) ** 2 * moment_squared / inertia, rel=1e-12)
+        assert shear == pytest.approx(1.2 * 2 * (1 + nu) * math.cos(angle) ** 2 * length / area, rel=1e-12)
+        assert axial == pytest.approx(math.sin(angle) ** 2 * length / area, rel=1e-12)
+
+    def test_load_across_the_end_of_a_prism(self):
+        length, half = 5e-3, 2e-3
+        x = length * (1 + _POINTS) / 2
+        bending, *_ = beam_compliance(section_integrals(x, half + 0 * x, 0.0).sum(axis=0), length, 0.0, 0.3)
+        assert bending == pytest.approx(length**3 / (3 * (2 * half) ** 3 / 12), rel=1e-12)
+
+    @pytest.mark.parametrize("tip", [0.3, 0.1])
+    def test_wedge_up_to_a_thin_tip(self, tip):
+        # y falls linearly from 1 to `tip`; ∫ dx/y³ = (1/tip² − 1)/(2 slope)
+        x = (1 + _POINTS) / 2
+        slope = 1 - tip
+        totals = section_integrals(x, 1 - slope * x, 0.0).sum(axis=0)
+        assert totals[0] == pytest.approx(1.5 * (1 / tip**2 - 1) / (2 * slope), rel=1e-7)
+        assert totals[3] == pytest.approx(-0.5 * math.log(tip) / slope, rel=1e-9)
+
+    @pytest.mark.parametrize("family", [involute.FAMILY, crc.FAMILY])
+    def test_outline_integrated_point_by_point(self, family):
+        pair = drive(22.81, body(23, 0.015), body(47, 0.025))
+        tooth = loaded(family, pair, "pinion")
+        r = np.array([-3e-3, 0.0, 4e-3])
+        result = tooth_compliance(tooth, STEEL, 0.02, r)
+        outline = tooth_outline(tooth.tooth, 4000, 4000)
+        x, y = np.r_[outline.fillet_x, outline.flank_x[1:]], np.r_[outline.fillet_y, outline.flank_y[1:]]
+        contact = contact_in_tooth_frame(tooth.path, tooth.pitch_half_angle, r)
+        for i in range(3):
+            below = x < contact.x[i]
+            s, half = np.r_[x[below], contact.x[i]], np.r_[y[below], contact.y[i]]
+            angle = contact.load_angle[i]
+            moment = math.cos(angle) * (contact.x[i] - s) - math.sin(angle) * contact.y[i]
+            bending = np.trapezoid(moment**2 / (2 * half**3 / 3), s) / (207e9 * 0.02)
+            shear = np.trapezoid(1.2 * math.cos(angle) ** 2 / (2 * half), s) * 2.6 / (207e9 * 0.02)
+            assert result.bending[i] == pytest.approx(bending, rel=1e-6)
+            assert result.shear[i] == pytest.approx(shear, rel=1e-6)
+
+
+class TestPair:
+    def test_similar_gears_have_the_same_compliance(self):
+        r = np.array([-2e-3, 0.0, 3e-3])
+        small = drive()
+        large = small._replace(
+            module=2 * small.module,
+            pinion=small.pinion._replace(bore_radius=0.024),
+            gear=small.gear._replace(bore_radius=0.05),
+        )
+        expected = pair_compliance(involute.FAMILY, small, STEEL, r)
+        np.testing.assert_allclose(
+            pair_compliance(involute.FAMILY, large, STEEL, 2 * r), expected, rtol=1e-10
+        )
+
+    @pytest.mark.parametrize("family", [involute.FAMILY, crc.FAMILY])
+    def test_equal_gears_are_symmetric(self, family):
+        pair = drive(22.0, body(30, 0.015), body(30, 0.015))
+        r = np.linspace(-4e-3, 4e-3, 9)
+        pinion = tooth_compliance(loaded(family, pair, "pinion"), STEEL, 0.02, r)
+        gear = tooth_compliance(loaded(family, pair, "gear"), STEEL, 0.02, -r)
+        for ours, other in zip(pinion, gear, strict=True):
+            np.testing.assert_allclose(ours, other, rtol=1e-8)
+        later, earlier = (neighbour_coupling(loaded(family, pair, s), STEEL, 1) for s in SIDES)
+        np.testing.assert_allclose(later, earlier.T, rtol=1e-8)
+
+    def test_softer_material(self):
+        r = np.zeros(1)
+        soft = replace(STEEL, youngs_modulus=207e9 / 3)
+        assert pair_compliance(involute.FAMILY, drive(), soft, r) == pytest.approx(
+            3 * pair_compliance(involute.FAMILY, drive(), STEEL, r), rel=1e-12
+        )
+
+    @pytest.mark.parametrize("family", [involute.FAMILY, crc.FAMILY])
+    @pytest.mark.parametrize(("pinion", "gear"), [(23, 47), (30, 60), (50, 50)])
+    def test_steel_pairs_are_as_stiff_as_steel_pairs_are(self, family, pinion, gear):
+        pair = drive(22.0, body(pinion, 0.3e-3 * 3 * pinion), body(gear, 0.3e-3 * 3 * gear))
+        stiffness = 1 / (pair_compliance(family, pair, STEEL, np.zeros(1)) * 0.0267)
+        assert 13e9 < stiffness[0] < 19e9
+
+
+class TestHertz:
+    def test_linear(self):
+        expected = 4 * (1 - 0.3**2) / (math.pi * 207e9 * 0.0267)
+        assert hertz_linear(STEEL, STEEL, 0.0267) == pytest.approx(expected, rel=1e-14)
+
+    def test_rigid_partner_leaves_half(self):
+        rigid = replace(STEEL, youngs_modulus=1e30)
+        assert hertz_linear(STEEL, rigid, 0.02) == pytest.approx(hertz_linear(STEEL, STEEL, 0.02) / 2)
+
+    def test_load_dependent_does_not_know_units(self):
+        # the same formula in N and mm
+        in_millimetres = 1.275 / (207e3**0.9 * 26.7**0.8) * 1e-3
+        assert hertz_coefficient(STEEL, STEEL, 0.0267) == pytest.approx(in_millimetres, rel=1e-12)
+
+
+def test_iso_6336_stiffness_of_the_18_36_pair():
+    # figures of the comparison in docs/mesh-stiffness.md, N/(mm µm)
+    theoretical, single_pair = single_pair_stiffness(18.0, 36.0)
+    assert theoretical / 1e9 == pytest.approx(15.9, abs=0.05)
+    assert single_pair / 1e9 == pytest.approx(12.7, abs=0.05)

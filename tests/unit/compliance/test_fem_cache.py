@@ -1,0 +1,140 @@
+"""The cache of finite-element compliances: same result, damaged files, concurrent runs, no folder."""
+
+import multiprocessing
+
+import numpy as np
+import pytest
+
+from tribodyn.compliance.fem_cache import cached_gear_compliance
+from tribodyn.compliance.gear_compliance import FreeEnds, GearCompliance, LeadHarmonics
+from tribodyn.compliance.lead_harmonics import wave_numbers
+from tribodyn.geometry.drive import Drive, GearBody
+from tribodyn.geometry.families.involute import FAMILY
+from tribodyn.geometry.tooth import cut_tooth
+from tribodyn.numerics.cache import cache_folder
+
+BODY = GearBody(12, 0.3, 1.0, 1.25, 0.25, 0.02, 8e-3)
+DRIVE = Drive(3e-3, np.radians(20.0), BODY, BODY)
+
+
+def solve(poisson_ratio: float = 0.3, bore: float = 8e-3, width: float | None = None) -> GearCompliance:
+    tooth = cut_tooth(FAMILY, DRIVE, "pinion")
+    return cached_gear_compliance(tooth, 12, bore, poisson_ratio, 0.75e-3, 1, width)
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.setenv("TRIBODYN_CACHE", str(tmp_path))
+    assert cache_folder() / "fem" == tmp_path / "fem"
+    return tmp_path / "fem"
+
+
+def same(one: GearCompliance, other: GearCompliance) -> bool:
+    both = [[*gear[:-2], *(gear.lead or ()), *(gear.ends or ())] for gear in (one, other)]
+    return all(np.array_equal(a, b) for a, b in zip(*both, strict=True))
+
+
+def test_second_look_up_reads_the_file(folder, monkeypatch):
+    first = solve()
+    assert [file.suffix for file in folder.iterdir()] == [".npz"]
+    monkeypatch.setattr("tribodyn.compliance.fem.gear_compliance", None)  # must not be needed again
+    assert same(first, solve())
+
+
+def test_other_material_or_body_is_another_file(folder):
+    solve()
+    solve(poisson_ratio=0.25)
+    solve(bore=9e-3)
+    assert len(list(folder.iterdir())) == 3
+
+
+@pytest.mark.parametrize("damage", [b"", b"PK\x03\x04 cut off", "half"])
+def test_damaged_file_is_made_anew(folder, damage):
+    first = solve()
+    (file,) = folder.iterdir()
+    whole = file.read_bytes()
+    file.write_bytes(whole[: len(whole) // 2] if damage == "half" else damage)
+    assert same(first, solve())
+    assert len(file.read_bytes()) == len(whole)
+
+
+def test_file_with_wrong_content_is_made_anew(folder):
+    first = solve()
+    (file,) = folder.iterdir()
+    np.savez(file, radius=np.ones(3), inside=np.ones((2, 4)), between=np.ones((5, 3, 3)), depth=1.0)
+    assert same(first, solve())
+    with np.load(file) as stored:
+        assert len(stored["radius"]) == len(first.radius)
+
+
+def test_folder_that_cannot_be_written_only_costs_time(tmp_path, monkeypatch):
+    blocked = tmp_path / "file"
+    blocked.write_text("not a folder")
+    monkeypatch.setenv("TRIBODYN_CACHE", str(blocked))
+    assert len(solve().radius) == 11
+
+
+def test_runs_at_the_same_time_agree(folder):
+    context = multiprocessing.get_context("spawn")
+    with context.Pool(2) as pool:
+        found = pool.starmap(solve, [(0.3,), (0.3,)])
+    assert same(*found)
+    assert len(list(folder.iterdir())) == 1
+
+
+def any_ends(waves: int, width: float = 1.0) -> FreeEnds:
+    """Any numbers of the right shape, for they take no time."""
+    both = waves, waves
+    sizes = [(waves,), (11,), (2, *both, 11), (2, *both, 5, 11, 11), (2, *both, 5, 2, 12, 11)]
+    return FreeEnds(*(np.full(size, width) for size in sizes))
+
+
+def test_loads_that_vary_are_solved_only_where_asked_for_and_kept_apart(folder, monkeypatch):
+    ends = "tribodyn.compliance.free_ends.free_ends"
+    monkeypatch.setattr(ends, lambda *given: any_ends(len(given[-2]), given[-1]))
+    plane = solve()
+    assert plane.lead is None
+    first = solve(width=0.02)
+    assert same(plane, first._replace(lead=None, ends=None))
+    assert {"ends", "lead"} < {file.name.partition("-")[0] for file in folder.iterdir()}
+    monkeypatch.setattr("tribodyn.compliance.fem.gear_compliance", None)
+    monkeypatch.setattr("tribodyn.compliance.fem.lead_harmonics", None)
+    wider = solve(width=0.03)  # needs the ends alone
+    assert not same(first, wider)
+    assert len(list(folder.iterdir())) == 4
+    monkeypatch.setattr(ends, None)
+    assert same(first, solve(width=0.02))
+    assert same(wider, solve(width=0.03))
+    assert same(plane, solve())
+
+
+@pytest.mark.parametrize("name", ["lead", "ends"])
+@pytest.mark.parametrize("change", ["missing", "shape", "nan", "type", "cut"])
+def test_damaged_file_of_loads_that_vary_is_made_anew(folder, monkeypatch, name, change):
+    tooth = cut_tooth(FAMILY, DRIVE, "pinion")
+    waves = wave_numbers(3e-3, tooth.root_radius)
+    # any numbers of the right shape, for they take no time
+    numbers = [(2, 11), (5, 11, 11), (2, 12), (5, 2, 12, 11)]
+    shapes = [np.ones(shape if shape == (2, 12) else (len(waves), *shape)) for shape in numbers]
+    monkeypatch.setattr("tribodyn.compliance.fem.lead_harmonics", lambda *_: LeadHarmonics(waves, *shapes))
+    ends = any_ends(len(waves))
+    monkeypatch.setattr("tribodyn.compliance.free_ends.free_ends", lambda *_: ends)
+    first = solve(width=0.02)
+    file = next(folder.glob(f"{name}-*"))
+    whole = file.read_bytes()
+    with np.load(file) as stored:
+        parts = dict(stored)
+    if change == "missing":
+        del parts["root_stress"]
+    elif change == "shape":
+        field = "inside" if name == "lead" else "own"
+        parts[field] = parts[field][:, :1]
+    elif change == "nan":
+        parts["between"][0, 0, 0, 0] = np.nan
+    elif change == "type":
+        parts["root_stress"] = parts["root_stress"].astype("U8")
+    np.savez(file, **parts)
+    if change == "cut":
+        file.write_bytes(whole[: len(whole) // 2])
+    assert same(first, solve(width=0.02))
+    assert file.read_bytes() == whole

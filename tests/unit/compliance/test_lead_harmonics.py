@@ -1,0 +1,177 @@
+"""Loads that vary along the teeth: half-space, depth, interpolation, the whole ring, the limits of k."""
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+from scipy.sparse.linalg import spsolve
+
+from tests.unit.compliance.test_fem import BODY, POISSON, TOOTH, whole_ring
+from tribodyn.compliance.fem import gear_compliance, lead_harmonics
+from tribodyn.compliance.gear_compliance import NEIGHBOURS, GearCompliance
+from tribodyn.compliance.gear_model import gear_model
+from tribodyn.compliance.lead_harmonics import (
+    LARGEST,
+    at_wave_numbers,
+    half_space,
+    half_space_surface,
+    own_at_solved,
+    wave_numbers,
+)
+from tribodyn.compliance.local import freed_of_depth, weber_banaschek
+from tribodyn.compliance.root_stress import stress_rows
+from tribodyn.compliance.strips import strip_stiffness
+from tribodyn.geometry.material import MaterialData
+
+MODULE, DEPTH = 3e-3, 0.75e-3
+
+
+def solved(waves, depth=DEPTH, level=1) -> GearCompliance:
+    arguments = TOOTH, 12, BODY.bore_radius, POISSON, depth, level
+    return gear_compliance(*arguments)._replace(lead=lead_harmonics(*arguments, np.asarray(waves)))
+
+
+@pytest.fixture(scope="module")
+def gear():
+    return solved(wave_numbers(MODULE, TOOTH.root_radius))
+
+
+@pytest.mark.parametrize("reach", [0.05, 0.5, 2.0])
+def test_half_space_is_boussinesq_s_point_load_along_a_line(reach):
+    # u_z(r, z) = (1 + ν)/(2 π E) [z²/R³ + 2 (1 − ν)/R] (K. L. Johnson, Contact Mechanics, (3.19d))
+    depth = 2.0
+    k = reach / depth
+
+    def point(s, power):
+        return (depth**2 + s**2) ** (-power / 2)
+
+    near, far = (2 * quad(point, 0, np.inf, args=(power,), weight="cos", wvar=k)[0] for power in (3, 1))
+    expected = (1 + POISSON) / (2 * np.pi) * (depth**2 * near + 2 * (1 - POISSON) * far)
+    assert half_space(depth, np.array([k]), POISSON)[0] == pytest.approx(expected, rel=1e-6)
+
+
+def test_surface_of_the_half_space_is_its_displacement_close_to_the_load():
+    k, depth = np.array([3.0]), 1e-4
+    inside, surface = half_space(depth, k, POISSON), half_space_surface(k, depth, POISSON)
+    np.testing.assert_allclose(inside, surface, rtol=1e-6)
+
+
+def test_surface_with_weber_banaschek_does_not_know_the_depth():
+    # B(k; h) + u(h) is the approach under Hertz's pressure; only the contact's width over h is neglected
+    steel = MaterialData("unit", 1.0, POISSON, 7850.0, 45.0, 460.0, 6.5e9)
+    k, half_width = np.array([200.0]), 1e-5
+    total = [
+        half_space_surface(k, depth, POISSON)[0] + weber_banaschek(1.0, half_width, depth, steel)
+        for depth in (0.5e-3, 1e-3, 2e-3)
+    ]
+    np.testing.assert_allclose(total, total[0], rtol=1e-4)
+
+
+def test_without_waves_it_is_the_plane_ring(gear):
+    np.testing.assert_allclose(gear.lead.inside[0], gear.inside, rtol=1e-9)
+    np.testing.assert_allclose(gear.lead.between[0], gear.between, rtol=1e-9, atol=1e-10)
+    plane = at_wave_numbers(gear, np.array([0.0]), POISSON)
+    np.testing.assert_allclose(plane.own[0], freed_of_depth(gear.inside, POISSON), rtol=1e-9)
+    np.testing.assert_allclose(plane.between[0], gear.between, rtol=1e-9, atol=1e-10)
+    np.testing.assert_allclose(plane.root_stress[0], gear.lead.root_stress[0], rtol=1e-9, atol=1e-7)
+
+
+def test_response_is_even_and_smooth_in_the_wave_number():
+    small = np.array([0.0, 1.0, 2.0])
+    own = own_at_solved(solved(small), POISSON)
+    np.testing.assert_allclose((own[2] - own[0]) / (own[1] - own[0]), 4.0, rtol=2e-3)
+
+
+def test_interpolation_is_within_a_fifth_of_a_per_cent(gear):
+    grid = gear.lead.wave_number
+    middle = (grid[1:-1:2] + grid[2::2]) / 2
+    direct = solved([0.0, *middle])
+    found = at_wave_numbers(gear, middle, POISSON)
+    # what gives way altogether: the body and the contact, about 1.4/E at ordinary loads
+    local = 1.4
+    own = own_at_solved(direct, POISSON)[1:]
+    assert np.max(np.abs(found.own - own) / (own + local)) < 2e-3
+    for part in ("between", "root_stress"):
+        exact = getattr(direct.lead, part)
+        near = exact[:, :, ..., 2:-1] if part == "root_stress" else exact[:, [0, 1, 3, 4]]
+        guess = getattr(found, part)
+        guess = guess[..., 2:-1] if part == "root_stress" else guess[:, [0, 1, 3, 4]]
+        assert np.max(np.abs(guess - near[1:])) < 2e-3 * np.max(np.abs(near[0])), part
+
+
+def test_short_waves_see_a_half_space(gear):
+    # in the middle of the flank, away from root and tip; beyond what is solved exactly so
+    at = slice(3, 8)
+    k = np.array([3.0, LARGEST, 4 * LARGEST]) / MODULE
+    found = at_wave_numbers(gear, k, POISSON)
+    surface = half_space_surface(k, DEPTH, POISSON)
+    excess = np.abs(found.own[:, at] - surface[:, None])
+    assert np.all(excess[0] < 0.25)
+    assert np.all(excess[1] < 0.02)
+    np.testing.assert_allclose(excess[2], excess[1], atol=1e-12)
+    assert not np.any(found.between[2])
+    assert not np.any(found.root_stress[2])
+    joint = at_wave_numbers(gear, k[1] * np.array([1 - 1e-9, 1 + 1e-9]), POISSON)
+    np.testing.assert_allclose(joint.own[0], joint.own[1], atol=1e-6)
+
+
+def test_shorter_waves_give_way_less_and_reach_the_neighbours_less(gear):
+    found = at_wave_numbers(gear, np.linspace(0, 3, 31) / MODULE, POISSON)
+    assert np.all(np.diff(found.own, axis=0) < 0)
+    middle = len(gear.radius) // 2
+    next_tooth = found.between[:, NEIGHBOURS + 1, middle, middle] / found.own[:, middle]
+    assert np.all(np.diff(next_tooth) < 1e-4)
+    assert next_tooth[0] > 0.1
+    assert next_tooth[-1] < 1e-3
+
+
+def test_compliance_does_not_depend_on_the_depth_of_the_local_region():
+    k, width, total = np.array([0.0, 0.5, 1.5]) / MODULE, 0.03, []
+    for depth in (0.2, 0.25, 1 / 3):
+        arguments = TOOTH, 12, BODY.bore_radius, POISSON, depth * MODULE, 2
+        gear = GearCompliance(
+            np.empty(0), np.empty(0), np.empty(0), depth * MODULE, lead_harmonics(*arguments, k)
+        )
+        # with the contact's own deflection, of a half width of 0.03 modules
+        local = 2 * (1 - POISSON**2) / np.pi * np.log(depth / width)
+        total.append(own_at_solved(gear, POISSON)[:, 4:17] + local)
+    assert np.max(np.abs(np.array(total) / total[1] - 1)) < 3e-3
+
+
+def test_one_sector_is_the_whole_ring_for_waves_too():
+    k = 0.4 / MODULE
+    lead = lead_harmonics(TOOTH, 12, BODY.bore_radius, POISSON, DEPTH, 1, np.array([k]))
+    basis, mesh = whole_ring(1)
+    flank, root = mesh.nodes[:, mesh.flank], mesh.nodes[:, mesh.root]
+    middle = len(mesh.flank) // 2
+    place = basis.doflocs
+
+    def nodes(points):
+        return np.array([np.argmin(np.hypot(*(place - point[:, None]))) for point in points.T])
+
+    model = gear_model(TOOTH, 12, BODY.bore_radius, DEPTH, 1)
+    inward = model.loads[:, middle].reshape(-1, 2)
+    inward = inward[np.any(inward != 0, axis=1)][0]
+    constant, linear, square = strip_stiffness(basis, POISSON)
+    matrix = (constant + k * linear + k**2 * square).tocsc()
+    free = np.flatnonzero(np.repeat(np.hypot(*place) > BODY.bore_radius * (1 + 1e-9), 3))
+    load = np.zeros(3 * basis.N)
+    load[3 * nodes(flank[:, [middle]])[0] + np.arange(2)] = inward
+    found = np.zeros(3 * basis.N)
+    found[free] = spsolve(matrix[free][:, free], load[free])
+    for tooth in (-2, 0, 1):
+        c, s = np.cos(tooth * np.pi / 6), np.sin(tooth * np.pi / 6)
+        turn = np.array([[c, -s], [s, c]])
+        node = nodes(turn @ flank[:, [middle]])[0]
+        expected = found[3 * node : 3 * node + 2] @ (turn @ inward)
+        assert lead.between[0, NEIGHBOURS + tooth, middle, middle] == pytest.approx(expected, rel=1e-5)
+        for side, mirror in enumerate(([1.0, 1.0], [1.0, -1.0])):
+            points = turn @ (np.array(mirror)[:, None] * root)
+            rows = stress_rows(points, nodes(points), 3 * basis.N, POISSON, k)
+            stress = lead.root_stress[0, NEIGHBOURS + tooth, side, :, middle]
+            np.testing.assert_allclose(stress, rows @ found, rtol=1e-5, atol=1e-6 * np.max(np.abs(stress)))
+
+
+def test_a_gear_solved_in_the_plane_says_so():
+    plane = gear_compliance(TOOTH, 12, BODY.bore_radius, POISSON, DEPTH, 1)
+    with pytest.raises(ValueError, match="even along the teeth"):
+        at_wave_numbers(plane, np.array([0.0]), POISSON)

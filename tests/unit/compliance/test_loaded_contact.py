@@ -1,0 +1,218 @@
+"""Slow rotation under load: equilibrium, symmetry, convergence, and what relief of the tips is for."""
+
+import numpy as np
+import pytest
+
+from tribodyn.compliance.flank_gap import flank_gap
+from tribodyn.compliance.load_sharing import effective_contact_ratio, extended_rolls, flexibility, share_load
+from tribodyn.compliance.loaded_contact import harris_map, reach, roll_through
+from tribodyn.compliance.slices import face_positions
+from tribodyn.errors import InputError
+from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.corner_contact import pair_geometry, roll_limits
+from tribodyn.geometry.drive import Drive, GearBody
+from tribodyn.geometry.families.involute import FAMILY
+from tribodyn.geometry.material import MaterialData
+from tribodyn.geometry.modification import (
+    UNMODIFIED,
+    FlankModification,
+    LeadRelief,
+    Misalignment,
+    Modifications,
+    Relief,
+)
+
+STEEL = MaterialData("steel", 207e9, 0.3, 7850.0, 45.0, 460.0, 6.5e9)
+WIDTH, ANGLE = 26.7e-3, np.radians(20.0)
+DRIVE = Drive(
+    3e-3,
+    ANGLE,
+    GearBody(18, 0.0, 1.0, 1.25, 0.25, WIDTH, 12e-3),
+    GearBody(36, 0.0, 1.0, 1.25, 0.25, WIDTH, 25e-3),
+)
+TORQUE, PITCH = 318.3, 2 * np.pi / 18
+#: Both tips, linear, over all of the path that two pairs share; as deep as one pair deflects.
+LONG = FlankModification(tip=Relief(12e-6, 5.4e-3))
+TIPS = Modifications(LONG, LONG)
+EVERYTHING = Modifications(
+    LONG._replace(lead=LeadRelief(4e-6, 6e-6, 5e-3)), LONG, Misalignment(in_plane=3e-4, out_of_plane=2e-4)
+)
+
+
+@pytest.fixture(scope="module")
+def pair():
+    return flexibility(assemble(FAMILY, DRIVE), (STEEL, STEEL), lead=True)
+
+
+def test_nothing_modified_is_the_plane_model(pair):
+    found = roll_through(pair, UNMODIFIED, TORQUE, 60)
+    sliced = roll_through(pair, UNMODIFIED, TORQUE, 60, slices=9, coupled=False)
+    plane = share_load(pair, found.roll, TORQUE)
+    np.testing.assert_allclose(found.normal_load, plane.normal_load, rtol=1e-9, atol=1e-6)
+    np.testing.assert_allclose(sliced.normal_load, plane.normal_load, rtol=1e-8, atol=1e-5)
+    np.testing.assert_allclose(sliced.deflection, found.deflection, rtol=1e-9)
+    assert np.all(np.abs(found.unloaded) < 1e-12)
+    np.testing.assert_allclose(np.ptp(sliced.line_load, axis=-1), 0.0, atol=1e-6 * sliced.line_load.max())
+    np.testing.assert_allclose(sliced.root_tension, found.root_tension * np.ones(9), rtol=1e-6, atol=1e3)
+    limits = reach(pair, UNMODIFIED, TORQUE, 1, True)
+    roll = extended_rolls(pair.assembly, limits, 60)
+    expected = effective_contact_ratio(roll, share_load(pair, roll, TORQUE), PITCH)
+    assert found.contact_ratio == pytest.approx(expected, abs=2e-3)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.1])
+def test_torque_balances_with_everything_modified(pair, friction):
+    found = roll_through(pair, EVERYTHING, TORQUE, 30, friction_coefficient=friction, slices=15)
+    motion = pair_geometry(pair.assembly, found.roll).motion
+    lever = motion.gear_normal_arm + np.sign(motion.signed_distance) * friction * motion.gear_friction_arm
+    np.testing.assert_allclose(np.sum(found.normal_load * lever, axis=1), TORQUE, rtol=1e-9)
+    np.testing.assert_allclose(np.mean(found.line_load, axis=-1) * WIDTH, found.normal_load, rtol=1e-12)
+    assert np.all(found.line_load >= 0)
+
+
+@pytest.mark.parametrize("tilt", [4e-4, 5e-3])
+def test_the_other_tilt_is_the_mirror_image(pair, tilt):
+    one, other = (
+        roll_through(pair, Modifications(misalignment=Misalignment(sign * tilt)), TORQUE, 12, slices=21)
+        for sign in (1, -1)
+    )
+    np.testing.assert_allclose(one.line_load, other.line_load[..., ::-1], atol=1e-6 * one.line_load.max())
+    np.testing.assert_allclose(one.deflection, other.deflection, rtol=1e-9)
+    np.testing.assert_allclose(one.root_tension, other.root_tension[..., ::-1], rtol=1e-6, atol=1e3)
+    # the nearer half, z < 0, carries more; at 17' less than half of the face touches
+    assert np.all(np.sum(one.line_load[..., :10], axis=(1, 2)) > np.sum(one.line_load[..., 11:], axis=(1, 2)))
+    if tilt > 1e-3:
+        heaviest = np.argmax(one.normal_load, axis=1)
+        touching = one.line_load[np.arange(12), heaviest] > 0
+        assert np.all(touching.sum(axis=1) < 10)
+
+
+def test_equal_gears_with_equal_tips_and_crowning_share_symmetrically():
+    body = GearBody(24, 0.0, 1.0, 1.25, 0.25, WIDTH, 15e-3)
+    twins = flexibility(assemble(FAMILY, Drive(3e-3, ANGLE, body, body)), (STEEL, STEEL), level=1)
+    flank = FlankModification(tip=Relief(10e-6, 2e-3), lead=LeadRelief(3e-6, 3e-6))
+    pitch = 2 * np.pi / 24
+    roll = extended_rolls(twins.assembly, (-pitch, pitch), 60)
+    gap = flank_gap(
+        twins.assembly,
+        Modifications(flank, flank),
+        pair_geometry(twins.assembly, roll),
+        face_positions(WIDTH, 7),
+    )
+    shared = share_load(twins, roll, 300.0, gap=gap, slices=7, coupled=False)
+    load = shared.slice_load[:, :, 0] / shared.slice_load.max()
+    np.testing.assert_allclose(load, shared.slice_load[:, :, 6] / shared.slice_load.max(), atol=1e-9)
+    order = np.argsort(roll, axis=None)
+    angle, load = roll.ravel()[order], load.ravel()[order]
+    np.testing.assert_allclose(angle, -angle[::-1], atol=1e-9)
+    np.testing.assert_allclose(load, load[::-1], atol=1e-6)
+
+
+def test_loads_converge_with_the_slices(pair):
+    tilted = Modifications(misalignment=Misalignment(5e-4))
+    loads, deflection, stress = [], [], []
+    for slices in (21, 42, 84):
+        found = roll_through(pair, tilted, TORQUE, 3, slices=slices)
+        load = found.line_load[1, np.argmax(found.normal_load[1])]
+        loads.append(load.reshape(21, -1).mean(axis=1) / load.mean())
+        deflection.append(found.deflection[1])
+        stress.append(found.root_tension[0].max())
+    np.testing.assert_allclose(loads[:2], loads[1:], atol=3e-3)
+    np.testing.assert_allclose(deflection[:2], deflection[1:], rtol=2e-4)
+    # the greatest is that of the last slice, at the end of the face
+    assert abs(stress[1] - stress[2]) < 0.5 * abs(stress[0] - stress[1]) < 5e-3 * stress[2]
+
+
+def test_free_ends_give_way_more_and_leave_their_load_to_the_places_next_to_them(pair):
+    """Plane strain in the middle of the face; the very ends are softer, what is next to them carries more."""
+    plane = roll_through(pair, UNMODIFIED, TORQUE, 12)
+    free = roll_through(pair, UNMODIFIED, TORQUE, 12, slices=42)
+    softer = free.deflection / plane.deflection
+    assert np.all(softer > 1.01)
+    assert np.all(softer < 1.04)
+    np.testing.assert_allclose(free.normal_load, plane.normal_load, atol=0.01 * plane.normal_load.max())
+    single = np.argmax(np.max(free.normal_load, axis=1))
+    load = free.line_load[single, np.argmax(free.normal_load[single])]
+    load = load / load.mean()
+    np.testing.assert_allclose(load, load[::-1], rtol=1e-6)
+    assert load[0] < 1.0
+    assert 1.02 < np.max(load) < 1.07
+    assert np.argmax(load[:21]) in (1, 2, 3)
+    np.testing.assert_allclose(load[6:36], 1.0, atol=0.012)
+
+
+def test_slices_that_hold_each_other_even_out_less(pair):
+    tilted = Modifications(misalignment=Misalignment(5e-4))
+    held, free = (
+        roll_through(pair, tilted, TORQUE, 6, slices=21, coupled=coupled) for coupled in (True, False)
+    )
+    assert np.nanmin(held.face_load_factor / free.face_load_factor) > 1.05
+
+
+def test_misalignment_costs_stiffness_and_strains_the_roots_of_one_end(pair):
+    straight = roll_through(pair, UNMODIFIED, TORQUE, 12)
+    tilted = roll_through(pair, Modifications(misalignment=Misalignment(5e-4)), TORQUE, 12, slices=21)
+    assert np.all(tilted.mesh_stiffness < straight.mesh_stiffness * 1.001)
+    assert tilted.root_tension.max() > 1.2 * straight.root_tension.max()
+    # at the end of the face that is loaded more, and more even than the load, which the tooth spreads
+    worst = np.unravel_index(np.argmax(tilted.root_tension[0]), tilted.root_tension[0].shape)
+    assert worst[2] < 5
+    at = tilted.root_tension[0][worst[:2]]
+    load = tilted.line_load[worst[:2]]
+    assert 1.0 < at.max() / at.mean() < load.max() / load.mean()
+
+
+def test_pitch_errors_are_the_unloaded_error_of_their_teeth(pair):
+    errors = np.zeros(18)
+    errors[1] = 6e-6
+    found = roll_through(
+        pair, Modifications(pinion=FlankModification(pitch_error=tuple(errors))), 1.0, 40, cycles=3
+    )
+    # tooth 1 enters at phase 1: it leaves the error where no other tooth is on the path, from ε − 1 on
+    ratio = pair.assembly.contact_ratio
+    alone = (found.phase > 1 + ratio - 1 + 0.08) & (found.phase < 2 - 0.08)
+    np.testing.assert_allclose(found.unloaded[alone] * np.cos(ANGLE), 6e-6, rtol=1e-9)
+    before = found.phase < 1 - 0.08
+    np.testing.assert_allclose(found.unloaded[before], 0.0, atol=1e-12)
+    assert np.ptp(found.deflection) * np.cos(ANGLE) == pytest.approx(6e-6, rel=0.05)
+
+
+def test_relief_of_the_tips_is_best_near_its_design_torque(pair):
+    """Harris' map: long linear relief as deep as a pair deflects leaves the least error at that torque."""
+    torques = [80.0, 160.0, TORQUE, 500.0, 640.0]
+    plain = harris_map(pair, UNMODIFIED, torques, 40).peak_to_peak
+    relieved = harris_map(pair, TIPS, torques, 40).peak_to_peak
+    assert np.all(np.diff(plain) > 0)
+    assert np.argmin(relieved) == 2
+    assert relieved[2] < 0.25 * plain[2]
+    assert relieved[0] > 3 * relieved[2]
+    assert relieved[4] > 3 * relieved[2]
+
+
+def test_relief_keeps_corners_from_touching(pair):
+    deep = LONG._replace(tip=Relief(20e-6, 5.4e-3))
+    plain, relieved = (
+        roll_through(pair, modified, TORQUE, 120) for modified in (UNMODIFIED, Modifications(deep, deep))
+    )
+    start, end = roll_limits(pair.assembly)
+    outside = (plain.roll < start - 1e-6) | (plain.roll > end + 1e-6)
+    assert np.any(plain.normal_load[outside] > 0)
+    # deeper than what a pair deflects, 12.6 µm on the pitch circles
+    outside = (relieved.roll < start - 1e-6) | (relieved.roll > end + 1e-6)
+    assert not np.any(relieved.normal_load[outside])
+    assert relieved.contact_ratio < pair.assembly.contact_ratio < plain.contact_ratio
+
+
+@pytest.mark.parametrize(
+    ("modified", "torque", "slices", "message"),
+    [
+        (Modifications(misalignment=Misalignment(1e-3)), TORQUE, 2, r"mesh\.slices = 2"),
+        (Modifications(misalignment=Misalignment(1e-3)), TORQUE, 500, "give at most"),
+        (Modifications(misalignment=Misalignment(2e-2)), TORQUE, 9, "carry the heaviest pair"),
+        (UNMODIFIED, 0.0, 1, "gear_torque"),
+        (Modifications(FlankModification(tip=Relief(1e-3, 1e-3))), TORQUE, 1, "tip_relief"),
+    ],
+)
+def test_what_cannot_be_is_refused(pair, modified, torque, slices, message):
+    with pytest.raises(InputError, match=message):
+        roll_through(pair, modified, torque, 6, slices=slices)

@@ -1,0 +1,180 @@
+"""Root stress: its recovery at a curved boundary, its convergence, beam theory, and ISO 6336-3."""
+
+import numpy as np
+import pytest
+from scipy.sparse.linalg import spsolve
+
+from tribodyn.compliance.fem import lead_harmonics
+from tribodyn.compliance.ring_mesh import half_sector_mesh
+from tribodyn.compliance.root_stress import edge_points, stress_rows
+from tribodyn.compliance.strips import COMPONENTS, curved_basis, plane_stiffness, strip_stiffness
+from tribodyn.geometry.drive import Drive, GearBody
+from tribodyn.geometry.families.involute import FAMILY
+from tribodyn.geometry.tooth import cut_tooth
+
+POISSON, MODULE, ANGLE = 0.3, 3e-3, np.radians(20.0)
+
+
+def nine_node_cells(rows, columns):
+    """Cells of a grid of nodes in order of rows."""
+    number = np.arange((2 * rows + 1) * (2 * columns + 1)).reshape(2 * rows + 1, -1)
+    ring = [(0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1), (1, 1)]
+    return np.stack([number[i : 2 * rows - 1 + i : 2, j : 2 * columns - 1 + j : 2].ravel() for i, j in ring])
+
+
+def quarter_plate_with_a_hole(around, outwards):
+    """Nodes and cells of 1 < r < 3; first the nodes on the hole, from the x to the y axis."""
+    angle = np.linspace(0, np.pi / 2, 2 * around + 1)
+    radius = 3.0 ** np.linspace(0, 1, 2 * outwards + 1)
+    r, a = np.meshgrid(radius, angle, indexing="ij")
+    return np.stack([(r * np.cos(a)).ravel(), (r * np.sin(a)).ravel()]), nine_node_cells(outwards, around)
+
+
+def kirsch(x, y):
+    """Displacement about a hole of radius 1 in an infinite plate under unit tension along x, plane strain.
+
+    S. Timoshenko, J. N. Goodier, Theory of Elasticity, § 35: 3 at the hole's sides, -1 at its ends.
+    """
+    r, a = np.hypot(x, y), np.arctan2(y, x)
+    shear, kappa = 0.5 / (1 + POISSON), 3 - 4 * POISSON
+    radial = (kappa - 1) * r / 2 + 1 / r + np.cos(2 * a) * (r + (kappa + 1) / r - 1 / r**3)
+    around = -np.sin(2 * a) * (r + (kappa - 1) / r + 1 / r**3)
+    radial, around = radial / (4 * shear), around / (4 * shear)
+    return radial * np.cos(a) - around * np.sin(a), radial * np.sin(a) + around * np.cos(a)
+
+
+def hole_stress(around, outwards):
+    nodes, cells = quarter_plate_with_a_hole(around, outwards)
+    basis = curved_basis(nodes, cells)
+    place = basis.doflocs
+    exact = np.stack(kirsch(*place), axis=-1).ravel()
+    held = [np.repeat(np.hypot(*place) > 3 - 1e-9, 2)]
+    held += [np.stack([place[0] < 1e-9, place[1] < 1e-9], axis=-1).ravel()]
+    fixed = np.any(held, axis=0)
+    stiffness = plane_stiffness(basis, POISSON).tocsc()
+    found = np.where(fixed, exact, 0.0)
+    found[~fixed] = spsolve(stiffness[~fixed][:, ~fixed], -stiffness[~fixed][:, fixed] @ exact[fixed])
+    rim = nodes[:, : 2 * around + 1]
+    chain = np.array([np.argmin(np.hypot(*(place - point[:, None]))) for point in rim.T])
+    rows = stress_rows(rim, chain, COMPONENTS * basis.N, POISSON, 0.0)
+    in_space = np.pad(found.reshape(-1, 2), ((0, 0), (0, 1))).ravel()
+    return np.arctan2(*edge_points(rim)[::-1]), rows @ in_space
+
+
+def test_stress_at_a_hole_converges_with_the_third_power():
+    # G. Kirsch (1898): σ = 1 - 2 cos 2a along the hole
+    errors = []
+    for cells in (3, 6, 12):
+        angle, stress = hole_stress(2 * cells, 2 * cells)
+        errors.append(np.max(np.abs(stress - (1 - 2 * np.cos(2 * angle)))))
+    rates = np.log2(np.array(errors[:-1]) / errors[1:])
+    assert np.all(rates > 2.7), (errors, rates)
+    assert errors[-1] < 3e-3
+
+
+def gear(teeth, shift=0.0, fillet=0.25, bore=0.6):
+    body = GearBody(teeth, shift, 1.0, 1.25, fillet, 0.02, bore * teeth * MODULE / 2)
+    return cut_tooth(FAMILY, Drive(MODULE, ANGLE, body, body), "pinion"), body
+
+
+def solved(teeth, level, waves=(0.0,), **options):
+    tooth, body = gear(teeth, **options)
+    return lead_harmonics(tooth, teeth, body.bore_radius, POISSON, 0.25 * MODULE, level, np.array(waves))
+
+
+def greatest(stress):
+    """Greatest of a stress along the root, with a parabola through the largest three."""
+    at = int(np.argmax(stress))
+    before, most, after = stress[at - 1 : at + 2]
+    return most + (after - before) ** 2 / (8 * (2 * most - before - after))
+
+
+def test_greatest_root_stress_converges():
+    # with the loads at the same places: every position of level 1 is one of the finer meshes'
+    found = []
+    for level in (1, 2, 3):
+        own = solved(18, level, (0.0, 0.3 / MODULE)).root_stress[:, 2, :, :, 4 * level :: level]
+        both = np.concatenate([own[:, 0], -own[:, 1]], axis=2)
+        found.append([[greatest(stress) for stress in wave.T] for wave in both])
+    coarse, used, fine = np.array(found)
+    assert np.max(np.abs(used / fine - 1)) < 5e-3
+    assert np.mean(np.abs(coarse / fine - 1)) > 2.5 * np.mean(np.abs(used / fine - 1))
+
+
+def test_wedge_with_a_force_at_its_end():
+    # J. H. Michell (Timoshenko & Goodier, § 38): σ_r = F sin a/(r (A - sin 2A/2)) in a wedge of half angle A
+    half, rows, columns = np.radians(12.0), 4, 40
+    r, a = np.meshgrid(
+        8.0 ** np.linspace(0, 1, 2 * columns + 1), np.linspace(-half, half, 2 * rows + 1), indexing="ij"
+    )
+    nodes = np.stack([(r * np.cos(a)).ravel(), (r * np.sin(a)).ravel()])
+    basis = curved_basis(nodes, nine_node_cells(columns, rows))
+    place = basis.doflocs
+    radius, angle = np.hypot(*place), np.arctan2(place[1], place[0])
+    stiffness = strip_stiffness(basis, POISSON)[0].tocsc()
+    free = np.flatnonzero(np.repeat(radius < 8 - 1e-9, COMPONENTS))
+    end = np.flatnonzero(radius < 1 + 1e-9)
+    end = end[np.argsort(angle[end])]
+    # Simpson's rule makes nodal forces of the traction -σ_r on the small end
+    share = np.zeros(len(end))
+    for start in range(0, len(end) - 2, 2):
+        share[start : start + 3] += np.array([1, 4, 1]) / 6 * (angle[end[start + 2]] - angle[end[start]])
+    size = np.sin(angle[end]) / (half - np.sin(2 * half) / 2) * share
+    load = np.zeros((basis.N, COMPONENTS))
+    load[end, 0], load[end, 1] = -size * np.cos(angle[end]), -size * np.sin(angle[end])
+    found = np.zeros(basis.N * COMPONENTS)
+    found[free] = spsolve(stiffness[free][:, free], load.ravel()[free])
+    edge = np.flatnonzero(np.abs(angle - half) < 1e-9)
+    edge = edge[np.argsort(radius[edge])]
+    rows_of = stress_rows(place[:, edge], edge, basis.N * COMPONENTS, POISSON, 0.0)
+    at = np.hypot(*edge_points(place[:, edge]))
+    away = (at > 2) & (at < 5)  # from the small end and from the clamp
+    expected = np.sin(half) / (at * (half - np.sin(2 * half) / 2))
+    np.testing.assert_allclose((rows_of @ found)[away], expected[away], rtol=5e-3)
+
+
+def nominal_iso(teeth, shift, fillet, load_radius):
+    """σ_F0 m b/F_n = Y_F Y_S cos α of ISO 6336-3:2006, method B, for a load at a radius of the flank."""
+    depth, rounding = 1.25, fillet
+    offset = np.pi / 4 - depth * np.tan(ANGLE) - (1 - np.sin(ANGLE)) * rounding / np.cos(ANGLE)
+    g = rounding - depth + shift
+    h = 2 / teeth * (np.pi / 2 - offset) - np.pi / 3
+    theta = np.pi / 6
+    for _ in range(50):
+        theta = 2 * g / teeth * np.tan(theta) - h
+    chord = teeth * np.sin(np.pi / 3 - theta) + np.sqrt(3) * (g / np.cos(theta) - rounding)
+    radius = rounding + 2 * g**2 / (np.cos(theta) * (teeth * np.cos(theta) ** 2 - 2 * g))
+    diameter = 2 * load_radius / MODULE
+    alpha = np.arccos(teeth * np.cos(ANGLE) / diameter)
+    involute = np.tan(ANGLE) - ANGLE - np.tan(alpha) + alpha
+    gamma = (np.pi / 2 + 2 * shift * np.tan(ANGLE)) / teeth + involute
+    load_angle = alpha - gamma
+    arm = (np.cos(gamma) - np.sin(gamma) * np.tan(load_angle)) * diameter
+    arm = 0.5 * (arm - teeth * np.cos(np.pi / 3 - theta) - g / np.cos(theta) + rounding)
+    form = 6 * arm * np.cos(load_angle) / (chord**2 * np.cos(ANGLE))
+    slenderness, notch = chord / arm, chord / (2 * radius)
+    return form * (1.2 + 0.13 * slenderness) * notch ** (1 / (1.21 + 2.3 / slenderness)) * np.cos(ANGLE)
+
+
+@pytest.mark.parametrize(
+    ("teeth", "shift", "fillet"), [(18, 0.0, 0.25), (36, 0.0, 0.25), (25, 0.3, 0.38), (60, 0.0, 0.38)]
+)
+def test_tension_is_that_of_iso_6336_within_its_usual_scatter(teeth, shift, fillet):
+    tooth, body = gear(teeth, shift=shift, fillet=fillet)
+    lead = solved(teeth, 2, shift=shift, fillet=fillet)
+    mesh = half_sector_mesh(tooth, teeth, body.bore_radius, 2)
+    ratios = []
+    for at in (10, 14, 18):
+        radius = np.hypot(*mesh.nodes[:, mesh.flank[at]])
+        tension = greatest(lead.root_stress[0, 2, 0, :, at]) * MODULE
+        ratios.append(tension / nominal_iso(teeth, shift, fillet, radius))
+    assert np.all(np.abs(np.array(ratios) - 1) < 0.15)
+
+
+def test_loaded_side_is_pulled_and_the_other_pressed():
+    lead = solved(30, 1)
+    own = lead.root_stress[0, 2, :, :, 4:]
+    assert np.all(np.max(own[0], axis=0) > 0)
+    assert np.all(np.min(own[1], axis=0) < 0)
+    # the thrust adds to the bending where it presses
+    assert np.all(-np.min(own[1], axis=0) > np.max(own[0], axis=0))

@@ -1,0 +1,178 @@
+"""Slices of the face: closed forms of springs, Hertz's elliptical contact, and the algebra of the modes."""
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq, nnls
+from scipy.special import ellipe, ellipk
+
+from tribodyn.compliance.active_set import press
+from tribodyn.compliance.lead_harmonics import half_space_surface
+from tribodyn.compliance.load_sharing import flexibility, half_width, press_pairs
+from tribodyn.compliance.slices import by_slices, face_positions, modes, pair_harmonics
+from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.corner_contact import pair_geometry
+from tribodyn.geometry.drive import Drive, GearBody
+from tribodyn.geometry.families.involute import FAMILY
+from tribodyn.geometry.material import MaterialData
+
+STEEL = MaterialData("steel", 207e9, 0.3, 7850.0, 45.0, 460.0, 6.5e9)
+WIDTH = 26.7e-3
+DRIVE = Drive(
+    3e-3,
+    np.radians(20.0),
+    GearBody(18, 0.0, 1.0, 1.25, 0.25, WIDTH, 12e-3),
+    GearBody(36, 0.0, 1.0, 1.25, 0.25, WIDTH, 25e-3),
+)
+SPRING = 2e-9  # m/N of the whole face
+
+
+@pytest.fixture(scope="module")
+def pair():
+    return flexibility(assemble(FAMILY, DRIVE), (STEEL, STEEL), lead=True)
+
+
+def springs(gap, force):
+    """Press independent linear springs, equal ones, against a gap (slice,) with a force."""
+    slices = len(gap)
+    ones = np.ones((1, slices))
+
+    def local(_, load):
+        return 0.0 * load, 0.0 * load
+
+    matrix = slices * SPRING * np.eye(slices)[None]
+    return press(matrix, local, ones, ones, gap[None], np.array([force]))
+
+
+@pytest.mark.parametrize("slices", [21, 84])
+def test_a_tilted_face_on_springs_carries_a_triangle(slices):
+    """δ = √(2 F c γ b), touching ℓ = δ/γ < b, from F = ∫ (δ − γ z) dz/(c b)."""
+    tilt, force = 2e-3, 1000.0
+    deflection = np.sqrt(2 * force * SPRING * WIDTH * tilt)
+    position = face_positions(WIDTH, slices) + WIDTH / 2
+    found = springs(tilt * position, force)
+    line_load = found.load[0] * slices / WIDTH
+    expected = np.maximum(deflection - tilt * position, 0.0) / (SPRING * WIDTH)
+    assert deflection / tilt < WIDTH / 2  # more than half of the face lifts
+    assert found.deflection[0] == pytest.approx(deflection, rel=1.0 / slices**2)
+    np.testing.assert_allclose(line_load, expected, atol=expected.max() * 3 / slices**2)
+    assert np.sum(found.load) == pytest.approx(force, rel=1e-12)
+
+
+@pytest.mark.parametrize("slices", [15, 31, 61, 124])
+def test_a_crowned_face_on_springs_carries_a_parabola(slices):
+    """Gap C (2z/b)²: half length h = (b/2) √(δ/C) and F = (4/3) δ h/(c b).
+
+    The midpoint rule leaves (w/h)²/8 of the parabola's integral and at most 3/8 (w/h)² of its two ends, which
+    fall inside slices of the width w; δ goes like F^(2/3).
+    """
+    crown, force = 20e-6, 800.0
+    deflection = (1.5 * force * SPRING * np.sqrt(crown)) ** (2 / 3)
+    assert deflection < crown
+    found = springs(crown * (2 * face_positions(WIDTH, slices) / WIDTH) ** 2, force)
+    fineness = 2 / slices * np.sqrt(crown / deflection)
+    assert abs(found.deflection[0] / deflection - 1) < fineness**2 / 3
+
+
+def test_loads_are_those_of_least_energy(rng):
+    """At the ξ found, min ½ fᵀΛf − fᵀ(ξ a − g) over f ≥ 0, by Lawson and Hanson's algorithm."""
+    places, positions = 12, 40
+    root = rng.normal(size=(positions, places, places))
+    matrix = root @ root.swapaxes(1, 2) + 0.5 * np.eye(places)
+    gap = rng.uniform(0.0, 20.0, (positions, places))
+    arm, lever = rng.uniform(0.8, 1.0, (2, positions, places))
+    torque = np.full(positions, 3.0)
+
+    def local(_, load):
+        return 0.0 * load, 0.0 * load
+
+    found = press(matrix, local, arm, lever, gap, torque)
+    np.testing.assert_allclose(np.sum(found.load * lever, axis=1), torque, rtol=1e-10)
+    assert np.mean(found.load > 0) < 0.9
+    for one in range(positions):
+        factor = np.linalg.cholesky(matrix[one])
+        pressed = found.deflection[one] * arm[one] - gap[one]
+        expected, _ = nnls(factor.T, np.linalg.solve(factor, pressed))
+        np.testing.assert_allclose(found.load[one], expected, atol=1e-8)
+
+
+def test_stiffness_is_the_derivative_of_the_torque(rng):
+    root = rng.normal(size=(1, 6, 6))
+    matrix = root @ root.swapaxes(1, 2) + 0.5 * np.eye(6)
+    gap, ones = rng.uniform(0.0, 2.0, (1, 6)), np.ones((1, 6))
+
+    def local(_, load):
+        return load**1.5, 1.5 * np.sqrt(load)
+
+    low, middle, high = (press(matrix, local, ones, ones, gap, np.array([t])) for t in (2.999, 3.0, 3.001))
+    assert middle.stiffness[0] == pytest.approx(0.002 / (high.deflection - low.deflection)[0], rel=1e-5)
+
+
+@pytest.mark.parametrize("slices", [1, 5, 12])
+@pytest.mark.parametrize("count", [1, 12])
+def test_modes_are_orthogonal(slices, count):
+    basis = modes(min(count, slices), slices)
+    np.testing.assert_allclose(basis @ basis.T, slices * np.eye(slices), atol=1e-12)
+
+
+def test_a_uniform_load_between_planes_of_symmetry_is_plane_strain(pair):
+    geometry = pair_geometry(pair.assembly, np.array([[0.1, -0.2]]))
+    plane = pair_harmonics(pair, geometry)[0]
+    for coupled in (True, False):
+        matrix = by_slices(pair_harmonics(pair, geometry, 7, coupled), 7)
+        np.testing.assert_allclose(matrix.sum(axis=4) / 7, plane[:, :, None, :] * np.ones((7, 1)), rtol=1e-9)
+        np.testing.assert_allclose(matrix, matrix.transpose(0, 3, 4, 1, 2), rtol=1e-9, atol=1e-20)
+
+
+def test_slices_hold_each_other_the_less_the_further_apart(pair):
+    geometry = pair_geometry(pair.assembly, np.zeros((1, 1)))
+    matrix = by_slices(pair_harmonics(pair, geometry, 21), 21)[0, 0, :, 0]
+    row = matrix[0]
+    assert np.all(np.diff(row) < 0)
+    assert row[1] > 0.2 * row[0]
+    alone = by_slices(pair_harmonics(pair, geometry, 21, coupled=False), 21)[0, 0, :, 0]
+    assert np.count_nonzero(alone) == 21
+
+
+def elliptical_contact(radius, lead_radius, force):
+    """Half length and width, m, and greatest pressure, Pa, of Hertz's contact (Johnson 1985, section 4.2)."""
+    modulus = 207e9 / (2 * (1 - 0.3**2))
+
+    def ratio(k):
+        integral = ellipk(1 - k**2), ellipe(1 - k**2)
+        return (integral[1] / k**2 - integral[0]) / (integral[0] - integral[1]) - lead_radius / radius
+
+    k = brentq(ratio, 1e-4, 1 - 1e-9)
+    first, second = ellipk(1 - k**2), ellipe(1 - k**2)
+    half_length = (1.5 * force / (np.pi * modulus) * (first - second) / (1 - k**2) * 2 * lead_radius) ** (
+        1 / 3
+    )
+    return half_length, k * half_length, 1.5 * force / (np.pi * k * half_length**2)
+
+
+@pytest.mark.parametrize(
+    ("lead_radius", "force", "slices"), [(2.0, 1000.0, 41), (2.0, 1000.0, 61), (1.0, 500.0, 61)]
+)
+def test_a_crowned_half_space_carries_hertzs_ellipse(pair, lead_radius, force, slices):
+    """Weber-Banaschek's deflection of each slice and the half-space's harmonics are Hertz's slender ellipse.
+
+    The contact is four to ten contact lengths away from its mirror images at the end faces.
+    """
+    radius = 6e-3
+    half_length, width, pressure = elliptical_contact(radius, lead_radius, force)
+    assert half_length < WIDTH / 6
+    wave_number = np.pi * np.arange(1, slices) / WIDTH
+    varying = 2 * half_space_surface(wave_number, pair.gears[0].depth, 0.3) / 207e9
+    # the uniform part is a matter of where the half-space is held
+    harmonics = np.concatenate([[1e-11], varying]).reshape(-1, 1, 1, 1) / WIDTH
+    position = face_positions(WIDTH, slices)
+    one = np.ones((1, 1))
+    gap = (position**2 / (2 * lead_radius)).reshape(1, 1, -1)
+    matrix = by_slices(harmonics, slices)
+    found = press_pairs(pair, one / radius, matrix, one, one, gap, np.array([force]))
+    line_load = found.slice_load[0, 0] * slices / WIDTH
+    expected = 0.75 * force / half_length * np.maximum(1 - (position / half_length) ** 2, 0.0)
+    whole = np.abs(position) < half_length - WIDTH / slices  # the end of the contact falls inside a slice
+    np.testing.assert_allclose(line_load[whole], expected[whole], atol=3e-3 * expected.max())
+    half = float(half_width(pair, np.array(1 / radius), line_load.max()))
+    assert half == pytest.approx(width, rel=3e-3)
+    assert 2 * line_load.max() / (np.pi * half) == pytest.approx(pressure, rel=3e-3)

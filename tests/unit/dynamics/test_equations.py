@@ -1,0 +1,319 @@
+import numpy as np
+import pytest
+
+from tests.support.states import random_place, random_state
+from tribodyn.dynamics import contact_forces as contact
+from tribodyn.dynamics.equations import (
+    derivatives,
+    engagement,
+    load_torque,
+    locate,
+    stored_energy,
+    strain_energy,
+)
+from tribodyn.dynamics.parameters import (
+    CLASSICAL,
+    DRIVE_SHAFT,
+    DRIVE_SPEED,
+    DRIVE_TORQUE,
+    ENERGY_CONSISTENT,
+    MECHANICAL,
+    MOTOR_SLIP,
+    SLIDING_DYNAMIC,
+    SLIP,
+    STATES,
+    TWIST,
+    VX_G,
+    VX_P,
+    VY_G,
+    VY_P,
+    WORK_IN,
+    X_G,
+    X_P,
+    XI,
+    XI_RATE,
+    Y_G,
+    Y_P,
+)
+
+OVERRIDES = [
+    {},
+    {"friction.sliding": "dynamic"},
+    {"mesh.hertz": "load-dependent"},
+    {"friction.law": "coulomb", "friction.coefficient": 0.08},
+    {"mesh.backlash": "12 um"},
+]
+
+
+@pytest.fixture(params=OVERRIDES, ids=["default", "dynamic", "hertz", "coulomb", "backlash"])
+def model(request, prepared):
+    return prepared("crc-23-47", **request.param).model
+
+
+def evaluate(model, y, phase, segment):
+    work, rates = {}, {}
+    powers = derivatives(phase, 3.0, segment, y, model, work, rates)
+    return work, np.array([rates[i] for i in range(STATES)]), powers
+
+
+def seconds_per_cycle(model, y):
+    return model.table.pitch_angle / (model.mechanics.nominal_speed + y[SLIP])
+
+
+def test_pair_forces_cancel_between_the_bodies(model, rng):
+    m = model.mechanics
+    for _ in range(50):
+        y = random_state(rng)
+        work, dy, _ = evaluate(model, y, *random_place(rng, model.table.boundary))
+        rate = seconds_per_cycle(model, y)
+        for axis, (vp, vg, p, g) in enumerate([(VX_P, VX_G, X_P, X_G), (VY_P, VY_G, Y_P, Y_G)]):
+            kp, kg, cp, cg = (
+                (m.pinion_stiffness_x, m.gear_stiffness_x, m.pinion_damping_x, m.gear_damping_x),
+                (m.pinion_stiffness_y, m.gear_stiffness_y, m.pinion_damping_y, m.gear_damping_y),
+            )[axis]
+            on_pinion = m.pinion_mass * dy[vp] / rate + kp * y[p] + cp * y[vp]
+            on_gear = m.gear_mass * dy[vg] / rate + kg * y[g] + cg * y[vg]
+            loads = sum(work[contact.NORMAL_LOAD, i] for i in range(model.table.side.shape[0]))
+            assert on_pinion + on_gear == pytest.approx(
+                0.0, abs=1e-9 * (loads + abs(kp * y[p]) + abs(kg * y[g]))
+            )
+
+
+def test_contacts_give_the_bodies_the_power_they_lose(model, rng):
+    """Virtual power: forces and moments times velocities = −F_n (δ' without ∂δ/∂φ φ') − F_f v_rel."""
+    t, m = model.table, model.mechanics
+    for _ in range(50):
+        y = random_state(rng)
+        phase, segment = random_place(rng, t.boundary)
+        work, dy, powers = evaluate(model, y, phase, segment)
+        rate = seconds_per_cycle(model, y)
+        speed = m.nominal_speed + y[SLIP]
+        gear_speed = (t.pinion_pitch_radius * speed - y[XI_RATE]) / t.gear_pitch_radius
+        fx = m.pinion_mass * dy[VX_P] / rate + m.pinion_stiffness_x * y[X_P] + m.pinion_damping_x * y[VX_P]
+        fy = m.pinion_mass * dy[VY_P] / rate + m.pinion_stiffness_y * y[Y_P] + m.pinion_damping_y * y[VY_P]
+        load = load_torque(0.0, t.pinion_pitch_radius / t.gear_pitch_radius * y[SLIP], m)
+        gear_moment = -m.gear_inertia * dy[XI_RATE] / rate / t.gear_pitch_radius + load
+        given = (
+            fx * (y[VX_P] - y[VX_G]) + fy * (y[VY_P] - y[VY_G]) - powers[5] * speed + gear_moment * gear_speed
+        )
+        lost = 0.0
+        for i in range(t.side.shape[0]):
+            moving = work[contact.APPROACH_RATE, i] - work[contact.APPROACH_SLOPE, i] * speed
+            lost += work[contact.NORMAL_LOAD, i] * moving
+            lost += work[contact.FRICTION_FORCE, i] * work[contact.RELATIVE_VELOCITY, i]
+        assert given == pytest.approx(-lost, rel=1e-9, abs=1e-6 * abs(powers[5] * speed) + 1e-9)
+
+
+def test_friction_power_is_minus_mu_load_times_sliding(model, rng):
+    """F_f ω_p (−L_p + w L_g) = −μ F_n |v_s| outside the width of reversal, in rigid rotation."""
+    t, m = model.table, model.mechanics
+    ratio = t.pinion_pitch_radius / t.gear_pitch_radius
+    checked = 0
+    for _ in range(80):
+        y = random_state(rng)
+        y[VX_P:SLIP] = 0.0
+        y[XI_RATE] = 0.0
+        work, _, _ = evaluate(model, y, *random_place(rng, t.boundary))
+        for i in range(t.side.shape[0]):
+            r, sine = work[contact.DISTANCE, i], work[contact.SIN, i]
+            if abs(r) < 2 * m.reversal_width:
+                continue
+            lever_p = r + t.pinion_pitch_radius * sine
+            lever_g = t.gear_pitch_radius * sine - r
+            force = t.side[i] * work[contact.FRICTION_FORCE, i]
+            power = force * (m.nominal_speed + y[SLIP]) * (-lever_p + ratio * lever_g)
+            loss = work[contact.FRICTION_COEFFICIENT, i] * work[contact.NORMAL_LOAD, i]
+            sliding = abs((1 + ratio) * r) * (m.nominal_speed + y[SLIP])
+            assert power == pytest.approx(-loss * sliding, rel=1e-10)
+            checked += loss > 0
+    assert checked > 20
+
+
+def test_friction_never_gives_energy(model, rng):
+    """With the vibration's sliding, at every state; with the nominal sliding, on the nominal motion."""
+    dynamic = model.options.sliding == SLIDING_DYNAMIC
+    row = contact.RELATIVE_VELOCITY if dynamic else contact.SLIDING
+    for _ in range(200):
+        work, _, _ = evaluate(model, random_state(rng), *random_place(rng, model.table.boundary))
+        for i in range(model.table.side.shape[0]):
+            assert work[contact.FRICTION_FORCE, i] * work[row, i] >= 0.0
+
+
+def test_load_is_never_tensile_and_zero_when_apart(model, rng):
+    apart = loaded = 0
+    for _ in range(200):
+        work, _, _ = evaluate(model, random_state(rng), *random_place(rng, model.table.boundary))
+        for i in range(model.table.side.shape[0]):
+            load = work[contact.NORMAL_LOAD, i]
+            assert load >= 0.0
+            if work[contact.EFFECTIVE_APPROACH, i] <= 0.0:
+                assert load == 0.0
+                apart += 1
+            loaded += load > 0.0
+    assert apart > 50
+    assert loaded > 50
+
+
+@pytest.mark.parametrize("overrides", [{}, {"mesh.backlash": "12 um"}], ids=["front", "backlash"])
+def test_coupled_loads_solve_the_contact_problem(prepared, rng, overrides):
+    """Against the search over all sets of loaded pairs, on the smooth contact law."""
+    model = prepared("crc-23-47", **overrides).model
+    t, m = model.table, model.mechanics
+    for _ in range(100):
+        y = random_state(rng)
+        phase, segment = random_place(rng, t.boundary)
+        work, _, _ = evaluate(model, y, phase, segment)
+        slots = [i for i in range(t.side.shape[0]) if t.in_contact[segment, i]]
+        matrix = np.array([[work[contact.COUPLING + j, i] if j != i else 0.0 for j in slots] for i in slots])
+        matrix += np.diag([work[contact.COMPLIANCE, i] for i in slots])
+        approach = np.array([work[contact.APPROACH, i] for i in slots])
+        if np.any(np.abs([work[contact.EFFECTIVE_APPROACH, i] for i in slots]) < 2 * m.contact_width):
+            continue  # inside the smoothing no set is exact
+        found = None
+        for mask in range(1 << len(slots)):
+            on = [k for k in range(len(slots)) if mask >> k & 1]
+            force = np.zeros(len(slots))
+            force[on] = np.linalg.solve(matrix[np.ix_(on, on)], approach[on])
+            free = approach - matrix @ force
+            if np.all(force >= 0) and all(free[k] <= 1e-18 for k in range(len(slots)) if k not in on):
+                found = force
+        assert found is not None
+        ours = [work[contact.ELASTIC_LOAD, i] for i in slots]
+        np.testing.assert_allclose(ours, found, rtol=1e-9, atol=1e-4)
+
+
+def _strain(model, y, phase, segment):
+    return strain_energy(phase, segment, y, model, {})
+
+
+def test_elastic_loads_are_the_gradient_of_the_strain_energy(model, rng):
+    for _ in range(30):
+        y = random_state(rng)
+        y[VX_P:SLIP] = 0.0
+        y[XI_RATE] = 0.0
+        y[XI] = abs(y[XI]) + 2e-5
+        phase, segment = random_place(rng, model.table.boundary)
+        work: dict = {}
+        strain_energy(phase, segment, y, model, work)
+        step = 1e-9
+        up, down = y.copy(), y.copy()
+        up[XI] += step
+        down[XI] -= step
+        slope = (_strain(model, up, phase, segment) - _strain(model, down, phase, segment)) / (2 * step)
+        pull = sum(
+            model.table.side[i] * work[contact.ELASTIC_LOAD, i] * work[contact.COS, i]
+            for i in range(model.table.side.shape[0])
+        )
+        assert slope == pytest.approx(pull, rel=1e-5, abs=1e-2)
+
+
+def test_parametric_torque_is_the_energy_slope_at_fixed_coordinates(model, rng):
+    m = model.mechanics._replace(mesh_damping=0.0)
+    model = model._replace(mechanics=m)
+    pitch = model.table.pitch_angle
+    for _ in range(30):
+        y = random_state(rng)
+        y[XI] = abs(y[XI]) + 2e-5
+        phase, segment = random_place(rng, model.table.boundary)
+        _, _, powers = evaluate(model, y, phase, segment)
+        speed = m.nominal_speed + y[SLIP]
+        step = 1e-5
+        slope = (_strain(model, y, phase + step, segment) - _strain(model, y, phase - step, segment)) / (
+            2 * step * pitch
+        )
+        assert powers[4] == pytest.approx(slope * speed, rel=1e-4, abs=2e-3 * speed)
+
+
+@pytest.mark.parametrize("formulation", [CLASSICAL, ENERGY_CONSISTENT])
+@pytest.mark.parametrize("drive", [DRIVE_SPEED, DRIVE_TORQUE, DRIVE_SHAFT])
+def test_instantaneous_powers_balance(model, rng, formulation, drive):
+    """P_in + P_parametric − P_out − P_friction − P_damping = d(stored energy)/dt, along the derivative."""
+    m = model.mechanics._replace(
+        drive_inertia=0.02, shaft_stiffness=3e3, shaft_damping=0.4, speed_regulation=0.3
+    )
+    model = model._replace(mechanics=m, options=model.options._replace(formulation=formulation, drive=drive))
+    for _ in range(20):
+        y = random_state(rng)
+        if drive == DRIVE_SPEED:
+            y[SLIP] = 0.0
+        phase, segment = random_place(rng, model.table.boundary)
+        _, dy, powers = evaluate(model, y, phase, segment)
+        rate = seconds_per_cycle(model, y)
+
+        def stored(shift, y=y, dy=dy, phase=phase, segment=segment):
+            work: dict = {}
+            moved = y + shift * dy
+            derivatives(phase + shift, 3.0, segment, moved, model, work, {})
+            return stored_energy(moved, model, work)
+
+        step = 2e-7
+        change = (stored(step) - stored(-step)) / (2 * step) / rate
+        balance = powers[0] + powers[4] - powers[1] - powers[2] - powers[3]
+        scale = abs(powers[0]) + abs(powers[1]) + abs(powers[3]) + abs(change)
+        assert balance == pytest.approx(change, abs=3e-6 * scale + 1e-3)
+
+
+def test_engagement_keeps_the_energy_with_a_free_pinion(prepared, rng):
+    model = prepared("crc-23-47").model
+    model = model._replace(
+        options=model.options._replace(formulation=ENERGY_CONSISTENT, drive=DRIVE_TORQUE),
+        mechanics=model.mechanics._replace(pinion_inertia=0.02),
+    )
+    y = random_state(rng)
+    y[XI] = 4e-5
+    segments = len(model.table.boundary) - 1
+    places = [(0, model.table.boundary[1], 1, model.table.boundary[1]), (segments - 1, 1.0, 0, 0.0)]
+    for before, phase_before, after, phase_after in places:
+        work: dict = {}
+        derivatives(phase_before, 0.0, before, y, model, work, {})
+        energy = stored_energy(y, model, work)
+        slip, xi_rate, work_in, parametric = engagement(
+            before, phase_before, after, phase_after, y, model, {}
+        )
+        z = y.copy()
+        z[SLIP] += slip
+        z[XI_RATE] += xi_rate
+        derivatives(phase_after, 0.0, after, z, model, work, {})
+        # only the pinion's speed jumps: the gear's, r_p ω_p − ξ' over r_g, does not
+        assert stored_energy(z, model, work) == pytest.approx(energy, rel=1e-12)
+        assert slip != 0.0
+        assert work_in == 0.0
+        assert parametric == 0.0
+
+
+def test_locate_stays_inside_the_given_segment(prepared):
+    table = prepared("crc-23-47").model.table
+    cells = table.channel.shape[1]
+    for segment in range(2):
+        start, end = table.boundary[segment], table.boundary[segment + 1]
+        assert locate(float(start), segment, table)[:2] == (0, 0.0)
+        cell, u, _ = locate(float(end), segment, table)
+        assert cell == cells - 1
+        assert u == pytest.approx(1.0, abs=1e-8)
+
+
+def test_load_torque_adds_table_and_harmonics(prepared):
+    m = prepared("crc-23-47").model.mechanics
+    m = m._replace(
+        load_torque=100.0,
+        load_damping=2.0,
+        load_times=np.array([0.0, 1.0, 2.0]),
+        load_torques=np.array([0.0, 50.0, 50.0]),
+        load_slopes=np.zeros(3),
+        load_amplitudes=np.array([10.0]),
+        load_frequencies=np.array([3.0]),
+        load_phases=np.array([0.5]),
+    )
+    harmonic = 10.0 * np.sin(3.0 * 0.5 + 0.5)
+    assert load_torque(0.5, 0.25, m) == pytest.approx(100.0 + 0.5 + 25.0 + harmonic)
+    assert load_torque(9.0, 0.0, m) == pytest.approx(150.0 + 10.0 * np.sin(27.5))
+
+
+def test_prescribed_speed_leaves_the_pinion_alone(prepared, rng):
+    model = prepared("crc-23-47").model
+    y = random_state(rng)
+    y[[SLIP, MOTOR_SLIP, TWIST]] = 0.0
+    _, dy, _ = evaluate(model, y, 0.3, 0)
+    assert dy[SLIP] == dy[MOTOR_SLIP] == dy[TWIST] == 0.0
+    assert dy[WORK_IN] != 0.0
+    assert np.all(np.isfinite(dy[:MECHANICAL]))

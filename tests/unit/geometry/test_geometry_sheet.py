@@ -1,0 +1,66 @@
+"""The geometry sheet against the closed forms of the involute and of solid bodies."""
+
+import numpy as np
+import pytest
+
+from tests.unit.geometry.test_geometry_tooth import LIU_NI, SHIFTED, STANDARD, UNDERCUT
+from tribodyn.geometry.drive import SIDES, body_of, reference_radius, tip_radius
+from tribodyn.geometry.families import crc, involute
+from tribodyn.geometry.sheet import geometry_sheet
+
+
+@pytest.mark.parametrize("drive", [STANDARD, SHIFTED])
+def test_specific_sliding_of_the_involute(drive):
+    """ζ = 1 − ρ_mate/(u ρ) at the ends of contact, from tip and base circles alone (ISO 21771)."""
+    sheet = geometry_sheet(involute.FAMILY, drive)
+    working = involute.working_pressure_angle(drive)
+    base = [reference_radius(drive, side) * np.cos(drive.pressure_angle) for side in SIDES]
+    length = sum(base) * np.tan(working)
+    outer = [np.sqrt(tip_radius(drive, side) ** 2 - r**2) for side, r in zip(SIDES, base, strict=True)]
+    ratio = base[1] / base[0]
+    # radii of curvature (pinion, gear) where the gear's tip and where the pinion's tip touches
+    (start_pinion, start_gear), (end_pinion, end_gear) = (
+        (length - outer[1], outer[1]),
+        (outer[0], length - outer[0]),
+    )
+    pinion, gear = sheet["pinion"], sheet["gear"]
+    assert pinion["least specific sliding"][0] == pytest.approx(1 - start_gear / (ratio * start_pinion))
+    assert pinion["greatest specific sliding"][0] == pytest.approx(1 - end_gear / (ratio * end_pinion))
+    assert gear["least specific sliding"][0] == pytest.approx(1 - ratio * end_pinion / end_gear)
+    assert gear["greatest specific sliding"][0] == pytest.approx(1 - ratio * start_pinion / start_gear)
+    # sliding over the pinion's speed: distance from the pitch point times 1 + 1/u
+    for name, place in (("approach", "start"), ("recess", "end")):
+        distance = abs(sheet[f"{place} of contact from pitch point"][0])
+        sliding = sheet[f"greatest sliding in {name}"]
+        assert sliding == (pytest.approx(distance * (1 + 1 / ratio)), "mm/rad")
+
+
+@pytest.mark.parametrize("side", SIDES)
+def test_undercut_margin_of_the_involute(side):
+    """On the line of action, from the end of the rack's flank to the point of tangency of the base circle."""
+    sheet = geometry_sheet(involute.FAMILY, STANDARD)[side]
+    body, alpha = body_of(STANDARD, side), STANDARD.pressure_angle
+    depth = body.dedendum - body.fillet_radius * (1 - np.sin(alpha))
+    margin = STANDARD.module * (body.teeth / 2 * np.sin(alpha) - depth / np.sin(alpha))
+    assert sheet["undercut margin"] == (pytest.approx(1e3 * margin), "mm")
+    assert sheet["base diameter"][0] == pytest.approx(
+        1e3 * STANDARD.module * body.teeth * np.cos(alpha), rel=1e-12
+    )
+
+
+def test_undercut_is_a_negative_margin():
+    pinion = geometry_sheet(involute.FAMILY, UNDERCUT)["pinion"]
+    assert pinion["undercut margin"][0] < 0
+    assert pinion["undercut by the rack"][0] == 1
+
+
+def test_no_base_circle_where_the_path_is_curved():
+    assert "base diameter" not in geometry_sheet(crc.FAMILY, LIU_NI)["pinion"]
+
+
+def test_masses_stand_in_the_sheet_when_they_are_known():
+    bare = geometry_sheet(crc.FAMILY, LIU_NI)
+    full = geometry_sheet(crc.FAMILY, LIU_NI, [(1.5, 2e-3), (3.0, 4e-3)])
+    assert "mass" not in bare["pinion"]
+    assert full["gear"]["mass"] == (3.0, "kg")
+    assert full["gear"]["moment of inertia"] == (pytest.approx(4000.0), "kg mm²")

@@ -1,0 +1,267 @@
+"""The mesh cycle's table against direct evaluation, its options, and its derivatives under JAX."""
+
+import math
+import subprocess
+import sys
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from scipy.interpolate import PchipInterpolator
+
+from tribodyn.compliance.table import interpolate
+from tribodyn.errors import InputError
+from tribodyn.geometry.drive import Drive, GearBody
+from tribodyn.geometry.families import crc, involute
+from tribodyn.geometry.material import MaterialData
+from tribodyn.geometry.path import kinematics
+from tribodyn.mesh.data import MeshData
+from tribodyn.mesh.quasi_static import cycle_mean, quasi_static
+from tribodyn.mesh.tabulate import pair_slots, tabulate
+from tribodyn.studies.efficiency import mean_efficiency
+
+jax.config.update("jax_enable_x64", True)
+STEEL = MaterialData("steel", 206e9, 0.3, 7850.0, 46.0, 470.0, 6e9)
+ENERGY = MeshData(compliance="energy", damping_ratio=0.05)
+FAMILIES = pytest.mark.parametrize("family", [involute.FAMILY, crc.FAMILY], ids=lambda f: f.name)
+
+
+def drive_of(parameters):
+    """23/47 drive from (pressure angle, pinion's shift, addendum, pinion's face width)."""
+    angle, shift, addendum, width = parameters
+    pinion = GearBody(23.0, shift, addendum, 1.25, 0.25, width, 0.015)
+    gear = GearBody(47.0, 0.0 * shift, addendum, 1.25, 0.25, 1.1 * width, 0.025)
+    return Drive(0.003, angle, pinion, gear)
+
+
+DRIVE = drive_of((math.radians(22.81), 0.0, 1.0, 0.02))
+
+
+def mesh(**options):
+    return MeshData(**({"compliance": "energy", "damping_ratio": 0.05} | options))
+
+
+@FAMILIES
+def test_kinematics_are_those_of_the_path(family):
+    cycle = tabulate(family, DRIVE, (STEEL, STEEL), ENERGY, 2)
+    path = family.working_path(DRIVE)
+    position = cycle.phase[..., None] + np.array([1.0, 0.0])
+    rolls = cycle.roll_start + position * cycle.pitch_angle
+    inside = (cycle.in_contact[:, None, :] > 0) & np.ones_like(rolls, dtype=bool)
+    motion = kinematics(path, path.signed_distance(rolls[inside]))
+    for name in ("signed_distance", "pressure_angle", "pinion_speed", "gear_speed"):
+        np.testing.assert_allclose(getattr(cycle, name)[inside], getattr(motion, name), rtol=1e-9, atol=1e-14)
+    np.testing.assert_allclose(cycle.equivalent_radius[inside], 1 / motion.relative_curvature, rtol=1e-9)
+
+
+def test_involute_contact_ratio():
+    drive = drive_of((math.radians(20.0), 0.0, 1.0, 0.02))
+    cycle = tabulate(involute.FAMILY, drive, (STEEL, STEEL), ENERGY, pair_slots(involute.FAMILY, drive))
+    assert cycle.contact_ratio == pytest.approx(involute.closed_form_contact_ratio(drive), rel=1e-12)
+    np.testing.assert_allclose(cycle.boundary, [0, cycle.contact_ratio - 1, 1])
+    np.testing.assert_array_equal(cycle.in_contact, [[1, 1], [0, 1]])
+    assert cycle.face_width == 0.02
+    assert cycle.pitch_point_phase == pytest.approx(-cycle.roll_start * 23 / (2 * math.pi))
+
+
+@FAMILIES
+def test_nodes_are_enough(family):
+    coarse = tabulate(family, DRIVE, (STEEL, STEEL), mesh(points=9), 2)
+    fine = tabulate(family, DRIVE, (STEEL, STEEL), mesh(points=65), 2)
+    for cycle in (coarse, fine):  # the last node of a pair is its own last contact, whatever the grid
+        assert cycle.signed_distance[0, -1, 0] == pytest.approx(fine.signed_distance[0, -1, 0], rel=1e-13)
+    np.testing.assert_allclose(coarse.compliance, fine.compliance[:, ::8], rtol=1e-13)
+
+
+def test_two_pairs_share_their_bodies():
+    cycle = tabulate(crc.FAMILY, DRIVE, (STEEL, STEEL), ENERGY, 2)
+    alone = tabulate(crc.FAMILY, DRIVE, (STEEL, STEEL), mesh(foundation_coupling=False), 2)
+    assert not alone.coupling.any()
+    np.testing.assert_array_equal(cycle.compliance, alone.compliance)
+    ratio = cycle.coupling[0, :, 0, 1] / np.sqrt(cycle.compliance[0, :, 0] * cycle.compliance[0, :, 1])
+    assert np.all((ratio > 0.1) & (ratio < 0.5))
+
+
+def test_hub_at_the_rim_uncouples():
+    # with the hub right under the teeth a load hardly reaches the neighbour
+    stiff = DRIVE._replace(
+        pinion=DRIVE.pinion._replace(bore_radius=0.0295), gear=DRIVE.gear._replace(bore_radius=0.065)
+    )
+    usual = tabulate(crc.FAMILY, DRIVE, (STEEL, STEEL), ENERGY, 2).coupling[0, :, 0, 1]
+    assert np.all(tabulate(crc.FAMILY, stiff, (STEEL, STEEL), ENERGY, 2).coupling[0, :, 0, 1] < 0.15 * usual)
+
+
+class TestOptions:
+    def test_constant(self):
+        cycle = tabulate(crc.FAMILY, DRIVE, (STEEL, STEEL), mesh(compliance="constant", stiffness=3e8), 2)
+        np.testing.assert_allclose(cycle.compliance, 1 / 3e8)
+        assert cycle.hertz_coefficient == 0
+        assert not cycle.coupling.any()
+
+    def test_load_dependent_contact_stands_apart(self):
+        linear = tabulate(crc.FAMILY, DRIVE, (STEEL, STEEL), ENERGY, 2)
+        dependent = tabulate(crc.FAMILY, DRIVE, (STEEL, STEEL), mesh(hertz="load-dependent"), 2)
+        hertz = 4 * (1 - 0.3**2) / (math.pi * 206e9 * 0.02)
+        np.testing.assert_allclose(linear.compliance - dependent.compliance, hertz, rtol=1e-9)
+        assert dependent.hertz_coefficient == pytest.approx(1.275 / (206e9**0.9 * 0.02**0.8))
+
+    def test_table_is_followed(self):
+        roll = np.linspace(-0.25, 0.25, 2001)
+        stiffness = 2e8 * (1 + 0.3 * np.cos(5 * roll))
+        cycle = tabulate(
+            crc.FAMILY, DRIVE, (STEEL, STEEL), mesh(compliance="table", table=(roll, stiffness)), 2
+        )
+        rolls = cycle.roll_start + cycle.phase * cycle.pitch_angle
+        np.testing.assert_allclose(
+            cycle.compliance[..., 1], 1 / (2e8 * (1 + 0.3 * np.cos(5 * rolls))), rtol=1e-6
+        )
+
+    def test_harmonics_and_table_of_the_error_add_up(self):
+        roll = np.linspace(-0.3, 0.3, 5)
+        options = mesh(error_harmonics=((1, 2e-6, 0.3), (3, 1e-6, 0.0)), error_table=(roll, 1e-5 * roll))
+        cycle = tabulate(crc.FAMILY, DRIVE, (STEEL, STEEL), options, 2)
+        angle = 2 * np.pi * cycle.phase
+        rolls = cycle.roll_start + cycle.phase * cycle.pitch_angle
+        expected = 2e-6 * np.cos(angle + 0.3) + 1e-6 * np.cos(3 * angle) + 1e-5 * rolls
+        np.testing.assert_allclose(cycle.gap[..., 1], expected, atol=1e-18)
+
+    @pytest.mark.parametrize(
+        ("options", "back", "key"),
+        [
+            ({"compliance": "table", "table": (np.array([-0.1, 0.5]), np.ones(2))}, False, "mesh.table"),
+            ({"compliance": "table"}, False, "mesh.table"),
+            ({"compliance": "constant"}, False, "mesh.stiffness"),
+            ({"compliance": "constant", "stiffness": 1e8, "hertz": "load-dependent"}, False, "mesh.hertz"),
+            ({"error_table": (np.array([-0.5, 0.1]), np.zeros(2))}, False, "mesh.transmission_error.table"),
+            ({}, True, "mesh.backlash"),
+        ],
+    )
+    def test_refusals_name_the_key(self, options, back, key):
+        with pytest.raises(InputError) as error:
+            tabulate(crc.FAMILY, DRIVE, (STEEL, STEEL), mesh(**options), 2, back)
+        assert error.value.key == key
+
+    def test_solid_body_is_refused(self):
+        solid = DRIVE._replace(gear=DRIVE.gear._replace(bore_radius=0.0))
+        with pytest.raises(InputError, match="held at its bore"):
+            tabulate(crc.FAMILY, solid, (STEEL, STEEL), ENERGY, 2)
+
+    def test_interpolation_is_the_monotone_one(self):
+        rng = np.random.default_rng(4)
+        for count in (2, 3, 12):
+            x = np.cumsum(rng.uniform(0.1, 1, count))
+            y = rng.normal(size=count)
+            at = np.linspace(x[0], x[-1], 200)
+            np.testing.assert_allclose(interpolate(x, y, at), PchipInterpolator(x, y)(at), atol=1e-12)
+
+
+@FAMILIES
+def test_back_flanks_are_the_mirror_image(family):
+    cycle = tabulate(family, DRIVE, (STEEL, STEEL), mesh(backlash=5e-5), 2, back=True)
+    front = tabulate(family, DRIVE, (STEEL, STEEL), ENERGY, 2)
+    np.testing.assert_array_equal(cycle.side, [1, 1, -1, -1])
+    assert cycle.in_contact.shape == (4, 4)
+    np.testing.assert_allclose(cycle.gap[..., 2:], 5e-5)
+    path = family.working_path(DRIVE)
+    pitch, half = cycle.pitch_angle, math.pi / 23
+    for s in range(4):
+        for k in (1, 30, 63):
+            newest = cycle.roll_start + cycle.phase[s, k] * pitch
+            # back flank of every tooth: half a pitch behind its front flank, turning the other way
+            rolls = half - (newest + pitch * np.arange(-5, 6))
+            touching = rolls[(rolls > cycle.roll_start) & (rolls < cycle.roll_end)]
+            mine = cycle.signed_distance[s, k, 2:][cycle.in_contact[s, 2:] > 0]
+            np.testing.assert_allclose(np.sort(mine), np.sort(path.signed_distance(touching)), atol=1e-12)
+    together = np.interp(cycle.phase[0], front.phase[0], front.compliance[0, :, 1])
+    np.testing.assert_allclose(cycle.compliance[0, :, 1], together, rtol=1e-4)
+
+
+def test_no_jax_in_a_plain_run():
+    code = (
+        "import math, sys\n"
+        "from tribodyn.studies.gear_pair.case import MaterialData, MeshData\n"
+        "from tribodyn.geometry import crc\n"
+        "from tribodyn.geometry.drive import Drive, GearBody\n"
+        "from tribodyn.mesh.tabulate import tabulate\n"
+        "steel = MaterialData('steel', 206e9, 0.3, 7850.0, 46.0, 470.0, 6e9)\n"
+        "body = lambda z, bore: GearBody(z, 0.0, 1.0, 1.25, 0.25, 0.02, bore)\n"
+        "drive = Drive(0.003, math.radians(22.81), body(23.0, 0.015), body(47.0, 0.025))\n"
+        "tabulate(crc.FAMILY, drive, (steel, steel), MeshData('energy', 0.05), 2)\n"
+        "assert 'jax' not in sys.modules\n"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def figures(family, parameters, points=33):
+    """Contact ratio, mean mesh stiffness (1e8 N/m) and quasi-static efficiency with μ = 0.05."""
+    cycle = tabulate(family, drive_of(parameters), (STEEL, STEEL), mesh(points=points), 2)
+    stiffness = cycle_mean(cycle, quasi_static(cycle, 500.0).mesh_stiffness)
+    return cycle.contact_ratio, stiffness / 1e8, mean_efficiency(cycle, 500.0, 0.05)
+
+
+START = {"involute": np.array([math.radians(20.0), 0.1, 1.0, 0.02])}
+START["crc"] = np.array([math.radians(22.81), 0.0, 1.0, 0.02])
+
+
+@pytest.mark.slow
+@FAMILIES
+def test_gradients_agree_with_finite_differences(family):
+    start = START[family.name]
+
+    def traced(parameters):
+        values = jnp.stack(figures(family, parameters))
+        return values, values
+
+    jacobian, values = jax.jit(jax.jacfwd(traced, has_aux=True))(jnp.asarray(start))
+    np.testing.assert_allclose(values, figures(family, start), rtol=1e-12)
+    steps = np.array([1e-5, 1e-5, 1e-5, 1e-7])
+    for i, step in enumerate(steps):
+        if family.name == "crc" and i == 1:
+            continue  # a CRC drive has no profile shift
+        forward, back = (np.array(figures(family, start + sign * step * np.eye(4)[i])) for sign in (1, -1))
+        difference = (forward - back) / (2 * step)
+        np.testing.assert_allclose(jacobian[:, i], difference, rtol=1e-5, atol=1e-9)
+
+
+@pytest.mark.slow
+@FAMILIES
+def test_a_thousand_drives_in_one_batch(family):
+    rng = np.random.default_rng(1)
+    batch = START[family.name] * (1 + 0.01 * rng.uniform(-1, 1, size=(1000, 4)))
+    many = jax.jit(jax.vmap(lambda p: jnp.stack(figures(family, p, points=5))))(jnp.asarray(batch))
+    assert np.all(np.isfinite(many))
+    for i in (0, 500, 999):
+        np.testing.assert_allclose(many[i], figures(family, batch[i], points=5), rtol=1e-10)
+
+
+class TestQuasiStatic:
+    """Load sharing and loss against a plain calculation."""
+
+    def test_gap_takes_a_pair_out_of_contact(self):
+        roll = np.linspace(-0.3, 0.3, 3)
+        late = mesh(error_table=(roll, np.array([1e-3, 0.0, 0.0])))  # far too much relief in approach
+        cycle = tabulate(crc.FAMILY, DRIVE, (STEEL, STEEL), late, 2)
+        loads = quasi_static(cycle, 500.0).normal_load
+        assert loads[0, 0, 1] == 0
+        assert loads[0, 0, 0] * cycle.gear_pitch_radius * math.cos(
+            cycle.pressure_angle[0, 0, 0]
+        ) == pytest.approx(500.0)
+
+    def test_load_dependent_contact_is_in_equilibrium(self):
+        cycle = tabulate(crc.FAMILY, DRIVE, (STEEL, STEEL), mesh(hertz="load-dependent"), 2)
+        state = quasi_static(cycle, 500.0)
+        loads, arms = state.normal_load[0], np.cos(cycle.pressure_angle[0])
+        approach = cycle.compliance[0] * loads + cycle.hertz_coefficient * loads**0.9
+        approach += np.einsum("nij,nj->ni", cycle.coupling[0], loads)
+        np.testing.assert_allclose(approach, arms * state.deflection[0][:, None], rtol=1e-10)
+
+    @FAMILIES
+    def test_loss_is_the_integral_of_sliding_friction(self, family):
+        cycle = tabulate(family, DRIVE, (STEEL, STEEL), ENERGY, 2)
+        fine = tabulate(family, DRIVE, (STEEL, STEEL), mesh(points=4001), 2)
+        loads = quasi_static(fine, 500.0).normal_load
+        power = (0.05 * loads * np.abs(fine.pinion_speed - fine.gear_speed)).sum(axis=-1)
+        loss = sum(np.trapezoid(power[s], fine.phase[s]) for s in range(2))
+        useful = 500.0 * 23 / 47
+        assert mean_efficiency(cycle, 500.0, 0.05) == pytest.approx(useful / (useful + loss), abs=1e-9)

@@ -1,0 +1,142 @@
+"""The mesh cycle by the load contact model: quasi-static limit, corner contact, back flanks, bad input."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from tribodyn.compliance.load_sharing import effective_contact_ratio, extended_rolls, flexibility, share_load
+from tribodyn.errors import InputError
+from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.corner_contact import roll_at_gap
+from tribodyn.geometry.families import family
+from tribodyn.mesh.quasi_static import quasi_static
+from tribodyn.mesh.tabulate_loaded import tabulate_loaded
+from tribodyn.studies.load import load_scenario
+
+NAME = "involute-18-36-fem"
+
+
+def table(case, **changes):
+    mesh = dataclasses.replace(case.mesh, **changes)
+    torque = case.operating.gear_torque
+    back = mesh.backlash is not None
+    return tabulate_loaded(family(case.family), case.drive, case.materials, mesh, torque, back)
+
+
+def rolls(cycle):
+    pairs = cycle.front_pairs
+    position = cycle.phase[..., None] + np.arange(pairs - 1.0, -1.0, -1.0)
+    roll = cycle.roll_start + cycle.pitch_angle * position
+    return np.clip(roll, cycle.roll_start, cycle.roll_end).reshape(-1, pairs)
+
+
+def loads_of_model(case, cycle):
+    flexible = flexibility(assemble(family(case.family), case.drive), case.materials)
+    return share_load(flexible, rolls(cycle), case.operating.gear_torque)
+
+
+@pytest.mark.parametrize("torque", ["80 N*m", "318.3 N*m", "1274 N*m"])
+def test_quasi_static_loads_are_the_load_contact_models(torque):
+    case = load_scenario(NAME, {"operating.gear_torque": torque})
+    cycle = table(case)
+    shared = loads_of_model(case, cycle)
+    still = quasi_static(cycle, case.operating.gear_torque)
+    loads = still.normal_load.reshape(shared.normal_load.shape)
+    np.testing.assert_allclose(loads, shared.normal_load, atol=0.01 * shared.normal_load.max())
+    np.testing.assert_allclose(still.deflection.ravel(), shared.deflection, rtol=2e-3)
+
+
+def test_pairs_touch_before_and_after_their_path():
+    case = load_scenario(NAME, {})
+    cycle = table(case)
+    loads = quasi_static(cycle, case.operating.gear_torque).normal_load.reshape(-1, 2)
+    assembly = assemble(family(case.family), case.drive)
+    start, end = (float(assembly.path.rotation(r)) for r in (assembly.r_start, assembly.r_end))
+    roll = rolls(cycle)
+    assert np.any(loads[roll < start - 1e-6] > 0)
+    assert np.any(loads[roll > end + 1e-6] > 0)
+    assert cycle.contact_ratio == pytest.approx(1.611, abs=1e-3)
+    # nothing touches at the ends of the table: it reaches far enough
+    ends = (roll < cycle.roll_start + 1e-3) | (roll > cycle.roll_end - 1e-3)
+    assert np.all(loads[ends] == 0.0)
+
+
+def test_table_is_periodic():
+    cycle = table(load_scenario(NAME, {}))
+    for name in ("compliance", "gap", "signed_distance", "pressure_angle"):
+        values = getattr(cycle, name)
+        # the newest pair at the end of a cycle is the older one at the beginning of the next
+        assert values[-1, -1, 1] == pytest.approx(values[0, 0, 0], rel=1e-9, abs=1e-12), name
+    assert np.all(np.isfinite(cycle.compliance))
+    assert np.all(cycle.compliance > 0)
+
+
+def test_without_coupling_pairs_do_not_know_of_each_other():
+    assert not np.any(table(load_scenario(NAME, {}), foundation_coupling=False).coupling)
+
+
+def test_back_flanks_mirror_the_front():
+    case = load_scenario(NAME, {})
+    cycle, front = table(case, backlash=5e-5), table(case)
+    assert cycle.pairs == 4
+    # a back pair half a table later, in the mirrored world: same gaps plus the backlash
+    assert cycle.gap[..., 2:].min() == pytest.approx(5e-5, abs=1e-9)
+    assert cycle.gap[..., :2].max() == pytest.approx(front.gap.max(), rel=1e-6)
+    still = quasi_static(cycle, case.operating.gear_torque)
+    assert not np.any(still.normal_load[..., 2:])
+
+
+def test_errors_over_roll_angle_shift_the_load():
+    case = load_scenario(NAME, {})
+    at = np.array([-0.5, 0.5])
+    flat = table(case, error_table=(at, np.array([1e-5, 1e-5])))
+    loads = [quasi_static(c, case.operating.gear_torque) for c in (table(case), flat)]
+    np.testing.assert_allclose(loads[0].normal_load, loads[1].normal_load, atol=20.0)
+    shift = (loads[1].deflection - loads[0].deflection) * np.cos(np.radians(20.0))
+    np.testing.assert_allclose(shift, 1e-5, rtol=2e-3)
+
+
+def test_every_family_has_a_load_contact_model():
+    case = load_scenario("crc-23-47", {"mesh.compliance": "fem"})
+    cycle = table(case)
+    shared = loads_of_model(case, cycle)
+    loads = quasi_static(cycle, 500.0).normal_load.reshape(shared.normal_load.shape)
+    np.testing.assert_allclose(loads, shared.normal_load, atol=0.01 * loads.max())
+    # single contact carries F_n = T/(r_g cos α), 7.69 kN (Liu & Ni print 7687 N)
+    assert loads.max() == pytest.approx(7690.0, rel=0.03)
+
+
+@pytest.mark.parametrize("drive", ["cycloidal-23-47", "jia-parabolic-17-29", "s-gear-23-47"])
+def test_radii_that_vanish_at_the_pitch_point_leave_a_smooth_table(drive):
+    case = load_scenario(NAME, {"drive": drive})
+    cycle = table(case)
+    # the neighbouring nodes differ by no more than the course of the table asks for: no spike at P
+    change = np.abs(np.diff(cycle.compliance, axis=1)) / cycle.compliance[:, 1:]
+    assert np.max(change * (cycle.in_contact[:, None, :] > 0)) < 0.05
+    still = quasi_static(cycle, case.operating.gear_torque)
+    shared = loads_of_model(case, cycle)
+    loads = still.normal_load.reshape(shared.normal_load.shape)
+    np.testing.assert_allclose(loads, shared.normal_load, atol=0.01 * loads.max())
+
+
+def test_no_load_is_refused():
+    case = load_scenario(NAME, {"mesh.backlash": "50 um"})
+    with pytest.raises(InputError, match="gear_torque"):
+        tabulate_loaded(family(case.family), case.drive, case.materials, case.mesh, 0.0, True)
+
+
+def test_solid_body_is_refused():
+    case = load_scenario(NAME, {})
+    solid = case.drive._replace(gear=case.drive.gear._replace(bore_radius=0.0))
+    with pytest.raises(InputError, match="bore"):
+        tabulate_loaded(family(case.family), solid, case.materials, case.mesh, 100.0)
+
+
+def test_effective_contact_ratio_of_a_shipped_drive():
+    case = load_scenario(NAME, {})
+    assembly = assemble(family(case.family), case.drive)
+    flexible = flexibility(assembly, case.materials)
+    roll = extended_rolls(assembly, roll_at_gap(assembly, 8e-5), 240)
+    ratio = effective_contact_ratio(roll, share_load(flexible, roll, 318.3), 2 * np.pi / 18)
+    assert ratio == pytest.approx(1.733, abs=0.02)

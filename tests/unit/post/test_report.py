@@ -1,0 +1,88 @@
+"""The summary of a record on the terminal and as JSON."""
+
+import json
+from pathlib import Path
+
+import pytest
+from rich.console import Console
+
+from tests.support import synthetic_record
+from tests.support.record_samples import block, geometry, mesh_cycle
+from tribodyn.post.report import as_json, summary_table
+from tribodyn.record.reader import Record, open_record
+from tribodyn.record.writer import RecordWriter
+
+
+@pytest.fixture
+def record(tmp_path: Path) -> Record:
+    return open_record(synthetic_record.write(tmp_path / "run.h5", cycles=1, per_cycle=20))
+
+
+def printed(record: Record) -> str:
+    console = Console(width=100, no_color=True)
+    with console.capture() as capture:
+        console.print(summary_table(record))
+    return capture.get()
+
+
+def failed(path: Path, summary: dict) -> Record:
+    with RecordWriter(
+        path, scenario_toml="", sha256="", samples=9, mesh_cycle=mesh_cycle(), geometry=geometry()
+    ) as writer:
+        writer.write(0, block(0, 4))
+        return open_record(writer.fail("stopped at t = 0.1 s: step too small", summary))
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        ["Contact ratio", "1.6677"],
+        ["Stiffness of one pair at the pitch point", "320", "N/µm"],
+        ["Mesh frequency", "36.61", "Hz"],
+        ["Transmission error, mean", "21", "µm"],
+        ["Greatest normal load", "7,850", "N"],
+        ["Least film thickness", "0.09", "µm"],
+        ["Greatest Hertz pressure", "1.4", "GPa"],
+        ["pairs 1, 0", "310.0 / 150.0", "N"],
+        ["Efficiency", "98.68", "%"],
+        ["Method", "dopri5"],
+        ["Steps", "4,200"],
+    ],
+)
+def test_figures_are_in_engineers_units(record: Record, line: list[str]):
+    assert any(all(part in row for part in line) for row in printed(record).splitlines()), line
+
+
+def test_it_says_how_far_to_trust_it(record: Record):
+    text = printed(record)
+    assert "inside its fitted range in 93.0 % of the contact" in text
+    assert "closes within 3.0e-08 of the work" in text
+    assert "Solved by dopri5 (not stiff" in text
+
+
+def test_a_share_short_of_all_is_never_called_all(tmp_path: Path):
+    assert "99.9 % of the contact" in printed(
+        failed(tmp_path / "run.h5", {"closure_in_range_fraction": 0.99999})
+    )
+
+
+def test_a_failed_run_says_so(tmp_path: Path):
+    text = printed(failed(tmp_path / "run.h5", {}))
+    assert "failed: stopped at t = 0.1 s: step too small" in text
+    assert "4 samples were written" in text
+
+
+def test_an_undefined_figure_is_a_dash(tmp_path: Path):
+    text = printed(failed(tmp_path / "run.h5", {"efficiency": float("nan")}))
+    assert "–" in next(row for row in text.splitlines() if "Efficiency" in row)
+
+
+def test_json_holds_si_units_and_no_nan(record: Record, tmp_path: Path):
+    found = json.loads(json.dumps(as_json(record), allow_nan=False))
+    assert found["status"] == "complete"
+    assert found["summary"]["efficiency"] == 0.9868
+    assert found["summary"]["friction_force_mean"] == [150.0, 310.0]
+    assert found["pairs"] == [0, 1]
+    undefined = failed(tmp_path / "other.h5", {"efficiency": float("nan"), "film": {"min": float("inf")}})
+    found = json.loads(json.dumps(as_json(undefined), allow_nan=False))
+    assert found["summary"] == {"efficiency": None, "film": {"min": None}}

@@ -1,0 +1,225 @@
+"""Writing a record: what comes back, names and states, refusals."""
+
+import os
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.support.record_samples import block, geometry, mesh_cycle
+from tribodyn.errors import InputError
+from tribodyn.record.reader import open_record
+from tribodyn.record.schema import DOF
+from tribodyn.record.writer import RecordWriter, check_target
+
+SCENARIO = 'title = "test"\n[operating]\ngear_torque = "500 N*m"\n'
+SUMMARY = {
+    "efficiency": 0.98,
+    "solver": "dopri5",
+    "film": {"min": 1e-7, "ok": True},
+    "orders": np.array([1.0, 2.0]),
+}
+
+
+def writer(path: Path, samples: int = 30, **kwargs) -> RecordWriter:
+    return RecordWriter(
+        path,
+        scenario_toml=SCENARIO,
+        sha256="ab" * 32,
+        samples=samples,
+        mesh_cycle=mesh_cycle(),
+        geometry=geometry(),
+        **kwargs,
+    )
+
+
+@pytest.fixture
+def record_path(tmp_path: Path) -> Path:
+    with writer(tmp_path / "run.h5") as record:
+        record.write(0, block(0, 20))
+        record.write(20, block(20, 30))
+        return record.finish(SUMMARY)
+
+
+def test_every_dataset_comes_back(record_path: Path):
+    with open_record(record_path) as record:
+        expected = block(0, 30)
+        assert record.status == "complete"
+        assert record.message == ""
+        assert record.samples == 30
+        for name in record:
+            np.testing.assert_array_equal(record[name], expected[name], err_msg=name)
+
+
+def test_head_comes_back(record_path: Path):
+    with open_record(record_path) as record:
+        assert record.scenario["operating"]["gear_torque"] == "500 N*m"
+        assert record.attrs["scenario_sha256"] == "ab" * 32
+        assert {"tribodyn_version", "created", "numpy_version", "format_version"} <= record.attrs.keys()
+        assert record.pairs == (0, 1)
+        assert tuple(record["dof"]) == DOF
+        assert record.units("normal_load") == "N"
+        assert record.long_name("normal_load") == "normal load of the pair"
+
+
+def test_summary_comes_back_nested(record_path: Path):
+    with open_record(record_path) as record:
+        summary = dict(record.summary)
+        np.testing.assert_array_equal(summary.pop("orders"), [1.0, 2.0])
+        assert summary == {"efficiency": 0.98, "solver": "dopri5", "film": {"min": 1e-7, "ok": True}}
+
+
+def test_tables_come_back(record_path: Path):
+    with open_record(record_path) as record:
+        for found, given in ((record.mesh_cycle, mesh_cycle()), (record.geometry, geometry())):
+            assert found.keys() == given.keys()
+            for name, value in given.items():
+                np.testing.assert_array_equal(found[name], value, err_msg=name)
+
+
+def test_pairs_are_numbered_from_the_newest(tmp_path: Path):
+    three_front_and_two_back = mesh_cycle() | {"side": np.array([1.0, 1.0, 1.0, -1.0, -1.0])}
+    table = {name: three_front_and_two_back[name] for name in ("side", "boundary")}
+    with RecordWriter(
+        tmp_path / "run.h5", scenario_toml="", sha256="", samples=1, mesh_cycle=table
+    ) as record:
+        record.write(0, block(0, 1, pairs=5))
+        path = record.finish({})
+    with open_record(path) as record:
+        assert record.pairs == (-1, 0, 1, 2, 3)
+
+
+def test_the_name_appears_only_when_complete(tmp_path: Path):
+    with writer(tmp_path / "run.h5") as record:
+        record.write(0, block(0, 10))
+        assert {file.name for file in tmp_path.iterdir()} == {"run.partial.h5", "run.partial.lock"}
+        with open_record(tmp_path / "run.partial.h5") as running:
+            assert running.status == "partial"
+            np.testing.assert_array_equal(running["time"], np.arange(10.0))
+            assert np.isnan(running._file["time"][10:]).all()
+        record.write(10, block(10, 30))
+        record.finish(SUMMARY)
+    assert [file.name for file in tmp_path.iterdir()] == ["run.h5"]
+
+
+def test_a_failed_run_is_trimmed_and_says_why(tmp_path: Path):
+    with writer(tmp_path / "run.h5") as record:
+        record.write(0, block(0, 7))
+        path = record.fail("stopped at t = 7 s: step too small", {"steps": 12})
+    assert [file.name for file in tmp_path.iterdir()] == ["run.partial.h5"]
+    with open_record(path) as failed:
+        assert (failed.status, failed.message) == ("failed", "stopped at t = 7 s: step too small")
+        assert failed.summary == {"steps": 12}
+        expected = block(0, 7)
+        for name in failed:
+            assert failed._file[name].shape[0] == 7
+            np.testing.assert_array_equal(failed[name], expected[name], err_msg=name)
+
+
+def test_a_run_that_fails_at_once_leaves_a_readable_record(tmp_path: Path):
+    with writer(tmp_path / "run.h5") as record:
+        path = record.fail("no static equilibrium")
+    with open_record(path) as failed:
+        assert failed.samples == 0
+        assert failed["normal_load"].shape == (0, 2)
+
+
+def test_an_exception_marks_the_record_failed(tmp_path: Path):
+    def run() -> None:
+        with writer(tmp_path / "run.h5") as record:
+            record.write(0, block(0, 7))
+            raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        run()
+    with open_record(tmp_path / "run.partial.h5") as failed:
+        assert (failed.status, failed.samples) == ("failed", 7)
+        assert "ZeroDivisionError" in failed.message
+
+
+def test_an_interrupt_marks_the_record_failed(tmp_path: Path):
+    with pytest.raises(KeyboardInterrupt), writer(tmp_path / "run.h5"):
+        raise KeyboardInterrupt
+    with open_record(tmp_path / "run.partial.h5") as failed:
+        assert failed.message == "interrupted by the user"
+
+
+def test_out_of_contact_is_marked_in_the_range_flag(tmp_path: Path):
+    samples = block(0, 2) | {"closure_in_range": np.array([[1.0, 0.0], [np.nan, 1.0]])}
+    with writer(tmp_path / "run.h5", samples=2) as record:
+        record.write(0, samples)
+        path = record.finish({})
+    with open_record(path) as found:
+        np.testing.assert_array_equal(found["closure_in_range"], [[1, 0], [-1, 1]])
+
+
+@pytest.mark.parametrize("existing", ["run.h5", "run.partial.h5"])
+def test_nothing_is_overwritten_without_force(tmp_path: Path, existing: str):
+    (tmp_path / existing).write_bytes(b"precious")
+    with pytest.raises(InputError, match="--force") as error:
+        writer(tmp_path / "run.h5")
+    assert error.value.key == "output"
+    assert [file.name for file in tmp_path.iterdir()] == [existing]
+    assert (tmp_path / existing).read_bytes() == b"precious"
+
+
+def test_force_replaces_a_record_only_when_the_new_one_is_complete(record_path: Path):
+    before = record_path.read_bytes()
+    with writer(record_path, samples=5, force=True) as record:
+        record.write(0, block(0, 5))
+        assert record_path.read_bytes() == before
+        record.finish({})
+    with open_record(record_path) as found:
+        assert found.samples == 5
+
+
+def test_a_missing_folder_is_refused(tmp_path: Path):
+    with pytest.raises(InputError, match="folder does not exist"):
+        writer(tmp_path / "nowhere" / "run.h5")
+
+
+def test_a_folder_is_refused_as_file(tmp_path: Path):
+    with pytest.raises(InputError, match="is a folder"):
+        check_target(tmp_path)
+
+
+def test_an_unwritable_folder_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    # told by the operating system; the superuser, whom tests may run as, may write anywhere
+    monkeypatch.setattr(os, "access", lambda path, mode: Path(path) != tmp_path)
+    with pytest.raises(InputError, match="cannot be written to"):
+        writer(tmp_path / "run.h5")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_refusal_of_the_file_system_is_bad_input(tmp_path: Path):
+    with pytest.raises(InputError, match="cannot be written"):
+        writer(tmp_path / ("n" * 300 + ".h5"))
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_programming_errors_are_not_hidden(tmp_path: Path):
+    with writer(tmp_path / "run.h5") as record:
+        with pytest.raises(ValueError, match="does not follow"):
+            record.write(3, block(3, 5))
+        with pytest.raises(ValueError, match="does not follow"):
+            record.write(0, block(0, 31))
+        with pytest.raises(KeyError, match="nonsense"):
+            record.write(0, block(0, 2) | {"nonsense": np.zeros(2)})
+        with pytest.raises(ValueError, match="normal_load: shape"):
+            record.write(0, block(0, 2) | {"normal_load": np.zeros((2, 3))})
+        assert record.written == 0
+        with pytest.raises(ValueError, match="0 of 30 samples"):
+            record.finish({})
+
+
+def test_a_record_can_be_copied_and_read_while_it_is_written(tmp_path: Path):
+    with writer(tmp_path / "run.h5") as record:
+        record.write(0, block(0, 10))
+        shutil.copy(record.partial, tmp_path / "copy.h5")
+        with open_record(record.partial) as running:
+            record.write(10, block(10, 20))
+            assert running.samples in (10, 20)
+        record.fail("enough")
+    with open_record(tmp_path / "copy.h5") as copy:
+        np.testing.assert_array_equal(copy["time"], np.arange(10.0))

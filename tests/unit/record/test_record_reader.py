@@ -1,0 +1,135 @@
+"""What reads a record: xarray, h5py, and our reader, which refuses what is none."""
+
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+import xarray
+
+from tests.support.record_samples import block, geometry, mesh_cycle
+from tribodyn.errors import InputError
+from tribodyn.record.reader import Record, open_record
+from tribodyn.record.schema import SAMPLES
+from tribodyn.record.writer import RecordWriter
+
+
+@pytest.fixture
+def record_path(tmp_path: Path) -> Path:
+    with RecordWriter(
+        tmp_path / "run.h5",
+        scenario_toml="",
+        sha256="",
+        samples=30,
+        mesh_cycle=mesh_cycle(),
+        geometry=geometry(),
+    ) as record:
+        record.write(0, block(0, 30))
+        return record.finish({"efficiency": 0.98})
+
+
+def test_xarray_reads_it_with_units(record_path: Path):
+    with xarray.open_dataset(record_path, engine="h5netcdf") as data:
+        assert data.normal_load.dims == ("time", "pair")
+        assert data.normal_load.attrs["units"] == "N"
+        assert data.time.attrs["units"] == "s"
+        assert data.attrs["status"] == "complete"
+        np.testing.assert_array_equal(data.velocity.sel(dof="theta_p"), block(0, 30)["velocity"][:, 4])
+        np.testing.assert_array_equal(data.normal_load.sel(pair=1), block(0, 30)["normal_load"][:, 1])
+    for group in ("mesh_cycle", "geometry", "summary"):
+        with xarray.open_dataset(record_path, engine="h5netcdf", group=group) as data:
+            assert all("units" in variable.attrs for variable in data.data_vars.values())
+
+
+def test_h5py_reads_it_with_units_and_scales(record_path: Path):
+    with h5py.File(record_path) as file:
+        for name, variable in SAMPLES.items():
+            assert file[name].attrs["units"] == variable.units
+            assert file[name].attrs["long_name"] == variable.long_name
+            assert [dim[0].name.strip("/") for dim in file[name].dims] == list(variable.dims)
+
+
+def test_no_string_of_variable_length_is_a_dataset(record_path: Path):
+    """Octave's `load` gives up at the first such dataset."""
+    kinds = []
+    with h5py.File(record_path) as file:
+        file.visititems(lambda name, item: kinds.append(getattr(item, "dtype", np.dtype(float)).kind))
+    assert "O" not in kinds
+
+
+def test_the_oldest_file_format_is_used(record_path: Path):
+    """Version 0 of the superblock: readable by every HDF5 library, and without a mark of who has it open."""
+    assert record_path.read_bytes()[8] == 0
+
+
+def damaged(path: Path, how: str) -> None:
+    if how == "cut short":
+        path.write_bytes(path.read_bytes()[:5000])
+    elif how == "not HDF5":
+        path.write_text("time,load\n0,1\n")
+    elif how == "empty":
+        path.write_bytes(b"")
+    elif how == "another program's":
+        with h5py.File(path, "w") as file:
+            file["x"] = 1.0
+    elif how == "dataset missing":
+        with h5py.File(path, "r+") as file:
+            del file["normal_load"]
+    elif how == "group missing":
+        with h5py.File(path, "r+") as file:
+            del file["summary"]
+    elif how == "dataset too short":
+        with h5py.File(path, "r+") as file:
+            del file["normal_load"]
+            file["normal_load"] = np.zeros((3, 2))
+    elif how == "overwritten with noise":
+        noise = np.random.default_rng(1).bytes(3000)
+        content = path.read_bytes()
+        path.write_bytes(content[:96] + noise + content[3096:])
+    elif how == "of a newer format":
+        with h5py.File(path, "r+") as file:
+            file.attrs["format_version"] = 99
+    elif how == "of unknown status":
+        with h5py.File(path, "r+") as file:
+            file.attrs["status"] = "perhaps"
+    else:
+        path.unlink()
+
+
+@pytest.mark.parametrize(
+    ("how", "message"),
+    [
+        ("cut short", "damaged"),
+        ("not HDF5", "not an HDF5 file"),
+        ("empty", "not an HDF5 file"),
+        ("another program's", "not a record"),
+        ("dataset missing", "damaged"),
+        ("group missing", "damaged"),
+        ("dataset too short", "normal_load is too short"),
+        ("overwritten with noise", "damaged"),
+        ("of a newer format", "version 99"),
+        ("of unknown status", "damaged"),
+        ("gone", "no such file"),
+    ],
+)
+def test_what_is_no_record_is_refused(record_path: Path, how: str, message: str):
+    damaged(record_path, how)
+    with pytest.raises(InputError, match=message) as error:
+        Record(record_path)
+    assert error.value.key == "record"
+    assert error.value.value == str(record_path)
+
+
+def test_an_unknown_dataset_is_told_with_what_there_is(record_path: Path):
+    with open_record(record_path) as record, pytest.raises(InputError, match="normal_load"):
+        record["load"]
+
+
+def test_a_record_of_an_earlier_release_may_lack_later_datasets(record_path: Path):
+    with h5py.File(record_path, "r+") as file:
+        del file["drive_torque"]
+    with open_record(record_path) as record:
+        assert "drive_torque" not in record
+        assert "drive_torque" not in list(record)
+        with pytest.raises(InputError, match="no such dataset"):
+            record["drive_torque"]

@@ -1,0 +1,190 @@
+"""What a drive file says of its family's shape, and what is refused."""
+
+import numpy as np
+import pytest
+
+from tribodyn.errors import InputError
+from tribodyn.studies.gear_pair.case import Case
+from tribodyn.studies.gear_pair.prepare import prepare
+from tribodyn.studies.load import load_scenario
+
+# scenario, overrides, key, what the message says, what it advises
+REFUSED = {
+    "unknown key": (
+        "cycloidal-23-47",
+        {"drive.shape.aproach_circle": "20 mm"},
+        "shape.aproach_circle",
+        "unknown key",
+        'did you mean "approach_circle"',
+    ),
+    "no unit": (
+        "cycloidal-23-47",
+        {"drive.shape.approach_circle": 20.0},
+        "shape.approach_circle",
+        "without a unit",
+        "length",
+    ),
+    "no circle": (
+        "cycloidal-23-47",
+        {"drive.shape.approach_circle": "0 mm"},
+        "shape.approach_circle",
+        "greater than zero",
+        "",
+    ),
+    "circle too large": (
+        "cycloidal-23-47",
+        {"drive.shape.approach_circle": "70 mm"},
+        "shape.approach_circle",
+        "rolls inside the pitch circle of the pinion, whose diameter is 69 mm",
+        "use less, such as 23 mm",
+    ),
+    "circle too small": (
+        "cycloidal-23-47",
+        {"drive.shape.recess_circle": "2 mm"},
+        "shape.recess_circle",
+        "from the pitch line, before",
+        "use another circle",
+    ),
+    "pressure angle given": (
+        "parabolic-23-47",
+        {"drive.pressure_angle": "20 deg"},
+        "pressure_angle",
+        'contradicts family = "parabolic"',
+        "leave it out",
+    ),
+    "pressure angle missing": (
+        "circular-arc-23-47",
+        {"drive.family": "crc", "drive.pressure_angle": "0 deg"},
+        "pressure_angle",
+        "",
+        "",
+    ),
+    "k not a number": ("parabolic-23-47", {"drive.shape.k1": "0.3 mm"}, "shape.k1", "not a plain number", ""),
+    "k too great": (
+        "parabolic-23-47",
+        {"drive.shape.k1": 0.496},
+        "shape.k1",
+        "lest the working flank of the gear be undercut",
+        "use 0.3",
+    ),
+    "k negative": ("parabolic-23-47", {"drive.shape.k2": -0.1}, "shape.k2", "greater than 0", "use 0.3"),
+    "shift": (
+        "cycloidal-23-47",
+        {"drive.pinion.profile_shift": 0.2},
+        "pinion.profile_shift",
+        "cannot be profile-shifted",
+        "use 0",
+    ),
+    "arc ends": (
+        "circular-arc-23-47",
+        {"drive.shape.recess_diameter": "3 mm"},
+        "shape.recess_diameter",
+        "the path ends",
+        "use a greater one",
+    ),
+    "arc of no size": (
+        "circular-arc-23-47",
+        {"drive.shape.recess_diameter": "0 mm"},
+        "shape.recess_diameter",
+        "needs a diameter",
+        "",
+    ),
+    "exponent": ("s-gear-23-47", {"drive.shape.exponent": 0.9}, "shape.exponent", "above 1", "use 1.9"),
+    "rack turns back": (
+        "s-gear-23-47",
+        {"drive.shape.form_factor": 1.1},
+        "shape.form_factor",
+        "turns back",
+        "greater",
+    ),
+    "S too high": (
+        "s-gear-23-47",
+        {"drive.pinion.addendum": 1.1, "drive.gear.dedendum": 1.4},
+        "pinion.addendum",
+        "up to one module",
+        "use at most 1",
+    ),
+    "shape missing": ("crc-23-47", {"drive.family": "s-gear"}, "pressure_angle", "contradicts", ""),
+}
+
+
+def made(scenario, overrides):
+    case = load_scenario(scenario, overrides)
+    assert isinstance(case, Case)
+    return prepare(case)
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_refused(name):
+    scenario, overrides, key, rule, advice = REFUSED[name]
+    with pytest.raises(InputError) as caught:
+        made(scenario, overrides)
+    said = str(caught.value)
+    assert f"drive.{key}" in said
+    assert rule in said
+    assert advice in said
+
+
+@pytest.mark.parametrize(("key", "name"), [("k1", "parabolic"), ("form_factor", "s-gear")])
+def test_what_is_missing_is_named_with_what_to_add(key, name):
+    with pytest.raises(InputError, match=f"drive.shape.{key}.*missing") as caught:
+        load_scenario("crc-23-47", {"drive.family": name})
+    assert f"add {key} = 0.3 to [shape]" in str(caught.value)
+
+
+X = [-6.0, -4.0, -2.0, -1.0, 0.0, 1.0, 2.0, 4.0, 6.0]
+Y = [x * np.tan(np.radians(20)) for x in X]
+
+
+def points(x=X, y=Y, angle="20 deg"):
+    column = {"unit": "mm", "values": list(x)}, {"unit": "mm", "values": list(y)}
+    return load_scenario(
+        "points-23-47",
+        {"drive.shape.points": dict(zip("xy", column, strict=True)), "drive.pressure_angle": angle},
+    )
+
+
+def test_points_on_a_straight_line_make_an_involute():
+    from tribodyn.geometry.assembly import assemble
+    from tribodyn.geometry.checks import check
+    from tribodyn.geometry.families import family
+
+    x = np.linspace(-12, 12, 25)
+    case = points(x, x * np.tan(np.radians(20)))
+    check(family("points"), case.drive)
+    ours = assemble(family("points"), case.drive)
+    involute = load_scenario("involute-23-47")
+    theirs = assemble(family("involute"), involute.drive)
+    assert ours.contact_ratio == pytest.approx(theirs.contact_ratio, rel=1e-12)
+    assert ours.r_start == pytest.approx(theirs.r_start, rel=1e-12)
+
+
+def moved(values, index, value):
+    return [*values[:index], value, *values[index + 1 :]]
+
+
+BAD_POINTS = {
+    "doubles back": ({"x": moved(X, 6, 0.5)}, "point 7: the path doubles back", "sort or correct"),
+    "misses P": ({"y": [y + 0.4 for y in Y]}, "misses the pitch point", "make the point 0,0 one of them"),
+    "wrong quadrant": ({"y": moved(Y, 5, -0.2)}, "point 6: the pressure angle", "sign of x"),
+    "too few": ({"x": X[3:], "y": Y[3:]}, "fewer than 3 before the pitch point", "give more"),
+    "too short": ({}, "the path ends", "points further out"),
+    "wrong angle": ({"angle": "25 deg"}, "does not go on from the path's points", 'use about "20 deg"'),
+    "lengths": ({"x": X[:-1]}, "8 values of x and 9 of y", "as many of each"),
+}
+
+
+@pytest.mark.parametrize("name", BAD_POINTS)
+def test_points_that_are_no_path(name):
+    change, rule, advice = BAD_POINTS[name]
+    with pytest.raises(InputError) as caught:
+        prepare(points(**change))
+    assert rule in str(caught.value)
+    assert advice in str(caught.value)
+    assert "drive." in str(caught.value)
+
+
+def test_a_file_of_points_may_be_missing(tmp_path):
+    with pytest.raises(InputError, match="no such file") as caught:
+        load_scenario("points-23-47", {"drive.shape.points": str(tmp_path / "none.csv")})
+    assert "x [unit],y [unit]" in str(caught.value)

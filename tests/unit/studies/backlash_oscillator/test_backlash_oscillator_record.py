@@ -1,0 +1,158 @@
+"""Scenario, record, summary and figures of the oscillator with backlash."""
+
+import json
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from tribodyn.cli.app import app
+from tribodyn.errors import InputError
+from tribodyn.record.reader import open_record
+from tribodyn.studies.backlash_oscillator.linear import linear_amplitude, linear_figures
+from tribodyn.studies.load import load_scenario
+from tribodyn.studies.pictures import figure, names
+from tribodyn.studies.run import run
+
+NAME = "backlash-oscillator"
+COARSE = {"frequency.step": 0.02}
+
+
+@pytest.fixture(scope="module")
+def record(tmp_path_factory):
+    path = tmp_path_factory.mktemp("sweep") / "coarse.h5"
+    result = run(load_scenario(NAME, COARSE), path)
+    assert result.status == "complete"
+    with open_record(path) as opened:
+        yield opened
+
+
+def test_the_shipped_scenario_is_what_the_page_says():
+    case = load_scenario(NAME)
+    assert (case.damping, case.mean_force, case.error_amplitude, case.stiffness_variation) == (
+        0.05,
+        0.1,
+        0.05,
+        0,
+    )
+    assert case.frequencies[0] == 0.2
+    assert case.frequencies[-1] == 1.6
+    assert len(case.frequencies) == 281
+
+
+@pytest.mark.parametrize(
+    ("given", "expected"),
+    [
+        ([0.5, 0.6, 2.0], (0.5, 0.6, 2.0)),
+        ({"from": 0.5, "to": 0.8, "step": 0.1}, (0.5, 0.6, 0.7, 0.8)),
+        ({"from": 0.5, "to": 0.75, "step": 0.1}, (0.5, 0.6, 0.7, 0.75)),
+    ],
+)
+def test_frequencies_are_a_list_or_a_range(given, expected):
+    case = load_scenario(NAME, {"frequency": given})
+    assert case.frequencies == pytest.approx(expected, abs=1e-12)
+    assert case.frequencies[-1] == expected[-1]
+
+
+def test_the_record_has_its_dimensions_and_units(record):
+    assert record.kind == NAME
+    assert record.axis == "frequency"
+    assert list(record["direction"]) == ["up", "down"]
+    for name in record:
+        dims = record[name].shape
+        assert dims[0] == 71
+        assert name == "frequency" or dims[1] == 2
+        assert record.units(name) == ("rad" if name == "multiplier_angle" else "1")
+        assert record.long_name(name)
+    assert record["multiplier_modulus"].shape == (71, 2, 2)
+
+
+def test_xarray_reads_it(record):
+    xarray = pytest.importorskip("xarray")
+    with xarray.open_dataset(record.path, engine="h5netcdf") as data:
+        assert data.rms_displacement.dims == ("frequency", "direction")
+        upper = data.rms_displacement.sel(direction="down").sel(frequency=0.78, method="nearest")
+        lower = data.rms_displacement.sel(direction="up").sel(frequency=0.78, method="nearest")
+        assert float(upper) > 1.5 * float(lower)
+
+
+def test_without_contact_loss_it_is_the_linear_response(record):
+    """Harmonic motion: RMS = amplitude / √2, as long as the amplitude is below the mean force."""
+    frequency, rms = record["frequency"], record["rms_displacement"]
+    amplitude = linear_amplitude(load_scenario(NAME), frequency)
+    inside = record["contact_loss_fraction"][:, 0] == 0.0
+    assert np.sum(inside) > 20
+    np.testing.assert_allclose(rms[inside, 0], amplitude[inside] / np.sqrt(2.0), rtol=1e-5)
+    assert np.all(amplitude[inside] <= 0.1 * (1 + 1e-6))
+
+
+def test_the_summary_tells_the_jumps(record):
+    summary = record.summary
+    assert summary["points"] == 142
+    assert summary["points_not_periodic"] == summary["points_failed"] == 0
+    assert summary["residual_max"] <= 1e-7
+    # harmonic balance: folds at 0.7079 and 0.8285
+    assert summary["bistable_from"] == pytest.approx(0.7079, abs=0.02)
+    assert summary["bistable_to"] == pytest.approx(0.8285, abs=0.02)
+    assert summary["contact_loss_from"] == pytest.approx(summary["bistable_from"], abs=1e-9)
+
+
+def test_linear_figures_are_the_textbooks():
+    figures = linear_figures(load_scenario(NAME, {"stiffness_variation": 0.4}))
+    assert figures["resonance"] == pytest.approx(1.0 / np.sqrt(1.0 - 2.0 * 0.05**2))
+    at = figures["contact_loss_from"]
+    assert float(linear_amplitude(load_scenario(NAME), np.array(at))) == pytest.approx(0.1)
+    assert figures["tongue_half_width"] == pytest.approx(np.sqrt(0.04 - 0.01))
+    heavy = linear_figures(load_scenario(NAME, {"mean_force": 10.0, "damping": 0.8}))
+    assert heavy["resonance"] is heavy["contact_loss_from"] is heavy["tongue_half_width"] is None
+
+
+@pytest.mark.parametrize("name", ["response", "multipliers", "overview"])
+def test_figures_show_every_point(record, name):
+    drawn = figure(name, [record])
+    assert names([record]) == ("response", "multipliers")
+    assert drawn.axes[-1].get_xlabel().startswith("Frequency")
+    line = drawn.axes[0].get_lines()[-1 if name == "multipliers" else 1]
+    assert np.sum(np.isfinite(np.asarray(line.get_xdata(), dtype=float))) >= 2
+    if name != "multipliers":
+        arrows = [text for text in drawn.axes[0].texts if text.arrowprops and not text.get_text()]
+        assert len(arrows) == 2  # one jump up, one down
+        (up, _), (down, _) = sorted((text.xy for text in arrows), reverse=True)
+        assert up == pytest.approx(0.84, abs=1e-9)
+        assert down == pytest.approx(0.70, abs=1e-9)
+
+
+def test_two_records_share_a_figure(record):
+    drawn = figure("response", [record, record])
+    assert len({line.get_color() for line in drawn.axes[0].get_lines() if line.get_linewidth() < 4}) == 2
+
+
+def test_a_sweep_knows_no_time(record):
+    with pytest.raises(InputError, match="knows no time"):
+        figure("response", [record], against="time")
+
+
+def test_the_verbs_know_the_kind(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    few = ("--set", "frequency=[0.5, 0.8, 1.2]")
+
+    def said(*words):
+        ended = CliRunner().invoke(app, words)
+        assert ended.exit_code == 0, ended.output
+        return ended.output
+
+    assert "contact_loss_from" in said("check", NAME)
+    assert json.loads(said("check", NAME, "--json"))["linear"]["resonance"] == pytest.approx(1.0025, abs=1e-4)
+    assert "Up and down differ" in said("run", NAME, *few)
+    shown = json.loads(said("show", f"{NAME}.h5", "--json"))
+    assert shown["summary"]["points"] == 6
+    assert "response" in said("plot", f"{NAME}.h5", "response")
+    assert (tmp_path / f"{NAME}-response.png").is_file()
+    assert NAME in said("list", "scenarios")
+    assert "multipliers" in said("list", "plots")
+    assert "backlash-oscillator" in said("schema")
+
+
+def test_it_is_no_pair_of_gears():
+    ended = CliRunner().invoke(app, ["gear", "sheet", NAME])
+    assert ended.exit_code == 2

@@ -1,0 +1,179 @@
+"""Quasi-static efficiency along the path: balance with friction, limits, other methods, records."""
+
+import math
+
+import numpy as np
+import pytest
+
+from tribodyn.errors import InputError
+from tribodyn.geometry.families import family
+from tribodyn.record.reader import open_record
+from tribodyn.studies.efficiency.along_path import Duty, cycle_efficiency, engage
+from tribodyn.studies.efficiency.dynamic import dynamic_efficiency
+from tribodyn.studies.efficiency.given_coefficient import mean_efficiency
+from tribodyn.studies.efficiency.loss_factor import exact, tip_contact_ratios
+from tribodyn.studies.efficiency.places import SHARINGS, places
+from tribodyn.studies.efficiency.run import efficiencies
+from tribodyn.studies.efficiency.run import prepare as prepare_study
+from tribodyn.studies.efficiency.torque_ratio import cycloid_contact, path_contact, torque_ratio
+from tribodyn.studies.load import load_scenario
+from tribodyn.studies.run import run
+from tribodyn.tribology.friction import BENEDICT_KELLEY, COULOMB, MASJEDI_KHONSARI, NONE, XU
+
+DRIVES = ("efficiency-crc-23-47", "efficiency-involute-18-36", "efficiency-cycloidal-23-47")
+
+
+@pytest.fixture(scope="module")
+def studies():
+    return {name: prepare_study(load_scenario(name)) for name in DRIVES}
+
+
+def with_coefficient(duty: Duty, mu: float) -> Duty:
+    return duty._replace(friction_law=COULOMB, surfaces=duty.surfaces._replace(coulomb_coefficient=mu))
+
+
+@pytest.mark.parametrize("name", DRIVES)
+@pytest.mark.parametrize("sharing", SHARINGS)
+@pytest.mark.parametrize("law", [COULOMB, MASJEDI_KHONSARI, XU, BENEDICT_KELLEY])
+def test_torque_and_power_balance_with_friction(studies, name, sharing, law):
+    study = studies[name]
+    duty = with_coefficient(study.duty, 0.06)._replace(sharing=sharing, friction_law=law)
+    phase = np.linspace(0.003, 0.997, 61)
+    mesh = places(study.cycle, study.path, phase, sharing)
+    state = engage(mesh, duty)
+    np.testing.assert_allclose(state.gear_torque, duty.gear_torque, rtol=1e-11)
+    assert np.all(state.normal_load >= 0)
+    # what goes in comes out or is lost in sliding, at every phase
+    np.testing.assert_allclose(state.power_in, state.power_out + state.power_friction, rtol=1e-10)
+    # the friction on the pinion takes the power from the mesh: F_f ω_p (−L_p + w L_g) = −μ F |v_s|
+    ratio = study.cycle.pinion_pitch_radius / study.cycle.gear_pitch_radius
+    arms = mesh.friction_arm[1] * ratio - mesh.friction_arm[0]
+    np.testing.assert_allclose(
+        np.sum(state.friction_force * arms, axis=-1) * duty.pinion_speed,
+        -state.power_friction,
+        rtol=1e-9,
+        atol=1e-9 * state.power_in.max(),
+    )
+    found = cycle_efficiency(study.cycle, study.path, duty)
+    assert 0.9 < found.efficiency < 1.0
+    assert found.power_in - found.power_out - found.power_friction == pytest.approx(
+        0, abs=1e-10 * found.power_in
+    )
+
+
+@pytest.mark.parametrize("name", DRIVES)
+def test_no_friction_no_loss(studies, name):
+    study = studies[name]
+    found = cycle_efficiency(study.cycle, study.path, study.duty._replace(friction_law=NONE))
+    assert found.efficiency == pytest.approx(1.0, abs=1e-13)
+
+
+@pytest.mark.parametrize("name", DRIVES)
+def test_loss_grows_with_friction_and_vanishes_with_it(studies, name):
+    study = studies[name]
+    losses = [
+        1 - cycle_efficiency(study.cycle, study.path, with_coefficient(study.duty, mu)).efficiency
+        for mu in (1e-5, 0.02, 0.04, 0.08)
+    ]
+    assert np.all(np.diff(losses) > 0)
+    assert losses[0] == pytest.approx(losses[1] * 1e-5 / 0.02, rel=0.02)
+
+
+def test_uniform_sharing_is_hoehns_integral_at_small_friction(studies):
+    """To first order in μ: 1 − η = μ H_v."""
+    study = studies["efficiency-involute-18-36"]
+    mu = 1e-5
+    found = cycle_efficiency(
+        study.cycle, study.path, with_coefficient(study.duty, mu)._replace(sharing="uniform")
+    )
+    factor = exact(*tip_contact_ratios(family("involute"), study.case.drive), 18, 2.0)
+    assert (1 - found.efficiency) / mu == pytest.approx(factor, rel=1e-4)
+
+
+def test_elastic_sharing_is_the_differentiable_one_at_small_friction(studies):
+    """`mean_efficiency` leaves friction out of the loads: the same to first order in μ."""
+    study = studies["efficiency-crc-23-47"]
+    mu = 1e-4
+    found = cycle_efficiency(study.cycle, study.path, with_coefficient(study.duty, mu)).efficiency
+    other = mean_efficiency(study.cycle, study.duty.gear_torque, mu)
+    assert 1 - found == pytest.approx(1 - float(other), rel=2e-4)
+
+
+def test_single_pair_is_the_torque_ratio(studies):
+    """Constant output torque against constant input torque: the same up to the loss squared."""
+    study = studies["efficiency-involute-18-36"]
+    found = efficiencies(study)
+    loss = 1 - found["efficiency_single_pair"]
+    assert abs(found["efficiency_single_pair"] - found["efficiency_torque_ratio"]) < loss**2
+    assert found["efficiency_hoehn"] == pytest.approx(found["efficiency_loss_factor"], abs=1e-12)
+    assert found["efficiency_elastic"] > found["efficiency_uniform"]
+
+
+@pytest.mark.parametrize("law", [COULOMB, MASJEDI_KHONSARI, XU])
+def test_a_cycloidal_path_gives_veciana_closed_form(studies, law):
+    study = studies["efficiency-cycloidal-23-47"]
+    radius, diameter = 34.5e-3, 69e-3
+    duty = with_coefficient(study.duty, 0.07)
+    common = (duty.gear_torque * 23 / 47, duty.pinion_speed, 0.02, law, duty.surfaces)
+    circle = 23.5e-3 / diameter
+    for exact_speeds in (True, False):
+        ours = torque_ratio(path_contact(study.path, 23, exact_speeds=exact_speeds, averaged=False), *common)
+        closed = torque_ratio(
+            cycloid_contact(23, radius, 47 / 23, circle, circle, exact_speeds=exact_speeds), *common
+        )
+        np.testing.assert_allclose(ours.torque_ratio, closed.torque_ratio, rtol=1e-8)
+        assert ours.efficiency == pytest.approx(float(closed.efficiency), abs=1e-10)
+
+
+@pytest.mark.parametrize("law", [MASJEDI_KHONSARI, XU, BENEDICT_KELLEY])
+def test_torque_ratio_and_single_pair_agree_on_vanishing_radii(studies, law):
+    """Both average the contact at the pitch point over its own width."""
+    study = studies["efficiency-cycloidal-23-47"]
+    found = efficiencies(study._replace(duty=study.duty._replace(friction_law=law)))
+    loss = 1 - found["efficiency_single_pair"]
+    assert abs(found["efficiency_single_pair"] - found["efficiency_torque_ratio"]) < loss**2
+
+
+def test_the_quadrature_resolves_a_vanishing_radius(studies):
+    study = studies["efficiency-cycloidal-23-47"]
+    coarse, fine = (cycle_efficiency(study.cycle, study.path, study.duty, n).efficiency for n in (20, 120))
+    assert coarse == pytest.approx(fine, abs=1e-6)
+
+
+def test_efficiency_agrees_with_independent_prototypes(studies):
+    """Quasi-static efficiency of the CRC drive by a separate prototype: 0.9883."""
+    study = studies["efficiency-crc-23-47"]
+    assert cycle_efficiency(study.cycle, study.path, study.duty).efficiency == pytest.approx(0.9883, abs=5e-5)
+
+
+def test_a_pair_that_does_not_cover_a_pitch_cannot_carry_alone():
+    study = prepare_study(load_scenario("efficiency-involute-18-36", {"drive.gear.addendum": 0.5}))
+    assert study.cycle.roll_start > -math.pi / 18
+    with pytest.raises(InputError, match="does not cover half a pitch"):
+        places(study.cycle, study.path, np.array([0.5]), "single-pair")
+    assert "efficiency_single_pair" not in efficiencies(study)
+
+
+def test_a_mean_law_needs_a_radius_at_the_pitch_point():
+    with pytest.raises(InputError, match=r"friction\.law.*vanish"):
+        prepare_study(load_scenario("efficiency-cycloidal-23-47", {"friction.law": "niemann"}))
+
+
+def test_record_of_a_study_and_of_a_dynamic_run(tmp_path):
+    """The study's record reads like a run's; slow dynamics have the efficiency of the study."""
+    still = run(load_scenario("efficiency-crc-23-47"), tmp_path / "still.h5")
+    assert still.status == "complete"
+    with open_record(still.path) as record:
+        assert record.status == "complete"
+        out, lost, put_in = (record[f"power_{name}"] for name in ("out", "friction", "in"))
+        np.testing.assert_allclose(put_in, out + lost, rtol=1e-10)
+        assert np.all(record["sliding_speed"][0][np.isfinite(record["sliding_speed"][0])] != 0)
+        assert record.mesh_cycle["contact_ratio"] == pytest.approx(1.5233, abs=5e-4)
+    moving = run(load_scenario("crc-23-47", {"solver.cycles": "4"}), tmp_path / "moving.h5")
+    with open_record(moving.path) as record:
+        found = dynamic_efficiency(record)
+        assert found.efficiency == pytest.approx(moving.summary["efficiency"], abs=2e-5)
+        assert found.overall < found.efficiency + 1e-4
+        with pytest.raises(InputError, match="whole mesh cycles"):
+            dynamic_efficiency(record, 5)
+    assert found.efficiency == pytest.approx(still.summary["efficiency"], abs=3e-4)

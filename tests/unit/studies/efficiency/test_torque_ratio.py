@@ -1,0 +1,151 @@
+"""Torque ratio of one pair: Veciana's printed closed forms, equal families, friction in the balance."""
+
+import math
+
+import numpy as np
+import pytest
+
+from tests.unit.tribology.test_friction_laws import VECIANA
+from tribodyn.geometry.families.involute import InvolutePath
+from tribodyn.studies.efficiency.quadrature import piecewise
+from tribodyn.studies.efficiency.torque_ratio import (
+    cycloid_contact,
+    involute_contact,
+    path_contact,
+    rotations,
+    torque_ratio,
+)
+from tribodyn.tribology.friction import BENEDICT_KELLEY, COULOMB, MASJEDI_KHONSARI, NONE, XU
+
+TEETH, RADIUS, RATIO, ANGLE = 27.0, 27e-3, 2.0, math.radians(20)
+DUTY = (200.0, 400.0, 0.04)  # N m, rad/s, m
+
+
+def with_coefficient(mu):
+    return VECIANA._replace(coulomb_coefficient=mu)
+
+
+@pytest.mark.parametrize("mu", [0.0, 0.05, 0.2])
+def test_involute_is_the_closed_form(mu):
+    """Γ2/Γ1 = [i + s μ (i tan α − ψ)]/[1 + s μ (tan α + ψ)], Veciana (56)."""
+    pair = involute_contact(TEETH, RADIUS, RATIO, ANGLE)
+    ours = torque_ratio(pair, *DUTY, COULOMB, with_coefficient(mu)).torque_ratio
+    psi, s = pair.rotation, np.sign(pair.rotation)
+    printed = (RATIO + s * mu * (RATIO * math.tan(ANGLE) - psi)) / (1 + s * mu * (math.tan(ANGLE) + psi))
+    np.testing.assert_allclose(ours, printed, rtol=1e-13)
+
+
+@pytest.mark.parametrize("mu", [0.0, 0.05, 0.2])
+@pytest.mark.parametrize(("c_h", "c_e"), [(0.1, 0.1), (0.17, 0.3), (0.4, 0.12)])
+def test_cycloid_is_the_closed_form(mu, c_h, c_e):
+    """Veciana (41) in approach and (42) in recess."""
+    pair = cycloid_contact(TEETH, RADIUS, RATIO, c_h, c_e)
+    ours = torque_ratio(pair, *DUTY, COULOMB, with_coefficient(mu)).torque_ratio
+    psi = pair.rotation
+    a, c = np.abs(psi) / (2 * c_h), c_h
+    approach = (RATIO * np.cos(a) - mu * (RATIO + 2 * c) * np.sin(a)) / (
+        np.cos(a) - mu * (1 - 2 * c) * np.sin(a)
+    )
+    a, c = np.abs(psi) / (2 * c_e), c_e
+    recess = (RATIO * np.cos(a) + mu * (RATIO - 2 * c) * np.sin(a)) / (
+        np.cos(a) + mu * (1 + 2 * c) * np.sin(a)
+    )
+    np.testing.assert_allclose(ours, np.where(psi < 0, approach, recess), rtol=1e-13)
+
+
+def test_cycloid_curvature_by_the_radii_of_both_flanks():
+    """ρ_epi = 2 d_g (d + d_g)/(d + 2 d_g) sin a, ρ_hypo = 2 d_g (d − d_g)/(d − 2 d_g) sin a, concave."""
+    c_h, c_e = 0.17, 0.3
+    pair = cycloid_contact(TEETH, RADIUS, RATIO, c_h, c_e)
+    d1, d2 = 2 * RADIUS, 2 * RADIUS * RATIO
+    for psi, curvature in zip(pair.rotation, pair.curvature, strict=True):
+        c = c_h if psi < 0 else c_e
+        inner, outer = (d1, d2) if psi < 0 else (d2, d1)
+        dg, a = c * d1, abs(psi) / (2 * c)
+        convex = 2 * dg * (outer + dg) / (outer + 2 * dg) * math.sin(a)
+        concave = 2 * dg * (inner - dg) / (inner - 2 * dg) * math.sin(a)
+        assert curvature == pytest.approx(1 / convex - 1 / concave, rel=1e-10)
+
+
+def test_cycloid_speeds_have_the_curvature_of_the_flanks():
+    """Exact rolling speeds obey u = ω ρ (1 + κ) on the pinion: Euler-Savary."""
+    pair = cycloid_contact(TEETH, RADIUS, RATIO, 0.2, 0.2, exact_speeds=True)
+    recess = pair.rotation > 0
+    kappa, dg, d1 = 1 / 0.4, 0.2 * 2 * RADIUS, 2 * RADIUS
+    radius = 2 * dg * (d1 + dg) / (d1 + 2 * dg) * np.sin(pair.rotation[recess] / 0.4)
+    np.testing.assert_allclose(pair.pinion_speed[recess], radius * (1 + kappa), rtol=1e-12)
+    lever = cycloid_contact(TEETH, RADIUS, RATIO, 0.2, 0.2)
+    np.testing.assert_allclose(
+        pair.pinion_speed - pair.gear_speed, lever.pinion_speed - lever.gear_speed, rtol=1e-12
+    )
+
+
+@pytest.mark.parametrize("law", [NONE, COULOMB, MASJEDI_KHONSARI, XU, BENEDICT_KELLEY])
+def test_a_path_gives_what_its_closed_form_gives(law):
+    path = InvolutePath(RADIUS, RADIUS * RATIO, ANGLE)
+    ours = torque_ratio(path_contact(path, TEETH), *DUTY, law, with_coefficient(0.05))
+    closed = torque_ratio(involute_contact(TEETH, RADIUS, RATIO, ANGLE), *DUTY, law, with_coefficient(0.05))
+    for value, expected in zip(ours, closed, strict=True):
+        np.testing.assert_allclose(value, expected, rtol=1e-9, atol=1e-12)
+    if law == NONE:
+        assert ours.efficiency == pytest.approx(1.0, abs=1e-15)
+    else:
+        assert 0.9 < ours.efficiency < 1.0
+
+
+def test_power_balance_at_every_point():
+    """Γ1 ω1 = Γ2 ω2 + μ N |v_s|: friction takes what is missing."""
+    for pair in (
+        involute_contact(TEETH, RADIUS, RATIO, ANGLE),
+        cycloid_contact(TEETH, RADIUS, RATIO, 0.17, 0.25),
+    ):
+        torque, speed, _ = DUTY
+        found = torque_ratio(pair, *DUTY, MASJEDI_KHONSARI, VECIANA)
+        sliding = np.abs(pair.pinion_speed - pair.gear_speed) * speed
+        lost = found.friction_coefficient * found.normal_load * sliding
+        out = found.torque_ratio * torque * speed / RATIO
+        np.testing.assert_allclose(torque * speed - out, lost, rtol=1e-9, atol=1e-9 * torque * speed)
+
+
+def test_a_symmetric_drive_loses_the_same_from_either_side():
+    """i = 1 and equal circles: to first order in μ approach and recess lose the same."""
+    pair = cycloid_contact(TEETH, RADIUS, 1.0, 0.2, 0.2)
+    mu = 1e-6
+    loss = 1 - torque_ratio(pair, *DUTY, COULOMB, with_coefficient(mu)).torque_ratio
+    np.testing.assert_allclose(loss, loss[::-1], rtol=1e-4)
+
+
+@pytest.mark.parametrize("law", [MASJEDI_KHONSARI, XU, BENEDICT_KELLEY])
+def test_the_quadrature_copes_with_the_cycloids_pitch_point(law):
+    coarse, fine = (
+        torque_ratio(
+            cycloid_contact(TEETH, RADIUS, RATIO, 0.17, 0.17, rotations(TEETH, n)), *DUTY, law, VECIANA
+        ).efficiency
+        for n in (24, 200)
+    )
+    assert coarse == pytest.approx(fine, abs=3e-7)
+
+
+def test_circles_may_be_arrays():
+    circles = np.array([[0.1, 0.2], [0.3, 0.4]])
+    pair = cycloid_contact(TEETH, RADIUS, RATIO, circles, circles.T)
+    found = torque_ratio(pair, *DUTY, XU, VECIANA).efficiency
+    assert found.shape == (2, 2)
+    one = cycloid_contact(TEETH, RADIUS, RATIO, 0.2, 0.3)
+    assert found[0, 1] == pytest.approx(torque_ratio(one, *DUTY, XU, VECIANA).efficiency, abs=1e-14)
+
+
+def test_quadrature_is_exact_for_what_it_should_be():
+    nodes, weights = piecewise(np.array([0.0, 0.4, 1.0]), np.array([0.25, 0.9, 1.7]), 12)
+    assert weights.sum() == pytest.approx(1.0, rel=1e-13)
+    assert np.all(np.diff(nodes) > 0)
+    for power in (1, 2, 3):
+        assert (weights @ nodes**power) == pytest.approx(1 / (power + 1), rel=1e-12)
+    # jumps at the breaks, kinks at the pitch points
+    assert weights @ np.where(nodes < 0.4, 2.0, -1.0) == pytest.approx(0.2, rel=1e-12)
+    assert weights @ np.abs(nodes - 0.25) == pytest.approx((0.25**2 + 0.75**2) / 2, rel=1e-12)
+    two, size = piecewise(np.array([0.0, 1.0]), np.array([0.3, 0.6]), 12)
+    assert size.sum() == pytest.approx(1.0, rel=1e-13)
+    assert size @ np.cbrt(np.abs(two - 0.3)) == pytest.approx(
+        0.75 * (0.3 ** (4 / 3) + 0.7 ** (4 / 3)), rel=2e-3
+    )

@@ -1,0 +1,288 @@
+"""Figures: what is drawn, in which units, with which marks; no picture is compared."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+from tests.support import record_samples, synthetic_record
+from tests.support.synthetic_record import PITCH_ANGLE, SPEED, approach_and_recess
+from tribodyn.errors import InputError
+from tribodyn.post.cycles import key_points, last_cycles, pair_curve
+from tribodyn.post.figures.path_of_contact import gears_in_mesh, key_positions
+from tribodyn.record.reader import Record, open_record
+from tribodyn.record.writer import RecordWriter
+from tribodyn.studies.pictures import NAMES, figure, overview, save
+
+
+@pytest.fixture(scope="module")
+def records(tmp_path_factory: pytest.TempPathFactory) -> list[Record]:
+    folder = tmp_path_factory.mktemp("records")
+    paths = [
+        synthetic_record.write(folder / "slippery.h5", per_cycle=100),
+        synthetic_record.write(folder / "rough.h5", per_cycle=100, friction=0.08),
+    ]
+    return [open_record(path) for path in paths]
+
+
+LABELS = {
+    "transmission-error": ["Transmission error (µm)"],
+    "spectrum": ["Transmission error (µm)"],
+    "normal-load": ["Normal load $F_n$ (N)"],
+    "friction": ["Friction force $F_f$ (N)", "Friction coefficient µ (–)"],
+    "film": ["Film thickness $h_c$ (µm)", "Film parameter $h_c/σ$ (–)"],
+    "entrainment": ["Entrainment speed (m/s)", "Sliding speed (m/s)"],
+    "pressure": ["Hertz pressure $p_H$ (GPa)", "Flash temperature rise (K)"],
+    "efficiency": ["Efficiency (%)"],
+    "mesh-stiffness": ["Mesh stiffness (N/µm)"],
+    "path-of-contact": ["Along the line of centres (mm)"],
+}
+
+
+def texts(drawn: Figure, axes: int = 0) -> list[str]:
+    return [text.get_text() for text in drawn.axes[axes].texts]
+
+
+def curve(drawn: Figure, label: str, axes: int = 0) -> tuple[np.ndarray, np.ndarray]:
+    line = next(line for line in drawn.axes[axes].lines if line.get_label() == label)
+    return np.asarray(line.get_xdata()), np.asarray(line.get_ydata())
+
+
+def test_every_figure_has_its_labels_checked():
+    assert set(LABELS) == set(NAMES)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_axes_carry_engineers_units(records: list[Record], name: str):
+    drawn = figure(name, records[:1])
+    assert [axes.get_ylabel() for axes in drawn.axes] == LABELS[name]
+    last = {"spectrum": "Frequency (Hz)", "path-of-contact": "Along the pitch tangent (mm)"}
+    assert drawn.axes[-1].get_xlabel() == last.get(name, "Phase (mesh cycles)")
+
+
+@pytest.mark.parametrize("name", [*NAMES, "overview"])
+@pytest.mark.parametrize("count", [1, 2])
+def test_every_figure_can_be_saved(records: list[Record], tmp_path: Path, name: str, count: int):
+    path = save(figure(name, records[:count]), tmp_path / "picture.png")
+    assert path.read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize("ending", ["pdf", "svg"])
+def test_figures_can_be_saved_for_print(records: list[Record], tmp_path: Path, ending: str):
+    assert save(figure("film", records), tmp_path / f"picture.{ending}").stat().st_size > 1000
+
+
+def test_units_are_converted(records: list[Record]):
+    _, error = curve(figure("transmission-error", records[:1]), "pair 1")
+    _, stiffness = curve(figure("mesh-stiffness", records[:1]), "pair 1")
+    window = last_cycles(records[0])
+    assert np.nanmax(error) == pytest.approx(1e6 * np.nanmax(records[0]["transmission_error"][window.part]))
+    assert np.nanmax(stiffness) == pytest.approx(320, rel=1e-3)  # 3.2e8 N/m in N/µm
+
+
+def test_two_cycles_are_shown_from_phase_zero(records: list[Record]):
+    phase, _ = curve(figure("normal-load", records[:1]), "pair 1")
+    assert np.nanmin(phase) == 0.0
+    assert np.nanmax(phase) == 2.0
+    phase, _ = curve(figure("normal-load", records[:1], cycles=None), "pair 1")
+    assert np.nanmax(phase) == 4.0
+
+
+def test_time_is_in_milliseconds(records: list[Record]):
+    drawn = figure("normal-load", records[:1], against="time")
+    time, _ = curve(drawn, "pair 1")
+    assert drawn.axes[0].get_xlabel() == "Time (ms)"
+    assert np.nanmax(time) == pytest.approx(4 * PITCH_ANGLE / SPEED * 1e3)
+
+
+def test_key_points_of_both_pairs_are_named(records: list[Record]):
+    named = texts(figure("normal-load", records[:1], cycles=1))
+    for name, times in {
+        "$B_g$": 2,
+        "$C_g$": 2,
+        "$C_p$": 1,
+        "$B_p$": 1,
+        "$P$": 1,
+        "pair 1": 1,
+        "pair 0": 1,
+    }.items():
+        assert named.count(name) == times, name
+
+
+def test_key_points_stand_at_their_phases(records: list[Record]):
+    start, end = approach_and_recess()
+    found = {point.newest: point.phase for point in key_points(records[0])}
+    assert found["B_g"] == 0.0
+    assert found["C_p"] == pytest.approx((end - start) / PITCH_ANGLE - 1)
+    assert found["P"] == pytest.approx(-start / PITCH_ANGLE)
+    drawn = figure("normal-load", records[:1], cycles=1)
+    marks = [np.asarray(line.get_xdata())[0] for line in drawn.axes[0].lines if line.get_linestyle() == ":"]
+    assert sorted(marks) == pytest.approx([0.0, found["C_p"], found["P"], 1.0])
+
+
+def test_a_whole_run_is_not_covered_with_marks(records: list[Record], tmp_path: Path):
+    path = synthetic_record.write(tmp_path / "long.h5", cycles=9, per_cycle=20)
+    with open_record(path) as long:
+        assert texts(figure("normal-load", [long], cycles=None)) == []
+
+
+def test_each_pair_is_followed_to_the_end_of_its_cycle(records: list[Record]):
+    """The teeth that reach C_g as pair 1 go on as pair 0 from the very same value."""
+    record = records[0]
+    window = last_cycles(record)
+    values = record["sliding_speed"]
+    newest = pair_curve(record, values, 1, window, window.phase)
+    before = pair_curve(record, values, 0, window, window.phase)
+    at = np.flatnonzero(newest[0] == 1.0)[0]
+    assert newest[1][at] == before[1][before[0] == 1.0][-1]
+    assert np.isnan(newest[1][at + 1])
+    # sliding grows with constant slope along an involute's path: no step inside a piece
+    slope = np.diff(newest[1][: at + 1])
+    np.testing.assert_allclose(slope, slope[0], rtol=1e-9)
+
+
+def test_pairs_out_of_contact_are_not_drawn(records: list[Record]):
+    phase, load = curve(figure("normal-load", records[:1], cycles=1), "pair 0")
+    leaves = key_points(records[0])[1].phase
+    assert np.isnan(load[phase > leaves + 1e-9]).all()
+    assert np.isfinite(load[phase < leaves]).all()
+
+
+def test_records_are_compared_by_colour_with_a_legend(records: list[Record]):
+    drawn = figure("friction", records)
+    legend = [text.get_text() for text in drawn.legends[0].get_texts()]
+    assert legend == ["slippery", "rough", "pair 1", "pair 0"]
+    curves = [line for line in drawn.axes[0].lines if str(line.get_label()).startswith("pair")]
+    assert len(curves) == 4
+    assert len({line.get_color() for line in curves}) == 2
+    assert texts(drawn).count("$C_p$") == 4
+
+
+def test_harmonics_of_the_mesh_are_marked(records: list[Record]):
+    drawn = figure("spectrum", records[:1])
+    named = texts(drawn)
+    assert named[0] == "$f_m$"
+    assert named[4] == "5$f_m$"
+    frequency = SPEED / PITCH_ANGLE
+    assert f"{frequency:.4g} Hz" in drawn.legends[0].get_texts()[0].get_text()
+    places = next(np.asarray(line.get_xdata()) for line in drawn.axes[0].lines if line.get_marker() == "o")
+    np.testing.assert_allclose(places, frequency * np.arange(1, 13), rtol=1e-12)
+
+
+def test_key_points_lie_on_the_path(records: list[Record]):
+    """Distances along the involute's straight path: whole pitches and the approach from the tip circles."""
+    start, end = approach_and_recess()
+    base = synthetic_record.PITCH_RADII[0] * np.cos(synthetic_record.PRESSURE_ANGLE)
+    expected = {"B_g": start, "C_p": end - PITCH_ANGLE, "P": 0.0, "C_g": start + PITCH_ANGLE, "B_p": end}
+    found = key_positions(records[0])
+    assert list(found) == ["B_g", "C_p", "P", "C_g", "B_p"]
+    for name, (x, y) in found.items():
+        assert np.hypot(x, y) * np.sign(x) == pytest.approx(base * expected[name], abs=1e-9)
+        assert y == pytest.approx(x * np.tan(synthetic_record.PRESSURE_ANGLE), abs=1e-12)
+
+
+@pytest.mark.parametrize("phase", [0.0, 0.3, 0.8])
+def test_flanks_touch_where_the_contact_is(records: list[Record], phase: float):
+    start, _ = approach_and_recess()
+    base = synthetic_record.PITCH_RADII[0] * np.cos(synthetic_record.PRESSURE_ANGLE)
+    distance = base * (start + phase * PITCH_ANGLE)
+    angle = synthetic_record.PRESSURE_ANGLE
+    contact = distance * np.array([np.cos(angle), np.sin(angle)])
+    for outline in gears_in_mesh(records[0], phase):
+        outline = outline[np.any(np.diff(outline, axis=0, append=outline[:1]) != 0, axis=1)]
+        along = np.roll(outline, -1, axis=0) - outline
+        share = np.clip(np.sum((contact - outline) * along, axis=1) / np.sum(along**2, axis=1), 0, 1)
+        gap = np.linalg.norm(outline + share[:, None] * along - contact, axis=1).min()
+        assert gap < 15e-6  # chords of the outline, 12 points a flank
+
+
+def test_the_path_is_drawn_with_both_teeth_and_tip_circles(records: list[Record]):
+    drawn = figure("path-of-contact", records[:1])
+    axes = drawn.axes[0]
+    assert len(axes.patches) == 2
+    assert {"$B_g$", "$C_p$", "$P$", "$C_g$", "$B_p$", "gear", "pinion"} <= set(texts(drawn))
+    assert axes.get_aspect() == 1.0
+
+
+def test_the_overview_has_six_panels(records: list[Record]):
+    drawn = overview(records[0])
+    assert len(drawn.axes) == 6
+    assert {text for axes in drawn.axes for text in [t.get_text() for t in axes.texts]} >= {
+        f"({c})" for c in "abcdef"
+    }
+
+
+def test_pyplot_is_never_imported(records: list[Record], tmp_path: Path):
+    """It takes long to import and keeps figures alive in a global list."""
+    drawing = (
+        "import sys\n"
+        "from tribodyn.studies.pictures import NAMES, figure, save\n"
+        "from tribodyn.record.reader import open_record\n"
+        "with open_record(sys.argv[1]) as record:\n"
+        "    for name in NAMES:\n"
+        "        drawn = figure(name, [record])\n"
+        "    save(drawn, sys.argv[2])\n"
+        "assert 'matplotlib.pyplot' not in sys.modules\n"
+    )
+    picture = str(tmp_path / "picture.png")
+    subprocess.run([sys.executable, "-c", drawing, str(records[0].path), picture], check=True, timeout=120)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"name": "normal-laod"}, "did you mean normal-load"),
+        ({"name": "film", "against": "angle"}, "phase or time"),
+        ({"name": "film", "cycles": 0}, "at least one"),
+        ({"name": "film", "records": []}, "at least one record"),
+    ],
+)
+def test_bad_wishes_are_refused(records: list[Record], arguments: dict, message: str):
+    with pytest.raises(InputError, match=message):
+        figure(**{"records": records} | arguments)
+
+
+def failed_record(path: Path, samples: int) -> Path:
+    values = synthetic_record.samples(2, 100)
+    with RecordWriter(
+        path,
+        scenario_toml="",
+        sha256="",
+        samples=201,
+        mesh_cycle=synthetic_record.mesh_cycle(),
+        geometry=synthetic_record.geometry(),
+    ) as record:
+        if samples:
+            record.write(0, {name: array[:samples] for name, array in values.items()})
+        return record.fail("gave up")
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if name != "spectrum"])
+def test_a_run_that_failed_early_is_drawn(tmp_path: Path, name: str):
+    with open_record(failed_record(tmp_path / "run.h5", 60)) as record:
+        save(figure(name, [record]), tmp_path / "picture.png")
+
+
+def test_a_spectrum_needs_a_whole_cycle(tmp_path: Path):
+    path = failed_record(tmp_path / "run.h5", 60)
+    with open_record(path) as record, pytest.raises(InputError, match="no whole mesh cycle"):
+        figure("spectrum", [record])
+
+
+def test_a_record_without_samples_is_refused(tmp_path: Path):
+    path = failed_record(tmp_path / "run.h5", 0)
+    with open_record(path) as record, pytest.raises(InputError, match="no samples"):
+        figure("film", [record])
+
+
+def test_a_record_without_outlines_has_no_path_figure(tmp_path: Path):
+    with RecordWriter(
+        tmp_path / "run.h5", scenario_toml="", sha256="", samples=2, mesh_cycle=record_samples.mesh_cycle()
+    ) as writer:
+        writer.write(0, record_samples.block(0, 2))
+        path = writer.finish({})
+    with open_record(path) as record, pytest.raises(InputError, match="no tooth outlines"):
+        figure("path-of-contact", [record])

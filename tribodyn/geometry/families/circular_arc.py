@@ -1,0 +1,140 @@
+"""The circular-arc family: a path of contact of two circular arcs that meet at the pitch point.
+
+The chord of an arc of diameter D makes asin(|r|/D) with the arc's tangent, so that on either side
+α = α_P + asin(|r|/D): the pressure angle grows away from P on both. A negative diameter bends the arc the
+other way; with D_2 = −D_1 both arcs are one circle. With α_P = 0 the arcs are the generating circles of
+cycloidal teeth (`cycloidal`).
+"""
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.errors import InputError
+from tribodyn.geometry.drive import Drive, reference_radius
+from tribodyn.geometry.family import Family, Parameter, unshifted
+from tribodyn.geometry.reach import refuse_shift, require_reach
+from tribodyn.numerics.elementary import cos, log, namespace, sin, sqrt, where
+from tribodyn.numerics.iteration import newton
+
+Array = Any
+
+_NEWTON_STEPS = 8
+
+
+class ArcPath(NamedTuple):
+    """Two arcs through the pitch point; closed forms but for the inverse of `rotation`.
+
+    With β = α − α_P = asin(r/D): dφ = cos β dβ D/(r_p cos(α_P + β)), which integrates to
+    φ = [β cos α_P − sin α_P ln(cos(α_P + β)/cos α_P)] D/r_p.
+
+    Parameters
+    ----------
+    pinion_pitch_radius, gear_pitch_radius : float
+        Pitch radii, m.
+    angle : float
+        Pressure angle α_P at the pitch point, rad.
+    approach_diameter, recess_diameter : float
+        D of either arc, m; negative where α falls away from P.
+    """
+
+    pinion_pitch_radius: Any
+    gear_pitch_radius: Any
+    angle: Any
+    approach_diameter: Any
+    recess_diameter: Any
+
+    def _diameter(self, r: Array) -> Array:
+        """Diameter with the sign of r or φ, so that r over it is the sine of β."""
+        return where(r < 0, -self.approach_diameter, self.recess_diameter)
+
+    def pressure_angle(self, r: Array) -> Array:
+        """Pressure angle, rad; NaN beyond the ends of a diameter."""
+        sine = r / self._diameter(r)
+        return self.angle + namespace(sine).arcsin(sine)
+
+    def pressure_angle_slope(self, r: Array) -> Array:
+        """Slope dα/dr, rad/m; at P itself the recess's."""
+        diameter = self._diameter(r)
+        return 1 / (diameter * sqrt(1 - (r / diameter) ** 2))
+
+    def rotation(self, r: Array) -> Array:
+        """Pinion angle φ, rad."""
+        diameter = self._diameter(r)
+        sine = r / diameter
+        return self._turned(namespace(sine).arcsin(sine)) * diameter / self.pinion_pitch_radius
+
+    def _turned(self, beta: Array) -> Array:
+        """Pinion angle in units of D/r_p."""
+        return cos(self.angle) * beta - sin(self.angle) * log(cos(self.angle + beta) / cos(self.angle))
+
+    def signed_distance(self, rotation: Array) -> Array:
+        """Signed distance r (m) at the pinion angle φ."""
+        xp = namespace(self, rotation)
+        diameter = self._diameter(xp.asarray(rotation))
+        target = rotation * self.pinion_pitch_radius / diameter
+        start = xp.minimum(target * cos(self.angle), 0.98 * (np.pi / 2 - self.angle))
+        return diameter * sin(newton(_step_to_rotation, start, _NEWTON_STEPS, self, target))
+
+
+def _step_to_rotation(beta: Array, path: ArcPath, target: Array) -> Array:
+    return beta - (path._turned(beta) - target) * cos(path.angle + beta) / cos(beta)
+
+
+class Shape(NamedTuple):
+    """Diameters of the two arcs, m; negative where the pressure angle falls away from the pitch point."""
+
+    approach_diameter: Any
+    recess_diameter: Any
+
+
+def working_path(drive: Drive) -> ArcPath:
+    """Two arcs of the drive's diameters and pressure angle."""
+    pitch_radii = reference_radius(drive, "pinion"), reference_radius(drive, "gear")
+    return ArcPath(*pitch_radii, drive.pressure_angle, *drive.shape)
+
+
+def arc_ends(path: ArcPath) -> tuple[float, float]:
+    """Signed distances (m) up to which each arc serves: to where α comes near 90° or falls to 0."""
+
+    def end(diameter: float) -> float:
+        if diameter > 0:
+            return 0.999 * diameter * math.cos(path.angle)
+        return -0.999 * diameter * math.sin(path.angle)
+
+    return -end(path.approach_diameter), end(path.recess_diameter)
+
+
+def check(drive: Drive) -> None:
+    """Refuse profile shift, no arc at all, arcs that end before the teeth do, and undercut."""
+    refuse_shift(drive)
+    for name, diameter in drive.shape._asdict().items():
+        if diameter == 0:
+            raise InputError(f"drive.shape.{name}", "0 mm", "an arc needs a diameter", "use another one")
+    path = working_path(drive)
+    require_reach(drive, path, *arc_ends(path), _advice)
+
+
+def _advice(drive: Drive, half: int) -> tuple[str, Any, str]:
+    name = "approach_diameter" if half < 0 else "recess_diameter"
+    diameter = getattr(drive.shape, name)
+    remedy = "use a greater one or lower teeth" if diameter > 0 else "use a more negative one, or lower teeth"
+    return f"shape.{name}", f"{1e3 * diameter:.4g} mm", remedy
+
+
+FAMILY = Family(
+    "circular-arc",
+    working_path,
+    unshifted(working_path),
+    shiftable=False,
+    check=check,
+    shape=Shape,
+    parameters=(
+        Parameter("approach_diameter", "signed length", "of the arc on which contact approaches P"),
+        Parameter("recess_diameter", "signed length", "of the arc on which it recedes from P"),
+    ),
+    corner=True,
+    about="path of two circular arcs; pressure_angle at the pitch point, "
+    "shape.approach_diameter, recess_diameter",
+)

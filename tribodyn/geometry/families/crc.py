@@ -1,0 +1,184 @@
+"""The CRC family: constant relative curvature along the whole path of contact (Liu & Ni 2022).
+
+With A = r_p sin α, κ = dα/dφ equals dA/dr, and asking for the equivalent radius ρ_0 of the pitch point at
+every r gives r²κ² + κ [2Ar + r²(1 − w)] + A² + Ar(1 − w) − r²w − A A_0 = 0. In ξ = r/A_0 and a = A/A_0
+(A_0 = r_p sin α_p) this is one polynomial equation with the single parameter w = r_p/r_g:
+
+    p² + (1 − w) ξ p − w ξ² − a = 0,   p = ξ a' + a,
+
+regular at ξ = 0 (a = 1, a' = (w − 1)/3) and through α = 90°. In other words (p + ξ)(p − wξ) = a: the product
+of the two flank speeds goes with sin α. It is solved by Chebyshev collocation.
+"""
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.errors import InputError
+from tribodyn.geometry.drive import Drive, reference_radius, tip_radius
+from tribodyn.geometry.family import Family, unshifted
+from tribodyn.geometry.path import Path, integrated_rotation, inverted_rotation
+from tribodyn.numerics.elementary import namespace, sin, sqrt
+from tribodyn.numerics.iteration import newton
+from tribodyn.numerics.remembered import remembered
+
+Array = Any
+
+# Nearest complex singularities are at ξ ≈ ±1.4i: degree 48 converges to rounding for intervals up to |ξ| ≈ 3.
+DEGREE = 48
+_NEWTON_STEPS = 8
+# The path is solved this much further than the teeth reach, so that Newton's iterates stay inside.
+_REACH_MARGIN = 1.1
+
+_POINTS = np.cos(np.pi * np.arange(DEGREE + 1) / DEGREE)
+_VALUE = np.polynomial.chebyshev.chebvander(_POINTS, DEGREE)
+_DERIVATIVE = np.vstack([np.polynomial.chebyshev.chebder(row) for row in np.eye(DEGREE + 1)]).T
+_SLOPE = _VALUE[:, :DEGREE] @ _DERIVATIVE
+
+
+def chebyshev_basis(x: Array) -> Array:
+    """Evaluate T_0(x) … T_DEGREE(x) along a new last axis, as cos(k arccos x); constant beyond −1 … 1."""
+    xp = namespace(x)
+    # One rounding error inside, so that the derivative of arccos stays finite.
+    angle = xp.arccos(xp.clip(xp.asarray(x), -1 + 1e-15, 1 - 1e-15))
+    return xp.cos(angle[..., None] * np.arange(DEGREE + 1))
+
+
+class CRCPath(NamedTuple):
+    """Path of contact whose equivalent radius is the same everywhere.
+
+    It is known from `lower` to `upper` only; beyond them α keeps its last value and nothing else holds.
+
+    Parameters
+    ----------
+    pinion_pitch_radius, gear_pitch_radius : float
+        Pitch radii, m.
+    lower, upper : float
+        Signed distances (m) between which the path is solved: as far as rack and mate reach, and a margin.
+    coefficients : array
+        Chebyshev coefficients of sin α over lower … upper, (DEGREE + 1,).
+    """
+
+    pinion_pitch_radius: Any
+    gear_pitch_radius: Any
+    lower: Any
+    upper: Any
+    coefficients: Any
+
+    def _sine(self, r: Array) -> tuple[Array, Array]:
+        basis = chebyshev_basis((2 * r - self.lower - self.upper) / (self.upper - self.lower))
+        slope = (_DERIVATIVE @ self.coefficients) * 2 / (self.upper - self.lower)
+        return basis @ self.coefficients, basis[..., :DEGREE] @ slope
+
+    def pressure_angle(self, r: Array) -> Array:
+        """Pressure angle, rad; NaN where sin α would exceed 1."""
+        sine, _ = self._sine(r)
+        return namespace(sine).arcsin(sine)
+
+    def pressure_angle_slope(self, r: Array) -> Array:
+        """Slope dα/dr of the interpolant, rad/m."""
+        sine, slope = self._sine(r)
+        return slope / sqrt(1 - sine**2)
+
+    def rotation(self, r: Array) -> Array:
+        """Pinion angle φ, rad."""
+        return integrated_rotation(self, r)
+
+    def signed_distance(self, rotation: Array) -> Array:
+        """Signed distance r (m) at the pinion angle φ."""
+        return inverted_rotation(self, rotation)
+
+
+def solve(ratio: Any, lower: Any, upper: Any) -> Array:
+    """Chebyshev coefficients of a(ξ) over lower … upper for w = `ratio`, by fixed Newton steps."""
+    half = (upper - lower) / 2
+    # Start on the first two terms of the series about the pitch point.
+    kappa = (ratio - 1) / 3
+    constant, linear = np.eye(DEGREE + 1)[:2]
+    start = (1 + kappa * (lower + upper) / 2) * constant + kappa * half * linear
+    return newton(_step, start, _NEWTON_STEPS, ratio, (lower + upper) / 2, half)
+
+
+def _step(coefficients: Array, ratio: Any, middle: Any, half: Any) -> Array:
+    xp = namespace(coefficients, ratio, middle, half)
+    xi = middle + half * _POINTS
+    product = xi[:, None] * _SLOPE / half + _VALUE
+    p = product @ coefficients
+    residual = p**2 + (1 - ratio) * xi * p - ratio * xi**2 - _VALUE @ coefficients
+    jacobian = (2 * p + (1 - ratio) * xi)[:, None] * product - _VALUE
+    return coefficients - xp.linalg.solve(jacobian, residual)
+
+
+def reach(ratio: Any, height: Any) -> Any:
+    """ξ at which the path is `height` above the pitch point, in units of A_0²/r_p (so that ξ a = height).
+
+    The height rises monotonically with ξ at the rate p > 0; a coarse fourth-order march is enough, for the
+    result only bounds the interval of the solution.
+    """
+    steps = 4
+    step = height / steps
+
+    def rate(h: Any, xi: Any) -> Any:
+        return 2 / (sqrt(xi**2 * (1 + ratio) ** 2 + 4 * h / xi) - xi * (1 - ratio))
+
+    # One step of the series a = 1 + (w − 1)/3 ξ leaves the point where h/ξ is 0/0.
+    xi = step - (ratio - 1) / 3 * step**2
+    for i in range(1, steps):
+        h = i * step
+        k1 = rate(h, xi)
+        k2 = rate(h + step / 2, xi + step / 2 * k1)
+        k3 = rate(h + step / 2, xi + step / 2 * k2)
+        k4 = rate(h + step, xi + step * k3)
+        xi = xi + step / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+    return xi
+
+
+@remembered
+def working_path(drive: Drive) -> Path:
+    """Path of contact from the depth of the pinion's rack to the depth of the gear's."""
+    xp = namespace(drive)
+    r_p, r_g = reference_radius(drive, "pinion"), reference_radius(drive, "gear")
+    sine = sin(drive.pressure_angle)
+    arm = r_p * sine
+    ratio = r_p / r_g
+    below = xp.maximum(drive.module * drive.pinion.dedendum, tip_radius(drive, "gear") - r_g)
+    above = xp.maximum(drive.module * drive.gear.dedendum, tip_radius(drive, "pinion") - r_p)
+    lower = _REACH_MARGIN * reach(ratio, -below * r_p / arm**2)
+    upper = _REACH_MARGIN * reach(ratio, above * r_p / arm**2)
+    return CRCPath(r_p, r_g, lower * arm, upper * arm, sine * solve(ratio, lower, upper))
+
+
+def check(drive: Drive) -> None:
+    """Refuse profile shift, and teeth that reach further than a path of constant relative curvature does."""
+    for side in ("pinion", "gear"):
+        shift = getattr(drive, side).profile_shift
+        if shift != 0:
+            raise InputError(
+                f"drive.{side}.profile_shift",
+                shift,
+                "a CRC drive cannot be profile-shifted: its path of contact belongs to one centre distance",
+                "use 0",
+            )
+    with np.errstate(all="ignore"):
+        path = working_path(drive)
+        inner = np.linspace(path.lower, path.upper, 201) / _REACH_MARGIN  # pyright: ignore
+        sine = np.sin(path.pressure_angle(inner))
+        tail = np.abs(path.coefficients[-4:]).max()  # pyright: ignore
+    if not (np.all(np.isfinite(sine)) and sine.min() > 0 and tail < 1e-10):
+        raise InputError(
+            "drive.pressure_angle",
+            f"{math.degrees(drive.pressure_angle):.4g}°",
+            "the path of constant relative curvature does not reach the depth of the teeth",
+            "use a larger pressure angle, more teeth, or a smaller addendum and dedendum",
+        )
+
+
+FAMILY = Family(
+    "crc",
+    working_path,
+    unshifted(working_path),
+    False,
+    check,
+    about="constant relative curvature (Liu & Ni); pressure_angle is the one at the pitch point",
+)

@@ -1,0 +1,157 @@
+"""The parabolic family: a path of contact of two parabolas with their common vertex at the pitch point.
+
+Recess x² = 2 p1 y with p1 = 2 k1 r_g, approach x² = −2 p2 y with p2 = 2 k2 r_p (Jia et al. 2022, (26)-(36)).
+With tan α = |x|/(2p), sin α = |r|/(p + √(p² + r²)), and the pinion turns by φ = (x + x³/(6p²))/r_p, Jia's
+(10). At P α vanishes as on a cycloid's path; see `pitch_point`.
+"""
+
+import math
+from typing import Any, NamedTuple
+
+from tribodyn.errors import InputError
+from tribodyn.geometry.drive import Drive, Side, body_of, reference_radius
+from tribodyn.geometry.family import Family, Parameter, unshifted
+from tribodyn.geometry.reach import refuse_shift, require_reach
+from tribodyn.numerics.elementary import namespace, sqrt, where
+
+Array = Any
+
+
+class ParabolaPath(NamedTuple):
+    """Two half parabolas; closed forms throughout.
+
+    Parameters
+    ----------
+    pinion_pitch_radius, gear_pitch_radius : float
+        Pitch radii, m.
+    approach_parameter, recess_parameter : float
+        p2 and p1: semi-latus rectum of either parabola, m.
+    """
+
+    pinion_pitch_radius: Any
+    gear_pitch_radius: Any
+    approach_parameter: Any
+    recess_parameter: Any
+
+    def _parameter(self, r: Array) -> Array:
+        return where(r < 0, -self.approach_parameter, self.recess_parameter)
+
+    def _sine(self, r: Array) -> tuple[Array, Array]:
+        """Sine of α, and √(p² + r²) with the sign of r."""
+        p = self._parameter(r)
+        root = where(r < 0, -1.0, 1.0) * sqrt(p**2 + r**2)
+        return r / (p + root), root
+
+    def pressure_angle(self, r: Array) -> Array:
+        """Pressure angle, rad."""
+        sine, _ = self._sine(r)
+        return namespace(sine).arcsin(sine)
+
+    def pressure_angle_slope(self, r: Array) -> Array:
+        """Slope dα/dr, rad/m; at P itself the recess's."""
+        sine, root = self._sine(r)
+        return self._parameter(r) / (root * (self._parameter(r) + root) * sqrt(1 - sine**2))
+
+    def rotation(self, r: Array) -> Array:
+        """Pinion angle φ, rad."""
+        sine, _ = self._sine(r)
+        x = r * sqrt(1 - sine**2)
+        return (x + x**3 / (6 * self._parameter(r) ** 2)) / self.pinion_pitch_radius
+
+    def signed_distance(self, rotation: Array) -> Array:
+        """Signed distance r (m) at the pinion angle φ: the root of Jia's cubic in x."""
+        xp = namespace(self, rotation)
+        p = self._parameter(xp.asarray(rotation))
+        angle = xp.arcsinh(3 * self.pinion_pitch_radius * rotation / (2 * math.sqrt(2) * p)) / 3
+        x = 2 * math.sqrt(2) * p * xp.sinh(angle)
+        return x * sqrt(1 + (x / (2 * p)) ** 2)
+
+
+class Shape(NamedTuple):
+    """Jia's parabola coefficients: k1 = p1/(2 r_g) of the recess, k2 = p2/(2 r_p) of the approach."""
+
+    k1: Any
+    k2: Any
+
+
+def working_path(drive: Drive) -> ParabolaPath:
+    """Parabolas of the drive's coefficients."""
+    r_p, r_g = reference_radius(drive, "pinion"), reference_radius(drive, "gear")
+    return ParabolaPath(r_p, r_g, 2 * drive.shape.k2 * r_p, 2 * drive.shape.k1 * r_g)
+
+
+def published_limits(teeth: float) -> tuple[float, float]:
+    """Least and greatest k without undercut by Jia's (42) and (44), from the teeth of the wheel it rolls in.
+
+    sin(π/(2z)) < (1 − 2k)/(2√(k(1 − k))) ≤ (1 − 2k)/(1 − k), the latter two being the sines of the paper's β
+    and u_t at the critical point. Its β is read off as sin β = y/O₂M where the geometry gives x/O₂M, so that
+    the lower limit (always 1/5) is an artefact; `greatest_coefficient` has the actual one.
+    """
+    # with s = sin(π/2z): (1 − 2k)² = 4 s² k (1 − k), a quadratic in k
+    sine = math.sin(math.pi / (2 * teeth))
+    return 0.2, (1 - sine / math.sqrt(1 + sine**2)) / 2
+
+
+def greatest_coefficient(drive: Drive, half: int) -> float:
+    """Greatest k at which the mate's actual tip still meets sound flank: k1 for half = +1, k2 for −1.
+
+    The tip circle R of the mate, on whose parabola contact ends, and the point of zero velocity of this
+    body's flank, y = r (1 − 2k)/… of Jia's (18), (15), coincide; found by bisection on the flank's speed.
+    """
+    side: Side = "gear" if half > 0 else "pinion"
+    mate: Side = "pinion" if half > 0 else "gear"
+    r, mate_r = reference_radius(drive, side), reference_radius(drive, mate)
+    tip = mate_r + drive.module * body_of(drive, mate).addendum
+
+    def sound(k: float) -> bool:
+        p = 2 * k * r
+        y = -(p + mate_r) + math.sqrt((p + mate_r) ** 2 + tip**2 - mate_r**2)
+        # u of this body over its angular speed, along the flank: r sin α − ρ (1 + w) … in x, y of the path:
+        # zero velocity where (1 + i) x x' + … = 0 reduces to x x' + (y − r) y' = 0, and x x' = p y'.
+        return p + y - r < 0
+
+    good, bad = 0.0, 0.5
+    for _ in range(60):
+        middle = (good + bad) / 2
+        good, bad = (middle, bad) if sound(middle) else (good, middle)
+    return good
+
+
+def check(drive: Drive) -> None:
+    """Refuse profile shift, and coefficients that are not positive or undercut the working flank."""
+    refuse_shift(drive)
+    for half, name in ((1, "k1"), (-1, "k2")):
+        k, most = getattr(drive.shape, name), greatest_coefficient(drive, half)
+        if not 0 < k < most:
+            side = "gear" if half > 0 else "pinion"
+            raise InputError(
+                f"drive.shape.{name}",
+                k,
+                f"must be greater than 0 and, lest the working flank of the {side} be undercut, "
+                f"less than {most:.4g}",
+                f"use {0.7 * most:.2g}",
+            )
+    reach = 50 * drive.module
+    require_reach(drive, working_path(drive), -reach, reach, _advice)
+
+
+def _advice(drive: Drive, half: int) -> tuple[str, Any, str]:
+    name = "k1" if half > 0 else "k2"
+    return f"shape.{name}", getattr(drive.shape, name), "use a smaller one, or lower teeth"
+
+
+FAMILY = Family(
+    "parabolic",
+    working_path,
+    unshifted(working_path),
+    shiftable=False,
+    check=check,
+    shape=Shape,
+    parameters=(
+        Parameter("k1", "number", "p1/(2 r_g) of the parabola in recess (Jia et al.)"),
+        Parameter("k2", "number", "p2/(2 r_p) of the parabola in approach"),
+    ),
+    pressure_angle=False,
+    corner=True,
+    about="parabolic path of contact (Jia et al.); shape.k1 of the recess, k2 of the approach",
+)

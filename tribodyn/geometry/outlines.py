@@ -1,0 +1,27 @@
+"""Outlines, path and circles of a gear pair, as records keep them for pictures."""
+
+from typing import Any
+
+import numpy as np
+
+from tribodyn.geometry.body import gear_polygon
+from tribodyn.geometry.drive import SIDES, Drive, body_of, root_radius, tip_radius
+from tribodyn.geometry.family import Family
+from tribodyn.geometry.path import contact_limits, position
+
+
+def geometry_arrays(family: Family, drive: Drive) -> dict[str, Any]:
+    """Outlines, path and circles, in each body's own frame, m."""
+    path = family.working_path(drive)
+    limits = contact_limits(path, tip_radius(drive, "pinion"), tip_radius(drive, "gear"))
+    start, end = (float(path.rotation(limit)) for limit in limits)
+    roll = np.linspace(start, end, 201)
+    x, y = position(path, path.signed_distance(roll))
+    arrays: dict[str, Any] = {"path_of_contact": np.stack([x, y], axis=-1)}
+    for side in SIDES:
+        arrays[f"{side}_outline"] = np.asarray(gear_polygon(family, drive, side))
+        arrays[f"{side}_tip_radius"] = float(tip_radius(drive, side))
+        arrays[f"{side}_root_radius"] = float(root_radius(drive, side))
+        arrays[f"{side}_pitch_radius"] = float(getattr(path, f"{side}_pitch_radius"))
+        arrays[f"{side}_bore_radius"] = float(body_of(drive, side).bore_radius)
+    return arrays

@@ -1,0 +1,270 @@
+"""Models whose numbers and tables differ by lane.
+
+A `LaneRecord` stands for one of a model's named tuples. Its numbers are rows of lanes; its tables stay where
+each case has them, and a lane holds no more than their address: a hundred cases of one drive share one table,
+and nothing is copied.
+"""
+
+import operator
+import struct
+from typing import NamedTuple
+
+import numpy as np
+from llvmlite import ir
+from numba.core import cgutils, types
+from numba.core.typing.templates import (
+    AbstractTemplate,
+    AttributeTemplate,
+    infer_getattr,
+    signature,
+)
+from numba.extending import (
+    lower_builtin,
+    lower_getattr,
+    lower_getattr_generic,
+    models,
+    register_model,
+)
+
+from tribodyn.kernels.lanes.arrays import ALIGNMENT, indices_of, row_at, subscripts
+from tribodyn.kernels.lanes.vectors import (
+    DOUBLE,
+    FLOATS,
+    INDICES,
+    INT64,
+    INTEGERS,
+    LANES,
+    WIDTH,
+    Vector,
+    broadcast,
+    intrinsic,
+    of_operator,
+)
+from tribodyn.kernels.native import Laid
+
+_FLOATS_AT = types.CPointer(types.float64)
+_INTEGERS_AT = types.CPointer(types.int64)
+
+
+class LaneTableType(types.Type):
+    """Type of a table of `ndim` axes that each lane has at its own address.
+
+    A `shared` one is the same in every lane and gives plain numbers.
+    """
+
+    def __init__(self, ndim: int, shared: bool = False):
+        self.ndim = ndim
+        self.shared = shared
+        super().__init__(name=f"LaneTable({ndim}, {'shared' if shared else WIDTH})")
+
+
+class Field(NamedTuple):
+    """A field of a record.
+
+    Attributes
+    ----------
+    name : str
+    ndim : int
+        Axes of the table; 0: a number.
+    row : int
+        Among the block's numbers or addresses.
+    first_length : int
+        Where the table's shape begins among all lengths.
+    shared : bool
+        Whether the table is the same in every lane.
+    """
+
+    name: str
+    ndim: int
+    row: int
+    first_length: int
+    shared: bool
+
+
+class LaneRecordType(types.Type):
+    """Type of a record of numbers and tables over the lanes."""
+
+    def __init__(self, fields: tuple[Field, ...]):
+        self.fields = {field.name: field for field in fields}
+        described = ", ".join(f"{f.name}:{f.ndim}@{f.row}/{f.first_length}/{f.shared}" for f in fields)
+        super().__init__(name=f"LaneRecord({described}; {WIDTH})")
+
+
+class LaneRecord(NamedTuple):
+    """One of a model's named tuples over the lanes, as Python hands it to a kernel.
+
+    Attributes
+    ----------
+    fields : tuple of Field
+    numbers : (F, WIDTH) float64
+    addresses : (T, WIDTH) int64
+    lengths : (L,) int64
+        Shapes of all tables, one after the other; the same in every lane.
+    """
+
+    fields: tuple[Field, ...]
+    numbers: np.ndarray
+    addresses: np.ndarray
+    lengths: np.ndarray
+
+    def laid_out(self) -> Laid:
+        """As kernels read it: the addresses of the three arrays; the caller keeps them alive."""
+        addresses = (array.ctypes.data for array in (self.numbers, self.addresses, self.lengths))
+        return Laid(LaneLayout(self.fields), struct.pack("=3q", *addresses))
+
+
+class LaneLayout(NamedTuple):
+    """Layout of a `LaneRecord` among a kernel's arguments."""
+
+    fields: tuple[Field, ...]
+    words: int = 3
+
+    @property
+    def type(self) -> LaneRecordType:
+        """Its type to numba."""
+        return LaneRecordType(self.fields)
+
+
+@register_model(LaneTableType)
+class _LaneTableModel(models.StructModel):
+    def __init__(self, manager, table):
+        members = [("addresses", INDICES), ("shape", types.UniTuple(types.int64, table.ndim))]
+        super().__init__(manager, table, members)
+
+
+@register_model(LaneRecordType)
+class _LaneRecordModel(models.StructModel):
+    def __init__(self, manager, record):
+        members = [("numbers", _FLOATS_AT), ("addresses", _INTEGERS_AT), ("lengths", _INTEGERS_AT)]
+        super().__init__(manager, record, members)
+
+
+@of_operator(operator.getitem)
+class _GetItem(AbstractTemplate):
+    def generic(self, args, kws):
+        table, index = args
+        if isinstance(table, LaneTableType) and len(subscripts(index)) == table.ndim:
+            return signature(types.float64 if table.shared else LANES, table, index)
+        return None
+
+
+def _address(context, builder, table, value, kind, index):
+    """Addresses in a lane's own table: the part that differs by lane, and the offset that does not, bytes.
+
+    Apart, because many look-ups share the first.
+    """
+    value = cgutils.create_struct_proxy(table)(context, builder, value)
+    indices = indices_of(
+        context, builder, kind, index, lambda one: one if isinstance(one, Vector) else types.int64
+    )
+    shape = cgutils.unpack_tuple(builder, value.shape)
+    address, offset, stride = value.addresses, INT64(0), INT64(8)
+    for axis in reversed(range(table.ndim)):
+        if axis < len(indices):
+            if indices[axis].type == INTEGERS:
+                address = builder.add(address, builder.mul(indices[axis], broadcast(builder, stride)))
+            else:
+                offset = builder.add(offset, builder.mul(indices[axis], stride))
+        stride = builder.mul(stride, shape[axis])
+    return address, offset
+
+
+@lower_builtin(operator.getitem, LaneTableType, types.Integer)
+@lower_builtin(operator.getitem, LaneTableType, Vector)
+@lower_builtin(operator.getitem, LaneTableType, types.BaseTuple)
+def _gather(context, builder, signature, values):
+    """Every lane reads its own table, at its own index where that is a vector."""
+    table, kind = signature.args
+    address, offset = _address(context, builder, table, values[0], kind, values[1])
+    if table.shared:
+        place = builder.add(builder.extract_element(address, INT64(0)), offset)
+        return builder.load(builder.inttoptr(place, DOUBLE.as_pointer()))
+    found = ir.Constant(FLOATS, ir.Undefined)
+    for lane in range(WIDTH):
+        place = builder.add(builder.extract_element(address, INT64(lane)), offset)
+        value = builder.load(builder.inttoptr(place, DOUBLE.as_pointer()))
+        found = builder.insert_element(found, value, INT64(lane))
+    return found
+
+
+@intrinsic
+def rows_of_four(typingctx, table, index):
+    """Four neighbours on the table's last axis, a vector each; `index` has all axes but the last.
+
+    Whole rows are read and transposed: a third of the work of four look-ups.
+    """
+    four = types.UniTuple(LANES, 4)
+
+    def emit(context, builder, signature, values):
+        address, offset = _address(context, builder, table, values[0], index, values[1])
+        row = ir.VectorType(DOUBLE, 4)
+        rows = []
+        for lane in range(WIDTH):
+            place = builder.add(builder.extract_element(address, INT64(lane)), offset)
+            rows.append(builder.load(builder.inttoptr(place, row.as_pointer()), align=8))
+        return cgutils.pack_array(builder, transposed(builder, rows))
+
+    return four(table, index), emit
+
+
+def shuffled(builder, a, b, order):
+    """Elements of a and b, counted on, in the order wanted."""
+    mask = ir.Constant(ir.VectorType(ir.IntType(32), len(order)), order)
+    return builder.shuffle_vector(a, b, mask)
+
+
+def transposed(builder, rows):
+    """Eight rows of four as four vectors: rows far apart are joined first, so that pairs can be swapped."""
+    half = WIDTH // 2
+    joined = [shuffled(builder, rows[i], rows[i + half], list(range(8))) for i in range(half)]
+    even = [shuffled(builder, joined[i], joined[i + 1], [0, 8, 2, 10, 4, 12, 6, 14]) for i in (0, 2)]
+    odd = [shuffled(builder, joined[i], joined[i + 1], [1, 9, 3, 11, 5, 13, 7, 15]) for i in (0, 2)]
+    low, high = [0, 1, 8, 9, 4, 5, 12, 13], [2, 3, 10, 11, 6, 7, 14, 15]
+    return [
+        shuffled(builder, even[0], even[1], low),
+        shuffled(builder, odd[0], odd[1], low),
+        shuffled(builder, even[0], even[1], high),
+        shuffled(builder, odd[0], odd[1], high),
+    ]
+
+
+@infer_getattr
+class _TableAttributes(AttributeTemplate):
+    key = LaneTableType
+
+    def resolve_shape(self, table):
+        return types.UniTuple(types.int64, table.ndim)
+
+
+@lower_getattr(LaneTableType, "shape")
+def _table_shape(context, builder, table, value):
+    return cgutils.create_struct_proxy(table)(context, builder, value).shape
+
+
+@infer_getattr
+class _RecordAttributes(AttributeTemplate):
+    key = LaneRecordType
+
+    def generic_resolve(self, record, name):
+        field = record.fields.get(name)
+        if field is None:
+            return None
+        return LaneTableType(field.ndim, field.shared) if field.ndim else LANES
+
+
+@lower_getattr_generic(LaneRecordType)
+def _record_attribute(context, builder, record, value, name):
+    value = cgutils.create_struct_proxy(record)(context, builder, value)
+    field = record.fields[name]
+    at = INT64(field.row * WIDTH)
+    if not field.ndim:
+        return builder.load(row_at(builder, value.numbers, at), align=ALIGNMENT)
+    table = cgutils.create_struct_proxy(LaneTableType(field.ndim, field.shared))(context, builder)
+    place = builder.bitcast(builder.gep(value.addresses, [at]), INTEGERS.as_pointer())
+    table.addresses = builder.load(place, align=ALIGNMENT)
+    lengths = [
+        builder.load(builder.gep(value.lengths, [INT64(field.first_length + axis)]))
+        for axis in range(field.ndim)
+    ]
+    table.shape = cgutils.pack_array(builder, lengths)
+    return table._getvalue()

@@ -1,0 +1,154 @@
+"""numba's versions of the elementary functions, and registration of the laws.
+
+Importing this module makes the laws callable from what numba compiles.
+"""
+
+import math
+import sys
+from importlib import import_module
+from typing import Any, cast
+
+from numba.core import types
+from numba.core.typing.templates import AbstractTemplate, infer_global, signature
+from numba.extending import lower_builtin
+
+import tribodyn
+from tribodyn.kernels.native.compiler import part, part_instead
+from tribodyn.numerics import elementary
+from tribodyn.solve import dormand_prince, rosenbrock  # noqa: F401
+
+
+def _load_numba_without_blas() -> None:
+    """Import what numba looks for BLAS with while SciPy's seems absent: no kernel of ours uses it.
+
+    It would import all of `scipy.linalg`, a tenth of a short run's time. In a process of the command line
+    only, which no one else's kernels share.
+    """
+    if tribodyn.OWN_PROCESS and "scipy.linalg" not in sys.modules:
+        sys.modules["scipy.linalg"] = None  # pyright: ignore[reportArgumentType]
+        try:
+            import_module("numba.np.arraymath")
+        finally:
+            del sys.modules["scipy.linalg"]
+
+
+_load_numba_without_blas()
+_infer_global = cast(Any, infer_global)
+
+
+def _numeric(function: Any, arguments: Any, result: Any = types.float64) -> Any:
+    """Tell numba the types of a function of floats, or integers as such; returns what registers its code."""
+
+    @_infer_global(function)
+    class _Types(AbstractTemplate):
+        key = function
+
+        def generic(self, args, kws):
+            if len(args) == len(arguments) and all(map(isinstance, args, arguments)):
+                wanted = (types.boolean if kind is types.Boolean else types.float64 for kind in arguments)
+                return signature(result, *wanted)
+            return None
+
+    return lower_builtin(
+        function, *(types.Boolean if kind is types.Boolean else types.Float for kind in arguments)
+    )
+
+
+def _same_as(function, known, *arguments, result: Any = types.float64):
+    """Compile a function to what numba makes of one that it knows."""
+
+    @_numeric(function, arguments, result)
+    def _(context, builder, sig, args):
+        of_floats = signature(result, *sig.args)
+        context.typing_context.resolve_function_type(
+            context.typing_context.resolve_value_type(known), sig.args, {}
+        )
+        return context.get_function(known, of_floats)(builder, args)
+
+
+for _name in ("sqrt", "exp", "log", "sin", "cos", "tan"):
+    _same_as(getattr(elementary, _name), getattr(math, _name), types.Number)
+_same_as(elementary.arctan2, math.atan2, types.Number, types.Number)
+_same_as(elementary.absolute, abs, types.Number)
+
+
+@_numeric(elementary.truncate, [types.Number], types.int64)
+def _truncate(context, builder, sig, args):
+    return context.cast(builder, args[0], types.float64, types.int64)
+
+
+@_numeric(elementary.skippable, [types.Boolean], types.boolean)
+def _skippable(context, builder, sig, args):
+    return args[0]
+
+
+@_numeric(elementary.where, [types.Boolean, types.Number, types.Number])
+def _where(context, builder, sig, args):
+    return builder.select(*args)
+
+
+def _least_by(comparison):
+    def emit(context, builder, sig, args):
+        a, b = args
+        second = builder.or_(builder.fcmp_ordered(comparison, b, a), builder.fcmp_unordered("uno", b, b))
+        return builder.select(second, b, a)
+
+    return emit
+
+
+_numeric(elementary.minimum, [types.Number, types.Number])(_least_by("<"))
+_numeric(elementary.maximum, [types.Number, types.Number])(_least_by(">"))
+
+
+@part_instead(elementary.log1p)
+def _log1p(x):
+    def implementation(x):
+        """log(1 + x) with the rounding of the sum put right: half the time of the C library's."""
+        shifted = 1.0 + x
+        return math.log(shifted) + (x - (shifted - 1.0)) / shifted
+
+    return implementation if isinstance(x, types.Number) else None
+
+
+@part_instead(elementary.expm1)
+def _expm1(x):
+    def implementation(x):
+        """exp(x) − 1: Taylor's series to x¹³ where the difference would cancel, exact to rounding."""
+        if abs(x) > 0.35:
+            return math.exp(x) - 1.0
+        square = x * x
+        low = 1.0 + x * (1 / 2) + square * (1 / 6 + x * (1 / 24))
+        middle = 1 / 120 + x * (1 / 720) + square * (1 / 5040 + x * (1 / 40320))
+        high = 1 / 362880 + x * (1 / 3628800) + square * (1 / 39916800 + x * (1 / 479001600))
+        high = high + square * square * (1 / 6227020800)
+        fourth = square * square
+        return x * (low + fourth * (middle + fourth * high))
+
+    return implementation if isinstance(x, types.Number) else None
+
+
+@part_instead(elementary.last_at_or_below)
+def _last_at_or_below(grid, x):
+    def implementation(grid, x):
+        low, high = 0, grid.shape[0] - 1
+        while high - low > 1:
+            middle = (low + high) // 2
+            if grid[middle] <= x:
+                low = middle
+            else:
+                high = middle
+        return low
+
+    return implementation if isinstance(grid, types.Array) else None
+
+
+@part_instead(elementary.last_axis_of_four)
+def _last_axis_of_four(table, a, b, c, d):
+    def implementation(table, a, b, c, d):
+        return table[a, b, c, d, 0], table[a, b, c, d, 1], table[a, b, c, d, 2], table[a, b, c, d, 3]
+
+    return implementation if isinstance(table, types.Array) else None
+
+
+for _law in elementary.LAWS:
+    part(_law, forceinline=True)

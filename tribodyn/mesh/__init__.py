@@ -1,0 +1,1 @@
+"""The mesh cycle: the one bridge from teeth to dynamics."""

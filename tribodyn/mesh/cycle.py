@@ -1,0 +1,259 @@
+"""The mesh cycle: everything tooth geometry and elasticity have to say, over one pitch of pinion rotation.
+
+The phase of the mesh, in mesh cycles, is 0 when a new pair of teeth enters at the beginning of contact B_g
+and 1 when the next one does. The set of pairs in contact changes at known phases only; these split the
+cycle into *segments*, each tabulated on its own uniform grid that includes both ends, so that every
+quantity is smooth inside a segment and every jump sits exactly on a segment's boundary.
+
+Speed, load and temperature never enter the table.
+"""
+
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.numerics.elementary import namespace
+
+
+class MeshCycle(NamedTuple):
+    """Immutable table of one mesh cycle; a JAX pytree of float64 arrays.
+
+    Dimensions: S segments, N nodes a segment, Q pair slots. The front slots come first, the pair that
+    entered last in the last of them ("pair 1" of two, as Liu & Ni number them); slots of back flanks, if
+    any, follow. Where a slot is out of contact its values are finite but mean nothing.
+
+    Attributes
+    ----------
+    boundary : (S + 1,)
+        Phases at which the set of contacting pairs changes, from 0 to 1.
+    in_contact : (S, Q)
+        1 where the slot's pair is inside the theoretical path of contact, else 0.
+    side : (Q,)
+        +1 for the driving (front) flanks, −1 for the back flanks, which live in the world mirrored about
+        the line of centres.
+    phase : (S, N)
+        Phase of the nodes, mesh cycles.
+    pressure_angle : (S, N, Q)
+        Angle α of the common normal against the pitch tangent, rad.
+    signed_distance : (S, N, Q)
+        r, from the pitch point to the contact, negative in approach, m.
+    equivalent_radius : (S, N, Q)
+        ρ, one over the sum of both flanks' curvatures, m; 0 at the pitch point of a path whose pressure
+        angle is zero there.
+    pinion_speed, gear_speed : (S, N, Q)
+        Speed of the contact point along the pinion's and the gear's flank, m/s per rad/s of the pinion.
+    compliance : (S, N, Q)
+        Deflection of one pair along the normal per normal load, both teeth, bodies and, where it is
+        linear, the Hertz contact; m/N.
+    gap : (S, N, Q)
+        Static transmission error along the normal, positive where material is missing; for back flanks
+        the normal backlash; m.
+    coupling : (S, N, Q, Q)
+        Deflection of the pair in one slot per load on the pair in another, through the common gear
+        bodies; zero diagonal, symmetric; m/N.
+    line_load_friction, line_load_peak : (S, N, Q)
+        Line loads over their mean along the whole face, at the load of the table, ≥ 1: the one at which
+        friction acts as it does on the uneven face, and the greatest, K_Hβ (`compliance.line_load`).
+    hertz_coefficient : float
+        A of the load-dependent Hertz deflection A F^0.9, m/N^0.9; 0 where the Hertz contact is linear.
+    pinion_pitch_radius, gear_pitch_radius : float
+        Working pitch radii, m.
+    pinion_teeth : float
+        Number of teeth of the pinion.
+    face_width : float
+        Common face width, m.
+    contact_ratio : float
+        Theoretical transverse contact ratio: the path of contact over the pitch.
+    pitch_point_phase : float
+        Phase at which the newest pair passes the pitch point (may exceed 1: then it is no longer newest).
+    roll_start, roll_end : float
+        Pinion angle from the pitch point at which a pair enters and leaves the table, rad: the ends of the
+        path of contact, or further out where corners can touch.
+    pitch_point_length, pitch_point_rate : float
+        M (m) and entrainment over equivalent radius (1/rad) where both vanish at the pitch point, see
+        `geometry.pitch_point`; 0 for a path on which they do not.
+    """
+
+    boundary: Any
+    in_contact: Any
+    side: Any
+    phase: Any
+    pressure_angle: Any
+    signed_distance: Any
+    equivalent_radius: Any
+    pinion_speed: Any
+    gear_speed: Any
+    compliance: Any
+    gap: Any
+    coupling: Any
+    hertz_coefficient: Any
+    pinion_pitch_radius: Any
+    gear_pitch_radius: Any
+    pinion_teeth: Any
+    face_width: Any
+    contact_ratio: Any
+    pitch_point_phase: Any
+    roll_start: Any
+    roll_end: Any
+    pitch_point_length: Any = 0.0
+    pitch_point_rate: Any = 0.0
+    line_load_friction: Any = 1.0
+    line_load_peak: Any = 1.0
+
+    @property
+    def pairs(self) -> int:
+        """Number of pair slots."""
+        return self.side.shape[0]
+
+    @property
+    def front_pairs(self) -> int:
+        """Number of slots of driving flanks, i.e. the contact ratio rounded up."""
+        return int(np.sum(np.asarray(self.side) > 0))
+
+    @property
+    def pitch_angle(self) -> Any:
+        """Pinion rotation in one mesh cycle, rad (Liu & Ni (1) times the speed)."""
+        return 2 * np.pi / self.pinion_teeth
+
+
+#: Channels of `Polynomials.channel`, in order; cosine and sine of the pressure angle.
+CHANNELS = (
+    "cosine",
+    "signed_distance",
+    "equivalent_radius",
+    "pinion_speed",
+    "compliance",
+    "gap",
+    "sine",
+    "line_load_friction",
+    "line_load_peak",
+)
+
+
+class Polynomials(NamedTuple):
+    """The mesh cycle as piecewise cubics in the form that the right-hand side reads.
+
+    Every quantity is the not-a-knot cubic spline through the nodes of its segment: C² inside a segment,
+    fourth-order accurate, free to jump between segments. Coefficients are of powers 0 … 3 of the position
+    u ∈ [0, 1] in the cell.
+    """
+
+    boundary: Any  # (S + 1,)
+    in_contact: Any  # (S, Q)
+    side: Any  # (Q,)
+    channel: Any  # (S, N − 1, Q, channels, 4)
+    coupling: Any  # (S, N − 1, Q, Q, 4)
+    stiffness: Any  # (S, N − 1, Q, Q, 4), inverse of the compliance matrix of the pairs in contact
+    hertz_coefficient: Any
+    pinion_pitch_radius: Any
+    gear_pitch_radius: Any
+    pitch_angle: Any
+    face_width: Any
+    pitch_point_length: Any = 0.0
+    pitch_point_rate: Any = 0.0
+
+
+@lru_cache(maxsize=8)
+def derivative_matrix(nodes: int) -> np.ndarray:
+    """Matrix that takes values at uniform nodes on [0, 1] to the derivatives of their not-a-knot spline."""
+    spacing = 1.0 / (nodes - 1)
+    left = np.zeros((nodes, nodes))
+    right = np.zeros((nodes, nodes))
+    for i in range(1, nodes - 1):
+        left[i, i - 1 : i + 2] = 1.0, 4.0, 1.0
+        right[i, i - 1], right[i, i + 1] = -3.0, 3.0
+    left[0, :2] = 1.0, 2.0
+    right[0, :3] = -2.5, 2.0, 0.5
+    left[-1, -2:] = 2.0, 1.0
+    right[-1, -3:] = -0.5, -2.0, 2.5
+    return np.linalg.solve(left, right) / spacing
+
+
+def _cubic(values: Any) -> Any:
+    """Coefficients in u of the spline through `values` (S, N, …) -> (S, N − 1, …, 4)."""
+    xp = namespace(values)
+    nodes = values.shape[1]
+    slope = xp.einsum("nm,sm...->sn...", derivative_matrix(nodes), values) / (nodes - 1)
+    rise = values[:, 1:] - values[:, :-1]
+    start, end = slope[:, :-1], slope[:, 1:]
+    return xp.stack([values[:, :-1], start, 3 * rise - 2 * start - end, start + end - 2 * rise], axis=-1)
+
+
+def _stiffness(cycle: MeshCycle, xp: Any) -> Any:
+    """Inverse of the compliance matrix of the pairs in contact (S, N, Q, Q), 0 for the others, N/m."""
+    inside = cycle.in_contact[:, None, :]
+    # a pair out of contact is left alone on the diagonal, so that the others are inverted without it
+    both = inside[..., :, None] * inside[..., None, :]
+    matrix = cycle.coupling * both + xp.eye(cycle.pairs) * cycle.compliance[..., None, :]
+    scale = xp.mean(cycle.compliance)
+    return xp.linalg.inv(matrix / scale) / scale * both
+
+
+def polynomials(cycle: MeshCycle) -> Polynomials:
+    """Coefficients of the mesh cycle's splines.
+
+    Raises
+    ------
+    TypeError
+        If the table is not float64: under JAX, switch 64-bit numbers on first.
+    """
+    xp = namespace(*cycle)
+    if cycle.compliance.dtype != np.float64:
+        raise TypeError(f"the mesh cycle is {cycle.compliance.dtype}, not float64: enable jax_enable_x64")
+    angle = {"cosine": xp.cos(cycle.pressure_angle), "sine": xp.sin(cycle.pressure_angle)}
+    found = [angle[name] if name in angle else getattr(cycle, name) for name in CHANNELS]
+    found = [xp.broadcast_to(values, cycle.compliance.shape) for values in found]
+    channels = xp.stack(found, axis=-1)
+    return Polynomials(
+        boundary=cycle.boundary,
+        in_contact=cycle.in_contact,
+        side=cycle.side,
+        channel=_cubic(channels),
+        coupling=_cubic(cycle.coupling),
+        stiffness=_cubic(_stiffness(cycle, xp)),
+        hertz_coefficient=cycle.hertz_coefficient,
+        pinion_pitch_radius=cycle.pinion_pitch_radius,
+        gear_pitch_radius=cycle.gear_pitch_radius,
+        pitch_angle=cycle.pitch_angle,
+        face_width=cycle.face_width,
+        pitch_point_length=cycle.pitch_point_length,
+        pitch_point_rate=cycle.pitch_point_rate,
+    )
+
+
+# 1 wherever the load is even along the face, and then a number may stand for the table.
+_RATIOS = ("line_load_friction", "line_load_peak")
+
+
+def as_arrays(cycle: MeshCycle) -> dict[str, Any]:
+    """Flat arrays for a record: dims (phase,), (phase, pair) and (phase, pair, pair); scalars as floats."""
+    segments, nodes, _ = cycle.compliance.shape
+    arrays: dict[str, Any] = {}
+    for name, value in cycle._asdict().items():
+        array = np.asarray(value, dtype=float)
+        if name in _RATIOS:
+            array = np.broadcast_to(array, cycle.compliance.shape)
+        if name == "in_contact":
+            array = np.repeat(array, nodes, axis=0)
+        elif array.ndim >= 2:
+            array = array.reshape(segments * nodes, *array.shape[2:])
+        arrays[name] = array if array.ndim else float(array)
+    return arrays
+
+
+def from_arrays(arrays: dict[str, Any]) -> MeshCycle:
+    """Inverse of `as_arrays`."""
+    segments = len(arrays["boundary"]) - 1
+    nodes = len(arrays["phase"]) // segments
+    fields = {}
+    for name in MeshCycle._fields:
+        if name in _RATIOS and name not in arrays:
+            continue  # a record of before the ratios were in the table
+        value = np.asarray(arrays[name], dtype=float)
+        if name == "in_contact":
+            value = value[::nodes]
+        elif name not in ("boundary", "side") and value.ndim >= 1:
+            value = value.reshape(segments, nodes, *value.shape[1:])
+        fields[name] = value if value.ndim else float(value)
+    return MeshCycle(**fields)

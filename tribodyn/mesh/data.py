@@ -1,0 +1,63 @@
+"""What a case says of the mesh of its teeth, in SI units."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from tribodyn.geometry.modification import UNMODIFIED, Modifications
+from tribodyn.numerics.curve import Table
+
+
+@dataclass(frozen=True)
+class MeshData:
+    """How the teeth in contact give way, damp, separate and err.
+
+    Parameters
+    ----------
+    compliance : {"energy", "fem", "constant", "table"}
+        Where the single-pair stiffness comes from.
+    hertz : {"linear", "load-dependent"}
+        Contact part of the energy method's compliance.
+    foundation_coupling : bool
+        Whether two pairs on one body share its foundation.
+    stiffness : float or None
+        Single-pair stiffness, N/m, with ``compliance = "constant"``.
+    table : Table or None
+        Single-pair stiffness over the pinion's roll angle from the pitch point (rad, N/m), with
+        ``compliance = "table"``.
+    damping_ratio : float
+        ζ of the mesh.
+    formulation : {"classical", "energy-consistent"}
+        Whether the torque −∂V/∂φ of the varying stiffness acts on the bodies.
+    contact_width : float
+        Width in deflection over which contact sets in smoothly, m.
+    backlash : float or None
+        Normal backlash, m; None: back flanks never touch.
+    points : int
+        Nodes of the table per segment of the mesh cycle.
+    error_harmonics : tuple of (int, float, float)
+        (order of the mesh frequency, amplitude m, phase rad) of cosines in the static transmission error.
+    error_table : Table or None
+        Static transmission error of a pair over roll angle (rad, m).
+    modifications : Modifications
+        What is missing on the flanks, and misalignment; with ``compliance = "fem"``.
+    slices : int
+        Slices along the face, with ``compliance = "fem"``.
+    slice_coupling : bool
+        Whether slices of one tooth hold each other.
+    """
+
+    compliance: Literal["energy", "fem", "constant", "table"]
+    damping_ratio: float
+    hertz: Literal["linear", "load-dependent"] = "linear"
+    foundation_coupling: bool = True
+    stiffness: float | None = None
+    table: Table | None = None
+    formulation: Literal["classical", "energy-consistent"] = "classical"
+    contact_width: float = 1e-7
+    backlash: float | None = None
+    points: int = 65
+    error_harmonics: tuple[tuple[int, float, float], ...] = ()
+    error_table: Table | None = None
+    modifications: Modifications = UNMODIFIED
+    slices: int = 1
+    slice_coupling: bool = True

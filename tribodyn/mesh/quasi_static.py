@@ -1,0 +1,128 @@
+"""Loads and deflection of the mesh in slow rotation: elasticity and torque balance, friction if given."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.mesh.cycle import MeshCycle, derivative_matrix
+from tribodyn.numerics.elementary import namespace
+from tribodyn.numerics.iteration import iterate
+
+Array = Any
+
+# The contact part of a load-dependent compliance goes like F^−0.1, so that each step of the secant iteration
+# shrinks its error at least tenfold; the set of loaded pairs settles on the way.
+_STEPS = 14
+
+
+class QuasiStatic(NamedTuple):
+    """State of the mesh at every node of the table.
+
+    Parameters
+    ----------
+    normal_load : array, (S, N, Q)
+        Load of each pair along its normal, N; 0 where it is not in contact or a gap keeps it from touching.
+    deflection : array, (S, N)
+        r_p θ_p − r_g θ_g, by which the pinion is ahead of the gear on the pitch circles, m.
+    mesh_stiffness : array, (S, N)
+        Force on the pitch circles over the part of the deflection that the load makes, N/m: along the pitch
+        tangent, all pairs together, secant where the Hertz contact is load-dependent.
+    """
+
+    normal_load: Array
+    deflection: Array
+    mesh_stiffness: Array
+
+
+def quasi_static(cycle: MeshCycle, gear_torque: Any, friction: Array = None) -> QuasiStatic:
+    """Share the gear's torque among the driving pairs by their compliances and gaps.
+
+    With h_i = cos α_i every loaded pair has Δ h_i − e_i = Σ_j C_ij F_j (+ A F_i^0.9), and r_g Σ F_i h_i is
+    the torque, to which friction adds Σ μ_i F_i (r_g sin α_i − r_i). Bearings are rigid, and a back flank
+    carries nothing.
+
+    Parameters
+    ----------
+    cycle : MeshCycle
+        The table; may be traced.
+    gear_torque : float
+        N m, > 0.
+    friction : array, (S, N, Q), optional
+        Friction force over normal load, with the sign of the sliding: negative in approach.
+    """
+    xp = namespace(*cycle, gear_torque, friction)
+    present = (cycle.in_contact * (cycle.side > 0))[:, None, :] + 0.0 * cycle.compliance
+    arms = xp.cos(cycle.pressure_angle)
+    torque_arms = arms
+    if friction is not None:
+        lever = xp.sin(cycle.pressure_angle) - cycle.signed_distance / cycle.gear_pitch_radius
+        torque_arms = arms + friction * lever
+    force = gear_torque / cycle.gear_pitch_radius
+    identity = np.eye(cycle.compliance.shape[-1])
+
+    def share(state: tuple[Array, Array, Array, Array]) -> tuple[Array, Array, Array, Array]:
+        load, active, *_ = state
+        contact = cycle.hertz_coefficient * xp.maximum(load, 1e-9 * force) ** -0.1
+        diagonal = identity * (cycle.compliance + contact)[..., None]
+        loaded = active[..., None] * active[..., None, :]
+        matrix = loaded * (cycle.coupling + diagonal) + identity * (1.0 - active)[..., None]
+        right = xp.stack([active * arms, active * cycle.gap], axis=-1)
+        solution = xp.linalg.solve(matrix, right)
+        per_deflection, by_gap = solution[..., 0], solution[..., 1]
+        stiffness = (active * torque_arms * per_deflection).sum(axis=-1)
+        total = (force + (active * torque_arms * by_gap).sum(axis=-1)) / stiffness
+        load = active * (per_deflection * total[..., None] - by_gap)
+        overlap = arms * total[..., None] - cycle.gap - xp.einsum("...ij,...j->...i", cycle.coupling, load)
+        active = present * xp.where(xp.where(active > 0, load, overlap) > 0, 1.0, 0.0)
+        return load, active, total, stiffness
+
+    equal = present * force / (present * torque_arms).sum(axis=-1, keepdims=True)
+    load, _, deflection, stiffness = iterate(share, (equal, present, equal, equal), _STEPS)
+    return QuasiStatic(load, deflection, stiffness)
+
+
+def cycle_mean(cycle: MeshCycle, values: Array) -> Array:
+    """Mean over one mesh cycle of values (S, N, …) at the nodes: the integral of the table's splines."""
+    return cycle_integral(cycle, values, cycle.boundary[1:, None])
+
+
+def cycle_integral(cycle: MeshCycle, values: Array, upto: Array) -> Array:
+    """Integral over the phase from 0 up to a phase, for several such phases at once.
+
+    Parameters
+    ----------
+    cycle : MeshCycle
+        For boundaries.
+    values : array, (S, N) or (S, N, Q)
+        At the nodes.
+    upto : array, broadcasts with (S, Q)
+        Phases; in a segment that ends before, the whole segment counts.
+
+    Returns
+    -------
+    array, () or (Q,)
+    """
+    xp = namespace(*cycle, values, upto)
+    flat = values.ndim == 2
+    values = values[..., None] if flat else values
+    cells = values.shape[1] - 1
+    slope = xp.einsum("nm,smq->snq", derivative_matrix(cells + 1), values) / cells
+    start, end, begin, finish = values[:, :-1], values[:, 1:], slope[:, :-1], slope[:, 1:]
+    whole = (start + end) / 2 + (begin - finish) / 12
+    before = xp.concatenate([0.0 * whole[:, :1], xp.cumsum(whole, axis=1)], axis=1)
+
+    length = (cycle.boundary[1:] - cycle.boundary[:-1])[:, None]
+    safe = xp.where(length > 0, length, 1.0)
+    place = xp.clip((upto - cycle.boundary[:-1, None]) / safe, 0.0, 1.0) * cells
+    place = xp.broadcast_to(place, (values.shape[0], values.shape[2]))
+    cell = xp.clip(xp.floor(place).astype(int), 0, cells - 1)
+    u = place - cell
+
+    def at_cell(array: Array) -> Array:
+        return xp.take_along_axis(array, cell[:, None, :], axis=1)[:, 0, :]
+
+    a, b, m, n = (at_cell(array) for array in (start, end, begin, finish))
+    square, cube = 3 * (b - a) - 2 * m - n, m + n - 2 * (b - a)
+    inside = u * (a + u * (m / 2 + u * (square / 3 + u * cube / 4)))
+    result = ((at_cell(before) + inside) * length / cells).sum(axis=0)
+    return result[0] if flat else result

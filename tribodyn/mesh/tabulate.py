@@ -1,0 +1,323 @@
+"""From tooth shape and elasticity to the mesh cycle.
+
+Array code: NumPy for a drive of floats (JAX is not imported), JAX for a traced drive, so that a mesh cycle
+can be differentiated in the drive's continuous parameters and a batch of drives tabulated by `vmap`.
+Whatever is costly is evaluated at a few Chebyshev points on either side of the pitch point and interpolated.
+"""
+
+import math
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.compliance.energy import (
+    LoadedTooth,
+    hertz_coefficient,
+    hertz_linear,
+    loaded_tooth,
+    neighbour_coupling,
+    tooth_compliance,
+)
+from tribodyn.compliance.table import check_cover, interpolate
+from tribodyn.errors import InputError
+from tribodyn.geometry.drive import SIDES, Drive, body_of, tip_radius
+from tribodyn.geometry.family import Family
+from tribodyn.geometry.path import Path, contact_limits, contact_ratio, kinematics
+from tribodyn.geometry.pitch_point import pitch_point
+from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.numerics.elementary import cos, is_jax, namespace
+from tribodyn.numerics.iteration import chebyshev_basis
+
+if TYPE_CHECKING:
+    from tribodyn.geometry.material import MaterialData
+    from tribodyn.mesh.data import MeshData
+
+Array = Any
+
+# Degree of the interpolation over each half of the contact; test_tabulate shows what it leaves.
+_DEGREE = 16
+# Mesh cycles; far below anything that is resolved, far above rounding.
+_LEAST_SEGMENT = 1e-11
+_POINTS = -np.cos(np.pi * np.arange(_DEGREE + 1) / _DEGREE)
+_TO_SERIES = np.linalg.inv(np.polynomial.chebyshev.chebvander(_POINTS, _DEGREE))
+
+
+def pair_slots(family: Family, drive: Drive) -> int:
+    """Greatest number of pairs in contact at once: the contact ratio rounded up. Concrete drives only."""
+    path = family.working_path(drive)
+    limits = contact_limits(path, tip_radius(drive, "pinion"), tip_radius(drive, "gear"))
+    return math.ceil(contact_ratio(path, *limits, drive.pinion.teeth))
+
+
+class _Contact(NamedTuple):
+    """The whole contact of one pair, and where its slots are at each phase."""
+
+    path: Any
+    roll_start: Any
+    roll_end: Any
+    contact_ratio: Any
+    pitch_angle: Any
+
+
+def tabulate(
+    family: Family,
+    drive: Drive,
+    materials: tuple["MaterialData", "MaterialData"],
+    mesh: "MeshData",
+    pairs: int,
+    back: bool = False,
+) -> MeshCycle:
+    """Tabulate the mesh cycle of a drive.
+
+    Parameters
+    ----------
+    family, drive
+        The gear pair; every number of the drive may be traced.
+    materials : (MaterialData, MaterialData)
+        Of pinion and gear.
+    mesh : MeshData
+        Source of the compliance, transmission error, backlash and number of nodes.
+    pairs : int
+        Front slots, `pair_slots(family, drive)`.
+    back : bool
+        Whether to add as many slots for the back flanks, `mesh.backlash` away.
+
+    Raises
+    ------
+    InputError
+        If a table does not cover the contact, an option lacks its numbers, or options contradict each other.
+    """
+    _check_options(drive, mesh, back)
+    path = family.working_path(drive)
+    limits = contact_limits(path, tip_radius(drive, "pinion"), tip_radius(drive, "gear"))
+    ratio = contact_ratio(path, *limits, drive.pinion.teeth)
+    start, end = path.rotation(limits[0]), path.rotation(limits[1])
+    contact = _Contact(path, start, end, ratio, 2 * np.pi / drive.pinion.teeth)
+    boundary, phase, in_contact, roll = _phases(contact, pairs, mesh.points, back, family.corner)
+    curve = _RollCurve(start, end)
+
+    r_nodes = path.signed_distance(curve.nodes())
+    r = curve.interpolate(r_nodes, roll)
+    if family.corner:  # paths that may be steep at their ends: one of Newton's steps from the series
+        r = r - (path.rotation(r) - roll) * path.pinion_pitch_radius * cos(path.pressure_angle(r))
+    motion = kinematics(path, r)
+    vanishing = pitch_point(path)
+    width = _common_width(drive)
+    compliance, coupling = _compliance(family, drive, materials, mesh, path, curve, r_nodes, roll, pairs)
+    gap = _transmission_error(mesh, phase, roll, curve)
+    side = np.ones(pairs)
+    if back:
+        side = np.concatenate([side, -side])
+        gap = namespace(gap).where(side > 0, gap, mesh.backlash)
+    linear = mesh.compliance != "energy" or mesh.hertz == "linear"
+    return MeshCycle(
+        boundary=boundary,
+        in_contact=in_contact,
+        side=side,
+        phase=phase,
+        pressure_angle=motion.pressure_angle,
+        signed_distance=r,
+        equivalent_radius=1.0 / motion.relative_curvature,
+        pinion_speed=motion.pinion_speed,
+        gear_speed=motion.gear_speed,
+        compliance=compliance,
+        gap=gap,
+        coupling=coupling,
+        hertz_coefficient=0.0 if linear else hertz_coefficient(*materials, width),
+        pinion_pitch_radius=path.pinion_pitch_radius,
+        gear_pitch_radius=path.gear_pitch_radius,
+        pinion_teeth=drive.pinion.teeth,
+        face_width=width,
+        contact_ratio=ratio,
+        pitch_point_phase=-start / contact.pitch_angle,
+        roll_start=start,
+        roll_end=end,
+        pitch_point_length=vanishing.length,
+        pitch_point_rate=vanishing.speed_per_radius,
+    )
+
+
+def _check_options(drive: Drive, mesh: "MeshData", back: bool) -> None:
+    for side in SIDES:
+        bore = body_of(drive, side).bore_radius
+        if mesh.compliance == "energy" and not is_jax(bore) and bore <= 0:
+            raise InputError(
+                f"drive.{side}.bore_radius",
+                bore,
+                "the energy method takes the body for a ring that is held at its bore",
+                "give the radius at which the shaft holds it",
+            )
+    if mesh.compliance == "constant" and mesh.stiffness is None:
+        raise InputError(
+            "mesh.stiffness", rule="is needed for compliance = 'constant'", remedy="give one pair's"
+        )
+    if mesh.compliance == "table" and mesh.table is None:
+        raise InputError("mesh.table", rule="is needed for compliance = 'table'", remedy="name a CSV file")
+    if mesh.compliance != "energy" and mesh.hertz == "load-dependent":
+        raise InputError(
+            "mesh.hertz",
+            mesh.hertz,
+            f"compliance = '{mesh.compliance}' already contains the contact",
+            "use 'linear', or compliance = 'energy'",
+        )
+    if back and mesh.backlash is None:
+        raise InputError(
+            "mesh.backlash", rule="is needed for the contact of back flanks", remedy="give a length"
+        )
+
+
+def _common_width(drive: Drive) -> Any:
+    widths = drive.pinion.face_width, drive.gear.face_width
+    return namespace(*widths).minimum(*widths)
+
+
+def _phases(
+    contact: _Contact, pairs: int, points: int, back: bool, corner: bool
+) -> tuple[Array, Array, Array, Array]:
+    """Boundaries (S + 1,), phases (S, N), contact (S, Q) and roll angles (S, N, Q) of all slots.
+
+    Positions count pitches since a pair's first contact. A back pair lives in the mirrored world, where the
+    phase runs backwards: the back flank of a pinion tooth crosses the pitch point half a pitch after its
+    front flank, so that its roll angle there is π/Z_p − φ. Where the path has a corner at the pitch point a
+    segment also begins when a pair passes it, for no spline may run across.
+    """
+    xp = namespace(contact.roll_start, contact.contact_ratio)
+    leave = contact.contact_ratio - (pairs - 1)
+    ages = np.arange(pairs - 1.0, -1.0, -1.0)
+    enter = (0.5 - 2.0 * contact.roll_start / contact.pitch_angle) % 1.0
+    boundary = [0.0 * leave, leave, 1.0 + 0.0 * leave]
+    if back:
+        boundary += [enter, (enter - leave) % 1.0]
+    if corner:
+        passes = -contact.roll_start / contact.pitch_angle
+        boundary += [passes % 1.0] + ([(passes + 0.5) % 1.0] if back else [])
+    boundary = _apart(xp.sort(xp.stack(boundary)))
+    lower, upper = boundary[:-1, None], boundary[1:, None]
+    phase = lower + (upper - lower) * np.linspace(0.0, 1.0, points)
+    middle = (lower + upper) / 2
+    position, centre = phase[:, :, None] + ages, middle + ages
+    if back:
+        wrapped = xp.where(middle > enter, 1.0, 0.0)
+        mirrored = (enter - phase + wrapped)[:, :, None] + ages
+        position = xp.concatenate([position, mirrored], axis=-1)
+        centre = xp.concatenate([centre, enter - middle + wrapped + ages], axis=-1)
+    in_contact = xp.where(centre < contact.contact_ratio, 1.0, 0.0)
+    roll = contact.roll_start + contact.pitch_angle * position
+    return boundary, phase, in_contact, xp.clip(roll, contact.roll_start, contact.roll_end)
+
+
+def _apart(boundary: Array) -> Array:
+    """Move boundaries that fall together, as at a whole contact ratio, so that every segment has a length."""
+    xp = namespace(boundary)
+    found = [boundary[0]]
+    for value in boundary[1:-1]:
+        found.append(xp.maximum(value, found[-1] + _LEAST_SEGMENT))
+    found.append(boundary[-1])
+    for i in range(len(found) - 2, 0, -1):
+        found[i] = xp.minimum(found[i], found[i + 1] - _LEAST_SEGMENT)
+    return xp.stack(found)
+
+
+class _RollCurve(NamedTuple):
+    """Interpolation over the roll angle, by a Chebyshev series on either side of the pitch point.
+
+    Two pieces, because the paths of some families have a kink there.
+    """
+
+    start: Any
+    end: Any
+
+    def nodes(self) -> Array:
+        """Roll angles of the nodes, (2, 17), rad."""
+        xp = namespace(self.start, self.end)
+        unit = 0.5 + 0.5 * _POINTS
+        return xp.stack([self.start * (1.0 - unit), self.end * unit])
+
+    def interpolate(self, values: Array, roll: Array) -> Array:
+        """Values (…, k) at the roll angles (…), from values (2, 17, k) at the nodes; k may be missing."""
+        xp = namespace(values, roll)
+        approach = roll < 0
+        at = xp.where(approach, 1.0 - 2.0 * roll / self.start, 2.0 * roll / self.end - 1.0)
+        basis = chebyshev_basis(at, _DEGREE) @ _TO_SERIES
+        if values.ndim == 3:
+            approach = approach[..., None]
+        return xp.where(approach, basis @ values[0], basis @ values[1])
+
+
+def _compliance(
+    family: Family,
+    drive: Drive,
+    materials: tuple["MaterialData", "MaterialData"],
+    mesh: "MeshData",
+    path: Path,
+    curve: _RollCurve,
+    r_nodes: Array,
+    roll: Array,
+    pairs: int,
+) -> tuple[Array, Array]:
+    """Compliance (S, N, Q) of single pairs and coupling (S, N, Q, Q)."""
+    xp = namespace(roll)
+    uncoupled = xp.zeros((*roll.shape, roll.shape[-1]))
+    if mesh.compliance == "constant" and mesh.stiffness is not None:
+        return xp.full_like(roll, 1.0 / mesh.stiffness), uncoupled
+    if mesh.compliance == "table" and mesh.table is not None:
+        angle, stiffness = mesh.table
+        check_cover(angle, curve.start, curve.end, "mesh.table")
+        return 1.0 / interpolate(angle, stiffness, xp.clip(roll, angle[0], angle[-1])), uncoupled
+
+    width = _common_width(drive)
+    teeth = [loaded_tooth(family, drive, side, path) for side in SIDES]
+    parts = [tooth_compliance(t, m, width, r_nodes) for t, m in zip(teeth, materials, strict=True)]
+    pair = parts[0].total + parts[1].total
+    if mesh.hertz == "linear":
+        pair = pair + hertz_linear(*materials, width)
+    loads = [part.root_load for part in parts]
+    together = namespace(pair, *loads).concatenate([pair[..., None], *loads], axis=-1)
+    channels = curve.interpolate(together, roll)
+    coupling = uncoupled
+    if mesh.foundation_coupling:
+        coupling = _coupling(teeth, materials, channels[..., 1:4], channels[..., 4:7], pairs)
+    return channels[..., 0], coupling
+
+
+def _coupling(
+    teeth: list[LoadedTooth],
+    materials: tuple["MaterialData", "MaterialData"],
+    pinion_load: Array,
+    gear_load: Array,
+    pairs: int,
+) -> Array:
+    """Deflection of one pair per load on another through both bodies, (S, N, Q, Q).
+
+    Front and back flanks never carry at the same time while there is backlash, so they are left uncoupled.
+    """
+    slots = pinion_load.shape[-2]
+    zero = 0.0 * pinion_load[..., 0, 0]
+    entries = [[zero] * slots for _ in range(slots)]
+    for pitches in range(1, pairs):
+        matrices = [neighbour_coupling(t, m, pitches) for t, m in zip(teeth, materials, strict=True)]
+        for later in range(slots):
+            earlier = later - pitches
+            if earlier < 0 or earlier // pairs != later // pairs:
+                continue
+            entry = zero
+            for matrix, load in zip(matrices, (pinion_load, gear_load), strict=True):
+                xp = namespace(matrix, load)
+                entry = entry + xp.einsum(
+                    "...i,ij,...j->...", load[..., later, :], matrix, load[..., earlier, :]
+                )
+            entries[later][earlier] = entries[earlier][later] = entry
+    xp = namespace(entries)
+    return xp.stack([xp.stack(row, axis=-1) for row in entries], axis=-1)
+
+
+def _transmission_error(mesh: "MeshData", phase: Array, roll: Array, curve: _RollCurve) -> Array:
+    """Compute the transmission error (S, N, Q), m: harmonics of the mesh phase, table over roll angle."""
+    gap = 0.0 * roll
+    for order, amplitude, angle in mesh.error_harmonics:
+        gap = gap + (amplitude * cos(2.0 * np.pi * order * phase + angle))[..., None]
+    if mesh.error_table is not None:
+        at, error = mesh.error_table
+        check_cover(at, curve.start, curve.end, "mesh.transmission_error.table")
+        gap = gap + interpolate(at, error, namespace(roll).clip(roll, at[0], at[-1]))
+    return gap

@@ -1,0 +1,237 @@
+"""The mesh cycle by the load contact model: compliances at the operating load, contact of the tips' corners.
+
+What `tabulate` does with formulas, from finite elements and Hertz. A pair is tabulated beyond its path of
+contact, as far as corners can touch, with the gap between them. The contact's deflection is not proportional
+to the load; the table holds its secant at the load which the model finds in slow rotation without friction,
+so that the quasi-static mesh at the operating torque is the load contact model's. Faces in slices are
+condensed to one compliance and gap a pair (`compliance.condensed`).
+"""
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from tribodyn.compliance.condensed import Condensed, condense
+from tribodyn.compliance.flank_gap import flank_gap, relief_rolls, same_every_pitch
+from tribodyn.compliance.gear_compliance import without_neighbours
+from tribodyn.compliance.load_sharing import PairFlexibility, contact_deflection, flexibility, share_load
+from tribodyn.compliance.loaded_contact import check, check_resolved, reach
+from tribodyn.compliance.loaded_flanks import LoadedFlanks
+from tribodyn.compliance.slices import face_positions, pair_harmonics
+from tribodyn.compliance.table import check_cover, interpolate
+from tribodyn.errors import InputError
+from tribodyn.geometry.assembly import Assembly, assemble
+from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry, part_of, roll_limits
+from tribodyn.geometry.drive import SIDES, Drive, body_of
+from tribodyn.geometry.family import Family
+from tribodyn.geometry.pitch_point import pitch_point
+from tribodyn.mesh.cycle import MeshCycle
+
+if TYPE_CHECKING:
+    from tribodyn.geometry.material import MaterialData
+    from tribodyn.mesh.data import MeshData
+
+Array = Any
+
+# Share of a single pair's load below which the secant no longer follows the load: the contact's compliance
+# grows without bound, like a logarithm, as the load vanishes.
+_LEAST_SHARE = 0.05
+
+
+def tabulate_loaded(
+    family: Family,
+    drive: Drive,
+    materials: tuple["MaterialData", "MaterialData"],
+    mesh: "MeshData",
+    gear_torque: float,
+    back: bool = False,
+) -> MeshCycle:
+    """Tabulate the mesh cycle of a drive of plain numbers at an operating torque.
+
+    Parameters
+    ----------
+    family, drive, materials, mesh, back
+        As in `tabulate.tabulate`.
+    gear_torque : float
+        T_g > 0 at which the compliances are taken, N m.
+
+    Raises
+    ------
+    InputError
+        If a body has no bore, or the torque drives nothing.
+    """
+    _check(drive, mesh, gear_torque, back)
+    assembly = assemble(family, drive)
+    flexible, modifications, *_ = flanks_of(assembly, materials, mesh)
+    check(flexible, modifications, gear_torque, mesh.slices)
+    # where the mesh vibrates by more than this reach, contact begins too late in the model
+    limits = reach(flexible, modifications, gear_torque, mesh.slices, mesh.slice_coupling)
+    pitch = 2.0 * np.pi / drive.pinion.teeth
+    span = (limits[1] - limits[0]) / pitch
+    pairs = math.ceil(span)
+    marks = [0.0, span, *((roll - limits[0]) / pitch for roll in roll_limits(assembly))]
+    marks += [(roll - limits[0]) / pitch for roll in relief_rolls(assembly, modifications)]
+    if family.corner:
+        marks.append(-limits[0] / pitch)
+    boundary, phase, position = _phases(marks, pairs, mesh.points, back, enter=0.5 - 2.0 * limits[0] / pitch)
+    middle = position[:, mesh.points // 2]
+    in_contact = np.where((middle > 0.0) & (middle < span), 1.0, 0.0)
+    roll = np.clip(limits[0] + pitch * position, *limits)
+
+    slots = position.shape[-1]
+    front, behind = slice(0, pairs), slice(pairs, slots)
+    geometry = pair_geometry(assembly, roll.reshape(-1, slots))
+    error = _transmission_error(mesh, phase, roll, roll_limits(assembly), begin=marks[2])
+    full = gear_torque / pair_geometry(assembly, np.zeros(1)).motion.gear_normal_arm[0]
+    compliance, gap = np.zeros_like(geometry.gap), np.zeros_like(geometry.gap)
+    coupling = np.zeros((*gap.shape, slots))
+    uneven, peak = np.ones_like(gap), np.ones_like(gap)
+    driving = _driving(
+        flexible,
+        mesh,
+        gear_torque,
+        _LEAST_SHARE * full,
+        roll[..., front].reshape(-1, pairs),
+        error[..., front].reshape(-1, pairs),
+    )
+    compliance[:, front], gap[:, front] = driving.compliance, driving.gap
+    coupling[:, front, front] = driving.coupling
+    uneven[:, front], peak[:, front] = driving.line_load_friction, driving.line_load_peak
+    if back:
+        mates = part_of(geometry, np.s_[..., behind])
+        compliance[:, behind], coupling[:, behind, behind] = _under_load(flexible, mates, full)
+        gap[:, behind] = mates.gap + mesh.backlash
+    side = np.where(np.arange(slots) < pairs, 1.0, -1.0)
+    motion, vanishing = geometry.motion, pitch_point(assembly.path)
+    return MeshCycle(
+        boundary=boundary,
+        in_contact=in_contact,
+        side=side,
+        phase=phase,
+        pressure_angle=motion.pressure_angle.reshape(roll.shape),
+        signed_distance=motion.signed_distance.reshape(roll.shape),
+        equivalent_radius=1.0 / motion.relative_curvature.reshape(roll.shape),
+        pinion_speed=motion.pinion_speed.reshape(roll.shape),
+        gear_speed=motion.gear_speed.reshape(roll.shape),
+        compliance=compliance.reshape(roll.shape),
+        gap=gap.reshape(roll.shape),
+        coupling=coupling.reshape(*roll.shape, slots),
+        hertz_coefficient=0.0,
+        pinion_pitch_radius=assembly.path.pinion_pitch_radius,
+        gear_pitch_radius=assembly.path.gear_pitch_radius,
+        pinion_teeth=drive.pinion.teeth,
+        face_width=flexible.width,
+        contact_ratio=assembly.contact_ratio,
+        pitch_point_phase=-limits[0] / pitch,
+        roll_start=limits[0],
+        roll_end=limits[1],
+        pitch_point_length=vanishing.length,
+        pitch_point_rate=vanishing.speed_per_radius,
+        line_load_friction=uneven.reshape(roll.shape),
+        line_load_peak=peak.reshape(roll.shape),
+    )
+
+
+def flanks_of(
+    assembly: Assembly, materials: tuple["MaterialData", "MaterialData"], mesh: "MeshData"
+) -> LoadedFlanks:
+    """The flanks that the load contact model presses together, as a scenario's mesh describes them."""
+    flexible = flexibility(assembly, materials, lead=mesh.slice_coupling and mesh.slices > 1)
+    if not mesh.foundation_coupling:
+        apart = [without_neighbours(gear) for gear in flexible.gears]
+        flexible = flexible._replace(gears=(apart[0], apart[1]))
+    return LoadedFlanks(flexible, mesh.modifications, mesh.slices, mesh.slice_coupling)
+
+
+def _check(drive: Drive, mesh: "MeshData", gear_torque: float, back: bool) -> None:
+    for side in SIDES:
+        bore = body_of(drive, side).bore_radius
+        if bore <= 0:
+            raise InputError(
+                f"drive.{side}.bore_radius",
+                bore,
+                "the finite elements are held at the bore",
+                "give the radius at which the shaft holds the gear",
+            )
+    if gear_torque <= 0:
+        raise InputError(
+            "operating.gear_torque",
+            gear_torque,
+            'compliance = "fem" is taken at this load, which must be greater than zero',
+            'write a torque such as "500 N*m", or use compliance = "energy"',
+        )
+    same_every_pitch(mesh.modifications)
+    if back and mesh.backlash is None:
+        raise InputError(
+            "mesh.backlash", rule="is needed for the contact of back flanks", remedy="give a length"
+        )
+
+
+def _driving(
+    flexible: PairFlexibility,
+    mesh: "MeshData",
+    gear_torque: float,
+    least_load: float,
+    roll: Array,
+    error: Array,
+) -> Condensed:
+    """Driving pairs (position, pair) at the operating torque."""
+    slices = mesh.slices
+    geometry = pair_geometry(flexible.assembly, roll)
+    face = face_positions(flexible.width, slices)
+    gap = error[..., None] + flank_gap(flexible.assembly, mesh.modifications, geometry, face)
+    shared = share_load(flexible, roll, gear_torque, 0.0, gap, slices, mesh.slice_coupling)
+    check_resolved(flexible.assembly, shared, mesh.modifications, gear_torque)
+    whole = geometry.gap[..., None] + gap
+    return condense(flexible, geometry, whole, shared, least_load, mesh.slice_coupling)
+
+
+def _under_load(flexible: PairFlexibility, geometry: PairGeometry, load: float) -> tuple[Array, Array]:
+    """Compliance of pairs under a load (N) each, deflection over load, and their coupling; m/N."""
+    curvature = geometry.motion.relative_curvature
+    deflection, _ = contact_deflection(flexible, curvature, load / flexible.width + 0.0 * curvature)
+    matrix = pair_harmonics(flexible, geometry)[0]
+    own = np.einsum("...ii->...i", matrix)
+    return own + deflection / load, matrix * ~np.eye(own.shape[-1], dtype=bool)
+
+
+def _phases(
+    marks: list[float], pairs: int, points: int, back: bool, enter: float
+) -> tuple[Array, Array, Array]:
+    """Boundaries (S + 1,), phases (S, N) and positions (S, N, Q) of all slots, in pitches since entering.
+
+    A segment begins wherever a pair passes one of the marks (pitches since entering), for there the table has
+    a kink. Back pairs as in `tabulate`: they live in the mirrored world, and enter at the phase `enter`.
+    """
+    enter = enter % 1.0
+    phases = [mark % 1.0 for mark in marks] + ([(enter - mark) % 1.0 for mark in marks] if back else [])
+    inner = np.array(sorted(phases))
+    inner = inner[(inner > 1e-9) & (inner < 1.0 - 1e-9)]
+    inner = inner[np.concatenate([[True], np.diff(inner) > 1e-9])] if len(inner) else inner
+    boundary = np.concatenate([[0.0], inner, [1.0]])
+    lower, upper = boundary[:-1, None], boundary[1:, None]
+    phase = lower + (upper - lower) * np.linspace(0.0, 1.0, points)
+    ages = np.arange(pairs - 1.0, -1.0, -1.0)
+    position = phase[..., None] + ages
+    if back:
+        wrapped = np.where((lower + upper) / 2.0 > enter, 1.0, 0.0)
+        position = np.concatenate([position, (enter - phase + wrapped)[..., None] + ages], axis=-1)
+    return boundary, phase, position
+
+
+def _transmission_error(
+    mesh: "MeshData", phase: Array, roll: Array, limits: tuple[float, float], begin: float
+) -> Array:
+    """Errors of the flanks (S, N, Q), m; those given over roll angle stay at their ends beyond the path.
+
+    Harmonics are in step with the beginning of the path, at the phase `begin`, as they are in `tabulate`.
+    """
+    error = 0.0 * roll
+    for order, amplitude, angle in mesh.error_harmonics:
+        error = error + (amplitude * np.cos(2.0 * np.pi * order * (phase - begin) + angle))[..., None]
+    if mesh.error_table is not None:
+        at, values = mesh.error_table
+        check_cover(at, *limits, "mesh.transmission_error.table")
+        error = error + interpolate(at, values, np.clip(roll, max(at[0], limits[0]), min(at[-1], limits[1])))
+    return error

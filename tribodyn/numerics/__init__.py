@@ -1,0 +1,1 @@
+"""Elementary functions, fixed iterations, registries: what everything else rests on."""

@@ -1,0 +1,145 @@
+"""Elementary functions that serve Python floats, NumPy, JAX and numba alike.
+
+A physical law is written once, over these functions and arithmetic, and runs everywhere: on floats and
+NumPy arrays as it stands, under JAX tracing (JAX is used only when an argument already is a JAX array, so
+a plain run never imports it), and inside the native kernel, for which `tribodyn.kernels.native` gives numba a
+version of each function and registers every function marked `law`.
+
+Array code (geometry, energy method) asks `namespace` for the module that fits its arguments.
+"""
+
+import math
+import sys
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+import numpy as np
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+LAWS: list[Callable[..., Any]] = []
+
+
+def law(function: F) -> F:
+    """Mark a module-level scalar function as a law that the native kernel may call."""
+    LAWS.append(function)
+    return function
+
+
+def is_jax(value: Any) -> bool:
+    """Whether `value` is a JAX array or tracer; never imports JAX."""
+    jax = sys.modules.get("jax")
+    return jax is not None and isinstance(value, jax.Array)
+
+
+def namespace(*values: Any) -> Any:
+    """`jax.numpy` if any leaf of `values` (nested tuples and lists allowed) is a JAX array, else `numpy`."""
+    if "jax" in sys.modules and any(_has_jax(value) for value in values):
+        import jax.numpy as jnp
+
+        return jnp
+    return np
+
+
+def _has_jax(value: Any) -> bool:
+    if isinstance(value, (tuple, list)):
+        return any(_has_jax(item) for item in value)
+    return is_jax(value)
+
+
+def sqrt(x: Any) -> Any:
+    """Square root."""
+    return math.sqrt(x) if type(x) is float else namespace(x).sqrt(x)
+
+
+def exp(x: Any) -> Any:
+    """Exponential; arguments above 709 overflow, so laws clip them."""
+    return math.exp(x) if type(x) is float else namespace(x).exp(x)
+
+
+def log(x: Any) -> Any:
+    """Natural logarithm."""
+    return math.log(x) if type(x) is float else namespace(x).log(x)
+
+
+def log1p(x: Any) -> Any:
+    """log(1 + x), accurate for small x."""
+    return math.log1p(x) if type(x) is float else namespace(x).log1p(x)
+
+
+def expm1(x: Any) -> Any:
+    """exp(x) − 1, accurate for small x."""
+    return math.expm1(x) if type(x) is float else namespace(x).expm1(x)
+
+
+def sin(x: Any) -> Any:
+    """Sine."""
+    return math.sin(x) if type(x) is float else namespace(x).sin(x)
+
+
+def cos(x: Any) -> Any:
+    """Cosine."""
+    return math.cos(x) if type(x) is float else namespace(x).cos(x)
+
+
+def tan(x: Any) -> Any:
+    """Tangent."""
+    return math.tan(x) if type(x) is float else namespace(x).tan(x)
+
+
+def arctan2(y: Any, x: Any) -> Any:
+    """Angle of the point (x, y)."""
+    if type(x) is float and type(y) is float:
+        return math.atan2(y, x)
+    return namespace(x, y).arctan2(y, x)
+
+
+def where(condition: Any, a: Any, b: Any) -> Any:
+    """`a` where `condition` holds, else `b`; both are evaluated."""
+    if type(condition) is bool:
+        return a if condition else b
+    return namespace(condition, a, b).where(condition, a, b)
+
+
+def skippable(condition: Any) -> bool:
+    """Whether what only counts where `condition` fails may be left out: compiled for one case, if it holds.
+
+    Arrays and tracers hold many cases, so everything is evaluated there; what is left out must have no
+    weight in the result.
+    """
+    return False
+
+
+def minimum(a: Any, b: Any) -> Any:
+    """The lesser of the two; NaN if either is."""
+    if type(a) is float and type(b) is float:
+        return b if b < a or b != b else a
+    return namespace(a, b).minimum(a, b)
+
+
+def maximum(a: Any, b: Any) -> Any:
+    """The greater of the two; NaN if either is."""
+    if type(a) is float and type(b) is float:
+        return b if b > a or b != b else a
+    return namespace(a, b).maximum(a, b)
+
+
+def absolute(x: Any) -> Any:
+    """Absolute value."""
+    return abs(x)
+
+
+def truncate(x: Any) -> Any:
+    """The integer part of x ≥ 0, as an index."""
+    return int(x) if type(x) is float else namespace(x).asarray(x).astype(int)
+
+
+def last_at_or_below(grid: Any, x: Any) -> Any:
+    """Index i of the last grid value ≤ x, limited to 0 … len(grid) − 2; `grid` increases."""
+    xp = namespace(grid, x)
+    return xp.clip(xp.searchsorted(grid, x, side="right") - 1, 0, grid.shape[0] - 2)
+
+
+def last_axis_of_four(table: Any, a: Any, b: Any, c: Any, d: Any) -> Any:
+    """The four neighbours table[a, b, c, d, 0 … 3], which compiled code can read at once."""
+    return table[a, b, c, d, 0], table[a, b, c, d, 1], table[a, b, c, d, 2], table[a, b, c, d, 3]

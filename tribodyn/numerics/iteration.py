@@ -1,0 +1,81 @@
+"""Fixed numbers of steps, written once for NumPy and JAX: iterations, Newton's method, recurrences.
+
+Under tracing an unrolled loop multiplies the size of the program and the time it takes to compile; here the
+steps after the first become one loop of the compiled program, differentiable in both modes.
+"""
+
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+import numpy as np
+
+from tribodyn.numerics.elementary import namespace
+
+State = TypeVar("State")
+Array = Any
+
+
+def iterate(step: Callable[[State], State], state: State, steps: int) -> State:
+    """Apply `step` to `state` (an array or a tuple of arrays) `steps` ≥ 1 times.
+
+    From the first step on the state must keep its shapes and types.
+    """
+    state = step(state)
+    if namespace(state) is np:
+        for _ in range(steps - 1):
+            state = step(state)
+        return state
+    import jax
+
+    return jax.lax.fori_loop(0, steps - 1, lambda _, current: step(current), state)
+
+
+def newton(step: Callable[..., Any], start: Any, count: int, *parameters: Any) -> Any:
+    """Apply a Newton step a fixed number of times.
+
+    Under JAX only the last step is differentiated: at the root that is the implicit function theorem, because
+    the derivative of a Newton step by its start vanishes there. First derivatives are exact (in both modes),
+    higher ones are not. The step must be Newton's with the exact slope, or become it at the root.
+
+    Parameters
+    ----------
+    step : callable
+        (state, *parameters) -> state of the same shape; must not close over anything that is differentiated.
+    start : array or tuple of arrays
+        Where to start; near enough to converge in count − 1 steps.
+    count : int
+        Number of steps.
+    *parameters : arrays, pytrees of arrays
+        What the root depends on.
+    """
+    xp = namespace(start, *parameters)
+    if xp.__name__ == "numpy":
+        for _ in range(count):
+            start = step(start, *parameters)
+        return start
+    import jax
+
+    start = jax.tree.map(lambda leaf: xp.asarray(leaf, dtype=xp.result_type(leaf, 1.0)), start)
+    fixed_start, fixed = jax.lax.stop_gradient((start, parameters))
+    root = jax.lax.fori_loop(0, count - 1, lambda _, state: step(state, *fixed), fixed_start)
+    return step(root, *parameters)
+
+
+def chebyshev_basis(x: Array, degree: int) -> Array:
+    """Chebyshev polynomials T_0(x) … T_degree(x), degree ≥ 1, along a new last axis.
+
+    By the three-term recurrence: stable on −1 … 1 and, unlike cos(n arccos x), differentiable at the ends.
+    """
+    xp = namespace(x)
+    if xp is np:
+        columns = [np.ones_like(x), x]
+        while len(columns) <= degree:
+            columns.append(2.0 * x * columns[-1] - columns[-2])
+        return np.stack(columns, axis=-1)
+    import jax
+
+    def advance(pair: Any, _: Any) -> Any:
+        return (pair[1], 2.0 * x * pair[1] - pair[0]), pair[0]
+
+    _, columns = jax.lax.scan(advance, (xp.ones_like(x), x), length=degree + 1)
+    return xp.moveaxis(columns, 0, -1)

@@ -1,0 +1,78 @@
+"""From the validated tables of a scenario to the plain data that the physics takes."""
+
+import math
+from typing import cast
+
+from tribodyn.geometry.drive import Drive, GearBody
+from tribodyn.geometry.material import BodyMass, MaterialData
+from tribodyn.geometry.modification import Modifications, vary_along_lead
+from tribodyn.scenario import model_files
+from tribodyn.scenario.modification import MisalignmentTable, flank_of, misalignment_of
+from tribodyn.scenario.shape import shape_of
+from tribodyn.tribology.data import LubricantData
+
+#: Slices along the face where nothing is said and anything varies along it.
+SLICES = 21
+
+
+def lubricant_of(lubricant: model_files.Lubricant) -> LubricantData:
+    """Return the lubricant's numbers."""
+    return LubricantData(**lubricant.model_dump(exclude={"title", "source", "assumptions"}))
+
+
+def mean_roughness(drive: model_files.DriveTable) -> float:
+    """Ra of the flanks, m; σ/√π where it is not given: two equal flanks with normally distributed heights."""
+    return drive.roughness / math.sqrt(math.pi) if drive.mean_roughness is None else drive.mean_roughness
+
+
+def drive_of(drive: model_files.DriveTable) -> Drive:
+    """Return the geometry of a drive file."""
+    from tribodyn.geometry.families import family
+
+    shape = shape_of(drive, family(drive.family))
+    return Drive(drive.module, drive.pressure_angle or 0.0, _body(drive.pinion), _body(drive.gear), shape)
+
+
+def materials_of(drive: model_files.DriveTable) -> tuple[MaterialData, MaterialData]:
+    """Return what pinion and gear are made of."""
+    return _material(drive, drive.pinion), _material(drive, drive.gear)
+
+
+def masses_of(drive: model_files.DriveTable) -> tuple[BodyMass, BodyMass]:
+    """Return the masses that a drive file gives."""
+    return _mass(drive.pinion), _mass(drive.gear)
+
+
+def _body(gear: model_files.Gear) -> GearBody:
+    return GearBody(
+        teeth=float(gear.teeth),
+        profile_shift=gear.profile_shift,
+        addendum=gear.addendum,
+        dedendum=gear.dedendum,
+        fillet_radius=gear.fillet_radius,
+        face_width=gear.face_width,
+        bore_radius=gear.bore_radius,
+        tip_radius=gear.tip_radius,
+    )
+
+
+def _material(drive: model_files.DriveTable, gear: model_files.Gear) -> MaterialData:
+    material = cast(model_files.Material, gear.material or drive.material)
+    numbers = material.model_dump(exclude={"title", "source", "assumptions"})
+    return MaterialData(name=material.title, **numbers)
+
+
+def modifications_of(drive: model_files.DriveTable, misalignment: MisalignmentTable) -> Modifications:
+    """Return what is taken off the flanks of a drive, and how its axes stand."""
+    return Modifications(
+        flank_of(drive.pinion.modification), flank_of(drive.gear.modification), misalignment_of(misalignment)
+    )
+
+
+def slices_of(given: int | None, modifications: Modifications) -> int:
+    """Return the number of slices along the face."""
+    return given or (SLICES if vary_along_lead(modifications) else 1)
+
+
+def _mass(gear: model_files.Gear) -> BodyMass:
+    return BodyMass(gear.mass, gear.inertia)

@@ -1,0 +1,146 @@
+"""Many models as rows of numbers and addresses, from which a block of lanes is filled."""
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.dynamics.parameters import Model, Options
+from tribodyn.kernels.lanes.tables import Field, LaneRecord
+from tribodyn.kernels.lanes.vectors import WIDTH
+
+#: The model's named tuples of numbers and tables.
+RECORDS = tuple(name for name in Model._fields if name != "options")
+#: Tables that models of one kind have in common, value for value: branches may hang on them.
+SHARED = ("side", "in_contact")
+
+
+class Kind(NamedTuple):
+    """What must be the same over the lanes of a block: the options, and the shape of every field."""
+
+    options: Options
+    shapes: tuple[tuple[tuple[int, ...], ...], ...]
+    contacts: bytes  # side of every slot, and which are in contact in which segment
+
+    @property
+    def pairs(self) -> int:
+        """Number of pair slots."""
+        return self.shapes[0][2][0]
+
+
+class Kept(NamedTuple):
+    """A table as it came, as contiguous floats, and where these are."""
+
+    given: Any
+    array: np.ndarray
+    address: int
+
+
+class Packed(NamedTuple):
+    """Models of one kind.
+
+    Attributes
+    ----------
+    kind : Kind
+    fields : fields of every record
+    numbers : (C, F) float64
+    addresses : (C, T) int64
+    lengths : (L,) int64
+    kept : what the addresses point into
+    """
+
+    kind: Kind
+    fields: tuple[tuple[Field, ...], ...]
+    numbers: np.ndarray
+    addresses: np.ndarray
+    lengths: np.ndarray
+    kept: list[Kept]
+
+
+def kind_of(model: Model, known: dict[int, tuple[Any, ...]] | None = None) -> Kind:
+    """What a model has to share with another one to run beside it.
+
+    `known` keeps what is found, by record, for models that have some in common.
+    """
+    known = {} if known is None else known
+    shapes, contacts = [], b""
+    for name in RECORDS:
+        record = getattr(model, name)
+        if id(record) not in known:
+            tables = [getattr(record, one) for one in SHARED] if name == "table" else []
+            known[id(record)] = (
+                tuple(getattr(value, "shape", ()) for value in record),
+                b"".join(np.asarray(one, dtype=float).tobytes() for one in tables),
+            )
+        found = known[id(record)]
+        shapes.append(found[0])
+        contacts += found[1]
+    return Kind(model.options, tuple(shapes), contacts)
+
+
+def by_kind(models: Sequence[Model]) -> list[np.ndarray]:
+    """Places of the models of each kind; a record that many have in common is looked at once."""
+    known: dict[int, tuple[Any, ...]] = {}
+    groups: dict[Kind, list[int]] = {}
+    for place, model in enumerate(models):
+        groups.setdefault(kind_of(model, known), []).append(place)
+    return [np.array(places) for places in groups.values()]
+
+
+def pack(models: Sequence[Model]) -> Packed:
+    """Rows of models of one kind; tables stay where they are."""
+    kind = kind_of(models[0])
+    fields, lengths = _fields(models[0], kind)
+    kept: dict[int, Kept] = {}
+    numbers = np.empty((len(models), sum(f.ndim == 0 for group in fields for f in group)))
+    addresses = np.empty((len(models), sum(f.ndim > 0 for group in fields for f in group)), dtype=np.int64)
+    rows: dict[int, tuple[Any, list[float], list[int]]] = {}
+    for case, model in enumerate(models):
+        first_number = first_address = 0
+        for name, group in zip(RECORDS, fields, strict=True):
+            record = getattr(model, name)
+            if id(record) not in rows:
+                rows[id(record)] = (record, *_row(record, group, kept))
+            _, own_numbers, own_addresses = rows[id(record)]
+            numbers[case, first_number : first_number + len(own_numbers)] = own_numbers
+            addresses[case, first_address : first_address + len(own_addresses)] = own_addresses
+            first_number += len(own_numbers)
+            first_address += len(own_addresses)
+    return Packed(kind, fields, numbers, addresses, np.array(lengths, dtype=np.int64), list(kept.values()))
+
+
+def _fields(model: Model, kind: Kind) -> tuple[tuple[tuple[Field, ...], ...], list[int]]:
+    found, lengths = [], []
+    number = address = 0
+    for name, shapes in zip(RECORDS, kind.shapes, strict=True):
+        group = []
+        for field, shape in zip(getattr(model, name)._fields, shapes, strict=True):
+            row = address if shape else number
+            group.append(Field(field, len(shape), row, len(lengths), field in SHARED))
+            number += not shape
+            address += bool(shape)
+            lengths += shape
+        found.append(tuple(group))
+    return tuple(found), lengths
+
+
+def _row(record: Any, fields: tuple[Field, ...], kept: dict[int, Kept]) -> tuple[list[float], list[int]]:
+    """Numbers and addresses of one record; a table that several records share is kept once."""
+    numbers, addresses = [], []
+    for value, field in zip(record, fields, strict=True):
+        if not field.ndim:
+            numbers.append(float(value))
+            continue
+        if id(value) not in kept:
+            array = np.ascontiguousarray(value, dtype=np.float64)
+            kept[id(value)] = Kept(value, array, array.ctypes.data)
+        addresses.append(kept[id(value)].address)
+    return numbers, addresses
+
+
+def lane_model(packed: Packed) -> tuple[Model, np.ndarray, np.ndarray]:
+    """A model over the lanes, and its numbers (F, WIDTH) and addresses (T, WIDTH), all of the first case."""
+    numbers = np.repeat(packed.numbers[0][:, None], WIDTH, axis=1)
+    addresses = np.repeat(packed.addresses[0][:, None], WIDTH, axis=1)
+    records: list[Any] = [LaneRecord(group, numbers, addresses, packed.lengths) for group in packed.fields]
+    return Model(**dict(zip(RECORDS, records, strict=True)), options=packed.kind.options), numbers, addresses

@@ -1,0 +1,43 @@
+"""Datasets of a frequency sweep of the oscillator with backlash: everything over frequency and direction."""
+
+from tribodyn.numerics.variable import Variable
+
+_POINT = ("frequency", "direction")
+_MULTIPLIER = ("frequency", "direction", "multiplier")
+
+FREQUENCY = Variable(
+    ("frequency",), "1", "frequency of the excitation over the natural frequency of the oscillator in contact"
+)
+DIRECTION = Variable(("direction",), "1", "sense in which the frequency was followed")
+MULTIPLIER = Variable(("multiplier",), "1", "number of the Floquet multiplier, greatest modulus first")
+
+SAMPLES: dict[str, Variable] = {
+    "rms_displacement": Variable(
+        _POINT, "1", "root mean square of the displacement about its mean, in half backlashes"
+    ),
+    "peak_to_peak_displacement": Variable(_POINT, "1", "peak to peak of displacement, in half backlashes"),
+    "mean_displacement": Variable(_POINT, "1", "mean displacement, in half backlashes"),
+    "contact_loss_fraction": Variable(_POINT, "1", "share of the time without contact"),
+    "back_contact_fraction": Variable(_POINT, "1", "share of the time in contact on the back side"),
+    "period": Variable(_POINT, "1", "periods of the excitation in one of the motion; 0: not periodic"),
+    "stable": Variable(
+        _POINT,
+        "1",
+        "1: the motion is periodic and stable; 0: it is not periodic, and its figures are over 100 periods "
+        "of the excitation; NaN: it grew without bound",
+    ),
+    "multiplier_modulus": Variable(
+        _MULTIPLIER,
+        "1",
+        "modulus of the Floquet multipliers over one period of the motion; where it is not periodic, of an "
+        "unstable periodic state beside it, NaN if none was found",
+    ),
+    "multiplier_angle": Variable(_MULTIPLIER, "rad", "angle of the Floquet multipliers"),
+    "residual": Variable(_POINT, "1", "greatest change of displacement and velocity over one period"),
+    "section_displacement": Variable(
+        _POINT, "1", "displacement at the greatest excitation, in half backlashes"
+    ),
+    "section_velocity": Variable(_POINT, "1", "velocity there, in half backlashes times natural frequency"),
+}
+
+NEEDED = ("frequency", "rms_displacement", "stable", "multiplier_modulus")

@@ -1,0 +1,296 @@
+"""Native solver of the oscillator with backlash: Taylor series of each linear piece, corners located exactly.
+
+x'' + 2ζ x' + (1 + ε cos Ωτ) f(x) = F_m + F_e Ω² cos Ωτ with f(x) = x − 1 above 1, 0 between, x + 1 below −1
+(Kahraman & Singh, J. Sound Vib. 142 (1990) 49, with ε after the same, 146 (1991) 135). Between the corners
+|x| = 1 the equation is linear with entire coefficients, so that its Taylor series converges for every step
+and its terms follow from a recurrence; steps are chosen so that the series is exact to rounding. A step never
+crosses a corner: the first one is found by steps that a bound on the acceleration proves to be too short to
+miss it. The force is continuous there, so that the tangent passes a corner unchanged and the map's derivative
+is as exact as the map.
+"""
+
+import math
+
+import numpy as np
+
+from tribodyn.kernels.native import kernel
+from tribodyn.solve.period_map import Marched, Tangent
+
+#: Columns of a row of parameters: ζ, F_m, F_e, ε, Ω.
+DAMPING, MEAN_FORCE, ERROR_AMPLITUDE, STIFFNESS_VARIATION, FREQUENCY = range(5)
+PARAMETERS = 5
+#: Columns of a row of figures: integrals over time of x and x², time without contact and with contact on the
+#: back side (x < −1), greatest and least x.
+INTEGRAL, SQUARE, FREE, BACK, GREATEST, LEAST = range(6)
+FIGURES = 6
+
+#: Degree of the Taylor polynomials.
+DEGREE = 24
+#: Least share of a polynomial's size that its last two terms may have.
+ROUNDING = 1e-16
+#: Distance from a corner, in half backlashes, or time before it, within which it counts as reached.
+TOUCH = 1e-13
+#: What a step that starts on a corner goes at least, in units of the natural period over 2π. An excursion
+#: across the corner shorter than that, some 1e-14 deep, counts for none.
+LEAST_STEP = 1e-7
+#: Displacement at which a motion counts as growing without bound, half backlashes.
+UNBOUNDED = 1e4
+
+DONE, GROWS = 0, 1
+REASONS = {GROWS: "the motion grows without bound: the mean force or the varying stiffness feeds it"}
+
+
+@kernel
+def _series(side, parameters, phase, position, velocity, forced, a, cosine):
+    """Taylor coefficients a_0 … a_DEGREE of x about `phase`, of the homogeneous equation if not `forced`."""
+    frequency = parameters[FREQUENCY]
+    amplitude = parameters[ERROR_AMPLITUDE] * frequency * frequency
+    cosine[0] = math.cos(phase)
+    cosine[1] = -frequency * math.sin(phase)
+    for k in range(2, DEGREE + 1):
+        cosine[k] = -frequency * frequency * cosine[k - 2] / (k * (k - 1))
+    stiffness = 0.0 if side == 0 else 1.0
+    variation = stiffness * parameters[STIFFNESS_VARIATION]
+    a[0] = position - side if forced else position
+    a[1] = velocity
+    for k in range(DEGREE - 1):
+        term = -2.0 * parameters[DAMPING] * (k + 1) * a[k + 1] - stiffness * a[k]
+        if variation != 0.0:
+            total = 0.0
+            for j in range(k + 1):
+                total += cosine[j] * a[k - j]
+            term -= variation * total
+        if forced:
+            term += amplitude * cosine[k]
+            if k == 0:
+                term += parameters[MEAN_FORCE]
+        a[k + 2] = term / ((k + 1) * (k + 2))
+    if forced:
+        a[0] += side
+
+
+@kernel
+def _value(a, t):
+    value = a[DEGREE]
+    for k in range(DEGREE - 1, -1, -1):
+        value = value * t + a[k]
+    return value
+
+
+@kernel
+def _slope(a, t):
+    value = DEGREE * a[DEGREE]
+    for k in range(DEGREE - 1, 0, -1):
+        value = value * t + k * a[k]
+    return value
+
+
+@kernel
+def _longest(a):
+    """Step within which the last two terms stay below rounding."""
+    size = ROUNDING * max(1.0, abs(a[0]), abs(a[1]))
+    step = 1e3
+    for k in (DEGREE - 1, DEGREE):
+        if abs(a[k]) > 0.0:
+            step = min(step, (size / abs(a[k])) ** (1.0 / k))
+    return step
+
+
+@kernel
+def _until_corner(a, step, corner, direction, on_corner):
+    """Time of the first passage of `corner` in `direction` (±1), or `step` if there is none before.
+
+    From a distance p and speed p' the corner cannot be reached before p + p' s − M s²/2 = 0, M bounding the
+    acceleration over the step: going on by that s again and again converges to the first root, passing none.
+    """
+    bound = 0.0
+    power = 1.0
+    for k in range(2, DEGREE + 1):
+        bound += k * (k - 1) * abs(a[k]) * power
+        power *= step
+    bound = max(bound, 1e-300)
+    t = min(LEAST_STEP, step) if on_corner else 0.0
+    while t < step:
+        distance = direction * (corner - _value(a, t))
+        away = -direction * _slope(a, t)
+        advance = (away + math.sqrt(away * away + 2.0 * bound * max(distance, 0.0))) / bound
+        if away <= 0.0 and (distance <= TOUCH or advance <= TOUCH):
+            return t
+        t += advance
+    return step
+
+
+@kernel
+def _record(a, step, side, figures):
+    """Add a step to the integrals and extremes of a row."""
+    first = 0.0
+    second = 0.0
+    power = step
+    for i in range(DEGREE + 1):
+        first += a[i] * power / (i + 1)
+        inner = 0.0
+        other = 1.0
+        for j in range(DEGREE + 1):
+            inner += a[j] * other / (i + j + 1)
+            other *= step
+        second += a[i] * power * inner
+        power *= step
+    figures[INTEGRAL] += first
+    figures[SQUARE] += second
+    if side == 0:
+        figures[FREE] += step
+    if side == -1:
+        figures[BACK] += step
+    parts = 8
+    before = a[1]
+    for part in range(1, parts + 1):
+        t = step * part / parts
+        after = _slope(a, t)
+        place = t
+        if before * after < 0.0:  # an extremum inside
+            low, high = t - step / parts, t
+            for _ in range(48):
+                place = 0.5 * (low + high)
+                if _slope(a, place) * before > 0.0:
+                    low = place
+                else:
+                    high = place
+        for at in (place, t):
+            value = _value(a, at)
+            figures[GREATEST] = max(figures[GREATEST], value)
+            figures[LEAST] = min(figures[LEAST], value)
+        before = after
+
+
+@kernel
+def _advance(state, parameters, periods, strobes, tangent, figures, with_tangent, with_figures, buffer):
+    """March one row; returns its status."""
+    frequency = parameters[FREQUENCY]
+    duration = 2.0 * math.pi / frequency
+    x, v = state[0], state[1]
+    side = 1 if x > 1.0 else -1 if x < -1.0 else 0
+    on_corner = abs(abs(x) - 1.0) <= TOUCH
+    a, b, c, cosine = buffer[0], buffer[1], buffer[2], buffer[3]
+    for period in range(periods):
+        time = 0.0
+        while time < duration:
+            _series(side, parameters, frequency * time, x, v, True, a, cosine)
+            remaining = duration - time
+            step = min(remaining, _longest(a))
+            if with_tangent:
+                for column, d in ((0, b), (1, c)):
+                    _series(
+                        side,
+                        parameters,
+                        frequency * time,
+                        tangent[0, column],
+                        tangent[1, column],
+                        False,
+                        d,
+                        cosine,
+                    )
+                    step = min(step, _longest(d))
+            whole = step
+            turned = side
+            if side >= 0:
+                corner, direction, other = (1.0, -1.0, 0) if side == 1 else (1.0, 1.0, 1)
+                until = _until_corner(a, step, corner, direction, on_corner)
+                if until < step:
+                    step, turned = until, other
+            if side <= 0:
+                corner, direction, other = (-1.0, 1.0, 0) if side == -1 else (-1.0, -1.0, -1)
+                until = _until_corner(a, step, corner, direction, on_corner)
+                if until < step:
+                    step, turned = until, other
+            if with_figures:
+                _record(a, step, side, figures)
+            x, v = _value(a, step), _slope(a, step)
+            if with_tangent:
+                for column, d in ((0, b), (1, c)):
+                    tangent[0, column] = _value(d, step)
+                    tangent[1, column] = _slope(d, step)
+            if not abs(x) < UNBOUNDED:
+                return GROWS
+            on_corner = turned != side
+            side = turned
+            time = duration if step == remaining and step == whole else time + step
+        strobes[period, 0] = x
+        strobes[period, 1] = v
+    return DONE
+
+
+@kernel
+def march_rows(
+    states, parameters, periods, strobes, tangents, figures, with_tangent, with_figures, status, buffer
+):
+    """March rows (R, 2) with parameters (R, 5); fills strobes (R, periods, 2), tangents (R, 2, 2), figures.
+
+    `tangents` and `figures` must be set to the identity and to zeros (extremes ∓inf) before.
+    """
+    for row in range(states.shape[0]):
+        status[row] = _advance(
+            states[row],
+            parameters[row],
+            periods,
+            strobes[row],
+            tangents[row],
+            figures[row],
+            with_tangent,
+            with_figures,
+            buffer,
+        )
+
+
+class OscillatorMap:
+    """The oscillator's map over a period of the excitation, as `period_map.PeriodMap`.
+
+    Parameters
+    ----------
+    parameters : (C, 5)
+        Rows of ζ, F_m, F_e, ε, Ω.
+
+    Notes
+    -----
+    The state is (x, dx/dτ) where cos Ωτ = 1, in units of the half backlash; it is its own scale.
+    """
+
+    blur = 0.0
+
+    def __init__(self, parameters: np.ndarray):
+        self.parameters = np.ascontiguousarray(parameters, dtype=float)
+        self.scale = np.ones((len(self.parameters), 2))
+
+    def march(self, states: np.ndarray, cases: np.ndarray, periods: int, fine: bool = True) -> Marched:
+        """See `period_map.PeriodMap`; always as fine as rounding allows."""
+        strobes, _, _, reasons = self._run(states, cases, periods, False, False)
+        return Marched(strobes, reasons)
+
+    def tangent(self, states: np.ndarray, cases: np.ndarray, periods: int) -> Tangent:
+        """See `period_map.PeriodMap`; by the variational equation."""
+        strobes, tangents, _, reasons = self._run(states, cases, periods, True, False)
+        return Tangent(strobes[:, -1], tangents, reasons)
+
+    def figures(self, states: np.ndarray, cases: np.ndarray, periods: int) -> np.ndarray:
+        """Integrals and extremes (R, 6) over some periods, see INTEGRAL and the others."""
+        return self._run(states, cases, periods, False, True)[2]
+
+    def _run(self, states, cases, periods, with_tangent, with_figures):
+        rows = len(states)
+        strobes = np.full((rows, periods, 2), np.nan)
+        tangents = np.tile(np.eye(2), (rows, 1, 1))
+        figures = np.zeros((rows, FIGURES))
+        figures[:, GREATEST], figures[:, LEAST] = -np.inf, np.inf
+        status = np.zeros(rows, dtype=np.int64)
+        march_rows(
+            np.ascontiguousarray(states, dtype=float),
+            self.parameters[cases],
+            periods,
+            strobes,
+            tangents,
+            figures,
+            with_tangent,
+            with_figures,
+            status,
+            np.zeros((4, DEGREE + 1)),
+        )
+        return strobes, tangents, figures, [REASONS.get(int(code), "") for code in status]

@@ -1,0 +1,139 @@
+"""Frequency response of the oscillator with backlash: steady states followed up and down."""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from tribodyn.solve.steady_orbit import Orbit, find
+from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
+from tribodyn.studies.backlash_oscillator.motion import (
+    BACK,
+    FREE,
+    GREATEST,
+    INTEGRAL,
+    LEAST,
+    SQUARE,
+    OscillatorMap,
+)
+
+UP, DOWN = 0, 1
+#: Periods over which a motion that is not periodic is measured.
+WINDOW = 100
+#: Codes of the kind of motion.
+NOT_PERIODIC, STABLE, UNSTABLE, FAILED = range(4)
+
+
+class Response(NamedTuple):
+    """Motion at every frequency, reached by going up (column 0) and down (column 1).
+
+    Attributes
+    ----------
+    frequency : (F,)
+        Ω.
+    rms : (F, 2)
+        Root mean square of x about its mean, over one period of the motion; over `WINDOW` periods of the
+        excitation where it is not periodic. NaN where it failed.
+    peak_to_peak, mean : (F, 2)
+    free, back : (F, 2)
+        Shares of the time without contact, and in contact on the back side.
+    period : (F, 2)
+        Of the motion in periods of the excitation; 0 where it is not periodic.
+    kind : (F, 2)
+        STABLE; NOT_PERIODIC; UNSTABLE: not periodic, beside an unstable periodic state, whose multipliers are
+        given; FAILED.
+    residual : (F, 2)
+        Change of the state over a period of the motion.
+    multiplier : (F, 2, 2) complex
+        Floquet multipliers over a period of the periodic state found; NaN where there is none.
+    displacement, velocity : (F, 2)
+        State where cos Ωτ = 1: on the steady orbit, or where marching ended.
+    messages : list of (frequency, direction, text)
+        What is to be said of single points.
+    """
+
+    frequency: np.ndarray
+    rms: np.ndarray
+    peak_to_peak: np.ndarray
+    mean: np.ndarray
+    free: np.ndarray
+    back: np.ndarray
+    period: np.ndarray
+    kind: np.ndarray
+    residual: np.ndarray
+    multiplier: np.ndarray
+    displacement: np.ndarray
+    velocity: np.ndarray
+    messages: list[tuple[float, int, str]]
+
+
+def frequency_response(
+    case: BacklashOscillatorCase, progress: Callable[[float], None] | None = None
+) -> Response:
+    """Follow the steady states over the frequencies, up and down side by side.
+
+    Each frequency starts from the state of the one before it in its own direction; the first, and the one
+    after a failure, from rest under the mean force.
+    """
+    frequency = np.array(case.frequencies)
+    count = len(frequency)
+    one = np.full((count, 2), np.nan)
+    found = Response(
+        frequency,
+        *(one.copy() for _ in range(5)),
+        period=np.zeros((count, 2), dtype=int),
+        kind=np.full((count, 2), FAILED),
+        residual=one.copy(),
+        multiplier=np.full((count, 2, 2), np.nan, dtype=complex),
+        displacement=one.copy(),
+        velocity=one.copy(),
+        messages=[],
+    )
+    rest = np.array([at_rest(case.mean_force), 0.0])
+    state = np.array([rest, rest])
+    for step in range(count):
+        places = np.array([step, count - 1 - step])
+        oscillator = oscillator_at(case, frequency[places])
+        orbits = find(oscillator, state, max_periods=case.max_periods)
+        for direction, orbit in enumerate(orbits):
+            _put(found, int(places[direction]), direction, orbit, oscillator)
+            failed = orbit.kind == "failed"
+            state[direction] = rest if failed else orbit.last
+        if progress:
+            progress((step + 1) / count)
+    return found
+
+
+def oscillator_at(case: BacklashOscillatorCase, frequency: np.ndarray) -> OscillatorMap:
+    """Maps of the oscillator at some frequencies."""
+    columns = (case.damping, case.mean_force, case.error_amplitude, case.stiffness_variation)
+    return OscillatorMap(np.column_stack([np.tile(columns, (len(frequency), 1)), frequency]))
+
+
+def at_rest(mean_force: float) -> float:
+    """Displacement at which the mean force is balanced; in the middle where there is none."""
+    return float(mean_force + np.sign(mean_force))
+
+
+def _put(found: Response, place: int, direction: int, orbit: Orbit, oscillator: OscillatorMap) -> None:
+    """Put one orbit, and what is measured on it, into its place."""
+    at = place, direction
+    if orbit.message:
+        found.messages.append((float(found.frequency[place]), direction, orbit.message))
+    if orbit.kind == "failed":
+        return
+    state = orbit.state if orbit.stable else orbit.last
+    periods = orbit.period if orbit.stable else WINDOW
+    one = np.array([direction])
+    figures = oscillator.figures(state[None], one, periods)[0]
+    duration = periods * 2.0 * np.pi / found.frequency[place]
+    mean = figures[INTEGRAL] / duration
+    found.mean[at] = mean
+    found.rms[at] = np.sqrt(max(figures[SQUARE] / duration - mean * mean, 0.0))
+    found.peak_to_peak[at] = figures[GREATEST] - figures[LEAST]
+    found.free[at], found.back[at] = figures[FREE] / duration, figures[BACK] / duration
+    found.kind[at] = STABLE if orbit.stable else UNSTABLE if orbit.kind == "unstable" else NOT_PERIODIC
+    found.period[at] = orbit.period if orbit.stable else 0
+    found.residual[at] = orbit.residual
+    found.multiplier[at] = orbit.multipliers
+    found.displacement[at], found.velocity[at] = state

@@ -1,0 +1,130 @@
+"""From a case of the oscillator with backlash to its record: the frequency response, up and down."""
+
+from collections.abc import Callable
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
+from tribodyn.studies.backlash_oscillator.response import (
+    DOWN,
+    FAILED,
+    NOT_PERIODIC,
+    STABLE,
+    UNSTABLE,
+    UP,
+    Response,
+    frequency_response,
+)
+
+#: Relative difference of the RMS above which the ways up and down count as different branches: hundreds of
+#: times what the residuals leave.
+APART = 1e-3
+#: How many single points the summary says something of.
+REMARKS = 3
+
+
+def run(
+    case: BacklashOscillatorCase,
+    output: str | Path | None = None,
+    force: bool = False,
+    progress: Callable[[float], None] | None = None,
+) -> tuple[Path, str, dict[str, Any]]:
+    """Sweep a case and write its record.
+
+    Parameters and errors as those of `gear_pair.run.run`; returns the record's path, why it failed
+    (empty: it did not), and its summary. A sweep fails if no frequency at all has a bounded motion.
+    """
+    from tribodyn.record.schema import BACKLASH_OSCILLATOR
+    from tribodyn.record.writer import RecordWriter, check_target
+
+    path = Path(output) if output is not None else Path(f"{case.name}.h5")
+    check_target(path, force)
+    begun = perf_counter()
+    response = frequency_response(case, progress)
+    summary = figures(response) | {"wall_time": perf_counter() - begun}
+    with RecordWriter(
+        path,
+        scenario_toml=case.toml,
+        sha256=case.sha256,
+        samples=len(response.frequency),
+        force=force,
+        kind=BACKLASH_OSCILLATOR,
+        scales={"direction": np.array(["up", "down"]), "multiplier": np.array([1, 2])},
+    ) as record:
+        record.write(0, record_arrays(response))
+        if np.all(response.kind == FAILED):
+            message = response.messages[0][2]
+            return record.fail(message, summary), message, summary
+        return record.finish(summary), "", summary
+
+
+def record_arrays(response: Response) -> dict[str, Any]:
+    """Datasets of the record, over the frequency first."""
+    kind = response.kind.astype(float)
+    return {
+        "frequency": response.frequency,
+        "rms_displacement": response.rms,
+        "peak_to_peak_displacement": response.peak_to_peak,
+        "mean_displacement": response.mean,
+        "contact_loss_fraction": response.free,
+        "back_contact_fraction": response.back,
+        "period": np.where(response.kind == FAILED, np.nan, response.period),
+        "stable": np.where(response.kind == FAILED, np.nan, kind == STABLE),
+        "multiplier_modulus": np.abs(response.multiplier),
+        "multiplier_angle": np.angle(response.multiplier),
+        "residual": response.residual,
+        "section_displacement": response.displacement,
+        "section_velocity": response.velocity,
+    }
+
+
+def figures(response: Response) -> dict[str, Any]:
+    """Figures of the whole sweep."""
+    frequency, rms, kind = response.frequency, response.rms, response.kind
+    found: dict[str, Any] = {
+        "points": int(kind.size),
+        "points_not_periodic": int(np.sum((kind == NOT_PERIODIC) | (kind == UNSTABLE))),
+        "points_unstable_state": int(np.sum(kind == UNSTABLE)),
+        "points_failed": int(np.sum(kind == FAILED)),
+        "points_of_longer_period": int(np.sum(response.period > 1)),
+        "residual_max": _greatest(response.residual[kind == STABLE]),
+    }
+    if np.any(np.isfinite(rms)):
+        place = np.unravel_index(np.nanargmax(rms), rms.shape)
+        found |= {"rms_max": float(rms[place]), "rms_max_frequency": float(frequency[place[0]])}
+        found["contact_loss_fraction_max"] = _greatest(response.free)
+        found["back_contact_fraction_max"] = _greatest(response.back)
+    losing = np.flatnonzero(np.any(np.nan_to_num(response.free) > 0.0, axis=1))
+    if losing.size:
+        found |= {
+            "contact_loss_from": float(frequency[losing[0]]),
+            "contact_loss_to": float(frequency[losing[-1]]),
+        }
+    bistable = np.flatnonzero(branches_apart(response))
+    if bistable.size:
+        found |= {
+            "bistable_from": float(frequency[bistable[0]]),
+            "bistable_to": float(frequency[bistable[-1]]),
+        }
+    said = response.messages
+    for number, (at, direction, text) in enumerate(said[:REMARKS]):
+        found[f"remark_{number + 1}"] = f"frequency {at:g}, {'up' if direction == UP else 'down'}: {text}"
+    if len(said) > REMARKS:
+        found["remarks_more"] = len(said) - REMARKS
+    return found
+
+
+def branches_apart(response: Response) -> np.ndarray:
+    """Where the ways up and down came to different periodic motions (F,)."""
+    up, down = response.rms[:, UP], response.rms[:, DOWN]
+    with np.errstate(invalid="ignore"):
+        apart = np.abs(up - down) > APART * np.maximum(up, down)
+    return apart & np.all(response.kind == STABLE, axis=1)
+
+
+def _greatest(values: np.ndarray) -> float | None:
+    finite = values[np.isfinite(values)]
+    return float(np.max(finite)) if finite.size else None

@@ -1,0 +1,122 @@
+"""A gear pair without a scenario: from a drive file, or out of any scenario, to what its geometry needs."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from pydantic import ValidationError
+
+from tribodyn.errors import InputError, InputErrors, quoted
+from tribodyn.geometry.drive import Drive
+from tribodyn.geometry.families import family
+from tribodyn.geometry.material import BodyMass, MaterialData
+from tribodyn.scenario.drive_data import drive_of, masses_of, materials_of
+from tribodyn.scenario.drive_rules import broken_drive_rules
+from tribodyn.scenario.messages import Origins, explain
+from tribodyn.scenario.model_files import DriveTable
+from tribodyn.scenario.quantity import Table
+from tribodyn.scenario.resolve import resolve_table, unresolved_keys
+from tribodyn.scenario.shape import shape_errors
+from tribodyn.scenario.sources import find_drive_or_scenario, read_toml
+from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
+from tribodyn.studies.gear_pair.case import Case
+from tribodyn.studies.load import load
+from tribodyn.studies.rolling.case import RollingCase
+
+
+class DriveModel(NamedTuple):
+    """A gear pair as it stands in a drive file.
+
+    Parameters
+    ----------
+    title, name : str
+        Title of the drive or scenario, and its name.
+    family : str
+        Name of the family of paths of contact.
+    drive : Drive
+    materials : tuple of MaterialData
+    masses : tuple of BodyMass
+        None where they follow from the outline.
+    path : Path
+        The file that was named.
+    origins : Origins
+        Which file each part came from; the drive stands at the key "drive".
+    """
+
+    title: str
+    name: str
+    family: str
+    drive: Drive
+    materials: tuple[MaterialData, MaterialData]
+    masses: tuple[BodyMass, BodyMass]
+    path: Path
+    origins: Origins
+
+
+class _DriveAlone(Table):
+    drive: DriveTable
+
+
+def load_drive(model: str, overrides: Mapping[str, Any] | None = None) -> DriveModel:
+    """Read the gear pair of a drive file or of a scenario.
+
+    Parameters
+    ----------
+    model : str
+        Name of a shipped drive or scenario, or the path of a file of either sort.
+    overrides : mapping, optional
+        Dotted key, as in a scenario, to value: ``{"drive.pinion.profile_shift": "0.3"}``.
+
+    Raises
+    ------
+    InputError
+        If there is no such file, it describes no pair of gears, or anything in it is wrong.
+    """
+    path = find_drive_or_scenario(model)
+    written = read_toml(path)
+    if "drive" in written or "kind" in written:
+        return _of_scenario(path, overrides or {})
+    if "elements" in written:
+        raise _no_pair(path)
+    data, origins, unresolved = resolve_table({"drive": written}, path, overrides or {})
+    try:
+        table = _DriveAlone.model_validate({"drive": data["drive"]}).drive
+    except ValidationError as error:
+        known = unresolved_keys(unresolved)
+        found = [one for one in explain(error, _DriveAlone) if one.key not in known]
+        raise InputErrors([origins.locate(one) for one in (*unresolved, *found)]) from None
+    with origins.naming():
+        errors = [*unresolved, *broken_drive_rules(table)]
+        errors = errors or shape_errors(table, family(table.family))
+    if errors:
+        raise InputErrors([origins.locate(one) for one in errors])
+    return DriveModel(
+        table.title,
+        path.stem,
+        table.family,
+        drive_of(table),
+        materials_of(table),
+        masses_of(table),
+        path,
+        origins,
+    )
+
+
+def _of_scenario(path: Path, overrides: Mapping[str, Any]) -> DriveModel:
+    case, _, origins = load(path, overrides)
+    if isinstance(case, RollingCase):
+        raise _no_pair(path)
+    if isinstance(case, BacklashOscillatorCase):
+        raise InputError("model", quoted(path.stem), "an oscillator without gears", "name a pair of gears")
+    # a quasi-static study needs no masses
+    masses = case.masses if isinstance(case, Case) else (BodyMass(), BodyMass())
+    return DriveModel(case.title, case.name, case.family, case.drive, case.materials, masses, path, origins)
+
+
+def _no_pair(path: Path) -> InputError:
+    return InputError(
+        "model",
+        quoted(path.stem),
+        "not a pair of gears: it has rolling elements",
+        "run a scenario of it instead: tribodyn run",
+    )

@@ -1,0 +1,49 @@
+"""A case of the quasi-static efficiency study: everything one run needs to know, in SI units."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from tribodyn.dynamics.data import OperatingData
+from tribodyn.geometry.drive import Drive
+from tribodyn.geometry.material import MaterialData
+from tribodyn.mesh.data import MeshData
+from tribodyn.tribology.data import FrictionData, LubricantData
+
+if TYPE_CHECKING:  # the study's array code, and SciPy with it, is for the run
+    from tribodyn.studies.efficiency.places import Sharing
+
+
+@dataclass(frozen=True)
+class EfficiencyCase:
+    """One efficiency study, complete.
+
+    Parameters
+    ----------
+    title, name, kind, toml, sha256, family, drive, materials, roughness, mean_roughness, lubricant, friction
+        As in `tribodyn.studies.gear_pair.case.Case`; `kind` is "efficiency".
+    operating : OperatingData
+        Pinion speed and gear torque, both constant.
+    mesh : MeshData
+        Compliance by the energy method or, "fem", the load contact model, for the elastic load sharing.
+    load_sharing : {"elastic", "uniform", "single-pair"}
+        That of the samples recorded; the summary has all three.
+    samples_per_cycle : int
+        Samples over the one mesh cycle recorded.
+    """
+
+    title: str
+    name: str
+    kind: str
+    toml: str
+    sha256: str
+    family: str
+    drive: Drive
+    materials: tuple[MaterialData, MaterialData]
+    roughness: float
+    mean_roughness: float
+    lubricant: LubricantData
+    operating: OperatingData
+    mesh: MeshData
+    friction: FrictionData
+    load_sharing: "Sharing" = "elastic"
+    samples_per_cycle: int = 200

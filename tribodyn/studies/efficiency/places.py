@@ -1,0 +1,151 @@
+"""The mesh at given phases: which pairs carry, their arms, radii and compliances."""
+
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+
+from tribodyn.compliance.loaded_flanks import LoadedFlanks
+from tribodyn.errors import InputError
+from tribodyn.geometry.corner_contact import pair_geometry, roll_limits
+from tribodyn.geometry.path import Kinematics, Path, kinematics
+from tribodyn.mesh.cycle import CHANNELS, MeshCycle, Polynomials, polynomials
+from tribodyn.studies.efficiency.quadrature import Array
+
+Sharing = Literal["elastic", "uniform", "single-pair"]
+SHARINGS: dict[Sharing, str] = {
+    "elastic": "by the compliances of the pairs and of the bodies they share",
+    "uniform": "equally among the pairs in contact, as ISO/TC 60 has it",
+    "single-pair": "one pair over half a pitch on either side of the pitch point: unit contact ratio",
+}
+
+
+class Places(NamedTuple):
+    """The mesh at some phases: K phases, Q pairs.
+
+    Attributes
+    ----------
+    phase : (K,)
+        Mesh cycles.
+    cycle : MeshCycle
+        A table of one node in each of K segments, driving flanks only; its kinematics are the path's own.
+    carrying : (K, Q)
+        1 for a pair that may carry load under the load sharing in use.
+    normal_arm, friction_arm : (2, K, Q)
+        Arms of normal load and friction about pinion and gear, m.
+    radius : (K, Q)
+        Equivalent radius, m.
+    roll : (K, Q)
+        Pinion angles of the pairs from the pitch point, rad.
+    flanks : LoadedFlanks or None
+        By what the pairs share the load; None: by the table's compliances, or not elastically.
+    """
+
+    phase: Array
+    cycle: MeshCycle
+    carrying: Array
+    normal_arm: Array
+    friction_arm: Array
+    radius: Array
+    roll: Array
+    flanks: LoadedFlanks | None
+
+
+def places(
+    cycle: MeshCycle,
+    path: Path,
+    phase: Array,
+    sharing: Sharing = "elastic",
+    flanks: LoadedFlanks | None = None,
+) -> Places:
+    """Look up the mesh at phases 0 … 1: compliance and gap from the table, kinematics from the path.
+
+    Parameters
+    ----------
+    cycle : MeshCycle
+        Of concrete numbers.
+    path : Path
+        The working path that the table was made from.
+    phase : (K,)
+        Mesh cycles.
+    sharing : one of `SHARINGS`
+    flanks : LoadedFlanks, optional
+        The load contact model that the table was made from (`tabulate_loaded`). Pairs that share elastically
+        then touch beyond the path as well, where a corner meets a flank; the others know the path only.
+
+    Raises
+    ------
+    InputError
+        If one pair shall carry the load over a pitch that its contact does not cover.
+    """
+    pairs = cycle.front_pairs
+    segment = np.clip(np.searchsorted(cycle.boundary, phase, side="right") - 1, 0, len(cycle.boundary) - 2)
+    position = phase[:, None] + np.arange(pairs - 1.0, -1.0, -1.0)
+    roll = cycle.roll_start + cycle.pitch_angle * position
+    start, end = float(cycle.roll_start), float(cycle.roll_end)
+    corners = flanks is not None and sharing == "elastic"
+    if flanks is not None and not corners:
+        start, end = roll_limits(flanks.flexible.assembly)
+    # closed at the beginning, and open at the end by more than rounding
+    inside = ((roll >= start - 1e-12) & (roll < end - 1e-12)).astype(float)
+    if sharing == "single-pair":
+        half = cycle.pitch_angle / 2.0
+        if start > -half or end < half:
+            raise InputError(
+                "mesh.load_sharing",
+                f'"{sharing}"',
+                "the contact of a pair does not cover half a pitch on either side of the pitch point",
+                'use "elastic" or "uniform"',
+            )
+        inside = inside * ((roll >= -half) & (roll < half))
+    motion: Kinematics
+    if flanks is not None and corners:
+        motion = pair_geometry(flanks.flexible.assembly, roll).motion
+    else:
+        motion = kinematics(path, path.signed_distance(np.clip(roll, start, end)))
+    at = _Lookup(polynomials(cycle), cycle.boundary, segment, phase)
+    one = cycle._replace(
+        in_contact=inside,
+        side=np.ones(pairs),
+        phase=phase[:, None],
+        pressure_angle=motion.pressure_angle[:, None],
+        signed_distance=motion.signed_distance[:, None],
+        pinion_speed=motion.pinion_speed[:, None],
+        gear_speed=motion.gear_speed[:, None],
+        compliance=at.channel("compliance")[:, None, :pairs],
+        gap=at.channel("gap")[:, None, :pairs],
+        coupling=at.coupling()[:, None, :pairs, :pairs],
+    )
+    return Places(
+        phase,
+        one,
+        inside,
+        np.stack([motion.pinion_normal_arm, motion.gear_normal_arm]),
+        np.stack([motion.pinion_friction_arm, motion.gear_friction_arm]),
+        1.0 / motion.relative_curvature,
+        roll,
+        flanks if corners else None,
+    )
+
+
+class _Lookup(NamedTuple):
+    """The table's splines at given phases."""
+
+    table: Polynomials
+    boundary: Array
+    segment: Any
+    phase: Array
+
+    def _value(self, coefficients: Any) -> Array:
+        start, end = self.boundary[self.segment], self.boundary[self.segment + 1]
+        cells = coefficients.shape[1]
+        place = np.clip((self.phase - start) / (end - start), 0.0, 1.0) * cells
+        cell = np.clip(place.astype(int), 0, cells - 1)
+        c = coefficients[self.segment, cell]
+        u = (place - cell).reshape(-1, *[1] * (c.ndim - 2))
+        return c[..., 0] + u * (c[..., 1] + u * (c[..., 2] + u * c[..., 3]))
+
+    def channel(self, name: str) -> Array:
+        return self._value(self.table.channel[:, :, :, CHANNELS.index(name)])
+
+    def coupling(self) -> Array:
+        return self._value(self.table.coupling)

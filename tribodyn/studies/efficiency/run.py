@@ -1,0 +1,243 @@
+"""From a case of the efficiency study to its record: one mesh cycle, quasi-static."""
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from time import perf_counter
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.compliance.load_sharing import effective_contact_ratio
+from tribodyn.compliance.loaded_flanks import LoadedFlanks
+from tribodyn.errors import InputError
+from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.families import family
+from tribodyn.geometry.path import Path as PathOfContact
+from tribodyn.mesh.cycle import MeshCycle, as_arrays
+from tribodyn.studies.efficiency.along_path import CycleEfficiency, Duty, Engagement, cycle_efficiency, engage
+from tribodyn.studies.efficiency.case import EfficiencyCase
+from tribodyn.studies.efficiency.loss_factor import exact, hoehn, tip_contact_ratios
+from tribodyn.studies.efficiency.places import SHARINGS, Places, Sharing, places
+from tribodyn.studies.efficiency.quadrature import Array
+from tribodyn.studies.efficiency.torque_ratio import path_contact, torque_ratio
+from tribodyn.tribology.surfaces import contact_of
+
+
+class Study(NamedTuple):
+    """A case made ready: the table of the mesh, the path it was made from, and what the mesh has to do.
+
+    `flanks` are those of the load contact model that shares the load, where the scenario asks for it.
+    """
+
+    case: EfficiencyCase
+    cycle: MeshCycle
+    path: PathOfContact
+    duty: Duty
+    flanks: LoadedFlanks | None = None
+
+
+def prepare(case: EfficiencyCase) -> Study:
+    """Check the geometry and tabulate the mesh.
+
+    Raises
+    ------
+    InputError
+        Where the teeth cannot be made or cannot run together, or the load sharing does not fit them.
+    """
+    from tribodyn.geometry.checks import check
+    from tribodyn.mesh.tabulate import pair_slots, tabulate
+    from tribodyn.mesh.tabulate_loaded import flanks_of, tabulate_loaded
+    from tribodyn.tribology.laws import friction_law
+
+    teeth = family(case.family)
+    check(teeth, case.drive)
+    flanks, mesh = None, case.mesh
+    if mesh.compliance == "fem":
+        cycle = tabulate_loaded(teeth, case.drive, case.materials, mesh, case.operating.gear_torque)
+        flanks = flanks_of(assemble(teeth, case.drive), case.materials, mesh)
+    else:
+        cycle = tabulate(teeth, case.drive, case.materials, case.mesh, pairs=pair_slots(teeth, case.drive))
+    duty = Duty(
+        case.operating.gear_torque,
+        case.operating.pinion_speed,
+        friction_law(case.friction.law).code,
+        contact_of(case),
+        case.load_sharing,
+    )
+    return Study(case, cycle, teeth.working_path(case.drive), duty, flanks)
+
+
+def run(
+    case: EfficiencyCase,
+    output: str | Path | None = None,
+    force: bool = False,
+    progress: Callable[[float], None] | None = None,
+) -> tuple[Path, dict[str, Any]]:
+    """Run a case over one mesh cycle and write its record.
+
+    Parameters and errors as those of `gear_pair.run.run`; returns the record's path and its summary.
+    """
+    from tribodyn.geometry.outlines import geometry_arrays
+    from tribodyn.record.writer import RecordWriter, check_target
+
+    path = Path(output) if output is not None else Path(f"{case.name}.h5")
+    check_target(path, force)
+    begun = perf_counter()
+    study = prepare(case)
+    mesh, state, samples = _sampled(study)
+    summary = _figures(study, mesh, state) | {"wall_time": perf_counter() - begun}
+    with RecordWriter(
+        path,
+        scenario_toml=case.toml,
+        sha256=case.sha256,
+        samples=len(samples),
+        mesh_cycle=as_arrays(study.cycle),
+        geometry=geometry_arrays(family(case.family), case.drive),
+        force=force,
+    ) as record:
+        record.write(0, _record_arrays(mesh, state, study.duty))
+        if progress:
+            progress(1.0)
+        return record.finish(summary), summary
+
+
+def _sampled(study: Study) -> tuple[Places, Engagement, np.ndarray]:
+    phase = np.linspace(0.0, 1.0, study.case.samples_per_cycle + 1)
+    mesh = places(study.cycle, study.path, phase, study.duty.sharing, study.flanks)
+    return mesh, engage(mesh, study.duty), phase
+
+
+def efficiencies(
+    study: Study, known: Mapping[Sharing, CycleEfficiency] = MappingProxyType({})
+) -> dict[str, float]:
+    """Cycle efficiency under every load sharing, by the torque ratio, and of an involute by Höhn's formula.
+
+    What is `known` by its load sharing is not computed again. A load sharing that does not fit the teeth, and
+    Höhn's formula where friction is not one mean coefficient, are left out.
+    """
+    found = {}
+    for sharing in SHARINGS:
+        duty = study.duty._replace(sharing=sharing)
+        try:
+            means = known.get(sharing) or cycle_efficiency(study.cycle, study.path, duty, flanks=study.flanks)
+        except InputError:
+            continue
+        found[f"efficiency_{sharing.replace('-', '_')}"] = means.efficiency
+    case, duty = study.case, study.duty
+    ratio = float(study.cycle.gear_pitch_radius) / float(study.cycle.pinion_pitch_radius)
+    single = torque_ratio(
+        path_contact(study.path, case.drive.pinion.teeth),
+        duty.gear_torque / ratio,
+        duty.pinion_speed,
+        float(study.cycle.face_width),
+        duty.friction_law,
+        duty.surfaces,
+    )
+    found["efficiency_torque_ratio"] = float(single.efficiency)
+    return found | _by_loss_factor(study)
+
+
+def _by_loss_factor(study: Study) -> dict[str, float]:
+    from tribodyn.tribology.friction import COULOMB
+
+    case, coefficient = study.case, study.duty.surfaces.coulomb_coefficient
+    if case.family != "involute" or study.duty.friction_law != COULOMB:
+        return {}
+    tips = tip_contact_ratios(family(case.family), case.drive)
+    teeth, ratio = case.drive.pinion.teeth, case.drive.gear.teeth / case.drive.pinion.teeth
+    factor = exact(*tips, teeth, ratio)
+    found = {"loss_factor": factor, "efficiency_loss_factor": 1.0 - coefficient * factor}
+    if max(tips) <= 1.0 <= sum(tips):
+        found["efficiency_hoehn"] = 1.0 - coefficient * hoehn(*tips, teeth, ratio)
+    return found
+
+
+def _effective_contact_ratio(mesh: Places, state: Engagement, duty: Duty) -> dict[str, float]:
+    """Contact ratio under load, where the load sharing knows corner contact."""
+    if mesh.flanks is None:
+        return {}
+    roll, friction = mesh.roll[:-1], state.friction_coefficient[:-1]
+    shared = mesh.flanks.share(roll, duty.gear_torque, friction)
+    return {"contact_ratio_effective": effective_contact_ratio(roll, shared, float(mesh.cycle.pitch_angle))}
+
+
+def _figures(study: Study, mesh: Places, state: Engagement) -> dict[str, Any]:
+    cycle, duty = study.cycle, study.duty
+    means = cycle_efficiency(cycle, study.path, duty, flanks=study.flanks)
+    loaded = state.normal_load > 0
+    share = 1.0 / len(state.power_in[:-1])
+    balance = means.power_in - means.power_out - means.power_friction
+
+    def greatest(values: np.ndarray) -> float:
+        return float(np.max(values[loaded]))
+
+    def least(values: np.ndarray) -> float:
+        return float(np.min(values[loaded]))
+
+    return {
+        "contact_ratio": float(cycle.contact_ratio),
+        **_effective_contact_ratio(mesh, state, duty),
+        "load_sharing": duty.sharing,
+        "mesh_frequency": duty.pinion_speed / float(cycle.pitch_angle),
+        "normal_load_max": greatest(state.normal_load),
+        "film_min": least(state.central_film_thickness),
+        "film_parameter_min": least(state.central_film_thickness) / duty.surfaces.roughness,
+        "hertz_pressure_max": greatest(state.hertz_pressure),
+        "flash_temperature_max": greatest(state.flash_temperature_rise),
+        "friction_coefficient_mean": means.friction_coefficient,
+        "friction_force_mean": np.sum(np.abs(state.friction_force[:-1]), axis=0) * share,
+        "closure_in_range_fraction": float(np.mean(state.in_range[loaded])),
+        "power_in_mean": means.power_in,
+        "power_friction_mean": means.power_friction,
+        "efficiency": means.efficiency,
+        "energy_residual": balance / means.power_in,
+        "averaging_cycles": 1,
+        **efficiencies(study, {duty.sharing: means}),
+    }
+
+
+def _record_arrays(mesh: Places, state: Engagement, duty: Duty) -> dict[str, Any]:
+    """Datasets of a record of one mesh cycle; what a quasi-static state has not stays out."""
+    cycle = mesh.cycle
+    touching = (mesh.carrying > 0) & (state.normal_load > 0)
+    angle = mesh.phase * cycle.pitch_angle
+    ratio = cycle.pinion_pitch_radius / cycle.gear_pitch_radius
+    zero = np.zeros_like(angle)
+
+    def contacting(values: Array) -> Array:
+        return np.where(touching, values, np.nan)
+
+    gear_angle = ratio * angle - np.nan_to_num(state.deflection) / cycle.gear_pitch_radius
+    one = np.ones_like(angle)
+    return {
+        "time": angle / duty.pinion_speed,
+        "pinion_angle": angle,
+        "displacement": np.stack([zero, zero, zero, zero, angle, gear_angle], axis=-1),
+        "velocity": np.stack(
+            [zero, zero, zero, zero, one * duty.pinion_speed, one * duty.pinion_speed * ratio], -1
+        ),
+        "transmission_error": contacting(state.deflection[:, None] * np.cos(cycle.pressure_angle[:, 0])),
+        "transmission_error_rotational": state.deflection,
+        "normal_load": state.normal_load,
+        "friction_force": state.friction_force,
+        "friction_coefficient": contacting(state.friction_coefficient),
+        "asperity_load_ratio": contacting(state.asperity_load_ratio),
+        "central_film_thickness": contacting(state.central_film_thickness),
+        "film_parameter": contacting(state.central_film_thickness / duty.surfaces.roughness),
+        "flash_temperature_rise": contacting(state.flash_temperature_rise),
+        "hertz_pressure": contacting(state.hertz_pressure),
+        "equivalent_radius": contacting(state.radius),
+        "entrainment_speed": contacting(state.entrainment),
+        "sliding_speed": contacting(state.sliding),
+        "pressure_angle": contacting(cycle.pressure_angle[:, 0]),
+        "mesh_stiffness": np.where(touching, 1.0 / cycle.compliance[:, 0], 0.0),
+        "closure_in_range": np.where(touching, state.in_range, np.nan),
+        "drive_torque": state.pinion_torque,
+        "power_in": state.power_in,
+        "power_out": state.power_out,
+        "power_friction": state.power_friction,
+        "power_damping": zero,
+        "power_parametric": zero,
+        "efficiency": state.power_out / state.power_in,
+    }

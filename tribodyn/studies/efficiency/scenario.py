@@ -1,0 +1,128 @@
+"""The tables of a scenario of ``kind = "efficiency"``: loads, friction and losses without dynamics."""
+
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from tribodyn.dynamics.data import OperatingData
+from tribodyn.errors import InputError
+from tribodyn.mesh.data import MeshData
+from tribodyn.scenario import units
+from tribodyn.scenario.common import Name, Slices
+from tribodyn.scenario.drive_data import (
+    drive_of,
+    lubricant_of,
+    materials_of,
+    mean_roughness,
+    modifications_of,
+    slices_of,
+)
+from tribodyn.scenario.model_files import DriveTable, Lubricant
+from tribodyn.scenario.modification import MisalignmentTable
+from tribodyn.scenario.modification_rules import Face, broken_face_rules
+from tribodyn.scenario.quantity import NotNegative, Quantity, Reference, Switch, Table, Text, written
+from tribodyn.studies.efficiency.case import EfficiencyCase
+from tribodyn.tribology.data import FrictionData
+
+
+class EfficiencyOperating(Table):
+    """Constant speed and torque."""
+
+    pinion_speed: Annotated[float, Quantity(units.positive(units.ANGULAR_SPEED))]
+    gear_torque: Annotated[float, Quantity(units.positive(units.TORQUE))]
+
+
+class EfficiencyMesh(Table):
+    """How the pairs in contact share the load, and the compliance they share it by."""
+
+    compliance: Literal["energy", "fem"] = Field(
+        "energy",
+        description="what elastic load sharing goes by: the energy method; or the load contact model on "
+        "finite elements, in which pairs touch beyond their path of contact as well",
+    )
+    load_sharing: Literal["elastic", "uniform", "single-pair"] = Field(
+        "elastic",
+        description="by the compliances; equally; one pair about the pitch point. "
+        "Of the samples: the summary has all three",
+    )
+    hertz: Literal["linear", "load-dependent"] = Field("linear", description="contact part of the compliance")
+    foundation_coupling: Switch = Field(True, description="pairs that share a body share its foundation")
+    misalignment: MisalignmentTable = written({})
+    slices: Slices | None = Field(
+        None, description="of the face; default: 21 where anything varies along it, else 1"
+    )
+    slice_coupling: Switch = Field(True, description="slices of one tooth hold each other")
+
+
+class EfficiencyFriction(Table):
+    """Which law acts between the flanks."""
+
+    law: Text
+    coefficient: NotNegative | None = Field(None, description="of Coulomb's law")
+
+
+class EfficiencyOutput(Table):
+    """What is recorded: one mesh cycle."""
+
+    samples_per_cycle: Annotated[int, Field(strict=True, ge=8)] = 200
+
+
+class EfficiencyScenario(Table):
+    """A scenario file of an efficiency study."""
+
+    title: Text = Field(description="what it shows, in a line")
+    name: Name | None = Field(None, description="names the record; default: the file's own name")
+    kind: Literal["efficiency"]
+    drive: Annotated[DriveTable, Reference("name of a file in models/drives, or a path")]
+    lubricant: Annotated[Lubricant, Reference("name of a file in models/lubricants, or a path")]
+    operating: EfficiencyOperating
+    mesh: EfficiencyMesh = written({})
+    friction: EfficiencyFriction
+    output: EfficiencyOutput = written({})
+
+
+def broken_efficiency_rules(scenario: EfficiencyScenario) -> Iterator[InputError]:
+    """Go through the rules that the mesh and flanks of an efficiency study break."""
+    mesh = scenario.mesh
+    face = Face(scenario.drive, mesh.misalignment, mesh.slices, mesh.slice_coupling)
+    yield from broken_face_rules(face, mesh.compliance)
+    if mesh.hertz == "load-dependent" and mesh.compliance != "energy":
+        yield InputError(
+            "mesh.hertz",
+            '"load-dependent"',
+            f'contradicts compliance = "{mesh.compliance}", which contains the Hertz contact',
+            'leave hertz out, or write compliance = "energy"',
+        )
+
+
+def efficiency_case_of(scenario: EfficiencyScenario, toml: str, sha256: str) -> EfficiencyCase:
+    """Return the case of a scenario that has passed schema and rules."""
+    drive, mesh, operating = scenario.drive, scenario.mesh, scenario.operating
+    modifications = modifications_of(drive, mesh.misalignment)
+    return EfficiencyCase(
+        title=scenario.title,
+        name=scenario.name or "scenario",
+        kind=scenario.kind,
+        toml=toml,
+        sha256=sha256,
+        family=drive.family,
+        drive=drive_of(drive),
+        materials=materials_of(drive),
+        roughness=drive.roughness,
+        mean_roughness=mean_roughness(drive),
+        lubricant=lubricant_of(scenario.lubricant),
+        operating=OperatingData("speed", operating.pinion_speed, operating.gear_torque),
+        mesh=MeshData(
+            mesh.compliance,
+            damping_ratio=0.0,
+            hertz=mesh.hertz,
+            foundation_coupling=mesh.foundation_coupling,
+            modifications=modifications,
+            slices=slices_of(mesh.slices, modifications),
+            slice_coupling=mesh.slice_coupling,
+        ),
+        friction=FrictionData(scenario.friction.law, scenario.friction.coefficient),
+        load_sharing=mesh.load_sharing,
+        samples_per_cycle=scenario.output.samples_per_cycle,
+    )

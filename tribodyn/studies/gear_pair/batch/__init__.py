@@ -1,0 +1,1 @@
+"""Many cases of a gear pair's dynamics, evaluated together."""

@@ -1,0 +1,222 @@
+"""What becomes of a handful of cases: prepared, brought to their steady state or marched, summed up.
+
+A pure function of plain data, so that it runs in this process or in another one on another machine, and gives
+the same numbers in both. Nothing of a case depends on the others that it is evaluated with.
+"""
+
+import threading
+from collections import OrderedDict
+from collections.abc import Hashable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.dynamics.modes import natural_frequencies
+from tribodyn.dynamics.parameters import STATES, XI, XI_RATE
+from tribodyn.errors import InputError, SimulationError
+from tribodyn.record.sweep_schema import CASES, DONE, FAILED
+from tribodyn.solve.initial import initial_state, static_equilibrium
+from tribodyn.studies.gear_pair.batch.figures import window_figures
+from tribodyn.studies.gear_pair.batch.marched import marched
+from tribodyn.studies.gear_pair.batch.outcome import Outcome
+from tribodyn.studies.gear_pair.case import Case
+from tribodyn.studies.gear_pair.prepare import Prepared, Tabulated, prepare, table_key, tables
+from tribodyn.tribology.friction import NONE
+
+#: Tables kept in a process; a table is about 100 kB.
+TABLES_KEPT = 32
+
+
+class Settings(NamedTuple):
+    """How every case of a sweep is brought to its window.
+
+    Attributes
+    ----------
+    steady : bool
+        Whether the periodic motion is sought; otherwise `cycles` mesh cycles are marched.
+    cycles : int
+        Mesh cycles to march, or at most to march in search of the steady state.
+    window : int
+        Mesh cycles that the figures are taken from.
+    points : int
+        Points of the Poincaré section, one a mesh cycle.
+    samples : int
+        Samples in a mesh cycle.
+    modes : int
+    method : str
+        Integration method instead of the scenario's; empty for the scenario's own.
+    """
+
+    steady: bool
+    cycles: int
+    window: int
+    points: int
+    samples: int
+    modes: int
+    method: str = ""
+
+
+class Chunk(NamedTuple):
+    """Cases to be evaluated together.
+
+    Attributes
+    ----------
+    numbers : (n,) int
+        Of the cases in the sweep's record.
+    cases : tuple of n Case or str
+        A text where the case could not even be made: why.
+    states : (n, STATES) or None
+        Where to start from, after the engagement at phase 0; NaN, or None for all, where a case begins by
+        itself.
+    """
+
+    numbers: np.ndarray
+    cases: tuple[Case | str, ...]
+    states: np.ndarray | None = None
+
+
+def evaluate(chunk: Chunk, settings: Settings, workers: int | None = None) -> dict[str, np.ndarray]:
+    """Return a row for every case of a chunk, for all datasets of `sweep_schema.CASES`.
+
+    Parameters
+    ----------
+    chunk : Chunk
+    settings : Settings
+    workers : int, optional
+        Threads; by default one a core.
+    """
+    rows = _empty_rows(len(chunk.cases), settings)
+    ready: dict[int, tuple[Prepared, np.ndarray]] = {}
+    for i, case in enumerate(chunk.cases):
+        if isinstance(case, str):
+            _fail(rows, i, case)
+            continue
+        try:
+            prepared = prepare(case, tabulated(case))
+            given = None if chunk.states is None or np.isnan(chunk.states[i, 0]) else chunk.states[i]
+            ready[i] = prepared, _start(prepared, settings) if given is None else given
+            frequencies = natural_frequencies(prepared.model, prepared.cycle)
+            rows["mode_frequency"][i, : len(frequencies)] = frequencies
+        except (InputError, SimulationError) as error:
+            _fail(rows, i, str(error))
+    for numbers in _alike({i: prepared.case for i, (prepared, _) in ready.items()}):
+        outcomes = _solve([ready[i] for i in numbers], settings, workers)
+        for i, outcome in zip(numbers, outcomes, strict=True):
+            _fill(rows, i, ready[i][0], outcome, settings)
+    return rows
+
+
+def _alike(cases: dict[int, Case]) -> list[list[int]]:
+    """Numbers of the cases, grouped by their solver's tolerance, method and limit, which a batch shares."""
+    groups: dict[tuple[Any, ...], list[int]] = {}
+    for i, case in cases.items():
+        groups.setdefault((case.solver.rtol, case.solver.method, case.solver.max_steps), []).append(i)
+    return list(groups.values())
+
+
+def _solve(
+    cases: list[tuple[Prepared, np.ndarray]], settings: Settings, workers: int | None
+) -> list[Outcome]:
+    solver = cases[0][0].case.solver
+    common: dict[str, Any] = {
+        "cycles": settings.cycles,
+        "points": settings.points,
+        "samples": settings.samples,
+        "rtol": solver.rtol,
+        "max_steps": solver.max_steps,
+        "method": settings.method or solver.method,
+        "workers": workers,
+    }
+    models, states = [one.model for one, _ in cases], np.array([state for _, state in cases])
+    if settings.steady:
+        from tribodyn.studies.gear_pair.batch.steady import steady
+
+        return steady(models, states, **common)
+    return marched(models, states, window=settings.window, **common)
+
+
+def _fill(
+    rows: dict[str, np.ndarray], i: int, prepared: Prepared, outcome: Outcome, settings: Settings
+) -> None:
+    """Put what a case came to into its row."""
+    for name in ("period", "stable", "multiplier_max", "residual", "cycles", "solution", "message"):
+        rows[name][i] = getattr(outcome, name)
+    if outcome.passage is None:
+        rows["status"][i] = FAILED
+        return
+    for name, value in window_figures(prepared, outcome.passage, settings.samples).items():
+        rows[name][i] = value
+    error = outcome.passage.window[:, XI]
+    room = settings.window * settings.samples
+    whole = room if outcome.period == 0 else room // error.size * error.size
+    rows["transmission_error_rotational"][i, :whole] = np.resize(error, whole)
+    rows["poincare_error"][i, : len(outcome.section)] = outcome.section[:, XI]
+    rows["poincare_rate"][i, : len(outcome.section)] = outcome.section[:, XI_RATE]
+    rows["state"][i] = outcome.state
+    rows["status"][i] = DONE
+
+
+def tabulated(case: Case) -> Tabulated:
+    """The case's table, made once for all cases that share it; raises as `prepare` does."""
+    key = table_key(case)
+    with _lock:
+        if key in _tables:
+            _tables.move_to_end(key)
+            return _tables[key]
+    made = tables(case)
+    with _lock:
+        _tables[key] = made
+        while len(_tables) > TABLES_KEPT:
+            _tables.popitem(last=False)
+    return made
+
+
+_lock = threading.Lock()
+_tables: OrderedDict[Hashable, Tabulated] = OrderedDict()
+
+
+def _start(prepared: Prepared, settings: Settings) -> np.ndarray:
+    """Where a case begins: as its scenario says, or for a steady state at the equilibrium without friction.
+
+    The latter is the same at all speeds and therefore found once; a steady state does not remember it.
+    """
+    if not settings.steady or prepared.case.solver.initial != "static":
+        return initial_state(prepared.model, prepared.case.solver.initial)
+    model = prepared.model
+    speedless = model.mechanics._replace(nominal_speed=0.0)
+    key = (id(model.table), model.options, *(np.asarray(value).tobytes() for value in speedless))
+    with _lock:
+        found = _equilibria.get(key)
+    if found is None or found[0] is not model.table:
+        frictionless = model._replace(options=model.options._replace(friction_law=NONE))
+        found = model.table, static_equilibrium(frictionless)
+        with _lock:
+            _equilibria[key] = found
+            while len(_equilibria) > TABLES_KEPT:
+                _equilibria.popitem(last=False)
+    return found[1].copy()
+
+
+_equilibria: OrderedDict[Hashable, tuple[Any, np.ndarray]] = OrderedDict()
+
+
+def _fail(rows: dict[str, np.ndarray], i: int, reason: str) -> None:
+    rows["status"][i] = FAILED
+    rows["message"][i] = reason
+    rows["solution"][i] = "failed"
+
+
+def _empty_rows(count: int, settings: Settings) -> dict[str, np.ndarray]:
+    """Rows without results."""
+    inner = {
+        "sample": settings.window * settings.samples,
+        "cycle": settings.points,
+        "mode": settings.modes,
+        "state_variable": STATES,
+    }
+    rows = {}
+    for name, variable in CASES.items():
+        shape = (count, *(inner[dim] for dim in variable.inner))
+        text = variable.dtype.startswith("S")
+        rows[name] = np.full(shape, "" if text else variable.fill, object if text else variable.dtype)
+    return rows

@@ -1,0 +1,27 @@
+"""The figures of one case, out of its way through the window."""
+
+import numpy as np
+
+from tribodyn.dynamics.outputs import outputs
+from tribodyn.dynamics.parameters import XI
+from tribodyn.record.sweep_schema import FIGURES
+from tribodyn.studies.gear_pair.batch.outcome import Passage
+from tribodyn.studies.gear_pair.prepare import Prepared
+from tribodyn.studies.gear_pair.summary import RunningExtremes, steady_figures
+
+
+def window_figures(prepared: Prepared, passage: Passage, samples: int) -> dict[str, float]:
+    """Return the figures of `sweep_schema.FIGURES` over a window with `samples` a mesh cycle, SI units."""
+    cycles = passage.first_cycle + np.arange(len(passage.window)) / samples
+    block = outputs(cycles, passage.window, prepared.model)
+    extremes = RunningExtremes()
+    extremes.add(block)
+    error = passage.window[:, XI]
+    found = steady_figures(block, passage.end - passage.start, prepared.cycle, samples)
+    # a run's summary means the newest pair's; over a sweep only the error of the whole mesh is continuous
+    found |= extremes.values | {
+        "transmission_error_rms": float(np.std(error)),
+        "transmission_error_peak_to_peak": float(np.ptp(error)),
+        "transmission_error_mean": float(np.mean(error)),
+    }
+    return {name: found.get(name, float("nan")) for name in FIGURES}

@@ -1,0 +1,97 @@
+"""Cases brought to their periodic steady states; where none is stable, a stretch of the motion instead."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from tribodyn.dynamics.parameters import Model
+from tribodyn.errors import InputError
+from tribodyn.solve.periodic import Steady, refuse_time_dependent, steady_states
+from tribodyn.studies.gear_pair.batch.marched import marched
+from tribodyn.studies.gear_pair.batch.outcome import Outcome, Passage, continued, failed
+
+#: Mesh cycles of a motion without period that its figures are taken from, and its points of the section.
+WANDERING = 16
+#: Cases of that sort at a time, for the room that they take.
+AT_A_TIME = 16
+
+
+def steady(
+    models: Sequence[Model],
+    states: np.ndarray,
+    *,
+    cycles: int,
+    points: int,
+    samples: int,
+    **solver: Any,
+) -> list[Outcome]:
+    """Find every case's steady state from its state, after the engagement at phase 0.
+
+    Parameters
+    ----------
+    models : sequence of C Models
+    states : (C, STATES)
+    cycles : int
+        Mesh cycles to march at most.
+    points, samples : int
+        Points of the section of a motion without period; samples in a mesh cycle.
+    **solver
+        rtol, method, max_steps and workers, as `ensemble.march` takes them.
+    """
+    found: list[Outcome | None] = [None] * len(models)
+    for i, model in enumerate(models):
+        try:
+            refuse_time_dependent(model)
+        except InputError as error:
+            found[i] = failed(states[i], 0, str(error))
+    asked = [i for i, one in enumerate(found) if one is None]
+    method = solver.pop("method")
+    answers = steady_states(
+        [models[i] for i in asked], states[asked], samples=samples, max_cycles=cycles, solver=method, **solver
+    )
+    wandering = []
+    for i, answer in zip(asked, answers, strict=True):
+        if answer.kind == "failed":
+            found[i] = failed(answer.last, answer.cycles, answer.message)
+        elif answer.period and answer.stable:
+            found[i] = _periodic(answer, samples)
+        else:
+            wandering.append((i, answer))
+    for part in range(0, len(wandering), AT_A_TIME):
+        some = wandering[part : part + AT_A_TIME]
+        stretches = marched(
+            [models[i] for i, _ in some],
+            np.array([answer.last for _, answer in some]),
+            cycles=max(points, WANDERING),
+            window=WANDERING,
+            points=points,
+            samples=samples,
+            method=method,
+            **solver,
+        )
+        for (i, answer), stretch in zip(some, stretches, strict=True):
+            found[i] = _described(stretch, answer)
+    return [one for one in found if one is not None]
+
+
+def _periodic(answer: Steady, samples: int) -> Outcome:
+    passage = Passage(0, answer.samples, answer.state, answer.end)
+    section = answer.samples[::samples]
+    outcome = Outcome(passage, continued(answer.state), section, answer.kind, answer.period)
+    return _described(outcome, answer)._replace(period=answer.period)
+
+
+def _described(outcome: Outcome, answer: Steady) -> Outcome:
+    if outcome.passage is None:
+        return outcome
+    # beside an unstable state it is the motion that is recorded, not the state
+    known = np.abs(answer.multipliers[np.isfinite(answer.multipliers)])
+    return outcome._replace(
+        solution=answer.kind if answer.stable else "not periodic",
+        cycles=outcome.cycles + answer.cycles,
+        message=answer.message,
+        stable=int(answer.stable),
+        multiplier_max=float(known.max()) if known.size else float("nan"),
+        residual=float(answer.residual),
+    )

@@ -1,0 +1,229 @@
+"""From a case to a model ready to integrate: geometry checked, mesh cycle tabulated, numbers assembled."""
+
+import dataclasses
+from collections.abc import Hashable, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.dynamics.parameters import (
+    CLASSICAL,
+    DRIVE_SHAFT,
+    DRIVE_SPEED,
+    DRIVE_TORQUE,
+    ENERGY_CONSISTENT,
+    HERTZ_IN_TABLE,
+    HERTZ_POWER_LAW,
+    SLIDING_DYNAMIC,
+    SLIDING_KINEMATIC,
+    Mechanics,
+    Model,
+    Options,
+)
+from tribodyn.mesh.cycle import MeshCycle, Polynomials, polynomials
+from tribodyn.studies.gear_pair.case import Case
+from tribodyn.tribology.contact import logarithms
+from tribodyn.tribology.surfaces import contact_of
+
+#: Gauss-Seidel sweeps from the tabulated inverse: only pairs about to separate need more than one.
+SWEEPS = 3
+#: With a load-dependent Hertz contact the inverse is no more than a guess, wrong by about a tenth.
+SWEEPS_NONLINEAR = 12
+
+
+class Prepared(NamedTuple):
+    """A case made ready to integrate.
+
+    Attributes
+    ----------
+    case : Case
+    cycle : MeshCycle
+    model : Model
+    masses : tuple of (mass kg, inertia kg m²)
+        Of pinion and gear alone, without what is attached to them.
+    """
+
+    case: Case
+    cycle: MeshCycle
+    model: Model
+    masses: tuple[tuple[float, float], tuple[float, float]]
+
+
+class Tabulated(NamedTuple):
+    """What the geometry and elasticity of a case make of it: costly, and the same for every speed.
+
+    Attributes
+    ----------
+    cycle : MeshCycle
+    table : Polynomials
+        The same as the right-hand side reads it.
+    masses : tuple of (mass kg, inertia kg m²)
+        Of pinion and gear alone.
+    """
+
+    cycle: MeshCycle
+    table: Polynomials
+    masses: tuple[tuple[float, float], tuple[float, float]]
+
+
+#: Fields of a case that its table does not depend on. Whatever is not named here is taken to matter.
+_NOT_IN_TABLE = (
+    "title",
+    "name",
+    "toml",
+    "sha256",
+    "roughness",
+    "mean_roughness",
+    "lubricant",
+    "bearings",
+    "operating",
+    "friction",
+    "solver",
+    "output",
+)
+_MESH_NOT_IN_TABLE = {"damping_ratio": 0.0, "formulation": "classical", "contact_width": 0.0}
+
+
+def table_key(case: Case) -> Hashable:
+    """Everything that the table of a case depends on: equal keys mean equal tables, bit for bit."""
+    parts: list[Any] = [
+        getattr(case, one.name)
+        for one in dataclasses.fields(case)
+        if one.name not in (*_NOT_IN_TABLE, "mesh")
+    ]
+    parts.append(dataclasses.replace(case.mesh, **_MESH_NOT_IN_TABLE))
+    if case.mesh.compliance == "fem":
+        parts.append(case.operating.gear_torque)
+    return _hashable(parts)
+
+
+def _hashable(value: Any) -> Hashable:
+    """The content of nested dataclasses, tuples, dictionaries and arrays, to compare and look up by."""
+    if isinstance(value, np.ndarray):
+        return value.shape, value.tobytes()
+    if dataclasses.is_dataclass(value):
+        value = [getattr(value, one.name) for one in dataclasses.fields(value)]
+    if isinstance(value, Mapping):
+        value = sorted(value.items())
+    return tuple(map(_hashable, value)) if isinstance(value, (list, tuple)) else value
+
+
+def prepare(case: Case, tabulated: Tabulated | None = None) -> Prepared:
+    """Check the geometry, tabulate the mesh cycle and assemble the model.
+
+    Parameters
+    ----------
+    case : Case
+    tabulated : Tabulated, optional
+        From a case with the same `table_key`; made here where it is not given.
+
+    Raises
+    ------
+    InputError
+        Where the teeth cannot be made or cannot run together, or a table does not cover the contact.
+    """
+    cycle, table, (pinion, gear) = tabulated or tables(case)
+    contact = contact_of(case)
+    mechanics, options = _mechanics(case, pinion, gear, cycle), _options(case, cycle)
+    model = Model(table, mechanics, contact, options, logarithms(contact))
+    return Prepared(case, cycle, model, (pinion, gear))
+
+
+def tables(case: Case) -> Tabulated:
+    """Check the geometry and tabulate the mesh cycle; raises as `prepare` does."""
+    from tribodyn.geometry.body import body_masses
+    from tribodyn.geometry.checks import check
+    from tribodyn.geometry.families import family
+    from tribodyn.mesh.tabulate import pair_slots, tabulate
+
+    teeth = family(case.family)
+    check(teeth, case.drive)
+    back = case.mesh.backlash is not None
+    if case.mesh.compliance == "fem":
+        from tribodyn.mesh.tabulate_loaded import tabulate_loaded
+
+        torque = case.operating.gear_torque
+        cycle = tabulate_loaded(teeth, case.drive, case.materials, case.mesh, torque, back)
+    else:
+        pairs = pair_slots(teeth, case.drive)
+        cycle = tabulate(teeth, case.drive, case.materials, case.mesh, pairs=pairs, back=back)
+    given = [(one.mass, one.inertia) for one in case.masses]
+    pinion, gear = body_masses(teeth, case.drive, given, [one.density for one in case.materials])
+    return Tabulated(cycle, polynomials(cycle), (pinion, gear))
+
+
+def _options(case: Case, cycle: MeshCycle) -> Options:
+    from tribodyn.tribology.laws import friction_law
+
+    drive = DRIVE_SPEED
+    if case.operating.source == "torque":
+        drive = DRIVE_TORQUE if case.operating.shaft_stiffness is None else DRIVE_SHAFT
+    coupled = bool(np.any(np.asarray(cycle.coupling) != 0.0))
+    linear = float(cycle.hertz_coefficient) == 0.0
+    return Options(
+        friction_law=friction_law(case.friction.law).code,
+        sliding=SLIDING_DYNAMIC if case.friction.sliding == "dynamic" else SLIDING_KINEMATIC,
+        formulation=ENERGY_CONSISTENT if case.mesh.formulation == "energy-consistent" else CLASSICAL,
+        drive=drive,
+        hertz=HERTZ_IN_TABLE if linear else HERTZ_POWER_LAW,
+        sweeps=1 if not coupled else SWEEPS if linear else SWEEPS_NONLINEAR,
+        averaged=int(float(cycle.pitch_point_length) > 0.0),
+    )
+
+
+def _mechanics(
+    case: Case, pinion: tuple[float, float], gear: tuple[float, float], cycle: MeshCycle
+) -> Mechanics:
+    operating, bearings = case.operating, case.bearings
+    pinion_radius, gear_radius = float(cycle.pinion_pitch_radius), float(cycle.gear_pitch_radius)
+    equivalent_mass = pinion[1] * gear[1] / (pinion[1] * gear_radius**2 + gear[1] * pinion_radius**2)
+
+    def damping(ratio: float, stiffness: float, mass: float) -> float:
+        return 2.0 * ratio * float(np.sqrt(stiffness * mass))
+
+    rigid = 0.0 if operating.shaft_stiffness is not None else operating.drive_inertia
+    balance = operating.gear_torque * pinion_radius / gear_radius
+    times, torques = operating.torque_table or (np.empty(0), np.empty(0))
+    harmonics = np.array(operating.torque_harmonics, dtype=float).reshape(-1, 3)
+    return Mechanics(
+        pinion_mass=pinion[0],
+        gear_mass=gear[0],
+        pinion_inertia=pinion[1] + rigid,
+        gear_inertia=gear[1] + operating.load_inertia,
+        pinion_stiffness_x=bearings[0].stiffness_x,
+        pinion_stiffness_y=bearings[0].stiffness_y,
+        gear_stiffness_x=bearings[1].stiffness_x,
+        gear_stiffness_y=bearings[1].stiffness_y,
+        pinion_damping_x=damping(bearings[0].damping_ratio_x, bearings[0].stiffness_x, pinion[0]),
+        pinion_damping_y=damping(bearings[0].damping_ratio_y, bearings[0].stiffness_y, pinion[0]),
+        gear_damping_x=damping(bearings[1].damping_ratio_x, bearings[1].stiffness_x, gear[0]),
+        gear_damping_y=damping(bearings[1].damping_ratio_y, bearings[1].stiffness_y, gear[0]),
+        mesh_damping=2.0 * case.mesh.damping_ratio * float(np.sqrt(equivalent_mass)),
+        contact_width=case.mesh.contact_width,
+        reversal_width=case.friction.reversal_width,
+        nominal_speed=operating.pinion_speed,
+        drive_torque=balance if operating.pinion_torque is None else operating.pinion_torque,
+        speed_regulation=operating.speed_regulation,
+        drive_inertia=operating.drive_inertia,
+        shaft_stiffness=operating.shaft_stiffness or 0.0,
+        shaft_damping=operating.shaft_damping,
+        load_torque=operating.gear_torque,
+        load_damping=operating.load_damping,
+        load_times=np.asarray(times, dtype=float),
+        load_torques=np.asarray(torques, dtype=float),
+        load_slopes=_monotone_slopes(np.asarray(times, dtype=float), np.asarray(torques, dtype=float)),
+        load_amplitudes=np.ascontiguousarray(harmonics[:, 0]),
+        load_frequencies=np.ascontiguousarray(harmonics[:, 1]),
+        load_phases=np.ascontiguousarray(harmonics[:, 2]) + np.pi / 2.0,  # cosines, as a scenario gives them
+    )
+
+
+def _monotone_slopes(times: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Slopes of the C1 curve through the points that never overshoots; flat at both ends."""
+    if len(times) < 2:
+        return np.zeros_like(times)
+    from scipy.interpolate import PchipInterpolator
+
+    slopes = PchipInterpolator(times, values)(times, 1)
+    slopes[[0, -1]] = 0.0  # the torque is constant outside the table
+    return slopes

@@ -1,0 +1,116 @@
+"""Rules that tie several keys of a scenario together: what contradicts, what needs what."""
+
+from collections.abc import Iterator
+
+from tribodyn.errors import InputError
+from tribodyn.scenario.drive_rules import broken_drive_rules
+from tribodyn.scenario.model_files import Bearing
+from tribodyn.scenario.modification_rules import Face, broken_face_rules
+from tribodyn.studies.gear_pair.scenario import Mesh, Operating, Scenario
+
+
+def broken_rules(scenario: Scenario) -> Iterator[InputError]:
+    """Go through the rules that the scenario breaks; none: it is consistent."""
+    yield from broken_drive_rules(scenario.drive)
+    yield from _bearing("bearings.pinion", scenario.bearings.pinion)
+    yield from _bearing("bearings.gear", scenario.bearings.gear)
+    yield from _operating(scenario.operating, scenario.mesh.backlash is not None)
+    yield from _mesh(scenario.mesh)
+    yield from broken_face_rules(_face(scenario), scenario.mesh.compliance)
+
+
+def _face(scenario: Scenario) -> Face:
+    mesh = scenario.mesh
+    return Face(scenario.drive, mesh.misalignment, mesh.slices, mesh.slice_coupling)
+
+
+def _bearing(key: str, bearing: Bearing) -> Iterator[InputError]:
+    each = (bearing.damping_ratio_x, bearing.damping_ratio_y)
+    if bearing.damping_ratio is not None and any(ratio is not None for ratio in each):
+        yield InputError(
+            f"{key}.damping_ratio",
+            bearing.damping_ratio,
+            "contradicts damping_ratio_x and damping_ratio_y",
+            "write the one for both axes, or both of the others",
+        )
+    elif bearing.damping_ratio is None and any(ratio is None for ratio in each):
+        yield InputError(
+            f"{key}.damping_ratio", rule="missing", remedy="add damping_ratio = 0.05, for both axes"
+        )
+
+
+def _operating(operating: Operating, back_flanks: bool) -> Iterator[InputError]:
+    key = "operating."
+    if operating.source == "speed":
+        for name in (
+            "pinion_torque",
+            "drive_inertia",
+            "shaft_stiffness",
+            "shaft_damping",
+            "speed_regulation",
+        ):
+            value = getattr(operating, name)
+            if value:
+                yield InputError(
+                    key + name,
+                    f"{value:g} (SI)",
+                    'contradicts source = "speed": a prescribed rotation asks for no motor',
+                    f'leave {name} out, or write source = "torque"',
+                )
+    elif operating.shaft_stiffness is None and operating.shaft_damping:
+        yield InputError(
+            key + "shaft_damping",
+            f"{operating.shaft_damping:g} N*m*s/rad",
+            "a rigid shaft has no damping",
+            "add shaft_stiffness, or leave shaft_damping out",
+        )
+    elif operating.shaft_stiffness is not None and operating.drive_inertia == 0:
+        yield InputError(
+            key + "drive_inertia",
+            "0 kg*m**2",
+            "a compliant shaft needs a motor with inertia at its end",
+            'add drive_inertia = "0.01 kg*m**2", or leave shaft_stiffness out',
+        )
+    if operating.gear_torque <= 0 and not back_flanks:
+        yield InputError(
+            key + "gear_torque",
+            f"{operating.gear_torque:g} N*m",
+            "must be greater than zero: without backlash only the driving flanks can carry load",
+            'write a torque such as "500 N*m", or add mesh.backlash',
+        )
+
+
+def _mesh(mesh: Mesh) -> Iterator[InputError]:
+    for choice, name in (("constant", "stiffness"), ("table", "table")):
+        given = getattr(mesh, name) is not None
+        if mesh.compliance == choice and not given:
+            yield InputError(
+                f"mesh.{name}",
+                rule=f'missing: compliance = "{choice}" needs it',
+                remedy=f"add {name} = "
+                + (
+                    '"2.8e8 N/m"'
+                    if choice == "constant"
+                    else '"stiffness.csv", columns roll_angle and stiffness'
+                ),
+            )
+        if mesh.compliance != choice and given:
+            yield InputError(
+                f"mesh.{name}",
+                rule=f'contradicts compliance = "{mesh.compliance}"',
+                remedy=f'leave {name} out, or write compliance = "{choice}"',
+            )
+    if mesh.hertz == "load-dependent" and mesh.compliance != "energy":
+        yield InputError(
+            "mesh.hertz",
+            '"load-dependent"',
+            f'contradicts compliance = "{mesh.compliance}", which contains the Hertz contact',
+            'leave hertz out, or write compliance = "energy"',
+        )
+    error = mesh.transmission_error
+    if error.harmonics and error.table is not None:
+        yield InputError(
+            "mesh.transmission_error.table",
+            rule="contradicts mesh.transmission_error.harmonics",
+            remedy="give the one or the other",
+        )

@@ -1,0 +1,215 @@
+"""The tables of a scenario file: what is done with a drive.
+
+Field names are the interface of the command line (`--set operating.gear_torque="600 N*m"`). Defaults stand
+as they would be written in TOML. Rules that tie fields together stand in `rules`; names of laws, families and
+solvers in the registries of `load`.
+"""
+
+from typing import Annotated, Literal, cast
+
+from pydantic import Field
+
+from tribodyn.dynamics.data import BearingData, OperatingData
+from tribodyn.mesh.data import MeshData
+from tribodyn.scenario import units
+from tribodyn.scenario.common import Angle, Inertia, Name, SignedLength, Slices, Torque, TorsionalDamping
+from tribodyn.scenario.curves import ErrorCurve, StiffnessCurve, TorqueCurve
+from tribodyn.scenario.drive_data import (
+    drive_of,
+    lubricant_of,
+    masses_of,
+    materials_of,
+    mean_roughness,
+    modifications_of,
+    slices_of,
+)
+from tribodyn.scenario.model_files import Bearing, Bearings, DriveTable, Length, Lubricant, Stiffness
+from tribodyn.scenario.modification import MisalignmentTable
+from tribodyn.scenario.quantity import Count, NotNegative, Quantity, Reference, Switch, Table, Text, written
+from tribodyn.solve.data import SolverData
+from tribodyn.studies.gear_pair.case import Case, OutputData
+from tribodyn.tribology.data import FrictionData
+
+
+class TorqueHarmonic(Table):
+    """A cosine in the load torque."""
+
+    amplitude: Torque
+    frequency: Annotated[float, Quantity(units.positive(units.ANGULAR_FREQUENCY))]
+    phase: Angle = written("0 deg")
+
+
+class ErrorHarmonic(Table):
+    """A cosine in the static transmission error, over the mesh cycle."""
+
+    order: Count = Field(description="1: mesh frequency, 2: twice that, …")
+    amplitude: SignedLength
+    phase: Angle = written("0 deg")
+
+
+class Operating(Table):
+    """How the drive is driven and loaded."""
+
+    source: Literal["speed", "torque"] = Field(
+        "speed", description="speed: the pinion's rotation is prescribed; torque: a motor with inertia"
+    )
+    pinion_speed: Annotated[float, Quantity(units.positive(units.ANGULAR_SPEED))] = Field(
+        description="nominal; with a torque source also the speed at the start"
+    )
+    gear_torque: Torque = Field(description="constant part of the load")
+    gear_torque_table: Annotated[TorqueCurve, Reference("CSV file with columns time and torque")] | None = (
+        Field(None, description="over time, added to the load")
+    )
+    gear_torque_harmonics: tuple[TorqueHarmonic, ...] = Field((), description="added to the load")
+    load_inertia: Inertia = written("0 kg*m**2")
+    load_damping: TorsionalDamping = written(
+        "0 N*m*s/rad", description="load that grows with speed above nominal"
+    )
+    pinion_torque: Torque | None = Field(
+        None, description="of the motor at nominal speed; default: balances the load without losses"
+    )
+    drive_inertia: Inertia = written("0 kg*m**2", description="of the motor")
+    shaft_stiffness: Annotated[float, Quantity(units.positive(units.TORSIONAL_STIFFNESS))] | None = Field(
+        None, description="between motor and pinion; default: rigid"
+    )
+    shaft_damping: TorsionalDamping = written("0 N*m*s/rad")
+    speed_regulation: TorsionalDamping = written(
+        "0 N*m*s/rad", description="the motor's torque falls by this with speed above nominal"
+    )
+
+
+class TransmissionError(Table):
+    """Static transmission error e of a pair, positive where material is missing."""
+
+    harmonics: tuple[ErrorHarmonic, ...] = ()
+    table: Annotated[ErrorCurve, Reference("CSV file with columns roll_angle and error")] | None = None
+
+
+class Mesh(Table):
+    """How the teeth in contact give way, damp, separate and err."""
+
+    damping_ratio: NotNegative
+    compliance: Literal["energy", "fem", "constant", "table"] = "energy"
+    hertz: Literal["linear", "load-dependent"] = Field(
+        "linear", description="contact part of the energy method's compliance"
+    )
+    foundation_coupling: Switch = Field(True, description="pairs that share a body share its foundation")
+    stiffness: Stiffness | None = Field(None, description='of a single pair, with compliance = "constant"')
+    table: Annotated[StiffnessCurve, Reference("CSV file with columns roll_angle and stiffness")] | None = (
+        Field(None, description='of a single pair, with compliance = "table"')
+    )
+    formulation: Literal["classical", "energy-consistent"] = Field(
+        "classical", description="whether the varying stiffness acts on the rotations"
+    )
+    contact_width: Length = written("0.1 um", description="deflection over which contact sets in")
+    backlash: Annotated[float, Quantity(units.not_negative(units.LENGTH))] | None = Field(
+        None, description="normal backlash; default: back flanks never touch"
+    )
+    points: Annotated[int, Field(strict=True, ge=5)] = Field(65, description="nodes a segment of the table")
+    transmission_error: TransmissionError = written({})
+    misalignment: MisalignmentTable = written({})
+    slices: Slices | None = Field(
+        None, description="of the face; default: 21 where anything varies along it, else 1"
+    )
+    slice_coupling: Switch = Field(True, description="slices of one tooth hold each other")
+
+
+class Friction(Table):
+    """Which law acts between the flanks."""
+
+    law: Text
+    coefficient: NotNegative | None = Field(None, description="of Coulomb's law")
+    sliding: Literal["kinematic", "dynamic"] = Field(
+        "kinematic", description="sliding speed from nominal rotation or from the vibrating bodies"
+    )
+    reversal_width: Length = written("20 um", description="along the path, over which friction turns at P")
+
+
+class Solver(Table):
+    """How the equations are solved."""
+
+    method: Text = "auto"
+    rtol: Annotated[float, Field(strict=True, ge=1e-13, le=1e-2)] = 1e-6
+    cycles: Count = Field(20, description="mesh cycles to run")
+    max_steps: Count = Field(1_000_000, description="steps allowed in one mesh cycle")
+    initial: Literal["static", "unloaded"] = Field("static", description="state at the start")
+
+
+class Output(Table):
+    """What is recorded."""
+
+    samples_per_cycle: Annotated[int, Field(strict=True, ge=8)] = 200
+
+
+class Scenario(Table):
+    """A scenario file."""
+
+    title: Text = Field(description="what it shows, in a line")
+    name: Name | None = Field(None, description="names the record; default: the file's own name")
+    kind: Literal["gear-pair"] = "gear-pair"
+    drive: Annotated[DriveTable, Reference("name of a file in models/drives, or a path")]
+    lubricant: Annotated[Lubricant, Reference("name of a file in models/lubricants, or a path")]
+    bearings: Annotated[Bearings, Reference("name of a file in models/bearings, or a path")] = written(
+        "rigid-1e9"
+    )
+    operating: Operating
+    mesh: Mesh
+    friction: Friction
+    solver: Solver = written({})
+    output: Output = written({})
+
+
+def case_of(scenario: Scenario, toml: str, sha256: str) -> Case:
+    """Return the case of a scenario that has passed schema and rules."""
+    drive = scenario.drive
+    return Case(
+        title=scenario.title,
+        name=scenario.name or "scenario",
+        kind=scenario.kind,
+        toml=toml,
+        sha256=sha256,
+        family=drive.family,
+        drive=drive_of(drive),
+        materials=materials_of(drive),
+        masses=masses_of(drive),
+        roughness=drive.roughness,
+        mean_roughness=mean_roughness(drive),
+        lubricant=lubricant_of(scenario.lubricant),
+        bearings=(_bearing(scenario.bearings.pinion), _bearing(scenario.bearings.gear)),
+        operating=_operating(scenario.operating),
+        mesh=_mesh(scenario),
+        friction=FrictionData(**scenario.friction.model_dump()),
+        solver=SolverData(**scenario.solver.model_dump()),
+        output=OutputData(**scenario.output.model_dump()),
+    )
+
+
+def _bearing(bearing: Bearing) -> BearingData:
+    ratio_x = bearing.damping_ratio if bearing.damping_ratio_x is None else bearing.damping_ratio_x
+    ratio_y = bearing.damping_ratio if bearing.damping_ratio_y is None else bearing.damping_ratio_y
+    return BearingData(bearing.stiffness_x, bearing.stiffness_y, cast(float, ratio_x), cast(float, ratio_y))
+
+
+def _operating(operating: Operating) -> OperatingData:
+    curve = operating.gear_torque_table
+    return OperatingData(
+        torque_table=curve.in_si() if curve else None,
+        torque_harmonics=tuple(
+            (one.amplitude, one.frequency, one.phase) for one in operating.gear_torque_harmonics
+        ),
+        **operating.model_dump(exclude={"gear_torque_table", "gear_torque_harmonics"}),
+    )
+
+
+def _mesh(scenario: Scenario) -> MeshData:
+    mesh = scenario.mesh
+    error = mesh.transmission_error
+    modifications = modifications_of(scenario.drive, mesh.misalignment)
+    return MeshData(
+        table=mesh.table.in_si() if mesh.table else None,
+        error_harmonics=tuple((one.order, one.amplitude, one.phase) for one in error.harmonics),
+        error_table=error.table.in_si() if error.table else None,
+        modifications=modifications,
+        slices=slices_of(mesh.slices, modifications),
+        **mesh.model_dump(exclude={"table", "transmission_error", "misalignment", "slices"}),
+    )

@@ -1,0 +1,108 @@
+"""Figures of one run: means, extremes, spectrum and the energy balance, from the recorded samples."""
+
+from typing import Any
+
+import numpy as np
+
+from tribodyn.dynamics.parameters import WORK_DAMPING, WORK_FRICTION, WORK_IN, WORK_OUT, WORK_PARAMETRIC
+from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.post.spectra import amplitude_spectrum
+
+#: Record name -> (summary name, reduction), over the whole run.
+EXTREMES = {
+    "normal_load": ("normal_load_max", np.nanmax),
+    "central_film_thickness": ("film_min", np.nanmin),
+    "film_parameter": ("film_parameter_min", np.nanmin),
+    "hertz_pressure": ("hertz_pressure_max", np.nanmax),
+    "flash_temperature_rise": ("flash_temperature_max", np.nanmax),
+}
+
+
+class RunningExtremes:
+    """Extremes of a run that arrives in blocks."""
+
+    def __init__(self) -> None:
+        self.values: dict[str, float] = {}
+
+    def add(self, block: dict[str, np.ndarray]) -> None:
+        """Take a block of samples into account."""
+        for name, (key, reduce) in EXTREMES.items():
+            if np.all(np.isnan(block[name])):
+                continue
+            found = float(reduce(block[name]))
+            old = self.values.get(key, found)
+            self.values[key] = max(old, found) if reduce is np.nanmax else min(old, found)
+
+
+def energy_residual(first: np.ndarray, last: np.ndarray, stored: float) -> float:
+    """What the energy balance misses over a run, as a share of the work done by the drive.
+
+    W_in + W_parametric − W_out − W_friction − W_damping − ΔE from the first to the last state; `stored` is
+    ΔE, J.
+    """
+    work = last - first
+    missing = (
+        work[WORK_IN]
+        + work[WORK_PARAMETRIC]
+        - work[WORK_OUT]
+        - work[WORK_FRICTION]
+        - work[WORK_DAMPING]
+        - stored
+    )
+    return float(missing / max(abs(work[WORK_IN]), 1e-300))
+
+
+def steady_figures(
+    window: dict[str, np.ndarray], work: np.ndarray, cycle: MeshCycle, samples: int
+) -> dict[str, Any]:
+    """Figures of the last whole mesh cycles of a run.
+
+    Parameters
+    ----------
+    window : dict
+        The record's arrays over whole cycles, last sample not included.
+    work : (STATES,)
+        Change of the state over them: its works are integrated, so that no mean power depends on the
+        sampling.
+    cycle : MeshCycle
+    samples : int
+        Samples per mesh cycle.
+    """
+    front = cycle.front_pairs
+    error = window["transmission_error_rotational"]
+    newest = window["transmission_error"][:, front - 1]
+    load = window["normal_load"][:, :front]
+    moment = np.sum(load * np.cos(np.nan_to_num(window["pressure_angle"][:, :front])), axis=1)
+    friction = np.abs(window["friction_force"][:, :front])
+    slid = np.sum(friction * np.abs(np.nan_to_num(window["sliding_speed"][:, :front])))
+    loaded = np.sum(load * np.abs(np.nan_to_num(window["sliding_speed"][:, :front])))
+    touching = window["normal_load"] > 0.0
+    # by the actual rotation: a driven pinion need not turn at its nominal speed
+    steps_in_window = len(error)
+    frequency = float((steps_in_window - 1) / samples / (window["time"][-1] - window["time"][0]))
+    orders, amplitudes = amplitude_spectrum(error, samples)
+    duration = steps_in_window / samples / frequency
+    power_in, power_out, power_friction = work[[WORK_IN, WORK_OUT, WORK_FRICTION]] / duration
+    load_torque = abs(power_out / np.mean(window["velocity"][:, -1]))
+    static = float(load_torque / cycle.gear_pitch_radius)
+    keep = orders <= 20.0 + 1e-9
+    return {
+        "averaging_cycles": len(error) // samples,
+        "mesh_frequency": frequency,
+        "transmission_error_mean": float(np.nanmean(newest)),
+        "transmission_error_peak_to_peak": float(np.nanmax(newest) - np.nanmin(newest)),
+        "transmission_error_rotational_mean": float(np.mean(error)),
+        "transmission_error_rotational_peak_to_peak": float(np.ptp(error)),
+        "dynamic_factor": float(np.max(moment) / static) if static > 0 else float("nan"),
+        "friction_coefficient_mean": float(slid / loaded) if loaded > 0 else float("nan"),
+        "friction_force_mean": np.mean(friction, axis=0),
+        "efficiency": float(1.0 - work[WORK_FRICTION] / work[WORK_IN]) if power_in > 0 else float("nan"),
+        "power_in_mean": float(power_in),
+        "power_friction_mean": float(power_friction),
+        "closure_in_range_fraction": float(np.mean(window["closure_in_range"][touching]))
+        if touching.any()
+        else 1.0,
+        "contact_loss_fraction": float(np.mean(~np.any(touching, axis=1))),
+        "spectrum_frequencies": orders[keep] * frequency,
+        "spectrum_amplitudes": amplitudes[keep],
+    }

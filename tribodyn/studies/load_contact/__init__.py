@@ -1,0 +1,1 @@
+"""Teeth in slow rotation under load, by finite elements."""

@@ -1,0 +1,252 @@
+"""Figures of load contact studies: transmission error, load sharing, stiffness, root stress, Harris map."""
+
+from collections.abc import Sequence
+
+import matplotlib
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from tribodyn.errors import InputError
+from tribodyn.post.figures.panel import View, record_label, record_title
+from tribodyn.post.style import PAIR_STYLES, PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
+from tribodyn.record.reader import Record
+from tribodyn.studies.load_contact.maps import LINE_LOAD, PRESSURE, draw_map, line_load_figure, pressure_map
+from tribodyn.studies.load_contact.rolled import over_phase, over_roll, pair_over_phase, require_positions
+
+HARRIS = "harris"
+#: Names of the figures, in the order `tribodyn plot` draws them.
+NAMES = (
+    "loaded-error",
+    "load-sharing",
+    "line-load",
+    "pressure-map",
+    "root-stress",
+    "mesh-stiffness",
+    HARRIS,
+)
+PHASE = "Phase (mesh cycles)"
+ROLL = "Roll angle from the pitch point (°)"
+#: Peak to peak below which an unloaded transmission error is none, m.
+_NO_ERROR = 1e-12
+
+
+def names(records: Sequence[Record]) -> tuple[str, ...]:
+    """Names of the figures that these records hold enough for."""
+    return NAMES if all("torque" in record for record in records) else NAMES[:-1]
+
+
+def figure(name: str, records: Sequence[Record], view: View) -> Figure:
+    """Draw the figure `name` of `NAMES`, or the overview of the first record."""
+    if view.against == "time":
+        raise InputError("against", "time", "a load contact study knows no time", "phase")
+    for record in records:
+        require_positions(record)
+        if name == HARRIS and "torque" not in record:
+            rule = f"{record.path} holds a single torque"
+            raise InputError("plot", name, rule, "run the scenario with operating.gear_torques")
+    if name == "overview":
+        return _overview(records[0])
+    if name == "line-load":
+        return line_load_figure(records)
+    if name == "pressure-map":
+        return pressure_map(records)
+    draw = {
+        "loaded-error": _loaded_error,
+        "load-sharing": _load_sharing,
+        "root-stress": _root_stress,
+        "mesh-stiffness": _mesh_stiffness,
+        HARRIS: _harris,
+    }[name]
+    return draw(records)
+
+
+def colour(number: int) -> str:
+    """Colour of a record, or of a pair of the only one."""
+    return PALETTE[number % len(PALETTE)]
+
+
+def _loaded_error(records: Sequence[Record]) -> Figure:
+    modified = any(np.ptp(record["unloaded_transmission_error"]) > _NO_ERROR for record in records)
+    drawn, rows = _stacked(2 if modified else 1)
+    names_of = {0: ("loaded_transmission_error", "Loaded"), 1: ("unloaded_transmission_error", "Unloaded")}
+    for row, axes in enumerate(rows):
+        name, what = names_of[row]
+        draw_error(axes, records, name)
+        axes.set_ylabel(f"{what} transmission error (µm)")
+        axes.legend(loc="upper right", ncols=1 + (len(records) > 2))
+    rows[-1].set_xlabel(PHASE)
+    return _finish(drawn, rows, records)
+
+
+def draw_error(axes: Axes, records: Sequence[Record], name: str) -> None:
+    """Draw a transmission error of every record over the phase, its peak to peak in the legend."""
+    for number, record in enumerate(records):
+        phase, error = over_phase(record, name)
+        spread = f"peak to peak {np.ptp(error) * 1e6:.3g} µm"
+        label = f"{record_label(record)}: {spread}" if len(records) > 1 else spread
+        axes.plot(phase, error * 1e6, color=colour(number), label=label)
+    # room for the legend
+    axes.margins(y=0.12 + 0.12 * len(records))
+
+
+def _load_sharing(records: Sequence[Record]) -> Figure:
+    drawn, rows = _stacked(2, sharex=False)
+    draw_loads(rows[0], records)
+    rows[0].set_xlabel(PHASE)
+    for number, record in enumerate(records):
+        load = record["normal_load"]
+        roll, share = over_roll(record, load / np.sum(load, axis=1, keepdims=True))
+        rows[1].plot(np.degrees(roll), 100.0 * share, color=colour(number))
+    show_contact(rows[1], records)
+    rows[1].set_ylabel("Share of the load (%)")
+    rows[1].set_ylim(bottom=0)
+    return _finish(drawn, rows, records, pairs=len(records) == 1)
+
+
+def draw_loads(axes: Axes, records: Sequence[Record]) -> None:
+    """Draw the normal load of each pair over the phase; colours tell records, or the only one's pairs."""
+    for number, record in enumerate(records):
+        for pair in reversed(record.pairs):
+            phase, load = pair_over_phase(record, "normal_load", pair)
+            if np.nanmax(load) > 0.0:
+                which = number if len(records) > 1 else 1 - pair
+                style = PAIR_STYLES.get(pair, "-")
+                axes.plot(phase, load, color=colour(which), linestyle=style, label=f"pair {pair}")
+    axes.set_ylabel("Normal load of each pair (N)")
+    axes.set_ylim(bottom=0)
+
+
+def _mesh_stiffness(records: Sequence[Record]) -> Figure:
+    drawn, rows = _stacked(1)
+    draw_stiffness(rows[0], records)
+    return _finish(drawn, rows, records)
+
+
+def show_contact(axes: Axes, records: Sequence[Record]) -> None:
+    """Show, of an axis of roll angles, those at which the pair of any record carries load."""
+    rolls = [over_roll(record, record["normal_load"]) for record in records]
+    loaded = np.degrees(np.concatenate([roll[load > 0.0] for roll, load in rolls]))
+    if loaded.size:
+        axes.set_xlim(np.min(loaded) - 0.5, np.max(loaded) + 0.5)
+    axes.set_xlabel(ROLL)
+
+
+def draw_stiffness(axes: Axes, records: Sequence[Record]) -> None:
+    """Draw the mesh stiffness of every record over the phase."""
+    for number, record in enumerate(records):
+        phase, stiffness = over_phase(record, "mesh_stiffness")
+        axes.plot(phase, stiffness * 1e-6, color=colour(number))
+    axes.set_xlabel(PHASE)
+    axes.set_ylabel("Mesh stiffness (N/µm)")
+    axes.set_ylim(bottom=0)
+
+
+def _root_stress(records: Sequence[Record]) -> Figure:
+    drawn = new_figure(WIDTH, 2 * PANEL_HEIGHT + 0.4)
+    panels = drawn.subplots(2, 2, sharex=True)
+    for row, name in enumerate(("root_tension", "root_compression")):
+        for column, body in enumerate(("pinion", "gear")):
+            draw_root_stress(panels[row, column], records, name, body)
+            if row == 0:
+                panels[row, column].set_title(body, loc="right", fontsize=9)
+    for axes in panels[1]:
+        show_contact(axes, records)
+    for axes, text in zip(panels[:, 0], ("Root tension (MPa)", "Root compression (MPa)"), strict=True):
+        axes.set_ylabel(text)
+    return _finish(drawn, panels.ravel(), records)
+
+
+def draw_root_stress(axes: Axes, records: Sequence[Record], name: str, body: str, style: str = "-") -> None:
+    """Draw the greatest root stress over the face against the roll angle of a pair."""
+    for number, record in enumerate(records):
+        stress = record[name][:, list(record["body"]).index(body)]
+        worst = np.max(stress, axis=-1) if name == "root_tension" else np.min(stress, axis=-1)
+        roll, values = over_roll(record, worst)
+        axes.plot(np.degrees(roll), values * 1e-6, color=colour(number), linestyle=style)
+    axes.margins(y=0.05)
+
+
+def _harris(records: Sequence[Record]) -> Figure:
+    drawn, rows = _stacked(2 if len(records) == 1 else 1, sharex=False)
+    draw_harris(rows[0], records)
+    if len(records) == 1:
+        _draw_map_curves(rows[1], records[0])
+    return _finish(drawn, rows, records)
+
+
+def draw_harris(axes: Axes, records: Sequence[Record]) -> None:
+    """Draw peak to peak against torque; an open circle is the torque at which all else is recorded."""
+    for number, record in enumerate(records):
+        spread = record["map_peak_to_peak"] * 1e6
+        axes.plot(record["torque"], spread, color=colour(number), marker="o", markersize=3, clip_on=False)
+        recorded = np.ptp(record["loaded_transmission_error"]) * 1e6
+        at = record.summary["gear_torque"]
+        axes.plot(at, recorded, color=colour(number), marker="o", markersize=7, markerfacecolor="none")
+    axes.set_xlabel("Torque on the gear (N m)")
+    axes.set_ylabel("Peak to peak (µm)")
+    axes.set_ylim(bottom=0)
+    axes.margins(x=0.03)
+
+
+def _draw_map_curves(axes: Axes, record: Record) -> None:
+    """Draw the loaded transmission error over the phase at every torque of the map, from its own mean."""
+    torques, errors = record["torque"], record["map_transmission_error"]
+    shades = matplotlib.colormaps["viridis"](np.linspace(0.0, 0.9, len(torques)))
+    for torque, error, shade in zip(torques, errors, shades, strict=True):
+        phase = np.append(record["phase"], record["phase"][-1] + record["phase"][1])
+        closed = np.append(error, error[0])
+        axes.plot(phase, (closed - np.mean(error)) * 1e6, color=shade, label=f"{torque:.4g} N m")
+    axes.set_xlabel(PHASE)
+    axes.set_ylabel("Loaded error less its mean (µm)")
+    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=6.5)
+
+
+def _overview(record: Record) -> Figure:
+    drawn = new_figure(11.0, 6.2)
+    panels = drawn.subplots(2, 3).ravel()
+    draw_error(panels[0], [record], "loaded_transmission_error")
+    panels[0].set_ylabel("Loaded transmission error (µm)")
+    panels[0].set_xlabel(PHASE)
+    panels[0].legend(loc="upper right")
+    draw_loads(panels[1], [record])
+    panels[1].set_xlabel(PHASE)
+    panels[1].legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3, handlelength=1.5)
+    if "torque" in record:
+        draw_harris(panels[2], [record])
+    else:
+        draw_stiffness(panels[2], [record])
+    draw_map(panels[3], [record], record, LINE_LOAD)
+    draw_map(panels[4], [record], record, PRESSURE)
+    for body, style in (("pinion", "-"), ("gear", "--")):
+        draw_root_stress(panels[5], [record], "root_tension", body, style)
+    panels[5].set_ylabel("Root tension (MPa)")
+    show_contact(panels[5], [record])
+    panels[5].legend(["pinion", "gear"], loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2)
+    for letter, axes in zip("abcdef", panels, strict=True):
+        mark_panel(axes, letter)
+    drawn.suptitle(record_title(record), x=0.01, ha="left", fontsize=11)
+    return drawn
+
+
+def _stacked(count: int, sharex: bool = True) -> tuple[Figure, Sequence[Axes]]:
+    drawn = new_figure(WIDTH, PANEL_HEIGHT * count + 0.4)
+    return drawn, list(drawn.subplots(count, 1, squeeze=False, sharex=sharex)[:, 0])
+
+
+def _finish(drawn: Figure, panels: Sequence[Axes], records: Sequence[Record], pairs: bool = False) -> Figure:
+    """Letter the panels, name the records (or the pairs of the only one), say what it is about."""
+    if len(panels) > 1:
+        for letter, axes in zip("abcd", panels, strict=False):
+            mark_panel(axes, letter)
+    drawn.align_ylabels()
+    if len(records) == 1:
+        drawn.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
+    handles, labels = panels[0].get_legend_handles_labels() if pairs else ([], [])
+    if len(records) > 1:
+        handles = [Line2D([], [], color=colour(number)) for number in range(len(records))]
+        labels = list(map(record_label, records))
+    if handles:
+        drawn.legend(handles, labels, loc="outside lower center", ncols=min(4, len(labels)))
+    return drawn

@@ -1,0 +1,125 @@
+"""What varies along the face: line load and Hertz pressure as maps over roll angle and face width."""
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from tribodyn.post.figures.panel import record_label, record_title
+from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
+from tribodyn.record.reader import Record
+from tribodyn.studies.load_contact.rolled import at_pitch_point, face_edges, face_map
+
+# Spread over the face, of the greatest value, below which no place on it is marked.
+_EVEN = 1e-6
+
+
+class OverFace(NamedTuple):
+    """A quantity over the face and how engineers read it: dataset, factor from SI, label."""
+
+    dataset: str
+    factor: float
+    label: str
+
+
+LINE_LOAD = OverFace("line_load", 1e-3, "Line load (N/mm)")
+PRESSURE = OverFace("hertz_pressure", 1e-9, "Hertz pressure (GPa)")
+
+
+def draw_map(axes: Axes, records: Sequence[Record], record: Record, quantity: OverFace) -> Any:
+    """Draw a quantity of one pair over roll angle and face, coloured on a scale for all the records.
+
+    A cross marks the greatest value, unless it is the same all along the face.
+    """
+    top = max(float(np.max(one[quantity.dataset])) for one in records) * quantity.factor
+    found = face_map(record, quantity.dataset)
+    roll, values = np.degrees(found.roll), found.values * quantity.factor
+    middles = (roll[1:] + roll[:-1]) / 2
+    edges = np.concatenate([[2 * roll[0] - middles[0]], middles, [2 * roll[-1] - middles[-1]]])
+    mesh = axes.pcolormesh(
+        edges, face_edges(record) * 1e3, values.T, vmin=0.0, vmax=top, cmap="viridis", rasterized=True
+    )
+    at = np.unravel_index(np.argmax(values), values.shape)
+    if np.ptp(values[at[0]]) > _EVEN * top:
+        for color, width in (("white", 2.4), (INK, 1.0)):
+            place = roll[at[0]], found.face[at[1]] * 1e3
+            axes.plot(*place, "x", color=color, markersize=6, markeredgewidth=width)
+    axes.axvline(0.0, color="white", linewidth=0.7, linestyle=":")
+    axes.grid(visible=False)
+    axes.margins(0)
+    axes.set_xlabel("Roll angle from the pitch point (°)")
+    axes.set_ylabel("Face (mm)")
+    if len(records) == 1:
+        bar = axes.figure.colorbar(mesh, ax=axes, label=quantity.label, pad=0.02)
+        bar.outline.set_visible(False)
+    return mesh
+
+
+def draw_across_face(axes: Axes, record: Record, quantity: OverFace, color: str) -> None:
+    """Draw a quantity over the face where a pair is at the pitch point, each slice as a step."""
+    values = at_pitch_point(record, quantity.dataset) * quantity.factor
+    axes.stairs(values, face_edges(record) * 1e3, baseline=None, color=color, label=record_label(record))
+    axes.set_xlabel("Face (mm)")
+    axes.set_ylabel(f"{quantity.label}\nat the pitch point")
+
+
+def _columns(maps: int) -> int:
+    """Maps beside each other: up to three, four in a square."""
+    return 2 if maps == 4 else min(maps, 3)
+
+
+def line_load_figure(records: Sequence[Record]) -> Figure:
+    """Draw maps of the line load, and below them its course over the face at the pitch point."""
+    rows = -(-len(records) // _columns(len(records)))
+    drawn = new_figure(WIDTH, (rows + 1) * PANEL_HEIGHT + 0.4)
+    parts: Any = drawn.subfigures(2, 1, height_ratios=[rows, 1])
+    upper, lower = parts
+    _maps(upper, records, LINE_LOAD)
+    below = lower.subplots()
+    for number, record in enumerate(records):
+        draw_across_face(below, record, LINE_LOAD, PALETTE[number % len(PALETTE)])
+    below.set_ylim(bottom=0)
+    mark_panel(below, "abcdefgh"[len(records)])
+    if len(records) > 1:
+        below.legend(loc="lower center", ncols=min(3, len(records)))
+    else:
+        drawn.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
+    return drawn
+
+
+def pressure_map(records: Sequence[Record]) -> Figure:
+    """Draw maps of the Hertz pressure, on one scale."""
+    rows = -(-len(records) // _columns(len(records)))
+    drawn = new_figure(WIDTH, rows * PANEL_HEIGHT + 0.6)
+    _maps(drawn, records, PRESSURE)
+    if len(records) == 1:
+        drawn.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
+    return drawn
+
+
+def _maps(part: Any, records: Sequence[Record], quantity: OverFace) -> None:
+    """Fill a figure or a part of one with a map a record."""
+    columns = _columns(len(records))
+    rows = -(-len(records) // columns)
+    grid = part.subplots(rows, columns, squeeze=False, sharey=True, sharex=True)
+    for axes in grid.ravel()[len(records) :]:
+        axes.remove()
+    mesh = None
+    for number, (axes, record) in enumerate(zip(grid.ravel(), records, strict=False)):
+        mesh = draw_map(axes, records, record, quantity)
+        mark_panel(axes, "abcdefgh"[number])
+        if len(records) > 1:
+            axes.set_title(record_label(record), loc="right", fontsize=8)
+        if number % columns:
+            axes.set_ylabel("")
+        if columns > 2:
+            axes.set_xlabel("Roll angle (°)")
+        below = number + columns < len(records)
+        axes.tick_params(labelbottom=not below)
+        if below:
+            axes.set_xlabel("")
+    if len(records) > 1:
+        bar = part.colorbar(mesh, ax=list(grid.ravel()[: len(records)]), label=quantity.label, pad=0.02)
+        bar.outline.set_visible(False)

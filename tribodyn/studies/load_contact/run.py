@@ -1,0 +1,228 @@
+"""From a case of the load contact study to its record: teeth in slow rotation at one torque or several."""
+
+from collections.abc import Callable
+from pathlib import Path
+from time import perf_counter
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.compliance.load_sharing import PairFlexibility, flexibility, share_load
+from tribodyn.compliance.loaded_contact import LoadedContact, roll_through
+from tribodyn.errors import SimulationError
+from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.corner_contact import pair_geometry, roll_limits
+from tribodyn.geometry.families import family
+from tribodyn.studies.load_contact.case import LoadContactCase
+
+Array = Any
+
+
+class Study(NamedTuple):
+    """A case made ready: its teeth put together, and their elasticity."""
+
+    case: LoadContactCase
+    flexible: PairFlexibility
+
+
+class Ended(NamedTuple):
+    """How a run ended: the record's path, why it failed (empty: it did not), and its figures."""
+
+    path: Path
+    message: str
+    summary: dict[str, Any]
+
+
+def prepare(case: LoadContactCase) -> Study:
+    """Check geometry and modifications, and find the elasticity of both gears.
+
+    Raises
+    ------
+    InputError
+        Where the teeth cannot be made, or cannot run together as they are modified.
+    """
+    from tribodyn.compliance.flank_gap import check_modifications
+    from tribodyn.geometry.checks import check
+
+    teeth = family(case.family)
+    check(teeth, case.drive)
+    assembly = assemble(teeth, case.drive)
+    check_modifications(assembly, case.modifications)
+    return Study(case, flexibility(assembly, case.materials, lead=True))
+
+
+def roll(study: Study, gear_torque: float) -> LoadedContact:
+    """Roll the study's teeth through its mesh cycles at a torque, N m.
+
+    Raises
+    ------
+    InputError
+        If the slices do not resolve what carries.
+    SimulationError
+        If no state of contact is found.
+    """
+    case = study.case
+    return roll_through(
+        study.flexible,
+        case.modifications,
+        gear_torque,
+        case.positions_per_cycle,
+        cycles=case.cycles,
+        friction_coefficient=case.friction_coefficient,
+        slices=case.slices,
+        coupled=case.slice_coupling,
+    )
+
+
+def run(
+    case: LoadContactCase,
+    output: str | Path | None = None,
+    force: bool = False,
+    progress: Callable[[float], None] | None = None,
+) -> Ended:
+    """Run a case and write its record; parameters and errors as those of `gear_pair.run.run`."""
+    from tribodyn.geometry.outlines import geometry_arrays
+    from tribodyn.record.schema import LOAD_CONTACT
+    from tribodyn.record.writer import RecordWriter, check_target
+
+    path = Path(output) if output is not None else Path(f"{case.name}.h5")
+    check_target(path, force)
+    begun = perf_counter()
+    study = prepare(case)
+    report = progress or (lambda _share: None)
+    steps = 1 + len(case.gear_torques)
+    try:
+        loaded, failure = roll(study, case.gear_torque), ""
+    except SimulationError as error:
+        loaded, failure = None, error.reason
+    with RecordWriter(
+        path,
+        scenario_toml=case.toml,
+        sha256=case.sha256,
+        samples=0 if loaded is None else len(loaded.phase),
+        mesh_cycle=_numbers(study),
+        geometry=geometry_arrays(family(case.family), case.drive),
+        force=force,
+        kind=LOAD_CONTACT,
+        scales=_scales(study, loaded),
+    ) as record:
+        summary: dict[str, Any] = {"contact_ratio": float(study.flexible.assembly.contact_ratio)}
+        if loaded is None:
+            return Ended(record.fail(failure, summary), failure, summary)
+        record.write(0, record_arrays(study, loaded))
+        summary |= figures(study, loaded)
+        report(1 / steps)
+        spread = []
+        for row, torque in enumerate(case.gear_torques):
+            try:
+                error_at = roll(study, torque).deflection
+            except SimulationError as error:
+                failure = f"at operating.gear_torques.{row} = {torque:g} N*m: {error.reason}"
+                return Ended(record.fail(failure, summary), failure, summary)
+            spread.append(float(np.ptp(error_at)))
+            record.put(row, {"map_transmission_error": error_at, "map_peak_to_peak": spread[-1]})
+            report((row + 2) / steps)
+        if spread:
+            summary["least_peak_to_peak"] = min(spread)
+            summary["least_peak_to_peak_torque"] = case.gear_torques[int(np.argmin(spread))]
+        summary["wall_time"] = perf_counter() - begun
+        return Ended(record.finish(summary), "", summary)
+
+
+def record_arrays(study: Study, loaded: LoadedContact) -> dict[str, Array]:
+    """Datasets of the record, over the phase first."""
+    carrying = loaded.normal_load > 0.0
+    teeth = float(study.case.drive.pinion.teeth)
+    return {
+        "phase": loaded.phase - loaded.phase[0],
+        "pinion_angle": (loaded.phase - loaded.phase[0]) * 2.0 * np.pi / teeth,
+        "roll_angle": loaded.roll,
+        "loaded_transmission_error": loaded.deflection,
+        "unloaded_transmission_error": loaded.unloaded,
+        "normal_load": loaded.normal_load,
+        "line_load": loaded.line_load,
+        "hertz_pressure": loaded.pressure,
+        "half_width": loaded.half_width,
+        "face_load_factor": np.where(carrying, loaded.face_load_factor, np.nan),
+        "root_tension": np.moveaxis(loaded.root_tension, 0, 1),
+        "root_compression": np.moveaxis(loaded.root_compression, 0, 1),
+        "mesh_stiffness": loaded.mesh_stiffness,
+        "torque_residual": torque_residual(study, loaded),
+    }
+
+
+def torque_residual(study: Study, loaded: LoadedContact) -> Array:
+    """Torque of the pairs' loads, friction included, over the gear's torque, less 1, at every position."""
+    motion = pair_geometry(study.flexible.assembly, loaded.roll).motion
+    side = np.sign(motion.signed_distance)
+    lever = motion.gear_normal_arm + side * study.case.friction_coefficient * motion.gear_friction_arm
+    return np.sum(loaded.normal_load * lever, axis=1) / study.case.gear_torque - 1.0
+
+
+def figures(study: Study, loaded: LoadedContact) -> dict[str, Any]:
+    """Figures of the summary, SI units."""
+    worst = np.unravel_index(np.argmax(loaded.line_load), loaded.line_load.shape)
+    position, pair = np.unravel_index(np.argmin(np.abs(loaded.roll)), loaded.roll.shape)
+    tension, compression = loaded.root_tension, loaded.root_compression
+    return {
+        "contact_ratio_effective": float(loaded.contact_ratio),
+        "stiffness_single_pair_at_pitch_point": single_pair_stiffness(study),
+        "mesh_stiffness_mean": float(np.mean(loaded.mesh_stiffness)),
+        "mesh_stiffness_peak_to_peak": float(np.ptp(loaded.mesh_stiffness)),
+        "loaded_transmission_error_mean": float(np.mean(loaded.deflection)),
+        "loaded_transmission_error_peak_to_peak": float(np.ptp(loaded.deflection)),
+        "unloaded_transmission_error_peak_to_peak": float(np.ptp(loaded.unloaded)),
+        "normal_load_max": float(np.max(loaded.normal_load)),
+        "line_load_max": float(loaded.line_load[worst]),
+        "face_load_factor": float(loaded.face_load_factor[worst[0], worst[1]]),
+        "face_load_factor_pitch_point": float(loaded.face_load_factor[position, pair]),
+        "hertz_pressure_max": float(np.max(loaded.pressure)),
+        "pinion_root_tension_max": float(np.max(tension[0])),
+        "gear_root_tension_max": float(np.max(tension[1])),
+        "pinion_root_compression_max": float(np.min(compression[0])),
+        "gear_root_compression_max": float(np.min(compression[1])),
+        "torque_residual": float(np.max(np.abs(torque_residual(study, loaded)))),
+        "gear_torque": study.case.gear_torque,
+        "slices": study.case.slices,
+    }
+
+
+def single_pair_stiffness(study: Study) -> float:
+    """Load over deflection along the normal of one unmodified pair alone at the pitch point, N/m."""
+    alone = np.zeros((1, 1))
+    shared = share_load(study.flexible, alone, study.case.gear_torque)
+    angle = pair_geometry(study.flexible.assembly, alone).motion.pressure_angle
+    return float(shared.normal_load[0, 0] / (shared.deflection[0] * np.cos(angle[0, 0])))
+
+
+def _numbers(study: Study) -> dict[str, float]:
+    """Numbers of the mesh; there is no table."""
+    path, assembly = study.flexible.assembly.path, study.flexible.assembly
+    start, end = roll_limits(assembly)
+    return {
+        "pinion_pitch_radius": float(path.pinion_pitch_radius),
+        "gear_pitch_radius": float(path.gear_pitch_radius),
+        "pinion_teeth": float(assembly.drive.pinion.teeth),
+        "face_width": study.flexible.width,
+        "contact_ratio": float(assembly.contact_ratio),
+        "roll_start": start,
+        "roll_end": end,
+    }
+
+
+def _scales(study: Study, loaded: LoadedContact | None) -> dict[str, Array]:
+    from tribodyn.studies.load_contact.layout import BODIES
+
+    pairs = np.zeros(0, dtype=int) if loaded is None else pair_numbers(study, loaded)
+    places = np.zeros(0) if loaded is None else np.asarray(loaded.slice_position)
+    scales: dict[str, Array] = {"pair": pairs, "slice": places, "body": np.array(BODIES)}
+    torques = study.case.gear_torques
+    return scales | ({"torque": np.array(torques)} if torques else {})
+
+
+def pair_numbers(study: Study, loaded: LoadedContact) -> Array:
+    """Numbers of the pairs: 1 passed the beginning of the path last, 2 is the next to do so."""
+    start, _ = roll_limits(study.flexible.assembly)
+    pitch = 2.0 * np.pi / float(study.case.drive.pinion.teeth)
+    ages = (loaded.roll[0] - start) / pitch - (loaded.phase[0] - np.floor(loaded.phase[0]))
+    return 1 - np.round(ages).astype(int)

@@ -1,0 +1,99 @@
+"""The tables of a scenario of ``kind = "load-contact"``: teeth in slow rotation under load."""
+
+from collections.abc import Iterator
+from itertools import pairwise
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from tribodyn.errors import InputError
+from tribodyn.scenario import units
+from tribodyn.scenario.common import Name, Slices
+from tribodyn.scenario.drive_data import drive_of, materials_of, modifications_of, slices_of
+from tribodyn.scenario.model_files import DriveTable
+from tribodyn.scenario.modification import MisalignmentTable
+from tribodyn.scenario.modification_rules import Face, broken_slice_rules
+from tribodyn.scenario.quantity import Count, NotNegative, Quantity, Reference, Switch, Table, Text, written
+from tribodyn.studies.load_contact.case import LoadContactCase
+
+Load = Annotated[float, Quantity(units.positive(units.TORQUE))]
+
+
+class LoadContactOperating(Table):
+    """The load, against the gear's motion."""
+
+    gear_torque: Load
+    gear_torques: tuple[Load, ...] = Field((), description="of the Harris map, in increasing order")
+
+
+class LoadContactMesh(Table):
+    """Slices of the face, friction, and how the axes stand."""
+
+    slices: Slices | None = Field(
+        None, description="of the face; default: 21 where anything varies along it, else 1"
+    )
+    slice_coupling: Switch = Field(True, description="slices of one tooth hold each other")
+    friction_coefficient: NotNegative = Field(0.0, description="of all pairs")
+    misalignment: MisalignmentTable = written({})
+
+
+class LoadContactOutput(Table):
+    """What is recorded."""
+
+    positions_per_cycle: Annotated[int, Field(strict=True, ge=8)] = 60
+    cycles: Count = Field(1, description="mesh cycles; more than one where teeth differ")
+
+
+class LoadContactScenario(Table):
+    """A scenario file of a load contact study."""
+
+    title: Text = Field(description="what it shows, in a line")
+    name: Name | None = Field(None, description="names the record; default: the file's own name")
+    kind: Literal["load-contact"]
+    drive: Annotated[DriveTable, Reference("name of a file in models/drives, or a path")]
+    operating: LoadContactOperating
+    mesh: LoadContactMesh = written({})
+    output: LoadContactOutput = written({})
+
+
+def broken_load_contact_rules(scenario: LoadContactScenario) -> Iterator[InputError]:
+    """Go through the rules that tie keys of such a scenario together."""
+    mesh = scenario.mesh
+    yield from broken_slice_rules(Face(scenario.drive, mesh.misalignment, mesh.slices, mesh.slice_coupling))
+    torques = scenario.operating.gear_torques
+    if len(torques) == 1:
+        rule = "a single torque makes no map"
+        yield InputError("operating.gear_torques", f"{torques[0]:g} N*m", rule, "give at least two")
+    for number, (one, next_one) in enumerate(pairwise(torques), start=1):
+        if next_one <= one:
+            yield InputError(
+                f"operating.gear_torques.{number}",
+                f"{next_one:g} N*m",
+                f"not greater than the {one:g} N*m before it",
+                "give the torques in increasing order",
+            )
+            break
+
+
+def load_contact_case_of(scenario: LoadContactScenario, toml: str, sha256: str) -> LoadContactCase:
+    """Return the case of a scenario that has passed schema and rules."""
+    drive, mesh = scenario.drive, scenario.mesh
+    modifications = modifications_of(drive, mesh.misalignment)
+    return LoadContactCase(
+        title=scenario.title,
+        name=scenario.name or "scenario",
+        kind=scenario.kind,
+        toml=toml,
+        sha256=sha256,
+        family=drive.family,
+        drive=drive_of(drive),
+        materials=materials_of(drive),
+        gear_torque=scenario.operating.gear_torque,
+        gear_torques=scenario.operating.gear_torques,
+        friction_coefficient=mesh.friction_coefficient,
+        modifications=modifications,
+        slices=slices_of(mesh.slices, modifications),
+        slice_coupling=mesh.slice_coupling,
+        positions_per_cycle=scenario.output.positions_per_cycle,
+        cycles=scenario.output.cycles,
+    )

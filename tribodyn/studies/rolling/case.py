@@ -1,0 +1,39 @@
+"""A case of the gear with rolling elements: everything one run needs to know, in SI units."""
+
+from dataclasses import dataclass
+
+from tribodyn.studies.rolling.engagement import Mode, RollingFriction
+from tribodyn.studies.rolling.geometry import RollingDrive
+
+
+@dataclass(frozen=True)
+class RollingCase:
+    """One run of a gear with rolling elements, complete.
+
+    Parameters
+    ----------
+    title, name, kind, toml, sha256 : str
+        As in `tribodyn.studies.gear_pair.case.Case`; `kind` is "irefc".
+    mode : {"corrected", "as_published"}
+        Motion in time with corrected speeds, or the paper's single position with its printed formulas.
+    drive : RollingDrive
+    input_power : float
+        Power of the shaft, W.
+    input_speed : float
+        Speed of the shaft, rad/s.
+    friction : RollingFriction
+    samples_per_cycle : int
+        Samples while an element takes its neighbour's place: a cycle, of which a revolution has Z2 + 1.
+    """
+
+    title: str
+    name: str
+    kind: str
+    toml: str
+    sha256: str
+    mode: Mode
+    drive: RollingDrive
+    input_power: float
+    input_speed: float
+    friction: RollingFriction
+    samples_per_cycle: int = 40

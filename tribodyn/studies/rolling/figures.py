@@ -1,0 +1,266 @@
+"""Figures of the gear with rolling elements: loads, slip and losses of its elements, and the gear itself."""
+
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import MaxNLocator
+
+from tribodyn.errors import InputError
+from tribodyn.post.figures.panel import View, abscissa_label, record_label, record_title
+from tribodyn.post.style import PALETTE, PANEL_HEIGHT, QUIET, WIDTH, mark_panel, new_figure
+from tribodyn.record.reader import Record
+from tribodyn.studies.rolling.gear_picture import draw_gear
+
+#: Figures of every such record, and those that need more than the paper's single position.
+OF_A_POSITION = ("elements", "element-angle", "gear")
+OVER_TIME = ("normal-load", "efficiency")
+NAMES = (*OF_A_POSITION, *OVER_TIME)
+
+
+class Curve(NamedTuple):
+    """Quantities of elements in the order of an abscissa: element number, or angle φ in degrees."""
+
+    x: np.ndarray
+    load: np.ndarray
+    slip: np.ndarray
+    cam: np.ndarray
+    crown: np.ndarray
+    cumulative: np.ndarray
+
+
+def names(records: Sequence[Record]) -> tuple[str, ...]:
+    """Names of the figures that these records hold enough for."""
+    return NAMES if all(record.samples > 1 for record in records) else OF_A_POSITION
+
+
+def figure(name: str, records: Sequence[Record], view: View) -> Figure:
+    """Draw the figure `name` of `NAMES`, or the overview of the first record."""
+    for record in records:
+        if record.samples < 1:
+            raise InputError("record", str(record.path), "holds no samples to draw", "run the scenario again")
+        if record.samples < 2 and name in OVER_TIME:
+            raise InputError(
+                "plot", name, f"{record.path} holds a single position", f"draw {', '.join(OF_A_POSITION)}"
+            )
+    if name == "overview":
+        return _overview(records[0], view)
+    if name == "gear":
+        return _gears(records)
+    if name in OVER_TIME:
+        return _over_time(records, view, _draw_loads if name == "normal-load" else _draw_efficiency)
+    return _four_panels(records, by_number if name == "elements" else by_angle)
+
+
+def by_number(record: Record) -> Curve:
+    """Take the elements in the loaded half at the start, by number; losses add up from the first."""
+    angle = record["element_angle"][0]
+    half = angle <= np.pi * (1 + 1e-12)
+    cam, crown = (record[name][0][half] for name in ("power_cam", "power_crown"))
+    return Curve(
+        np.array(record.elements)[half],
+        record["normal_load"][0][half],
+        record["slip_speed"][0][half],
+        cam,
+        crown,
+        np.cumsum(cam + crown),
+    )
+
+
+def by_angle(record: Record) -> Curve:
+    """Take what one element meets on its way through the loaded half, by angle; in a position, all elements.
+
+    Losses are integrated over the angle and divided by the pitch of the elements, which adds up to the mean
+    loss of all elements.
+    """
+    # an element goes round in the gear's revolution and a little less; every element meets the same
+    path = (slice(None), 0) if record.samples > 1 else (0, slice(None))
+    angle = record["element_angle"][path]
+    order = np.argsort(angle)
+    order = order[angle[order] <= np.pi * (1 + 1e-12)]
+    phi = angle[order]
+    load, slip, cam, crown = (
+        record[name][path][order] for name in ("normal_load", "slip_speed", "power_cam", "power_crown")
+    )
+    loss = cam + crown
+    pieces = np.diff(phi) * (loss[1:] + loss[:-1]) / 2
+    drive = record.scenario["drive"]
+    cumulative = np.concatenate([[0.0], np.cumsum(pieces)]) * drive["elements"] / (2 * np.pi)
+    return Curve(np.degrees(phi), load, slip, cam, crown, cumulative)
+
+
+def _four_panels(records: Sequence[Record], curves: Callable[[Record], Curve]) -> Figure:
+    drawn = new_figure(WIDTH, 2 * PANEL_HEIGHT + 0.4)
+    panels = drawn.subplots(2, 2, sharex=True).ravel()
+    for number, record in enumerate(records):
+        draw_curve(panels, curves(record), PALETTE[number % len(PALETTE)], curves is by_number)
+    for letter, axes in zip("abcd", panels, strict=True):
+        mark_panel(axes, letter)
+    _from_zero(panels)
+    _label_abscissa(panels[2:], curves is by_number)
+    drawn.align_ylabels()
+    _finish(drawn, records, [("cam", "-"), ("crown", "--")])
+    return drawn
+
+
+def draw_curve(panels: Sequence[Axes], curve: Curve, color: str, marked: bool) -> None:
+    """Draw load, slip, losses and cumulative loss into four axes; points of single elements are `marked`."""
+    marker = "o" if marked else ""
+    style: dict[str, Any] = {"color": color, "marker": marker, "markersize": 3, "clip_on": not marked}
+    load, slip, losses, cumulative = panels
+    load.plot(curve.x, curve.load, **style)
+    load.set_ylabel("Normal load (N)")
+    slip.plot(curve.x, curve.slip * 1e3, **style)
+    slip.set_ylabel("Slip over the cam (mm/s)")
+    losses.plot(curve.x, curve.cam, **style)
+    losses.plot(curve.x, curve.crown, linestyle="--", **style)
+    losses.set_ylabel("Loss of an element (W)")
+    cumulative.plot(curve.x, curve.cumulative, **style)
+    cumulative.set_ylabel("Cumulative loss (W)")
+
+
+def _from_zero(panels: Sequence[Axes]) -> None:
+    """Start loads and losses at zero, when all curves are drawn: it would stop the axes from growing."""
+    for axes in (panels[0], *panels[2:]):
+        axes.set_ylim(bottom=0)
+
+
+def _label_abscissa(row: Sequence[Axes], by_element: bool) -> None:
+    """Label the horizontal axes, when all curves are drawn."""
+    for axes in row:
+        if by_element:
+            axes.set_xlabel("Element, from the cam's depression")
+            axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+            axes.set_xlim(axes.dataLim.x0 - 0.5, axes.dataLim.x1 + 0.5)
+        else:
+            axes.set_xlabel("Angle φ of the element (°)")
+            axes.set_xticks(range(0, 181, 30))
+
+
+def _cycles(record: Record, view: View) -> tuple[slice, np.ndarray]:
+    """Samples of the last whole cycles, and their phase or time in ms."""
+    length = int(record.scenario["output"]["samples_per_cycle"])
+    whole = (record.samples - 1) // length
+    count = whole if view.cycles is None else min(whole, view.cycles)
+    stop = whole * length + 1 if whole else record.samples
+    part = slice(stop - 1 - count * length if count else 0, stop)
+    if view.against == "time":
+        return part, record["time"][part] * 1e3
+    return part, np.arange(part.stop - part.start) / length
+
+
+def _over_time(
+    records: Sequence[Record], view: View, draw: Callable[[Sequence[Axes], Sequence[Record], View], None]
+) -> Figure:
+    drawn = new_figure(WIDTH, 2 * PANEL_HEIGHT + 0.4)
+    panels = drawn.subplots(2, 1, sharex=True)
+    draw(panels, records, view)
+    panels[1].set_xlabel(abscissa_label(view))
+    for letter, axes in zip("ab", panels, strict=True):
+        mark_panel(axes, letter)
+    drawn.align_ylabels()
+    if len(records) == 1:
+        drawn.suptitle(_title(records[0]), x=0.01, ha="left", fontsize=9)
+    else:
+        _finish(drawn, records, [])
+    return drawn
+
+
+def _draw_loads(panels: Sequence[Axes], records: Sequence[Record], view: View) -> None:
+    """Draw the load of each element, one element drawn heavier, and the number of loaded elements."""
+    for number, record in enumerate(records):
+        part, x = _cycles(record, view)
+        load = record["normal_load"][part]
+        color = PALETTE[number % len(PALETTE)]
+        draw_loads(panels[0], x, load, color)
+        loaded = np.sum(load > 1e-9 * load.max(), axis=1)
+        panels[1].step(x, loaded, color=color, where="mid")
+    panels[0].set_ylabel("Normal load of each element (N)")
+    panels[0].set_ylim(bottom=0)
+    panels[1].set_ylabel("Loaded elements")
+    panels[1].yaxis.set_major_locator(MaxNLocator(integer=True))
+    panels[1].set_ylim(bottom=0)
+
+
+def draw_loads(axes: Axes, x: np.ndarray, load: np.ndarray, color: str) -> None:
+    """Draw loads of all elements faintly and those of one that unloads in the window in full."""
+    axes.plot(x, load, color=color, linewidth=0.7, alpha=0.45)
+    leaving = int(np.argmax(load[0] - load[-1]))
+    axes.plot(x, load[:, leaving], color=color, linewidth=1.6)
+    middle = len(x) // 2
+    axes.annotate(
+        f"element {leaving + 1}",
+        (x[middle], load[middle, leaving]),
+        xytext=(6, 6),
+        textcoords="offset points",
+        color=color,
+        fontsize=7.5,
+    )
+
+
+def _draw_efficiency(panels: Sequence[Axes], records: Sequence[Record], view: View) -> None:
+    for number, record in enumerate(records):
+        part, x = _cycles(record, view)
+        color = PALETTE[number % len(PALETTE)]
+        panels[0].plot(x, record["power_friction"][part], color=color)
+        panels[1].plot(x, record["efficiency"][part] * 100, color=color)
+    panels[0].set_ylabel("Loss of all elements (W)")
+    panels[1].set_ylabel("Efficiency (%)")
+
+
+def _gears(records: Sequence[Record]) -> Figure:
+    columns = min(len(records), 2)
+    rows = -(-len(records) // columns)
+    side = 0.85 * WIDTH if columns == 1 else 0.65 * WIDTH
+    drawn = new_figure(side * columns, rows * (side + 0.3))
+    grid = drawn.subplots(rows, columns, squeeze=False).ravel()
+    for axes in grid[len(records) :]:
+        axes.remove()
+    for axes, record in zip(grid, records, strict=False):
+        draw_gear(axes, record)
+        axes.set_title(_title(record), loc="left", fontsize=9)
+    return drawn
+
+
+def _overview(record: Record, view: View) -> Figure:
+    drawn = new_figure(11.0, 6.2)
+    rows = drawn.subplots(2, 3)
+    draw_gear(rows[0, 0], record)
+    panels = [rows[0, 1], rows[0, 2], rows[1, 0], rows[1, 1]]
+    moving = record.samples > 1
+    draw_curve(panels, by_angle(record), PALETTE[0], marked=not moving)
+    _from_zero(panels)
+    _label_abscissa(panels, by_element=False)
+    panels[2].legend(["cam", "crown"])
+    if moving:
+        part, x = _cycles(record, view)
+        draw_loads(rows[1, 2], x, record["normal_load"][part], PALETTE[0])
+        rows[1, 2].set_ylabel("Normal load of each element (N)")
+        rows[1, 2].set_xlabel(abscissa_label(view))
+        rows[1, 2].set_ylim(bottom=0)
+    else:
+        rows[1, 2].remove()
+    for letter, axes in zip("abcdef" if moving else "abcde", rows.flat, strict=False):
+        mark_panel(axes, letter)
+    drawn.suptitle(_title(record), x=0.01, ha="left", fontsize=11)
+    return drawn
+
+
+def _title(record: Record) -> str:
+    """Tell what the record is about and in which mode it was made."""
+    title, mode = record_title(record), str(record.scenario.get("mode", "corrected")).replace("_", " ")
+    return title if mode in title else f"{title} ({mode})"
+
+
+def _finish(drawn: Figure, records: Sequence[Record], lines: Sequence[tuple[str, Any]]) -> None:
+    handles = [Line2D([], [], color=QUIET, linestyle=style) for _, style in lines]
+    labels = [name for name, _ in lines]
+    if len(records) > 1:
+        handles = [Line2D([], [], color=PALETTE[i % len(PALETTE)]) for i in range(len(records))] + handles
+        labels = [*map(record_label, records), *labels]
+    else:
+        drawn.suptitle(_title(records[0]), x=0.01, ha="left", fontsize=9)
+    drawn.legend(handles, labels, loc="outside lower center", ncols=min(4, len(labels)), handlelength=2.6)

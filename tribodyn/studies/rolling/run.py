@@ -1,0 +1,202 @@
+"""From a case of the gear with rolling elements to its record."""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from tribodyn.errors import InputError
+from tribodyn.studies.rolling.case import RollingCase
+from tribodyn.studies.rolling.checks import check
+from tribodyn.studies.rolling.engagement import (
+    Engagement,
+    element_angles,
+    engage,
+    pattern_period,
+    published_angles,
+)
+from tribodyn.studies.rolling.geometry import Array, cam_outline, crown_outline
+
+#: Share of the greatest load below which an element counts as unloaded.
+UNLOADED = 1e-9
+
+
+def prepare(case: RollingCase) -> Engagement:
+    """Check the gear and resolve one cycle: an element takes its neighbour's place.
+
+    Raises
+    ------
+    InputError
+        Where the gear cannot be made, or its friction would take all the power and lock it.
+    """
+    check(case.drive)
+    cycle = _engage(case, _shaft_angles(case)[: case.samples_per_cycle])
+    _refuse_locking(case, cycle)
+    return cycle
+
+
+def run(
+    case: RollingCase,
+    output: str | Path | None = None,
+    force: bool = False,
+    progress: Callable[[float], None] | None = None,
+) -> tuple[Path, dict[str, Any]]:
+    """Run a case over one revolution of the shaft and write its record.
+
+    Parameters and errors as those of `gear_pair.run.run`; returns the record's path and its summary.
+    """
+    from tribodyn.record.schema import ROLLING
+    from tribodyn.record.writer import RecordWriter, check_target
+
+    path = Path(output) if output is not None else Path(f"{case.name}.h5")
+    check_target(path, force)
+    first = prepare(case)
+    angles = _shaft_angles(case)
+    figures = _Figures()
+    begun = perf_counter()
+    with RecordWriter(
+        path,
+        scenario_toml=case.toml,
+        sha256=case.sha256,
+        samples=len(angles),
+        geometry=geometry_arrays(case),
+        force=force,
+        kind=ROLLING,
+        scales={"element": np.arange(1, first.element_angle.shape[-1] + 1)},
+    ) as record:
+        for start, part in _blocks(angles, case.samples_per_cycle):
+            state = _engage(case, part)
+            record.write(start, _datasets(case, part, state))
+            # of a whole revolution the last sample is the first one again
+            figures.add(state, whole=start + len(part) < len(angles) or len(angles) == 1)
+            if progress:
+                progress((start + len(part)) / len(angles))
+        summary = figures.summary(case) | {"wall_time": perf_counter() - begun}
+        return record.finish(summary), summary
+
+
+def geometry_arrays(case: RollingCase) -> dict[str, Any]:
+    """Outlines and radii for a record's pictures, m."""
+    drive = case.drive
+    return {
+        "cam_outline": cam_outline(drive),
+        "crown_outline": crown_outline(drive),
+        "pitch_radius": drive.pitch_radius,
+        "centre_circle_radius": drive.displacement * drive.pitch_radius,
+        "element_radius": drive.element_radius,
+        "eccentricity": drive.eccentricity,
+        "cam_pitch_radius": drive.cam_pitch_radius,
+        "crown_pitch_radius": drive.crown_pitch_radius,
+    }
+
+
+def _shaft_angles(case: RollingCase) -> Array:
+    """Rotations of the shaft at the samples: one revolution, or the start alone in the paper's position."""
+    if case.mode == "as_published":
+        return np.zeros(1)
+    return np.linspace(0.0, 2.0 * np.pi, case.samples_per_cycle * (case.drive.elements + 1) + 1)
+
+
+def _engage(case: RollingCase, angles: Array) -> Engagement:
+    published = case.mode == "as_published"
+    elements = published_angles(case.drive) if published else element_angles(case.drive, angles)
+    return engage(case.drive, elements, case.input_power, case.input_speed, case.friction, case.mode)
+
+
+def _blocks(angles: Array, length: int) -> Iterator[tuple[int, Array]]:
+    for start in range(0, len(angles), length):
+        yield start, angles[start : start + length]
+
+
+def _datasets(case: RollingCase, angles: Array, state: Engagement) -> dict[str, Array]:
+    return {
+        "time": angles / case.input_speed,
+        "input_angle": angles,
+        **state._asdict(),
+        "power_friction": state.power_friction,
+    }
+
+
+def _refuse_locking(case: RollingCase, cycle: Engagement) -> None:
+    worst = int(np.argmin(cycle.power_out))
+    if cycle.power_out[worst] > 0.0:
+        return
+    rolling = 2.0 * float(np.sum(cycle.power_crown[worst]))
+    sliding = float(cycle.power_friction[worst]) - rolling
+    friction, power = case.friction, float(cycle.power_in[worst])
+    rule = f"friction takes {rolling + sliding:.4g} W of the {power:.4g} W put in: the gear locks"
+    if sliding < power:
+        limit = friction.rolling_arm * (power - sliding) / rolling
+        raise InputError(
+            "friction.rolling_arm",
+            f"{friction.rolling_arm * 1e3:g} mm",
+            rule,
+            f"use less than {limit * 1e3:.3g} mm",
+        )
+    limit = friction.sliding_coefficient * power / sliding
+    raise InputError(
+        "friction.sliding_coefficient", friction.sliding_coefficient, rule, f"use less than {limit:.3g}"
+    )
+
+
+class _Figures:
+    """Gathers what the summary tells, block by block."""
+
+    def __init__(self) -> None:
+        self.sums: dict[str, float] = {}
+        self.greatest: dict[str, float] = {}
+        self.count = 0
+        self.loaded: set[int] = set()
+        self.power_out: list[Array] = []
+        self.efficiency: list[Array] = []
+
+    def add(self, state: Engagement, whole: bool) -> None:
+        """Take in a block; without its last sample where that is the first one again."""
+        part = slice(None) if whole else slice(None, -1)
+        over_time = {
+            "power_in": state.power_in,
+            "power_out": state.power_out,
+            "power_friction": state.power_friction,
+            "power_cam": state.power_cam.sum(axis=-1),
+            "power_crown": state.power_crown.sum(axis=-1),
+        }
+        for name, values in over_time.items():
+            self.sums[name] = self.sums.get(name, 0.0) + float(np.sum(values[part]))
+        for name in ("normal_load", "slip_speed", "spin_speed"):
+            greatest = float(np.max(np.abs(getattr(state, name))))
+            self.greatest[name] = max(self.greatest.get(name, 0.0), greatest)
+        loads = state.normal_load
+        self.loaded |= {int(n) for n in np.sum(loads > UNLOADED * loads.max(), axis=-1)}
+        self.count += len(state.power_in[part])
+        self.power_out.append(state.power_out)
+        self.efficiency.append(state.efficiency)
+
+    def summary(self, case: RollingCase) -> dict[str, Any]:
+        """Return the figures of the run."""
+        mean = {name: total / self.count for name, total in self.sums.items()}
+        by_energy = mean["power_out"] / mean["power_in"]
+        torque = np.concatenate(self.power_out) * case.drive.ratio / case.input_speed
+        published = case.mode == "as_published"
+        return {
+            "mode": case.mode,
+            "ratio": case.drive.ratio,
+            "eccentricity": case.drive.eccentricity,
+            "mesh_frequency": 1.0 / pattern_period(case.drive, case.input_speed),
+            "elements_loaded_min": min(self.loaded),
+            "elements_loaded_max": max(self.loaded),
+            "normal_load_max": self.greatest["normal_load"],
+            "slip_speed_max": self.greatest["slip_speed"],
+            "spin_speed_max": self.greatest["spin_speed"],
+            "output_torque_mean": float(np.mean(torque)),
+            "output_torque_peak_to_peak": float(np.ptp(torque)),
+            "power_in_mean": mean["power_in"],
+            "power_friction_mean": mean["power_friction"],
+            "power_cam_mean": mean["power_cam"],
+            "power_crown_mean": mean["power_crown"],
+            "efficiency": float(self.efficiency[0][0]) if published else by_energy,
+            "efficiency_by_energy": by_energy,
+            "energy_residual": (mean["power_in"] - mean["power_out"] - mean["power_friction"])
+            / mean["power_in"],
+        }

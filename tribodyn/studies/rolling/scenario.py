@@ -1,0 +1,83 @@
+"""The tables of a scenario of ``kind = "irefc"``: a gear with rolling elements and a free cage."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from tribodyn.scenario import units
+from tribodyn.scenario.common import Name
+from tribodyn.scenario.model_files import Described, Length
+from tribodyn.scenario.quantity import NotNegative, Positive, Quantity, Reference, Table, Text, written
+from tribodyn.studies.rolling.case import RollingCase
+from tribodyn.studies.rolling.engagement import RollingFriction
+from tribodyn.studies.rolling.geometry import RollingDrive
+
+
+class RollingDriveTable(Described):
+    """A gear with rolling elements (`models/drives/`)."""
+
+    pitch_radius: Length = Field(description='r_2, of the cage\'s pitch circle, the "generating circle"')
+    elements: Annotated[int, Field(strict=True, gt=0, le=200)] = Field(
+        description="Z_2, number of rolling elements"
+    )
+    displacement: Positive = Field(
+        description="χ, radius of the circle of the elements' centres over pitch_radius"
+    )
+    element_radius: Length = Field(description="r_b")
+
+
+class RollingOperating(Table):
+    """How the shaft is driven."""
+
+    input_power: Annotated[float, Quantity(units.positive(units.POWER))]
+    input_speed: Annotated[float, Quantity(units.positive(units.ANGULAR_SPEED))]
+
+
+class RollingFrictionTable(Table):
+    """Friction between the elements and both profiles."""
+
+    rolling_arm: Annotated[float, Quantity(units.not_negative(units.LENGTH))] = Field(
+        description="μ, lever arm of rolling resistance"
+    )
+    sliding_coefficient: NotNegative = Field(description="f_s, of the slip over the cam")
+
+
+class RollingOutput(Table):
+    """What is recorded: one revolution of the shaft."""
+
+    samples_per_cycle: Annotated[int, Field(strict=True, ge=8)] = Field(
+        40, description="while an element takes its neighbour's place"
+    )
+
+
+class RollingScenario(Table):
+    """A scenario file of a gear with rolling elements."""
+
+    title: Text = Field(description="what it shows, in a line")
+    name: Name | None = Field(None, description="names the record; default: the file's own name")
+    kind: Literal["irefc"]
+    mode: Literal["corrected", "as_published"] = Field(
+        "corrected", description="motion in time, or the paper's position with its printed formulas"
+    )
+    drive: Annotated[RollingDriveTable, Reference("name of a file in models/drives, or a path")]
+    operating: RollingOperating
+    friction: RollingFrictionTable
+    output: RollingOutput = written({})
+
+
+def rolling_case_of(scenario: RollingScenario, toml: str, sha256: str) -> RollingCase:
+    """Return the case of a scenario that has passed the schema."""
+    drive = scenario.drive
+    return RollingCase(
+        title=scenario.title,
+        name=scenario.name or "scenario",
+        kind=scenario.kind,
+        toml=toml,
+        sha256=sha256,
+        mode=scenario.mode,
+        drive=RollingDrive(drive.pitch_radius, drive.elements, drive.displacement, drive.element_radius),
+        input_power=scenario.operating.input_power,
+        input_speed=scenario.operating.input_speed,
+        friction=RollingFriction(scenario.friction.rolling_arm, scenario.friction.sliding_coefficient),
+        samples_per_cycle=scenario.output.samples_per_cycle,
+    )
