@@ -9,6 +9,7 @@ import numpy as np
 
 from tribodyn.dynamics.equations import derivatives, engagement
 from tribodyn.dynamics.parameters import SLIP, STATES, WORK_IN, WORK_PARAMETRIC, XI_RATE
+from tribodyn.kernels.lanes import functions  # noqa: F401  (its import gives the laws their functions over lanes)
 from tribodyn.kernels.lanes.arrays import rows_of
 from tribodyn.kernels.lanes.vectors import WIDTH, any_of
 from tribodyn.kernels.native import kernel

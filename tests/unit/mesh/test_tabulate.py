@@ -180,8 +180,8 @@ def test_back_flanks_are_the_mirror_image(family):
 def test_no_jax_in_a_plain_run():
     code = (
         "import math, sys\n"
-        "from tribodyn.studies.gear_pair.case import MaterialData, MeshData\n"
-        "from tribodyn.geometry import crc\n"
+        "from tribodyn.geometry.material import MaterialData\nfrom tribodyn.mesh.data import MeshData\n"
+        "from tribodyn.geometry.families import crc\n"
         "from tribodyn.geometry.drive import Drive, GearBody\n"
         "from tribodyn.mesh.tabulate import tabulate\n"
         "steel = MaterialData('steel', 206e9, 0.3, 7850.0, 46.0, 470.0, 6e9)\n"

@@ -13,6 +13,7 @@ from numba.core.typing.templates import AbstractTemplate, infer_global, signatur
 from numba.extending import lower_builtin
 
 import tribodyn
+from tribodyn.dynamics import equations  # noqa: F401  (the import of both registers every law)
 from tribodyn.kernels.native.compiler import part, part_instead
 from tribodyn.numerics import elementary
 from tribodyn.solve import dormand_prince, rosenbrock  # noqa: F401
