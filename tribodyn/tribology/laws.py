@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from tribodyn.errors import require_known
+from tribodyn.errors import unknown_name
 from tribodyn.tribology.friction import BENEDICT_KELLEY, COULOMB, MASJEDI_KHONSARI, NONE, XU
 from tribodyn.tribology.mean_friction import MeanConditions, iso_14179_1, niemann
 
@@ -91,5 +91,6 @@ FRICTION_LAWS = {
 
 def friction_law(name: str) -> FrictionLaw:
     """Return what a friction law's name stands for."""
-    require_known("friction.law", name, FRICTION_LAWS, "friction law")
+    if name not in FRICTION_LAWS:
+        raise unknown_name("friction.law", name, FRICTION_LAWS, "friction law")
     return FRICTION_LAWS[name]

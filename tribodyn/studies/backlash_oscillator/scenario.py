@@ -75,7 +75,7 @@ class OscillatorSolver(Table):
     )
 
 
-class BacklashOscillatorScenario(Table):
+class Scenario(Table):
     """A scenario file of the oscillator with backlash; lengths in half backlashes, times in 1/ω_n."""
 
     title: Text = Field(description="what it shows, in a line")
@@ -93,9 +93,7 @@ class BacklashOscillatorScenario(Table):
     solver: OscillatorSolver = written({})
 
 
-def backlash_oscillator_case_of(
-    scenario: BacklashOscillatorScenario, toml: str, sha256: str
-) -> BacklashOscillatorCase:
+def case_of(scenario: Scenario, toml: str, sha256: str) -> BacklashOscillatorCase:
     """Return the case of a scenario that has passed the schema."""
     given = scenario.frequency
     return BacklashOscillatorCase(

@@ -7,6 +7,7 @@ from tribodyn.dynamics.data import OperatingData
 from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.material import MaterialData
 from tribodyn.mesh.data import MeshData
+from tribodyn.studies.study import CaseHead
 from tribodyn.tribology.data import FrictionData, LubricantData
 
 if TYPE_CHECKING:  # the study's array code, and SciPy with it, is for the run
@@ -14,7 +15,7 @@ if TYPE_CHECKING:  # the study's array code, and SciPy with it, is for the run
 
 
 @dataclass(frozen=True)
-class EfficiencyCase:
+class EfficiencyCase(CaseHead):
     """One efficiency study, complete.
 
     Parameters
@@ -31,11 +32,6 @@ class EfficiencyCase:
         Samples over the one mesh cycle recorded.
     """
 
-    title: str
-    name: str
-    kind: str
-    toml: str
-    sha256: str
     family: str
     drive: Drive
     materials: tuple[MaterialData, MaterialData]

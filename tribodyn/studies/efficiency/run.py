@@ -1,6 +1,6 @@
 """From a case of the efficiency study to its record: one mesh cycle, quasi-static."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from time import perf_counter
 from types import MappingProxyType
@@ -10,9 +10,11 @@ import numpy as np
 
 from tribodyn.compliance.load_sharing import effective_contact_ratio
 from tribodyn.compliance.loaded_flanks import LoadedFlanks
+from tribodyn.dynamics.recorded import scales_of
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
+from tribodyn.geometry.outlines import geometry_arrays
 from tribodyn.geometry.path import Path as PathOfContact
 from tribodyn.mesh.cycle import MeshCycle, as_arrays
 from tribodyn.studies.efficiency.along_path import CycleEfficiency, Duty, Engagement, cycle_efficiency, engage
@@ -21,10 +23,13 @@ from tribodyn.studies.efficiency.loss_factor import exact, hoehn, tip_contact_ra
 from tribodyn.studies.efficiency.places import SHARINGS, Places, Sharing, places
 from tribodyn.studies.efficiency.quadrature import Array
 from tribodyn.studies.efficiency.torque_ratio import path_contact, torque_ratio
+from tribodyn.studies.gears import LAYOUT
+from tribodyn.studies.recording import target, writer
+from tribodyn.studies.study import Progress, RunResult
 from tribodyn.tribology.surfaces import contact_of
 
 
-class Study(NamedTuple):
+class Prepared(NamedTuple):
     """A case made ready: the table of the mesh, the path it was made from, and what the mesh has to do.
 
     `flanks` are those of the load contact model that shares the load, where the scenario asks for it.
@@ -37,7 +42,7 @@ class Study(NamedTuple):
     flanks: LoadedFlanks | None = None
 
 
-def prepare(case: EfficiencyCase) -> Study:
+def prepare(case: EfficiencyCase) -> Prepared:
     """Check the geometry and tabulate the mesh.
 
     Raises
@@ -65,51 +70,52 @@ def prepare(case: EfficiencyCase) -> Study:
         contact_of(case),
         case.load_sharing,
     )
-    return Study(case, cycle, teeth.working_path(case.drive), duty, flanks)
+    return Prepared(case, cycle, teeth.working_path(case.drive), duty, flanks)
 
 
 def run(
     case: EfficiencyCase,
     output: str | Path | None = None,
+    *,
     force: bool = False,
-    progress: Callable[[float], None] | None = None,
-) -> tuple[Path, dict[str, Any]]:
-    """Run a case over one mesh cycle and write its record.
+    progress: Progress | None = None,
+) -> RunResult:
+    """Run a case and write its record; see `study.Prepared.run`.
 
-    Parameters and errors as those of `gear_pair.run.run`; returns the record's path and its summary.
+    It covers one mesh cycle.
     """
-    from tribodyn.geometry.outlines import geometry_arrays
-    from tribodyn.record.writer import RecordWriter, check_target
-
-    path = Path(output) if output is not None else Path(f"{case.name}.h5")
-    check_target(path, force)
+    path = target(case, output, force)
     begun = perf_counter()
     study = prepare(case)
     mesh, state, samples = _sampled(study)
     summary = _figures(study, mesh, state) | {"wall_time": perf_counter() - begun}
-    with RecordWriter(
-        path,
-        scenario_toml=case.toml,
-        sha256=case.sha256,
-        samples=len(samples),
-        mesh_cycle=as_arrays(study.cycle),
-        geometry=geometry_arrays(family(case.family), case.drive),
-        force=force,
-    ) as record:
+    groups = {
+        "mesh_cycle": as_arrays(study.cycle),
+        "geometry": geometry_arrays(family(case.family), case.drive),
+    }
+    scales = scales_of(study.cycle.side)
+    with writer(case, path, LAYOUT, len(samples), groups=groups, scales=scales, force=force) as record:
         record.write(0, _record_arrays(mesh, state, study.duty))
         if progress:
             progress(1.0)
-        return record.finish(summary), summary
+        return RunResult(record.finish(summary), "complete", "", summary)
 
 
-def _sampled(study: Study) -> tuple[Places, Engagement, np.ndarray]:
+def figures(case: EfficiencyCase) -> dict[str, Any]:
+    """Figures of a case without a record."""
+    study = prepare(case)
+    mesh, state, _ = _sampled(study)
+    return _figures(study, mesh, state)
+
+
+def _sampled(study: Prepared) -> tuple[Places, Engagement, np.ndarray]:
     phase = np.linspace(0.0, 1.0, study.case.samples_per_cycle + 1)
     mesh = places(study.cycle, study.path, phase, study.duty.sharing, study.flanks)
     return mesh, engage(mesh, study.duty), phase
 
 
 def efficiencies(
-    study: Study, known: Mapping[Sharing, CycleEfficiency] = MappingProxyType({})
+    study: Prepared, known: Mapping[Sharing, CycleEfficiency] = MappingProxyType({})
 ) -> dict[str, float]:
     """Cycle efficiency under every load sharing, by the torque ratio, and of an involute by Höhn's formula.
 
@@ -138,7 +144,7 @@ def efficiencies(
     return found | _by_loss_factor(study)
 
 
-def _by_loss_factor(study: Study) -> dict[str, float]:
+def _by_loss_factor(study: Prepared) -> dict[str, float]:
     from tribodyn.tribology.friction import COULOMB
 
     case, coefficient = study.case, study.duty.surfaces.coulomb_coefficient
@@ -162,7 +168,7 @@ def _effective_contact_ratio(mesh: Places, state: Engagement, duty: Duty) -> dic
     return {"contact_ratio_effective": effective_contact_ratio(roll, shared, float(mesh.cycle.pitch_angle))}
 
 
-def _figures(study: Study, mesh: Places, state: Engagement) -> dict[str, Any]:
+def _figures(study: Prepared, mesh: Places, state: Engagement) -> dict[str, Any]:
     cycle, duty = study.cycle, study.duty
     means = cycle_efficiency(cycle, study.path, duty, flanks=study.flanks)
     loaded = state.normal_load > 0

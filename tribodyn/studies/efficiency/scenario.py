@@ -1,12 +1,10 @@
 """The tables of a scenario of ``kind = "efficiency"``: loads, friction and losses without dynamics."""
 
-from collections.abc import Iterator
 from typing import Annotated, Literal
 
 from pydantic import Field
 
 from tribodyn.dynamics.data import OperatingData
-from tribodyn.errors import InputError
 from tribodyn.mesh.data import MeshData
 from tribodyn.scenario import units
 from tribodyn.scenario.common import Name, Slices
@@ -20,8 +18,15 @@ from tribodyn.scenario.drive_data import (
 )
 from tribodyn.scenario.model_files import DriveTable, Lubricant
 from tribodyn.scenario.modification import MisalignmentTable
-from tribodyn.scenario.modification_rules import Face, broken_face_rules
-from tribodyn.scenario.quantity import NotNegative, Quantity, Reference, Switch, Table, Text, written
+from tribodyn.scenario.quantity import (
+    NotNegative,
+    Quantity,
+    Switch,
+    Table,
+    Text,
+    model_file,
+    written,
+)
 from tribodyn.studies.efficiency.case import EfficiencyCase
 from tribodyn.tribology.data import FrictionData
 
@@ -68,35 +73,21 @@ class EfficiencyOutput(Table):
     samples_per_cycle: Annotated[int, Field(strict=True, ge=8)] = 200
 
 
-class EfficiencyScenario(Table):
+class Scenario(Table):
     """A scenario file of an efficiency study."""
 
     title: Text = Field(description="what it shows, in a line")
     name: Name | None = Field(None, description="names the record; default: the file's own name")
     kind: Literal["efficiency"]
-    drive: Annotated[DriveTable, Reference("name of a file in models/drives, or a path")]
-    lubricant: Annotated[Lubricant, Reference("name of a file in models/lubricants, or a path")]
+    drive: Annotated[DriveTable, model_file("drives")]
+    lubricant: Annotated[Lubricant, model_file("lubricants")]
     operating: EfficiencyOperating
     mesh: EfficiencyMesh = written({})
     friction: EfficiencyFriction
     output: EfficiencyOutput = written({})
 
 
-def broken_efficiency_rules(scenario: EfficiencyScenario) -> Iterator[InputError]:
-    """Go through the rules that the mesh and flanks of an efficiency study break."""
-    mesh = scenario.mesh
-    face = Face(scenario.drive, mesh.misalignment, mesh.slices, mesh.slice_coupling)
-    yield from broken_face_rules(face, mesh.compliance)
-    if mesh.hertz == "load-dependent" and mesh.compliance != "energy":
-        yield InputError(
-            "mesh.hertz",
-            '"load-dependent"',
-            f'contradicts compliance = "{mesh.compliance}", which contains the Hertz contact',
-            'leave hertz out, or write compliance = "energy"',
-        )
-
-
-def efficiency_case_of(scenario: EfficiencyScenario, toml: str, sha256: str) -> EfficiencyCase:
+def case_of(scenario: Scenario, toml: str, sha256: str) -> EfficiencyCase:
     """Return the case of a scenario that has passed schema and rules."""
     drive, mesh, operating = scenario.drive, scenario.mesh, scenario.operating
     modifications = modifications_of(drive, mesh.misalignment)

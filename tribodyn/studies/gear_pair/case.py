@@ -11,6 +11,7 @@ from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.material import BodyMass, MaterialData
 from tribodyn.mesh.data import MeshData
 from tribodyn.solve.data import SolverData
+from tribodyn.studies.study import CaseHead
 from tribodyn.tribology.data import FrictionData, LubricantData
 
 
@@ -22,7 +23,7 @@ class OutputData:
 
 
 @dataclass(frozen=True)
-class Case:
+class Case(CaseHead):
     """One simulation, complete.
 
     Parameters
@@ -54,11 +55,6 @@ class Case:
         See the classes.
     """
 
-    title: str
-    name: str
-    kind: str
-    toml: str
-    sha256: str
     family: str
     drive: Drive
     materials: tuple[MaterialData, MaterialData]
