@@ -14,6 +14,7 @@ class What(StrEnum):
     scenarios = "scenarios"
     models = "models"
     laws = "laws"
+    film_laws = "film-laws"
     families = "families"
     solvers = "solvers"
     plots = "plots"
@@ -52,6 +53,8 @@ def _about(what: What) -> dict[str, str]:
             }
         case What.laws:
             return {name: law.about for name, law in load.FRICTION_LAWS.items()}
+        case What.film_laws:
+            return {name: law.about for name, law in load.FILM_LAWS.items()}
         case What.families:
             return {name: one.about for name, one in load.FAMILIES.items()}
         case What.solvers:

@@ -82,7 +82,7 @@ def write_summary(file: h5py.File, summary: Mapping[str, Any], prefix: str = "")
 
 def encode(name: str, values: Any) -> np.ndarray:
     """Turn `values` into the numbers that the file holds."""
-    if name != "closure_in_range":
+    if name not in schema.FLAGS:
         return np.ascontiguousarray(values, dtype="<f8")
     values = np.asarray(values)
     if values.dtype.kind == "f":
@@ -108,13 +108,13 @@ def write_head(file: h5py.File, kind: str, scenario: str, sha256: str, created: 
 
 def _empty(file: h5py.File, name: str, variable: Variable, shape: tuple[int, ...]) -> h5py.Dataset:
     """Create the dataset of a run, filled with what stands for "nothing written"."""
-    flag = name == "closure_in_range"
+    flag = name in schema.FLAGS
     count = name == "samples_written"
     kind, fill = ("i1", schema.NO_CONTACT) if flag else ("<i8", 0) if count else ("<f8", np.nan)
     dataset = reserve(file, name, variable, shape, kind, fill)
     if flag:
         dataset.attrs["flag_values"] = np.array([-1, 0, 1], dtype="i1")
-        dataset.attrs["flag_meanings"] = "out_of_contact out_of_range in_range"
+        dataset.attrs["flag_meanings"] = "out_of_contact_or_none_stated out_of_range in_range"
     return dataset
 
 

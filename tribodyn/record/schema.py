@@ -26,8 +26,10 @@ STATUS_NOTES = {
 
 DOF = ("x_p", "y_p", "x_g", "y_g", "theta_p", "theta_g")
 
-#: `closure_in_range` where there is no contact to speak of, or nothing was written yet.
+#: Flags of range where there is no contact to speak of, or nothing was written yet.
 NO_CONTACT = -1
+#: Datasets that are flags of range: small integers in the file.
+FLAGS = ("closure_in_range", "friction_in_range")
 
 
 #: Datasets that every record of this version holds; others may be missing in one of an earlier release.
@@ -92,7 +94,10 @@ SAMPLES: dict[str, Variable] = {
     ),
     "mesh_stiffness": Variable(("time", "pair"), "N/m", "stiffness of the pair along its normal"),
     "closure_in_range": Variable(
-        ("time", "pair"), "1", "film regression inside its fitted range: 1 yes, 0 no, -1 out of contact"
+        ("time", "pair"), "1", "film law inside its range: 1 yes, 0 no, -1 out of contact or none stated"
+    ),
+    "friction_in_range": Variable(
+        ("time", "pair"), "1", "friction law inside its range: 1 yes, 0 no, -1 out of contact or none stated"
     ),
     "drive_torque": Variable(
         ("time",), "N*m", "torque of the drive: on the pinion, with a compliant shaft on its motor side"

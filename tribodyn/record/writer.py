@@ -171,7 +171,7 @@ class RecordWriter:
         block : dict
             Arrays (samples of the block, …) in SI units for any of the record's datasets along `time` (or
             the axis that takes its place), itself included; one that no block names stays NaN.
-            `closure_in_range` takes booleans, −1 or NaN standing for "out of contact".
+            `schema.FLAGS` take booleans or floats, −1 or NaN standing for "out of contact, or none stated".
 
         Raises
         ------

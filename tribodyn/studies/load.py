@@ -13,6 +13,7 @@ from pydantic import Field, TypeAdapter, ValidationError
 from tribodyn.errors import InputError, InputErrors, require_known
 from tribodyn.geometry.families import FAMILIES, family
 from tribodyn.scenario.drive_rules import broken_drive_rules
+from tribodyn.scenario.law_tables import FilmTable, add_law_schema, law_errors
 from tribodyn.scenario.messages import Origins, explain
 from tribodyn.scenario.resolve import Resolved, resolve, unresolved_keys
 from tribodyn.scenario.shape import shape_errors
@@ -25,13 +26,14 @@ from tribodyn.studies.backlash_oscillator.scenario import (
 )
 from tribodyn.studies.efficiency.case import EfficiencyCase
 from tribodyn.studies.efficiency.scenario import (
+    EfficiencyFriction,
     EfficiencyScenario,
     broken_efficiency_rules,
     efficiency_case_of,
 )
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.rules import broken_rules
-from tribodyn.studies.gear_pair.scenario import Scenario, case_of
+from tribodyn.studies.gear_pair.scenario import Friction, Scenario, case_of
 from tribodyn.studies.kinds import KINDS, table_of
 from tribodyn.studies.load_contact.case import LoadContactCase
 from tribodyn.studies.load_contact.scenario import (
@@ -41,7 +43,8 @@ from tribodyn.studies.load_contact.scenario import (
 )
 from tribodyn.studies.rolling.case import RollingCase
 from tribodyn.studies.rolling.scenario import RollingScenario, rolling_case_of
-from tribodyn.tribology.laws import FRICTION_LAWS, friction_law
+from tribodyn.tribology.film import FILM_LAWS
+from tribodyn.tribology.friction import FRICTION_LAWS
 
 if TYPE_CHECKING:
     pass
@@ -125,7 +128,9 @@ def loaded_from(resolved: Resolved, path: Path) -> Loaded:
     if isinstance(table, BacklashOscillatorScenario):
         return Loaded(backlash_oscillator_case_of(table, toml, digest), path, origins)
     assert isinstance(table, OfGears)
-    errors = _broken(table) + _unknown_names(table) + _coefficient(table)
+    errors = _broken(table) + _unknown_names(table)
+    if not isinstance(table, LoadContactScenario):
+        errors += law_errors(table)
     if table.drive.family in FAMILIES:
         errors += shape_errors(table.drive, family(table.drive.family))
     if errors:
@@ -157,8 +162,6 @@ def _located(errors: list[InputError], origins: Origins) -> InputError:
 def _unknown_names(table: OfGears) -> list[InputError]:
     errors = []
     lookups: list[tuple[Callable[[str], Any], str]] = [(family, table.drive.family)]
-    if not isinstance(table, LoadContactScenario):
-        lookups.append((friction_law, table.friction.law))
     if isinstance(table, Scenario):
         lookups.append((solver, table.solver.method))
     for lookup, name in lookups:
@@ -169,21 +172,6 @@ def _unknown_names(table: OfGears) -> list[InputError]:
     return errors
 
 
-def _coefficient(table: OfGears) -> list[InputError]:
-    if isinstance(table, LoadContactScenario):
-        return []
-    friction = table.friction
-    law = FRICTION_LAWS.get(friction.law)
-    if law is None or law.coefficient == (friction.coefficient is not None):
-        return []
-    key = "friction.coefficient"
-    if law.coefficient:
-        rule = f'missing: law = "{friction.law}" needs it'
-        return [InputError(key, rule=rule, remedy="add coefficient = 0.05")]
-    rule = f'contradicts law = "{friction.law}", which needs none'
-    return [InputError(key, friction.coefficient, rule, "leave coefficient out")]
-
-
 def json_schema() -> dict[str, Any]:
     """Return the JSON schema of a scenario file, the registries' names included."""
     kinds: Any = Annotated[Union[tuple(KINDS.values())], Field(discriminator="kind")]  # noqa: UP007
@@ -191,9 +179,10 @@ def json_schema() -> dict[str, Any]:
     parts = schema["$defs"]
     for table, key, known in (
         ("DriveTable", "family", FAMILIES),
-        ("Friction", "law", FRICTION_LAWS),
-        ("EfficiencyFriction", "law", FRICTION_LAWS),
         ("Solver", "method", SOLVERS),
     ):
         parts[table]["properties"][key]["enum"] = list(known)
+    add_law_schema(parts, FilmTable, FILM_LAWS)
+    for friction in (Friction, EfficiencyFriction):
+        add_law_schema(parts, friction, FRICTION_LAWS)
     return schema

@@ -18,10 +18,11 @@ from tribodyn.scenario.drive_data import (
     modifications_of,
     slices_of,
 )
+from tribodyn.scenario.law_tables import FilmTable, FrictionTable, film_data, friction_values
 from tribodyn.scenario.model_files import DriveTable, Lubricant
 from tribodyn.scenario.modification import MisalignmentTable
 from tribodyn.scenario.modification_rules import Face, broken_face_rules
-from tribodyn.scenario.quantity import NotNegative, Quantity, Reference, Switch, Table, Text, written
+from tribodyn.scenario.quantity import Quantity, Reference, Switch, Table, Text, written
 from tribodyn.studies.efficiency.case import EfficiencyCase
 from tribodyn.tribology.data import FrictionData
 
@@ -55,11 +56,8 @@ class EfficiencyMesh(Table):
     slice_coupling: Switch = Field(True, description="slices of one tooth hold each other")
 
 
-class EfficiencyFriction(Table):
-    """Which law acts between the flanks."""
-
-    law: Text
-    coefficient: NotNegative | None = Field(None, description="of Coulomb's law")
+class EfficiencyFriction(FrictionTable):
+    """Which law acts between the flanks, and the law's own keys."""
 
 
 class EfficiencyOutput(Table):
@@ -78,6 +76,7 @@ class EfficiencyScenario(Table):
     lubricant: Annotated[Lubricant, Reference("name of a file in models/lubricants, or a path")]
     operating: EfficiencyOperating
     mesh: EfficiencyMesh = written({})
+    film: FilmTable | None = Field(None, description="which law gives the film")
     friction: EfficiencyFriction
     output: EfficiencyOutput = written({})
 
@@ -122,7 +121,8 @@ def efficiency_case_of(scenario: EfficiencyScenario, toml: str, sha256: str) -> 
             slices=slices_of(mesh.slices, modifications),
             slice_coupling=mesh.slice_coupling,
         ),
-        friction=FrictionData(scenario.friction.law, scenario.friction.coefficient),
+        friction=FrictionData(scenario.friction.law, friction_values(scenario.friction)),
         load_sharing=mesh.load_sharing,
         samples_per_cycle=scenario.output.samples_per_cycle,
+        film=film_data(scenario),
     )

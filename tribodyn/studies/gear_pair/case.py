@@ -4,14 +4,14 @@ Plain frozen dataclasses, so that the physics never meets pydantic or pint. Pair
 throughout.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from tribodyn.dynamics.data import BearingData, OperatingData
 from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.material import BodyMass, MaterialData
 from tribodyn.mesh.data import MeshData
 from tribodyn.solve.data import SolverData
-from tribodyn.tribology.data import FrictionData, LubricantData
+from tribodyn.tribology.data import FilmData, FrictionData, LubricantData
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class Case:
         Composite rms roughness σ of the flanks, m.
     mean_roughness : float
         Arithmetic mean roughness Ra of the flanks, m.
-    lubricant, bearings, operating, mesh, friction, solver, output
+    lubricant, bearings, operating, mesh, friction, solver, output, film
         See the classes.
     """
 
@@ -72,3 +72,4 @@ class Case:
     friction: FrictionData
     solver: SolverData
     output: OutputData
+    film: FilmData = field(default_factory=FilmData)

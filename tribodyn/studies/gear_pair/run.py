@@ -20,6 +20,7 @@ from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.gear_pair.summary import RunningExtremes, energy_residual, steady_figures
 from tribodyn.studies.study import RunResult
+from tribodyn.tribology.closure import law_figures
 
 #: What a record says of the contact at the pitch point, under `pitch_point` in its summary.
 REGULAR = "regular"
@@ -70,6 +71,7 @@ def run(
         "pinion_inertia": prepared.masses[0][1],
         "gear_inertia": prepared.masses[1][1],
         "pitch_point": AVERAGED if model.options.averaged else REGULAR,
+        **law_figures(case),
     }
     with RecordWriter(
         path,
