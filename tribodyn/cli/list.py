@@ -16,6 +16,7 @@ class What(StrEnum):
     models = "models"
     kinds = "kinds"
     laws = "laws"
+    film_laws = "film-laws"
     families = "families"
     solvers = "solvers"
     plots = "plots"
@@ -56,9 +57,13 @@ def _about(what: What) -> dict[str, str]:
 
             return _described(STUDIES)
         case What.laws:
-            from tribodyn.tribology.laws import FRICTION_LAWS
+            from tribodyn.tribology.friction import FRICTION_LAWS
 
             return _described(FRICTION_LAWS)
+        case What.film_laws:
+            from tribodyn.tribology.film import FILM_LAWS
+
+            return _described(FILM_LAWS)
         case What.families:
             from tribodyn.geometry.families import FAMILIES
 

@@ -15,6 +15,8 @@ DOF_SCALE = Variable(
     ("dof",), "1", "degree of freedom; p pinion, g gear; x along the pitch tangent, y along the centres"
 )
 
+#: Meanings of flags that say whether a law is inside its range.
+RANGE = "out_of_contact_or_none_stated out_of_range in_range"
 #: What a run records over time. `time` itself is the dimension scale of the first axis.
 SAMPLES: dict[str, Variable] = {
     "pinion_angle": Variable(("time",), "rad", "rotation of the pinion"),
@@ -74,9 +76,12 @@ SAMPLES: dict[str, Variable] = {
     ),
     "mesh_stiffness": Variable(("time", "pair"), "N/m", "stiffness of the pair along its normal"),
     "closure_in_range": flag(
+        ("time", "pair"), "film law inside its range: 1 yes, 0 no, -1 out of contact or none stated", RANGE
+    ),
+    "friction_in_range": flag(
         ("time", "pair"),
-        "film regression inside its fitted range: 1 yes, 0 no, -1 out of contact",
-        "out_of_contact out_of_range in_range",
+        "friction law inside its range: 1 yes, 0 no, -1 out of contact or none stated",
+        RANGE,
     ),
     "drive_torque": Variable(
         ("time",), "N*m", "torque of the drive: on the pinion, with a compliant shaft on its motor side"

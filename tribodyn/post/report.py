@@ -95,8 +95,27 @@ def on_closures(summary: Mapping[str, Any]) -> list[str]:
         sentences.append(
             f"The film law is inside its fitted range in {_percent(fraction)} of the contact{outside}."
         )
+    sentences += _other_ranges(summary)
     if summary.get("pitch_point", "regular") != "regular":
         sentences.append(f"At the pitch point {summary['pitch_point']}; pressure there is no merit figure.")
+    return sentences
+
+
+def _other_ranges(summary: Mapping[str, Any]) -> list[str]:
+    """Sentences on the ranges of laws, where the record names its laws."""
+    sentences = []
+    if summary.get("film_thickness") == "minimum":
+        sentences.append(f"The film is the minimum film, which {summary['film_law']} gives.")
+    if summary.get("film_range") == "none stated":
+        sentences.append(f"The film law {summary['film_law']} states no range of validity.")
+    friction, name = summary.get("friction_in_range_fraction"), summary.get("friction_law")
+    if friction is not None and not (friction >= 1):
+        sentences.append(
+            f"The friction law {name} is inside its range in {_percent(friction)} of the contact; "
+            "the rest is extrapolated, see friction_in_range."
+        )
+    elif friction is None and name not in (None, "none"):
+        sentences.append(f"The friction law {name} states no range of validity.")
     return sentences
 
 

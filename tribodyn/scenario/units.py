@@ -194,3 +194,29 @@ SPECIFIC_HEAT = Kind("specific heat", "J/(kg*K)", "434 J/(kg*K)")
 VISCOSITY = Kind("dynamic viscosity", "Pa*s", "0.35 Pa*s")
 PRESSURE_VISCOSITY = Kind("pressure-viscosity coefficient", "1/Pa", "25 1/GPa")
 PER_KELVIN = Kind("temperature coefficient", "1/K", "0.045 1/K")
+
+#: Quantities that a tooth family or a law may have a key of, by name: `numerics.parameter.Parameter.kind`.
+QUANTITIES = {
+    kind.name: kind
+    for kind in (
+        LENGTH,
+        ANGLE_KIND,
+        ANGULAR_SPEED,
+        ANGULAR_FREQUENCY,
+        TIME,
+        POWER,
+        TORQUE,
+        MASS,
+        INERTIA,
+        STIFFNESS,
+        TORSIONAL_STIFFNESS,
+        TORSIONAL_DAMPING,
+        PRESSURE,
+        DENSITY,
+        CONDUCTIVITY,
+        SPECIFIC_HEAT,
+        VISCOSITY,
+        PRESSURE_VISCOSITY,
+        PER_KELVIN,
+    )
+}

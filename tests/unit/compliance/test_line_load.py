@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
+from tribodyn.tribology.surfaces import contact_of
 
 from tests.unit.compliance.test_condensed import CASES, case, model, table  # noqa: F401
 from tribodyn.compliance.line_load import friction_ratio, peak_ratio
 from tribodyn.geometry.modification import FlankModification, LeadRelief, Modifications
 from tribodyn.tribology.friction import MASJEDI_KHONSARI, friction
-from tribodyn.tribology.surfaces import contact_of
 
 LIKE = {**CASES, "crowned": (Modifications(FlankModification(lead=LeadRelief(crowning=20e-6))), 11)}
 

@@ -4,14 +4,14 @@ from math import pi, radians
 
 import numpy as np
 import pytest
+from tribodyn.studies.kinds import KINDS
+from tribodyn.tribology.laws import FRICTION_LAWS, friction_law
 
 from tribodyn.errors import InputError
 from tribodyn.geometry.families import FAMILIES, family
 from tribodyn.scenario.sources import names, shipped
 from tribodyn.solve.methods import SOLVERS, solver
-from tribodyn.studies.kinds import KINDS
 from tribodyn.studies.load import json_schema, load, load_scenario
-from tribodyn.tribology.laws import FRICTION_LAWS, friction_law
 
 SCENARIO = """
 title = "a scenario"

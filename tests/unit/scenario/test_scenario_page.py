@@ -9,12 +9,12 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 from pydantic.fields import FieldInfo
+from tribodyn.studies.kinds import KINDS
+from tribodyn.tribology.laws import FRICTION_LAWS
 
 from tribodyn.geometry.families import FAMILIES
 from tribodyn.scenario.quantity import Column, Quantity, Reference, Table
 from tribodyn.solve.methods import SOLVERS
-from tribodyn.studies.kinds import KINDS
-from tribodyn.tribology.laws import FRICTION_LAWS
 
 PAGE = (Path(__file__).parents[3] / "docs" / "scenario.md").read_text(encoding="utf-8")
 

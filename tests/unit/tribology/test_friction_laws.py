@@ -4,11 +4,11 @@ import math
 
 import numpy as np
 import pytest
+from tribodyn.tribology.empirical import benedict_kelley, xu
+from tribodyn.tribology.mean_friction import iso_14179_1, mean_conditions, niemann
 
 from tests.unit.tribology.test_tribology import LIU_NI, POINT
-from tribodyn.tribology.empirical import benedict_kelley, xu
 from tribodyn.tribology.friction import BENEDICT_KELLEY, COULOMB, MASJEDI_KHONSARI, XU, friction
-from tribodyn.tribology.mean_friction import iso_14179_1, mean_conditions, niemann
 
 #: Veciana et al. (2024), Table 2.
 VECIANA = LIU_NI._replace(

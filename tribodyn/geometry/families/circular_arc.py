@@ -13,10 +13,11 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, reference_radius
-from tribodyn.geometry.family import Family, Parameter, unshifted
+from tribodyn.geometry.family import Family, unshifted
 from tribodyn.geometry.reach import refuse_shift, require_reach
 from tribodyn.numerics.elementary import cos, log, namespace, sin, sqrt, where
 from tribodyn.numerics.iteration import newton
+from tribodyn.numerics.parameter import Parameter
 
 Array = Any
 

@@ -10,9 +10,10 @@ from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, Side, body_of, reference_radius
-from tribodyn.geometry.family import Family, Parameter, unshifted
+from tribodyn.geometry.family import Family, unshifted
 from tribodyn.geometry.reach import refuse_shift, require_reach
 from tribodyn.numerics.elementary import namespace, sqrt, where
+from tribodyn.numerics.parameter import Parameter
 
 Array = Any
 

@@ -12,10 +12,11 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, reference_radius
-from tribodyn.geometry.family import Family, Parameter, unshifted
+from tribodyn.geometry.family import Family, unshifted
 from tribodyn.geometry.path import inverted_rotation
 from tribodyn.geometry.reach import refuse_shift, require_reach
 from tribodyn.numerics.elementary import cos, namespace
+from tribodyn.numerics.parameter import Parameter
 
 Array = Any
 

@@ -19,11 +19,12 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import SIDES, Drive, reference_radius, tip_radius
-from tribodyn.geometry.family import Family, Parameter, unshifted
+from tribodyn.geometry.family import Family, unshifted
 from tribodyn.geometry.path import inverted_rotation
 from tribodyn.geometry.reach import refuse_shift, require_reach
 from tribodyn.numerics.elementary import absolute, arctan2, cos, namespace, sin, where
 from tribodyn.numerics.iteration import newton
+from tribodyn.numerics.parameter import Parameter
 
 Array = Any
 

@@ -1,15 +1,18 @@
 """How a kernel's arguments lie in memory: one block of words of 8 bytes, the same for every caller.
 
-A number is a word; an array its address and lengths; a named tuple its fields one after the other. What is
-called a layout here says which, and is all that the machine code of a kernel depends on: numbers and lengths
-are never compiled in.
+A number is a word; an array its address and lengths; a named tuple its fields one after the other; a function
+no word at all. What is called a layout here says which, and is all that the machine code of a kernel depends
+on: numbers and lengths are never compiled in, functions are.
 """
 
 import struct
 from functools import cache
+from types import FunctionType
 from typing import Any, NamedTuple
 
 import numpy as np
+
+from tribodyn.kernels.native.identity import FunctionLayout, function_layout
 
 
 class Numeric(NamedTuple):
@@ -52,7 +55,7 @@ class Laid(NamedTuple):
 
     Attributes
     ----------
-    layout : Numeric, Array, Record, or that of an object with a method `laid_out` of its own
+    layout : Numeric, Array, Record, FunctionLayout, or that of an object with a method `laid_out` of its own
     words : bytes
     """
 
@@ -89,11 +92,15 @@ def laid_out(value: Any) -> Laid:
         return Laid(BOOL, _int(value))
     if isinstance(value, (int, np.integer)):
         return Laid(INT, _int(value))
+    if isinstance(value, FunctionType):
+        return Laid(function_layout(value), b"")
     if hasattr(value, "laid_out"):
         return value.laid_out()
     if isinstance(value, tuple) and hasattr(value, "_fields"):
         return together(type(value).__qualname__, value._fields, value)  # pyright: ignore[reportAttributeAccessIssue]
-    raise TypeError(f"a kernel takes numbers, arrays and named tuples of them, not {type(value).__name__}")
+    raise TypeError(
+        f"a kernel takes numbers, arrays, functions and named tuples of them, not {type(value).__name__}"
+    )
 
 
 def _laid_array(array: np.ndarray) -> Laid:
@@ -109,5 +116,13 @@ def _laid_array(array: np.ndarray) -> Laid:
 
 def together(name: str, names: tuple[str, ...], values: tuple[Any, ...]) -> Laid:
     """Lay several values out as the fields of one record."""
-    layouts, words = zip(*map(laid_out, values), strict=True)
-    return Laid(record(name, names, layouts), b"".join(words))
+    laid = [laid_out(value) for value in values]
+    layouts = tuple(one.layout for one in laid)
+    return Laid(record(name, names, layouts), b"".join(one.words for one in laid))
+
+
+def is_kept(layout: Any) -> bool:
+    """Whether machine code for a layout may be kept on disk: no function in it is this process's own."""
+    if isinstance(layout, FunctionLayout):
+        return layout.kept
+    return not isinstance(layout, Record) or all(is_kept(field) for _, field in layout.fields)

@@ -164,8 +164,9 @@ _C_FUNCTIONS = {
 
 def compiled(function: Callable[..., Any], layout: Record) -> Compiled:
     """Compile a function for arguments of a layout."""
-    import tribodyn.kernels.native.functions  # noqa: F401  (its import registers the elementary functions and laws)
+    from tribodyn.kernels.native.functions import register_laws
 
+    register_laws()
     kernel = Kernel(function)
 
     def entry(block, results):

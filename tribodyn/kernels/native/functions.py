@@ -1,7 +1,4 @@
-"""numba's versions of the elementary functions, and registration of the laws.
-
-Importing this module makes the laws callable from what numba compiles.
-"""
+"""numba's versions of the elementary functions, and registration of the laws, which knows none of them."""
 
 import math
 import sys
@@ -9,6 +6,7 @@ from importlib import import_module
 from typing import Any, cast
 
 from numba.core import types
+from numba.core.registry import cpu_target
 from numba.core.typing.templates import AbstractTemplate, infer_global, signature
 from numba.extending import lower_builtin
 
@@ -16,7 +14,6 @@ import tribodyn
 from tribodyn.dynamics import equations  # noqa: F401  (the import of both registers every law)
 from tribodyn.kernels.native.compiler import part, part_instead
 from tribodyn.numerics import elementary
-from tribodyn.solve import dormand_prince, rosenbrock  # noqa: F401
 
 
 def _load_numba_without_blas() -> None:
@@ -151,5 +148,22 @@ def _last_axis_of_four(table, a, b, c, d):
     return implementation if isinstance(table, types.Array) else None
 
 
-for _law in elementary.LAWS:
-    part(_law, forceinline=True)
+_registered: set[Any] = set()
+
+
+def register_laws() -> None:
+    """Make all laws that are marked by now callable from what numba compiles."""
+    for law in elementary.LAWS:
+        if law not in _registered:
+            _registered.add(law)
+            part(law, forceinline=True)
+    cast(Any, cpu_target.typing_context).refresh()
+
+
+def function_type(function: Any) -> Any:
+    """Type to numba of a function among a kernel's arguments; it need not be marked as a law."""
+    if function not in _registered:
+        _registered.add(function)
+        part(function, forceinline=True)
+        cast(Any, cpu_target.typing_context).refresh()
+    return cast(Any, cpu_target.typing_context).resolve_value_type(function)

@@ -21,6 +21,7 @@ import llvmlite
 import llvmlite.binding as llvm
 
 import tribodyn
+from tribodyn.kernels.native.arguments import is_kept
 from tribodyn.kernels.native.kernel import Code
 from tribodyn.numerics.cache import cache_folder
 
@@ -94,7 +95,7 @@ def _sources_digest() -> str:
 def _file_of(function: Callable[..., Any], layout: Any) -> Path | None:
     """The file that the code is kept in; None if it cannot be kept, as what it depends on is not in files."""
     source = Path(function.__code__.co_filename)
-    if function.__closure__ or not source.is_file():
+    if function.__closure__ or not source.is_file() or not is_kept(layout):
         return None
     digest = hashlib.sha256(repr(layout).encode() + source.read_bytes()).hexdigest()[:16]
     name = f"{function.__module__.removeprefix('tribodyn.')}.{function.__qualname__}-{digest}"

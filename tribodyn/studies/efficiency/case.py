@@ -1,6 +1,6 @@
 """A case of the quasi-static efficiency study: everything one run needs to know, in SI units."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from tribodyn.dynamics.data import OperatingData
@@ -8,7 +8,7 @@ from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.material import MaterialData
 from tribodyn.mesh.data import MeshData
 from tribodyn.studies.study import CaseHead
-from tribodyn.tribology.data import FrictionData, LubricantData
+from tribodyn.tribology.data import FilmData, FrictionData, LubricantData
 
 if TYPE_CHECKING:  # the study's array code, and SciPy with it, is for the run
     from tribodyn.studies.efficiency.places import Sharing
@@ -20,7 +20,8 @@ class EfficiencyCase(CaseHead):
 
     Parameters
     ----------
-    title, name, kind, toml, sha256, family, drive, materials, roughness, mean_roughness, lubricant, friction
+    title, name, kind, toml, sha256, family, drive, materials, roughness, mean_roughness
+    lubricant, friction, film
         As in `tribodyn.studies.gear_pair.case.Case`; `kind` is "efficiency".
     operating : OperatingData
         Pinion speed and gear torque, both constant.
@@ -43,3 +44,4 @@ class EfficiencyCase(CaseHead):
     friction: FrictionData
     load_sharing: "Sharing" = "elastic"
     samples_per_cycle: int = 200
+    film: FilmData = field(default_factory=FilmData)

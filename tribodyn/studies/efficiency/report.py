@@ -44,6 +44,9 @@ SWEPT: dict[str, Variable] = {
     "film_parameter_min": Variable((), "1", "minimum film parameter"),
     "hertz_pressure_max": Variable((), "Pa", "maximum Hertz pressure"),
     "flash_temperature_max": Variable((), "K", "maximum flash temperature rise"),
+    "friction_in_range_fraction": Variable(
+        (), "1", "share of the contact in which the friction law is in its range"
+    ),
     "closure_in_range_fraction": Variable(
         (), "1", "share of the contact in which the film law is in its range"
     ),

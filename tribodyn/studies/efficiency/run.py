@@ -26,7 +26,9 @@ from tribodyn.studies.efficiency.torque_ratio import path_contact, torque_ratio
 from tribodyn.studies.gears import LAYOUT
 from tribodyn.studies.recording import target, writer
 from tribodyn.studies.study import Progress, RunResult
-from tribodyn.tribology.surfaces import contact_of
+from tribodyn.tribology.closure import closure_of, law_figures
+from tribodyn.tribology.friction.coulomb import constant
+from tribodyn.tribology.surface_state import fraction_in_range
 
 
 class Prepared(NamedTuple):
@@ -53,7 +55,6 @@ def prepare(case: EfficiencyCase) -> Prepared:
     from tribodyn.geometry.checks import check
     from tribodyn.mesh.tabulate import pair_slots, tabulate
     from tribodyn.mesh.tabulate_loaded import flanks_of, tabulate_loaded
-    from tribodyn.tribology.laws import friction_law
 
     teeth = family(case.family)
     check(teeth, case.drive)
@@ -66,8 +67,7 @@ def prepare(case: EfficiencyCase) -> Prepared:
     duty = Duty(
         case.operating.gear_torque,
         case.operating.pinion_speed,
-        friction_law(case.friction.law).code,
-        contact_of(case),
+        closure_of(case),
         case.load_sharing,
     )
     return Prepared(case, cycle, teeth.working_path(case.drive), duty, flanks)
@@ -137,19 +137,17 @@ def efficiencies(
         duty.gear_torque / ratio,
         duty.pinion_speed,
         float(study.cycle.face_width),
-        duty.friction_law,
-        duty.surfaces,
+        duty.closure,
     )
     found["efficiency_torque_ratio"] = float(single.efficiency)
     return found | _by_loss_factor(study)
 
 
 def _by_loss_factor(study: Prepared) -> dict[str, float]:
-    from tribodyn.tribology.friction import COULOMB
-
-    case, coefficient = study.case, study.duty.surfaces.coulomb_coefficient
-    if case.family != "involute" or study.duty.friction_law != COULOMB:
+    case, friction = study.case, study.duty.closure.friction
+    if case.family != "involute" or friction.functions.coefficient is not constant:
         return {}
+    coefficient = friction.parameters.coefficient
     tips = tip_contact_ratios(family(case.family), case.drive)
     teeth, ratio = case.drive.pinion.teeth, case.drive.gear.teeth / case.drive.pinion.teeth
     factor = exact(*tips, teeth, ratio)
@@ -188,12 +186,14 @@ def _figures(study: Prepared, mesh: Places, state: Engagement) -> dict[str, Any]
         "mesh_frequency": duty.pinion_speed / float(cycle.pitch_angle),
         "normal_load_max": greatest(state.normal_load),
         "film_min": least(state.central_film_thickness),
-        "film_parameter_min": least(state.central_film_thickness) / duty.surfaces.roughness,
+        "film_parameter_min": least(state.central_film_thickness) / duty.closure.surfaces.roughness,
         "hertz_pressure_max": greatest(state.hertz_pressure),
         "flash_temperature_max": greatest(state.flash_temperature_rise),
         "friction_coefficient_mean": means.friction_coefficient,
         "friction_force_mean": np.sum(np.abs(state.friction_force[:-1]), axis=0) * share,
-        "closure_in_range_fraction": float(np.mean(state.in_range[loaded])),
+        **law_figures(study.case),
+        "closure_in_range_fraction": fraction_in_range(state.closure_in_range[loaded]),
+        "friction_in_range_fraction": fraction_in_range(state.friction_in_range[loaded]),
         "power_in_mean": means.power_in,
         "power_friction_mean": means.power_friction,
         "efficiency": means.efficiency,
@@ -230,7 +230,7 @@ def _record_arrays(mesh: Places, state: Engagement, duty: Duty) -> dict[str, Any
         "friction_coefficient": contacting(state.friction_coefficient),
         "asperity_load_ratio": contacting(state.asperity_load_ratio),
         "central_film_thickness": contacting(state.central_film_thickness),
-        "film_parameter": contacting(state.central_film_thickness / duty.surfaces.roughness),
+        "film_parameter": contacting(state.central_film_thickness / duty.closure.surfaces.roughness),
         "flash_temperature_rise": contacting(state.flash_temperature_rise),
         "hertz_pressure": contacting(state.hertz_pressure),
         "equivalent_radius": contacting(state.radius),
@@ -238,7 +238,8 @@ def _record_arrays(mesh: Places, state: Engagement, duty: Duty) -> dict[str, Any
         "sliding_speed": contacting(state.sliding),
         "pressure_angle": contacting(cycle.pressure_angle[:, 0]),
         "mesh_stiffness": np.where(touching, 1.0 / cycle.compliance[:, 0], 0.0),
-        "closure_in_range": np.where(touching, state.in_range, np.nan),
+        "closure_in_range": contacting(state.closure_in_range),
+        "friction_in_range": contacting(state.friction_in_range),
         "drive_torque": state.pinion_torque,
         "power_in": state.power_in,
         "power_out": state.power_out,

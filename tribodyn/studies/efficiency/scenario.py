@@ -16,10 +16,10 @@ from tribodyn.scenario.drive_data import (
     modifications_of,
     slices_of,
 )
+from tribodyn.scenario.law_tables import FilmTable, FrictionTable, film_data, friction_values
 from tribodyn.scenario.model_files import DriveTable, Lubricant
 from tribodyn.scenario.modification import MisalignmentTable
 from tribodyn.scenario.quantity import (
-    NotNegative,
     Quantity,
     Switch,
     Table,
@@ -60,11 +60,8 @@ class EfficiencyMesh(Table):
     slice_coupling: Switch = Field(True, description="slices of one tooth hold each other")
 
 
-class EfficiencyFriction(Table):
-    """Which law acts between the flanks."""
-
-    law: Text
-    coefficient: NotNegative | None = Field(None, description="of Coulomb's law")
+class EfficiencyFriction(FrictionTable):
+    """Which law acts between the flanks, and the law's own keys."""
 
 
 class EfficiencyOutput(Table):
@@ -83,6 +80,7 @@ class Scenario(Table):
     lubricant: Annotated[Lubricant, model_file("lubricants")]
     operating: EfficiencyOperating
     mesh: EfficiencyMesh = written({})
+    film: FilmTable | None = Field(None, description="which law gives the film")
     friction: EfficiencyFriction
     output: EfficiencyOutput = written({})
 
@@ -113,7 +111,8 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> EfficiencyCase:
             slices=slices_of(mesh.slices, modifications),
             slice_coupling=mesh.slice_coupling,
         ),
-        friction=FrictionData(scenario.friction.law, scenario.friction.coefficient),
+        friction=FrictionData(scenario.friction.law, friction_values(scenario.friction)),
         load_sharing=mesh.load_sharing,
         samples_per_cycle=scenario.output.samples_per_cycle,
+        film=film_data(scenario),
     )

@@ -4,7 +4,7 @@ Plain frozen dataclasses, so that the physics never meets pydantic or pint. Pair
 throughout.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from tribodyn.dynamics.data import BearingData, OperatingData
 from tribodyn.geometry.drive import Drive
@@ -12,7 +12,7 @@ from tribodyn.geometry.material import BodyMass, MaterialData
 from tribodyn.mesh.data import MeshData
 from tribodyn.solve.data import SolverData
 from tribodyn.studies.study import CaseHead
-from tribodyn.tribology.data import FrictionData, LubricantData
+from tribodyn.tribology.data import FilmData, FrictionData, LubricantData
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ class Case(CaseHead):
         Composite rms roughness σ of the flanks, m.
     mean_roughness : float
         Arithmetic mean roughness Ra of the flanks, m.
-    lubricant, bearings, operating, mesh, friction, solver, output
+    lubricant, bearings, operating, mesh, friction, solver, output, film
         See the classes.
     """
 
@@ -68,3 +68,4 @@ class Case(CaseHead):
     friction: FrictionData
     solver: SolverData
     output: OutputData
+    film: FilmData = field(default_factory=FilmData)

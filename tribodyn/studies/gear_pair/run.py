@@ -22,6 +22,7 @@ from tribodyn.studies.gear_pair.summary import RunningExtremes, energy_residual,
 from tribodyn.studies.gears import LAYOUT, pitch_point_load
 from tribodyn.studies.recording import target, writer
 from tribodyn.studies.study import Progress, RunResult
+from tribodyn.tribology.closure import law_figures
 
 #: What a record says of the contact at the pitch point, under `pitch_point` in its summary.
 REGULAR = "regular"
@@ -49,6 +50,7 @@ def run(
         "pinion_inertia": prepared.masses[0][1],
         "gear_inertia": prepared.masses[1][1],
         "pitch_point": AVERAGED if model.options.averaged else REGULAR,
+        **law_figures(case),
     }
     groups = {
         "mesh_cycle": as_arrays(cycle),

@@ -23,6 +23,7 @@ from tribodyn.scenario.drive_data import (
     modifications_of,
     slices_of,
 )
+from tribodyn.scenario.law_tables import FilmTable, FrictionTable, film_data, friction_values
 from tribodyn.scenario.model_files import Bearing, Bearings, DriveTable, Length, Lubricant, Stiffness
 from tribodyn.scenario.modification import MisalignmentTable
 from tribodyn.scenario.quantity import (
@@ -134,11 +135,9 @@ class Mesh(Table):
     slice_coupling: Switch = Field(True, description="slices of one tooth hold each other")
 
 
-class Friction(Table):
-    """Which law acts between the flanks."""
+class Friction(FrictionTable):
+    """Which law acts between the flanks, and the law's own keys."""
 
-    law: Text
-    coefficient: NotNegative | None = Field(None, description="of Coulomb's law")
     sliding: Literal["kinematic", "dynamic"] = Field(
         "kinematic", description="sliding speed from nominal rotation or from the vibrating bodies"
     )
@@ -172,6 +171,7 @@ class Scenario(Table):
     bearings: Annotated[Bearings, model_file("bearings")] = written("rigid-1e9")
     operating: Operating
     mesh: Mesh
+    film: FilmTable | None = Field(None, description="which law gives the film")
     friction: Friction
     solver: Solver = written({})
     output: Output = written({})
@@ -196,9 +196,15 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> Case:
         bearings=(_bearing(scenario.bearings.pinion), _bearing(scenario.bearings.gear)),
         operating=_operating(scenario.operating),
         mesh=_mesh(scenario),
-        friction=FrictionData(**scenario.friction.model_dump()),
+        friction=FrictionData(
+            scenario.friction.law,
+            friction_values(scenario.friction),
+            scenario.friction.sliding,
+            scenario.friction.reversal_width,
+        ),
         solver=SolverData(**scenario.solver.model_dump()),
         output=OutputData(**scenario.output.model_dump()),
+        film=film_data(scenario),
     )
 
 

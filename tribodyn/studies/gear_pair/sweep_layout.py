@@ -35,6 +35,9 @@ FIGURES: dict[str, Variable] = {
     "power_friction_mean": _figure("W", "mean power lost to tooth friction"),
     "contact_loss_fraction": _figure("1", "share of the time without any contact"),
     "closure_in_range_fraction": _figure("1", "share of the contact in which the film law is in its range"),
+    "friction_in_range_fraction": _figure(
+        "1", "share of the contact in which the friction law is in its range"
+    ),
 }
 
 #: Everything a sweep records of a case.

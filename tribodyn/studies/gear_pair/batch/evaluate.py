@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.dynamics.modes import natural_frequencies
-from tribodyn.dynamics.parameters import XI, XI_RATE
+from tribodyn.dynamics.parameters import XI, XI_RATE, frictionless
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.record.sweep_schema import DONE, FAILED
 from tribodyn.solve.initial import initial_state, static_equilibrium
@@ -23,7 +23,6 @@ from tribodyn.studies.gear_pair.batch.outcome import Outcome
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.prepare import Prepared, Tabulated, prepare, table_key, tables
 from tribodyn.studies.gear_pair.sweep_layout import layout_of
-from tribodyn.tribology.friction import NONE
 
 #: Tables kept in a process; a table is about 100 kB.
 TABLES_KEPT = 32
@@ -171,8 +170,7 @@ def _start(prepared: Prepared, settings: Settings) -> np.ndarray:
     with _lock:
         found = _equilibria.get(key)
     if found is None or found[0] is not model.table:
-        frictionless = model._replace(options=model.options._replace(friction_law=NONE))
-        found = model.table, static_equilibrium(frictionless)
+        found = model.table, static_equilibrium(frictionless(model))
         with _lock:
             _equilibria[key] = found
             while len(_equilibria) > TABLES_KEPT:

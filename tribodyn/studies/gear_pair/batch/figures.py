@@ -24,4 +24,4 @@ def window_figures(prepared: Prepared, passage: Passage, samples: int) -> dict[s
         "transmission_error_peak_to_peak": float(np.ptp(error)),
         "transmission_error_mean": float(np.mean(error)),
     }
-    return {name: found.get(name, float("nan")) for name in FIGURES}
+    return {name: float("nan") if (value := found.get(name)) is None else value for name in FIGURES}
