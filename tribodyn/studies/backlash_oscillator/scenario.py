@@ -75,7 +75,7 @@ class OscillatorSolver(Table):
     )
 
 
-class Scenario(Table):
+class BacklashOscillatorScenario(Table):
     """A scenario file of the oscillator with backlash; lengths in half backlashes, times in 1/ω_n."""
 
     title: Text = Field(description="what it shows, in a line")
@@ -91,6 +91,9 @@ class Scenario(Table):
         description="Ω: a list, or from, to and step; followed up and down", examples=[[0.7, 0.8]]
     )
     solver: OscillatorSolver = written({})
+
+
+Scenario = BacklashOscillatorScenario
 
 
 def case_of(scenario: Scenario, toml: str, sha256: str) -> BacklashOscillatorCase:

@@ -70,7 +70,7 @@ class EfficiencyOutput(Table):
     samples_per_cycle: Annotated[int, Field(strict=True, ge=8)] = 200
 
 
-class Scenario(Table):
+class EfficiencyScenario(Table):
     """A scenario file of an efficiency study."""
 
     title: Text = Field(description="what it shows, in a line")
@@ -83,6 +83,9 @@ class Scenario(Table):
     film: FilmTable | None = Field(None, description="which law gives the film")
     friction: EfficiencyFriction
     output: EfficiencyOutput = written({})
+
+
+Scenario = EfficiencyScenario
 
 
 def case_of(scenario: Scenario, toml: str, sha256: str) -> EfficiencyCase:

@@ -160,7 +160,7 @@ class Output(Table):
     samples_per_cycle: Annotated[int, Field(strict=True, ge=8)] = 200
 
 
-class Scenario(Table):
+class GearPairScenario(Table):
     """A scenario file."""
 
     title: Text = Field(description="what it shows, in a line")
@@ -175,6 +175,9 @@ class Scenario(Table):
     friction: Friction
     solver: Solver = written({})
     output: Output = written({})
+
+
+Scenario = GearPairScenario
 
 
 def case_of(scenario: Scenario, toml: str, sha256: str) -> Case:

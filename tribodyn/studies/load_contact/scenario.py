@@ -49,7 +49,7 @@ class LoadContactOutput(Table):
     cycles: Count = Field(1, description="mesh cycles; more than one where teeth differ")
 
 
-class Scenario(Table):
+class LoadContactScenario(Table):
     """A scenario file of a load contact study."""
 
     title: Text = Field(description="what it shows, in a line")
@@ -59,6 +59,9 @@ class Scenario(Table):
     operating: LoadContactOperating
     mesh: LoadContactMesh = written({})
     output: LoadContactOutput = written({})
+
+
+Scenario = LoadContactScenario
 
 
 def case_of(scenario: Scenario, toml: str, sha256: str) -> LoadContactCase:

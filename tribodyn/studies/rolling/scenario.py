@@ -58,7 +58,7 @@ class RollingOutput(Table):
     )
 
 
-class Scenario(Table):
+class RollingScenario(Table):
     """A scenario file of a gear with rolling elements."""
 
     title: Text = Field(description="what it shows, in a line")
@@ -71,6 +71,9 @@ class Scenario(Table):
     operating: RollingOperating
     friction: RollingFrictionTable
     output: RollingOutput = written({})
+
+
+Scenario = RollingScenario
 
 
 def case_of(scenario: Scenario, toml: str, sha256: str) -> RollingCase:
