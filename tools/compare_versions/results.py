@@ -1,6 +1,7 @@
 """What a case left behind, as one flat table a file: the JSON it printed, its records, its exit status."""
 
 import json
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -11,8 +12,7 @@ from tools.compare_versions.versions import MADE
 
 #: Differ from run to run, or say which version ran; the scenario's text is compared by what it leads to.
 VOLATILE = frozenset(
-    {"created", "wall_time", "tribodyn_version", "scenario", "scenario_sha256", "record", "pictures"}
-    | {"wall_times", "seconds"}
+    {"created", "wall_time", "tribodyn_version", "scenario", "scenario_sha256", "model", "record", "pictures"}
 )
 #: Attributes that HDF5's dimension scales keep themselves with; `dims` says the same in names.
 SCALES = frozenset({"DIMENSION_LIST", "REFERENCE_LIST", "CLASS", "NAME", "_Encoding", "_Netcdf4Dimid"})
@@ -22,22 +22,22 @@ Table = dict[str, "np.ndarray | str"]
 
 
 def read(folder: Path) -> dict[str, Table]:
-    """Return the tables of a case by file; "status" holds the exit statuses, "stdout" what was printed."""
+    """Return the tables of a case by file; "printed" holds the JSON of stdout and the exit statuses."""
     made = json.loads((folder / MADE).read_text(encoding="utf-8"))
-    tables: dict[str, Table] = {"status": {"exit status": np.asarray(made["status"])}}
+    table: Table = {"exit status": " ".join(map(str, made["status"]))}
     printed = (folder / "stdout").read_text(encoding="utf-8")
     try:
-        tables["stdout"] = dict(_of_json(json.loads(printed), ""))
+        table |= _of_json(json.loads(printed), "")
     except json.JSONDecodeError:
-        message = printed + (folder / "stderr").read_text(encoding="utf-8")
-        tables["stdout"] = {"message": message}
+        table["message"] = printed + (folder / "stderr").read_text(encoding="utf-8")
+    tables = {"printed": table}
     for path in sorted(folder.glob("*.h5")):
         with h5py.File(path) as file:
             tables[path.name] = _of_record(file)
     return tables
 
 
-def _of_json(value: Any, name: str):
+def _of_json(value: Any, name: str) -> Iterator[tuple[str, "np.ndarray | str"]]:
     """Flatten: names joined by ``/``; a list of numbers is one array, rows of a table go by their id."""
     if isinstance(value, dict):
         for key, item in value.items():
@@ -89,8 +89,8 @@ def _values(value: Any) -> "np.ndarray | str":
     array = np.asarray(value)
     if array.dtype.names:
         return str(array.tolist())
-    if array.dtype.kind in "SO":
-        array = np.vectorize(lambda one: one.decode() if isinstance(one, bytes) else str(one), otypes=["U"])(
-            array
-        )
-    return "\n".join(map(str, array.ravel())) if array.dtype.kind == "U" else array
+    if array.dtype.kind in "SOU":
+        # a record that a failed run left holds bytes that nobody wrote
+        texts = (one.decode(errors="replace") if isinstance(one, bytes) else str(one) for one in array.flat)
+        return "\n".join(texts)
+    return array

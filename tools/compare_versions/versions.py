@@ -7,7 +7,7 @@ import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from time import perf_counter
@@ -77,7 +77,7 @@ def _digest(checkout: Path) -> str:
     return total.hexdigest()
 
 
-def run(version: Version, case: Case, words: dict[str, list[str]], say) -> None:
+def run(version: Version, case: Case, words: dict[str, list[str]], say: Callable[[str], None]) -> None:
     """Run a case, unless its results are there already: status, output and records go to its folder.
 
     Parameters
