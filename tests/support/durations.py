@@ -17,7 +17,7 @@ MEASURED = TESTS / "durations.json"
 #: that all of them may take.
 QUICK_SHARE = 0.1
 #: Tests below this are not listed, s: it keeps the list short and its changes few.
-LISTED = 0.1
+LISTED = 0.05
 
 
 def add_options(parser: pytest.Parser) -> None:
@@ -60,8 +60,8 @@ class Durations:
     def pytest_sessionfinish(self, exitstatus: int) -> None:
         """Write the durations down, in the process that hears of all tests.
 
-        With `--quick` the longer of both measurements of a test holds, and all else stays: where the first user
-        of something expensive is left out, the next one prepares it.
+        With `--quick` the longer of both measurements of a test holds, and all else stays: where the first
+        user of something expensive is left out, the next one prepares it.
         """
         wanted = self.config.getoption("--measure-durations") and not hasattr(self.config, "workerinput")
         if not wanted or exitstatus not in (pytest.ExitCode.OK, pytest.ExitCode.TESTS_FAILED):
@@ -72,7 +72,7 @@ class Durations:
             files, limit = self.files, self.limit
             known = self.tests
             tests = {name: max(tests.get(name, 0.0), known.get(name, 0.0)) for name in {*tests, *known}}
-        listed = {name: seconds for name, seconds in tests.items() if round(seconds, 1) >= LISTED}
+        listed = {name: seconds for name, seconds in tests.items() if round(seconds, 2) >= LISTED}
         written = {"quick limit": limit, "files": _longest_first(files), "tests": _longest_first(listed)}
         MEASURED.write_text(json.dumps(written, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
 
@@ -96,10 +96,10 @@ def _quick_limit(seconds: Iterable[float]) -> float:
     for one in ordered:
         total += one
         if total > QUICK_SHARE * sum(ordered):
-            return max(LISTED, round(one, 1))
+            return max(LISTED, round(one, 2))
     return ordered[-1]
 
 
 def _longest_first(seconds: Mapping[str, float]) -> dict[str, float]:
-    ordered = sorted(seconds.items(), key=lambda item: (-round(item[1], 1), item[0]))
-    return {name: round(value, 1) for name, value in ordered}
+    ordered = sorted(seconds.items(), key=lambda item: (-round(item[1], 2), item[0]))
+    return {name: round(value, 2) for name, value in ordered}
