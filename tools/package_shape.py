@@ -11,6 +11,7 @@ import argparse
 import ast
 import re
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from statistics import median
 from typing import NamedTuple
@@ -46,10 +47,11 @@ def modules(package: Path) -> dict[str, Path]:
     return named
 
 
-def imports(package: Path) -> list[Import]:
+@cache
+def imports(package: Path) -> tuple[Import, ...]:
     """Return every import in every file of the package in folder `package`."""
     known = modules(package)
-    return [one for name, path in known.items() for one in _imports_of(name, path, known)]
+    return tuple(one for name, path in known.items() for one in _imports_of(name, path, known))
 
 
 def _imports_of(name: str, path: Path, known: dict[str, Path]) -> Iterator[Import]:

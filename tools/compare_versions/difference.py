@@ -63,9 +63,10 @@ def _difference(name: str, old: np.ndarray | str, new: np.ndarray | str) -> Diff
     if old.dtype != new.dtype:
         return Difference(name, np.nan, f"type {old.dtype} → {new.dtype}")
     before, after = old.astype(float), new.astype(float)
-    if not np.array_equal(np.isfinite(before), np.isfinite(after)):
-        places = np.count_nonzero(np.isfinite(before) != np.isfinite(after))
-        return Difference(name, np.nan, f"NaN or infinite in one only at {places} places")
+    apart = np.isfinite(before) != np.isfinite(after)
+    apart |= ~np.isfinite(before) & ~np.isclose(before, after, equal_nan=True)
+    if apart.any():
+        return Difference(name, np.nan, f"NaN or infinite in one alone at {np.count_nonzero(apart)} places")
     return Difference(name, relative(before, after, by_column=name in ("displacement", "velocity")), "")
 
 
