@@ -2,35 +2,15 @@
 
 import json
 from functools import lru_cache
-from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, settings
 
+from tests.support.durations import Durations, add_options
 from tests.support.forked_verbs import ForkedVerbs
 from tribodyn.studies.gear_pair.prepare import Prepared, prepare
 from tribodyn.studies.load import load_scenario
-
-#: Files that take longest, longest first: begun last, one would keep a worker busy after the others are done.
-LONGEST = (
-    "cross/test_solvers_agree.py",
-    "unit/mesh/test_tabulate.py",
-    "cross/test_backends.py",
-    "cli/test_shipped_scenarios.py",
-    "cli/test_docs.py",
-    "unit/geometry/test_geometry_gradients.py",
-    "cross/test_families.py",
-    "cross/test_jax_ensemble.py",
-    "property/test_geometry_pair.py",
-    "unit/solve/test_ensemble.py",
-    "validation/test_jia.py",
-    "fault/test_bad_runs.py",
-    "fault/test_killed_sweep.py",
-    "unit/studies/gear_pair/test_plots.py",
-    "cli/test_sweep.py",
-)
-TESTS = Path(__file__).parent
 
 # The same examples every time: a failure belongs to the change at hand, not to the day. For new ones:
 # pytest --hypothesis-profile=search
@@ -40,10 +20,14 @@ settings.register_profile("search", settings.get_profile("same"), derandomize=Fa
 settings.load_profile("same")
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Sort by file, the longest first; the order within a file stays."""
-    place = {TESTS / name: number for number, name in enumerate(LONGEST)}
-    items.sort(key=lambda item: place.get(item.path, len(place)))
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Add the options of the durations."""
+    add_options(parser)
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Sort the files by measured duration."""
+    config.pluginmanager.register(Durations(config), "durations-of-tests")
 
 
 @lru_cache(maxsize=32)

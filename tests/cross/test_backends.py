@@ -5,8 +5,8 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
+from tests.support.lubricated_contacts import LIU_NI
 from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
-from tests.unit.tribology.test_tribology import LIU_NI
 from tribodyn.dynamics.parameters import STATES
 from tribodyn.kernels.native import kernel
 from tribodyn.solve.diffrax_engine import right_hand_side

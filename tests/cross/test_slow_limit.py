@@ -3,62 +3,7 @@
 import numpy as np
 import pytest
 
-from tribodyn.dynamics.outputs import outputs
-from tribodyn.solve.initial import static_equilibrium
-from tribodyn.solve.transient import Chunk, Settings, transient
-
-SLOW = {"operating.pinion_speed": "0.01 rad/s"}
-
-
-def creep(case, cycles=1, samples=100):
-    model = case.model
-    parts = transient(
-        model, static_equilibrium(model), Settings("radau", 1e-8, cycles, 100000, samples), "radau"
-    )
-    chunks = [part for part in parts if isinstance(part, Chunk)]
-    return outputs(
-        np.concatenate([c.cycles for c in chunks]), np.concatenate([c.states for c in chunks]), model
-    )
-
-
-def statics(case, phase, segment, friction):
-    """Loads from the linear equations of statics, with the given friction coefficients; unknown x, y, ξ."""
-    cycle, m = case.cycle, case.model.mechanics
-    slots = np.flatnonzero(cycle.in_contact[segment])
-    at = [np.interp(phase, cycle.phase[segment], cycle.pressure_angle[segment, :, i]) for i in slots]
-    r = np.array(
-        [np.interp(phase, cycle.phase[segment], cycle.signed_distance[segment, :, i]) for i in slots]
-    )
-    matrix = np.array(
-        [
-            [np.interp(phase, cycle.phase[segment], cycle.coupling[segment, :, i, j]) for j in slots]
-            for i in slots
-        ]
-    )
-    matrix += np.diag(
-        [np.interp(phase, cycle.phase[segment], cycle.compliance[segment, :, i]) for i in slots]
-    )
-    rg = cycle.gear_pitch_radius
-    n = len(slots)
-    # unknown: F (n), x_p, y_p, x_g, y_g, ξ
-    system = np.zeros((n + 5, n + 5))
-    right = np.zeros(n + 5)
-    for k in range(n):
-        c, s = np.cos(at[k]), np.sin(at[k])
-        system[k, :n] = matrix[k]
-        system[k, n:] = [-c, -s, c, s, -c]
-        f = friction[k] * np.sign(r[k])
-        system[n, k] = -(c + f * s)
-        system[n + 1, k] = -(s - f * c)
-        system[n + 2, k] = c + f * s
-        system[n + 3, k] = s - f * c
-        system[n + 4, k] = rg * c + f * (rg * s - r[k])
-    for row, k in enumerate(
-        (m.pinion_stiffness_x, m.pinion_stiffness_y, m.gear_stiffness_x, m.gear_stiffness_y)
-    ):
-        system[n + row, n + row] = -k
-    right[n + 4] = m.load_torque
-    return slots, np.linalg.solve(system, right)[:n]
+from tests.support.creeping_drive import SLOW, creep, statics
 
 
 @pytest.mark.parametrize("friction", ["none", "coulomb"])

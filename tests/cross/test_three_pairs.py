@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tests.cross.test_slow_limit import SLOW, creep, statics
+from tests.support.creeping_drive import SLOW, creep, statics
 
 
 @pytest.mark.parametrize("name", ["high-contact-ratio", "parabolic-23-47"])

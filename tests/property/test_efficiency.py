@@ -8,7 +8,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from tribodyn.tribology.mean_friction import iso_14179_1, mean_conditions, niemann
 
-from tests.unit.tribology.test_friction_laws import VECIANA
+from tests.support.lubricated_contacts import VECIANA
 from tribodyn.geometry.families.involute import InvolutePath
 from tribodyn.studies.efficiency.loss_factor import exact, hoehn
 from tribodyn.studies.efficiency.torque_ratio import cycloid_contact, path_contact, torque_ratio

@@ -1,158 +1,193 @@
-"""Architecture rule 1: arrows point right only."""
+"""Architecture rules 1 and 2: arrows point one way, physics stands alone, a kind of study is one folder."""
 
 import ast
+import re
+from functools import cache
 from pathlib import Path
 
 import pytest
 
 import tribodyn
+from tools.package_shape import ROOT_FILES, by_file, by_folder, circles, folder, imports, lines, modules
 
 ROOT = Path(tribodyn.__file__).parent
-LAYERS = (
-    "scenario",
-    "geometry",
-    "compliance",
-    "tribology",
-    "dynamics",
-    "solve",
-    "record",
-    "post",
-    "drawing",
-    "cli",
-)
-PHYSICS = ("geometry", "compliance", "tribology", "dynamics", "solve", "rolling", "backlash_oscillator")
-FORBIDDEN = {
-    "geometry": {
-        "scenario",
-        "compliance",
-        "dynamics",
-        "solve",
-        "record",
-        "post",
-        "cli",
-        "simulate",
-        "prepare",
-    },
-    "compliance": {"scenario", "dynamics", "solve", "record", "post", "cli", "simulate", "prepare"},
-    "tribology": {
-        "scenario",
-        "geometry",
-        "compliance",
-        "dynamics",
-        "solve",
-        "record",
-        "post",
-        "cli",
-        "simulate",
-        "prepare",
-    },
-    "dynamics": {
-        "scenario",
-        "geometry",
-        "compliance",
-        "solve",
-        "record",
-        "post",
-        "cli",
-        "simulate",
-        "prepare",
-    },
-    "solve": {"scenario", "geometry", "compliance", "record", "post", "cli", "simulate", "prepare"},
-    "rolling": {
-        "scenario",
-        "compliance",
-        "dynamics",
-        "solve",
-        "record",
-        "post",
-        "cli",
-        "simulate",
-        "simulate_rolling",
-        "prepare",
-    },
-    "backlash_oscillator": {
-        "scenario",
-        "geometry",
-        "compliance",
-        "tribology",
-        "record",
-        "post",
-        "cli",
-        "simulate",
-        "simulate_backlash_oscillator",
-        "prepare",
-    },
-    "record": {
-        "scenario",
-        "geometry",
-        "compliance",
-        "dynamics",
-        "solve",
-        "post",
-        "cli",
-        "simulate",
-        "prepare",
-    },
-    "post": {
-        "scenario",
-        "geometry",
-        "compliance",
-        "dynamics",
-        "solve",
-        "drawing",
-        "cli",
-        "simulate",
-        "prepare",
-    },
-    "drawing": {"scenario", "compliance", "dynamics", "solve", "record", "cli", "simulate", "prepare"},
+TESTS = Path(__file__).parents[1]
+
+#: Folder -> those it may import, besides itself and `errors`; each stands below the ones that import it.
+MAY_IMPORT: dict[str, set[str]] = {}
+MAY_IMPORT["numerics"] = set()
+MAY_IMPORT["geometry"] = {"numerics"}
+MAY_IMPORT["compliance"] = {"numerics", "geometry"}
+MAY_IMPORT["tribology"] = {"numerics", "geometry"}
+MAY_IMPORT["mesh"] = {"numerics", "geometry", "compliance", "tribology"}
+MAY_IMPORT["dynamics"] = {"numerics", "tribology", "mesh"}
+MAY_IMPORT["kernels"] = {"numerics"}
+MAY_IMPORT["solve"] = {"numerics", "tribology", "mesh", "dynamics", "kernels"}
+PHYSICS = tuple(MAY_IMPORT)
+MAY_IMPORT["record"] = {"numerics"}
+MAY_IMPORT["post"] = {"numerics", "record"}
+MAY_IMPORT["drawing"] = {"numerics", "geometry", "post"}
+MAY_IMPORT["scenario"] = {"numerics", "geometry", "tribology", "mesh", "dynamics", "solve"}
+MAY_IMPORT["studies"] = set(MAY_IMPORT) - {"studies"}
+MAY_IMPORT["sweep"] = set(MAY_IMPORT) - {"sweep"}
+MAY_IMPORT["validation"] = set(MAY_IMPORT) - {"validation"}
+MAY_IMPORT["cli"] = set(MAY_IMPORT) - {"cli"}
+
+#: File formats, input and pictures, which physics knows nothing of.
+BORDERS = {"pydantic", "pint", "h5py", "matplotlib", "ezdxf", "typer", "rich", "tomllib", "tomli_w"}
+#: Kind of study, as scenarios name it -> its folder and the name that its classes begin with. "efficiency" is
+#: also a quantity and "gear-pair" what most scenarios are of, so that these strings say nothing.
+KINDS = {
+    "irefc": ("rolling", "Rolling"),
+    "load-contact": ("load_contact", "LoadContact"),
+    "backlash-oscillator": ("backlash_oscillator", "BacklashOscillator"),
+    "efficiency": ("efficiency", "Efficiency"),
 }
-OUTSIDE = {"pydantic", "pint", "h5py", "matplotlib", "ezdxf", "typer", "rich"}
+#: Style: a file is one idea; lines.
+LONGEST_FILE = 340
+
+FILES = modules(ROOT)
+STUDIES = sorted(path.name for path in (ROOT / "studies").iterdir() if (path / "__init__.py").is_file())
+ALL = imports(ROOT)
 
 
-def imports(file: Path) -> set[str]:
-    """Modules that a file imports at run time, anywhere in it."""
-    found = set()
-    tree = ast.parse(file.read_text(encoding="utf-8"))
-    skipped = set()
-    for node in ast.walk(tree):
-        if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test):
-            skipped |= {id(child) for child in ast.walk(node)}
-    for node in ast.walk(tree):
-        if id(node) in skipped:
+def wrong_arrows(source: str, *, typing_only: bool) -> list[str]:
+    """Imports of a folder that point to where it must not look, as ``module:line imports module``."""
+    allowed = MAY_IMPORT[source] | {source, "errors", ""}
+    return [
+        f"{one.importer}:{one.line} imports {one.imported}"
+        for one in ALL
+        if folder(one.importer) == source
+        and one.imported.split(".")[0] == ROOT.name
+        and folder(one.imported) not in allowed
+        and one.typing_only is typing_only
+    ]
+
+
+@cache
+def strings(path: Path) -> set[str]:
+    """String constants of a file, those in docstrings not taken apart."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    return {
+        node.value
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Constant) and isinstance(node.value, str)
+    }
+
+
+def test_every_folder_has_its_place():
+    folders = {path.name for path in ROOT.iterdir() if (path / "__init__.py").is_file()}
+    assert folders == set(MAY_IMPORT)
+
+
+def test_the_root_holds_the_interface_and_the_errors_alone():
+    assert {path.name for path in ROOT.iterdir() if path.is_file()} <= ROOT_FILES
+
+
+@pytest.mark.parametrize("source", MAY_IMPORT)
+def test_a_folder_imports_what_stands_before_it(source):
+    """Imports within functions included."""
+    found = wrong_arrows(source, typing_only=False)
+    assert not found, "\n".join(found)
+
+
+@pytest.mark.parametrize("source", MAY_IMPORT)
+def test_imports_for_type_checkers_point_the_same_way(source):
+    found = wrong_arrows(source, typing_only=True)
+    assert not found, "\n".join(found)
+
+
+def test_errors_import_nothing_of_the_package():
+    assert [one for one in ALL if folder(one.importer) == "errors" and one.imported in FILES] == []
+
+
+def test_drawing_takes_of_the_pictures_of_results_their_style_alone():
+    taken = {
+        one.imported for one in ALL if folder(one.importer) == "drawing" and folder(one.imported) == "post"
+    }
+    assert taken <= {"tribodyn.post.style"}
+
+
+def test_no_circle_by_file():
+    found = [", ".join(ring) for ring in circles(by_file(ROOT))]
+    assert not found, "\n".join(found)
+
+
+def test_no_circle_by_file_for_type_checkers():
+    found = [", ".join(ring) for ring in circles(by_file(ROOT, typing_too=True))]
+    assert not found, "\n".join(found)
+
+
+def test_no_circle_by_folder():
+    found = [", ".join(ring) for ring in circles(by_folder(ROOT))]
+    assert not found, "\n".join(found)
+
+
+@pytest.mark.parametrize("source", PHYSICS)
+def test_physics_knows_no_file_format_or_picture(source):
+    found = [
+        f"{one.importer}:{one.line} imports {one.imported}"
+        for one in ALL
+        if folder(one.importer) == source and one.imported.split(".")[0] in BORDERS
+    ]
+    assert not found, "\n".join(found)
+
+
+@pytest.mark.parametrize("study", STUDIES)
+def test_a_study_imports_no_other(study):
+    others = tuple(f"tribodyn.studies.{other}" for other in STUDIES if other != study)
+    found = [
+        f"{one.importer}:{one.line} imports {one.imported}"
+        for one in ALL
+        if f"{one.importer}.".startswith(f"tribodyn.studies.{study}.")
+        and f"{one.imported}.".startswith(tuple(f"{other}." for other in others))
+    ]
+    assert not found, "\n".join(found)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_kind_is_named_in_its_folder_alone(kind):
+    """And in the registry, and where published numbers are compared."""
+    home, classes = KINDS[kind]
+    named = re.compile(rf"\b{classes}(Case|Scenario)\b")
+    found = []
+    for name, path in FILES.items():
+        at_home = f"{name}.".startswith(f"tribodyn.studies.{home}.") or name == "tribodyn.studies"
+        if at_home or folder(name) == "validation":
             continue
-        if isinstance(node, ast.Import):
-            found |= {alias.name for alias in node.names}
-        elif isinstance(node, ast.ImportFrom) and node.module:
-            found |= {node.module} | {f"{node.module}.{alias.name}" for alias in node.names}
-    return found
+        if named.search(path.read_text(encoding="utf-8")) or (kind != home and kind in strings(path)):
+            found.append(name)
+    assert not found, "\n".join(found)
 
 
-def files(layer: str) -> list[Path]:
-    return sorted((ROOT / layer).rglob("*.py"))
+def test_modules_named_by_a_string_lie_beside_who_names_them():
+    """A registry stands beside what it lists: no arrow hides in a string."""
+    found = [
+        f"{name} names {module}"
+        for name, path in FILES.items()
+        for module in strings(path) & set(FILES)
+        if folder(module) not in (folder(name), "") and folder(name) != ""
+    ]
+    assert not found, "\n".join(found)
 
 
-@pytest.mark.parametrize("layer", FORBIDDEN)
-def test_imports_point_to_the_left(layer):
-    for file in files(layer):
-        for name in imports(file):
-            parts = name.split(".")
-            if parts[0] == "tribodyn" and len(parts) > 1:
-                assert parts[1] not in FORBIDDEN[layer], f"{file} imports {name}"
+def test_a_file_is_one_idea():
+    assert {name: lines(path) for name, path in FILES.items() if lines(path) > LONGEST_FILE} == {}
 
 
-@pytest.mark.parametrize("layer", PHYSICS)
-def test_physics_knows_no_file_format_or_picture(layer):
-    for file in files(layer):
-        for name in imports(file):
-            assert name.split(".")[0] not in OUTSIDE, f"{file} imports {name}"
+def test_unit_tests_mirror_the_package():
+    tested = [path.relative_to(TESTS / "unit") for path in (TESTS / "unit").rglob("*") if path.is_dir()]
+    assert [str(path) for path in tested if path.name != "__pycache__" and not (ROOT / path).is_dir()] == []
 
 
-def test_every_layer_is_there():
-    for layer in LAYERS:
-        assert files(layer), layer
-
-
-def test_files_are_one_idea():
-    """Style: under 300 lines a file."""
-    for file in ROOT.rglob("*.py"):
-        assert len(file.read_text(encoding="utf-8").splitlines()) <= 340, file
+def test_tests_share_through_support_alone():
+    """No test imports from another, also in the programs that tests write."""
+    shared = re.compile(
+        r"(?:from|import)\s+tests\.(?!support\b)|from\s+tests\s+import\s+(?!support\b)|from\s+\."
+    )
+    found = [
+        path.relative_to(TESTS).as_posix()
+        for path in TESTS.rglob("*.py")
+        if any(shared.match(line.strip()) for line in path.read_text(encoding="utf-8").splitlines())
+    ]
+    assert not found, "\n".join(found)

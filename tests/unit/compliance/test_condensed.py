@@ -1,56 +1,15 @@
 """Faces in slices condensed to one spring and gap a pair: exact at the operating load, tangent beside it."""
 
-import dataclasses
-
 import numpy as np
 import pytest
 
-from tribodyn.compliance.flank_gap import flank_gap
-from tribodyn.compliance.load_sharing import flexibility, share_load
-from tribodyn.compliance.slices import face_positions
+from tests.support.faces_in_slices import CASES, model, table
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.corner_contact import pair_geometry, roll_limits
+from tribodyn.geometry.corner_contact import roll_limits
 from tribodyn.geometry.families import family
-from tribodyn.geometry.modification import FlankModification, LeadRelief, Misalignment, Modifications, Relief
+from tribodyn.geometry.modification import FlankModification, Misalignment, Modifications
 from tribodyn.mesh.quasi_static import quasi_static
-from tribodyn.mesh.tabulate_loaded import tabulate_loaded
-from tribodyn.studies.load import load_scenario
-
-TIP = FlankModification(tip=Relief(12e-6, 3e-3))
-CASES = {
-    "tips": (Modifications(TIP, TIP), 1),
-    "tilt": (Modifications(misalignment=Misalignment(5e-4)), 11),
-    "lift": (Modifications(misalignment=Misalignment(1.5e-3)), 11),
-    "all": (
-        Modifications(TIP._replace(lead=LeadRelief(5e-6, 8e-6, 3e-3)), TIP, Misalignment(-4e-4, 2e-4)),
-        11,
-    ),
-}
-
-
-@pytest.fixture(scope="module")
-def case():
-    return load_scenario("involute-18-36-fem")
-
-
-def table(case, modified, slices, **changes):
-    mesh = dataclasses.replace(case.mesh, modifications=modified, slices=slices, points=33, **changes)
-    torque = case.operating.gear_torque
-    back = mesh.backlash is not None
-    return tabulate_loaded(family(case.family), case.drive, case.materials, mesh, torque, back)
-
-
-def model(case, cycle, modified, slices, torque, coupled=True):
-    """Loads and deflection of the load contact model at the nodes of the table."""
-    flexible = flexibility(assemble(family(case.family), case.drive), case.materials, lead=slices > 1)
-    pairs = cycle.front_pairs
-    position = cycle.phase[..., None] + np.arange(pairs - 1.0, -1.0, -1.0)
-    roll = np.clip(cycle.roll_start + cycle.pitch_angle * position, cycle.roll_start, cycle.roll_end)
-    roll = roll.reshape(-1, pairs)
-    face = face_positions(flexible.width, slices)
-    gap = flank_gap(flexible.assembly, modified, pair_geometry(flexible.assembly, roll), face)
-    return share_load(flexible, roll, torque, 0.0, gap, slices, coupled)
 
 
 @pytest.mark.parametrize("name", CASES)

@@ -5,7 +5,7 @@ import pytest
 from scipy.sparse.linalg import splu, spsolve
 from skfem import Basis, ElementHex2, ElementVector, MeshHex
 
-from tests.unit.compliance.test_strips import node_at, plate, solid_energy
+from tests.support.solid_elements import node_at, plate, solid_energy
 from tribodyn.compliance.end_faces import openings, parity_weights
 from tribodyn.compliance.lead_harmonics import spline_weights, wave_numbers
 from tribodyn.compliance.root_stress import edge_points, edge_values, stress_rows

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.sparse.linalg import spsolve
 
+from tests.support.twelve_teeth import POISSON, TOOTH, whole_ring
 from tribodyn.compliance.fem import gear_compliance
 from tribodyn.compliance.gear_compliance import NEIGHBOURS
 from tribodyn.compliance.ring_mesh import sector_mesh
@@ -13,10 +14,6 @@ from tribodyn.geometry.body import section_area_and_inertia
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families.involute import FAMILY
 from tribodyn.geometry.tooth import cut_tooth, flank_point, tooth_outline
-
-POISSON = 0.3
-BODY = GearBody(12, 0.3, 1.0, 1.25, 0.25, 0.02, 8e-3)
-TOOTH = cut_tooth(FAMILY, Drive(3e-3, np.radians(20.0), BODY, BODY), "pinion")
 
 
 def block(columns: int, rows: int, length: float = 1.0, height: float = 1.0, bend: float = 0.0):
@@ -131,19 +128,6 @@ def test_rim_too_thin_for_the_mesh_is_refused():
     tooth = cut_tooth(FAMILY, Drive(3e-3, np.radians(20.0), body, body), "pinion")
     with pytest.raises(InputError, match="too thin"):
         gear_compliance(tooth, 8, 0.97 * tooth.root_radius, POISSON, 0.75e-3, 1)
-
-
-def whole_ring(level: int):
-    """Nodes and cells of all teeth, and the flanks' nodes of tooth 0 and its neighbour towards +y."""
-    mesh = sector_mesh(TOOTH, 12, 8e-3, level)
-    parts = []
-    for k in range(12):
-        c, s = np.cos(k * np.pi / 6), np.sin(k * np.pi / 6)
-        parts.append(np.array([[c, -s], [s, c]]) @ mesh.nodes)
-    points = np.concatenate(parts, axis=1)
-    _, index, merged = np.unique(np.round(points * 1e9).T, axis=0, return_index=True, return_inverse=True)
-    cells = np.concatenate([mesh.cells + k * mesh.nodes.shape[1] for k in range(12)], axis=1)
-    return curved_basis(points[:, index], merged.reshape(-1)[cells]), mesh
 
 
 def test_one_sector_with_cyclic_symmetry_is_the_whole_ring():

@@ -6,8 +6,7 @@ from scipy.sparse import csc_matrix, diags, kron
 from scipy.sparse.linalg import splu
 from scipy.spatial import KDTree
 
-from tests.unit.compliance.test_mesh_memory import BODY, TOOTH
-from tests.unit.compliance.test_slices import pair  # noqa: F401
+from tests.support.twelve_teeth import BODY, TOOTH
 from tribodyn.compliance.end_faces import openings
 from tribodyn.compliance.face_compliance import slice_compliance
 from tribodyn.compliance.free_ends import at_phase, face_of, harmonic_of
@@ -86,7 +85,7 @@ def test_half_a_sector_stands_for_a_whole_one(harmonic, wave_number):
     np.testing.assert_allclose(seen @ opened, stress, atol=1e-7 * np.max(np.abs(stress)))
 
 
-def added(pair, roll, slices):  # noqa: F811
+def added(pair, roll, slices):
     """What free ends add to the slices' compliances, as a matrix over pairs and slices."""
     geometry = pair_geometry(pair.assembly, roll)
     held = pair._replace(gears=tuple(gear._replace(ends=None) for gear in pair.gears))
@@ -95,7 +94,7 @@ def added(pair, roll, slices):  # noqa: F811
     return (free - symmetric).reshape(-1, size, size), symmetric.reshape(-1, size, size)
 
 
-def test_free_ends_only_give_way_more_and_answer_each_other(pair):  # noqa: F811
+def test_free_ends_only_give_way_more_and_answer_each_other(pair):
     roll = np.array([[0.15, 0.15 - 2 * np.pi / 18], [0.3, 0.3 - 2 * np.pi / 18]])
     slices = 21
     more, symmetric = added(pair, roll, slices)
@@ -106,7 +105,7 @@ def test_free_ends_only_give_way_more_and_answer_each_other(pair):  # noqa: F811
     np.testing.assert_allclose(own, own[:, ::-1, ::-1], atol=1e-9 * np.max(own))
 
 
-def test_slices_in_one_give_way_like_one_wide_slice(pair):  # noqa: F811
+def test_slices_in_one_give_way_like_one_wide_slice(pair):
     """Even loads on all parts of a slice are an even load on it, and its mean deflection is theirs."""
     means = []
     for slices in (6, 48):
@@ -115,7 +114,7 @@ def test_slices_in_one_give_way_like_one_wide_slice(pair):  # noqa: F811
     np.testing.assert_allclose(means[1], means[0], rtol=1e-9, atol=1e-12 * np.max(means[0]))
 
 
-def test_one_slice_and_slices_apart_are_plane_strain(pair):  # noqa: F811
+def test_one_slice_and_slices_apart_are_plane_strain(pair):
     geometry = pair_geometry(pair.assembly, np.array([[0.1, -0.2]]))
     plane = pair_harmonics(pair, geometry)[0]
     np.testing.assert_array_equal(slice_compliance(pair, geometry)[:, :, 0, :, 0], plane)
@@ -123,13 +122,13 @@ def test_one_slice_and_slices_apart_are_plane_strain(pair):  # noqa: F811
     np.testing.assert_allclose(apart.sum(axis=4) / 7, plane[:, :, None, :] * np.ones((7, 1)), rtol=1e-12)
 
 
-def test_a_wide_face_is_in_plane_strain_but_for_its_ends(pair):  # noqa: F811
+def test_a_wide_face_is_in_plane_strain_but_for_its_ends(pair):
     """Bodies as wide as their own diameter notice an even load's free ends by a few per cent only."""
     more, symmetric = added(pair, np.zeros((1, 1)), 21)
     assert 0.0 < np.sum(more) / np.sum(symmetric) < 0.05
 
 
-def test_without_neighbours_teeth_do_not_know_of_each_other_s_ends(pair):  # noqa: F811
+def test_without_neighbours_teeth_do_not_know_of_each_other_s_ends(pair):
     alone = pair._replace(gears=tuple(without_neighbours(gear) for gear in pair.gears))
     geometry = pair_geometry(pair.assembly, np.array([[0.1, -0.2]]))
     both, single = (slice_compliance(one, geometry, 5) for one in (pair, alone))

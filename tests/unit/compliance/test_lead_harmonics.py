@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.sparse.linalg import spsolve
 
-from tests.unit.compliance.test_fem import BODY, POISSON, TOOTH, whole_ring
+from tests.support.twelve_teeth import BODY, POISSON, TOOTH, whole_ring
 from tribodyn.compliance.fem import gear_compliance, lead_harmonics
 from tribodyn.compliance.gear_compliance import NEIGHBOURS, GearCompliance
 from tribodyn.compliance.gear_model import gear_model

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from tribodyn.tribology.surfaces import contact_of
 
-from tests.unit.compliance.test_condensed import CASES, case, model, table  # noqa: F401
+from tests.support.faces_in_slices import CASES, model, table
 from tribodyn.compliance.line_load import friction_ratio, peak_ratio
 from tribodyn.geometry.modification import FlankModification, LeadRelief, Modifications
 from tribodyn.tribology.friction import MASJEDI_KHONSARI, friction
@@ -38,7 +38,7 @@ def test_what_is_left_of_friction_that_goes_like_a_small_power(power):
 
 
 @pytest.mark.parametrize("name", ["tilt", "crowned"])
-def test_the_table_has_the_friction_film_and_pressure_of_the_slices(case, name):  # noqa: F811
+def test_the_table_has_the_friction_film_and_pressure_of_the_slices(case, name):
     """Friction power of the mixed law summed over the slices that the load contact model finds."""
     modified, slices = LIKE[name]
     cycle = table(case, modified, slices)

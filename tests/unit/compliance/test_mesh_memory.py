@@ -4,28 +4,25 @@ import subprocess
 import sys
 from pathlib import Path
 
-import numpy as np
 import pytest
 
+from tests.support.twelve_teeth import TOOTH
 from tribodyn.compliance import mesh_memory
 from tribodyn.compliance.fem import gear_compliance, lead_harmonics
 from tribodyn.compliance.mesh_memory import check_level, memory_needed
 from tribodyn.compliance.ring_mesh import half_sector_cells, half_sector_mesh
 from tribodyn.errors import InputError
-from tribodyn.geometry.drive import Drive, GearBody
-from tribodyn.geometry.families.involute import FAMILY
-from tribodyn.geometry.tooth import cut_tooth
-
-BODY = GearBody(12, 0.3, 1.0, 1.25, 0.25, 0.02, 8e-3)
-TOOTH = cut_tooth(FAMILY, Drive(3e-3, np.radians(20.0), BODY, BODY), "pinion")
 
 # The peak of this process alone; the system's ru_maxrss starts from that of the process that started it.
 STATUS = Path("/proc/self/status")
 SOLVE = """
 import sys
-from tests.unit.compliance.test_mesh_memory import STATUS, TOOTH, gear_compliance, lead_harmonics
+from pathlib import Path
+from tests.support.twelve_teeth import TOOTH
+from tribodyn.compliance.fem import gear_compliance, lead_harmonics
 def peak():
-    return next(1024 * int(s.split()[1]) for s in STATUS.read_text().splitlines() if s.startswith("VmHWM"))
+    lines = Path("/proc/self/status").read_text().splitlines()
+    return next(1024 * int(s.split()[1]) for s in lines if s.startswith("VmHWM"))
 gear_compliance(TOOTH, 12, 8e-3, 0.3, 0.75e-3, 1)
 before = peak()
 if sys.argv[1] == "2":

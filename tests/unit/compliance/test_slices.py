@@ -5,30 +5,14 @@ import pytest
 from scipy.optimize import brentq, nnls
 from scipy.special import ellipe, ellipk
 
+from tests.support.faces_in_slices import WIDTH
 from tribodyn.compliance.active_set import press
 from tribodyn.compliance.lead_harmonics import half_space_surface
-from tribodyn.compliance.load_sharing import flexibility, half_width, press_pairs
+from tribodyn.compliance.load_sharing import half_width, press_pairs
 from tribodyn.compliance.slices import by_slices, face_positions, modes, pair_harmonics
-from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.corner_contact import pair_geometry
-from tribodyn.geometry.drive import Drive, GearBody
-from tribodyn.geometry.families.involute import FAMILY
-from tribodyn.geometry.material import MaterialData
 
-STEEL = MaterialData("steel", 207e9, 0.3, 7850.0, 45.0, 460.0, 6.5e9)
-WIDTH = 26.7e-3
-DRIVE = Drive(
-    3e-3,
-    np.radians(20.0),
-    GearBody(18, 0.0, 1.0, 1.25, 0.25, WIDTH, 12e-3),
-    GearBody(36, 0.0, 1.0, 1.25, 0.25, WIDTH, 25e-3),
-)
 SPRING = 2e-9  # m/N of the whole face
-
-
-@pytest.fixture(scope="module")
-def pair():
-    return flexibility(assemble(FAMILY, DRIVE), (STEEL, STEEL), lead=True)
 
 
 def springs(gap, force):

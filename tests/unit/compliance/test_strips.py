@@ -3,31 +3,11 @@
 import numpy as np
 import pytest
 from scipy.sparse.linalg import spsolve
-from skfem import Basis, BilinearForm, ElementHex2, ElementVector, MeshHex
-from skfem.helpers import ddot, eye, sym_grad, trace
+from skfem import Basis, ElementHex2, ElementVector, MeshHex
 
+from tests.support.solid_elements import POISSON, node_at, plate, solid_energy
 from tribodyn.compliance.root_stress import edge_points, stress_rows
-from tribodyn.compliance.strips import curved_basis, plane_stiffness, strip_stiffness
-
-POISSON = 0.3
-SHEAR, LAME = 0.5 / (1 + POISSON), POISSON / ((1 + POISSON) * (1 - 2 * POISSON))
-
-
-def plate(columns, rows, length, height):
-    """Basis of a rectangle 0 < x < length, |y| < height/2."""
-    x, y = np.meshgrid(
-        np.linspace(0, length, 2 * columns + 1),
-        np.linspace(-height / 2, height / 2, 2 * rows + 1),
-        indexing="ij",
-    )
-    number = np.arange(x.size).reshape(x.shape)
-    around = [(0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1), (1, 1)]
-    cells = [number[i : 2 * columns - 1 + i : 2, j : 2 * rows - 1 + j : 2].ravel() for i, j in around]
-    return curved_basis(np.stack([x.ravel(), y.ravel()]), np.stack(cells))
-
-
-def node_at(places, *point):
-    return int(np.argmin(np.sum((places - np.array(point)[:, None]) ** 2, axis=0)))
+from tribodyn.compliance.strips import plane_stiffness, strip_stiffness
 
 
 def solve_strip(basis, k, load):
@@ -38,12 +18,6 @@ def solve_strip(basis, k, load):
     found = np.zeros(3 * basis.N)
     found[free] = spsolve(matrix, load.ravel()[free])
     return found.reshape(-1, 3)
-
-
-@BilinearForm
-def solid_energy(u, v, _):
-    stress = 2 * SHEAR * sym_grad(u) + LAME * eye(trace(sym_grad(u)), 3)
-    return ddot(stress, sym_grad(v))
 
 
 def solid_compliance(section, k, slices, node):

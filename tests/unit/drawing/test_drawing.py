@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from ezdxf import units
 
-from tests.unit.geometry.test_geometry_tooth import LIU_NI, SHIFTED, SOUND, STANDARD, bodies
+from tests.support.sample_drives import LIU_NI, SHIFTED, SOUND, STANDARD, bodies
 from tribodyn.drawing.dxf import RACK_TEETH, write_gear, write_pair, write_rack
 from tribodyn.drawing.picture import gears_in_mesh, pair_figure
 from tribodyn.drawing.profile import HEADER, tooth_profile, write_profile

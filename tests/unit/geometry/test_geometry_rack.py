@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tests.unit.geometry.test_geometry_tooth import DRIVES, LIU_NI, SHIFTED, SOUND, STANDARD, bodies
+from tests.support.sample_drives import DRIVES, LIU_NI, SHIFTED, SOUND, STANDARD, bodies
 from tribodyn.geometry.drive import SIDES, body_of, reference_radius, tip_radius
 from tribodyn.geometry.families import crc, involute
 from tribodyn.geometry.rack import CLEARANCE, rack_flank, rack_outline

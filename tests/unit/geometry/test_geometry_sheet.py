@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tests.unit.geometry.test_geometry_tooth import LIU_NI, SHIFTED, STANDARD, UNDERCUT
+from tests.support.sample_drives import LIU_NI, SHIFTED, STANDARD, UNDERCUT
 from tribodyn.geometry.drive import SIDES, body_of, reference_radius, tip_radius
 from tribodyn.geometry.families import crc, involute
 from tribodyn.geometry.sheet import geometry_sheet

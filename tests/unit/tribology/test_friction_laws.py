@@ -4,27 +4,11 @@ import math
 
 import numpy as np
 import pytest
+
+from tests.support.lubricated_contacts import LIU_NI, POINT, VECIANA
 from tribodyn.tribology.empirical import benedict_kelley, xu
-from tribodyn.tribology.mean_friction import iso_14179_1, mean_conditions, niemann
-
-from tests.unit.tribology.test_tribology import LIU_NI, POINT
 from tribodyn.tribology.friction import BENEDICT_KELLEY, COULOMB, MASJEDI_KHONSARI, XU, friction
-
-#: Veciana et al. (2024), Table 2.
-VECIANA = LIU_NI._replace(
-    effective_modulus=231e9,
-    hardness=6e9,
-    roughness=0.2e-6,
-    asperity_friction=0.12,
-    limiting_shear_coefficient=0.06,
-    inlet_viscosity=0.01,
-    pressure_viscosity=1.5e-8,
-    viscosity_pressure_index=0.58,
-    temperature_viscosity=0.03,
-    pinion_heat_capacity=769.2 * 434,
-    gear_heat_capacity=769.2 * 434,
-    peclet_sliding=1.0,
-)
+from tribodyn.tribology.mean_friction import iso_14179_1, mean_conditions, niemann
 
 #: Coefficients of friction (EHL, mixed EHL) over the slide-to-roll ratio: a separate prototype of the two
 #: laws at Veciana's Table 2 (R 5 mm, V_e 5 m/s, p_H 2 GPa), with the literal reading of the mixed one.

@@ -3,41 +3,11 @@ import math
 import numpy as np
 import pytest
 
-from tribodyn.tribology.contact import Contact, hertz_half_width, hertz_pressure
+from tests.support.lubricated_contacts import LIU_NI, POINT
+from tribodyn.tribology.contact import hertz_half_width, hertz_pressure
 from tribodyn.tribology.flash import flash_temperature_rise
 from tribodyn.tribology.friction import COULOMB, MASJEDI_KHONSARI, NONE, friction
 from tribodyn.tribology.rheology import limiting_shear_share, log_roelands_viscosity
-
-#: Liu & Ni (2022), Table 2; solid 7850 kg/m³, 460 J/(kg K).
-LIU_NI = Contact(
-    effective_modulus=2.06e11 / 0.91,
-    hardness=2.3e9,
-    roughness=3e-7,
-    asperity_friction=0.11,
-    limiting_shear_coefficient=0.091,
-    inlet_viscosity=0.35,
-    pressure_viscosity=2.5e-8,
-    viscosity_pressure_index=0.57,
-    temperature_viscosity=0.045,
-    pinion_conductivity=60.5,
-    gear_conductivity=60.5,
-    pinion_heat_capacity=7850 * 460.0,
-    gear_heat_capacity=7850 * 460.0,
-    coulomb_coefficient=0.06,
-    asperity_log_factor=4470.0,
-    limiting_share=1.0,
-    mean_roughness=3e-7 / math.sqrt(math.pi),
-    viscosity_pressure_factor=1.0,
-    peclet_sliding=0.0,
-)
-POINT = dict(
-    line_load=3.85e5,
-    curvature=1 / 8.98e-3,
-    entrainment=0.134,
-    sliding=0.0447,
-    pinion_speed=0.156,
-    gear_speed=0.112,
-)
 
 
 def by_hand(w, rho, u, v, u1, u2, c):

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from tests.unit.tribology.test_friction_laws import VECIANA
+from tests.support.lubricated_contacts import VECIANA
 from tribodyn.geometry.families.involute import InvolutePath
 from tribodyn.studies.efficiency.quadrature import piecewise
 from tribodyn.studies.efficiency.torque_ratio import (

@@ -1,0 +1,105 @@
+"""How long tests take: measured into tests/durations.json, which orders files and chooses the quick tests.
+
+`make durations` measures. Only ratios matter: on another or a busy machine all seconds are longer or shorter.
+Files and tests that were never measured run first, and belong to the quick ones.
+"""
+
+import json
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+import pytest
+
+TESTS = Path(__file__).parents[1]
+MEASURED = TESTS / "durations.json"
+#: The quick tests are the shortest, together this share of the time of all: well under a minute of the six
+#: that all of them may take.
+QUICK_SHARE = 0.1
+#: Tests below this are not listed, s: it keeps the list short and its changes few.
+LISTED = 0.05
+
+
+def add_options(parser: pytest.Parser) -> None:
+    """Add the options `--measure-durations` and `--quick`."""
+    group = parser.getgroup("durations")
+    group.addoption("--measure-durations", action="store_true", help=f"write {MEASURED.name}")
+    group.addoption("--quick", action="store_true", help="run only the shortest tests")
+
+
+class Durations:
+    """A plugin: sorts and selects what was collected, and measures what runs.
+
+    Parameters
+    ----------
+    config : pytest.Config
+        With the options of `add_options`.
+    """
+
+    def __init__(self, config: pytest.Config) -> None:
+        self.config = config
+        self.seconds: Counter[str] = Counter()
+        known = json.loads(MEASURED.read_text(encoding="utf-8")) if MEASURED.is_file() else {}
+        self.limit: float = known.get("quick limit", float("inf"))
+        self.files: dict[str, float] = known.get("files", {})
+        self.tests: dict[str, float] = known.get("tests", {})
+
+    def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
+        """Put the longest files first, the order within a file stays; leave out what is not quick."""
+        items.sort(key=lambda item: -self.files.get(_name(item.nodeid).partition("::")[0], float("inf")))
+        if self.config.getoption("--quick"):
+            quick = [self.tests.get(_name(item.nodeid), 0.0) <= self.limit for item in items]
+            left_out = [item for item, stays in zip(items, quick, strict=True) if not stays]
+            self.config.hook.pytest_deselected(items=left_out)
+            items[:] = [item for item, stays in zip(items, quick, strict=True) if stays]
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        """Add up setup, call and teardown; what a fixture prepares for many counts for the first of them."""
+        self.seconds[_name(report.nodeid)] += report.duration
+
+    def pytest_sessionfinish(self, exitstatus: int) -> None:
+        """Write the durations down, in the process that hears of all tests.
+
+        With `--quick` the longer of both measurements of a test holds, and all else stays: where the first
+        user of something expensive is left out, the next one prepares it.
+        """
+        wanted = self.config.getoption("--measure-durations") and not hasattr(self.config, "workerinput")
+        if not wanted or exitstatus not in (pytest.ExitCode.OK, pytest.ExitCode.TESTS_FAILED):
+            return
+        tests: Mapping[str, float] = self.seconds
+        files, limit = _by_file(tests), _quick_limit(tests.values())
+        if self.config.getoption("--quick"):
+            files, limit = self.files, self.limit
+            known = self.tests
+            tests = {name: max(tests.get(name, 0.0), known.get(name, 0.0)) for name in {*tests, *known}}
+        listed = {name: seconds for name, seconds in tests.items() if round(seconds, 2) >= LISTED}
+        written = {"quick limit": limit, "files": _longest_first(files), "tests": _longest_first(listed)}
+        MEASURED.write_text(json.dumps(written, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+
+
+def _name(nodeid: str) -> str:
+    """Name of a test below tests/: ``unit/solve/test_ensemble.py::test_x``."""
+    return nodeid.removeprefix(f"{TESTS.name}/")
+
+
+def _by_file(tests: Mapping[str, float]) -> dict[str, float]:
+    files: Counter[str] = Counter()
+    for name, seconds in tests.items():
+        files[name.partition("::")[0]] += seconds
+    return files
+
+
+def _quick_limit(seconds: Iterable[float]) -> float:
+    """Return the duration up to which a test is quick, rounded as in the list."""
+    ordered = sorted(seconds)
+    total = 0.0
+    for one in ordered:
+        total += one
+        if total > QUICK_SHARE * sum(ordered):
+            return max(LISTED, round(one, 2))
+    return ordered[-1]
+
+
+def _longest_first(seconds: Mapping[str, float]) -> dict[str, float]:
+    ordered = sorted(seconds.items(), key=lambda item: (-round(item[1], 2), item[0]))
+    return {name: round(value, 2) for name, value in ordered}
