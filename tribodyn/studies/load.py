@@ -13,7 +13,7 @@ from pydantic import Field, TypeAdapter, ValidationError
 from tribodyn.errors import InputError, InputErrors, require_known
 from tribodyn.geometry.families import FAMILIES, family
 from tribodyn.scenario.drive_rules import broken_drive_rules
-from tribodyn.scenario.law_tables import FilmTable, add_law_schema, law_errors
+from tribodyn.scenario.law_tables import FilmTable, add_law_schema
 from tribodyn.scenario.messages import Origins, explain
 from tribodyn.scenario.resolve import Resolved, resolve, unresolved_keys
 from tribodyn.scenario.shape import shape_errors
@@ -129,8 +129,6 @@ def loaded_from(resolved: Resolved, path: Path) -> Loaded:
         return Loaded(backlash_oscillator_case_of(table, toml, digest), path, origins)
     assert isinstance(table, OfGears)
     errors = _broken(table) + _unknown_names(table)
-    if not isinstance(table, LoadContactScenario):
-        errors += law_errors(table)
     if table.drive.family in FAMILIES:
         errors += shape_errors(table.drive, family(table.drive.family))
     if errors:
