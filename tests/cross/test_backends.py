@@ -9,7 +9,7 @@ from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_sev
 from tests.unit.tribology.test_tribology import LIU_NI
 from tribodyn.dynamics.parameters import STATES
 from tribodyn.kernels.native import kernel
-from tribodyn.solve.diffrax_engine import right_hand_side
+from tribodyn.solve.diffrax_integrator import right_hand_side
 from tribodyn.tribology.contact import logarithms
 from tribodyn.tribology.friction import (
     BENEDICT_KELLEY,

@@ -8,7 +8,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from tribodyn.errors import InputError, SimulationError
-from tribodyn.solve.stiffness import THROUGH_JAX
+from tribodyn.solve.methods import Runs, runs
 from tribodyn.studies.gear_pair.batch.evaluate import Chunk, Settings, evaluate
 
 Block = dict[str, np.ndarray]
@@ -94,7 +94,7 @@ class Dask:
 
 def method_of(engine: str, method: str) -> str:
     """The method that an engine integrates with instead of the scenario's own; empty for the latter."""
-    return "tsit5" if engine == JAX and method not in THROUGH_JAX else ""
+    return "tsit5" if engine == JAX and runs(method) is not Runs.JAX else ""
 
 
 def _jax_width() -> int:

@@ -62,7 +62,7 @@ _C_FUNCTIONS = {
 def compiled(function: Callable[..., Any], layout: Record) -> Compiled:
     """Compile a function for arguments of a layout."""
     register_laws()
-    kernel = KernelFunction(function)
+    kernel: Any = KernelFunction(function)
 
     def entry(block, results):
         put(results, kernel(*fields_of(block)))

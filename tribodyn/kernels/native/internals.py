@@ -167,9 +167,9 @@ def report_missing() -> bool:
         import numba
 
         warnings.warn(
-            f"numba {numba.__version__} lacks {', '.join(lacking)}: kernels are compiled without, again in every "
-            "process, and batches run case by case; for the usual speed install a numba within the bounds of "
-            "tribodyn's pyproject.toml",
+            f"numba {numba.__version__} lacks {', '.join(lacking)}: kernels are compiled without, again in "
+            "every process, and batches run case by case; for the usual speed install a numba within the "
+            "bounds of tribodyn's pyproject.toml",
             RuntimeWarning,
             stacklevel=2,
         )

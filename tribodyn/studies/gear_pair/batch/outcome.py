@@ -6,7 +6,7 @@ import numpy as np
 
 from tribodyn.dynamics.parameters import LAG, WORKS
 from tribodyn.record.sweep_schema import UNKNOWN
-from tribodyn.solve.engine import REASONS
+from tribodyn.solve.integrator import REASONS, Status
 
 
 class Passage(NamedTuple):
@@ -68,7 +68,7 @@ def failed(state: np.ndarray, cycles: float, reason: str) -> Outcome:
 
 def stopped(status: int, reached: float) -> str:
     """Why an integration stopped, and after how many mesh cycles."""
-    return f"stopped after {reached:.4g} mesh cycles: {REASONS[status]}"
+    return f"stopped after {reached:.4g} mesh cycles: {REASONS[Status(status)]}"
 
 
 def continued(state: np.ndarray) -> np.ndarray:
