@@ -99,5 +99,7 @@ def block(start: int, stop: int, pairs: int = 2) -> dict[str, np.ndarray]:
         values[name] = index.reshape(-1, *[1] * len(columns)) * 100 + number
         if columns:
             values[name] = values[name] + np.arange(columns[0]) / 10
-    values["closure_in_range"] = values["closure_in_range"].astype(int) % 2 == 0
+    for name, variable in SAMPLES.items():
+        if variable.flags:
+            values[name] = values[name].astype(int) % 2 == 0
     return values

@@ -159,9 +159,10 @@ def samples(cycles: int, per_cycle: int, friction: float = 0.05) -> dict[str, np
     }
     over_pairs = [name for name, variable in SAMPLES.items() if variable.dims == ("time", "pair")]
     for name in over_pairs:
-        if name != "closure_in_range":
+        if SAMPLES[name].flags:
+            values[name] = np.where(contact, 1, -1)
+        else:
             values[name] = np.where(contact, values[name], np.nan)
-    values["closure_in_range"] = np.where(contact, 1, -1)
     for name, variable in SAMPLES.items():
         shape = (time.size, len(DOF)) if "dof" in variable.dims else (time.size,)
         values.setdefault(name, np.zeros(shape))
