@@ -19,11 +19,12 @@ from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.periodic import GearMap, moving_states
 from tribodyn.solve.tolerances import Tolerances, absolute_tolerances
 from tribodyn.solve.transient import make_integrator
+from tribodyn.studies.gear_pair.batch import MOST_CYCLES
 from tribodyn.studies.gear_pair.batch.evaluate import tabulated
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.sweep.engines import Local
 from tribodyn.sweep.grid import Grid
-from tribodyn.sweep.run import MOST_CYCLES, run, settings_of
+from tribodyn.sweep.run import run, settings_of
 
 Array = Any
 
@@ -82,7 +83,7 @@ def sweep(speeds: Grid, workers: int | None = None) -> Ours:
     """What `tribodyn sweep --steady` does, file included."""
     with TemporaryDirectory() as folder:
         begun = process_time()
-        found = run(speeds, settings_of(speeds, None), Local(workers), Path(folder) / "steady.h5")
+        found = run(speeds, settings_of(speeds), Local(workers), Path(folder) / "steady.h5")
         seconds = process_time() - begun
         with SweepRecord(found.path) as record:
             names, counts = np.unique(record["solution"], return_counts=True)
