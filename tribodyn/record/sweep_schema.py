@@ -1,14 +1,23 @@
 """The layout of a sweep's record: its axes are the varied parameters, its datasets hold a value a case."""
 
+from enum import IntEnum
 from typing import NamedTuple
 
 from tribodyn.record.schema import Variable
 
 SWEEP = "sweep"
 
-#: `status` of a case.
-WAITING, DONE, FAILED = 0, 1, 2
-CASE_STATES = "waiting done failed"
+
+class CaseStatus(IntEnum):
+    """`status` of a case, as the file has it."""
+
+    WAITING = 0
+    DONE = 1
+    FAILED = 2
+
+
+WAITING, DONE, FAILED = CaseStatus
+CASE_STATES = " ".join(status.name.lower() for status in CaseStatus)
 #: `stable`, where the linearised motion was not looked at.
 UNKNOWN = -1
 DIRECTIONS = ("up", "down")

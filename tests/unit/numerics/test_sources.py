@@ -13,7 +13,9 @@ from tribodyn.numerics.cache import replacing
 
 FILES = {
     "__init__.py": "",
-    "start.py": "from {name}.direct import a\nfrom {name} import (  # two\n    module,\n    part as other,\n)\n",
+    "start.py": (
+        "from {name}.direct import a\nfrom {name} import (  # two\n    module,\n    part as other,\n)\n"
+    ),
     "direct.py": "def a():\n    import {name}.lazy\n",
     "module.py": "from .relative import b\n",
     "part/__init__.py": "from ..above import c\n",
@@ -39,7 +41,7 @@ def write_package(folder: Path, name: str) -> None:
 
 @pytest.fixture
 def package(tmp_path, monkeypatch):
-    """Make a package of some name in which one file may have another content; gives the digest of its start."""
+    """Make a package in which a file may be changed; gives the digest of its module `start`."""
     monkeypatch.syspath_prepend(str(tmp_path))
 
     def digest(name: str, changed: str | None = None) -> bytes:
@@ -109,8 +111,13 @@ def test_a_file_appears_whole_or_not_at_all(tmp_path):
     with replacing(file) as scratch:
         scratch.write_text("first")
         assert not file.exists()
-    with pytest.raises(KeyError), replacing(file) as scratch:
-        scratch.write_text("half")
-        raise KeyError
+
+    def write_half():
+        with replacing(file) as scratch:
+            scratch.write_text("half")
+            raise KeyError
+
+    with pytest.raises(KeyError):
+        write_half()
     assert file.read_text() == "first"
     assert list(file.parent.iterdir()) == [file]

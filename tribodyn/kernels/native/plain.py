@@ -6,6 +6,8 @@ numba takes every record apart at each call. Results differ from the usual kerne
 
 import math
 from collections.abc import Callable
+from functools import cache
+from types import FunctionType
 from typing import Any, cast
 
 import numba
@@ -72,9 +74,12 @@ def _typeof_kernel(kernel, c):
 
 
 def _dispatcher(kernel: Any) -> Any:
-    if not hasattr(kernel, "plain"):
-        kernel.plain = cast(Any, numba.njit)(**_OPTIONS)(kernel.function)
-    return kernel.plain
+    return _compiled(kernel.function)
+
+
+@cache
+def _compiled(function: Callable[..., Any]) -> Any:
+    return cast(Any, numba.njit)(**_OPTIONS)(function)
 
 
 def plainly_compiled(kernel: KernelFunction) -> Callable[[bytes, tuple[Any, ...]], Any]:
@@ -89,9 +94,11 @@ def plainly_compiled(kernel: KernelFunction) -> Callable[[bytes, tuple[Any, ...]
 
 
 def _given(value: Any) -> Any:
-    """An argument as numba takes it: what was laid out, and numbers for arrays without axes."""
+    """An argument as numba takes it: a number for an array without axes, a function as a compiled one."""
     if isinstance(value, Laid):
         value = value.value
+    if isinstance(value, FunctionType):
+        return _compiled(value)
     if isinstance(value, tuple) and hasattr(value, "_fields"):
         return cast(Any, type(value))(*map(_given, value))
     return value.item() if isinstance(value, np.ndarray) and value.ndim == 0 else value
