@@ -31,6 +31,7 @@ def check(
     """Check a scenario; print geometry and stiffness."""
     from tribodyn.cli.printing import print_json, print_table
     from tribodyn.cli.sheet import print_sheet
+    from tribodyn.geometry.assembly import assemble
     from tribodyn.geometry.families import family
     from tribodyn.geometry.sheet import geometry_sheet
     from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
@@ -59,7 +60,7 @@ def check(
             model = prepare(case)
             masses = model.masses
             stiffness = _of_cycle(case, model.cycle)
-        sheet = geometry_sheet(family(case.family), case.drive, masses)
+        sheet = geometry_sheet(assemble(family(case.family), case.drive), masses)
     if json:
         print_json(
             {"scenario": str(loaded.path), "title": case.title, "geometry": sheet, "stiffness": stiffness}
@@ -108,13 +109,10 @@ def _check_oscillator(loaded: "Loaded", case: "BacklashOscillatorCase", json: bo
 
 
 def _of_cycle(case: "Case | EfficiencyCase", cycle: "MeshCycle") -> dict[str, Any]:
-    from tribodyn.mesh.stiffness import single_pair_stiffness
+    from tribodyn.mesh.stiffness import single_pair
 
-    torque = abs(case.operating.gear_torque)
-    load = torque / (float(cycle.gear_pitch_radius) * math.cos(_pressure_angle(case)))
-    return _stiffness(
-        case, load, f'compliance = "{case.mesh.compliance}"', single_pair_stiffness(cycle, load)
-    )
+    pair = single_pair(cycle, case.operating.gear_torque)
+    return _stiffness(case, pair.normal_load, f'compliance = "{case.mesh.compliance}"', pair.stiffness)
 
 
 def _of_load_contact(case: "LoadContactCase") -> dict[str, Any]:

@@ -10,7 +10,7 @@ from tribodyn.compliance.load_sharing import flexibility, share_load
 from tribodyn.compliance.slices import face_positions
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.corner_contact import pair_geometry, roll_limits
+from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.families import family
 from tribodyn.geometry.modification import FlankModification, LeadRelief, Misalignment, Modifications, Relief
 from tribodyn.mesh.quasi_static import quasi_static
@@ -38,7 +38,7 @@ def table(case, modified, slices, **changes):
     mesh = dataclasses.replace(case.mesh, modifications=modified, slices=slices, points=33, **changes)
     torque = case.operating.gear_torque
     back = mesh.backlash is not None
-    return tabulate_loaded(family(case.family), case.drive, case.materials, mesh, torque, back)
+    return tabulate_loaded(assemble(family(case.family), case.drive), case.materials, mesh, torque, back)
 
 
 def model(case, cycle, modified, slices, torque, coupled=True):
@@ -101,7 +101,7 @@ def test_slices_of_straight_flanks_change_nothing_but_that_their_ends_are_free(c
 def test_relief_begins_on_the_boundary_of_a_segment(case):
     cycle = table(case, *CASES["tips"])
     assembly = assemble(family(case.family), case.drive)
-    start, end = roll_limits(assembly)
+    start, end = assembly.roll_limits
     reach = float(assembly.path.rotation(assembly.r_start + 3e-3)) - start
     for roll in (start + reach, float(assembly.path.rotation(assembly.r_end - 3e-3))):
         phase = (roll - cycle.roll_start) / cycle.pitch_angle % 1.0

@@ -46,18 +46,12 @@ def prepare(case: EfficiencyCase) -> Study:
         Where the teeth cannot be made or cannot run together, or the load sharing does not fit them.
     """
     from tribodyn.geometry.checks import check
-    from tribodyn.mesh.tabulate import pair_slots, tabulate
-    from tribodyn.mesh.tabulate_loaded import flanks_of, tabulate_loaded
+    from tribodyn.mesh.by_compliance import loaded_flanks_of, mesh_cycle_of
     from tribodyn.tribology.laws import friction_law
 
-    teeth = family(case.family)
-    check(teeth, case.drive)
-    flanks, mesh = None, case.mesh
-    if mesh.compliance == "fem":
-        cycle = tabulate_loaded(teeth, case.drive, case.materials, mesh, case.operating.gear_torque)
-        flanks = flanks_of(assemble(teeth, case.drive), case.materials, mesh)
-    else:
-        cycle = tabulate(teeth, case.drive, case.materials, case.mesh, pairs=pair_slots(teeth, case.drive))
+    assembly = check(family(case.family), case.drive)
+    cycle = mesh_cycle_of(assembly, case.materials, case.mesh, case.operating.gear_torque)
+    flanks = loaded_flanks_of(assembly, case.materials, case.mesh)
     duty = Duty(
         case.operating.gear_torque,
         case.operating.pinion_speed,
@@ -65,7 +59,7 @@ def prepare(case: EfficiencyCase) -> Study:
         contact_of(case),
         case.load_sharing,
     )
-    return Study(case, cycle, teeth.working_path(case.drive), duty, flanks)
+    return Study(case, cycle, assembly.path, duty, flanks)
 
 
 def run(
@@ -93,7 +87,7 @@ def run(
         sha256=case.sha256,
         samples=len(samples),
         mesh_cycle=as_arrays(study.cycle),
-        geometry=geometry_arrays(family(case.family), case.drive),
+        geometry=geometry_arrays(assemble(family(case.family), case.drive)),
         force=force,
     ) as record:
         record.write(0, _record_arrays(mesh, state, study.duty))

@@ -92,7 +92,7 @@ def table_key(case: Case) -> Hashable:
         if one.name not in (*_NOT_IN_TABLE, "mesh")
     ]
     parts.append(dataclasses.replace(case.mesh, **_MESH_NOT_IN_TABLE))
-    if case.mesh.compliance == "fem":
+    if case.mesh.at_load:
         parts.append(case.operating.gear_torque)
     return _hashable(parts)
 
@@ -134,21 +134,13 @@ def tables(case: Case) -> Tabulated:
     from tribodyn.geometry.body import body_masses
     from tribodyn.geometry.checks import check
     from tribodyn.geometry.families import family
-    from tribodyn.mesh.tabulate import pair_slots, tabulate
+    from tribodyn.mesh.by_compliance import mesh_cycle_of
 
-    teeth = family(case.family)
-    check(teeth, case.drive)
-    back = case.mesh.backlash is not None
-    if case.mesh.compliance == "fem":
-        from tribodyn.mesh.tabulate_loaded import tabulate_loaded
-
-        torque = case.operating.gear_torque
-        cycle = tabulate_loaded(teeth, case.drive, case.materials, case.mesh, torque, back)
-    else:
-        pairs = pair_slots(teeth, case.drive)
-        cycle = tabulate(teeth, case.drive, case.materials, case.mesh, pairs=pairs, back=back)
+    assembly = check(family(case.family), case.drive)
+    back, torque = case.mesh.backlash is not None, case.operating.gear_torque
+    cycle = mesh_cycle_of(assembly, case.materials, case.mesh, torque, back)
     given = [(one.mass, one.inertia) for one in case.masses]
-    pinion, gear = body_masses(teeth, case.drive, given, [one.density for one in case.materials])
+    pinion, gear = body_masses(assembly, given, [one.density for one in case.materials])
     return Tabulated(cycle, polynomials(cycle), (pinion, gear))
 
 

@@ -9,10 +9,11 @@ import numpy as np
 
 from tribodyn.dynamics.outputs import outputs
 from tribodyn.errors import SimulationError
+from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
 from tribodyn.geometry.outlines import geometry_arrays
 from tribodyn.mesh.cycle import as_arrays
-from tribodyn.mesh.stiffness import single_pair_stiffness
+from tribodyn.mesh.stiffness import single_pair
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.stiffness import choose
 from tribodyn.solve.transient import Chunk, Settings, Stop, transient
@@ -61,10 +62,9 @@ def run(
     prepared = prepare(case)
     model, cycle = prepared.model, prepared.cycle
     samples, cycles = case.output.samples_per_cycle, case.solver.cycles
-    static_load = abs(case.operating.gear_torque) / float(cycle.gear_pitch_radius)
     summary: dict[str, Any] = {
         "contact_ratio": float(cycle.contact_ratio),
-        "stiffness_single_pair_at_pitch_point": single_pair_stiffness(cycle, static_load),
+        "stiffness_single_pair_at_pitch_point": single_pair(cycle, case.operating.gear_torque).stiffness,
         "pinion_mass": prepared.masses[0][0],
         "gear_mass": prepared.masses[1][0],
         "pinion_inertia": prepared.masses[0][1],
@@ -77,7 +77,7 @@ def run(
         sha256=case.sha256,
         samples=cycles * samples + 1,
         mesh_cycle=as_arrays(cycle),
-        geometry=geometry_arrays(family(case.family), case.drive),
+        geometry=geometry_arrays(assemble(family(case.family), case.drive)),
         force=force,
     ) as record:
         begun = perf_counter()
