@@ -16,7 +16,7 @@ from tribodyn.compliance.load_sharing import PairFlexibility, SharedLoad, half_w
 from tribodyn.compliance.slices import LEAST_SLICES, face_positions
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry, roll_at_gap, roll_limits
+from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry, roll_at_gap
 from tribodyn.geometry.modification import Modifications, vary_along_lead
 from tribodyn.numerics.shapes import Array, Float, Int
 
@@ -142,8 +142,8 @@ def roll_through(
     check(flexible, modifications, gear_torque, slices)
     limits = reach(flexible, modifications, gear_torque, slices, coupled)
     assembly = flexible.assembly
-    pitch = 2.0 * np.pi / float(assembly.drive.pinion.teeth)
-    start, _ = roll_limits(assembly)
+    pitch = assembly.pitch_angle
+    start, _ = assembly.roll_limits
     ages = _ages(limits, start, pitch)
     phase = np.arange(positions * cycles) / positions
     cycle = np.arange(positions * cycles) // positions
@@ -193,8 +193,8 @@ def harris_map(
     for torque in gear_torques:
         check(flexible, modifications, torque, slices)
     assembly = flexible.assembly
-    pitch = 2.0 * np.pi / float(assembly.drive.pinion.teeth)
-    start, _ = roll_limits(assembly)
+    pitch = assembly.pitch_angle
+    start, _ = assembly.roll_limits
     limits = reach(flexible, modifications, max(gear_torques), slices, coupled)
     ages = _ages(limits, start, pitch)
     phase = np.arange(positions) / positions
@@ -231,8 +231,8 @@ def reach(
     arm = np.cos(geometry.motion.pressure_angle[0, 0])
     deflection = float(single.deflection[0] * arm - np.min(gap))
 
-    start, end = roll_limits(assembly)
-    pitch = 2.0 * np.pi / float(assembly.drive.pinion.teeth)
+    start, end = assembly.roll_limits
+    pitch = assembly.pitch_angle
     roll = start + pitch * np.arange(0.0, (end - start) / pitch, 1.0 / _PHASES)
     nearest = _nearest(flexible, modifications, roll, face)
     whole = np.full(math.ceil(len(roll) / _PHASES) * _PHASES, np.inf)

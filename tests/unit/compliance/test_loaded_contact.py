@@ -9,7 +9,7 @@ from tribodyn.compliance.loaded_contact import harris_map, reach, roll_through
 from tribodyn.compliance.slices import face_positions
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.corner_contact import pair_geometry, roll_limits
+from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families.involute import FAMILY
 from tribodyn.geometry.material import MaterialData
@@ -194,7 +194,7 @@ def test_relief_keeps_corners_from_touching(pair):
     plain, relieved = (
         roll_through(pair, modified, TORQUE, 120) for modified in (UNMODIFIED, Modifications(deep, deep))
     )
-    start, end = roll_limits(pair.assembly)
+    start, end = pair.assembly.roll_limits
     outside = (plain.roll < start - 1e-6) | (plain.roll > end + 1e-6)
     assert np.any(plain.normal_load[outside] > 0)
     # deeper than what a pair deflects, 12.6 µm on the pitch circles
