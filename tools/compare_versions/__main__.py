@@ -1,7 +1,7 @@
 """Run two versions of the package on the same cases and compare every number of what they leave behind.
 
 python -m tools.compare_versions 05aa37e .                       # a commit, and this folder
-python -m tools.compare_versions v0.1.0 HEAD --keep /tmp/kept    # results stay: only what changed runs again
+python -m tools.compare_versions HEAD~1 HEAD --keep /tmp/kept    # results stay: only what changed runs again
 python -m tools.compare_versions 05aa37e . --only 'sweep*' 'validate*'
 python -m tools.compare_versions 05aa37e . --explained "run load-step*: a defect mended: ..."
 
