@@ -7,8 +7,8 @@ python -m tools.compare_versions 05aa37e . --explained "run load-step*: a defect
 
 A version is a folder or a git revision. Both run with this Python, each with a cache of its own. Compared are
 all records, what is printed as JSON, and exit statuses: numbers, NaN patterns, shapes, types. A difference is
-relative to the largest magnitude of its dataset (in displacement and velocity: of its column). Exit status 1
-if one above the threshold is not explained, or something that the old version has is missing.
+relative to the largest magnitude of its dataset (in displacement and velocity: of its column; residuals
+are shares already). Exit status 1 if one above the threshold is not explained, or something is missing.
 """
 
 import argparse
