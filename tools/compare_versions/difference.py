@@ -24,7 +24,7 @@ WORDS = (
 class Difference(NamedTuple):
     """Of one quantity: `relative` is NaN where shape, type, NaN pattern, or text differ; `how` says it.
 
-    A residual is a share already, of the work or the torque, and 0 but for rounding: its difference is taken as
+    A residual is a share already, of the work or the torque, and 0 but for rounding: its difference counts as
     it is.
     """
 
