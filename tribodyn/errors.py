@@ -103,10 +103,9 @@ def printable(text: str) -> str:
     )
 
 
-def require_known(key: str, name: str, known: Iterable[str], what: str) -> None:
-    """Raise InputError unless a name is among the known ones; `what` says what they are names of."""
+def unknown_name(key: str, name: str, known: Iterable[str], what: str) -> InputError:
+    """Return what to say of a name that is not among the known ones; `what` says what they are names of."""
     known = list(known)
-    if name not in known:
-        near = near_name(name, known)
-        mean = f'did you mean "{near}"? ' if near else ""
-        raise InputError(key, quoted(name), f"no such {what}", f"{mean}there is: {', '.join(known)}")
+    near = near_name(name, known)
+    mean = f'did you mean "{near}"? ' if near else ""
+    return InputError(key, quoted(name), f"no such {what}", f"{mean}there is: {', '.join(known)}")

@@ -9,13 +9,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray
+from tribodyn.sweep.pictures import SWEEP_NAMES
 from typer.testing import CliRunner
 
 from tribodyn.cli.app import app
 from tribodyn.record.reader import open_record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE, FAILED, FIGURES
-from tribodyn.sweep.pictures import SWEEP_NAMES
 
 SPEEDS = "operating.pinion_speed=100:300:100rad/s"
 SHORT = ("--transient", "4", "--set", "output.samples_per_cycle=40")

@@ -101,7 +101,7 @@ def test_neither_numbers_nor_fewer_cases_compile_anything_again(motors, compiled
             mechanics=model.mechanics._replace(
                 load_torque=1.1 * model.mechanics.load_torque, mesh_damping=0.5 * model.mechanics.mesh_damping
             ),
-            contact=model.contact._replace(inlet_viscosity=2.0 * model.contact.inlet_viscosity),
+            film=model.film._replace(log_inlet_viscosity=model.film.log_inlet_viscosity + np.log(2.0)),
         )
         for model in models
     ]

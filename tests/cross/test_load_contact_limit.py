@@ -5,6 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
+from tests.support.closures import known
 from tribodyn.compliance.flank_gap import flank_gap
 from tribodyn.compliance.load_sharing import flexibility, share_load
 from tribodyn.compliance.loaded_flanks import LoadedFlanks
@@ -18,7 +19,6 @@ from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.transient import Chunk, Settings, transient
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.tribology.data import FrictionData
-from tribodyn.tribology.friction import friction
 
 SAMPLES = 100
 TIP = FlankModification(tip=Relief(12e-6, 3e-3))
@@ -81,7 +81,7 @@ def test_friction_power_in_slow_rotation_is_that_of_the_slices(prepared):
     # the creep's own flow has no share in the friction: nominal sliding
     power = np.abs(found["friction_force"] * np.nan_to_num(found["sliding_speed"]))
 
-    case, surfaces = run.case, model.contact
+    case = run.case
     flexible = flexibility(assemble(family(case.family), case.drive), case.materials, lead=True)
     flanks = LoadedFlanks(flexible, case.mesh.modifications, 11)
     roll = cycle.roll_start + cycle.pitch_angle * (phase[:, None] + np.arange(cycle.pairs - 1.0, -1.0, -1.0))
@@ -90,15 +90,14 @@ def test_friction_power_in_slow_rotation_is_that_of_the_slices(prepared):
     radius = found["equivalent_radius"][..., None]
     entrainment, sliding = found["entrainment_speed"][..., None], found["sliding_speed"][..., None]
     with np.errstate(under="ignore", over="ignore", invalid="ignore"):
-        surface = friction(
-            model.options.friction_law,
+        surface = known(
+            model.closure,
             np.maximum(shared.slice_load, 1e-3) * 11 / flexible.width,
             1.0 / radius,
             entrainment,
             sliding,
             entrainment + sliding / 2.0,
             entrainment - sliding / 2.0,
-            surfaces,
         )
     exact = np.sum(np.nan_to_num(surface[0]) * shared.slice_load, axis=-1)
     exact = exact * np.abs(np.nan_to_num(found["sliding_speed"]))

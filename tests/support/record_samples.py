@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.record.schema import DOF, SAMPLES
+from tribodyn.record.schema import DOF, FLAGS, SAMPLES
 
 
 def mesh_cycle(contact_ratio: float = 1.5, nodes: int = 9) -> dict[str, Any]:
@@ -69,5 +69,6 @@ def block(start: int, stop: int, pairs: int = 2) -> dict[str, np.ndarray]:
         values[name] = index.reshape(-1, *[1] * len(columns)) * 100 + number
         if columns:
             values[name] = values[name] + np.arange(columns[0]) / 10
-    values["closure_in_range"] = values["closure_in_range"].astype(int) % 2 == 0
+    for name in FLAGS:
+        values[name] = values[name].astype(int) % 2 == 0
     return values

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from tribodyn.record.schema import DOF, SAMPLES
+from tribodyn.record.schema import DOF, FLAGS, SAMPLES
 from tribodyn.record.writer import RecordWriter
 
 MODULE, TEETH, PRESSURE_ANGLE, SPEED, TORQUE = 3e-3, (23, 47), np.radians(20.0), 10.0, 500.0
@@ -159,9 +159,9 @@ def samples(cycles: int, per_cycle: int, friction: float = 0.05) -> dict[str, np
     }
     over_pairs = [name for name, variable in SAMPLES.items() if variable.dims == ("time", "pair")]
     for name in over_pairs:
-        if name != "closure_in_range":
+        if name not in FLAGS:
             values[name] = np.where(contact, values[name], np.nan)
-    values["closure_in_range"] = np.where(contact, 1, -1)
+    values |= {name: np.where(contact, 1, -1) for name in FLAGS}
     for name, variable in SAMPLES.items():
         shape = (time.size, len(DOF)) if "dof" in variable.dims else (time.size,)
         values.setdefault(name, np.zeros(shape))

@@ -130,7 +130,7 @@ def octave_timed(problem: Problem, rtol: float) -> tuple[Array, float]:
     model = NumpyModel(problem.model)
     numbers = {
         name: np.asarray(value, dtype=float)
-        for part in (problem.model.mechanics, problem.model.contact)
+        for part in (problem.model.mechanics, problem.model.surfaces, problem.model.friction)
         for name, value in part._asdict().items()
         if np.ndim(value) == 0
     }

@@ -12,6 +12,7 @@ from tribodyn.cli.plot import Format
 
 if TYPE_CHECKING:
     from tribodyn.studies.load import Loaded
+    from tribodyn.studies.study import Study
 
 EXAMPLES = (
     "\b\nExamples:\n"
@@ -43,6 +44,7 @@ def compare(
     from tribodyn.cli.printing import print_json, print_rich, quoted_path
     from tribodyn.post import compare as comparing
     from tribodyn.record.reader import open_record
+    from tribodyn.studies.pictures import compare as compare_records
     from tribodyn.studies.pictures import names
 
     scenarios = _scenarios(what, overrides(settings))
@@ -55,7 +57,7 @@ def compare(
             make_folder(folder)
         paths = [_run(scenarios[word], folder, force) if word in scenarios else Path(word) for word in what]
         records = [stack.enter_context(open_record(path)) for path in paths]
-        compared = comparing.compare(records)
+        compared = compare_records(records)
         if output is not None:
             pictures = draw(records, names(records), folder / f"compare.{format.value}")
     ran = [path for word, path in zip(what, paths, strict=True) if word in scenarios and output is not None]
@@ -74,8 +76,8 @@ def _scenarios(what: list[str], settings: Mapping[str, str]) -> dict[str, "Loade
     """Load what is to be run, and refuse before anything runs what cannot be compared afterwards."""
     from tribodyn.errors import InputError
     from tribodyn.record.reader import open_record
-    from tribodyn.record.schema import GEAR_PAIR, KINDS
     from tribodyn.studies.load import load
+    from tribodyn.studies.pictures import study_of_record
 
     if len(what) < 2:
         raise InputError(
@@ -89,22 +91,22 @@ def _scenarios(what: list[str], settings: Mapping[str, str]) -> dict[str, "Loade
         raise InputError(
             "--set", None, "nothing is run: records are as they are", "name scenarios, or leave it"
         )
-    kinds, cases = {}, {}
+    studies: dict[str, Study] = {}
+    cases: dict[str, str] = {}
     for word in what:
         if word not in scenarios:
             with open_record(word) as record:
-                kinds[word] = record.kind
+                studies[word] = study_of_record(record)
             continue
-        case = scenarios[word].case
-        # a quasi-static study of a gear pair has the record of a gear pair
-        kinds[word] = case.kind if case.kind in KINDS else GEAR_PAIR
-        if case.name in cases:
-            rule = f'its record would have the name of that of "{cases[case.name]}", {case.name}.h5'
+        studies[word], name = scenarios[word].study, scenarios[word].case.name
+        if name in cases:
+            rule = f'its record would have the name of that of "{cases[name]}", {name}.h5'
             raise InputError("compare", f'"{word}"', rule, "give it another name: name = ... in the file")
-        cases[case.name] = word
-    other = next((word for word in what if kinds[word] != kinds[what[0]]), None)
+        cases[name] = word
+    first = studies[what[0]]
+    other = next((word for word in what if studies[word].quantities != first.quantities), None)
     if other is not None:
-        rule = f'kind "{kinds[other]}" and kind "{kinds[what[0]]}" share no quantities to compare'
+        rule = f'kind "{studies[other].kind}" and kind "{first.kind}" share no quantities to compare'
         raise InputError("compare", f'"{other}"', rule, "compare runs of one kind")
     return scenarios
 
@@ -117,11 +119,11 @@ def _run(loaded: "Loaded", folder: Path, force: bool) -> Path:
     """Run a scenario into a folder; return its record."""
     from tribodyn.cli.outcome import SIMULATION_FAILED, complain
     from tribodyn.cli.progress import progress_bar
-    from tribodyn.studies.run import run as simulate
+    from tribodyn.studies.run import run as run_case
 
     name = loaded.case.name
     with loaded.naming(), progress_bar(name) as progress:
-        result = simulate(loaded.case, folder / f"{name}.h5", force=force, progress=progress)
+        result = run_case(loaded.case, folder / f"{name}.h5", force=force, progress=progress)
     if result.status != "complete":
         complain(f"{loaded.path}: the simulation failed: {result.message}")
         raise typer.Exit(SIMULATION_FAILED)

@@ -32,13 +32,13 @@ def gear(
     json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
     """Print a gear pair's geometry; draw it."""
-    from tribodyn.cli.printing import print_json, quoted_path
-    from tribodyn.cli.sheet import print_sheet
+    from tribodyn.cli.printing import print_json, print_text_table, quoted_path
     from tribodyn.geometry.body import body_masses
     from tribodyn.geometry.checks import check
     from tribodyn.geometry.families import family
     from tribodyn.geometry.sheet import geometry_sheet
     from tribodyn.studies.drive_file import load_drive
+    from tribodyn.studies.gears import sheet_tables
 
     loaded = load_drive(model, overrides(settings))
     teeth = family(loaded.family)
@@ -60,7 +60,8 @@ def gear(
         )
         return
     typer.echo(f"{loaded.path}: {loaded.title}: {loaded.family}")
-    print_sheet(sheet)
+    for table in sheet_tables(sheet):
+        print_text_table(table)
     for file in files:
         typer.echo(f"{file.suffix[1:]:8} {quoted_path(file)}")
 

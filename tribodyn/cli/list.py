@@ -1,5 +1,6 @@
 """`tribodyn list`: what is shipped, and which names a scenario may use."""
 
+import builtins
 from enum import StrEnum
 from typing import Annotated, Any
 
@@ -13,7 +14,9 @@ class What(StrEnum):
 
     scenarios = "scenarios"
     models = "models"
+    kinds = "kinds"
     laws = "laws"
+    film_laws = "film-laws"
     families = "families"
     solvers = "solvers"
     plots = "plots"
@@ -24,7 +27,7 @@ def list(
     what: Annotated[What | None, typer.Argument(help="What to list; everything if left out.")] = None,
     json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
-    """List scenarios, models, laws, solvers, plots."""
+    """List scenarios, models, kinds of study, laws, solvers, plots."""
     from tribodyn.cli.printing import print_json, print_table
 
     listed: dict[str, dict[str, Any]] = {one.value: _about(one) for one in ([what] if what else What)}
@@ -38,7 +41,6 @@ def list(
 def _about(what: What) -> dict[str, str]:
     """Return name and description of everything of one sort."""
     from tribodyn.scenario.sources import shipped
-    from tribodyn.studies import load
 
     match what:
         case What.scenarios:
@@ -50,44 +52,51 @@ def _about(what: What) -> dict[str, str]:
                 for folder in folders
                 for name, title in _titles(folder).items()
             }
+        case What.kinds:
+            from tribodyn.studies import STUDIES
+
+            return _described(STUDIES)
         case What.laws:
-            return {name: law.about for name, law in load.FRICTION_LAWS.items()}
+            from tribodyn.tribology.friction import FRICTION_LAWS
+
+            return _described(FRICTION_LAWS)
+        case What.film_laws:
+            from tribodyn.tribology.film import FILM_LAWS
+
+            return _described(FILM_LAWS)
         case What.families:
-            return {name: one.about for name, one in load.FAMILIES.items()}
+            from tribodyn.geometry.families import FAMILIES
+
+            return _described(FAMILIES)
         case What.solvers:
-            return dict(load.SOLVERS)
+            from tribodyn.solve.methods import SOLVERS
+
+            return dict(SOLVERS)
         case What.sweep_plots:
-            from tribodyn.sweep.pictures import SWEEP_NAMES
+            from tribodyn.studies import STUDIES
 
-            return dict(SWEEP_NAMES)
+            return _drawn({kind: study.sweep_drawings() for kind, study in STUDIES.items() if study.swept()})
         case What.plots:
-            return _plots()
+            from tribodyn.studies import STUDIES
+
+            return _drawn({kind: study.drawings() for kind, study in STUDIES.items()})
 
 
-def _plots() -> dict[str, str]:
-    """Return the names of all figures, and the records that each is of."""
-    from tribodyn.studies.pictures import (
-        LOAD_CONTACT_NAMES,
-        NAMES,
-        OSCILLATOR_NAMES,
-        ROLLING_NAMES,
-        RUN_UP_NAMES,
-    )
+def _described(registry: Any) -> dict[str, str]:
+    return {name: one.about for name, one in registry.items()}
 
-    also = {
-        "rolling elements": ROLLING_NAMES,
-        "load contact studies": LOAD_CONTACT_NAMES,
-        "the oscillator with backlash": OSCILLATOR_NAMES,
+
+def _drawn(of_kinds: dict[str, Any]) -> dict[str, str]:
+    """Return the names of all figures, what they show, and of which kinds of study."""
+    about: dict[str, dict[str, builtins.list[str]]] = {}
+    for kind, drawings in of_kinds.items():
+        for name, drawing in drawings.items():
+            if name != "overview":
+                about.setdefault(name, {}).setdefault(drawing.about, []).append(kind)
+    return {
+        name: "; ".join(f"{what} ({', '.join(kinds)})" for what, kinds in shown.items())
+        for name, shown in about.items()
     }
-    listed: dict[str, str] = {}
-    for name in dict.fromkeys((*NAMES, *(one for names in also.values() for one in names))):
-        others = [kind for kind, names in also.items() if name in names]
-        what = name.replace("-", " ")
-        told = "; also of " if name in NAMES else ", of "
-        listed[name] = what + (told + " and ".join(others) if others else "")
-    for name in RUN_UP_NAMES:
-        listed[name] = "orders of the mesh while the speed changes, such as run-up"
-    return listed
 
 
 def _titles(folder: Any) -> dict[str, str]:

@@ -107,12 +107,12 @@ def _draw_sweeps(paths: Sequence[str], names: Sequence[str], beside: Path, at: S
     from contextlib import ExitStack
 
     from tribodyn.record.sweep_reader import SweepRecord
-    from tribodyn.sweep.pictures import SWEEP_NAMES, sweep_figure
+    from tribodyn.studies.pictures import sweep_figure, sweep_names
 
     with ExitStack() as stack:
         records = [stack.enter_context(SweepRecord(path)) for path in paths]
         place = _place(records[0], at)
-        chosen = SWEEP_NAMES if not names or "all" in names else names
+        chosen = sweep_names(records) if not names or "all" in names else names
         return _save_all(chosen, beside, lambda name: sweep_figure(name, records, place))
 
 

@@ -5,7 +5,10 @@ import math
 import shlex
 import sys
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from tribodyn.studies.study import TextTable
 
 WIDTH_OF_A_PIPE = 160
 
@@ -26,6 +29,11 @@ def plain(data: Any) -> Any:
     if isinstance(data, float) and not math.isfinite(data):
         return None
     return data if data is None or isinstance(data, (bool, int, float, str)) else str(data)
+
+
+def print_text_table(table: "TextTable") -> None:
+    """Write a table of a study to stdout."""
+    print_table(table.title, table.columns, table.rows)
 
 
 def print_table(title: str, columns: Iterable[str], rows: Iterable[Iterable[str]]) -> None:

@@ -35,13 +35,13 @@ def run(
     from tribodyn.cli.printing import print_json, quoted_path
     from tribodyn.cli.progress import progress_bar
     from tribodyn.studies.load import load
-    from tribodyn.studies.run import run as simulate
+    from tribodyn.studies.run import run as run_case
 
     loaded = load(scenario, overrides(settings))
     case = loaded.case
     record = output or Path(f"{case.name}.h5")
     with loaded.naming(), progress_bar(case.name) as progress:
-        result = simulate(case, record, force=force, progress=progress)
+        result = run_case(case, record, force=force, progress=progress)
     failed = result.status != "complete"
     pictures = [] if failed or plot is False else _draw(result.path, everything=plot is True)
     if json:

@@ -95,7 +95,7 @@ def sweep(
     from tribodyn.cli.progress import progress_bar
     from tribodyn.errors import InputError
     from tribodyn.record.sweep_schema import DIRECTIONS
-    from tribodyn.sweep.engines import engine_of, method_of
+    from tribodyn.sweep.engines import engine_of
     from tribodyn.sweep.grid import Grid, default_output
     from tribodyn.sweep.run import run, settings_of
 
@@ -112,7 +112,7 @@ def sweep(
     ):
         result = run(
             grid,
-            settings_of(grid, transient, method_of(engine.value, grid.base.solver.method)),
+            settings_of(grid, transient, engine.value),
             evaluator,
             record,
             directions=chosen,
@@ -130,8 +130,9 @@ def sweep(
 
 def _print(result: "SweepResult", json: bool) -> None:
     from tribodyn.cli.printing import print_json, print_rich
-    from tribodyn.post.sweep_report import sweep_as_json, sweep_table
+    from tribodyn.post.sweep_report import sweep_as_json
     from tribodyn.record.sweep_reader import SweepRecord
+    from tribodyn.studies.pictures import sweep_table
 
     with SweepRecord(result.path) as record:
         if json:

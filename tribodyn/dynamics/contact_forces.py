@@ -21,9 +21,10 @@ from tribodyn.dynamics.parameters import (
     Y_P,
 )
 from tribodyn.dynamics.smooth import positive_part, positive_part_integral, power_law_force, ramp, sign
+from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.numerics.elementary import last_axis_of_four, law, maximum, skippable, sqrt, where
-from tribodyn.tribology.contact import averaged_radius
-from tribodyn.tribology.friction import friction_coefficient
+from tribodyn.tribology.contact import averaged_radius, local_contact
+from tribodyn.tribology.law import ActiveFilm
 
 # Quantities of one contact, rows of `work`.
 DISTANCE = 0  # signed distance r from the pitch point, m
@@ -49,8 +50,12 @@ TRANSMISSION_ERROR = 19  # along the pair's normal, gap not subtracted, m
 COUPLING = 20  # deflection per load on slot 0, and on from here per load on the other slots, m/N
 QUANTITIES = 20  # and one more for every slot
 
-# Channels of mesh_cycle.Polynomials.channel.
-_COSINE, _DISTANCE, _RADIUS, _SPEED, _COMPLIANCE, _GAP, _SINE, _UNEVEN, PEAK = range(9)
+# Channels of mesh.cycle.Polynomials.channel.
+_COSINE, _SINE = CHANNELS.index("cosine"), CHANNELS.index("sine")
+_DISTANCE, _RADIUS = CHANNELS.index("signed_distance"), CHANNELS.index("equivalent_radius")
+_SPEED = CHANNELS.index("pinion_speed")
+_COMPLIANCE, _GAP = CHANNELS.index("compliance"), CHANNELS.index("gap")
+_UNEVEN, PEAK = CHANNELS.index("line_load_friction"), CHANNELS.index("line_load_peak")
 
 
 @law
@@ -218,7 +223,7 @@ def contact_forces(segment, cell, u, cells_per_radian, y, model, work):
         if model.options.averaged:
             radius = work[RADIUS, i]
             averaged = averaged_radius(
-                radius, line_load, model.contact.effective_modulus, table.pitch_point_length
+                radius, line_load, model.surfaces.effective_modulus, table.pitch_point_length
             )
             # entrainment is averaged with the radius, to which it is proportional there; sliding is not
             added = (
@@ -232,17 +237,11 @@ def contact_forces(segment, cell, u, cells_per_radian, y, model, work):
             work[RADIUS, i] = averaged
             work[PINION_SPEED, i] = speed_p
             work[GEAR_SPEED, i] = speed_g
-        coefficient = friction_coefficient(
-            model.options.friction_law,
-            line_load,
-            1.0 / work[RADIUS, i],
-            0.5 * (speed_p + speed_g),
-            sliding,
-            speed_p,
-            speed_g,
-            model.contact,
-            model.logs,
+        state = local_contact(
+            line_load, 1.0 / work[RADIUS, i], 0.5 * (speed_p + speed_g), sliding, speed_p, speed_g
         )
+        film = ActiveFilm(model.options.film, model.film)
+        coefficient = model.options.friction.coefficient(state, film, model.surfaces, model.friction)
         work[NORMAL_LOAD, i] = load
         work[FRICTION_COEFFICIENT, i] = coefficient
         work[FRICTION_FORCE, i] = coefficient * load * sign(sliding * reversals)

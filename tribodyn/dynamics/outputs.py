@@ -27,17 +27,8 @@ from tribodyn.dynamics.parameters import (
     Y_P,
     Model,
 )
-from tribodyn.tribology.friction import friction
-
-#: What `tribology.friction.friction` returns, in order, as the record names it.
-SURFACE_QUANTITIES = (
-    "friction_coefficient",
-    "asperity_load_ratio",
-    "central_film_thickness",
-    "flash_temperature_rise",
-    "hertz_pressure",
-    "closure_in_range",
-)
+from tribodyn.tribology.contact import local_contact
+from tribodyn.tribology.surface_state import surface_state
 
 
 def segment_of(phase: np.ndarray, boundary: np.ndarray) -> np.ndarray:
@@ -99,19 +90,18 @@ def outputs(cycles: np.ndarray, states: np.ndarray, model: Model) -> dict[str, n
         return np.where(mask, values, np.nan)
 
     with np.errstate(over="ignore", under="ignore"):
-        surface = friction(
-            model.options.friction_law,
+        state = local_contact(
             load / table.face_width * _peak(phase, segment, model),
             1.0 / per_pair(contact.RADIUS),
             0.5 * (speed_p + speed_g),
             per_pair(contact.RELATIVE_VELOCITY if dynamic else contact.SLIDING),
             speed_p,
             speed_g,
-            model.contact,
         )
-    result = {name: contacting(values) for name, values in zip(SURFACE_QUANTITIES, surface, strict=True)}
+        surface = surface_state(state, model.closure)
+    result = {name: contacting(values) for name, values in surface._asdict().items()}
     result |= {
-        # of the whole face; the others of the surface are where the line load is greatest
+        # of the whole face; the others of the surface are where the line load is highest
         "friction_coefficient": contacting(per_pair(contact.FRICTION_COEFFICIENT)),
         # geometry exists on the whole path of contact, loaded or not
         "transmission_error": contacting(per_pair(contact.TRANSMISSION_ERROR), inside),
@@ -123,12 +113,15 @@ def outputs(cycles: np.ndarray, states: np.ndarray, model: Model) -> dict[str, n
         "transmission_error_rotational": y[XI],
         "normal_load": np.where(inside, load, 0.0),
         "friction_force": np.where(inside, per_pair(contact.FRICTION_FORCE), 0.0),
-        "film_parameter": result["central_film_thickness"] / model.contact.roughness,
+        "film_parameter": result["central_film_thickness"] / model.surfaces.roughness,
         "equivalent_radius": contacting(per_pair(contact.RADIUS), inside),
         "entrainment_speed": contacting(0.5 * (speed_p + speed_g), inside),
         "sliding_speed": contacting(per_pair(contact.SLIDING), inside),
         "mesh_stiffness": np.where(touching, per_pair(contact.STIFFNESS), 0.0),
-        "closure_in_range": np.where(touching, result["closure_in_range"], 1.0) > 0.5,
+        # where the film law states a range, 1 also where there is no contact
+        "closure_in_range": np.where(
+            touching, result["closure_in_range"], 1.0 + 0.0 * surface.closure_in_range
+        ),
         "drive_torque": drive_torque,
         "power_in": power_in,
         "power_out": power_out,
@@ -147,7 +140,7 @@ def outputs(cycles: np.ndarray, states: np.ndarray, model: Model) -> dict[str, n
 
 
 def _peak(phase: np.ndarray, segment: np.ndarray, model: Model) -> np.ndarray:
-    """Greatest over mean line load along the face of each pair (n, pairs)."""
+    """Maximum over mean line load along the face of each pair (n, pairs)."""
     cell, u, _ = locate(phase, segment, model.table)
     pairs = range(model.table.side.shape[0])
     c = model.table.channel

@@ -8,6 +8,11 @@ rotational transmission error. Five more states integrate the works of the energ
 
 from typing import Any, NamedTuple
 
+from tribodyn.tribology.contact import Surfaces
+from tribodyn.tribology.friction.none import LAW as NO_FRICTION
+from tribodyn.tribology.friction.none import NoParameters
+from tribodyn.tribology.law import ActiveFilm, ActiveFriction, Closure, FilmFunctions, FrictionFunctions
+
 #: Translations of pinion and gear, m: x along the pitch tangent in the direction of motion at the pitch
 #: point, y along the line of centres from pinion to gear.
 X_P, Y_P, X_G, Y_G = 0, 1, 2, 3
@@ -51,9 +56,15 @@ HERTZ_POWER_LAW = 1
 
 
 class Options(NamedTuple):
-    """What is switched, as integers: static for JAX, read at run time by the native kernel."""
+    """What is switched: static for JAX; the native kernel is compiled for the laws and reads the integers.
 
-    friction_law: int
+    Attributes
+    ----------
+    film, friction : functions of the laws in use
+    """
+
+    film: FilmFunctions
+    friction: FrictionFunctions
     sliding: int = SLIDING_KINEMATIC
     formulation: int = CLASSICAL
     drive: int = DRIVE_SPEED
@@ -117,10 +128,41 @@ class Mechanics(NamedTuple):
 
 
 class Model(NamedTuple):
-    """All that the right-hand side needs: table, mechanics, contact, and what is switched."""
+    """All that the right-hand side needs: numbers, and last what is switched.
 
-    table: Any  # mesh_cycle.Polynomials
+    Attributes
+    ----------
+    table : mesh.cycle.Polynomials
+    mechanics : Mechanics
+    surfaces : Surfaces
+    film, friction : NamedTuple
+        Parameters that the laws in use read; of the types that these define.
+    options : Options
+    """
+
+    table: Any
     mechanics: Mechanics
-    contact: Any  # tribology.contact.Contact
+    surfaces: Surfaces
+    film: Any
+    friction: Any
     options: Options
-    logs: Any  # tribology.contact.Logarithms, of the contact
+
+    @property
+    def numbers(self) -> tuple[Any, ...]:
+        """All but the options, in order: ``Model(*model.numbers, options=model.options)`` is the model."""
+        return tuple(self[:-1])
+
+    @property
+    def closure(self) -> Closure:
+        """Surfaces and laws in use."""
+        return Closure(
+            self.surfaces,
+            ActiveFilm(self.options.film, self.film),
+            ActiveFriction(self.options.friction, self.friction),
+        )
+
+
+def frictionless(model: Model) -> Model:
+    """Return the model without friction."""
+    options = model.options._replace(friction=NO_FRICTION.functions)
+    return model._replace(friction=NoParameters(), options=options)

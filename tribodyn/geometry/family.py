@@ -1,28 +1,11 @@
 """A tooth family: which path two gears work on, and which path generates each of them."""
 
 from collections.abc import Callable
-from typing import Any, Literal, NamedTuple
+from typing import Any, NamedTuple
 
 from tribodyn.geometry.drive import Drive, Side
 from tribodyn.geometry.path import Path, seen_from
-
-
-class Parameter(NamedTuple):
-    """A number, or a table of points, that a family's drives have and other families' do not.
-
-    Parameters
-    ----------
-    name : str
-        Key in the drive's table ``[shape]``, and field of the family's `shape`.
-    kind : {"length", "signed length", "number", "path"}
-        What it is: a length (m), > 0 or of either sign; a plain number; or points x, y (m) of a path.
-    about : str
-        What it means, in a line.
-    """
-
-    name: str
-    kind: Literal["length", "signed length", "number", "path"]
-    about: str
+from tribodyn.numerics.parameter import Parameter
 
 
 class Family(NamedTuple):
@@ -45,7 +28,7 @@ class Family(NamedTuple):
     shape : callable, optional
         Makes a drive's `shape` from the values of `parameters`, by name: a NamedTuple of numbers or arrays.
     parameters : tuple of Parameter
-        What `shape` holds.
+        What `shape` holds: the keys of the drive's table ``[shape]``.
     pressure_angle : bool
         Whether a drive gives its pressure angle; where not, it is 0 at the pitch point.
     corner : bool

@@ -5,7 +5,7 @@ from functools import cached_property
 from importlib import import_module
 from typing import Any, Generic, TypeVar, cast
 
-from tribodyn.errors import InputError, quoted, require_known
+from tribodyn.errors import InputError, quoted, unknown_name
 
 T = TypeVar("T")
 
@@ -69,7 +69,7 @@ class Registry(Generic[T]):
             module, _, attribute = self._places[name].partition(":")
             return cast(T, getattr(import_module(module), attribute))
         if name not in self._outside:
-            require_known(self.key, name, self, self.what)
+            raise unknown_name(self.key, name, self, self.what)
         entry = self._outside[name]
         try:
             return cast(T, entry.load())

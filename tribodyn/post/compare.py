@@ -10,12 +10,9 @@ from rich.table import Table
 from rich.text import Text
 
 from tribodyn.errors import InputError
-from tribodyn.post.report import GROUPS, Line, shown
+from tribodyn.post.report import Line, Lines, shown
 from tribodyn.record.reader import Record
-from tribodyn.record.schema import BACKLASH_OSCILLATOR
 
-#: Groups of the summary that tell of the gears; how they were solved does not.
-COMPARED = ("Geometry", "Load contact", "Dynamics", "Tribology", "Energy")
 #: The share of the power that is lost, beside the efficiency whose difference it shows better.
 LOSS = Line("loss", "Loss, share of the power in", 100.0, "%", ".3f")
 #: Parts of a scenario that say under which conditions a drive ran, not which drive nor how it was solved.
@@ -62,22 +59,28 @@ class Comparison(NamedTuple):
     conditions: dict[str, tuple[str, ...]]
 
 
-def compare(records: Sequence[Record]) -> Comparison:
-    """Set complete records of one kind side by side; their labels become distinct.
+def compare(records: Sequence[Record], lines: Lines) -> Comparison:
+    """Set complete records whose quantities can be compared side by side; their labels become distinct.
+
+    Parameters
+    ----------
+    records : sequence of Record
+    lines : mapping
+        Heading -> lines that are compared.
 
     Raises
     ------
     InputError
-        Fewer than two records, one of them twice, an unfinished one, or kinds that share no quantities.
+        Fewer than two records, one of them twice, or an unfinished one.
     """
     _refuse(records)
     for record, label in zip(records, distinct_labels(records), strict=True):
         record.label = label
     summaries = [_with_loss(record.summary) for record in records]
     groups = {}
-    for heading in COMPARED:
-        lines = (*GROUPS[heading], LOSS) if heading == "Energy" else GROUPS[heading]
-        rows = (Row(line, tuple(summary.get(line.name) for summary in summaries)) for line in lines)
+    for heading, some in lines.items():
+        with_loss = (*some, LOSS) if any(line.name == "efficiency" for line in some) else some
+        rows = (Row(line, tuple(summary.get(line.name) for summary in summaries)) for line in with_loss)
         groups[heading] = tuple(row for row in rows if any(value is not None for value in row.values))
     return Comparison(
         tuple(record.label for record in records),
@@ -99,13 +102,6 @@ def _refuse(records: Sequence[Record]) -> None:
         if record.status != "complete":
             rule = f"{record.status}, so its means and extremes are not those of a whole run"
             raise InputError("record", str(record.path), rule, "run its scenario again")
-        if record.kind != records[0].kind:
-            rule = f'kind "{record.kind}" and kind "{records[0].kind}" share no quantities to compare'
-            raise InputError("record", str(record.path), rule, "compare records of one kind")
-        if record.kind == BACKLASH_OSCILLATOR:
-            rule = "a frequency sweep has no means over a run to compare"
-            remedy = "draw them into one figure: tribodyn plot A.h5 B.h5 response"
-            raise InputError("record", str(record.path), rule, remedy)
 
 
 def distinct_labels(records: Sequence[Record]) -> list[str]:

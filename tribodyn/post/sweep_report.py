@@ -1,43 +1,33 @@
 """The summary of a sweep's record: a table for people, a dictionary for programs."""
 
-from typing import Any, NamedTuple
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from rich.console import Group
 from rich.table import Table
 from rich.text import Text
 
-from tribodyn.post.shown_units import shown
+from tribodyn.post.report import Line
+from tribodyn.post.report import shown as written
+from tribodyn.post.shown_units import shown, shown_unit
 from tribodyn.record.sweep_reader import SweepRecord
-from tribodyn.record.sweep_schema import DONE, FIGURES
+from tribodyn.record.sweep_schema import DONE
 
-
-class Column(NamedTuple):
-    """A figure in the table: dataset, label, factor from SI, unit, format."""
-
-    name: str
-    label: str
-    factor: float = 1.0
-    unit: str = ""
-    form: str = ".4g"
-
-
-COLUMNS = (
-    Column("transmission_error_rms", "Transmission error, RMS", 1e6, "µm"),
-    Column("transmission_error_peak_to_peak", "Transmission error, peak to peak", 1e6, "µm"),
-    Column("dynamic_factor", "Dynamic factor", form=".3f"),
-    Column("normal_load_max", "Greatest normal load", form=",.0f", unit="N"),
-    Column("hertz_pressure_max", "Greatest Hertz pressure", 1e-9, "GPa", ".3g"),
-    Column("film_min", "Least film thickness", 1e6, "µm", ".3g"),
-    Column("efficiency", "Efficiency", 100.0, "%", ".3f"),
-    Column("contact_loss_fraction", "Time without contact", 100.0, "%", ".3g"),
-)
 #: Failed cases that are named; the record has them all.
 FAILURES_SHOWN = 5
 
 
-def sweep_table(record: SweepRecord) -> Group:
-    """Lay out a sweep for the terminal: least and greatest of every figure, and where they are."""
+def sweep_table(record: SweepRecord, lines: Sequence[Line]) -> Group:
+    """Lay out a sweep for the terminal: minimum and maximum of every figure, and where they are.
+
+    Parameters
+    ----------
+    record : SweepRecord
+    lines : sequence of Line
+        The figures shown, by name; none: all, as the record describes them.
+    """
+    columns = lines or [_described(record, name) for name in record.figures]
     parts: list[Any] = [Text(str(record.scenario.get("title", record.label)), style="bold")]
     if record.status != "complete":
         parts.append(Text(f"{record.status}: {record.message}", style="bold red"))
@@ -48,9 +38,9 @@ def sweep_table(record: SweepRecord) -> Group:
     if kinds := _kinds(record):
         parts.append(Text(f"motion: {kinds}"))
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
-    for title in ("", "least", "at", "greatest", "at", ""):
-        table.add_column(title, justify="right" if title in ("least", "greatest") else "left", no_wrap=True)
-    for column in COLUMNS:
+    for title in ("", "minimum", "at", "maximum", "at", ""):
+        table.add_column(title, justify="right" if title in ("minimum", "maximum") else "left", no_wrap=True)
+    for column in columns:
         values = np.where(record["status"] == DONE, record[column.name], np.nan)
         if np.isfinite(values).any():
             table.add_row(*_row(record, column, values))
@@ -62,22 +52,31 @@ def sweep_table(record: SweepRecord) -> Group:
     return Group(*parts)
 
 
+def _described(record: SweepRecord, name: str) -> Line:
+    """A figure as the record itself describes it."""
+    unit, factor = shown_unit(record.units(name))
+    label = record.long_name(name)
+    return Line(name, label[:1].upper() + label[1:], factor, unit)
+
+
 def _counted(count: dict[str, int]) -> str:
     return ", ".join(f"{count[name]} {name}" for name in ("done", "failed", "waiting") if count[name])
 
 
 def _kinds(record: SweepRecord) -> str:
-    """How often each sort of motion was found."""
+    """How often each sort of motion was found; nothing where no motion was sought."""
+    if "solution" not in record:
+        return ""
     solutions = record["solution"]
     names, numbers = np.unique(solutions[(solutions != "") & (solutions != "failed")], return_counts=True)
     return ", ".join(f"{number} {name}" for name, number in zip(names, numbers, strict=True))
 
 
-def _row(record: SweepRecord, column: Column, values: np.ndarray) -> list[str]:
+def _row(record: SweepRecord, column: Line, values: np.ndarray) -> list[str]:
     cells = [column.label]
     for find in (np.nanargmin, np.nanargmax):
         place = tuple(int(i) for i in np.unravel_index(int(find(values)), values.shape))
-        cells += [format(values[place] * column.factor, column.form), _place(record, record.at(place))]
+        cells += [written(column, float(values[place])), _place(record, record.at(place))]
     return [*cells, column.unit]
 
 
@@ -89,7 +88,8 @@ def _place(record: SweepRecord, at: dict[str, Any]) -> str:
 
 def sweep_as_json(record: SweepRecord) -> dict[str, Any]:
     """Turn a sweep into what JSON takes: axes, figures as nested lists in SI, failures; NaN becomes None."""
-    names = (*FIGURES, "period", "stable", "multiplier_max", "solution", "cycles")
+    dims = len(record.dims)
+    names = [name for name in record if name not in ("message", "status") and record[name].ndim == dims]
     return {
         "record": str(record.path),
         "title": record.scenario.get("title", ""),

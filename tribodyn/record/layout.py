@@ -10,8 +10,9 @@ import h5py
 import numpy as np
 
 from tribodyn import __version__
+from tribodyn.numerics.variable import Variable
 from tribodyn.record import schema
-from tribodyn.record.schema import Variable
+from tribodyn.record.schema import Layout
 
 #: The oldest file format: every HDF5 reader knows it, and nothing in it says whether a writer has it open.
 LIBVER = ("earliest", "v108")
@@ -21,14 +22,28 @@ LIBRARIES = ("numpy", "scipy", "numba", "jax", "diffrax", "h5py")
 
 
 class Head(NamedTuple):
-    """What is known of a run before it starts; `scales` are the values along its other axes, by name."""
+    """What is known of a run before it starts.
 
+    Attributes
+    ----------
+    kind : str
+        Kind of study.
+    layout : Layout
+    scenario, sha256 : str
+        The resolved scenario as TOML, and its digest.
+    created : datetime
+    groups : dict
+        Name of a group of the layout -> arrays and numbers by name.
+    scales : dict
+        Values along the axes that the run does not go on along.
+    """
+
+    kind: str
+    layout: Layout
     scenario: str
     sha256: str
     created: datetime
-    mesh_cycle: dict[str, Any]
-    geometry: dict[str, Any]
-    kind: str
+    groups: dict[str, dict[str, Any]]
     scales: dict[str, Any]
 
 
@@ -42,33 +57,28 @@ class Place(NamedTuple):
 
 def create(path: Path, head: Head, samples: int) -> dict[str, Place]:
     """Write the file at `path` with room for `samples` samples, and say where each dataset lies."""
+    layout, axis = head.layout, head.layout.axis_name
     with h5py.File(path, "w", libver=LIBVER) as file:
         write_head(file, head.kind, head.scenario, head.sha256, head.created)
-        kind, axis = schema.KINDS[head.kind], schema.axis_name(head.kind)
-        datasets = {axis: _empty(file, axis, kind.axis, (samples,))}
+        size = {axis: samples, **{name: len(values) for name, values in head.scales.items()}}
+        datasets = {axis: reserve(file, axis, layout.axis, (samples,))}
         datasets[axis].make_scale(axis)
         for name, values in head.scales.items():
-            scale(file, name, kind.scales[name], np.asarray(values))
-        size = {axis: samples, **{name: len(values) for name, values in head.scales.items()}}
-        for name, variable in (*kind.samples.items(), *kind.others.items()):
+            scale(file, name, layout.scales[name], np.asarray(values))
+        for name, variable in (*layout.samples.items(), *layout.others.items()):
             if all(dim in size for dim in variable.dims):
-                shape = tuple(size[dim] for dim in variable.dims)
-                datasets[name] = _empty(file, name, variable, shape)
+                datasets[name] = reserve(file, name, variable, tuple(size[dim] for dim in variable.dims))
                 attach(file, file, datasets[name], variable)
-        written = _empty(file, "samples_written", schema.SAMPLES_WRITTEN, ())
-        _write_arrays(file, file.create_group("mesh_cycle"), schema.MESH_CYCLE, head.mesh_cycle)
-        _write_arrays(file, file.create_group("geometry"), schema.GEOMETRY, head.geometry)
+        file.attrs["axis"] = axis
+        # words, not an array of texts: Octave stops reading at those
+        file.attrs["datasets"] = " ".join(datasets)
+        written = reserve(file, "samples_written", schema.SAMPLES_WRITTEN, ())
+        for name, table in layout.groups.items():
+            _write_arrays(file, file.create_group(name), table, head.groups.get(name, {}))
         file.create_group("summary")
         places = {name: place_of(dataset) for name, dataset in datasets.items()}
         places["samples_written"] = place_of(written)
     return places
-
-
-def pair_scales(side: Any) -> dict[str, Any]:
-    """Give the scales of a gear pair's dynamics, whose pair slots have these sides."""
-    side = np.asarray(side)
-    numbers = schema.pair_numbers(int(np.sum(side > 0)), side.size)
-    return {"pair": np.array(numbers), "dof": np.array(schema.DOF)}
 
 
 def write_summary(file: h5py.File, summary: Mapping[str, Any], prefix: str = "") -> None:
@@ -80,14 +90,12 @@ def write_summary(file: h5py.File, summary: Mapping[str, Any], prefix: str = "")
             file["summary"].attrs[f"{prefix}{name}"] = value
 
 
-def encode(name: str, values: Any) -> np.ndarray:
-    """Turn `values` into the numbers that the file holds."""
-    if name != "closure_in_range":
-        return np.ascontiguousarray(values, dtype="<f8")
+def encode(variable: Variable, values: Any) -> np.ndarray:
+    """Turn `values` into the numbers that the file holds; NaN into what stands for "nothing written"."""
     values = np.asarray(values)
-    if values.dtype.kind == "f":
-        values = np.where(np.isnan(values), schema.NO_CONTACT, values)
-    return np.ascontiguousarray(values, dtype="i1")
+    if variable.flags and values.dtype.kind == "f":
+        values = np.where(np.isnan(values), variable.fill, values)
+    return np.ascontiguousarray(values, dtype=variable.dtype)
 
 
 def write_head(file: h5py.File, kind: str, scenario: str, sha256: str, created: datetime) -> None:
@@ -106,30 +114,24 @@ def write_head(file: h5py.File, kind: str, scenario: str, sha256: str, created: 
         file.attrs[f"{library}_version"] = importlib.metadata.version(library)
 
 
-def _empty(file: h5py.File, name: str, variable: Variable, shape: tuple[int, ...]) -> h5py.Dataset:
-    """Create the dataset of a run, filled with what stands for "nothing written"."""
-    flag = name == "closure_in_range"
-    count = name == "samples_written"
-    kind, fill = ("i1", schema.NO_CONTACT) if flag else ("<i8", 0) if count else ("<f8", np.nan)
-    dataset = reserve(file, name, variable, shape, kind, fill)
-    if flag:
-        dataset.attrs["flag_values"] = np.array([-1, 0, 1], dtype="i1")
-        dataset.attrs["flag_meanings"] = "out_of_contact out_of_range in_range"
-    return dataset
+def reserve(file: h5py.File, name: str, variable: Variable, shape: tuple[int, ...]) -> h5py.Dataset:
+    """Create a dataset filled with what stands for "nothing written".
 
-
-def reserve(
-    file: h5py.File, name: str, variable: Variable, shape: tuple[int, ...], kind: str, fill: Any
-) -> h5py.Dataset:
-    """Create a contiguous dataset whose bytes are in the file, at an address, from the start."""
+    It is contiguous, and its bytes are in the file, at an address, from the start.
+    """
     plan = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
     plan.set_alloc_time(h5py.h5d.ALLOC_TIME_EARLY)
-    plan.set_fill_value(np.array(fill, dtype=kind))
+    plan.set_fill_value(np.array(variable.fill, dtype=variable.dtype))
     space = h5py.h5s.create_simple(shape) if shape else h5py.h5s.create(h5py.h5s.SCALAR)
+    kind = h5py.h5t.py_create(np.dtype(variable.dtype))
     # at the low level, because create_dataset drops the plan where the dataset is a scalar
-    identifier = h5py.h5d.create(file.id, name.encode(), h5py.h5t.py_create(np.dtype(kind)), space, plan)
-    dataset = h5py.Dataset(identifier)
+    dataset = h5py.Dataset(h5py.h5d.create(file.id, name.encode(), kind, space, plan))
     describe(dataset, variable)
+    if variable.flags:
+        first = int(variable.fill)
+        meanings = variable.flags.split()
+        dataset.attrs["flag_values"] = np.arange(first, first + len(meanings), dtype=variable.dtype)
+        dataset.attrs["flag_meanings"] = variable.flags
     return dataset
 
 
@@ -166,29 +168,32 @@ def attach(file: h5py.File, group: h5py.Group, dataset: Any, variable: Variable)
         dataset.dims[axis].attach_scale(group[dim] if dim in group else file[dim])
 
 
+def counted(name: str) -> str:
+    """What the scale of a dimension that only counts says of itself: such a scale is no data."""
+    return f"number of the {name.replace('_', ' ')}"
+
+
 def _write_arrays(
     file: h5py.File, group: h5py.Group, table: Mapping[str, Variable], values: Mapping[str, Any]
 ) -> None:
-    """Arrays of `table` become datasets with their scales, everything else attributes."""
+    """Arrays of `table` become datasets with their scales, numbers attributes."""
+    arrays = {}
     for name, value in values.items():
-        if name not in table:
-            group.attrs[name] = value
-            if name in schema.MESH_CYCLE_SCALARS:
-                group.attrs[f"{name}_units"] = schema.MESH_CYCLE_SCALARS[name]
-    arrays = {name: np.asarray(values[name], dtype="<f8") for name in table if name in values}
-    for name, array in arrays.items():
-        dataset = group.create_dataset(name, data=array)
-        describe(dataset, table[name])
-        if table[name].dims == (name,):
-            dataset.make_scale(name)
-    for name, array in arrays.items():
-        for dim, length in zip(table[name].dims, array.shape, strict=True):
-            if dim in schema.COUNTED and dim not in group:
-                scale(
-                    group,
-                    dim,
-                    Variable((dim,), "1", f"number of the {dim.replace('_', ' ')}"),
-                    np.arange(length),
-                )
-        if table[name].dims != (name,):
-            attach(file, group, group[name], table[name])
+        if name in table and table[name].dims:
+            arrays[name] = np.asarray(value, dtype="<f8")
+            continue
+        group.attrs[name] = value
+        if name in table:
+            group.attrs[f"{name}_units"] = table[name].units
+    for name, variable in table.items():
+        if name in arrays:
+            describe(group.create_dataset(name, data=arrays[name]), variable)
+            if variable.dims == (name,):
+                group[name].make_scale(name)  # pyright: ignore[reportAttributeAccessIssue]
+    for name, variable in table.items():
+        if name not in arrays or variable.dims == (name,):
+            continue
+        for dim, length in zip(variable.dims, arrays[name].shape, strict=True):
+            if dim not in group and dim not in file:
+                scale(group, dim, Variable((dim,), "1", counted(dim)), np.arange(length))
+        attach(file, group, group[name], variable)

@@ -12,6 +12,7 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.record import schema
+from tribodyn.record.layout import counted
 from tribodyn.record.sweep_schema import SWEEP
 
 
@@ -67,21 +68,38 @@ class Record:
         return values.astype(str) if values.dtype.kind == "S" else values
 
     def __contains__(self, name: object) -> bool:
-        kind = schema.KINDS[self.kind]
-        return (name in self._along or name in kind.scales or name in kind.others) and name in self._file
+        return name in self._file and isinstance(self._file[name], h5py.Dataset)
 
     def __iter__(self) -> Iterator[str]:
         """Go through the names of the datasets over time, or over what takes its place."""
-        yield from (name for name in self._along if name in self._file)
+        yield from self._along
 
     @cached_property
     def axis(self) -> str:
-        """Name of the axis on which the run went on: "time", or "phase" in a load contact study."""
-        return schema.axis_name(self.kind)
+        """Name of the axis on which the run went on: "time", "phase" in slow rotation, "frequency"."""
+        said = self.attrs.get("axis")
+        if said:
+            return str(said)
+        for name in ("time", "phase", "frequency"):  # a record of 0.1.0, which does not say it
+            if name in self._file:
+                return name
+        raise KeyError("axis")
 
     @cached_property
     def _along(self) -> tuple[str, ...]:
-        return self.axis, *schema.KINDS[self.kind].samples
+        """The axis, and the datasets along it."""
+        names = str(self.attrs["datasets"]).split() if "datasets" in self.attrs else sorted(self._file)
+        found = [name for name in names if self.axis in self._dims(name)[:1]]
+        return self.axis, *(name for name in found if name != self.axis)
+
+    def _dims(self, name: str) -> tuple[str, ...]:
+        """Names of a dataset's dimensions; none of a group, or of a number."""
+        item = self._file[name]
+        if not isinstance(item, h5py.Dataset) or not item.shape:
+            return ()
+        if item.is_scale:
+            return (name,)
+        return tuple(str(dim[0].name).rpartition("/")[2] if len(dim) else "" for dim in item.dims)
 
     def units(self, name: str) -> str:
         """Return the SI unit of a dataset."""
@@ -108,8 +126,8 @@ class Record:
 
     @cached_property
     def kind(self) -> str:
-        """Kind of the record: "gear-pair", "irefc" (a gear with rolling elements) or "load-contact"."""
-        return str(self.attrs.get("kind", schema.GEAR_PAIR))
+        """Kind of the study, as its scenario has it."""
+        return str(self.scenario.get("kind", self.attrs.get("kind", "")))
 
     @cached_property
     def samples(self) -> int:
@@ -146,23 +164,23 @@ class Record:
     @cached_property
     def mesh_cycle(self) -> dict[str, Any]:
         """The table the run was made from; `tribodyn.mesh.cycle.from_arrays` takes it."""
-        return self._group("mesh_cycle", schema.MESH_CYCLE)
+        return self._group("mesh_cycle")
 
     @cached_property
     def geometry(self) -> dict[str, Any]:
         """Outlines and path of contact (points, 2), radii and other lengths, m."""
-        return self._group("geometry", schema.GEOMETRY)
+        return self._group("geometry")
 
     def _numbers(self, scale: str) -> tuple[int, ...]:
-        if scale not in schema.KINDS[self.kind].scales:
-            return ()
-        return tuple(int(number) for number in self._file[scale][...])
+        return tuple(int(number) for number in self._file[scale][...]) if scale in self else ()
 
-    def _group(self, name: str, table: dict[str, schema.Variable]) -> dict[str, Any]:
+    def _group(self, name: str) -> dict[str, Any]:
+        """Arrays and numbers of a group; of scales only those that are data themselves."""
         try:
             group = self._file[name]
             numbers = {key: value for key, value in attributes(group).items() if not key.endswith("_units")}
-            return {**{key: group[key][...] for key in table if key in group}, **numbers}
+            data = {key: one for key, one in group.items() if one.attrs["long_name"] != counted(key)}
+            return {**{key: one[...] for key, one in data.items()}, **numbers}
         except (OSError, KeyError, RuntimeError) as error:
             raise self._damaged(error) from error
 
@@ -189,26 +207,24 @@ class Record:
             )
         if self.status not in (schema.PARTIAL, schema.COMPLETE, schema.FAILED):
             raise ValueError(f"unknown status {self.status}")
-        if self.kind == SWEEP:
+        if self.attrs.get("kind") == SWEEP:
             raise InputError(
                 "record",
                 str(self.path),
                 "the record of a sweep, not of a run",
                 "tribodyn show and plot read it",
             )
-        if self.kind not in schema.KINDS:
-            raise ValueError(f"unknown kind {self.kind}")
-        _ = self.pairs, self.elements
-        kind = schema.KINDS[self.kind]
-        optional = {dim for variable in kind.others.values() for dim in variable.dims}
-        for scale in kind.scales:
-            if scale in self or scale not in optional:
-                _ = self[scale]
-        for name in (*kind.needed, *self):
+        _ = self.scenario, self.axis, self.pairs, self.elements
+        for name in str(self.attrs.get("datasets", self.axis)).split():
+            if not isinstance(self._file[name], h5py.Dataset):
+                raise ValueError(f"{name} is no dataset")
+        for name in self._along:
             if self._file[name].shape[0] < self.samples:
                 raise ValueError(f"{name} is too short")
-        for name in ("mesh_cycle", "geometry", "summary"):
-            attributes(self._file[name])
+        for item in self._file.values():
+            if isinstance(item, h5py.Group):
+                attributes(item)
+        _ = self._file["summary"]
 
     def _damaged(self, error: Exception) -> InputError:
         reason = str(error).strip("'\"")

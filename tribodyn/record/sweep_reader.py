@@ -6,12 +6,13 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, NamedTuple, Self
 
+import h5py
 import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.record import schema
 from tribodyn.record.reader import Record, attributes, open_file, open_record
-from tribodyn.record.sweep_schema import CASES, DONE, FAILED, SWEEP, WAITING
+from tribodyn.record.sweep_schema import DONE, FAILED, SWEEP, WAITING
 
 
 class Parameter(NamedTuple):
@@ -50,7 +51,7 @@ class SweepRecord:
                 raise InputError(
                     "record", str(path), "not the record of a sweep", "name a file of tribodyn sweep"
                 )
-            for name in (*CASES, *self.dims, "sample", "cycle", "mode", "summary"):
+            for name in (*self._of_cases, *self.dims, "summary"):
                 _ = self._file[name]
         except (OSError, KeyError, RuntimeError) as error:
             self.close()
@@ -80,11 +81,35 @@ class SweepRecord:
         return self._read(name, place)
 
     def __contains__(self, name: object) -> bool:
-        return name in (*CASES, *self.dims, "sample", "cycle", "mode", "state_variable")
+        return name in self._file and isinstance(self._file[name], h5py.Dataset)
 
     def __iter__(self) -> Iterator[str]:
         """Go through the names of the datasets over the cases."""
-        yield from CASES
+        yield from self._of_cases
+
+    @cached_property
+    def _of_cases(self) -> tuple[str, ...]:
+        """Names of the datasets over the cases; a record of 0.1.0 does not list them."""
+        if "datasets" in self.attrs:
+            return tuple(str(self.attrs["datasets"]).split())
+        return tuple(
+            name
+            for name, item in self._file.items()
+            if isinstance(item, h5py.Dataset)
+            and not item.is_scale
+            and tuple(str(dim[0].name).lstrip("/") for dim in item.dims)[: len(self.dims)] == self.dims
+        )
+
+    @cached_property
+    def figures(self) -> tuple[str, ...]:
+        """Names of the datasets that hold one number per case."""
+        one_each = (name for name in self if self._file[name].ndim == len(self.dims))
+        return tuple(name for name in one_each if self._file[name].dtype.kind == "f")
+
+    @cached_property
+    def kind_of_study(self) -> str:
+        """Kind of the study that was swept."""
+        return str(self.scenario.get("kind", ""))
 
     def units(self, name: str) -> str:
         """Return the SI unit of a dataset."""

@@ -15,9 +15,10 @@ import h5py
 import numpy as np
 
 from tribodyn.errors import InputError
+from tribodyn.numerics.variable import Variable
 from tribodyn.record import layout, sweep_schema
-from tribodyn.record.schema import COMPLETE, FAILED, FORMAT, PARTIAL, STATUS_NOTES, Variable, partial_path
-from tribodyn.record.sweep_schema import CASES, SWEEP
+from tribodyn.record.schema import COMPLETE, FAILED, FORMAT, PARTIAL, STATUS_NOTES, partial_path
+from tribodyn.record.sweep_schema import SWEEP, SweepLayout
 from tribodyn.record.writer import check_target, refuse_existing, unwritable
 from tribodyn.record.writing_lock import WritingLock
 
@@ -49,11 +50,8 @@ class SweepHead(NamedTuple):
         Everything else that the results depend on, as TOML: a sweep is taken up only with the same.
     directions : tuple of str
         "up", "down"; none where every case is on its own.
-    window, samples_per_cycle : int
-        Mesh cycles kept of each case, and samples in each.
-    cycles : int
-        Points of the Poincaré section.
-    modes : int
+    layout : SweepLayout
+        What is recorded of every case.
     """
 
     scenario: str
@@ -61,10 +59,7 @@ class SweepHead(NamedTuple):
     parameters: tuple[ParameterScale, ...]
     settings: str
     directions: tuple[str, ...]
-    window: int
-    samples_per_cycle: int
-    cycles: int
-    modes: int
+    layout: SweepLayout
 
     @property
     def dims(self) -> tuple[str, ...]:
@@ -100,6 +95,7 @@ class SweepWriter:
     def __init__(self, path: str | Path, head: SweepHead, *, force: bool = False, resume: bool = False):
         self.path = Path(path)
         self.partial = partial_path(self.path)
+        self._variables = head.layout.variables
         if not (resume and not force and self.partial.exists()):
             check_target(self.path, force)
         try:
@@ -145,13 +141,13 @@ class SweepWriter:
         cases : (n,) int
             Numbers of the cases, increasing, the last dimension running fastest.
         block : dict
-            Arrays (n, …) for every dataset of `sweep_schema.CASES`.
+            Arrays (n, …) for every dataset of the layout.
         """
         cases = np.asarray(cases)
         runs = np.split(np.arange(len(cases)), np.flatnonzero(np.diff(cases) != 1) + 1)
-        for name in CASES:  # status is the last of them
+        for name, variable in self._variables.items():  # status is the last of them
             place = self._places[name]
-            values = _encoded(name, block[name])
+            values = _encoded(variable, block[name])
             if values.shape != (len(cases), *place.row):
                 raise ValueError(f"{name}: shape {values.shape}, not {(len(cases), *place.row)}")
             for run in runs:
@@ -161,7 +157,7 @@ class SweepWriter:
     def read(self, name: str, cases: np.ndarray) -> np.ndarray:
         """Give back what was written of some cases, the last run's included."""
         place = self._places[name]
-        kind = np.dtype(CASES[name].dtype)
+        kind = np.dtype(self._variables[name].dtype)
         rows = []
         for case in cases:
             self._file.seek(place.offset + int(case) * place.stride)
@@ -201,21 +197,18 @@ def _create(path: Path, head: SweepHead) -> dict[str, layout.Place]:
         layout.write_head(file, SWEEP, head.scenario, head.sha256, datetime.now(UTC))
         file.attrs["message"] = NOTE
         file.attrs["sweep"] = head.settings
-        file.attrs["samples_per_cycle"] = head.samples_per_cycle
+        for name, value in head.layout.attributes.items():
+            file.attrs[name] = value
         size = _write_scales(file, head)
         places = {}
-        for name, variable in CASES.items():
-            full = variable.over(head.dims)
-            shape = tuple(size[dim] for dim in full.dims)
-            dataset = layout.reserve(file, name, full, shape, variable.dtype, variable.fill)
+        for name, variable in head.layout.variables.items():
+            full = variable._replace(dims=(*head.dims, *variable.dims))
+            dataset = layout.reserve(file, name, full, tuple(size[dim] for dim in full.dims))
             layout.attach(file, file, dataset, full)
             if _TEXT in variable.dtype:
                 dataset.attrs["_Encoding"] = "utf-8"
             places[name] = _case_place(dataset, len(head.dims))
-        file["status"].attrs["flag_values"] = np.array([0, 1, 2], dtype="i1")
-        file["status"].attrs["flag_meanings"] = sweep_schema.CASE_STATES
-        file["stable"].attrs["flag_values"] = np.array([-1, 0, 1], dtype="i1")
-        file["stable"].attrs["flag_meanings"] = "unknown unstable stable"
+        file.attrs["datasets"] = " ".join(places)
         file.create_group("summary")
     return places
 
@@ -228,13 +221,9 @@ def _write_scales(file: h5py.File, head: SweepHead) -> dict[str, int]:
         file[one.name].attrs["key"] = one.key
     if head.directions:
         _write_scale(file, "direction", sweep_schema.DIRECTION, head.directions)
-    phase = np.arange(head.window * head.samples_per_cycle) / head.samples_per_cycle
-    layout.scale(file, "sample", sweep_schema.SAMPLE, phase)
-    layout.scale(file, "cycle", sweep_schema.CYCLE, np.arange(head.cycles))
-    layout.scale(file, "mode", sweep_schema.MODE, np.arange(1, head.modes + 1))
-    _write_scale(file, "state_variable", sweep_schema.STATE_VARIABLE, sweep_schema.STATES)
-    names = (*head.dims, "sample", "cycle", "mode", "state_variable")
-    return {name: file[name].shape[0] for name in names}  # pyright: ignore
+    for name, (variable, values) in head.layout.scales.items():
+        _write_scale(file, name, variable, values)
+    return {name: file[name].shape[0] for name in (*head.dims, *head.layout.scales)}  # pyright: ignore
 
 
 def _write_scale(file: h5py.File, name: str, variable: Variable, values: Sequence[Any]) -> None:
@@ -243,7 +232,8 @@ def _write_scale(file: h5py.File, name: str, variable: Variable, values: Sequenc
         layout.scale(file, name, variable, np.char.encode(np.array(values), "utf-8"))
         file[name].attrs["_Encoding"] = "utf-8"
     else:
-        layout.scale(file, name, variable, np.array(values, dtype="<f8"))
+        numbers = np.asarray(values)
+        layout.scale(file, name, variable, numbers if numbers.dtype.kind == "i" else numbers.astype("<f8"))
 
 
 def _case_place(dataset: h5py.Dataset, dims: int) -> layout.Place:
@@ -272,14 +262,14 @@ def _places_of(path: Path, head: SweepHead) -> dict[str, layout.Place]:
                 raise InputError("--resume", str(path), "made from another scenario", other)
             if file.attrs["sweep"] != head.settings:
                 raise InputError("--resume", str(path), "made with other axes or settings", other)
-            return {name: _case_place(file[name], len(head.dims)) for name in CASES}  # pyright: ignore
+            return {name: _case_place(file[name], len(head.dims)) for name in head.layout.variables}  # pyright: ignore
     except (OSError, KeyError) as error:
         raise InputError("--resume", str(path), f"damaged: {error}", other) from error
 
 
-def _encoded(name: str, values: Any) -> np.ndarray:
+def _encoded(variable: Variable, values: Any) -> np.ndarray:
     """Values as the bytes that the file holds; texts cut to their room at a whole character."""
-    kind = CASES[name].dtype
+    kind = variable.dtype
     if _TEXT not in kind:
         return np.ascontiguousarray(values, dtype=kind)
     room = int(kind.removeprefix(_TEXT))

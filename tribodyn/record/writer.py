@@ -11,15 +11,15 @@ import shutil
 from collections.abc import Mapping
 from datetime import UTC, datetime
 from pathlib import Path
-from types import TracebackType
+from types import MappingProxyType, TracebackType
 from typing import Any, Self
 
 import h5py
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.record import layout
-from tribodyn.record.schema import COMPLETE, FAILED, GEAR_PAIR, STATUS_NOTES, axis_name, partial_path
+from tribodyn.record import layout as file_layout
+from tribodyn.record.schema import COMPLETE, FAILED, STATUS_NOTES, Layout, partial_path
 from tribodyn.record.writing_lock import WritingLock, refuse_if_written
 
 
@@ -78,22 +78,20 @@ class RecordWriter:
     ----------
     path : Path
         Final name of the record.
+    layout : Layout
+        What the records of the study hold.
+    kind : str
+        Kind of the study.
     scenario_toml, sha256 : str
         The resolved scenario and its SHA-256.
     samples : int
-        Number of samples that a complete run has, the first at phase 0 and the last at a whole cycle.
-    mesh_cycle : dict
-        The table the run is made from: arrays over (phase, pair) and numbers, as
-        `tribodyn.mesh.cycle.as_arrays` gives them. Its `side` also says how many pair slots there are.
-    geometry : dict
-        `pinion_outline`, `gear_outline`, `path_of_contact`, each (points, 2), and lengths, m.
+        Number of samples that a complete run has.
+    groups : mapping
+        Name of a group of the layout -> arrays and numbers: the mesh cycle, outlines.
+    scales : mapping
+        Values along the axes that the run does not go on along, by name.
     force : bool
         Replace an existing record, and the remains of an unfinished run.
-    kind : str
-        Kind of record, a key of `schema.KINDS`.
-    scales : dict, optional
-        Values along the axes that the run does not go on along, by name; by default those of a gear pair's
-        dynamics.
 
     Raises
     ------
@@ -105,29 +103,25 @@ class RecordWriter:
         self,
         path: str | Path,
         *,
+        layout: Layout,
+        kind: str,
         scenario_toml: str,
         sha256: str,
         samples: int,
-        mesh_cycle: Mapping[str, Any] | None = None,
-        geometry: Mapping[str, Any] | None = None,
+        groups: Mapping[str, Mapping[str, Any]] = MappingProxyType({}),
+        scales: Mapping[str, Any] = MappingProxyType({}),
         force: bool = False,
-        kind: str = GEAR_PAIR,
-        scales: Mapping[str, Any] | None = None,
     ) -> None:
         self.path = Path(path)
         self.partial = partial_path(self.path)
         self.samples = samples
         self.written = 0
         self._open = False
-        self._axis = axis_name(kind)
-        self._head = layout.Head(
-            scenario_toml,
-            sha256,
-            datetime.now(UTC),
-            dict(mesh_cycle or {}),
-            dict(geometry or {}),
-            kind,
-            dict(layout.pair_scales((mesh_cycle or {})["side"]) if scales is None else scales),
+        self._axis = layout.axis_name
+        self._variables = {**layout.along, **layout.others}
+        copied = {name: dict(arrays) for name, arrays in groups.items()}
+        self._head = file_layout.Head(
+            kind, layout, scenario_toml, sha256, datetime.now(UTC), copied, dict(scales)
         )
         check_target(self.path, force)
         scratch = self._scratch()
@@ -135,7 +129,7 @@ class RecordWriter:
         try:
             self._lock = WritingLock(self.path)
             refuse_existing(self.path, force)  # another may just have ended
-            self._place = layout.create(scratch, self._head, samples)
+            self._place = file_layout.create(scratch, self._head, samples)
             os.replace(scratch, self.partial)
             self._file = self.partial.open("r+b", buffering=0)
         except BaseException as error:
@@ -171,7 +165,7 @@ class RecordWriter:
         block : dict
             Arrays (samples of the block, …) in SI units for any of the record's datasets along `time` (or
             the axis that takes its place), itself included; one that no block names stays NaN.
-            `closure_in_range` takes booleans, −1 or NaN standing for "out of contact".
+            Flags take booleans, NaN standing for "nothing to say".
 
         Raises
         ------
@@ -186,7 +180,7 @@ class RecordWriter:
         pieces = []
         for name, values in block.items():
             place = self._place[name]
-            array = layout.encode(name, values)
+            array = file_layout.encode(self._variables[name], values)
             if array.shape != (length, *place.row):
                 raise ValueError(f"{name}: shape {array.shape}, not {(length, *place.row)}")
             pieces.append((place.offset + start * place.stride, array))
@@ -197,9 +191,10 @@ class RecordWriter:
         self.written = start + length
 
     def put(self, row: int, values: Mapping[str, Any]) -> None:
-        """Put one row into datasets that lie along other axes (`schema.Kind.others`); raises as `write`."""
+        """Put one row into datasets that lie along other axes (`schema.Layout.others`); raises as `write`."""
         for name, value in values.items():
-            place, array = self._place[name], layout.encode(name, value).reshape(np.shape(value))
+            place = self._place[name]
+            array = file_layout.encode(self._variables[name], value).reshape(np.shape(value))
             if array.shape != place.row:
                 raise ValueError(f"{name}: shape {array.shape}, not {place.row}")
             self._put(place.offset + row * place.stride, array)
@@ -235,7 +230,7 @@ class RecordWriter:
         """
         self._close()
         scratch = self._scratch()
-        layout.create(scratch, self._head, self.written)
+        file_layout.create(scratch, self._head, self.written)
         source: Any
         target: Any
         with h5py.File(self.partial, "r") as source, h5py.File(scratch, "r+") as target:
@@ -249,8 +244,8 @@ class RecordWriter:
         return self.partial
 
     def _conclude(self, path: Path, status: str, message: str, summary: Mapping[str, Any]) -> None:
-        with h5py.File(path, "r+", libver=layout.LIBVER) as file:
-            layout.write_summary(file, summary)
+        with h5py.File(path, "r+", libver=file_layout.LIBVER) as file:
+            file_layout.write_summary(file, summary)
             file.attrs["status"] = status
             file.attrs["message"] = message
 

@@ -2,9 +2,11 @@
 
 from collections.abc import Iterator
 
-from tribodyn.errors import InputError
+from tribodyn.errors import InputError, unknown_name
+from tribodyn.geometry.families import FAMILIES
 from tribodyn.scenario.model_files import DriveTable
 from tribodyn.scenario.modification_rules import broken_flank_rules
+from tribodyn.scenario.shape import shape_errors
 
 
 def broken_drive_rules(drive: DriveTable) -> Iterator[InputError]:
@@ -18,3 +20,18 @@ def broken_drive_rules(drive: DriveTable) -> Iterator[InputError]:
                 remedy="give the name of a file in models/materials here, or drive.material for both gears",
             )
     yield from broken_flank_rules(drive)
+    if drive.family in FAMILIES:
+        yield from shape_errors(drive, FAMILIES[drive.family])
+    else:
+        yield unknown_name(FAMILIES.key, drive.family, FAMILIES, FAMILIES.what)
+
+
+def broken_hertz_rules(hertz: str, compliance: str) -> Iterator[InputError]:
+    """Go through what contradicts between the contact part of a compliance and the compliance itself."""
+    if hertz == "load-dependent" and compliance != "energy":
+        yield InputError(
+            "mesh.hertz",
+            '"load-dependent"',
+            f'contradicts compliance = "{compliance}", which contains the Hertz contact',
+            'leave hertz out, or write compliance = "energy"',
+        )

@@ -4,16 +4,18 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
+from tribodyn.geometry.families import FAMILIES
 from tribodyn.scenario import units
 from tribodyn.scenario.modification import Modification
 from tribodyn.scenario.quantity import (
+    Names,
     NotNegative,
     Number,
     Positive,
     Quantity,
-    Reference,
     Table,
     Text,
+    model_file,
     written,
 )
 
@@ -44,7 +46,7 @@ class Material(Described):
     hardness: Pressure = Field(description="Vickers hardness as a pressure")
 
 
-MaterialReference = Annotated[Material, Reference("name of a file in models/materials, or a path")]
+MaterialReference = Annotated[Material, model_file("materials")]
 
 
 class Gear(Table):
@@ -69,7 +71,7 @@ class Gear(Table):
 class DriveTable(Described):
     """A gear pair (`models/drives/`)."""
 
-    family: Text = Field(description="family of the path of contact")
+    family: Annotated[Text, Names(FAMILIES)] = Field(description="family of the path of contact")
     module: Length
     pressure_angle: Angle | None = Field(
         None, description="of the rack for involutes; at the pitch point for other families, if they take one"

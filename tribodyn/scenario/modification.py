@@ -7,7 +7,7 @@ from pydantic import Field
 from tribodyn.geometry.modification import FlankModification, LeadRelief, Misalignment, Relief
 from tribodyn.scenario import units
 from tribodyn.scenario.curves import ErrorCurve
-from tribodyn.scenario.quantity import Quantity, Reference, Table, written
+from tribodyn.scenario.quantity import Quantity, Table, csv_file, written
 
 Amount = Annotated[float, Quantity(units.not_negative(units.RELIEF))]
 Extent = Annotated[float, Quantity(units.positive(units.LENGTH))]
@@ -37,11 +37,15 @@ class Modification(Table):
     crowning: Amount | None = Field(
         None, description="the same at both ends of the face, without a straight part"
     )
-    profile_error: Annotated[ErrorCurve, Reference("CSV file with columns roll_angle and error")] | None = (
-        Field(None, description="positive where material is missing")
-    )
+    profile_error: (
+        Annotated[
+            ErrorCurve,
+            csv_file("roll_angle", "error"),
+        ]
+        | None
+    ) = Field(None, description="positive where material is missing")
     pitch_errors: Annotated[
-        tuple[Annotated[float, Quantity(units.DEVIATION)], ...], Reference("CSV file with a column error")
+        tuple[Annotated[float, Quantity(units.DEVIATION)], ...], csv_file("error", as_list=True)
     ] = Field((), description="one a tooth, positive where material is missing")
 
 

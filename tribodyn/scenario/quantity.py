@@ -3,6 +3,7 @@
 The types here speak pydantic; what a unit is stands in `units`.
 """
 
+from collections.abc import Iterable, Iterator
 from typing import Annotated, Any
 
 import numpy as np
@@ -58,16 +59,54 @@ class Reference:
     ----------
     what : str
         What the name stands for.
+    folder : str
+        Folder of `models/` whose files may be named; empty for CSV files.
+    columns : tuple of str
+        Columns that a CSV file must have.
+    as_list : bool
+        Whether the one column of a CSV file stands for a list of quantities.
     """
 
-    def __init__(self, what: str):
+    def __init__(
+        self, what: str, folder: str = "", columns: tuple[str, ...] = (), as_list: bool = False
+    ) -> None:
         self.what = what
+        self.folder = folder
+        self.columns = columns
+        self.as_list = as_list
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
         like = {"type": "string", "description": f"{self.what}: says what this table does not"}
         table = {"type": "object", "properties": {"like": like}, "required": ["like"]}
         several = [{"type": "string", "description": self.what}, handler(schema)]
-        return {"anyOf": several if "CSV" in self.what else [*several, table]}
+        return {"anyOf": [*several, table] if self.folder else several}
+
+
+def model_file(folder: str) -> Reference:
+    """A field that may name a file of a folder of `models/`."""
+    return Reference(f"name of a file in models/{folder}, or a path", folder)
+
+
+def csv_file(*columns: str, as_list: bool = False) -> Reference:
+    """A field that may name a CSV file with these columns."""
+    counted = ("columns " if len(columns) > 1 else "a column ") + " and ".join(columns)
+    return Reference(f"CSV file with {counted}", columns=columns, as_list=as_list)
+
+
+class Names:
+    """Marks a text that must be one of some names, for the schema; that it is one of them is a rule.
+
+    Parameters
+    ----------
+    known : collection of str
+        Looked through only when a schema is made.
+    """
+
+    def __init__(self, known: Iterable[str]) -> None:
+        self.known = known
+
+    def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
+        return {**handler(schema), "enum": list(self.known)}
 
 
 def written(default: Any, description: str | None = None) -> Any:
@@ -149,3 +188,28 @@ def defaults_written_out(raw: dict[str, Any], table: type[Table]) -> dict[str, A
         if isinstance(inner, type) and issubclass(inner, Table) and isinstance(full.get(key), dict):
             full[key] = defaults_written_out(full[key], inner)
     return full
+
+
+def references(
+    table: type[BaseModel], above: tuple[str, ...] = ()
+) -> Iterator[tuple[tuple[str, ...], Reference]]:
+    """Go through the keys of a table, and of the tables in it, that may name files; from the outside in."""
+    for name, field in table.model_fields.items():
+        key = (*above, name)
+        marks = list(parts_of(field))
+        yield from ((key, one) for one in marks if isinstance(one, Reference))
+        inner = next((one for one in marks if isinstance(one, type) and issubclass(one, BaseModel)), None)
+        if inner is not None:
+            yield from references(inner, key)
+
+
+def parts_of(field: Any) -> Iterator[Any]:
+    """Go through everything that stands in a field's annotation, metadata included."""
+    yield from field.metadata
+    yield from _parts(field.annotation)
+
+
+def _parts(annotation: Any) -> Iterator[Any]:
+    yield annotation
+    for part in (*getattr(annotation, "__args__", ()), *getattr(annotation, "__metadata__", ())):
+        yield from _parts(part)

@@ -6,39 +6,15 @@ which file it came from.
 """
 
 import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError, printable, quoted
+from tribodyn.geometry.families import FAMILIES
 from tribodyn.scenario.messages import Key, Origins
-from tribodyn.scenario.quantity import defaults_written_out
+from tribodyn.scenario.quantity import Reference, Table, csv_file, defaults_written_out, references
 from tribodyn.scenario.sources import find_model, is_file, read_curve, read_toml
-from tribodyn.studies.kinds import table_of
-
-#: Keys whose string names a file of `models/`, and the folder there; a drive comes before what it names.
-MODEL_FILES: dict[Key, str] = {
-    ("drive",): "drives",
-    ("drive", "material"): "materials",
-    ("drive", "pinion", "material"): "materials",
-    ("drive", "gear", "material"): "materials",
-    ("lubricant",): "lubricants",
-    ("bearings",): "bearings",
-}
-
-#: Keys whose string names a CSV file, and the columns that are due.
-CURVES: dict[Key, tuple[str, str]] = {
-    ("drive", "shape", "points"): ("x", "y"),
-    ("operating", "gear_torque_table"): ("time", "torque"),
-    ("mesh", "table"): ("roll_angle", "stiffness"),
-    ("mesh", "transmission_error", "table"): ("roll_angle", "error"),
-}
-
-_GEARS = ("pinion", "gear")
-CURVES |= {("drive", gear, "modification", "profile_error"): ("roll_angle", "error") for gear in _GEARS}
-
-#: Keys whose string names a CSV file that stands for a list of quantities, and the column that is due.
-LISTS: dict[Key, str] = {("drive", gear, "modification", "pitch_errors"): "error" for gear in _GEARS}
 
 #: In the table of a model: the name of a file that says everything which the table does not.
 LIKE = "like"
@@ -54,7 +30,11 @@ class Resolved(NamedTuple):
     errors: list[InputError]
 
 
-def resolve(path: Path, overrides: Mapping[str, Any]) -> Resolved:
+TableOf = Callable[[Mapping[str, Any]], type[Table]]
+"""Gives the schema of a scenario's data, which may be incomplete."""
+
+
+def resolve(path: Path, overrides: Mapping[str, Any], table_of: TableOf) -> Resolved:
     """Return the scenario in `path` with references, overrides and defaults put in.
 
     Parameters
@@ -63,26 +43,58 @@ def resolve(path: Path, overrides: Mapping[str, Any]) -> Resolved:
         The scenario file.
     overrides : mapping
         Dotted key to value; a string is read as TOML where it is TOML, else taken as it stands.
+    table_of : callable
+        See `TableOf`.
     """
-    return resolve_table(read_toml(path), path, overrides)
+    return resolve_table(read_toml(path), path, overrides, table_of)
 
 
-def resolve_table(written: dict[str, Any], path: Path, overrides: Mapping[str, Any]) -> Resolved:
+def resolve_table(
+    written: dict[str, Any], path: Path, overrides: Mapping[str, Any], table_of: TableOf
+) -> Resolved:
     """Return a scenario's data as `resolve` does; what it names is looked for as from a file at `path`."""
     data = defaults_written_out(written, table_of(written))
     origins = Origins(str(path))
+    known = _References(data, origins, path, dict(references(table_of(data))))
     for dotted, value in sorted(overrides.items(), key=lambda item: item[0].count(".")):
         try:
-            _override(data, origins, path, dotted, value)
+            _override(known, dotted, value)
         except InputError as error:
             raise origins.locate(error) from None
     errors: list[InputError] = []
-    for key in (*MODEL_FILES, *CURVES, *LISTS):
+    known = known._replace(marks=dict(references(table_of(data))))
+    for key in known.keys():
         try:
-            _put_content(data, origins, path, key)
+            _put_content(known, key)
         except InputError as error:
             errors.append(origins.locate(error))
     return Resolved(defaults_written_out(data, table_of(data)), origins, errors)
+
+
+class _References(NamedTuple):
+    """A scenario's data on the way, where its parts came from, its file, and which keys may name files."""
+
+    data: dict[str, Any]
+    origins: Origins
+    path: Path
+    marks: dict[tuple[str, ...], Reference]
+
+    def keys(self) -> Iterator[Key]:
+        """Go through the keys that may name files; those of a family last, when its name is known."""
+        yield from self.marks
+        yield from self._of_family()
+
+    def at(self, key: Key) -> Reference | None:
+        """What the value at a key may name."""
+        return self.marks.get(tuple(map(str, key))) or self._of_family().get(key)
+
+    def _of_family(self) -> dict[Key, Reference]:
+        """The points that a drive's family asks for."""
+        name = _at(self.data, ("drive", "family"))
+        if not isinstance(name, str) or name not in FAMILIES:
+            return {}
+        paths = [one.name for one in FAMILIES[name].parameters if one.kind == "path"]
+        return {("drive", "shape", one): csv_file("x", "y") for one in paths}
 
 
 def unresolved_keys(errors: Iterable[InputError]) -> set[str]:
@@ -99,13 +111,13 @@ def toml_value(text: str) -> Any:
     return data["value"] if len(data) == 1 else text
 
 
-def _override(data: dict[str, Any], origins: Origins, path: Path, dotted: str, value: Any) -> None:
+def _override(known: _References, dotted: str, value: Any) -> None:
     """Put one override in; tables on the way are made, references on the way are opened."""
     key: Key = tuple(int(part) if part.isdecimal() else part for part in dotted.split("."))
-    place: Any = data
+    place: Any = known.data
     for depth, part in enumerate(key[:-1], start=1):
         if key[depth:] != (LIKE,):  # another model to be like takes the place of the first
-            _put_content(data, origins, path, key[:depth])
+            _put_content(known, key[:depth])
         if isinstance(place, dict):
             place = place.setdefault(str(part), {})
         elif isinstance(place, list) and isinstance(part, int) and part < len(place):
@@ -122,52 +134,50 @@ def _override(data: dict[str, Any], origins: Origins, path: Path, dotted: str, v
         raise InputError(
             dotted, quoted(value), f"{above} is not a table", "see the keys with: tribodyn schema", OVERRIDES
         )
-    origins.put(key, OVERRIDES)
+    known.origins.put(key, OVERRIDES)
 
 
-def _put_content(data: dict[str, Any], origins: Origins, path: Path, key: Key) -> None:
+def _put_content(known: _References, key: Key) -> None:
     """Where the value at `key` names a file, put the file's content in its place."""
-    holder = _at(data, key[:-1])
-    if not isinstance(holder, dict):
+    holder, mark = _at(known.data, key[:-1]), known.at(key)
+    if not isinstance(holder, dict) or mark is None:
         return
-    if isinstance(holder.get(key[-1]), dict) and LIKE in holder[key[-1]] and key in MODEL_FILES:
-        _put_under(data, origins, path, key)
+    name = holder.get(key[-1])
+    if isinstance(name, dict) and LIKE in name and mark.folder:
+        _put_under(known, key, mark.folder)
         return
-    if not isinstance(holder.get(key[-1]), str):
+    if not isinstance(name, str):
         return
-    name: str = holder[key[-1]]
-    referring, dotted = _referring(origins, path, key), ".".join(map(str, key))
-    if key in MODEL_FILES:
-        file = find_model(name, MODEL_FILES[key], dotted, referring)
+    referring, dotted = _referring(known, key), ".".join(map(str, key))
+    if mark.folder:
+        file = find_model(name, mark.folder, dotted, referring)
         holder[key[-1]] = read_toml(file)
-    elif key in CURVES or key in LISTS:
+    else:
         file = referring.parent / name
-        due = CURVES.get(key) or (LISTS[key],)
         if not is_file(file):
-            columns = ",".join(f"{column} [unit]" for column in due)
+            columns = ",".join(f"{column} [unit]" for column in mark.columns)
             raise InputError(
                 dotted,
                 quoted(name),
                 f"no such file: {printable(str(file))}",
                 f"give a CSV file that begins with {columns}",
             )
-        curve = read_curve(file, dotted, due)
-        holder[key[-1]] = curve if key in CURVES else _quantities(curve[due[0]])
-    else:
-        return
-    origins.put(key, str(file))
+        curve = read_curve(file, dotted, mark.columns)
+        holder[key[-1]] = _quantities(curve[mark.columns[0]]) if mark.as_list else curve
+    known.origins.put(key, str(file))
 
 
-def _put_under(data: dict[str, Any], origins: Origins, path: Path, key: Key) -> None:
+def _put_under(known: _References, key: Key, folder: str) -> None:
     """Put the content of the model that the table at `key` is like under what the table says itself."""
-    table = _at(data, key)
+    origins = known.origins
+    table = _at(known.data, key)
     dotted = ".".join(map(str, (*key, LIKE)))
     name = table[LIKE]
-    holder = _at(data, key[:-1])
+    holder = _at(known.data, key[:-1])
     holder[key[-1]] = name  # until it is found: what is missing in the table then is no mistake of its own
     if not isinstance(name, str):
         raise InputError(dotted, quoted(name), "not the name of a model", "write a name in quotes")
-    file = find_model(name, MODEL_FILES[key], dotted, _referring(origins, path, (*key, LIKE)))
+    file = find_model(name, folder, dotted, _referring(known, (*key, LIKE)))
     said_in = {leaf: origins.of((*key, *leaf)) for leaf in _leaves(table)}
     holder[key[-1]] = _merged(read_toml(file), {name: value for name, value in table.items() if name != LIKE})
     origins.put(key, str(file))
@@ -175,10 +185,10 @@ def _put_under(data: dict[str, Any], origins: Origins, path: Path, key: Key) -> 
         origins.put((*key, *leaf), where)
 
 
-def _referring(origins: Origins, path: Path, key: Key) -> Path:
+def _referring(known: _References, key: Key) -> Path:
     """Return the file that names another at `key`; what --set names, the scenario might have named."""
-    said_in = origins.of(key)
-    return path if said_in == OVERRIDES else Path(said_in)
+    said_in = known.origins.of(key)
+    return known.path if said_in == OVERRIDES else Path(said_in)
 
 
 def _merged(under: dict[str, Any], over: Mapping[str, Any]) -> dict[str, Any]:

@@ -180,6 +180,7 @@ ANGLE_KIND = Kind(ANGLE, "rad", "20 deg")
 ANGULAR_SPEED = Kind(SPEED, "rad/s", "10 rad/s")
 ANGULAR_FREQUENCY = Kind(FREQUENCY, "rad/s", "30 Hz")
 TIME = Kind("time", "s", "0.1 s")
+VELOCITY = Kind("velocity", "m/s", "0.5 m/s")
 POWER = Kind("power", "W", "1500 W")
 TORQUE = Kind("torque", "N*m", "500 N*m")
 MASS = Kind("mass", "kg", "0.7 kg")
@@ -194,3 +195,30 @@ SPECIFIC_HEAT = Kind("specific heat", "J/(kg*K)", "434 J/(kg*K)")
 VISCOSITY = Kind("dynamic viscosity", "Pa*s", "0.35 Pa*s")
 PRESSURE_VISCOSITY = Kind("pressure-viscosity coefficient", "1/Pa", "25 1/GPa")
 PER_KELVIN = Kind("temperature coefficient", "1/K", "0.045 1/K")
+
+#: Quantities that a tooth family or a law may have a key of, by name: `numerics.parameter.Parameter.kind`.
+QUANTITIES = {
+    kind.name: kind
+    for kind in (
+        LENGTH,
+        ANGLE_KIND,
+        ANGULAR_SPEED,
+        ANGULAR_FREQUENCY,
+        TIME,
+        VELOCITY,
+        POWER,
+        TORQUE,
+        MASS,
+        INERTIA,
+        STIFFNESS,
+        TORSIONAL_STIFFNESS,
+        TORSIONAL_DAMPING,
+        PRESSURE,
+        DENSITY,
+        CONDUCTIVITY,
+        SPECIFIC_HEAT,
+        VISCOSITY,
+        PRESSURE_VISCOSITY,
+        PER_KELVIN,
+    )
+}

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 from pydantic import BaseModel
 
 from tribodyn.errors import InputError
-from tribodyn.scenario.quantity import Quantity, Reference
+from tribodyn.scenario.quantity import Quantity, Reference, parts_of
 from tribodyn.scenario.resolve import toml_value
 from tribodyn.scenario.units import Kind, NotAQuantity, to_si
 
@@ -197,19 +197,13 @@ def _leaf(table: type[BaseModel], key: str) -> Any:
         fields = getattr(place, "model_fields", {})
         if part not in fields:
             return None
-        found = _marks(fields[part].annotation) + list(fields[part].metadata)
+        found = list(parts_of(fields[part]))
         references = [one for one in found if isinstance(one, Reference)]
         kinds = [one.kind for one in found if isinstance(one, Quantity)]
         tables = [one for one in found if isinstance(one, type) and issubclass(one, BaseModel)]
         last = part == key.rpartition(".")[2]
         place = next(iter(references if last and references else kinds or tables), None)
     return place
-
-
-def _marks(annotation: Any) -> list[Any]:
-    """Everything that stands in an annotation, its own metadata included."""
-    inner = (*getattr(annotation, "__args__", ()), *getattr(annotation, "__metadata__", ()))
-    return [annotation, *(one for part in inner for one in _marks(part))]
 
 
 def _example(table: type[BaseModel]) -> str:

@@ -34,7 +34,6 @@ from tribodyn.numerics.cache import cache_folder
 from tribodyn.solve.dormand_prince import FIRST_STEP, LEAST_STEP
 from tribodyn.solve.engine import DONE, NOT_FINITE, STALLED, STEP_TOO_SMALL, TOO_MANY_STEPS, Block, Tolerances
 from tribodyn.solve.reversal import SHARES, filled_up, stops_of_many
-from tribodyn.tribology.contact import logarithms
 
 jax.config.update("jax_enable_x64", True)
 
@@ -122,8 +121,8 @@ def over_cycle(
 
     `restart` says whether the engagement at phase 0 comes first; `Segment` gets a leading axis of segments.
     """
-    table, mechanics, contact = numbers
-    model = Model(table, mechanics, contact, options, logarithms(contact))
+    model = Model(*numbers, options=options)
+    table, mechanics = model.table, model.mechanics
     segments = table.in_contact.shape[0]
     gains = (0.2, 0.4) if method in EXPLICIT else (0.0, 1.0)
     pid = diffrax.PIDController(
@@ -226,7 +225,7 @@ class DiffraxEngine:
         use_compilation_cache()
         self.method = method
         self.options: Options = model.options
-        self.numbers = jax.tree.map(jnp.asarray, (model.table, model.mechanics, model.contact))
+        self.numbers = jax.tree.map(jnp.asarray, model.numbers)
         at, self.counts = sample_phases(np.asarray(model.table.boundary), samples)
         self.how = How(
             jnp.asarray(at),

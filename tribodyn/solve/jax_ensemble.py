@@ -121,7 +121,7 @@ def _cycles(part: Part, models: Sequence[Model], shared: March, found: Ensemble)
     numbers = (
         jax.tree.map(jnp.asarray, tables[0]) if part.one_table else stacked(tables),
         stacked([model.mechanics for model in mine]),
-        stacked([model.contact for model in mine]),
+        *(stacked([getattr(model, name) for model in mine]) for name in ("surfaces", "film", "friction")),
     )
     boundary = np.array([np.asarray(table.boundary) for table in tables])
     grids = [sample_phases(row, shared.samples) for row in boundary]
@@ -203,7 +203,7 @@ def over_one_cycle(
     def one(numbers: Any, carried: Carried, how: How) -> tuple[Carried, Segment]:
         return over_cycle(method, options, numbers, carried, cycle, restart, how)
 
-    return jax.vmap(one, in_axes=((None if one_table else 0, 0, 0), 0, 0))(numbers, carried, how)
+    return jax.vmap(one, in_axes=((None if one_table else 0, 0, 0, 0, 0), 0, 0))(numbers, carried, how)
 
 
 def stacked(trees: list[Any]) -> Any:

@@ -13,7 +13,7 @@ from tribodyn.kernels.lanes import functions  # noqa: F401  (its import gives th
 from tribodyn.kernels.lanes.arrays import rows_of
 from tribodyn.kernels.lanes.vectors import WIDTH, any_of
 from tribodyn.kernels.native import kernel
-from tribodyn.kernels.native.compiler import part
+from tribodyn.kernels.native.parts import part
 from tribodyn.numerics.elementary import maximum, where
 from tribodyn.solve.dormand_prince import (
     LEAST_REMEMBERED,

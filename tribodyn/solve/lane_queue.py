@@ -8,7 +8,7 @@ from tribodyn.dynamics.contact_forces import QUANTITIES
 from tribodyn.dynamics.parameters import STATES
 from tribodyn.kernels.lanes.arrays import rows_of
 from tribodyn.kernels.lanes.vectors import WIDTH, count
-from tribodyn.kernels.native.compiler import part
+from tribodyn.kernels.native.parts import part
 from tribodyn.numerics.elementary import where
 from tribodyn.solve.dormand_prince import FIRST_STEP, LEAST_REMEMBERED, STAGES
 from tribodyn.solve.engine import DONE

@@ -1,6 +1,6 @@
 """The methods of integration, by the names that a scenario gives them."""
 
-from tribodyn.errors import require_known
+from tribodyn.errors import unknown_name
 
 SOLVERS = {
     "auto": "explicit or stiff by an estimate; the record says which and why",
@@ -18,5 +18,6 @@ SOLVERS = {
 
 def solver(name: str) -> str:
     """Return the solver's name if there is one of that name."""
-    require_known("solver.method", name, SOLVERS, "solver")
+    if name not in SOLVERS:
+        raise unknown_name("solver.method", name, SOLVERS, "solver")
     return name

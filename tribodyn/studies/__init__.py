@@ -1,1 +1,27 @@
-"""The kinds of study, one folder each."""
+"""The kinds of study: one folder each, and one line of this registry."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from tribodyn.numerics.registry import Registry
+from tribodyn.studies.study import Study
+
+STUDIES: Registry[Study] = Registry(
+    "kind",
+    "kind of scenario",
+    {
+        "gear-pair": "tribodyn.studies.gear_pair:STUDY",
+        "efficiency": "tribodyn.studies.efficiency:STUDY",
+        "load-contact": "tribodyn.studies.load_contact:STUDY",
+        "irefc": "tribodyn.studies.rolling:STUDY",
+        "backlash-oscillator": "tribodyn.studies.backlash_oscillator:STUDY",
+    },
+    "tribodyn.studies",
+)
+DEFAULT = next(iter(STUDIES))
+
+
+def study_of(data: Mapping[str, Any]) -> Study:
+    """Return the study of a scenario's data; the default one where it names none, or none that there is."""
+    kind = data.get("kind", DEFAULT)
+    return STUDIES[kind if isinstance(kind, str) and kind in STUDIES else DEFAULT]

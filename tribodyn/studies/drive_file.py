@@ -8,7 +8,6 @@ from pydantic import ValidationError
 
 from tribodyn.errors import InputError, InputErrors, quoted
 from tribodyn.geometry.drive import Drive
-from tribodyn.geometry.families import family
 from tribodyn.geometry.material import BodyMass, MaterialData
 from tribodyn.scenario.drive_data import drive_of, masses_of, materials_of
 from tribodyn.scenario.drive_rules import broken_drive_rules
@@ -16,12 +15,8 @@ from tribodyn.scenario.messages import Origins, explain
 from tribodyn.scenario.model_files import DriveTable
 from tribodyn.scenario.quantity import Table
 from tribodyn.scenario.resolve import resolve_table, unresolved_keys
-from tribodyn.scenario.shape import shape_errors
 from tribodyn.scenario.sources import find_drive_or_scenario, read_toml
-from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
-from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.load import load
-from tribodyn.studies.rolling.case import RollingCase
 
 
 class DriveModel(NamedTuple):
@@ -76,18 +71,18 @@ def load_drive(model: str, overrides: Mapping[str, Any] | None = None) -> DriveM
     written = read_toml(path)
     if "drive" in written or "kind" in written:
         return _of_scenario(path, overrides or {})
-    if "elements" in written:
-        raise _no_pair(path)
-    data, origins, unresolved = resolve_table({"drive": written}, path, overrides or {})
+    data, origins, unresolved = resolve_table(
+        {"drive": written}, path, overrides or {}, lambda _: _DriveAlone
+    )
     try:
         table = _DriveAlone.model_validate({"drive": data["drive"]}).drive
     except ValidationError as error:
+        if "family" not in written:
+            raise _no_pair(path, "not a pair of gears: it names no family of paths of contact") from None
         known = unresolved_keys(unresolved)
         found = [one for one in explain(error, _DriveAlone) if one.key not in known]
         raise InputErrors([origins.locate(one) for one in (*unresolved, *found)]) from None
-    with origins.naming():
-        errors = [*unresolved, *broken_drive_rules(table)]
-        errors = errors or shape_errors(table, family(table.family))
+    errors = [*unresolved, *broken_drive_rules(table)]
     if errors:
         raise InputErrors([origins.locate(one) for one in errors])
     return DriveModel(
@@ -103,20 +98,13 @@ def load_drive(model: str, overrides: Mapping[str, Any] | None = None) -> DriveM
 
 
 def _of_scenario(path: Path, overrides: Mapping[str, Any]) -> DriveModel:
-    case, _, origins = load(path, overrides)
-    if isinstance(case, RollingCase):
-        raise _no_pair(path)
-    if isinstance(case, BacklashOscillatorCase):
-        raise InputError("model", quoted(path.stem), "an oscillator without gears", "name a pair of gears")
+    case, study, _, origins = load(path, overrides)
+    if not study.has_gears:
+        raise _no_pair(path, f"not a pair of gears, but {study.about}")
     # a quasi-static study needs no masses
-    masses = case.masses if isinstance(case, Case) else (BodyMass(), BodyMass())
+    masses = getattr(case, "masses", (BodyMass(), BodyMass()))
     return DriveModel(case.title, case.name, case.family, case.drive, case.materials, masses, path, origins)
 
 
-def _no_pair(path: Path) -> InputError:
-    return InputError(
-        "model",
-        quoted(path.stem),
-        "not a pair of gears: it has rolling elements",
-        "run a scenario of it instead: tribodyn run",
-    )
+def _no_pair(path: Path, rule: str) -> InputError:
+    return InputError("model", quoted(path.stem), rule, "run a scenario of it instead: tribodyn run")

@@ -1,63 +1,28 @@
-"""From a scenario's name or path to a `Case`, and the registries that give names in TOML their meaning."""
+"""From a scenario's name or path to a case."""
 
 import hashlib
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Union
+from typing import Annotated, Any, NamedTuple, Union
 
 import tomli_w
 from pydantic import Field, TypeAdapter, ValidationError
 
-from tribodyn.errors import InputError, InputErrors, require_known
-from tribodyn.geometry.families import FAMILIES, family
-from tribodyn.scenario.drive_rules import broken_drive_rules
+from tribodyn.errors import InputError, InputErrors, unknown_name
 from tribodyn.scenario.messages import Origins, explain
 from tribodyn.scenario.resolve import Resolved, resolve, unresolved_keys
-from tribodyn.scenario.shape import shape_errors
 from tribodyn.scenario.sources import find_scenario
-from tribodyn.solve.methods import SOLVERS, solver
-from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
-from tribodyn.studies.backlash_oscillator.scenario import (
-    BacklashOscillatorScenario,
-    backlash_oscillator_case_of,
-)
-from tribodyn.studies.efficiency.case import EfficiencyCase
-from tribodyn.studies.efficiency.scenario import (
-    EfficiencyScenario,
-    broken_efficiency_rules,
-    efficiency_case_of,
-)
-from tribodyn.studies.gear_pair.case import Case
-from tribodyn.studies.gear_pair.rules import broken_rules
-from tribodyn.studies.gear_pair.scenario import Scenario, case_of
-from tribodyn.studies.kinds import KINDS, table_of
-from tribodyn.studies.load_contact.case import LoadContactCase
-from tribodyn.studies.load_contact.scenario import (
-    LoadContactScenario,
-    broken_load_contact_rules,
-    load_contact_case_of,
-)
-from tribodyn.studies.rolling.case import RollingCase
-from tribodyn.studies.rolling.scenario import RollingScenario, rolling_case_of
-from tribodyn.tribology.laws import FRICTION_LAWS, friction_law
-
-if TYPE_CHECKING:
-    pass
-
-
-AnyCase = Case | RollingCase | EfficiencyCase | LoadContactCase | BacklashOscillatorCase
-"""A case of any kind of scenario."""
-
-
-OfGears = Scenario | EfficiencyScenario | LoadContactScenario
+from tribodyn.studies import STUDIES, study_of
+from tribodyn.studies.study import CaseHead, Study
 
 
 class Loaded(NamedTuple):
-    """A case, the file it was read from, and where each of its values stands."""
+    """A case, its study, the file it was read from, and where each of its values stands."""
 
-    case: AnyCase
+    case: Any
+    study: Study
     path: Path
     origins: Origins
 
@@ -68,8 +33,8 @@ class Loaded(NamedTuple):
             yield
 
 
-def load_scenario(scenario: str | Path, overrides: Mapping[str, Any] | None = None) -> AnyCase:
-    """Read a scenario.
+def load_scenario(scenario: str | Path, overrides: Mapping[str, Any] | None = None) -> Any:
+    """Read a scenario; return its case.
 
     Parameters
     ----------
@@ -89,7 +54,12 @@ def load_scenario(scenario: str | Path, overrides: Mapping[str, Any] | None = No
 def load(scenario: str | Path, overrides: Mapping[str, Any] | None = None) -> Loaded:
     """Read a scenario as `load_scenario` does, and say where its values stand."""
     path = find_scenario(str(scenario))
-    return loaded_from(resolve(path, overrides or {}), path)
+    return loaded_from(resolve(path, overrides or {}, table_of), path)
+
+
+def table_of(data: Mapping[str, Any]) -> Any:
+    """Return the schema of a scenario's data."""
+    return study_of(data).table()
 
 
 def loaded_from(resolved: Resolved, path: Path) -> Loaded:
@@ -104,11 +74,12 @@ def loaded_from(resolved: Resolved, path: Path) -> Loaded:
     """
     data, origins, unresolved = resolved
     data.setdefault("name", re.sub(r"[^\w .-]", "-", path.stem).lstrip(" .-") or "scenario")
-    model, kind = table_of(data), data.get("kind")
+    study, kind = study_of(data), data.get("kind")
+    model = study.table()
     try:
-        if isinstance(kind, str):
-            require_known("kind", kind, KINDS, "kind of scenario")
-        table = model.model_validate(data)
+        if isinstance(kind, str) and kind not in STUDIES:
+            raise unknown_name("kind", kind, STUDIES, STUDIES.what)
+        scenario = model.model_validate(data)
     except InputError as error:
         raise origins.locate(error) from None
     except ValidationError as error:
@@ -116,37 +87,12 @@ def loaded_from(resolved: Resolved, path: Path) -> Loaded:
         known = unresolved_keys(unresolved)
         found = [one for one in explain(error, model) if one.key not in known]
         raise _located([*unresolved, *found], origins) from None
-    if unresolved:  # of a key whose value only its family knows to be a file
-        raise _located(unresolved, origins)
-    toml = tomli_w.dumps(data)
-    digest = hashlib.sha256(toml.encode()).hexdigest()
-    if isinstance(table, RollingScenario):
-        return Loaded(rolling_case_of(table, toml, digest), path, origins)
-    if isinstance(table, BacklashOscillatorScenario):
-        return Loaded(backlash_oscillator_case_of(table, toml, digest), path, origins)
-    assert isinstance(table, OfGears)
-    errors = _broken(table) + _unknown_names(table) + _coefficient(table)
-    if table.drive.family in FAMILIES:
-        errors += shape_errors(table.drive, family(table.drive.family))
-    if errors:
+    # of a key whose value only its family knows to be a file
+    if errors := unresolved or list(study.broken_rules(scenario)):
         raise _located(errors, origins)
-    return Loaded(_case_of(table, toml, digest), path, origins)
-
-
-def _broken(table: OfGears) -> list[InputError]:
-    if isinstance(table, LoadContactScenario):
-        return [*broken_drive_rules(table.drive), *broken_load_contact_rules(table)]
-    if isinstance(table, EfficiencyScenario):
-        return [*broken_drive_rules(table.drive), *broken_efficiency_rules(table)]
-    return list(broken_rules(table))
-
-
-def _case_of(table: OfGears, toml: str, digest: str) -> AnyCase:
-    if isinstance(table, EfficiencyScenario):
-        return efficiency_case_of(table, toml, digest)
-    if isinstance(table, LoadContactScenario):
-        return load_contact_case_of(table, toml, digest)
-    return case_of(table, toml, digest)
+    toml = tomli_w.dumps(data)
+    case: CaseHead = study.case(scenario, toml, hashlib.sha256(toml.encode()).hexdigest())
+    return Loaded(case, study, path, origins)
 
 
 def _located(errors: list[InputError], origins: Origins) -> InputError:
@@ -154,46 +100,8 @@ def _located(errors: list[InputError], origins: Origins) -> InputError:
     return InputErrors(located) if len(located) > 1 else located[0]
 
 
-def _unknown_names(table: OfGears) -> list[InputError]:
-    errors = []
-    lookups: list[tuple[Callable[[str], Any], str]] = [(family, table.drive.family)]
-    if not isinstance(table, LoadContactScenario):
-        lookups.append((friction_law, table.friction.law))
-    if isinstance(table, Scenario):
-        lookups.append((solver, table.solver.method))
-    for lookup, name in lookups:
-        try:
-            lookup(name)
-        except InputError as error:
-            errors.append(error)
-    return errors
-
-
-def _coefficient(table: OfGears) -> list[InputError]:
-    if isinstance(table, LoadContactScenario):
-        return []
-    friction = table.friction
-    law = FRICTION_LAWS.get(friction.law)
-    if law is None or law.coefficient == (friction.coefficient is not None):
-        return []
-    key = "friction.coefficient"
-    if law.coefficient:
-        rule = f'missing: law = "{friction.law}" needs it'
-        return [InputError(key, rule=rule, remedy="add coefficient = 0.05")]
-    rule = f'contradicts law = "{friction.law}", which needs none'
-    return [InputError(key, friction.coefficient, rule, "leave coefficient out")]
-
-
 def json_schema() -> dict[str, Any]:
-    """Return the JSON schema of a scenario file, the registries' names included."""
-    kinds: Any = Annotated[Union[tuple(KINDS.values())], Field(discriminator="kind")]  # noqa: UP007
-    schema = {"title": "Scenario", **TypeAdapter(kinds).json_schema()}
-    parts = schema["$defs"]
-    for table, key, known in (
-        ("DriveTable", "family", FAMILIES),
-        ("Friction", "law", FRICTION_LAWS),
-        ("EfficiencyFriction", "law", FRICTION_LAWS),
-        ("Solver", "method", SOLVERS),
-    ):
-        parts[table]["properties"][key]["enum"] = list(known)
-    return schema
+    """Return the JSON schema of a scenario file of any kind, the registries' names included."""
+    tables = tuple(study.table() for _, study in STUDIES.items())
+    kinds: Any = Annotated[Union[tables], Field(discriminator="kind")]  # noqa: UP007
+    return {"title": "Scenario", **TypeAdapter(kinds).json_schema()}

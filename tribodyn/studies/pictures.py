@@ -1,72 +1,67 @@
-"""The figures that can be drawn from records, by name."""
+"""Figures, summaries and comparisons of records, asked of their studies."""
 
-from collections.abc import Sequence
-from difflib import get_close_matches
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
-from matplotlib.figure import Figure
-
-from tribodyn.errors import InputError
-from tribodyn.post.figures import orders
-from tribodyn.post.figures import over_phase as panels
-from tribodyn.post.figures.panel import View, draw, legend, record_title
-from tribodyn.post.figures.path_of_contact import draw_path, path_figure
-from tribodyn.post.figures.spectrum import spectrum_figure
-from tribodyn.post.style import house_style, mark_panel, new_figure, save
+from tribodyn.errors import InputError, near_name
 from tribodyn.record.reader import Record
-from tribodyn.record.schema import BACKLASH_OSCILLATOR, LOAD_CONTACT, ROLLING
-from tribodyn.studies.backlash_oscillator import figures as backlash_oscillator
-from tribodyn.studies.load_contact import figures as load_contact
-from tribodyn.studies.rolling import figures as rolling
+from tribodyn.studies import STUDIES
+from tribodyn.studies.study import Study
 
-#: Names of the figures of gear pairs, in the order `tribodyn plot` draws them.
-NAMES = (
-    "transmission-error",
-    "spectrum",
-    "normal-load",
-    "friction",
-    "film",
-    "entrainment",
-    "pressure",
-    "efficiency",
-    "mesh-stiffness",
-    "path-of-contact",
-)
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from rich.console import Group
+
+    from tribodyn.post.compare import Comparison
+    from tribodyn.post.figures.drawing import Drawing, SweepDrawing
+    from tribodyn.post.report import Line
+    from tribodyn.record.sweep_reader import SweepRecord
+
+OVERVIEW = "overview"
 
 
-#: Those of runs whose speed changes.
-RUN_UP_NAMES = (orders.NAME,)
-#: Those of gears with rolling elements, of load contact studies and of the oscillator with backlash.
-ROLLING_NAMES = rolling.NAMES
-LOAD_CONTACT_NAMES = load_contact.NAMES
-OSCILLATOR_NAMES = backlash_oscillator.NAMES
+def study_of_record(record: Record) -> Study:
+    """Return the study that a record is of.
 
-#: What draws the records of the other kinds.
-_OTHERS = {ROLLING: rolling, LOAD_CONTACT: load_contact, BACKLASH_OSCILLATOR: backlash_oscillator}
+    Raises
+    ------
+    InputError
+        If it is of a kind that no installed package knows.
+    """
+    if record.kind not in STUDIES:
+        rule = f'a study of kind "{record.kind}", which nothing that is installed knows'
+        raise InputError("record", str(record.path), rule, "install the package that offers it")
+    return STUDIES[record.kind]
 
 
 def names(records: Sequence[Record]) -> tuple[str, ...]:
-    """Names of the figures that can be drawn from these records."""
-    other = _OTHERS.get(_kind(records))
-    if other:
-        return other.names(records)
-    return (*NAMES, *RUN_UP_NAMES) if orders.worth_tracking(records[0]) else NAMES
+    """Names of the figures that these records hold enough for."""
+    known = drawings(records)
+    return tuple(
+        name
+        for name, one in known.items()
+        if name != OVERVIEW and all(one.fits(record) for record in records)
+    )
 
 
-def _kind(records: Sequence[Record]) -> str:
-    """Kind that all records are of; different kinds cannot share a figure."""
+def drawings(records: Sequence[Record]) -> "Mapping[str, Drawing]":
+    """Figures that the studies of all records have; InputError where they share no quantities."""
     first, *others = records
+    study = study_of_record(first)
+    known = dict(study.drawings())
     for record in others:
-        if record.kind != first.kind:
-            raise InputError(
-                "record",
-                str(record.path),
-                f"of kind {record.kind}, the first of {first.kind}",
-                "draw them apart",
-            )
-    return first.kind
+        other = study_of_record(record)
+        if other.quantities != study.quantities:
+            rule = f"of kind {record.kind}, the first of {first.kind}"
+            raise InputError("record", str(record.path), rule, "draw them apart")
+        also = other.drawings()
+        known = {name: one for name, one in known.items() if name in also}
+    return known
 
 
-def figure(name: str, records: Sequence[Record], *, cycles: int | None = 2, against: str = "phase") -> Figure:
+def figure(
+    name: str, records: Sequence[Record], *, cycles: int | None = 2, against: str = "phase"
+) -> "Figure":
     """Draw one figure from one record, or from several to compare them.
 
     Parameters
@@ -85,66 +80,127 @@ def figure(name: str, records: Sequence[Record], *, cycles: int | None = 2, agai
     InputError
         For an unknown name or abscissa, no record, or a record without samples.
     """
+    from tribodyn.post.figures.panel import View
+    from tribodyn.post.style import house_style
+
     if not records:
         raise InputError("records", None, "there is nothing to draw", "name at least one record")
     if against not in ("phase", "time"):
         raise InputError("against", against, "no such abscissa", "phase or time")
     if cycles is not None and cycles < 1:
         raise InputError("cycles", cycles, "at least one mesh cycle is drawn", "1 or more")
-    view = View(cycles, against)
-    other = _OTHERS.get(_kind(records))
-    known = other.NAMES if other else (*NAMES, *RUN_UP_NAMES)
-    if name not in ("overview", *known):
-        near = get_close_matches(name, known, n=1)
-        hint = f"did you mean {near[0]}? " if near else ""
-        raise InputError("plot", name, "no such figure", f"{hint}There are: {', '.join(known)}")
+    known = drawings(records)
+    if name not in known:
+        offered = [one for one in known if one != OVERVIEW]
+        near = near_name(name, offered)
+        hint = f"did you mean {near}? " if near else ""
+        raise InputError("plot", name, "no such figure", f"{hint}There are: {', '.join(offered)}")
     with house_style():
-        if other:
-            return other.figure(name, records, view)
-        if name == "overview":
-            return _overview(records[0], view)
-        if name == "spectrum":
-            return spectrum_figure(records, view)
-        if name == orders.NAME:
-            return orders.orders_figure(records, view)
-        if name == "path-of-contact":
-            return path_figure(records, view)
-        return panels.over_phase(name, records, view)
+        return known[name].draw(records, View(cycles, against))
 
 
-def overview(record: Record) -> Figure:
-    """Draw what a run found in six panels, over its last two mesh cycles."""
-    return figure("overview", [record])
+def overview(record: Record) -> "Figure":
+    """Draw the figure that sums up a record."""
+    return figure(OVERVIEW, [record])
 
 
-def _overview(record: Record, view: View) -> Figure:
-    drawn = new_figure(11.0, 6.2)
-    rows = drawn.subplots(2, 3)
-    draw_path(rows[0, 0], record)
-    quantities = (
-        panels.TRANSMISSION_ERROR,
-        panels.NORMAL_LOAD,
-        panels.FRICTION_FORCE,
-        panels.FILM_THICKNESS,
-        panels.EFFICIENCY,
-    )
-    for axes, quantity in zip(rows.flat[1:], quantities, strict=True):
-        draw(axes, [record], quantity, view)
-    for letter, axes in zip("abcdef", rows.flat, strict=True):
-        mark_panel(axes, letter)
-    legend(drawn, rows[0, 2], [record])
-    drawn.suptitle(record_title(record), x=0.01, ha="left", fontsize=11)
-    return drawn
+def summary_table(record: Record) -> "Group":
+    """Lay out the summary of a record for the terminal."""
+    from tribodyn.post import report
+
+    study = study_of_record(record)
+    return report.summary_table(record, study.lines(), study.sentences(record))
 
 
-__all__ = [
-    "LOAD_CONTACT_NAMES",
-    "NAMES",
-    "OSCILLATOR_NAMES",
-    "ROLLING_NAMES",
-    "RUN_UP_NAMES",
-    "figure",
-    "names",
-    "overview",
-    "save",
-]
+def compare(records: Sequence[Record]) -> "Comparison":
+    """Set complete records side by side; see `tribodyn.post.compare`.
+
+    Raises
+    ------
+    InputError
+        Also for records whose quantities cannot be compared.
+    """
+    from tribodyn.post import compare as comparing
+
+    studies = [study_of_record(record) for record in records]
+    for record, study in zip(records, studies, strict=True):
+        if study.quantities != studies[0].quantities:
+            rule = f'kind "{record.kind}" and kind "{records[0].kind}" share no quantities to compare'
+            raise InputError("record", str(record.path), rule, "compare records of one kind")
+        if not study.compared:
+            rule = f"{study.about}: it has no means over a run to compare"
+            remedy = "draw them into one figure: tribodyn plot A.h5 B.h5"
+            raise InputError("record", str(record.path), rule, remedy)
+    return comparing.compare(records, _compared_lines(studies))
+
+
+def _compared_lines(studies: Sequence[Study]) -> "dict[str, tuple[Line, ...]]":
+    """Heading -> lines that any of the studies compares, in the order of the first that has them."""
+    found: dict[str, dict[str, Any]] = {}
+    for study in studies:
+        lines = study.lines()
+        for heading in study.compared:
+            some = found.setdefault(heading, {})
+            for line in lines.get(heading, ()):
+                some.setdefault(line.name, line)
+    return {heading: tuple(lines.values()) for heading, lines in found.items()}
+
+
+def study_of_sweep(record: "SweepRecord") -> Study:
+    """Return the study whose cases a sweep has; raises as `study_of_record`."""
+    if record.kind_of_study not in STUDIES:
+        rule = f'a sweep of kind "{record.kind_of_study}", which nothing that is installed knows'
+        raise InputError("record", str(record.path), rule, "install the package that offers it")
+    return STUDIES[record.kind_of_study]
+
+
+def sweep_names(records: "Sequence[SweepRecord]") -> tuple[str, ...]:
+    """Names of the figures that can be drawn from sweeps."""
+    return tuple(_sweep_drawings(records))
+
+
+def _sweep_drawings(records: "Sequence[SweepRecord]") -> "Mapping[str, SweepDrawing]":
+    study = study_of_sweep(records[0])
+    for record in records[1:]:
+        if study_of_sweep(record) is not study:
+            rule = f"of kind {record.kind_of_study}, the first of {study.kind}"
+            raise InputError("record", str(record.path), rule, "draw them apart")
+    return study.sweep_drawings()
+
+
+def sweep_figure(
+    name: str, records: "Sequence[SweepRecord]", at: Mapping[str, float | str] | None = None
+) -> "Figure":
+    """Draw one figure of sweeps.
+
+    Parameters
+    ----------
+    name : str
+        One of `sweep_names(records)`, or "overview", which is the first of them.
+    records : sequence of SweepRecord
+        Several are compared where the figure has curves; some figures show the first.
+    at : mapping, optional
+        Parameter's name to value in SI, for a figure of one case.
+
+    Raises
+    ------
+    InputError
+        For an unknown name or a sweep that the figure cannot show.
+    """
+    from tribodyn.post.style import house_style
+
+    known = _sweep_drawings(records)
+    name = next(iter(known)) if name == OVERVIEW else name
+    if name not in known:
+        near = near_name(name, known)
+        hint = f"did you mean {near}? " if near else ""
+        raise InputError("plot", name, "no such figure of a sweep", f"{hint}There are: {', '.join(known)}")
+    with house_style():
+        return known[name].draw(records, at or {})
+
+
+def sweep_table(record: "SweepRecord") -> "Group":
+    """Lay out the summary of a sweep for the terminal."""
+    from tribodyn.post.sweep_report import sweep_table as laid_out
+
+    return laid_out(record, study_of_sweep(record).sweep_lines())

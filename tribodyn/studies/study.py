@@ -1,7 +1,49 @@
-"""How a study ends."""
+"""What a kind of study is: everything that is asked of it outside its own folder."""
 
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from importlib import import_module, resources
+from inspect import ismodule
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+if TYPE_CHECKING:
+    from tribodyn.errors import InputError
+    from tribodyn.numerics.variable import Variable
+    from tribodyn.post.figures.drawing import Drawing, SweepDrawing
+    from tribodyn.post.report import Line, Lines
+    from tribodyn.record.reader import Record
+    from tribodyn.scenario.quantity import Table
+    from tribodyn.studies.batch import Batch
+
+Progress = Callable[[float], None]
+"""Called with the share done, 0 … 1."""
+
+
+@dataclass(frozen=True)
+class CaseHead:
+    """What every case begins with.
+
+    Parameters
+    ----------
+    title : str
+        What it shows.
+    name : str
+        Stem of the scenario's file; names the record.
+    kind : str
+        Kind of the study.
+    toml : str
+        The scenario as TOML with everything written out (references replaced by their content, units kept,
+        overrides applied); loading it gives this case again.
+    sha256 : str
+        Digest of `toml`.
+    """
+
+    title: str
+    name: str
+    kind: str
+    toml: str
+    sha256: str
 
 
 class RunResult(NamedTuple):
@@ -11,3 +53,194 @@ class RunResult(NamedTuple):
     status: str
     message: str
     summary: dict[str, Any]
+
+
+class TextTable(NamedTuple):
+    """A table as `check` prints it."""
+
+    title: str
+    columns: tuple[str, ...]
+    rows: Sequence[Sequence[str]]
+
+
+class Checked(NamedTuple):
+    """What `check` says of a sound case: data for programs, tables for people."""
+
+    data: dict[str, Any]
+    tables: Sequence[TextTable]
+
+
+@dataclass(frozen=True)
+class Study:
+    """A kind of study: what it is, and where its parts are.
+
+    The parts are modules of its package, or attributes of the package itself, imported when they are asked
+    for: that there is a study costs nothing.
+
+    ============= =================================================================================
+    part          what it holds
+    ============= =================================================================================
+    scenario      ``Scenario``, the schema of a file; ``case_of(scenario, toml, sha256)``, its case, a
+                  `CaseHead` and more
+    rules         ``broken_rules(scenario)``, errors for the rules that tie keys together (optional)
+    check         ``check(case) -> Checked``; raises InputError where the case cannot be run
+    run           ``run(case, output, *, force, progress) -> RunResult``, see `run`; and
+                  ``figures(case) -> dict``, its figures without a record (optional: to be swept)
+    report        ``LINES``, heading -> lines of the summary; ``sentences(record)``, how far it is to be
+                  trusted; ``SWEPT``, figures that a sweep keeps, and ``SWEEP_LINES``, those that it
+                  prints (both optional)
+    figures       ``DRAWINGS``, its pictures by name; the one called overview is drawn after a run
+    sweep_figures ``SWEEP_DRAWINGS``, pictures of its sweeps (optional: the response of its figures)
+    batch         ``BATCH``, how many cases are evaluated together (optional), see `studies.batch.Batch`
+    template      ``template.toml``, a commented scenario in which TITLE stands for its title
+    ============= =================================================================================
+
+    Parameters
+    ----------
+    kind : str
+        As scenarios name it.
+    about : str
+        What it is, in a line.
+    package : str
+        Where its parts are.
+    quantities : str
+        What its records are about. Records of studies with the same quantities can be compared and drawn
+        together.
+    compared : tuple of str
+        Headings of its summary that a comparison shows; none: its records cannot be compared in a table.
+    has_gears : bool
+        Whether its cases have a gear pair's `family`, `drive` and `materials`.
+    """
+
+    kind: str
+    about: str
+    package: str
+    quantities: str
+    compared: tuple[str, ...] = ()
+    has_gears: bool = False
+
+    def table(self) -> "type[Table]":
+        """The schema of a scenario file."""
+        return self._part("scenario", "Scenario")
+
+    def broken_rules(self, scenario: Any) -> "Iterable[InputError]":
+        """Go through the rules that tie keys of a scenario together and that this one breaks."""
+        rules = self._part("rules", "broken_rules", optional=True)
+        return rules(scenario) if rules else ()
+
+    def case(self, scenario: Any, toml: str, sha256: str) -> Any:
+        """Make the case of a scenario that has passed schema and rules."""
+        return self._part("scenario", "case_of")(scenario, toml, sha256)
+
+    def template(self) -> str:
+        """A commented scenario to begin with, in which TITLE stands for its title."""
+        package = import_module(self.package)
+        folder = package.__name__ if hasattr(package, "__path__") else package.__package__ or ""
+        return resources.files(folder).joinpath("template.toml").read_text(encoding="utf-8")
+
+    def check(self, case: Any) -> Checked:
+        """Check a case and say what it describes, without a run.
+
+        Raises
+        ------
+        InputError
+            Where it cannot be run.
+        """
+        return self._part("check", "check")(case)
+
+    def run(
+        self,
+        case: Any,
+        output: str | Path | None = None,
+        *,
+        force: bool = False,
+        progress: Progress | None = None,
+    ) -> RunResult:
+        """Run a case and write its record.
+
+        Parameters
+        ----------
+        case
+            From `case`.
+        output : path, optional
+            Name of the record; default ``<case name>.h5`` in the current folder.
+        force : bool
+            Replace an existing record.
+        progress : callable, optional
+
+        Returns
+        -------
+        RunResult
+            `status` is "failed" where the simulation could not go on: the path then is the partial record's.
+
+        Raises
+        ------
+        InputError
+            Before anything is written.
+        """
+        return self._part("run", "run")(case, output, force=force, progress=progress)
+
+    def figures(self, case: Any) -> dict[str, Any]:
+        """Work out the figures of a case without a record, those of `swept` among them.
+
+        Raises
+        ------
+        InputError, SimulationError
+            Where the case cannot be worked out.
+        """
+        return self._part("run", "figures")(case)
+
+    def drawings(self) -> "Mapping[str, Drawing]":
+        """Its pictures by name, in the order `tribodyn plot` draws them."""
+        return self._part("figures", "DRAWINGS")
+
+    def lines(self) -> "Lines":
+        """Heading -> lines of the summary's table, in order."""
+        return self._part("report", "LINES")
+
+    def sentences(self, record: "Record") -> list[str]:
+        """Say how far a record is to be trusted, and what its figures are not."""
+        return self._part("report", "sentences")(record)
+
+    def swept(self) -> "Mapping[str, Variable]":
+        """Figures that a sweep keeps of every case, by name; none: such a study cannot be swept."""
+        return self._part("report", "SWEPT", optional=True) or {}
+
+    def sweep_lines(self) -> "Sequence[Line]":
+        """Figures that a sweep prints; none: all of them, as the record describes them."""
+        chosen = self._part("report", "SWEEP_LINES", optional=True)
+        swept = self.swept()
+        return chosen or [line for lines in self.lines().values() for line in lines if line.name in swept]
+
+    def sweep_drawings(self) -> "Mapping[str, SweepDrawing]":
+        """Pictures of its sweeps by name; the first is drawn where none is named."""
+        own = self._part("sweep_figures", "SWEEP_DRAWINGS", optional=True)
+        if own:
+            return own
+        from tribodyn.post.figures.drawing import SweepDrawing
+        from tribodyn.post.figures.sweep.response import response_figure
+
+        about = "figures of the cases over the first varied key"
+        return {"response": SweepDrawing(about, lambda records, _: response_figure(records))}
+
+    def batch(self) -> "Batch | None":
+        """How many cases are evaluated together; None: one after the other, by `figures`."""
+        return self._part("batch", "BATCH", optional=True)
+
+    def _part(self, part: str, name: str, optional: bool = False) -> Any:
+        """What a part of the study holds; None where it is optional and not there."""
+        package = import_module(self.package)
+        own = getattr(package, name, None)
+        if own is not None and not ismodule(own):  # a part may have the name of what it holds
+            return own
+        module = f"{self.package}.{part}"
+        try:
+            return getattr(import_module(module), name)
+        except ModuleNotFoundError as error:
+            if optional and error.name in (module, self.package):
+                return None
+            raise
+        except AttributeError:
+            if optional:
+                return None
+            raise

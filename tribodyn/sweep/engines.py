@@ -8,11 +8,18 @@ from typing import Any, Protocol
 import numpy as np
 
 from tribodyn.errors import InputError, SimulationError
-from tribodyn.solve.stiffness import THROUGH_JAX
-from tribodyn.studies.gear_pair.batch.evaluate import Chunk, Settings, evaluate
+from tribodyn.studies import STUDIES
+from tribodyn.studies.batch import Chunk
+from tribodyn.sweep.by_figures import ByFigures
 
 Block = dict[str, np.ndarray]
 JAX, DASK = "jax", "dask"
+
+
+def evaluate(kind: str, chunk: Chunk, settings: Any, workers: int | None = None) -> Block:
+    """Evaluate a chunk of cases of a kind: here, or in another process that has the same packages."""
+    study = STUDIES[kind]
+    return (study.batch() or ByFigures(study)).evaluate(chunk, settings, workers)
 
 
 class Engine(Protocol):
@@ -21,7 +28,7 @@ class Engine(Protocol):
     #: Cases that are integrated side by side at the price of one.
     width: int
 
-    def __call__(self, chunks: Iterable[Chunk], settings: Settings) -> Iterator[tuple[Chunk, Block]]:
+    def __call__(self, kind: str, chunks: Iterable[Chunk], settings: Any) -> Iterator[tuple[Chunk, Block]]:
         """Evaluate; takes the next chunks only as results go out."""
         ...
 
@@ -41,10 +48,10 @@ class Local:
         self.workers = workers
         self.width = width
 
-    def __call__(self, chunks: Iterable[Chunk], settings: Settings) -> Iterator[tuple[Chunk, Block]]:
+    def __call__(self, kind: str, chunks: Iterable[Chunk], settings: Any) -> Iterator[tuple[Chunk, Block]]:
         """See `Engine`."""
         for chunk in chunks:
-            yield chunk, evaluate(chunk, settings, self.workers)
+            yield chunk, evaluate(kind, chunk, settings, self.workers)
 
 
 class Dask:
@@ -64,7 +71,7 @@ class Dask:
         """Two chunks a worker, so that none waits for the next one to be sent; this bounds the memory."""
         return 2 * max(1, len(self.client.scheduler_info(n_workers=-1)["workers"]))
 
-    def __call__(self, chunks: Iterable[Chunk], settings: Settings) -> Iterator[tuple[Chunk, Block]]:
+    def __call__(self, kind: str, chunks: Iterable[Chunk], settings: Any) -> Iterator[tuple[Chunk, Block]]:
         """See `Engine`."""
         from distributed import as_completed
 
@@ -75,7 +82,7 @@ class Dask:
         def send() -> None:
             for chunk in rest:
                 # impure: equal chunks of two sweeps must not be taken for one
-                future = self.client.submit(evaluate, chunk, settings, 1, pure=False, retries=3)
+                future = self.client.submit(evaluate, kind, chunk, settings, 1, pure=False, retries=3)
                 sent[future.key] = chunk
                 running.add(future)
                 return
@@ -90,11 +97,6 @@ class Dask:
             future.release()
             send()
             yield chunk, block
-
-
-def method_of(engine: str, method: str) -> str:
-    """The method that an engine integrates with instead of the scenario's own; empty for the latter."""
-    return "tsit5" if engine == JAX and method not in THROUGH_JAX else ""
 
 
 def _jax_width() -> int:

@@ -12,10 +12,10 @@ from tribodyn.errors import InputError, InputErrors
 from tribodyn.scenario.resolve import OVERRIDES, Resolved, resolve
 from tribodyn.scenario.sources import find_scenario, read_toml
 from tribodyn.scenario.vary import VARY, Axis, axes_of
-from tribodyn.studies.gear_pair.case import Case
-from tribodyn.studies.gear_pair.prepare import table_key
-from tribodyn.studies.kinds import table_of
-from tribodyn.studies.load import loaded_from
+from tribodyn.studies import study_of
+from tribodyn.studies.batch import Batch
+from tribodyn.studies.load import loaded_from, table_of
+from tribodyn.sweep.by_figures import ByFigures
 
 
 class Grid:
@@ -39,13 +39,16 @@ class Grid:
     def __init__(self, scenario: str, vary: list[str], overrides: Mapping[str, Any]) -> None:
         self.path = find_scenario(scenario)
         self.overrides = dict(overrides)
-        self.axes: Sequence[Axis] = axes_of(vary, table_of(read_toml(self.path)))
+        written = read_toml(self.path)
+        self.study = study_of(written | ({"kind": overrides["kind"]} if "kind" in overrides else {}))
+        self.axes: Sequence[Axis] = axes_of(vary, self.study.table())
         for axis in self.axes:
             if axis.key in self.overrides:
                 raise InputError("--set", axis.key, f"is varied too, with {VARY}", "give it once")
         # texts may name files, which have to be read before anything inside them is set
         self._texts = [i for i, axis in enumerate(self.axes) if not axis.numeric]
         self._resolved = lru_cache(maxsize=16)(self._resolve)
+        self.batch: Batch = self.study.batch() or ByFigures(self.study)
         self._check()
         self.base = self.case((0,) * len(self.axes))
 
@@ -59,7 +62,7 @@ class Grid:
         """Name of the scenario, which names the record."""
         return self.base.name
 
-    def case(self, place: Sequence[int]) -> Case:
+    def case(self, place: Sequence[int]) -> Any:
         """Return the case at a place of the grid; InputError where its values contradict each other."""
         chosen = tuple(place[i] for i in self._texts)
         kept = self._resolved(chosen)
@@ -68,22 +71,16 @@ class Grid:
             if axis.numeric:
                 _put(data, axis.key, axis.written[index])
         try:
-            case = loaded_from(Resolved(data, kept.origins, kept.errors), self.path).case
+            return loaded_from(Resolved(data, kept.origins, kept.errors), self.path).case
         except InputError as error:
             raise self._as_varied(error) from None
-        if not isinstance(case, Case):
-            kind = data.get("kind")
-            raise InputError(
-                "kind", f'"{kind}"', "only gear pairs in motion can be swept", 'take one of kind "gear-pair"'
-            )
-        return case
 
-    def moves_table(self, axis: int) -> bool:
-        """Whether the table of the mesh differs between the ends of an axis."""
+    def changes_what_is_shared(self, axis: int) -> bool:
+        """Whether cases at the ends of an axis share less than cases elsewhere on it."""
         place = [0] * len(self.axes)
         last = place.copy()
         last[axis] = len(self.axes[axis].values) - 1
-        return table_key(self.case(place)) != table_key(self.case(last))
+        return self.batch.sharing(self.case(place)) != self.batch.sharing(self.case(last))
 
     def _resolve(self, chosen: tuple[int, ...]) -> Resolved:
         texts = {
@@ -93,7 +90,7 @@ class Grid:
         # numbers too, so that the tables that they stand in are there
         numbers = {axis.key: axis.written[0] for axis in self.axes if axis.numeric}
         try:
-            return resolve(self.path, self.overrides | texts | numbers)
+            return resolve(self.path, self.overrides | texts | numbers, table_of)
         except InputError as error:
             raise self._as_varied(error) from None
 
@@ -118,6 +115,10 @@ class Grid:
     def table(self, place: Sequence[int]) -> dict[str, float | str]:
         """Return the parameters at a place of the grid, by name of the axis."""
         return {axis.name: axis.values[index] for axis, index in zip(self.axes, place, strict=True)}
+
+    def ends(self) -> list[Any]:
+        """Cases at the first and the last values of all axes."""
+        return [self.case(place) for place in ((0,) * len(self.shape), tuple(n - 1 for n in self.shape))]
 
     def flat(self, place: Sequence[int]) -> int:
         """Return the place's number, the last axis running fastest."""

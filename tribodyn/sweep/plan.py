@@ -1,44 +1,21 @@
 """In which order the cases of a sweep are done, and from which state each begins."""
 
 from collections.abc import Callable, Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
-from tribodyn.dynamics.parameters import STATES
 from tribodyn.errors import InputError
 from tribodyn.record.sweep_schema import DONE
-from tribodyn.studies.gear_pair.batch.evaluate import Chunk
-from tribodyn.studies.gear_pair.case import Case
+from tribodyn.studies.batch import Chunk
 from tribodyn.sweep.grid import Grid
 
-#: Bytes of states that the cases of a chunk may fill: what bounds the memory of a sweep.
-CHUNK_BYTES = 32 * 2**20
-MOST_IN_CHUNK = 256
-#: A sweep is done in at least this many chunks, so that its progress shows; but in none of fewer cases.
-CHUNKS, LEAST_IN_CHUNK = 16, 32
-
-#: Gives what was recorded of cases: (numbers) -> statuses (n,), states (n, STATES).
+#: Gives what was recorded of cases: (numbers) -> statuses (n,), states (n, …).
 Recorded = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 
-def chunk_size(window: int, samples: int, total: int, width: int) -> int:
-    """Cases to be evaluated together, by the room that their windows take.
-
-    Parameters
-    ----------
-    window, samples : int
-        Mesh cycles that are kept of a case, and samples in each.
-    total : int
-        Cases to be done.
-    width : int
-        Cases that an engine takes side by side, whether there are as many or not: no chunk has fewer.
-    """
-    by_room = max(1, min(MOST_IN_CHUNK, CHUNK_BYTES // (window * samples * STATES * 8)))
-    return max(width, min(by_room, max(LEAST_IN_CHUNK, total // CHUNKS)))
-
-
 def single_steps(grid: Grid, waiting: np.ndarray, size: int) -> Iterator[list[Chunk]]:
-    """All cases on their own, in one step; those that share a table one after the other.
+    """All cases on their own, in one step; those that share costly work one after the other.
 
     Parameters
     ----------
@@ -65,7 +42,7 @@ def chained_steps(
     """
     shape = (*grid.shape, len(directions))
     lanes = [(place, d) for place in np.ndindex(*grid.shape[1:]) for d in range(len(directions))]
-    states = np.full((len(lanes), STATES), np.nan)
+    states = np.full((len(lanes), grid.batch.states), np.nan)
     count = grid.shape[0]
     for step in range(count):
         places = [(step if directions[d] == "up" else count - 1 - step, *place) for place, d in lanes]
@@ -85,7 +62,7 @@ def chained_steps(
         states[good] = found[good]
 
 
-def case_or_reason(grid: Grid, number: int) -> Case | str:
+def case_or_reason(grid: Grid, number: int) -> Any:
     """The case of a number of the grid, or why there is none."""
     try:
         return grid.case(np.unravel_index(number, grid.shape))  # pyright: ignore[reportArgumentType]
@@ -94,7 +71,7 @@ def case_or_reason(grid: Grid, number: int) -> Case | str:
 
 
 def _by_table(grid: Grid) -> np.ndarray:
-    """Numbers of all cases, ordered so that axes which change the table run slowest."""
+    """Numbers of all cases, ordered so that axes which change what cases share run slowest."""
     axes = range(len(grid.shape))
-    order = sorted(axes, key=lambda axis: not (grid.shape[axis] > 1 and grid.moves_table(axis)))
+    order = sorted(axes, key=lambda axis: not (grid.shape[axis] > 1 and grid.changes_what_is_shared(axis)))
     return np.arange(np.prod(grid.shape)).reshape(grid.shape).transpose(order).ravel()

@@ -8,23 +8,14 @@ from typing import Any, NamedTuple
 import numpy as np
 import tomli_w
 
-from tribodyn.dynamics.modes import mode_count
 from tribodyn.errors import InputError
-from tribodyn.record.sweep_schema import DIRECTIONS, FAILED, FIGURES, WAITING
+from tribodyn.record.sweep_schema import DIRECTIONS, FAILED, WAITING
 from tribodyn.record.sweep_writer import ParameterScale, SweepHead, SweepWriter
 from tribodyn.record.writer import check_target
-from tribodyn.solve.periodic import refuse_time_dependent
-from tribodyn.studies.gear_pair.batch.evaluate import Settings, tabulated
-from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.sweep.engines import Engine
 from tribodyn.sweep.grid import Grid
-from tribodyn.sweep.plan import chained_steps, chunk_size, single_steps
+from tribodyn.sweep.plan import chained_steps, single_steps
 
-#: Mesh cycles that the search for a steady state may take, that its window has (whole periods, up to 4), and
-#: points of the section of a motion that has no period.
-MOST_CYCLES, STEADY_WINDOW, STEADY_POINTS = 2000, 4, 256
-#: The same of a transient: a quarter of its cycles, at most this many; points of its section, half of them.
-TRANSIENT_WINDOW, TRANSIENT_POINTS = 16, 256
 #: Above these a sweep is refused: surely mistyped, or too large for one file.
 MOST_CASES, MOST_BYTES = 1_000_000, 64 * 2**30
 #: Seconds that a case takes on one core, for what is said of a sweep too large.
@@ -44,36 +35,14 @@ class SweepResult(NamedTuple):
     summary: dict[str, Any]
 
 
-def settings_of(grid: Grid, transient: int | None, method: str = "") -> Settings:
-    """How the cases of a sweep are brought to their windows.
-
-    Parameters
-    ----------
-    grid : Grid
-    transient : int or None
-        Mesh cycles to march; None where steady states are sought.
-    method : str
-        Integration method instead of the scenario's.
-    """
-    samples = grid.base.output.samples_per_cycle
-    modes = _modes(grid)
-    if transient is None:
-        return Settings(True, MOST_CYCLES, STEADY_WINDOW, STEADY_POINTS, samples, modes, method)
-    window = max(1, min(TRANSIENT_WINDOW, transient // 4))
-    points = max(window, min(TRANSIENT_POINTS, transient // 2))
-    return Settings(False, transient, window, points, samples, modes, method)
-
-
-def _modes(grid: Grid) -> int:
-    """Most modes that a case can have, of the ends of all axes."""
-    places = [(0,) * len(grid.shape), tuple(size - 1 for size in grid.shape)]
-    shaft = any(grid.case(place).operating.shaft_stiffness is not None for place in places)
-    return 6 if shaft else 5
+def settings_of(grid: Grid, transient: int | None = None, engine: str = "native") -> Any:
+    """How the cases of a sweep are evaluated; see `studies.batch.Batch.settings`."""
+    return grid.batch.settings(grid.ends(), transient, engine)
 
 
 def run(
     grid: Grid,
-    settings: Settings,
+    settings: Any,
     engine: Engine,
     output: str | Path,
     *,
@@ -87,7 +56,8 @@ def run(
     Parameters
     ----------
     grid : Grid
-    settings : Settings
+    settings
+        From `settings_of`.
     engine : Engine
     output : path
     directions : sequence of "up", "down"
@@ -102,6 +72,9 @@ def run(
         Before anything is computed.
     """
     _not_absurd(grid, settings, directions)
+    if directions and not grid.batch.states:
+        rule = f"{grid.study.about}: its cases do not go on from each other"
+        raise InputError("--direction", None, rule, "omit it")
     if directions and not grid.axes[0].numeric:
         axis = grid.axes[0].key
         raise InputError("--direction", axis, "has no order to go up or down", "vary a number first")
@@ -113,7 +86,7 @@ def run(
     with SweepWriter(output, head, force=force, resume=resume) as record:
         waiting = record.status == WAITING
         total, done = int(waiting.sum()), 0
-        size = chunk_size(settings.window, settings.samples, total, engine.width)
+        size = grid.batch.size_of_chunk(settings, total, engine.width)
 
         def recorded(numbers: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
             return record.status[numbers], record.read("state", numbers)
@@ -124,7 +97,7 @@ def run(
             every = single_steps(grid, waiting, size)
             steps = iter([(chunk for chunks in every for chunk in chunks)])
         for chunks in steps:
-            for chunk, block in engine(chunks, settings):
+            for chunk, block in engine(grid.study.kind, chunks, settings):
                 record.write(chunk.numbers, block)
                 done += len(chunk.numbers)
                 if follow:
@@ -141,9 +114,9 @@ def run(
     return SweepResult(path, status, record.status.size, failed, summary)
 
 
-def _head(grid: Grid, settings: Settings, directions: Sequence[str]) -> SweepHead:
+def _head(grid: Grid, settings: Any, directions: Sequence[str]) -> SweepHead:
     scales = tuple(ParameterScale(axis.name, axis.key, axis.units, axis.values) for axis in grid.axes)
-    told = {
+    described = {
         "vary": {axis.key: list(axis.written) for axis in grid.axes},
         "directions": [one for one in DIRECTIONS if one in directions],
         **settings._asdict(),
@@ -152,25 +125,18 @@ def _head(grid: Grid, settings: Settings, directions: Sequence[str]) -> SweepHea
         scenario=grid.base.toml,
         sha256=grid.base.sha256,
         parameters=scales,
-        settings=tomli_w.dumps(told),
+        settings=tomli_w.dumps(described),
         directions=tuple(directions),
-        window=settings.window,
-        samples_per_cycle=settings.samples,
-        cycles=settings.points,
-        modes=settings.modes,
+        layout=grid.batch.layout(settings),
     )
 
 
-def _sound_somewhere(grid: Grid, settings: Settings) -> None:
-    """A mistake that all cases share is told at once: a case at each end of the grid is prepared."""
+def _sound_somewhere(grid: Grid, settings: Any) -> None:
+    """A mistake that all cases share is reported at once: a case at each end of the grid is checked."""
     refused = None
     for place in ((0,) * len(grid.shape), tuple(size - 1 for size in grid.shape)):
         try:
-            case = grid.case(place)
-            model = prepare(case, tabulated(case)).model
-            mode_count(model)
-            if settings.steady:
-                refuse_time_dependent(model)
+            grid.batch.check(grid.case(place), settings)
             return
         except InputError as error:
             refused = refused or error
@@ -178,10 +144,10 @@ def _sound_somewhere(grid: Grid, settings: Settings) -> None:
         raise refused
 
 
-def _not_absurd(grid: Grid, settings: Settings, directions: Sequence[str]) -> None:
+def _not_absurd(grid: Grid, settings: Any, directions: Sequence[str]) -> None:
     cases = int(np.prod(grid.shape, dtype=float)) * max(1, len(directions))
-    inner = settings.window * settings.samples + 2 * settings.points + len(FIGURES) + 60
-    size = cases * 8 * inner
+    row = grid.batch.layout(settings).empty_rows(1)
+    size = cases * sum(one.nbytes for one in row.values())
     if cases > MOST_CASES or size > MOST_BYTES:
         hours = cases * SECONDS_A_CASE / 3600
         raise InputError(

@@ -1,88 +1,74 @@
-"""What the closures need to know of the two surfaces and the lubricant, and the Hertz line contact."""
+"""Surfaces and lubricant as the laws read them, the state of a local contact, and the Hertz line contact."""
 
 import math
 from typing import Any, NamedTuple
 
-from tribodyn.numerics.elementary import exp, law, log, maximum, sqrt
+from tribodyn.numerics.elementary import absolute, exp, law, log, maximum, sqrt
+
+#: Minimum line load (N/m) and entrainment speed (m/s) at which laws are evaluated: they diverge at zero.
+MINIMUM_LINE_LOAD = 1.0
+MINIMUM_ENTRAINMENT = 1e-6
+#: Of the pressure in a Hertz line contact.
+MAXIMUM_OVER_MEAN = 4.0 / math.pi
 
 
-class Contact(NamedTuple):
-    """Surfaces, lubricant and the parameters of the friction law in use; floats, SI.
+class Surfaces(NamedTuple):
+    """The two surfaces and the lubricant between them, whatever the laws; floats, SI.
 
     Attributes
     ----------
     effective_modulus : E', 1/E' = ½[(1 − ν1²)/E1 + (1 − ν2²)/E2], Pa
     hardness : Vickers hardness H_v of the softer surface, Pa
     roughness : composite rms roughness σ, m
-    asperity_friction : friction coefficient f_c of touching asperities
-    limiting_shear_coefficient : Λ_lim, limiting shear stress over pressure
+    mean_roughness : arithmetic mean roughness Ra of the flanks, m
     inlet_viscosity : η0, Pa·s
     pressure_viscosity : α_PV, 1/Pa
-    viscosity_pressure_index : Roelands' z
-    temperature_viscosity : K_T, 1/K
     pinion_conductivity, gear_conductivity : W/(m K)
     pinion_heat_capacity, gear_heat_capacity : per volume ρ_s c_p of the solids, J/(m³ K)
-    coulomb_coefficient : friction coefficient of the Coulomb law and of the laws that give the mesh one mean
-    asperity_log_factor : the factor inside the logarithm of the asperity load ratio, 4470
-    limiting_share : 1: the limiting shear stress follows the pressure on the fluid, p(1 − λ); 0: the whole p
-    mean_roughness : arithmetic mean roughness Ra of the flanks, m
-    viscosity_pressure_factor : pressure in Roelands' law over the mean pressure: 1, or 4/π for the greatest
-    peclet_sliding : 1: both Péclet numbers contain the sliding speed; 0: each surface's own speed
     """
 
     effective_modulus: Any
     hardness: Any
     roughness: Any
-    asperity_friction: Any
-    limiting_shear_coefficient: Any
+    mean_roughness: Any
     inlet_viscosity: Any
     pressure_viscosity: Any
-    viscosity_pressure_index: Any
-    temperature_viscosity: Any
     pinion_conductivity: Any
     gear_conductivity: Any
     pinion_heat_capacity: Any
     gear_heat_capacity: Any
-    coulomb_coefficient: Any
-    asperity_log_factor: Any
-    limiting_share: Any
-    mean_roughness: Any
-    viscosity_pressure_factor: Any
-    peclet_sliding: Any
 
 
-class Logarithms(NamedTuple):
-    """Natural logarithms of what a contact has whatever its load and speed, so that no evaluation takes them.
+class LocalContact(NamedTuple):
+    """Load and motion of one contact, as film and friction laws see it; SI. Made by `local_contact`.
 
     Attributes
     ----------
-    modulus : of E' in Pa
-    material : of G = α_PV E'
-    hardness : of V = H_v/E'
-    roughness : of σ in m
-    inlet_viscosity : of η0 in Pa·s
-    asperity_factor : of the factor inside the logarithm of the asperity load ratio
+    line_load : w' = F_n/b, N/m, ≥ `MINIMUM_LINE_LOAD`
+    curvature : 1/ρ, 1/m, positive
+    entrainment : |u| = |u_p + u_g|/2, m/s, ≥ `MINIMUM_ENTRAINMENT`
+    sliding : v_s = u_p − u_g, m/s, any sign
+    pinion_speed, gear_speed : speeds u_p, u_g of the contact along the flanks, m/s, any sign
     """
 
-    modulus: Any
-    material: Any
-    hardness: Any
-    roughness: Any
-    inlet_viscosity: Any
-    asperity_factor: Any
+    line_load: Any
+    curvature: Any
+    entrainment: Any
+    sliding: Any
+    pinion_speed: Any
+    gear_speed: Any
 
 
 @law
-def logarithms(contact):
-    """Logarithms of the numbers of a `Contact`."""
-    modulus = log(contact.effective_modulus)
-    return Logarithms(
-        modulus,
-        log(contact.pressure_viscosity) + modulus,
-        log(contact.hardness) - modulus,
-        log(contact.roughness),
-        log(contact.inlet_viscosity),
-        log(contact.asperity_log_factor),
+def local_contact(line_load, curvature, entrainment, sliding, pinion_speed, gear_speed):
+    """Return a `LocalContact`, with line load and entrainment held above the minimum of the laws."""
+    return LocalContact(
+        maximum(line_load, MINIMUM_LINE_LOAD),
+        curvature,
+        maximum(absolute(entrainment), MINIMUM_ENTRAINMENT),
+        sliding,
+        pinion_speed,
+        gear_speed,
     )
 
 
@@ -94,7 +80,7 @@ def hertz_half_width(line_load, curvature, effective_modulus):
 
 @law
 def hertz_pressure(line_load, curvature, effective_modulus):
-    """Greatest Hertz pressure p_H = √(w' E'/(2π ρ)), Pa."""
+    """Maximum Hertz pressure p_H = √(w' E'/(2π ρ)), Pa."""
     return sqrt(line_load * effective_modulus * curvature / (2.0 * math.pi))
 
 

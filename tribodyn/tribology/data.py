@@ -1,12 +1,16 @@
-"""What a case says of its lubricant and of the friction between the flanks, in SI units."""
+"""What a case says of its lubricant, and of film and friction between the flanks, in SI units."""
 
-from dataclasses import dataclass
-from typing import Literal
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal
+
+if TYPE_CHECKING:
+    from tribodyn.tribology.law import FilmLaw, FrictionLaw
 
 
 @dataclass(frozen=True)
 class LubricantData:
-    """What the mixed-EHL friction law needs to know of the lubricant and of its asperities.
+    """Lubricant and asperities, as film and friction laws make their parameters of them.
 
     Parameters
     ----------
@@ -39,22 +43,39 @@ class LubricantData:
 
 
 @dataclass(frozen=True)
+class FilmData:
+    """Which film law holds between the flanks.
+
+    Parameters
+    ----------
+    law : str, FilmLaw or None
+        Its name in `tribodyn.tribology.film.FILM_LAWS`, or the law itself; None: the one that goes with the
+        friction law.
+    values : mapping
+        Values of the law's own keys, by name, in SI units.
+    """
+
+    law: "str | FilmLaw | None" = None
+    values: Mapping[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
 class FrictionData:
     """Which friction law acts between the flanks.
 
     Parameters
     ----------
-    law : str
-        Its name in scenario files; `tribodyn.studies.load.friction_law` maps it to the law's code.
-    coefficient : float or None
-        μ of Coulomb's law.
+    law : str or FrictionLaw
+        Its name in `tribodyn.tribology.friction.FRICTION_LAWS`, or the law itself.
+    values : mapping
+        Values of the law's own keys, by name, in SI units.
     sliding : {"kinematic", "dynamic"}
         Sliding speed from the nominal rotation, or from the vibrating bodies.
     reversal_width : float
         Distance along the path of contact over which friction changes sign at the pitch point, m.
     """
 
-    law: str
-    coefficient: float | None = None
+    law: "str | FrictionLaw"
+    values: Mapping[str, Any] = field(default_factory=dict)
     sliding: Literal["kinematic", "dynamic"] = "kinematic"
     reversal_width: float = 2e-5

@@ -21,8 +21,8 @@ from tribodyn.studies.efficiency.loss_factor import exact, hoehn, tip_contact_ra
 from tribodyn.studies.efficiency.shift import Scenario, shifted
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.load import load_scenario
-from tribodyn.tribology.mean_friction import niemann
-from tribodyn.tribology.surfaces import nominal_conditions
+from tribodyn.tribology.closure import nominal_conditions
+from tribodyn.tribology.friction.niemann import niemann
 
 Array = NDArray[np.float64]
 

@@ -5,15 +5,16 @@ import math
 import numpy as np
 
 from tribodyn.studies.efficiency.torque_ratio import UnitContact
-from tribodyn.tribology.friction import friction
+from tribodyn.tribology.contact import local_contact
+from tribodyn.tribology.surface_state import surface_state
 from tribodyn.validation.veciana_study import (
     EFFECTIVE_MODULUS,
     LAWS,
     PINION_TEETH,
     Law,
     Study,
+    closure_of,
     contact_height,
-    law_of,
 )
 
 #: The paper's choice of d_g1/d_1.
@@ -40,9 +41,8 @@ def coefficients() -> Arrays:
     rolled = speed + slid / 2, speed - slid / 2
     arrays = {"slide-to-roll ratio [1]": ratio}
     for law in LAWS:
-        code, surfaces = law_of(law)
-        contact = load + 0 * slid, 1 / radius + 0 * slid, speed + 0 * slid, slid, *rolled
-        arrays[f"{law} [1]"] = friction(code, *contact, surfaces)[0]
+        contact = local_contact(load + 0 * slid, 1 / radius + 0 * slid, speed + 0 * slid, slid, *rolled)
+        arrays[f"{law} [1]"] = surface_state(contact, closure_of(law)).friction_coefficient
     return arrays
 
 

@@ -1,10 +1,12 @@
 """Drives and lubricant of Veciana et al. (2024), Tables 2 and 3, and the efficiencies of their study."""
 
 import math
+from functools import cache
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
+from tribodyn.geometry.material import MaterialData
 from tribodyn.studies.efficiency.torque_ratio import (
     TorqueRatio,
     UnitContact,
@@ -12,8 +14,12 @@ from tribodyn.studies.efficiency.torque_ratio import (
     involute_contact,
     torque_ratio,
 )
-from tribodyn.tribology.contact import Contact
-from tribodyn.tribology.friction import MASJEDI_KHONSARI, XU
+from tribodyn.tribology.closure import closure, without_nominal_conditions
+from tribodyn.tribology.contact import Surfaces
+from tribodyn.tribology.data import LubricantData
+from tribodyn.tribology.film import film_law
+from tribodyn.tribology.friction import friction_law
+from tribodyn.tribology.law import Closure, LawInput
 
 #: Readings of the friction laws. "A" is the mixed law as printed: Roelands at the mean pressure, sliding
 #: speed in the Péclet numbers; "B" has the greatest pressure and each surface's own speed.
@@ -29,36 +35,43 @@ EFFECTIVE_MODULUS = 231e9  # Pa
 #: The paper's drives: (gear ratio, module m).
 DRIVES = ((1.0, 2e-3), (2.0, 2e-3), (3.0, 2e-3), (1.0, 4e-3), (1.0, 6e-3))
 
-SURFACES = Contact(
-    effective_modulus=EFFECTIVE_MODULUS,
-    hardness=6.0e9,
-    roughness=0.20e-6,
+#: Modulus and density are not read: E' is given, and the density in the Péclet numbers is the lubricant's.
+STEEL = MaterialData("steel", 210e9, 0.3, 7850.0, 60.5, 434.0, hardness=6.0e9)
+LUBRICANT = LubricantData(
     asperity_friction=0.12,
     limiting_shear_coefficient=0.06,
     inlet_viscosity=0.010,
     pressure_viscosity=1.5e-8,
     viscosity_pressure_index=0.58,
     temperature_viscosity=0.03,
-    pinion_conductivity=60.5,
-    gear_conductivity=60.5,
-    pinion_heat_capacity=769.2 * 434.0,  # density of the lubricant, specific heat of the steel, as printed
-    gear_heat_capacity=769.2 * 434.0,
-    coulomb_coefficient=0.0,
-    asperity_log_factor=4470.0,
-    limiting_share=1.0,
-    mean_roughness=0.20e-6 / math.sqrt(math.pi),
-    viscosity_pressure_factor=1.0,
-    peclet_sliding=1.0,
+    density=769.2,
 )
+SURFACES = Surfaces(
+    effective_modulus=EFFECTIVE_MODULUS,
+    hardness=STEEL.hardness,
+    roughness=0.20e-6,
+    mean_roughness=0.20e-6 / math.sqrt(math.pi),
+    inlet_viscosity=LUBRICANT.inlet_viscosity,
+    pressure_viscosity=LUBRICANT.pressure_viscosity,
+    pinion_conductivity=STEEL.thermal_conductivity,
+    gear_conductivity=STEEL.thermal_conductivity,
+    # density of the lubricant, specific heat of the steel, as printed
+    pinion_heat_capacity=LUBRICANT.density * STEEL.specific_heat,
+    gear_heat_capacity=LUBRICANT.density * STEEL.specific_heat,
+)
+_NAMES: dict[Law, str] = {
+    "EHL": "xu",
+    "MEHL A": "masjedi-khonsari-veciana",
+    "MEHL B": "masjedi-khonsari-veciana-peak",
+}
 
 
-def law_of(name: Law) -> tuple[int, Contact]:
-    """Return the law's code and the surfaces in that reading."""
-    if name == "MEHL B":
-        return MASJEDI_KHONSARI, SURFACES._replace(
-            peclet_sliding=0.0, viscosity_pressure_factor=4.0 / math.pi
-        )
-    return (XU if name == "EHL" else MASJEDI_KHONSARI), SURFACES
+@cache
+def closure_of(name: Law) -> Closure:
+    """Return the surfaces and laws of a reading."""
+    friction = friction_law(_NAMES[name])
+    given = LawInput(SURFACES, LUBRICANT, (STEEL, STEEL), without_nominal_conditions)
+    return closure(given, film_law(friction.film), friction)
 
 
 class Study(NamedTuple):
@@ -99,8 +112,7 @@ class Study(NamedTuple):
 
     def solve(self, pair: UnitContact) -> TorqueRatio:
         """Solve a pair of this drive."""
-        law, surfaces = law_of(self.law)
-        return torque_ratio(pair, self.input_torque, self.pinion_speed, self.face_width, law, surfaces)
+        return torque_ratio(pair, self.input_torque, self.pinion_speed, self.face_width, closure_of(self.law))
 
     def involute_pair(self, rotation: Any = None) -> UnitContact:
         """Return the involute of the drive."""

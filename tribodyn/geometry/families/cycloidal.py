@@ -11,8 +11,9 @@ from typing import Any, NamedTuple
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, Side, reference_radius
 from tribodyn.geometry.families.circular_arc import ArcPath, arc_ends
-from tribodyn.geometry.family import Family, Parameter, unshifted
+from tribodyn.geometry.family import Family, unshifted
 from tribodyn.geometry.reach import refuse_shift, require_reach
+from tribodyn.numerics.parameter import Parameter
 
 
 class Shape(NamedTuple):

@@ -1,15 +1,18 @@
-"""How a kernel's arguments lie in memory: one block of words of 8 bytes, the same for every caller.
+"""How a kernel's arguments lie in memory: a single block of words of 8 bytes, the same for every caller.
 
-A number is a word; an array its address and lengths; a named tuple its fields one after the other. What is
-called a layout here says which, and is all that the machine code of a kernel depends on: numbers and lengths
-are never compiled in.
+A number is a word; an array its address and lengths; a named tuple its fields one after the other; a function
+no word at all. The layout says which of these a value is, and the machine code of a kernel depends on nothing
+else: numbers and lengths are never compiled in, functions are.
 """
 
 import struct
 from functools import cache
+from types import FunctionType
 from typing import Any, NamedTuple
 
 import numpy as np
+
+from tribodyn.kernels.native.identity import FunctionLayout, function_layout
 
 
 class Numeric(NamedTuple):
@@ -48,16 +51,19 @@ class Record:
 class Laid(NamedTuple):
     """A value as the kernels read it; stands for it among a kernel's arguments.
 
-    What many calls have in common is laid out once. Arrays inside are pointed at, so they must be kept alive.
+    What many calls have in common is laid out once. Arrays inside are pointed at: the value keeps them alive.
 
     Attributes
     ----------
-    layout : Numeric, Array, Record, or that of an object with a method `laid_out` of its own
+    layout : Numeric, Array, Record, FunctionLayout, or that of an object with a method `laid_out` of its own
     words : bytes
+    value : object
+        What was laid out.
     """
 
     layout: Any
     words: bytes
+    value: Any = None
 
 
 FLOAT, INT, BOOL = Numeric("float"), Numeric("int"), Numeric("bool")
@@ -82,18 +88,22 @@ def laid_out(value: Any) -> Laid:
     if isinstance(value, Laid):
         return value
     if isinstance(value, float):
-        return Laid(FLOAT, _float(value))
+        return Laid(FLOAT, _float(value), value)
     if isinstance(value, np.ndarray):
         return _laid_array(value)
     if isinstance(value, (bool, np.bool_)):
-        return Laid(BOOL, _int(value))
+        return Laid(BOOL, _int(value), value)
     if isinstance(value, (int, np.integer)):
-        return Laid(INT, _int(value))
+        return Laid(INT, _int(value), value)
+    if isinstance(value, FunctionType):
+        return Laid(function_layout(value), b"", value)
     if hasattr(value, "laid_out"):
         return value.laid_out()
     if isinstance(value, tuple) and hasattr(value, "_fields"):
         return together(type(value).__qualname__, value._fields, value)  # pyright: ignore[reportAttributeAccessIssue]
-    raise TypeError(f"a kernel takes numbers, arrays and named tuples of them, not {type(value).__name__}")
+    raise TypeError(
+        f"a kernel takes numbers, arrays, functions and named tuples of them, not {type(value).__name__}"
+    )
 
 
 def _laid_array(array: np.ndarray) -> Laid:
@@ -104,10 +114,18 @@ def _laid_array(array: np.ndarray) -> Laid:
     if not contiguous:
         described += array.strides
     layout = _array(array.dtype.str, array.ndim, "C" if contiguous else "A")
-    return Laid(layout, struct.pack(f"={len(described)}q", *described))
+    return Laid(layout, struct.pack(f"={len(described)}q", *described), array)
 
 
 def together(name: str, names: tuple[str, ...], values: tuple[Any, ...]) -> Laid:
     """Lay several values out as the fields of one record."""
-    layouts, words = zip(*map(laid_out, values), strict=True)
-    return Laid(record(name, names, layouts), b"".join(words))
+    laid = [laid_out(value) for value in values]
+    layouts = tuple(one.layout for one in laid)
+    return Laid(record(name, names, layouts), b"".join(one.words for one in laid), values)
+
+
+def is_kept(layout: Any) -> bool:
+    """Whether machine code for a layout may be kept on disk: no function in it is this process's own."""
+    if isinstance(layout, FunctionLayout):
+        return layout.kept
+    return not isinstance(layout, Record) or all(is_kept(field) for _, field in layout.fields)

@@ -13,6 +13,7 @@ from numba.extending import lower_getattr_generic, models, register_model
 from numba.np.arrayobj import populate_array
 
 from tribodyn.kernels.native.arguments import Array, Numeric, Record
+from tribodyn.kernels.native.identity import FunctionLayout
 
 intrinsic = cast(Any, extending.intrinsic)
 
@@ -57,11 +58,17 @@ def type_of(layout: Any) -> Any:
         return RecordType(layout)
     if isinstance(layout, Array):
         return types.Array(numba.from_dtype(np.dtype(layout.dtype)), layout.ndim, layout.order)
+    if isinstance(layout, FunctionLayout):
+        from tribodyn.kernels.native.functions import function_type
+
+        return function_type(layout.function)
     return _NUMBERS[layout.name] if isinstance(layout, Numeric) else layout.type
 
 
 def _read(context, builder, kind, block, word):
     """A field's value, from its first word on; blocks do not change while a kernel runs."""
+    if isinstance(kind, types.Function):
+        return context.get_dummy_value()  # its type says it all
     place = builder.gep(block, [_INT64(WORD * word)])
     if isinstance(kind, RecordType):
         return place

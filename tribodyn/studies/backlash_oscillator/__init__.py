@@ -1,1 +1,10 @@
-"""The oscillator with backlash, on which the search for steady states is verified: case and sweep."""
+"""The oscillator with backlash."""
+
+from tribodyn.studies.study import Study
+
+STUDY = Study(
+    kind="backlash-oscillator",
+    about="an oscillator with backlash, without gears, followed up and down in frequency",
+    package=__name__,
+    quantities="response of an oscillator over frequency",
+)

@@ -2,9 +2,11 @@
 
 from dataclasses import dataclass
 
+from tribodyn.studies.study import CaseHead
+
 
 @dataclass(frozen=True)
-class BacklashOscillatorCase:
+class BacklashOscillatorCase(CaseHead):
     """A sweep of x'' + 2ζ x' + (1 + ε cos Ωτ) f(x) = F_m + F_e Ω² cos Ωτ, up and down in Ω.
 
     Lengths are in units of half the backlash, times in those of the linear oscillator's 1/ω_n.
@@ -27,11 +29,6 @@ class BacklashOscillatorCase:
         Periods of the excitation marched at each frequency before a motion is called not periodic.
     """
 
-    title: str
-    name: str
-    kind: str
-    toml: str
-    sha256: str
     damping: float
     mean_force: float
     error_amplitude: float

@@ -1,6 +1,6 @@
 """Figures of the oscillator with backlash: its response up and down in frequency, and its stability."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -9,32 +9,15 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from tribodyn.errors import InputError
+from tribodyn.post.figures.drawing import Drawing
 from tribodyn.post.figures.panel import View, record_label, record_title
 from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, QUIET, WIDTH, mark_panel, new_figure
 from tribodyn.record.reader import Record
 
-NAMES = ("response", "multipliers")
 ABSCISSA = "Frequency of the excitation / natural frequency"
 UP, DOWN = 0, 1
 LINES: dict[int, Any] = {UP: "-", DOWN: (0, (4, 1.6))}
 WORDS = {UP: "up", DOWN: "down"}
-
-
-def names(_records: Sequence[Record]) -> tuple[str, ...]:
-    """Names of the figures, which every such record holds enough for."""
-    return NAMES
-
-
-def figure(name: str, records: Sequence[Record], view: View) -> Figure:
-    """Draw the figure `name` of `NAMES`; the overview is the response of the first record."""
-    if view.against == "time":
-        raise InputError("against", "time", "a frequency sweep knows no time", "phase")
-    for record in records:
-        if record.samples < 1:
-            raise InputError("record", str(record.path), "holds no samples to draw", "run the scenario again")
-    if name == "overview":
-        return _response(records[:1])
-    return _response(records) if name == "response" else _multipliers(records)
 
 
 def _response(records: Sequence[Record]) -> Figure:
@@ -148,3 +131,23 @@ def _finish(drawn: Figure, panels: Sequence[Axes], records: Sequence[Record], lo
     else:
         drawn.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
     drawn.legend(handles, labels, loc="outside lower center", ncols=min(3, len(labels)), handlelength=2.6)
+
+
+def _drawing(about: str, draw: Callable[[Sequence[Record]], Figure]) -> Drawing:
+    def checked(records: Sequence[Record], view: View) -> Figure:
+        if view.against == "time":
+            raise InputError("against", "time", "a frequency sweep knows no time", "phase")
+        for record in records:
+            if record.samples < 1:
+                rule = "holds no samples to draw"
+                raise InputError("record", str(record.path), rule, "run the scenario again")
+        return draw(records)
+
+    return Drawing(about, checked)
+
+
+DRAWINGS: dict[str, Drawing] = {
+    "overview": _drawing("response of the first record", lambda records: _response(records[:1])),
+    "response": _drawing("root mean square and loss of contact over frequency", _response),
+    "multipliers": _drawing("Floquet multipliers over frequency", _multipliers),
+}

@@ -1,6 +1,7 @@
 """Datasets of a frequency sweep of the oscillator with backlash: everything over frequency and direction."""
 
 from tribodyn.numerics.variable import Variable
+from tribodyn.record.schema import Layout
 
 _POINT = ("frequency", "direction")
 _MULTIPLIER = ("frequency", "direction", "multiplier")
@@ -40,4 +41,9 @@ SAMPLES: dict[str, Variable] = {
     "section_velocity": Variable(_POINT, "1", "velocity there, in half backlashes times natural frequency"),
 }
 
-NEEDED = ("frequency", "rms_displacement", "stable", "multiplier_modulus")
+LAYOUT = Layout(
+    FREQUENCY,
+    SAMPLES,
+    {"direction": DIRECTION, "multiplier": MULTIPLIER},
+    groups={"mesh_cycle": {}, "geometry": {}},
+)

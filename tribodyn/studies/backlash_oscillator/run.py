@@ -1,13 +1,14 @@
 """From a case of the oscillator with backlash to its record: the frequency response, up and down."""
 
-from collections.abc import Callable
 from pathlib import Path
 from time import perf_counter
 from typing import Any
 
 import numpy as np
 
+from tribodyn.errors import SimulationError
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
+from tribodyn.studies.backlash_oscillator.layout import LAYOUT
 from tribodyn.studies.backlash_oscillator.response import (
     DOWN,
     FAILED,
@@ -18,6 +19,8 @@ from tribodyn.studies.backlash_oscillator.response import (
     Response,
     frequency_response,
 )
+from tribodyn.studies.recording import target, writer
+from tribodyn.studies.study import Progress, RunResult
 
 #: Relative difference of the RMS above which the ways up and down count as different branches: hundreds of
 #: times what the residuals leave.
@@ -29,36 +32,33 @@ REMARKS = 3
 def run(
     case: BacklashOscillatorCase,
     output: str | Path | None = None,
+    *,
     force: bool = False,
-    progress: Callable[[float], None] | None = None,
-) -> tuple[Path, str, dict[str, Any]]:
-    """Sweep a case and write its record.
+    progress: Progress | None = None,
+) -> RunResult:
+    """Run a case and write its record; see `study.Study.run`.
 
-    Parameters and errors as those of `gear_pair.run.run`; returns the record's path, why it failed
-    (empty: it did not), and its summary. A sweep fails if no frequency at all has a bounded motion.
+    It fails if no frequency at all has a bounded motion.
     """
-    from tribodyn.record.schema import BACKLASH_OSCILLATOR
-    from tribodyn.record.writer import RecordWriter, check_target
-
-    path = Path(output) if output is not None else Path(f"{case.name}.h5")
-    check_target(path, force)
+    path = target(case, output, force)
     begun = perf_counter()
     response = frequency_response(case, progress)
-    summary = figures(response) | {"wall_time": perf_counter() - begun}
-    with RecordWriter(
-        path,
-        scenario_toml=case.toml,
-        sha256=case.sha256,
-        samples=len(response.frequency),
-        force=force,
-        kind=BACKLASH_OSCILLATOR,
-        scales={"direction": np.array(["up", "down"]), "multiplier": np.array([1, 2])},
-    ) as record:
+    summary = response_figures(response) | {"wall_time": perf_counter() - begun}
+    scales = {"direction": np.array(["up", "down"]), "multiplier": np.array([1, 2])}
+    with writer(case, path, LAYOUT, len(response.frequency), scales=scales, force=force) as record:
         record.write(0, record_arrays(response))
         if np.all(response.kind == FAILED):
             message = response.messages[0][2]
-            return record.fail(message, summary), message, summary
-        return record.finish(summary), "", summary
+            return RunResult(record.fail(message, summary), "failed", message, summary)
+        return RunResult(record.finish(summary), "complete", "", summary)
+
+
+def figures(case: BacklashOscillatorCase) -> dict[str, Any]:
+    """Figures of a case without a record."""
+    response = frequency_response(case)
+    if np.all(response.kind == FAILED):
+        raise SimulationError(response.messages[0][2])
+    return response_figures(response)
 
 
 def record_arrays(response: Response) -> dict[str, Any]:
@@ -81,7 +81,7 @@ def record_arrays(response: Response) -> dict[str, Any]:
     }
 
 
-def figures(response: Response) -> dict[str, Any]:
+def response_figures(response: Response) -> dict[str, Any]:
     """Figures of the whole sweep."""
     frequency, rms, kind = response.frequency, response.rms, response.kind
     found: dict[str, Any] = {

@@ -93,9 +93,10 @@ class BacklashOscillatorScenario(Table):
     solver: OscillatorSolver = written({})
 
 
-def backlash_oscillator_case_of(
-    scenario: BacklashOscillatorScenario, toml: str, sha256: str
-) -> BacklashOscillatorCase:
+Scenario = BacklashOscillatorScenario
+
+
+def case_of(scenario: Scenario, toml: str, sha256: str) -> BacklashOscillatorCase:
     """Return the case of a scenario that has passed the schema."""
     given = scenario.frequency
     return BacklashOscillatorCase(

@@ -1,11 +1,12 @@
-"""Efficiency of a mesh over whole mesh cycles, by energy: input, output and friction work.
+"""The quasi-static efficiency of a gear pair."""
 
-Three ways, for any family of teeth: from the record of a dynamic run (`dynamic`), quasi-static along the path
-of contact with any friction law and load sharing (`along_path`), and by the torque ratio of a single pair
-with unit contact ratio (`torque_ratio`). `loss_factor` has Höhn's formula and the integral behind it;
-`given_coefficient` is differentiable in the drive.
-"""
+from tribodyn.studies.study import Study
 
-from tribodyn.studies.efficiency.given_coefficient import friction_loss, mean_efficiency
-
-__all__ = ["friction_loss", "mean_efficiency"]
+STUDY = Study(
+    kind="efficiency",
+    about="quasi-static loads, friction and efficiency of a gear pair, without dynamics",
+    package=__name__,
+    quantities="loads, films and friction of pairs of teeth over time",
+    compared=("Geometry", "Dynamics", "Tribology", "Energy"),
+    has_gears=True,
+)

@@ -1,4 +1,4 @@
-"""Quasi-static loads, friction and efficiency along the path of contact, for any family and friction law.
+"""Quasi-static loads, friction and efficiency along the path of contact, for any family and laws.
 
 No inertia: at each phase of the mesh the loads balance the torque, friction included, and the friction law
 and the loads are solved together.
@@ -17,7 +17,7 @@ from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.studies.efficiency.contact_friction import ContactFriction, contact_friction
 from tribodyn.studies.efficiency.places import Places, Sharing, places
 from tribodyn.studies.efficiency.quadrature import Array, piecewise
-from tribodyn.tribology.contact import Contact
+from tribodyn.tribology.law import Closure
 
 #: Nodes between two breaks of the integrand.
 POINTS = 20
@@ -35,8 +35,9 @@ class Engagement(NamedTuple):
     friction_force : on the pinion along the tangent, positive in recess, N
     entrainment, sliding : m/s
     radius : equivalent radius, averaged over the contact where it vanishes at the pitch point, m
-    asperity_load_ratio, central_film_thickness, flash_temperature_rise, hertz_pressure, in_range
-        As `tribodyn.tribology.friction` gives them, where the line load along the face is greatest.
+    asperity_load_ratio, central_film_thickness, flash_temperature_rise, hertz_pressure, closure_in_range,
+    friction_in_range
+        As in `SurfaceState`, where the line load along the face is highest.
     deflection : (K,)
         r_p θ_p − r_g θ_g, m; NaN where the load sharing knows no elasticity.
     pinion_torque, gear_torque : (K,)
@@ -55,7 +56,8 @@ class Engagement(NamedTuple):
     central_film_thickness: Array
     flash_temperature_rise: Array
     hertz_pressure: Array
-    in_range: Array
+    closure_in_range: Array
+    friction_in_range: Array
     deflection: Array
     pinion_torque: Array
     gear_torque: Array
@@ -71,15 +73,13 @@ class Duty(NamedTuple):
     ----------
     gear_torque : N m, > 0, constant
     pinion_speed : rad/s
-    friction_law : code of `tribodyn.tribology.friction`
-    surfaces : Contact
+    closure : Closure
     sharing : one of `places.SHARINGS`
     """
 
     gear_torque: float
     pinion_speed: float
-    friction_law: int
-    surfaces: Contact
+    closure: Closure
     sharing: Sharing = "elastic"
 
 
@@ -99,11 +99,10 @@ def engage(mesh: Places, duty: Duty) -> Engagement:
 
     def contact_at(line_load: Array) -> ContactFriction:
         return contact_friction(
-            duty.friction_law,
+            duty.closure,
             line_load,
             mesh.radius,
             *rolling,
-            duty.surfaces,
             cycle.pitch_point_length,
             speed * cycle.pitch_point_rate,
         )
@@ -112,7 +111,7 @@ def engage(mesh: Places, duty: Duty) -> Engagement:
     for _ in range(STEPS):
         load, deflection, uneven, peak = _loads(mesh, duty, side * mu)
         contact = contact_at(load / width * uneven)
-        found = contact.coefficient * mesh.carrying
+        found = contact.surface.friction_coefficient * mesh.carrying
         if np.any(mesh.carrying * (mesh.normal_arm + side * found * mesh.friction_arm) < 0.0):
             worst = float(np.max(found))
             raise SimulationError(
@@ -125,6 +124,7 @@ def engage(mesh: Places, duty: Duty) -> Engagement:
         raise SimulationError(f"load and friction coefficient do not settle: still moving by {change:.1e}")
     if np.any(peak != uneven):
         contact = contact_at(load / width * peak)
+    surface = contact.surface
     arms = mesh.normal_arm + side * mu * mesh.friction_arm
     pinion_torque, gear_torque = np.sum(load * arms, axis=-1)
     ratio = cycle.pinion_pitch_radius / cycle.gear_pitch_radius
@@ -135,11 +135,12 @@ def engage(mesh: Places, duty: Duty) -> Engagement:
         entrainment=contact.entrainment,
         sliding=sliding,
         radius=contact.radius,
-        asperity_load_ratio=contact.asperity_load_ratio,
-        central_film_thickness=contact.central_film_thickness,
-        flash_temperature_rise=contact.flash_temperature_rise,
-        hertz_pressure=contact.hertz_pressure,
-        in_range=contact.in_range,
+        asperity_load_ratio=surface.asperity_load_ratio,
+        central_film_thickness=surface.central_film_thickness,
+        flash_temperature_rise=surface.flash_temperature_rise,
+        hertz_pressure=surface.hertz_pressure,
+        closure_in_range=surface.closure_in_range,
+        friction_in_range=surface.friction_in_range,
         deflection=deflection,
         pinion_torque=pinion_torque,
         gear_torque=gear_torque,

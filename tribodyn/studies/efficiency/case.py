@@ -1,25 +1,27 @@
 """A case of the quasi-static efficiency study: everything one run needs to know, in SI units."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.material import MaterialData
 from tribodyn.mesh.data import MeshData
-from tribodyn.tribology.data import FrictionData, LubricantData
+from tribodyn.studies.study import CaseHead
+from tribodyn.tribology.data import FilmData, FrictionData, LubricantData
 
 if TYPE_CHECKING:  # the study's array code, and SciPy with it, is for the run
     from tribodyn.studies.efficiency.places import Sharing
 
 
 @dataclass(frozen=True)
-class EfficiencyCase:
+class EfficiencyCase(CaseHead):
     """One efficiency study, complete.
 
     Parameters
     ----------
-    title, name, kind, toml, sha256, family, drive, materials, roughness, mean_roughness, lubricant, friction
+    title, name, kind, toml, sha256, family, drive, materials, roughness, mean_roughness
+    lubricant, friction, film
         As in `tribodyn.studies.gear_pair.case.Case`; `kind` is "efficiency".
     operating : OperatingData
         Pinion speed and gear torque, both constant.
@@ -31,11 +33,6 @@ class EfficiencyCase:
         Samples over the one mesh cycle recorded.
     """
 
-    title: str
-    name: str
-    kind: str
-    toml: str
-    sha256: str
     family: str
     drive: Drive
     materials: tuple[MaterialData, MaterialData]
@@ -47,3 +44,4 @@ class EfficiencyCase:
     friction: FrictionData
     load_sharing: "Sharing" = "elastic"
     samples_per_cycle: int = 200
+    film: FilmData = field(default_factory=FilmData)

@@ -1,6 +1,6 @@
 """From a case of the efficiency study to its record: one mesh cycle, quasi-static."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from time import perf_counter
 from types import MappingProxyType
@@ -10,9 +10,11 @@ import numpy as np
 
 from tribodyn.compliance.load_sharing import effective_contact_ratio
 from tribodyn.compliance.loaded_flanks import LoadedFlanks
+from tribodyn.dynamics.recorded import scales_of
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
+from tribodyn.geometry.outlines import geometry_arrays
 from tribodyn.geometry.path import Path as PathOfContact
 from tribodyn.mesh.cycle import MeshCycle, as_arrays
 from tribodyn.studies.efficiency.along_path import CycleEfficiency, Duty, Engagement, cycle_efficiency, engage
@@ -21,10 +23,15 @@ from tribodyn.studies.efficiency.loss_factor import exact, hoehn, tip_contact_ra
 from tribodyn.studies.efficiency.places import SHARINGS, Places, Sharing, places
 from tribodyn.studies.efficiency.quadrature import Array
 from tribodyn.studies.efficiency.torque_ratio import path_contact, torque_ratio
-from tribodyn.tribology.surfaces import contact_of
+from tribodyn.studies.gears import LAYOUT
+from tribodyn.studies.recording import target, writer
+from tribodyn.studies.study import Progress, RunResult
+from tribodyn.tribology.closure import closure_of, law_figures
+from tribodyn.tribology.friction.coulomb import constant
+from tribodyn.tribology.surface_state import fraction_in_range
 
 
-class Study(NamedTuple):
+class Prepared(NamedTuple):
     """A case made ready: the table of the mesh, the path it was made from, and what the mesh has to do.
 
     `flanks` are those of the load contact model that shares the load, where the scenario asks for it.
@@ -37,7 +44,7 @@ class Study(NamedTuple):
     flanks: LoadedFlanks | None = None
 
 
-def prepare(case: EfficiencyCase) -> Study:
+def prepare(case: EfficiencyCase) -> Prepared:
     """Check the geometry and tabulate the mesh.
 
     Raises
@@ -48,7 +55,6 @@ def prepare(case: EfficiencyCase) -> Study:
     from tribodyn.geometry.checks import check
     from tribodyn.mesh.tabulate import pair_slots, tabulate
     from tribodyn.mesh.tabulate_loaded import flanks_of, tabulate_loaded
-    from tribodyn.tribology.laws import friction_law
 
     teeth = family(case.family)
     check(teeth, case.drive)
@@ -61,55 +67,55 @@ def prepare(case: EfficiencyCase) -> Study:
     duty = Duty(
         case.operating.gear_torque,
         case.operating.pinion_speed,
-        friction_law(case.friction.law).code,
-        contact_of(case),
+        closure_of(case),
         case.load_sharing,
     )
-    return Study(case, cycle, teeth.working_path(case.drive), duty, flanks)
+    return Prepared(case, cycle, teeth.working_path(case.drive), duty, flanks)
 
 
 def run(
     case: EfficiencyCase,
     output: str | Path | None = None,
+    *,
     force: bool = False,
-    progress: Callable[[float], None] | None = None,
-) -> tuple[Path, dict[str, Any]]:
-    """Run a case over one mesh cycle and write its record.
+    progress: Progress | None = None,
+) -> RunResult:
+    """Run a case and write its record; see `study.Prepared.run`.
 
-    Parameters and errors as those of `gear_pair.run.run`; returns the record's path and its summary.
+    It covers one mesh cycle.
     """
-    from tribodyn.geometry.outlines import geometry_arrays
-    from tribodyn.record.writer import RecordWriter, check_target
-
-    path = Path(output) if output is not None else Path(f"{case.name}.h5")
-    check_target(path, force)
+    path = target(case, output, force)
     begun = perf_counter()
     study = prepare(case)
     mesh, state, samples = _sampled(study)
     summary = _figures(study, mesh, state) | {"wall_time": perf_counter() - begun}
-    with RecordWriter(
-        path,
-        scenario_toml=case.toml,
-        sha256=case.sha256,
-        samples=len(samples),
-        mesh_cycle=as_arrays(study.cycle),
-        geometry=geometry_arrays(family(case.family), case.drive),
-        force=force,
-    ) as record:
+    groups = {
+        "mesh_cycle": as_arrays(study.cycle),
+        "geometry": geometry_arrays(family(case.family), case.drive),
+    }
+    scales = scales_of(study.cycle.side)
+    with writer(case, path, LAYOUT, len(samples), groups=groups, scales=scales, force=force) as record:
         record.write(0, _record_arrays(mesh, state, study.duty))
         if progress:
             progress(1.0)
-        return record.finish(summary), summary
+        return RunResult(record.finish(summary), "complete", "", summary)
 
 
-def _sampled(study: Study) -> tuple[Places, Engagement, np.ndarray]:
+def figures(case: EfficiencyCase) -> dict[str, Any]:
+    """Figures of a case without a record."""
+    study = prepare(case)
+    mesh, state, _ = _sampled(study)
+    return _figures(study, mesh, state)
+
+
+def _sampled(study: Prepared) -> tuple[Places, Engagement, np.ndarray]:
     phase = np.linspace(0.0, 1.0, study.case.samples_per_cycle + 1)
     mesh = places(study.cycle, study.path, phase, study.duty.sharing, study.flanks)
     return mesh, engage(mesh, study.duty), phase
 
 
 def efficiencies(
-    study: Study, known: Mapping[Sharing, CycleEfficiency] = MappingProxyType({})
+    study: Prepared, known: Mapping[Sharing, CycleEfficiency] = MappingProxyType({})
 ) -> dict[str, float]:
     """Cycle efficiency under every load sharing, by the torque ratio, and of an involute by Höhn's formula.
 
@@ -131,19 +137,17 @@ def efficiencies(
         duty.gear_torque / ratio,
         duty.pinion_speed,
         float(study.cycle.face_width),
-        duty.friction_law,
-        duty.surfaces,
+        duty.closure,
     )
     found["efficiency_torque_ratio"] = float(single.efficiency)
     return found | _by_loss_factor(study)
 
 
-def _by_loss_factor(study: Study) -> dict[str, float]:
-    from tribodyn.tribology.friction import COULOMB
-
-    case, coefficient = study.case, study.duty.surfaces.coulomb_coefficient
-    if case.family != "involute" or study.duty.friction_law != COULOMB:
+def _by_loss_factor(study: Prepared) -> dict[str, float]:
+    case, friction = study.case, study.duty.closure.friction
+    if case.family != "involute" or friction.functions.coefficient is not constant:
         return {}
+    coefficient = friction.parameters.coefficient
     tips = tip_contact_ratios(family(case.family), case.drive)
     teeth, ratio = case.drive.pinion.teeth, case.drive.gear.teeth / case.drive.pinion.teeth
     factor = exact(*tips, teeth, ratio)
@@ -162,7 +166,7 @@ def _effective_contact_ratio(mesh: Places, state: Engagement, duty: Duty) -> dic
     return {"contact_ratio_effective": effective_contact_ratio(roll, shared, float(mesh.cycle.pitch_angle))}
 
 
-def _figures(study: Study, mesh: Places, state: Engagement) -> dict[str, Any]:
+def _figures(study: Prepared, mesh: Places, state: Engagement) -> dict[str, Any]:
     cycle, duty = study.cycle, study.duty
     means = cycle_efficiency(cycle, study.path, duty, flanks=study.flanks)
     loaded = state.normal_load > 0
@@ -182,12 +186,14 @@ def _figures(study: Study, mesh: Places, state: Engagement) -> dict[str, Any]:
         "mesh_frequency": duty.pinion_speed / float(cycle.pitch_angle),
         "normal_load_max": greatest(state.normal_load),
         "film_min": least(state.central_film_thickness),
-        "film_parameter_min": least(state.central_film_thickness) / duty.surfaces.roughness,
+        "film_parameter_min": least(state.central_film_thickness) / duty.closure.surfaces.roughness,
         "hertz_pressure_max": greatest(state.hertz_pressure),
         "flash_temperature_max": greatest(state.flash_temperature_rise),
         "friction_coefficient_mean": means.friction_coefficient,
         "friction_force_mean": np.sum(np.abs(state.friction_force[:-1]), axis=0) * share,
-        "closure_in_range_fraction": float(np.mean(state.in_range[loaded])),
+        **law_figures(study.case),
+        "closure_in_range_fraction": fraction_in_range(state.closure_in_range[loaded]),
+        "friction_in_range_fraction": fraction_in_range(state.friction_in_range[loaded]),
         "power_in_mean": means.power_in,
         "power_friction_mean": means.power_friction,
         "efficiency": means.efficiency,
@@ -224,7 +230,7 @@ def _record_arrays(mesh: Places, state: Engagement, duty: Duty) -> dict[str, Any
         "friction_coefficient": contacting(state.friction_coefficient),
         "asperity_load_ratio": contacting(state.asperity_load_ratio),
         "central_film_thickness": contacting(state.central_film_thickness),
-        "film_parameter": contacting(state.central_film_thickness / duty.surfaces.roughness),
+        "film_parameter": contacting(state.central_film_thickness / duty.closure.surfaces.roughness),
         "flash_temperature_rise": contacting(state.flash_temperature_rise),
         "hertz_pressure": contacting(state.hertz_pressure),
         "equivalent_radius": contacting(state.radius),
@@ -232,7 +238,8 @@ def _record_arrays(mesh: Places, state: Engagement, duty: Duty) -> dict[str, Any
         "sliding_speed": contacting(state.sliding),
         "pressure_angle": contacting(cycle.pressure_angle[:, 0]),
         "mesh_stiffness": np.where(touching, 1.0 / cycle.compliance[:, 0], 0.0),
-        "closure_in_range": np.where(touching, state.in_range, np.nan),
+        "closure_in_range": contacting(state.closure_in_range),
+        "friction_in_range": contacting(state.friction_in_range),
         "drive_torque": state.pinion_torque,
         "power_in": state.power_in,
         "power_out": state.power_out,

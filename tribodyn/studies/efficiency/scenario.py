@@ -1,12 +1,10 @@
 """The tables of a scenario of ``kind = "efficiency"``: loads, friction and losses without dynamics."""
 
-from collections.abc import Iterator
 from typing import Annotated, Literal
 
 from pydantic import Field
 
 from tribodyn.dynamics.data import OperatingData
-from tribodyn.errors import InputError
 from tribodyn.mesh.data import MeshData
 from tribodyn.scenario import units
 from tribodyn.scenario.common import Name, Slices
@@ -18,10 +16,17 @@ from tribodyn.scenario.drive_data import (
     modifications_of,
     slices_of,
 )
+from tribodyn.scenario.law_tables import FilmTable, FrictionTable, film_data, friction_values
 from tribodyn.scenario.model_files import DriveTable, Lubricant
 from tribodyn.scenario.modification import MisalignmentTable
-from tribodyn.scenario.modification_rules import Face, broken_face_rules
-from tribodyn.scenario.quantity import NotNegative, Quantity, Reference, Switch, Table, Text, written
+from tribodyn.scenario.quantity import (
+    Quantity,
+    Switch,
+    Table,
+    Text,
+    model_file,
+    written,
+)
 from tribodyn.studies.efficiency.case import EfficiencyCase
 from tribodyn.tribology.data import FrictionData
 
@@ -55,11 +60,8 @@ class EfficiencyMesh(Table):
     slice_coupling: Switch = Field(True, description="slices of one tooth hold each other")
 
 
-class EfficiencyFriction(Table):
-    """Which law acts between the flanks."""
-
-    law: Text
-    coefficient: NotNegative | None = Field(None, description="of Coulomb's law")
+class EfficiencyFriction(FrictionTable):
+    """Which law acts between the flanks, and the law's own keys."""
 
 
 class EfficiencyOutput(Table):
@@ -74,29 +76,19 @@ class EfficiencyScenario(Table):
     title: Text = Field(description="what it shows, in a line")
     name: Name | None = Field(None, description="names the record; default: the file's own name")
     kind: Literal["efficiency"]
-    drive: Annotated[DriveTable, Reference("name of a file in models/drives, or a path")]
-    lubricant: Annotated[Lubricant, Reference("name of a file in models/lubricants, or a path")]
+    drive: Annotated[DriveTable, model_file("drives")]
+    lubricant: Annotated[Lubricant, model_file("lubricants")]
     operating: EfficiencyOperating
     mesh: EfficiencyMesh = written({})
+    film: FilmTable | None = Field(None, description="which law gives the film")
     friction: EfficiencyFriction
     output: EfficiencyOutput = written({})
 
 
-def broken_efficiency_rules(scenario: EfficiencyScenario) -> Iterator[InputError]:
-    """Go through the rules that the mesh and flanks of an efficiency study break."""
-    mesh = scenario.mesh
-    face = Face(scenario.drive, mesh.misalignment, mesh.slices, mesh.slice_coupling)
-    yield from broken_face_rules(face, mesh.compliance)
-    if mesh.hertz == "load-dependent" and mesh.compliance != "energy":
-        yield InputError(
-            "mesh.hertz",
-            '"load-dependent"',
-            f'contradicts compliance = "{mesh.compliance}", which contains the Hertz contact',
-            'leave hertz out, or write compliance = "energy"',
-        )
+Scenario = EfficiencyScenario
 
 
-def efficiency_case_of(scenario: EfficiencyScenario, toml: str, sha256: str) -> EfficiencyCase:
+def case_of(scenario: Scenario, toml: str, sha256: str) -> EfficiencyCase:
     """Return the case of a scenario that has passed schema and rules."""
     drive, mesh, operating = scenario.drive, scenario.mesh, scenario.operating
     modifications = modifications_of(drive, mesh.misalignment)
@@ -122,7 +114,8 @@ def efficiency_case_of(scenario: EfficiencyScenario, toml: str, sha256: str) -> 
             slices=slices_of(mesh.slices, modifications),
             slice_coupling=mesh.slice_coupling,
         ),
-        friction=FrictionData(scenario.friction.law, scenario.friction.coefficient),
+        friction=FrictionData(scenario.friction.law, friction_values(scenario.friction)),
         load_sharing=mesh.load_sharing,
         samples_per_cycle=scenario.output.samples_per_cycle,
+        film=film_data(scenario),
     )

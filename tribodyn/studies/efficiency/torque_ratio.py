@@ -15,7 +15,7 @@ from tribodyn.geometry.path import Path, kinematics
 from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.studies.efficiency.contact_friction import contact_friction
 from tribodyn.studies.efficiency.quadrature import Array, from_pitch_point
-from tribodyn.tribology.contact import Contact
+from tribodyn.tribology.law import Closure
 
 #: Nodes on either side of the pitch point: the efficiency is then known to 1e-7 for every family and law.
 POINTS = 24
@@ -204,8 +204,7 @@ def torque_ratio(
     input_torque: Any,
     pinion_speed: Any,
     face_width: Any,
-    friction_law: int,
-    surfaces: Contact,
+    closure: Closure,
 ) -> TorqueRatio:
     """Solve load and friction together: N = Γ_1/(A_1 + s μ T_1), Γ_2 = N (A_2 + s μ T_2), s = sgn ψ.
 
@@ -214,9 +213,7 @@ def torque_ratio(
     pair : UnitContact
     input_torque, pinion_speed, face_width : float
         Γ_1 N m, ω_1 rad/s, b m.
-    friction_law : int
-        Code of `tribodyn.tribology.friction`.
-    surfaces : Contact
+    closure : Closure
 
     Raises
     ------
@@ -229,14 +226,13 @@ def torque_ratio(
     for _ in range(STEPS):
         load = input_torque / (pair.pinion_normal_arm + side * mu * pair.pinion_friction_arm)
         found = contact_friction(
-            friction_law,
+            closure,
             load / face_width,
             1.0 / pair.curvature,
             *speeds,
-            surfaces,
             pair.pitch_point_length,
             pinion_speed * pair.pitch_point_rate,
-        ).coefficient
+        ).surface.friction_coefficient
         if np.any(pair.pinion_normal_arm + side * found * pair.pinion_friction_arm <= 0.0):
             worst = float(np.max(found))
             raise SimulationError(

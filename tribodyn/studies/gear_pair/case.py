@@ -4,14 +4,15 @@ Plain frozen dataclasses, so that the physics never meets pydantic or pint. Pair
 throughout.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from tribodyn.dynamics.data import BearingData, OperatingData
 from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.material import BodyMass, MaterialData
 from tribodyn.mesh.data import MeshData
 from tribodyn.solve.data import SolverData
-from tribodyn.tribology.data import FrictionData, LubricantData
+from tribodyn.studies.study import CaseHead
+from tribodyn.tribology.data import FilmData, FrictionData, LubricantData
 
 
 @dataclass(frozen=True)
@@ -22,7 +23,7 @@ class OutputData:
 
 
 @dataclass(frozen=True)
-class Case:
+class Case(CaseHead):
     """One simulation, complete.
 
     Parameters
@@ -50,15 +51,10 @@ class Case:
         Composite rms roughness σ of the flanks, m.
     mean_roughness : float
         Arithmetic mean roughness Ra of the flanks, m.
-    lubricant, bearings, operating, mesh, friction, solver, output
+    lubricant, bearings, operating, mesh, friction, solver, output, film
         See the classes.
     """
 
-    title: str
-    name: str
-    kind: str
-    toml: str
-    sha256: str
     family: str
     drive: Drive
     materials: tuple[MaterialData, MaterialData]
@@ -72,3 +68,4 @@ class Case:
     friction: FrictionData
     solver: SolverData
     output: OutputData
+    film: FilmData = field(default_factory=FilmData)

@@ -22,8 +22,7 @@ from tribodyn.dynamics.parameters import (
 )
 from tribodyn.mesh.cycle import MeshCycle, Polynomials, polynomials
 from tribodyn.studies.gear_pair.case import Case
-from tribodyn.tribology.contact import logarithms
-from tribodyn.tribology.surfaces import contact_of
+from tribodyn.tribology.closure import Closure, closure_of
 
 #: Gauss-Seidel sweeps from the tabulated inverse: only pairs about to separate need more than one.
 SWEEPS = 3
@@ -77,6 +76,7 @@ _NOT_IN_TABLE = (
     "lubricant",
     "bearings",
     "operating",
+    "film",
     "friction",
     "solver",
     "output",
@@ -123,9 +123,9 @@ def prepare(case: Case, tabulated: Tabulated | None = None) -> Prepared:
         Where the teeth cannot be made or cannot run together, or a table does not cover the contact.
     """
     cycle, table, (pinion, gear) = tabulated or tables(case)
-    contact = contact_of(case)
-    mechanics, options = _mechanics(case, pinion, gear, cycle), _options(case, cycle)
-    model = Model(table, mechanics, contact, options, logarithms(contact))
+    surfaces, film, friction = closure = closure_of(case)
+    mechanics, options = _mechanics(case, pinion, gear, cycle), _options(case, cycle, closure)
+    model = Model(table, mechanics, surfaces, film.parameters, friction.parameters, options)
     return Prepared(case, cycle, model, (pinion, gear))
 
 
@@ -152,16 +152,15 @@ def tables(case: Case) -> Tabulated:
     return Tabulated(cycle, polynomials(cycle), (pinion, gear))
 
 
-def _options(case: Case, cycle: MeshCycle) -> Options:
-    from tribodyn.tribology.laws import friction_law
-
+def _options(case: Case, cycle: MeshCycle, closure: Closure) -> Options:
     drive = DRIVE_SPEED
     if case.operating.source == "torque":
         drive = DRIVE_TORQUE if case.operating.shaft_stiffness is None else DRIVE_SHAFT
     coupled = bool(np.any(np.asarray(cycle.coupling) != 0.0))
     linear = float(cycle.hertz_coefficient) == 0.0
     return Options(
-        friction_law=friction_law(case.friction.law).code,
+        film=closure.film.functions,
+        friction=closure.friction.functions,
         sliding=SLIDING_DYNAMIC if case.friction.sliding == "dynamic" else SLIDING_KINEMATIC,
         formulation=ENERGY_CONSISTENT if case.mesh.formulation == "energy-consistent" else CLASSICAL,
         drive=drive,

@@ -2,10 +2,11 @@
 
 from collections.abc import Iterator
 
-from tribodyn.errors import InputError
-from tribodyn.scenario.drive_rules import broken_drive_rules
+from tribodyn.errors import InputError, unknown_name
+from tribodyn.scenario.drive_rules import broken_drive_rules, broken_hertz_rules
 from tribodyn.scenario.model_files import Bearing
 from tribodyn.scenario.modification_rules import Face, broken_face_rules
+from tribodyn.solve.methods import SOLVERS
 from tribodyn.studies.gear_pair.scenario import Mesh, Operating, Scenario
 
 
@@ -17,6 +18,8 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     yield from _operating(scenario.operating, scenario.mesh.backlash is not None)
     yield from _mesh(scenario.mesh)
     yield from broken_face_rules(_face(scenario), scenario.mesh.compliance)
+    if scenario.solver.method not in SOLVERS:
+        yield unknown_name("solver.method", scenario.solver.method, SOLVERS, "solver")
 
 
 def _face(scenario: Scenario) -> Face:
@@ -100,13 +103,7 @@ def _mesh(mesh: Mesh) -> Iterator[InputError]:
                 rule=f'contradicts compliance = "{mesh.compliance}"',
                 remedy=f'leave {name} out, or write compliance = "{choice}"',
             )
-    if mesh.hertz == "load-dependent" and mesh.compliance != "energy":
-        yield InputError(
-            "mesh.hertz",
-            '"load-dependent"',
-            f'contradicts compliance = "{mesh.compliance}", which contains the Hertz contact',
-            'leave hertz out, or write compliance = "energy"',
-        )
+    yield from broken_hertz_rules(mesh.hertz, mesh.compliance)
     error = mesh.transmission_error
     if error.harmonics and error.table is not None:
         yield InputError(

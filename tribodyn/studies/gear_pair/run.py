@@ -1,6 +1,5 @@
-"""From a case to a record: the one place where scenario, geometry, dynamics and record meet."""
+"""From a case of a gear pair's dynamics to its record."""
 
-from collections.abc import Callable
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -8,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.dynamics.outputs import outputs
+from tribodyn.dynamics.recorded import scales_of
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.families import family
 from tribodyn.geometry.outlines import geometry_arrays
@@ -19,7 +19,10 @@ from tribodyn.solve.transient import Chunk, Settings, Stop, transient
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.gear_pair.summary import RunningExtremes, energy_residual, steady_figures
-from tribodyn.studies.study import RunResult
+from tribodyn.studies.gears import LAYOUT, pitch_point_load
+from tribodyn.studies.recording import target, writer
+from tribodyn.studies.study import Progress, RunResult
+from tribodyn.tribology.closure import law_figures
 
 #: What a record says of the contact at the pitch point, under `pitch_point` in its summary.
 REGULAR = "regular"
@@ -29,56 +32,33 @@ AVERAGED = "radius and entrainment vanish; averaged over the contact's own half 
 def run(
     case: Case,
     output: str | Path | None = None,
+    *,
     force: bool = False,
-    progress: Callable[[float], None] | None = None,
+    progress: Progress | None = None,
 ) -> RunResult:
-    """Run a case and write its record.
-
-    Parameters
-    ----------
-    case : Case
-    output : path, optional
-        Name of the record; default ``<case name>.h5`` in the current folder.
-    force : bool
-        Replace an existing record.
-    progress : callable, optional
-        Called with the share done, 0 … 1.
-
-    Returns
-    -------
-    RunResult
-        `status` is "failed" where the simulation could not go on: the path then is the partial record's.
-
-    Raises
-    ------
-    InputError
-        Before anything is written.
-    """
-    from tribodyn.record.writer import RecordWriter, check_target
-
-    path = Path(output) if output is not None else Path(f"{case.name}.h5")
-    check_target(path, force)
+    """Run a case and write its record; see `study.Study.run`."""
+    path = target(case, output, force)
     prepared = prepare(case)
     model, cycle = prepared.model, prepared.cycle
     samples, cycles = case.output.samples_per_cycle, case.solver.cycles
-    static_load = abs(case.operating.gear_torque) / float(cycle.gear_pitch_radius)
+    load = pitch_point_load(case, case.operating.gear_torque)
     summary: dict[str, Any] = {
         "contact_ratio": float(cycle.contact_ratio),
-        "stiffness_single_pair_at_pitch_point": single_pair_stiffness(cycle, static_load),
+        "stiffness_single_pair_at_pitch_point": single_pair_stiffness(cycle, load),
         "pinion_mass": prepared.masses[0][0],
         "gear_mass": prepared.masses[1][0],
         "pinion_inertia": prepared.masses[0][1],
         "gear_inertia": prepared.masses[1][1],
         "pitch_point": AVERAGED if model.options.averaged else REGULAR,
+        **law_figures(case),
     }
-    with RecordWriter(
-        path,
-        scenario_toml=case.toml,
-        sha256=case.sha256,
-        samples=cycles * samples + 1,
-        mesh_cycle=as_arrays(cycle),
-        geometry=geometry_arrays(family(case.family), case.drive),
-        force=force,
+    groups = {
+        "mesh_cycle": as_arrays(cycle),
+        "geometry": geometry_arrays(family(case.family), case.drive),
+    }
+    scales = scales_of(cycle.side)
+    with writer(
+        case, path, LAYOUT, cycles * samples + 1, groups=groups, scales=scales, force=force
     ) as record:
         begun = perf_counter()
         try:
@@ -88,18 +68,18 @@ def run(
         choice = choose(case.solver.method, model, state)
         summary |= {"solver": choice.method, "solver_reason": choice.reason}
         settings = Settings(choice.method, case.solver.rtol, cycles, case.solver.max_steps, samples)
-        follower = _Follower(max(1, cycles // 4), cycles)
+        statistics = RunStatistics(max(1, cycles // 4), cycles)
         stop = Stop(state, 0.0, 0, 0, "", 0.0)
         for part in transient(model, state, settings, choice.method):
             if isinstance(part, Stop):
                 stop = part
             elif len(part.cycles):
                 block = outputs(part.cycles, part.states, model)
-                record.write(follower.written, block)
-                follower.add(part, block)
+                record.write(statistics.written, block)
+                statistics.add(part, block)
                 if progress:
-                    progress(min(1.0, follower.written / (cycles * samples)))
-        summary |= follower.figures() | {
+                    progress(min(1.0, statistics.written / (cycles * samples)))
+        summary |= statistics.figures() | {
             "steps": stop.steps,
             "rhs_evaluations": stop.evaluations,
             "wall_time": perf_counter() - begun,
@@ -109,11 +89,11 @@ def run(
         if stop.reason:
             message = str(SimulationError(stop.reason, stop.time))
             return RunResult(record.fail(message, summary), "failed", message, summary)
-        summary |= steady_figures(follower.window(), follower.window_work(), cycle, samples)
+        summary |= steady_figures(statistics.window(), statistics.window_work(), cycle, samples)
         return RunResult(record.finish(summary), "complete", "", summary)
 
 
-class _Follower:
+class RunStatistics:
     """What the summary needs of a run that arrives in blocks: extremes, both ends, the last cycles."""
 
     def __init__(self, cycles: int, total: int):
@@ -126,6 +106,7 @@ class _Follower:
         self.window_start = np.empty(0)
 
     def add(self, part: Chunk, block: dict[str, np.ndarray]) -> None:
+        """Take in a block: its states, and what is recorded of them."""
         self.written += len(part.cycles)
         self.extremes.add(block)
         if not self.ends:
@@ -138,6 +119,7 @@ class _Follower:
             self.blocks.append({name: values[inside] for name, values in block.items()})
 
     def figures(self) -> dict[str, float]:
+        """Extremes, and the residual of the energy balance."""
         if not self.ends:
             return {}
         (first, stored_first), (last, stored_last) = self.ends
@@ -150,4 +132,5 @@ class _Follower:
         return self.ends[-1][0] - self.window_start
 
     def window(self) -> dict[str, np.ndarray]:
+        """What was recorded over the last cycles."""
         return {name: np.concatenate([b[name] for b in self.blocks]) for name in self.blocks[0]}

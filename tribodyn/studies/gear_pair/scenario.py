@@ -23,9 +23,20 @@ from tribodyn.scenario.drive_data import (
     modifications_of,
     slices_of,
 )
+from tribodyn.scenario.law_tables import FilmTable, FrictionTable, film_data, friction_values
 from tribodyn.scenario.model_files import Bearing, Bearings, DriveTable, Length, Lubricant, Stiffness
 from tribodyn.scenario.modification import MisalignmentTable
-from tribodyn.scenario.quantity import Count, NotNegative, Quantity, Reference, Switch, Table, Text, written
+from tribodyn.scenario.quantity import (
+    Count,
+    NotNegative,
+    Quantity,
+    Switch,
+    Table,
+    Text,
+    csv_file,
+    model_file,
+    written,
+)
 from tribodyn.solve.data import SolverData
 from tribodyn.studies.gear_pair.case import Case, OutputData
 from tribodyn.tribology.data import FrictionData
@@ -57,8 +68,8 @@ class Operating(Table):
         description="nominal; with a torque source also the speed at the start"
     )
     gear_torque: Torque = Field(description="constant part of the load")
-    gear_torque_table: Annotated[TorqueCurve, Reference("CSV file with columns time and torque")] | None = (
-        Field(None, description="over time, added to the load")
+    gear_torque_table: Annotated[TorqueCurve, csv_file("time", "torque")] | None = Field(
+        None, description="over time, added to the load"
     )
     gear_torque_harmonics: tuple[TorqueHarmonic, ...] = Field((), description="added to the load")
     load_inertia: Inertia = written("0 kg*m**2")
@@ -82,7 +93,13 @@ class TransmissionError(Table):
     """Static transmission error e of a pair, positive where material is missing."""
 
     harmonics: tuple[ErrorHarmonic, ...] = ()
-    table: Annotated[ErrorCurve, Reference("CSV file with columns roll_angle and error")] | None = None
+    table: (
+        Annotated[
+            ErrorCurve,
+            csv_file("roll_angle", "error"),
+        ]
+        | None
+    ) = None
 
 
 class Mesh(Table):
@@ -95,9 +112,13 @@ class Mesh(Table):
     )
     foundation_coupling: Switch = Field(True, description="pairs that share a body share its foundation")
     stiffness: Stiffness | None = Field(None, description='of a single pair, with compliance = "constant"')
-    table: Annotated[StiffnessCurve, Reference("CSV file with columns roll_angle and stiffness")] | None = (
-        Field(None, description='of a single pair, with compliance = "table"')
-    )
+    table: (
+        Annotated[
+            StiffnessCurve,
+            csv_file("roll_angle", "stiffness"),
+        ]
+        | None
+    ) = Field(None, description='of a single pair, with compliance = "table"')
     formulation: Literal["classical", "energy-consistent"] = Field(
         "classical", description="whether the varying stiffness acts on the rotations"
     )
@@ -114,11 +135,9 @@ class Mesh(Table):
     slice_coupling: Switch = Field(True, description="slices of one tooth hold each other")
 
 
-class Friction(Table):
-    """Which law acts between the flanks."""
+class Friction(FrictionTable):
+    """Which law acts between the flanks, and the law's own keys."""
 
-    law: Text
-    coefficient: NotNegative | None = Field(None, description="of Coulomb's law")
     sliding: Literal["kinematic", "dynamic"] = Field(
         "kinematic", description="sliding speed from nominal rotation or from the vibrating bodies"
     )
@@ -141,22 +160,24 @@ class Output(Table):
     samples_per_cycle: Annotated[int, Field(strict=True, ge=8)] = 200
 
 
-class Scenario(Table):
+class GearPairScenario(Table):
     """A scenario file."""
 
     title: Text = Field(description="what it shows, in a line")
     name: Name | None = Field(None, description="names the record; default: the file's own name")
     kind: Literal["gear-pair"] = "gear-pair"
-    drive: Annotated[DriveTable, Reference("name of a file in models/drives, or a path")]
-    lubricant: Annotated[Lubricant, Reference("name of a file in models/lubricants, or a path")]
-    bearings: Annotated[Bearings, Reference("name of a file in models/bearings, or a path")] = written(
-        "rigid-1e9"
-    )
+    drive: Annotated[DriveTable, model_file("drives")]
+    lubricant: Annotated[Lubricant, model_file("lubricants")]
+    bearings: Annotated[Bearings, model_file("bearings")] = written("rigid-1e9")
     operating: Operating
     mesh: Mesh
+    film: FilmTable | None = Field(None, description="which law gives the film")
     friction: Friction
     solver: Solver = written({})
     output: Output = written({})
+
+
+Scenario = GearPairScenario
 
 
 def case_of(scenario: Scenario, toml: str, sha256: str) -> Case:
@@ -178,9 +199,15 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> Case:
         bearings=(_bearing(scenario.bearings.pinion), _bearing(scenario.bearings.gear)),
         operating=_operating(scenario.operating),
         mesh=_mesh(scenario),
-        friction=FrictionData(**scenario.friction.model_dump()),
+        friction=FrictionData(
+            scenario.friction.law,
+            friction_values(scenario.friction),
+            scenario.friction.sliding,
+            scenario.friction.reversal_width,
+        ),
         solver=SolverData(**scenario.solver.model_dump()),
         output=OutputData(**scenario.output.model_dump()),
+        film=film_data(scenario),
     )
 
 

@@ -7,6 +7,7 @@ import numpy as np
 from tribodyn.dynamics.parameters import WORK_DAMPING, WORK_FRICTION, WORK_IN, WORK_OUT, WORK_PARAMETRIC
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.post.spectra import amplitude_spectrum
+from tribodyn.tribology.surface_state import fraction_in_range
 
 #: Record name -> (summary name, reduction), over the whole run.
 EXTREMES = {
@@ -99,9 +100,8 @@ def steady_figures(
         "efficiency": float(1.0 - work[WORK_FRICTION] / work[WORK_IN]) if power_in > 0 else float("nan"),
         "power_in_mean": float(power_in),
         "power_friction_mean": float(power_friction),
-        "closure_in_range_fraction": float(np.mean(window["closure_in_range"][touching]))
-        if touching.any()
-        else 1.0,
+        "closure_in_range_fraction": fraction_in_range(window["closure_in_range"][touching]),
+        "friction_in_range_fraction": fraction_in_range(window["friction_in_range"][touching]),
         "contact_loss_fraction": float(np.mean(~np.any(touching, axis=1))),
         "spectrum_frequencies": orders[keep] * frequency,
         "spectrum_amplitudes": amplitudes[keep],

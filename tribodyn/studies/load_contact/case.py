@@ -5,10 +5,11 @@ from dataclasses import dataclass
 from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.material import MaterialData
 from tribodyn.geometry.modification import UNMODIFIED, Modifications
+from tribodyn.studies.study import CaseHead
 
 
 @dataclass(frozen=True)
-class LoadContactCase:
+class LoadContactCase(CaseHead):
     """One study of teeth in slow rotation under load, complete.
 
     Parameters
@@ -33,11 +34,6 @@ class LoadContactCase:
         Mesh cycles to roll through; more than one where teeth differ.
     """
 
-    title: str
-    name: str
-    kind: str
-    toml: str
-    sha256: str
     family: str
     drive: Drive
     materials: tuple[MaterialData, MaterialData]

@@ -1,6 +1,6 @@
 """Figures of load contact studies: transmission error, load sharing, stiffness, root stress, Harris map."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import matplotlib
 import numpy as np
@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from tribodyn.errors import InputError
+from tribodyn.post.figures.drawing import Drawing, always
 from tribodyn.post.figures.panel import View, record_label, record_title
 from tribodyn.post.style import PAIR_STYLES, PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
 from tribodyn.record.reader import Record
@@ -16,50 +17,26 @@ from tribodyn.studies.load_contact.maps import LINE_LOAD, PRESSURE, draw_map, li
 from tribodyn.studies.load_contact.rolled import over_phase, over_roll, pair_over_phase, require_positions
 
 HARRIS = "harris"
-#: Names of the figures, in the order `tribodyn plot` draws them.
-NAMES = (
-    "loaded-error",
-    "load-sharing",
-    "line-load",
-    "pressure-map",
-    "root-stress",
-    "mesh-stiffness",
-    HARRIS,
-)
 PHASE = "Phase (mesh cycles)"
 ROLL = "Roll angle from the pitch point (°)"
 #: Peak to peak below which an unloaded transmission error is none, m.
 _NO_ERROR = 1e-12
 
 
-def names(records: Sequence[Record]) -> tuple[str, ...]:
-    """Names of the figures that these records hold enough for."""
-    return NAMES if all("torque" in record for record in records) else NAMES[:-1]
-
-
-def figure(name: str, records: Sequence[Record], view: View) -> Figure:
-    """Draw the figure `name` of `NAMES`, or the overview of the first record."""
+def _checked(name: str, records: Sequence[Record], view: View) -> None:
+    """Refuse what a figure cannot show."""
     if view.against == "time":
         raise InputError("against", "time", "a load contact study knows no time", "phase")
     for record in records:
         require_positions(record)
-        if name == HARRIS and "torque" not in record:
+        if name == HARRIS and not has_map(record):
             rule = f"{record.path} holds a single torque"
             raise InputError("plot", name, rule, "run the scenario with operating.gear_torques")
-    if name == "overview":
-        return _overview(records[0])
-    if name == "line-load":
-        return line_load_figure(records)
-    if name == "pressure-map":
-        return pressure_map(records)
-    draw = {
-        "loaded-error": _loaded_error,
-        "load-sharing": _load_sharing,
-        "root-stress": _root_stress,
-        "mesh-stiffness": _mesh_stiffness,
-        HARRIS: _harris,
-    }[name]
-    return draw(records)
+
+
+def has_map(record: Record) -> bool:
+    """Whether the record holds a Harris map."""
+    return "torque" in record
 
 
 def colour(number: int) -> str:
@@ -203,7 +180,8 @@ def _draw_map_curves(axes: Axes, record: Record) -> None:
     axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=6.5)
 
 
-def _overview(record: Record) -> Figure:
+def _overview(records: Sequence[Record]) -> Figure:
+    record = records[0]
     drawn = new_figure(11.0, 6.2)
     panels = drawn.subplots(2, 3).ravel()
     draw_error(panels[0], [record], "loaded_transmission_error")
@@ -250,3 +228,31 @@ def _finish(drawn: Figure, panels: Sequence[Axes], records: Sequence[Record], pa
     if handles:
         drawn.legend(handles, labels, loc="outside lower center", ncols=min(4, len(labels)))
     return drawn
+
+
+def _drawing(
+    name: str,
+    about: str,
+    draw: Callable[[Sequence[Record]], Figure],
+    fits: Callable[[Record], bool] = always,
+) -> Drawing:
+    def checked(records: Sequence[Record], view: View) -> Figure:
+        _checked(name, records, view)
+        return draw(records)
+
+    return Drawing(about, checked, fits)
+
+
+DRAWINGS: dict[str, Drawing] = {
+    name: _drawing(name, *one)
+    for name, one in {
+        "overview": ("transmission error, loads, stiffness or Harris map, pressure, root stress", _overview),
+        "loaded-error": ("loaded and unloaded transmission error", _loaded_error),
+        "load-sharing": ("load of every pair, and its share", _load_sharing),
+        "line-load": ("line load over roll angle and face", line_load_figure),
+        "pressure-map": ("Hertz pressure over roll angle and face", pressure_map),
+        "root-stress": ("root stress on both sides of the tooth", _root_stress),
+        "mesh-stiffness": ("mesh stiffness", _mesh_stiffness),
+        HARRIS: ("Harris map: loaded transmission error over torque", _harris, has_map),
+    }.items()
+}

@@ -1,6 +1,9 @@
 """Datasets of a load contact study: over phase of the mesh, pairs of teeth and slices of the face."""
 
+from tribodyn.geometry.recorded import GEOMETRY
+from tribodyn.mesh.recorded import MESH_CYCLE
 from tribodyn.numerics.variable import Variable
+from tribodyn.record.schema import Layout
 
 PHASE = Variable(("phase",), "1", "phase of the mesh in mesh cycles from the first position")
 PAIR = Variable(
@@ -55,4 +58,10 @@ MAP: dict[str, Variable] = {
     ),
 }
 
-NEEDED = ("phase", "roll_angle", "loaded_transmission_error", "normal_load", "line_load")
+LAYOUT = Layout(
+    PHASE,
+    SAMPLES,
+    {"pair": PAIR, "slice": SLICE, "body": BODY, "torque": TORQUE},
+    MAP,
+    {"mesh_cycle": MESH_CYCLE, "geometry": GEOMETRY},
+)

@@ -1,6 +1,5 @@
 """From a case of the load contact study to its record: teeth in slow rotation at one torque or several."""
 
-from collections.abc import Callable
 from pathlib import Path
 from time import perf_counter
 from typing import Any, NamedTuple
@@ -13,27 +12,23 @@ from tribodyn.errors import SimulationError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.corner_contact import pair_geometry, roll_limits
 from tribodyn.geometry.families import family
+from tribodyn.geometry.outlines import geometry_arrays
 from tribodyn.studies.load_contact.case import LoadContactCase
+from tribodyn.studies.load_contact.layout import BODIES, LAYOUT
+from tribodyn.studies.recording import target, writer
+from tribodyn.studies.study import Progress, RunResult
 
 Array = Any
 
 
-class Study(NamedTuple):
+class Prepared(NamedTuple):
     """A case made ready: its teeth put together, and their elasticity."""
 
     case: LoadContactCase
     flexible: PairFlexibility
 
 
-class Ended(NamedTuple):
-    """How a run ended: the record's path, why it failed (empty: it did not), and its figures."""
-
-    path: Path
-    message: str
-    summary: dict[str, Any]
-
-
-def prepare(case: LoadContactCase) -> Study:
+def prepare(case: LoadContactCase) -> Prepared:
     """Check geometry and modifications, and find the elasticity of both gears.
 
     Raises
@@ -48,10 +43,10 @@ def prepare(case: LoadContactCase) -> Study:
     check(teeth, case.drive)
     assembly = assemble(teeth, case.drive)
     check_modifications(assembly, case.modifications)
-    return Study(case, flexibility(assembly, case.materials, lead=True))
+    return Prepared(case, flexibility(assembly, case.materials, lead=True))
 
 
-def roll(study: Study, gear_torque: float) -> LoadedContact:
+def roll(study: Prepared, gear_torque: float) -> LoadedContact:
     """Roll the study's teeth through its mesh cycles at a torque, N m.
 
     Raises
@@ -77,16 +72,12 @@ def roll(study: Study, gear_torque: float) -> LoadedContact:
 def run(
     case: LoadContactCase,
     output: str | Path | None = None,
+    *,
     force: bool = False,
-    progress: Callable[[float], None] | None = None,
-) -> Ended:
-    """Run a case and write its record; parameters and errors as those of `gear_pair.run.run`."""
-    from tribodyn.geometry.outlines import geometry_arrays
-    from tribodyn.record.schema import LOAD_CONTACT
-    from tribodyn.record.writer import RecordWriter, check_target
-
-    path = Path(output) if output is not None else Path(f"{case.name}.h5")
-    check_target(path, force)
+    progress: Progress | None = None,
+) -> RunResult:
+    """Run a case and write its record; see `study.Study.run`."""
+    path = target(case, output, force)
     begun = perf_counter()
     study = prepare(case)
     report = progress or (lambda _share: None)
@@ -95,22 +86,17 @@ def run(
         loaded, failure = roll(study, case.gear_torque), ""
     except SimulationError as error:
         loaded, failure = None, error.reason
-    with RecordWriter(
-        path,
-        scenario_toml=case.toml,
-        sha256=case.sha256,
-        samples=0 if loaded is None else len(loaded.phase),
-        mesh_cycle=_numbers(study),
-        geometry=geometry_arrays(family(case.family), case.drive),
-        force=force,
-        kind=LOAD_CONTACT,
-        scales=_scales(study, loaded),
-    ) as record:
+    groups = {
+        "mesh_cycle": _numbers(study),
+        "geometry": geometry_arrays(family(case.family), case.drive),
+    }
+    samples, scales = 0 if loaded is None else len(loaded.phase), _scales(study, loaded)
+    with writer(case, path, LAYOUT, samples, groups=groups, scales=scales, force=force) as record:
         summary: dict[str, Any] = {"contact_ratio": float(study.flexible.assembly.contact_ratio)}
         if loaded is None:
-            return Ended(record.fail(failure, summary), failure, summary)
+            return RunResult(record.fail(failure, summary), "failed", failure, summary)
         record.write(0, record_arrays(study, loaded))
-        summary |= figures(study, loaded)
+        summary |= loaded_figures(study, loaded)
         report(1 / steps)
         spread = []
         for row, torque in enumerate(case.gear_torques):
@@ -118,7 +104,7 @@ def run(
                 error_at = roll(study, torque).deflection
             except SimulationError as error:
                 failure = f"at operating.gear_torques.{row} = {torque:g} N*m: {error.reason}"
-                return Ended(record.fail(failure, summary), failure, summary)
+                return RunResult(record.fail(failure, summary), "failed", failure, summary)
             spread.append(float(np.ptp(error_at)))
             record.put(row, {"map_transmission_error": error_at, "map_peak_to_peak": spread[-1]})
             report((row + 2) / steps)
@@ -126,10 +112,17 @@ def run(
             summary["least_peak_to_peak"] = min(spread)
             summary["least_peak_to_peak_torque"] = case.gear_torques[int(np.argmin(spread))]
         summary["wall_time"] = perf_counter() - begun
-        return Ended(record.finish(summary), "", summary)
+        return RunResult(record.finish(summary), "complete", "", summary)
 
 
-def record_arrays(study: Study, loaded: LoadedContact) -> dict[str, Array]:
+def figures(case: LoadContactCase) -> dict[str, Any]:
+    """Figures of a case at its own torque, without a record."""
+    study = prepare(case)
+    contact_ratio = {"contact_ratio": float(study.flexible.assembly.contact_ratio)}
+    return contact_ratio | loaded_figures(study, roll(study, case.gear_torque))
+
+
+def record_arrays(study: Prepared, loaded: LoadedContact) -> dict[str, Array]:
     """Datasets of the record, over the phase first."""
     carrying = loaded.normal_load > 0.0
     teeth = float(study.case.drive.pinion.teeth)
@@ -151,7 +144,7 @@ def record_arrays(study: Study, loaded: LoadedContact) -> dict[str, Array]:
     }
 
 
-def torque_residual(study: Study, loaded: LoadedContact) -> Array:
+def torque_residual(study: Prepared, loaded: LoadedContact) -> Array:
     """Torque of the pairs' loads, friction included, over the gear's torque, less 1, at every position."""
     motion = pair_geometry(study.flexible.assembly, loaded.roll).motion
     side = np.sign(motion.signed_distance)
@@ -159,7 +152,7 @@ def torque_residual(study: Study, loaded: LoadedContact) -> Array:
     return np.sum(loaded.normal_load * lever, axis=1) / study.case.gear_torque - 1.0
 
 
-def figures(study: Study, loaded: LoadedContact) -> dict[str, Any]:
+def loaded_figures(study: Prepared, loaded: LoadedContact) -> dict[str, Any]:
     """Figures of the summary, SI units."""
     worst = np.unravel_index(np.argmax(loaded.line_load), loaded.line_load.shape)
     position, pair = np.unravel_index(np.argmin(np.abs(loaded.roll)), loaded.roll.shape)
@@ -187,7 +180,7 @@ def figures(study: Study, loaded: LoadedContact) -> dict[str, Any]:
     }
 
 
-def single_pair_stiffness(study: Study) -> float:
+def single_pair_stiffness(study: Prepared) -> float:
     """Load over deflection along the normal of one unmodified pair alone at the pitch point, N/m."""
     alone = np.zeros((1, 1))
     shared = share_load(study.flexible, alone, study.case.gear_torque)
@@ -195,7 +188,7 @@ def single_pair_stiffness(study: Study) -> float:
     return float(shared.normal_load[0, 0] / (shared.deflection[0] * np.cos(angle[0, 0])))
 
 
-def _numbers(study: Study) -> dict[str, float]:
+def _numbers(study: Prepared) -> dict[str, float]:
     """Numbers of the mesh; there is no table."""
     path, assembly = study.flexible.assembly.path, study.flexible.assembly
     start, end = roll_limits(assembly)
@@ -210,9 +203,7 @@ def _numbers(study: Study) -> dict[str, float]:
     }
 
 
-def _scales(study: Study, loaded: LoadedContact | None) -> dict[str, Array]:
-    from tribodyn.studies.load_contact.layout import BODIES
-
+def _scales(study: Prepared, loaded: LoadedContact | None) -> dict[str, Array]:
     pairs = np.zeros(0, dtype=int) if loaded is None else pair_numbers(study, loaded)
     places = np.zeros(0) if loaded is None else np.asarray(loaded.slice_position)
     scales: dict[str, Array] = {"pair": pairs, "slice": places, "body": np.array(BODIES)}
@@ -220,7 +211,7 @@ def _scales(study: Study, loaded: LoadedContact | None) -> dict[str, Array]:
     return scales | ({"torque": np.array(torques)} if torques else {})
 
 
-def pair_numbers(study: Study, loaded: LoadedContact) -> Array:
+def pair_numbers(study: Prepared, loaded: LoadedContact) -> Array:
     """Numbers of the pairs: 1 passed the beginning of the path last, 2 is the next to do so."""
     start, _ = roll_limits(study.flexible.assembly)
     pitch = 2.0 * np.pi / float(study.case.drive.pinion.teeth)

@@ -1,19 +1,24 @@
 """The tables of a scenario of ``kind = "load-contact"``: teeth in slow rotation under load."""
 
-from collections.abc import Iterator
-from itertools import pairwise
 from typing import Annotated, Literal
 
 from pydantic import Field
 
-from tribodyn.errors import InputError
 from tribodyn.scenario import units
 from tribodyn.scenario.common import Name, Slices
 from tribodyn.scenario.drive_data import drive_of, materials_of, modifications_of, slices_of
 from tribodyn.scenario.model_files import DriveTable
 from tribodyn.scenario.modification import MisalignmentTable
-from tribodyn.scenario.modification_rules import Face, broken_slice_rules
-from tribodyn.scenario.quantity import Count, NotNegative, Quantity, Reference, Switch, Table, Text, written
+from tribodyn.scenario.quantity import (
+    Count,
+    NotNegative,
+    Quantity,
+    Switch,
+    Table,
+    Text,
+    model_file,
+    written,
+)
 from tribodyn.studies.load_contact.case import LoadContactCase
 
 Load = Annotated[float, Quantity(units.positive(units.TORQUE))]
@@ -50,32 +55,16 @@ class LoadContactScenario(Table):
     title: Text = Field(description="what it shows, in a line")
     name: Name | None = Field(None, description="names the record; default: the file's own name")
     kind: Literal["load-contact"]
-    drive: Annotated[DriveTable, Reference("name of a file in models/drives, or a path")]
+    drive: Annotated[DriveTable, model_file("drives")]
     operating: LoadContactOperating
     mesh: LoadContactMesh = written({})
     output: LoadContactOutput = written({})
 
 
-def broken_load_contact_rules(scenario: LoadContactScenario) -> Iterator[InputError]:
-    """Go through the rules that tie keys of such a scenario together."""
-    mesh = scenario.mesh
-    yield from broken_slice_rules(Face(scenario.drive, mesh.misalignment, mesh.slices, mesh.slice_coupling))
-    torques = scenario.operating.gear_torques
-    if len(torques) == 1:
-        rule = "a single torque makes no map"
-        yield InputError("operating.gear_torques", f"{torques[0]:g} N*m", rule, "give at least two")
-    for number, (one, next_one) in enumerate(pairwise(torques), start=1):
-        if next_one <= one:
-            yield InputError(
-                f"operating.gear_torques.{number}",
-                f"{next_one:g} N*m",
-                f"not greater than the {one:g} N*m before it",
-                "give the torques in increasing order",
-            )
-            break
+Scenario = LoadContactScenario
 
 
-def load_contact_case_of(scenario: LoadContactScenario, toml: str, sha256: str) -> LoadContactCase:
+def case_of(scenario: Scenario, toml: str, sha256: str) -> LoadContactCase:
     """Return the case of a scenario that has passed schema and rules."""
     drive, mesh = scenario.drive, scenario.mesh
     modifications = modifications_of(drive, mesh.misalignment)

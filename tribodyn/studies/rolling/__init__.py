@@ -1,1 +1,11 @@
-"""The cycloid gear with intermediate rolling elements and a free cage (IREFC)."""
+"""The cycloid gear with intermediate rolling elements."""
+
+from tribodyn.studies.study import Study
+
+STUDY = Study(
+    kind="irefc",
+    about="a gear with rolling elements and a free cage",
+    package=__name__,
+    quantities="loads, slip and losses of rolling elements over time",
+    compared=("Geometry", "Dynamics", "Tribology", "Energy"),
+)

@@ -4,10 +4,11 @@ from dataclasses import dataclass
 
 from tribodyn.studies.rolling.engagement import Mode, RollingFriction
 from tribodyn.studies.rolling.geometry import RollingDrive
+from tribodyn.studies.study import CaseHead
 
 
 @dataclass(frozen=True)
-class RollingCase:
+class RollingCase(CaseHead):
     """One run of a gear with rolling elements, complete.
 
     Parameters
@@ -26,11 +27,6 @@ class RollingCase:
         Samples while an element takes its neighbour's place: a cycle, of which a revolution has Z2 + 1.
     """
 
-    title: str
-    name: str
-    kind: str
-    toml: str
-    sha256: str
     mode: Mode
     drive: RollingDrive
     input_power: float

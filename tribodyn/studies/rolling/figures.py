@@ -10,15 +10,11 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
 from tribodyn.errors import InputError
+from tribodyn.post.figures.drawing import Drawing
 from tribodyn.post.figures.panel import View, abscissa_label, record_label, record_title
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, QUIET, WIDTH, mark_panel, new_figure
 from tribodyn.record.reader import Record
 from tribodyn.studies.rolling.gear_picture import draw_gear
-
-#: Figures of every such record, and those that need more than the paper's single position.
-OF_A_POSITION = ("elements", "element-angle", "gear")
-OVER_TIME = ("normal-load", "efficiency")
-NAMES = (*OF_A_POSITION, *OVER_TIME)
 
 
 class Curve(NamedTuple):
@@ -32,27 +28,9 @@ class Curve(NamedTuple):
     cumulative: np.ndarray
 
 
-def names(records: Sequence[Record]) -> tuple[str, ...]:
-    """Names of the figures that these records hold enough for."""
-    return NAMES if all(record.samples > 1 for record in records) else OF_A_POSITION
-
-
-def figure(name: str, records: Sequence[Record], view: View) -> Figure:
-    """Draw the figure `name` of `NAMES`, or the overview of the first record."""
-    for record in records:
-        if record.samples < 1:
-            raise InputError("record", str(record.path), "holds no samples to draw", "run the scenario again")
-        if record.samples < 2 and name in OVER_TIME:
-            raise InputError(
-                "plot", name, f"{record.path} holds a single position", f"draw {', '.join(OF_A_POSITION)}"
-            )
-    if name == "overview":
-        return _overview(records[0], view)
-    if name == "gear":
-        return _gears(records)
-    if name in OVER_TIME:
-        return _over_time(records, view, _draw_loads if name == "normal-load" else _draw_efficiency)
-    return _four_panels(records, by_number if name == "elements" else by_angle)
+def moves(record: Record) -> bool:
+    """Whether the record holds more than the paper's single position."""
+    return record.samples > 1
 
 
 def by_number(record: Record) -> Curve:
@@ -225,7 +203,8 @@ def _gears(records: Sequence[Record]) -> Figure:
     return drawn
 
 
-def _overview(record: Record, view: View) -> Figure:
+def _overview(records: Sequence[Record], view: View) -> Figure:
+    record = records[0]
     drawn = new_figure(11.0, 6.2)
     rows = drawn.subplots(2, 3)
     draw_gear(rows[0, 0], record)
@@ -264,3 +243,47 @@ def _finish(drawn: Figure, records: Sequence[Record], lines: Sequence[tuple[str,
     else:
         drawn.suptitle(_title(records[0]), x=0.01, ha="left", fontsize=9)
     drawn.legend(handles, labels, loc="outside lower center", ncols=min(4, len(labels)), handlelength=2.6)
+
+
+def _of_a_position(draw: Callable[[Sequence[Record], View], Figure], about: str) -> Drawing:
+    """A figure of every record."""
+
+    def checked(records: Sequence[Record], view: View) -> Figure:
+        for record in records:
+            if record.samples < 1:
+                rule = "holds no samples to draw"
+                raise InputError("record", str(record.path), rule, "run the scenario again")
+        return draw(records, view)
+
+    return Drawing(about, checked)
+
+
+def _of_a_motion(name: str, about: str, draw: Any) -> Drawing:
+    """A figure over time."""
+
+    def checked(records: Sequence[Record], view: View) -> Figure:
+        for record in records:
+            if not moves(record):
+                always_there = ", ".join(one for one in OF_A_POSITION if one != "overview")
+                rule = f"{record.path} holds a single position"
+                raise InputError("plot", name, rule, f"draw {always_there}")
+        return _over_time(records, view, draw)
+
+    return Drawing(about, checked, moves)
+
+
+OF_A_POSITION: dict[str, Drawing] = {
+    "overview": _of_a_position(_overview, "loads, slip and losses of the elements, and the gear"),
+    "elements": _of_a_position(
+        lambda records, _: _four_panels(records, by_number), "loads, slip and losses by element"
+    ),
+    "element-angle": _of_a_position(
+        lambda records, _: _four_panels(records, by_angle), "the same over an element's way"
+    ),
+    "gear": _of_a_position(lambda records, _: _gears(records), "cam, elements and crown"),
+}
+DRAWINGS: dict[str, Drawing] = {
+    **OF_A_POSITION,
+    "normal-load": _of_a_motion("normal-load", "normal load of the elements over time", _draw_loads),
+    "efficiency": _of_a_motion("efficiency", "efficiency and torque over time", _draw_efficiency),
+}

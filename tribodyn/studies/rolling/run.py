@@ -1,6 +1,6 @@
 """From a case of the gear with rolling elements to its record."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.errors import InputError
+from tribodyn.studies.recording import target, writer
 from tribodyn.studies.rolling.case import RollingCase
 from tribodyn.studies.rolling.checks import check
 from tribodyn.studies.rolling.engagement import (
@@ -18,6 +19,8 @@ from tribodyn.studies.rolling.engagement import (
     published_angles,
 )
 from tribodyn.studies.rolling.geometry import Array, cam_outline, crown_outline
+from tribodyn.studies.rolling.layout import LAYOUT
+from tribodyn.studies.study import Progress, RunResult
 
 #: Share of the greatest load below which an element counts as unloaded.
 UNLOADED = 1e-9
@@ -40,41 +43,44 @@ def prepare(case: RollingCase) -> Engagement:
 def run(
     case: RollingCase,
     output: str | Path | None = None,
+    *,
     force: bool = False,
-    progress: Callable[[float], None] | None = None,
-) -> tuple[Path, dict[str, Any]]:
-    """Run a case over one revolution of the shaft and write its record.
+    progress: Progress | None = None,
+) -> RunResult:
+    """Run a case and write its record; see `study.Study.run`.
 
-    Parameters and errors as those of `gear_pair.run.run`; returns the record's path and its summary.
+    It covers one revolution of the shaft.
     """
-    from tribodyn.record.schema import ROLLING
-    from tribodyn.record.writer import RecordWriter, check_target
-
-    path = Path(output) if output is not None else Path(f"{case.name}.h5")
-    check_target(path, force)
+    path = target(case, output, force)
     first = prepare(case)
     angles = _shaft_angles(case)
-    figures = _Figures()
+    statistics = RunStatistics()
     begun = perf_counter()
-    with RecordWriter(
-        path,
-        scenario_toml=case.toml,
-        sha256=case.sha256,
-        samples=len(angles),
-        geometry=geometry_arrays(case),
-        force=force,
-        kind=ROLLING,
-        scales={"element": np.arange(1, first.element_angle.shape[-1] + 1)},
-    ) as record:
+    scales = {"element": np.arange(1, first.element_angle.shape[-1] + 1)}
+    groups = {"geometry": geometry_arrays(case)}
+    with writer(case, path, LAYOUT, len(angles), groups=groups, scales=scales, force=force) as record:
         for start, part in _blocks(angles, case.samples_per_cycle):
             state = _engage(case, part)
             record.write(start, _datasets(case, part, state))
-            # of a whole revolution the last sample is the first one again
-            figures.add(state, whole=start + len(part) < len(angles) or len(angles) == 1)
+            statistics.add(state, whole=_whole(start + len(part), angles))
             if progress:
                 progress((start + len(part)) / len(angles))
-        summary = figures.summary(case) | {"wall_time": perf_counter() - begun}
-        return record.finish(summary), summary
+        summary = statistics.summary(case) | {"wall_time": perf_counter() - begun}
+        return RunResult(record.finish(summary), "complete", "", summary)
+
+
+def figures(case: RollingCase) -> dict[str, Any]:
+    """Figures of a case without a record."""
+    prepare(case)
+    angles, statistics = _shaft_angles(case), RunStatistics()
+    for start, part in _blocks(angles, case.samples_per_cycle):
+        statistics.add(_engage(case, part), whole=_whole(start + len(part), angles))
+    return statistics.summary(case)
+
+
+def _whole(done: int, angles: Array) -> bool:
+    """Whether all samples of a block count: of a whole revolution the last sample is the first one again."""
+    return done < len(angles) or len(angles) == 1
 
 
 def geometry_arrays(case: RollingCase) -> dict[str, Any]:
@@ -141,7 +147,7 @@ def _refuse_locking(case: RollingCase, cycle: Engagement) -> None:
     )
 
 
-class _Figures:
+class RunStatistics:
     """Gathers what the summary tells, block by block."""
 
     def __init__(self) -> None:

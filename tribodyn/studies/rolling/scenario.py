@@ -7,7 +7,15 @@ from pydantic import Field
 from tribodyn.scenario import units
 from tribodyn.scenario.common import Name
 from tribodyn.scenario.model_files import Described, Length
-from tribodyn.scenario.quantity import NotNegative, Positive, Quantity, Reference, Table, Text, written
+from tribodyn.scenario.quantity import (
+    NotNegative,
+    Positive,
+    Quantity,
+    Table,
+    Text,
+    model_file,
+    written,
+)
 from tribodyn.studies.rolling.case import RollingCase
 from tribodyn.studies.rolling.engagement import RollingFriction
 from tribodyn.studies.rolling.geometry import RollingDrive
@@ -59,13 +67,16 @@ class RollingScenario(Table):
     mode: Literal["corrected", "as_published"] = Field(
         "corrected", description="motion in time, or the paper's position with its printed formulas"
     )
-    drive: Annotated[RollingDriveTable, Reference("name of a file in models/drives, or a path")]
+    drive: Annotated[RollingDriveTable, model_file("drives")]
     operating: RollingOperating
     friction: RollingFrictionTable
     output: RollingOutput = written({})
 
 
-def rolling_case_of(scenario: RollingScenario, toml: str, sha256: str) -> RollingCase:
+Scenario = RollingScenario
+
+
+def case_of(scenario: Scenario, toml: str, sha256: str) -> RollingCase:
     """Return the case of a scenario that has passed the schema."""
     drive = scenario.drive
     return RollingCase(

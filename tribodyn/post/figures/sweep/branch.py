@@ -14,7 +14,7 @@ from tribodyn.errors import InputError
 from tribodyn.post.shown_units import shown, shown_unit
 from tribodyn.post.style import PALETTE, QUIET
 from tribodyn.record.sweep_reader import Parameter, SweepRecord
-from tribodyn.record.sweep_schema import DONE, UNKNOWN
+from tribodyn.record.sweep_schema import DONE
 
 #: Branches that a figure tells apart; of more, so many are shown.
 MOST_BRANCHES = 6
@@ -140,7 +140,9 @@ def draw_branch(axes: Axes, branch: Branch, values: np.ndarray) -> None:
 
 def motions(branch: Branch) -> Iterator[tuple[str, dict[str, Any], np.ndarray]]:
     """Label, marks and cases (n,) of every sort of motion that does not repeat with the mesh."""
-    steady = branch.record["stable"][branch.place] != UNKNOWN
+    if "stable" not in branch.record:
+        return
+    steady = branch.record["stable"][branch.place] >= 0  # below 0: not known
     period, solution = (branch.record[name][branch.place] for name in ("period", "solution"))
     wandering = steady & (solution == "not periodic")
     for (label, style), chosen in zip(MOTIONS, (steady & (period > 1), wandering), strict=True):
@@ -151,7 +153,7 @@ def motions(branch: Branch) -> Iterator[tuple[str, dict[str, Any], np.ndarray]]:
 def shade_contact_loss(axes: Axes, drawn: Sequence[Branch]) -> None:
     """Shade where contact is lost at times, on any of the branches."""
     for branch in drawn:
-        if len(branch.x) < 2:
+        if len(branch.x) < 2 or "contact_loss_fraction" not in branch.record:
             continue
         order = np.argsort(branch.x)
         x, lost = branch.x[order], branch.values("contact_loss_fraction")[order] > 0.0
@@ -168,7 +170,8 @@ def regime_handles(drawn: Sequence[Branch]) -> list[Artist]:
     handles: list[Artist] = [
         Line2D([], [], color=QUIET, linestyle="none", label=label, **style) for label, style in marks.items()
     ]
-    if any(np.nanmax(branch.values("contact_loss_fraction"), initial=0.0) > 0.0 for branch in drawn):
+    known = [branch for branch in drawn if "contact_loss_fraction" in branch.record]
+    if any(np.nanmax(branch.values("contact_loss_fraction"), initial=0.0) > 0.0 for branch in known):
         handles.append(Patch(color=LOST, label="a curve loses contact"))
     return handles
 

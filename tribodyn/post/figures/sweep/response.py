@@ -1,6 +1,8 @@
-"""The response to a parameter: transmission error, dynamic factor, contact loss, film, efficiency."""
+"""The response to a parameter: figures of the cases over the first of them."""
 
 from collections.abc import Sequence
+from textwrap import wrap
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -14,31 +16,56 @@ from tribodyn.post.figures.sweep.branch import (
     shade_contact_loss,
     sweep_title,
 )
+from tribodyn.post.shown_units import shown_unit
 from tribodyn.post.style import PANEL_HEIGHT, WIDTH, mark_panel, new_figure
 from tribodyn.record.sweep_reader import SweepRecord
 
-#: Dataset, factor from SI, label, whether the axis starts at 0.
-PANELS = (
-    ("transmission_error_rms", 1e6, "Transmission error,\nRMS (µm)", True),
-    ("transmission_error_peak_to_peak", 1e6, "Transmission error,\npeak to peak (µm)", True),
-    ("dynamic_factor", 1.0, "Dynamic factor (–)", False),
-    ("contact_loss_fraction", 100.0, "Time without\ncontact (%)", True),
-    ("film_min", 1e6, "Least film\nthickness (µm)", True),
-    ("efficiency", 100.0, "Efficiency (%)", False),
-)
+
+class Panel(NamedTuple):
+    """One figure of the cases: dataset, factor from SI, label, whether the axis starts at 0."""
+
+    name: str
+    factor: float
+    label: str
+    from_zero: bool = False
+
+
+#: Panels of a picture, at most.
+MOST_PANELS = 6
 #: Curves that vary by less than this share are constant.
 FLAT = 1e-5
 
 
-def response_figure(records: Sequence[SweepRecord]) -> Figure:
-    """Draw six figures of every case over the first parameter; up and down apart where both were followed.
+def described_panels(record: SweepRecord) -> list[Panel]:
+    """Panels of the first figures of a sweep, as the record describes them."""
+    panels = []
+    for name in record.figures[:MOST_PANELS]:
+        unit, factor = shown_unit(record.units(name))
+        label = "\n".join(wrap(record.long_name(name), 26))
+        panels.append(Panel(name, factor, f"{label[:1].upper()}{label[1:]}" + (f" ({unit})" if unit else "")))
+    return panels
+
+
+def response_figure(records: Sequence[SweepRecord], panels: Sequence[Panel] = ()) -> Figure:
+    """Draw figures of every case over the first parameter; up and down apart where both were followed.
 
     Shaded where contact is lost at times; marked where the motion does not repeat with the mesh.
+
+    Parameters
+    ----------
+    records : sequence of SweepRecord
+    panels : sequence of Panel
+        None: `described_panels` of the first record.
     """
-    figure = new_figure(WIDTH, 3 * (PANEL_HEIGHT - 0.4) + 0.6)
-    rows = figure.subplots(3, 2, sharex=True)
+    panels = panels or described_panels(records[0])
+    columns = min(2, len(panels))
+    count = -(-len(panels) // columns)
+    figure = new_figure(WIDTH, count * (PANEL_HEIGHT - 0.4) + 0.6 + 0.6 * (count == 1))
+    rows = figure.subplots(count, columns, sharex=True, squeeze=False)
+    for axes in rows.flat[len(panels) :]:
+        axes.set_visible(False)
     drawn = branches(records)
-    for letter, axes, (name, factor, label, from_zero) in zip("abcdef", rows.flat, PANELS, strict=True):
+    for letter, axes, (name, factor, label, from_zero) in zip("abcdef", rows.flat, panels, strict=False):
         for branch in drawn:
             draw_branch(axes, branch, branch.values(name) * factor)
         axes.margins(x=0.02)
@@ -50,7 +77,8 @@ def response_figure(records: Sequence[SweepRecord]) -> Figure:
             axes.set_ylim(0.98 * axes.dataLim.y1, 1.004 * axes.dataLim.y1)
         shade_contact_loss(axes, drawn)
         mark_panel(axes, letter)
-    for axes in rows[-1]:
+    for axes in rows.flat[max(0, len(panels) - columns) : len(panels)]:
+        axes.tick_params(labelbottom=True)
         axes.set_xlabel(axis_label(records[0].parameters[0]))
     figure.align_ylabels()
     branch_legend(figure, drawn, marks=regime_handles(drawn))

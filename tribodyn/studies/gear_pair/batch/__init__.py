@@ -1,1 +1,71 @@
-"""Many cases of a gear pair's dynamics, evaluated together."""
+"""Many cases of a gear pair's dynamics, evaluated together: steady states, or marches of a given length."""
+
+from collections.abc import Hashable, Sequence
+
+import numpy as np
+
+from tribodyn.dynamics.parameters import STATES
+from tribodyn.record.sweep_schema import SweepLayout
+from tribodyn.solve.periodic import refuse_time_dependent
+from tribodyn.solve.stiffness import THROUGH_JAX
+from tribodyn.studies.batch import Batch, Chunk
+from tribodyn.studies.gear_pair.batch.evaluate import Settings, evaluate, tabulated
+from tribodyn.studies.gear_pair.case import Case
+from tribodyn.studies.gear_pair.prepare import prepare, table_key
+from tribodyn.studies.gear_pair.sweep_layout import layout_of
+
+#: Mesh cycles that the search for a steady state may take, that its window has (whole periods, up to 4), and
+#: points of the section of a motion that has no period.
+MOST_CYCLES, STEADY_WINDOW, STEADY_POINTS = 2000, 4, 256
+#: The same of a transient: a quarter of its cycles, at most this many; points of its section, half of them.
+TRANSIENT_WINDOW, TRANSIENT_POINTS = 16, 256
+#: Bytes of states that the cases of a chunk may fill: what bounds the memory of a sweep.
+CHUNK_BYTES = 32 * 2**20
+MOST_IN_CHUNK = 256
+#: A sweep is done in at least this many chunks, so that its progress shows; but in none of fewer cases.
+CHUNKS, LEAST_IN_CHUNK = 16, 32
+
+
+class GearPairs:
+    """See `studies.batch.Batch`."""
+
+    states = STATES
+
+    def settings(self, cases: Sequence[Case], transient: int | None, engine: str) -> Settings:
+        """How the cases are brought to their windows."""
+        base = cases[0]
+        samples = base.output.samples_per_cycle
+        modes = 6 if any(case.operating.shaft_stiffness is not None for case in cases) else 5
+        through_jax = engine == "jax" and base.solver.method not in THROUGH_JAX
+        method = "tsit5" if through_jax else ""
+        if transient is None:
+            return Settings(True, MOST_CYCLES, STEADY_WINDOW, STEADY_POINTS, samples, modes, method)
+        window = max(1, min(TRANSIENT_WINDOW, transient // 4))
+        points = max(window, min(TRANSIENT_POINTS, transient // 2))
+        return Settings(False, transient, window, points, samples, modes, method)
+
+    def layout(self, settings: Settings) -> SweepLayout:
+        """Figures, the window of the transmission error, Poincaré section, modes, and the state."""
+        return layout_of(settings)
+
+    def size_of_chunk(self, settings: Settings, total: int, width: int) -> int:
+        """Cases to be evaluated together, by the room that their windows take."""
+        by_room = max(1, min(MOST_IN_CHUNK, CHUNK_BYTES // (settings.window * settings.samples * STATES * 8)))
+        return max(width, min(by_room, max(LEAST_IN_CHUNK, total // CHUNKS)))
+
+    def sharing(self, case: Case) -> Hashable:
+        """What the table of the mesh depends on."""
+        return table_key(case)
+
+    def check(self, case: Case, settings: Settings) -> None:
+        """Prepare a case; a steady state needs a load that does not change with time."""
+        model = prepare(case, tabulated(case)).model
+        if settings.steady:
+            refuse_time_dependent(model)
+
+    def evaluate(self, chunk: Chunk, settings: Settings, workers: int | None) -> dict[str, np.ndarray]:
+        """Bring every case to its window and sum it up."""
+        return evaluate(chunk, settings, workers)
+
+
+BATCH: Batch = GearPairs()

@@ -12,16 +12,17 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.dynamics.modes import natural_frequencies
-from tribodyn.dynamics.parameters import STATES, XI, XI_RATE
+from tribodyn.dynamics.parameters import XI, XI_RATE, frictionless
 from tribodyn.errors import InputError, SimulationError
-from tribodyn.record.sweep_schema import CASES, DONE, FAILED
+from tribodyn.record.sweep_schema import DONE, FAILED
 from tribodyn.solve.initial import initial_state, static_equilibrium
+from tribodyn.studies.batch import Chunk
 from tribodyn.studies.gear_pair.batch.figures import window_figures
 from tribodyn.studies.gear_pair.batch.marched import marched
 from tribodyn.studies.gear_pair.batch.outcome import Outcome
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.prepare import Prepared, Tabulated, prepare, table_key, tables
-from tribodyn.tribology.friction import NONE
+from tribodyn.studies.gear_pair.sweep_layout import layout_of
 
 #: Tables kept in a process; a table is about 100 kB.
 TABLES_KEPT = 32
@@ -56,27 +57,8 @@ class Settings(NamedTuple):
     method: str = ""
 
 
-class Chunk(NamedTuple):
-    """Cases to be evaluated together.
-
-    Attributes
-    ----------
-    numbers : (n,) int
-        Of the cases in the sweep's record.
-    cases : tuple of n Case or str
-        A text where the case could not even be made: why.
-    states : (n, STATES) or None
-        Where to start from, after the engagement at phase 0; NaN, or None for all, where a case begins by
-        itself.
-    """
-
-    numbers: np.ndarray
-    cases: tuple[Case | str, ...]
-    states: np.ndarray | None = None
-
-
 def evaluate(chunk: Chunk, settings: Settings, workers: int | None = None) -> dict[str, np.ndarray]:
-    """Return a row for every case of a chunk, for all datasets of `sweep_schema.CASES`.
+    """Return a row for every case of a chunk, for all datasets of its layout.
 
     Parameters
     ----------
@@ -85,7 +67,7 @@ def evaluate(chunk: Chunk, settings: Settings, workers: int | None = None) -> di
     workers : int, optional
         Threads; by default one a core.
     """
-    rows = _empty_rows(len(chunk.cases), settings)
+    rows = layout_of(settings).empty_rows(len(chunk.cases))
     ready: dict[int, tuple[Prepared, np.ndarray]] = {}
     for i, case in enumerate(chunk.cases):
         if isinstance(case, str):
@@ -188,8 +170,7 @@ def _start(prepared: Prepared, settings: Settings) -> np.ndarray:
     with _lock:
         found = _equilibria.get(key)
     if found is None or found[0] is not model.table:
-        frictionless = model._replace(options=model.options._replace(friction_law=NONE))
-        found = model.table, static_equilibrium(frictionless)
+        found = model.table, static_equilibrium(frictionless(model))
         with _lock:
             _equilibria[key] = found
             while len(_equilibria) > TABLES_KEPT:
@@ -204,19 +185,3 @@ def _fail(rows: dict[str, np.ndarray], i: int, reason: str) -> None:
     rows["status"][i] = FAILED
     rows["message"][i] = reason
     rows["solution"][i] = "failed"
-
-
-def _empty_rows(count: int, settings: Settings) -> dict[str, np.ndarray]:
-    """Rows without results."""
-    inner = {
-        "sample": settings.window * settings.samples,
-        "cycle": settings.points,
-        "mode": settings.modes,
-        "state_variable": STATES,
-    }
-    rows = {}
-    for name, variable in CASES.items():
-        shape = (count, *(inner[dim] for dim in variable.inner))
-        text = variable.dtype.startswith("S")
-        rows[name] = np.full(shape, "" if text else variable.fill, object if text else variable.dtype)
-    return rows

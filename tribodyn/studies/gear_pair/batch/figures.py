@@ -4,14 +4,14 @@ import numpy as np
 
 from tribodyn.dynamics.outputs import outputs
 from tribodyn.dynamics.parameters import XI
-from tribodyn.record.sweep_schema import FIGURES
 from tribodyn.studies.gear_pair.batch.outcome import Passage
 from tribodyn.studies.gear_pair.prepare import Prepared
 from tribodyn.studies.gear_pair.summary import RunningExtremes, steady_figures
+from tribodyn.studies.gear_pair.sweep_layout import FIGURES
 
 
 def window_figures(prepared: Prepared, passage: Passage, samples: int) -> dict[str, float]:
-    """Return the figures of `sweep_schema.FIGURES` over a window with `samples` a mesh cycle, SI units."""
+    """Return the figures of `sweep_layout.FIGURES` over a window with `samples` a mesh cycle, SI units."""
     cycles = passage.first_cycle + np.arange(len(passage.window)) / samples
     block = outputs(cycles, passage.window, prepared.model)
     extremes = RunningExtremes()
@@ -24,4 +24,4 @@ def window_figures(prepared: Prepared, passage: Passage, samples: int) -> dict[s
         "transmission_error_peak_to_peak": float(np.ptp(error)),
         "transmission_error_mean": float(np.mean(error)),
     }
-    return {name: found.get(name, float("nan")) for name in FIGURES}
+    return {name: float("nan") if (value := found.get(name)) is None else value for name in FIGURES}

@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.dynamics.parameters import LAG, WORKS
-from tribodyn.record.sweep_schema import UNKNOWN
 from tribodyn.solve.engine import REASONS
+from tribodyn.studies.gear_pair.sweep_layout import UNKNOWN
 
 
 class Passage(NamedTuple):
@@ -46,7 +46,7 @@ class Outcome(NamedTuple):
     message : str
         Why it failed, or what is to be said of it.
     period, stable, multiplier_max, residual
-        As `sweep_schema.CASES` has them.
+        As `sweep_layout.CASES` has them.
     """
 
     passage: Passage | None

@@ -1,0 +1,116 @@
+"""What is recorded of a gear pair over time: every dataset's dimensions, unit and meaning."""
+
+from typing import Any
+
+import numpy as np
+
+from tribodyn.numerics.variable import Variable, flag
+
+DOF = ("x_p", "y_p", "x_g", "y_g", "theta_p", "theta_g")
+
+PAIR = Variable(
+    ("pair",), "1", "pair of teeth: 1 entered last, 0 the one before it; numbers above 1 are back flanks"
+)
+DOF_SCALE = Variable(
+    ("dof",), "1", "degree of freedom; p pinion, g gear; x along the pitch tangent, y along the centres"
+)
+
+#: Meanings of flags that say whether a law is inside its range.
+RANGE = "out_of_contact_or_none_stated out_of_range in_range"
+#: What a run records over time. `time` itself is the dimension scale of the first axis.
+SAMPLES: dict[str, Variable] = {
+    "pinion_angle": Variable(("time",), "rad", "rotation of the pinion"),
+    "displacement": Variable(
+        ("time", "dof"),
+        "m or rad",
+        "generalised coordinates: x_p, y_p, x_g, y_g in m, theta_p, theta_g in rad",
+    ),
+    "velocity": Variable(
+        ("time", "dof"), "m/s or rad/s", "generalised velocities, in the order of the coordinates"
+    ),
+    "transmission_error": Variable(
+        ("time", "pair"),
+        "m",
+        "dynamic transmission error along the pair's normal; NaN where the pair is out of contact",
+    ),
+    "transmission_error_rotational": Variable(
+        ("time",), "m", "rotational dynamic transmission error r_p theta_p - r_g theta_g"
+    ),
+    "normal_load": Variable(("time", "pair"), "N", "normal load of the pair"),
+    "friction_force": Variable(
+        ("time", "pair"), "N", "sliding friction on the pinion's flank along the tangent, positive in recess"
+    ),
+    "friction_coefficient": Variable(
+        ("time", "pair"), "1", "friction coefficient of the pair, its whole face"
+    ),
+    "asperity_load_ratio": Variable(
+        ("time", "pair"), "1", "share of the load that asperities carry, where the line load is greatest"
+    ),
+    "film_parameter": Variable(
+        ("time", "pair"), "1", "film parameter: central film thickness over composite roughness"
+    ),
+    "central_film_thickness": Variable(
+        ("time", "pair"), "m", "central film thickness where the line load is greatest"
+    ),
+    "equivalent_radius": Variable(
+        ("time", "pair"),
+        "m",
+        "equivalent radius of the two flanks; averaged over the contact where it vanishes at the pitch point",
+    ),
+    "hertz_pressure": Variable(
+        ("time", "pair"), "Pa", "greatest Hertz pressure along the face, at the equivalent radius"
+    ),
+    "flash_temperature_rise": Variable(
+        ("time", "pair"), "K", "flash temperature rise where the line load is greatest"
+    ),
+    "entrainment_speed": Variable(
+        ("time", "pair"),
+        "m/s",
+        "entrainment speed, mean of both flanks' rolling speeds; averaged over the contact like the radius",
+    ),
+    "sliding_speed": Variable(
+        ("time", "pair"), "m/s", "sliding speed, pinion's less gear's; negative in approach"
+    ),
+    "pressure_angle": Variable(
+        ("time", "pair"), "rad", "angle of the pair's common normal to the pitch tangent"
+    ),
+    "mesh_stiffness": Variable(("time", "pair"), "N/m", "stiffness of the pair along its normal"),
+    "closure_in_range": flag(
+        ("time", "pair"), "film law inside its range: 1 yes, 0 no, -1 out of contact or none stated", RANGE
+    ),
+    "friction_in_range": flag(
+        ("time", "pair"),
+        "friction law inside its range: 1 yes, 0 no, -1 out of contact or none stated",
+        RANGE,
+    ),
+    "drive_torque": Variable(
+        ("time",), "N*m", "torque of the drive: on the pinion, with a compliant shaft on its motor side"
+    ),
+    "power_in": Variable(("time",), "W", "power the motor gives to the pinion"),
+    "power_out": Variable(("time",), "W", "power the gear gives to the load"),
+    "power_friction": Variable(("time",), "W", "power lost to sliding friction"),
+    "power_damping": Variable(("time",), "W", "power lost to mesh and bearing damping"),
+    "power_parametric": Variable(
+        ("time",), "W", "power that enters through the varying stiffness and geometry at fixed coordinates"
+    ),
+    "stored_energy": Variable(("time",), "J", "kinetic and strain energy"),
+    "work_in": Variable(("time",), "J", "work of the drive since the start"),
+    "work_out": Variable(("time",), "J", "work on the load since the start"),
+    "work_friction": Variable(("time",), "J", "work lost to sliding friction since the start"),
+    "work_damping": Variable(("time",), "J", "work lost to mesh and bearing damping since the start"),
+    "work_parametric": Variable(
+        ("time",), "J", "parametric work since the start, jumps at engagement included"
+    ),
+    "efficiency": Variable(("time",), "1", "instantaneous efficiency"),
+}
+
+
+def pair_numbers(front_pairs: int, pairs: int) -> list[int]:
+    """Numbers of the pair slots: the driving flanks end with 1, the back flanks go on from 2."""
+    return [slot + 2 - front_pairs for slot in range(pairs)]
+
+
+def scales_of(side: Any) -> dict[str, Any]:
+    """Values along the axes of pairs and degrees of freedom; `side` as in `mesh.cycle.MeshCycle`."""
+    side = np.asarray(side)
+    return {"pair": np.array(pair_numbers(int(np.sum(side > 0)), side.size)), "dof": np.array(DOF)}

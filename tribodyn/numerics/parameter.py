@@ -1,0 +1,35 @@
+"""A value that a tooth family or a law has of its own, and takes from a scenario."""
+
+from typing import NamedTuple
+
+
+class Parameter(NamedTuple):
+    """A number, or a table of points, that one tooth family or law has and others have not.
+
+    Parameters
+    ----------
+    name : str
+        Key in the scenario, and name under which the family or law receives the value.
+    kind : str
+        "number" for a plain number; "path" for points x, y (m) of a path; else the name of a quantity that is
+        written with a unit, as `tribodyn.scenario.units.QUANTITIES` has it: "length", "pressure", "dynamic
+        viscosity". "signed length" is a length of either sign.
+    about : str
+        What it means, in a line.
+    default : float, optional
+        Value where the scenario gives none, in SI units; None: the scenario must give it.
+    source : str
+        Where the default comes from: no number stands without a source.
+    allowed : {"", "any", "not negative", "positive"}
+        Signs that are allowed; "": any for a plain number, positive for a quantity with a unit.
+    example : str
+        A good value as TOML writes it, for messages; "": one that fits the kind.
+    """
+
+    name: str
+    kind: str
+    about: str
+    default: float | None = None
+    source: str = ""
+    allowed: str = ""
+    example: str = ""

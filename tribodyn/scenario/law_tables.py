@@ -1,0 +1,146 @@
+"""The tables ``[film]`` and ``[friction]``: which laws hold between the flanks, and the laws' own keys."""
+
+from typing import Any, ClassVar, Protocol, Self
+
+from pydantic import Field, ValidationError, model_validator
+from pydantic_core import InitErrorDetails
+
+from tribodyn.errors import InputError, quoted
+from tribodyn.numerics.registry import Registry
+from tribodyn.scenario.own_keys import Owner, key_schema, own_key_errors, own_values
+from tribodyn.scenario.quantity import Table, Text, broken
+from tribodyn.tribology.data import FilmData
+from tribodyn.tribology.film import FILM_LAWS
+from tribodyn.tribology.friction import FRICTION_LAWS
+
+
+class LawTable(Table, extra="allow"):
+    """A table that holds the own keys of the law it names, which only the law knows."""
+
+    name: ClassVar[str]
+    laws: ClassVar[Registry[Any]]
+
+    @property
+    def chosen(self) -> str | None:
+        """Name of the law."""
+        raise NotImplementedError
+
+    @property
+    def own(self) -> dict[str, Any]:
+        """What stands in the table beside the keys that it always has."""
+        return dict(self.model_extra or {})
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: Any, handler: Any) -> dict[str, Any]:
+        """Put the names of the laws, and all their own keys, into the schema."""
+        part = handler.resolve_ref_schema(handler(schema))
+        names = part["properties"]["law"]
+        choice = names["anyOf"][0] if "anyOf" in names else names
+        choice["enum"] = list(cls.laws)
+        for name, law in cls.laws.items():
+            for key in law.keys:
+                own = key_schema(key)
+                own["description"] = f'of law = "{name}": {own["description"]}'
+                part["properties"].setdefault(key.name, own)
+        part["additionalProperties"] = False
+        return part
+
+    @model_validator(mode="after")
+    def known_law_and_keys(self) -> Self:
+        """Hold the law's name and the law's own keys to the registry and the law."""
+        errors = law_errors(self)
+        if not errors:
+            return self
+        found = [
+            InitErrorDetails(
+                type=broken(error.rule, error.remedy),
+                loc=tuple(error.key.split(".")[1:]),
+                input=self.model_dump().get(error.key.split(".")[1]),
+            )
+            for error in errors
+        ]
+        raise ValidationError.from_exception_data(type(self).__name__, found)
+
+
+class FilmTable(LawTable):
+    """Which law gives the film between the flanks, and the law's own keys."""
+
+    name = "film"
+    laws = FILM_LAWS
+    law: Text | None = Field(None, description="default: the one that goes with the friction law")
+
+    @property
+    def chosen(self) -> str | None:
+        """Name of the law."""
+        return self.law
+
+
+class FrictionTable(LawTable):
+    """Which law acts between the flanks, and the law's own keys."""
+
+    name = "friction"
+    laws = FRICTION_LAWS
+    law: Text
+
+    @property
+    def chosen(self) -> str:
+        """Name of the law."""
+        return self.law
+
+
+class WithLaws(Protocol):
+    """A scenario with both tables."""
+
+    @property
+    def film(self) -> FilmTable | None: ...  # noqa: D102
+    @property
+    def friction(self) -> FrictionTable: ...  # noqa: D102
+
+
+def law_errors(table: LawTable) -> list[InputError]:
+    """Return what is wrong with the name of the law and with its own keys."""
+    if table.chosen is None:
+        rule = "is a key of a film law, and none is named"
+        remedy = "name it, such as law = " + quoted(next(iter(table.laws)))
+        return [
+            InputError(f"{table.name}.{key}", quoted(value), rule, remedy) for key, value in table.own.items()
+        ]
+    try:
+        law = table.laws[table.chosen]
+    except InputError as error:
+        return [error]
+    found = own_key_errors(_owner(table, law), table.own)
+    return [_explained(error, table, law) for error in found]
+
+
+def _owner(table: LawTable, law: Any) -> Owner:
+    return Owner(table.name, "law", law.keys, tuple(type(table).model_fields))
+
+
+def _explained(error: InputError, table: LawTable, law: Any) -> InputError:
+    """Say of a missing key that the law needs it, and of another law's key that this one has none."""
+    key = error.key.removeprefix(f"{table.name}.")
+    known = {one.name: one for one in law.keys}
+    if key not in table.own:
+        rule = f'missing: law = "{law.name}" needs it, {known[key].about}'
+        return InputError(error.key, None, rule, error.remedy)
+    others = [name for name, one in table.laws.items() if any(key == own.name for own in one.keys)]
+    if key not in known and others:
+        rule = f'contradicts law = "{law.name}"; it is a key of law = {", ".join(map(quoted, others))}'
+        return InputError(error.key, error.value, rule, f"leave {key} out")
+    return error
+
+
+def film_data(scenario: WithLaws) -> FilmData:
+    """Return the choice of film law, its values in SI units."""
+    film = scenario.film
+    if film is None:
+        return FilmData()
+    if film.law is None:
+        return FilmData()
+    return FilmData(film.law, own_values(_owner(film, FILM_LAWS[film.law]), film.own))
+
+
+def friction_values(table: FrictionTable) -> dict[str, float]:
+    """Return the values of the friction law's own keys, in SI units."""
+    return own_values(_owner(table, FRICTION_LAWS[table.law]), table.own)

@@ -1,0 +1,152 @@
+"""Values of the keys that a tooth family or a law has of its own: what is due, and in which unit."""
+
+from collections.abc import Iterable, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+from pydantic import ValidationError
+
+from tribodyn.errors import InputError, near_name, quoted
+from tribodyn.numerics.parameter import Parameter
+from tribodyn.scenario import units
+from tribodyn.scenario.quantity import Column
+
+
+class Owner(NamedTuple):
+    """Whose keys they are, and where they stand.
+
+    Attributes
+    ----------
+    table : str
+        Dotted key of the table: "drive.shape".
+    what : str
+        For messages: "family", "law".
+    parameters : tuple of Parameter
+        The keys.
+    others : tuple of str
+        Keys of the same table that are not the owner's.
+    """
+
+    table: str
+    what: str
+    parameters: tuple[Parameter, ...]
+    others: tuple[str, ...] = ()
+
+
+def own_values(owner: Owner, given: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the values of the keys that are given, in SI units; raises the first of `own_key_errors`."""
+    for error in own_key_errors(owner, given):
+        raise error
+    known = {one.name: one for one in owner.parameters}
+    return {name: value_in_si(known[name], value) for name, value in given.items()}
+
+
+def own_key_errors(owner: Owner, given: Mapping[str, Any]) -> list[InputError]:
+    """Return what is wrong with the keys: unknown, missing, of a wrong unit or sign."""
+    errors = []
+    known = {one.name: one for one in owner.parameters}
+    for name, value in given.items():
+        if name not in known:
+            key = f"{owner.table}.{name}"
+            errors.append(
+                InputError(
+                    key, quoted(value), "unknown key", _known_keys(owner, name, (*known, *owner.others))
+                )
+            )
+    for name, parameter in known.items():
+        key = f"{owner.table}.{name}"
+        if name not in given:
+            if parameter.default is None:
+                errors.append(
+                    InputError(key, None, f"missing: {parameter.about}", _example(owner, parameter))
+                )
+            continue
+        try:
+            value_in_si(parameter, given[name], key)
+        except InputError as error:
+            errors.append(error)
+    return errors
+
+
+def key_schema(parameter: Parameter) -> dict[str, Any]:
+    """Return the JSON schema of a key's value."""
+    about = parameter.about
+    if parameter.default is not None:
+        about += f"; default: {parameter.default:g} in SI units" + (
+            f" ({parameter.source})" if parameter.source else ""
+        )
+    if parameter.kind == "number":
+        lowest = {"not negative": {"minimum": 0}, "positive": {"exclusiveMinimum": 0}}
+        return {"type": "number", "description": about, **lowest.get(parameter.allowed, {})}
+    if parameter.kind == "path":
+        return {"type": "string", "description": f"{about}; name of a CSV file"}
+    kind = _kind(parameter)
+    return {
+        "type": "string",
+        "description": f"{about}; a quantity with a unit of {kind.name}",
+        "examples": [parameter.example or kind.example],
+    }
+
+
+def value_in_si(parameter: Parameter, value: Any, key: str = "") -> Any:
+    """Return a value as the scenario has it in SI units; points of a path as an array (n, 2)."""
+    if parameter.kind == "path":
+        return _points(value, key)
+    if parameter.kind == "number":
+        return _number(parameter, value, key)
+    try:
+        return units.to_si(value, _kind(parameter))
+    except units.NotAQuantity as error:
+        raise InputError(key, quoted(value), error.rule, error.remedy) from None
+
+
+def _kind(parameter: Parameter) -> units.Kind:
+    signed = parameter.kind.startswith("signed ")
+    kind = units.QUANTITIES[parameter.kind.removeprefix("signed ")]
+    return kind._replace(allowed=parameter.allowed or ("any" if signed else "positive"))
+
+
+def _known_keys(owner: Owner, name: str, known: Iterable[str]) -> str:
+    near = near_name(name, known)
+    there = ", ".join(known) or "none"
+    return f'did you mean "{near}"?' if near else f"keys of this {owner.what}: {there}"
+
+
+def _example(owner: Owner, parameter: Parameter) -> str:
+    plain = {"number": "0.3", "path": '"path.csv"', "length": '"12 mm"', "signed length": '"12 mm"'}
+    value = parameter.example or plain.get(parameter.kind) or quoted(_kind(parameter).example)
+    return f"add {parameter.name} = {value} to [{owner.table.removeprefix('drive.')}]"
+
+
+def _number(parameter: Parameter, value: Any, key: str) -> float:
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not np.isfinite(value):
+        example = parameter.example or "0.3"
+        raise InputError(key, quoted(value), "not a plain number", f"write a number such as {example}")
+    if parameter.allowed == "not negative" and value < 0:
+        raise InputError(key, quoted(value), "must be at least 0", "write 0 or more")
+    if parameter.allowed == "positive" and value <= 0:
+        raise InputError(key, quoted(value), "must be greater than 0", "write a greater number")
+    return float(value)
+
+
+def _points(value: Any, key: str) -> np.ndarray:
+    """Points (n, 2) of a path, m."""
+    remedy = (
+        'name a CSV file that begins with x [mm],y [mm], or write {x = {unit = "mm", values = […]}, y = …}'
+    )
+    if not isinstance(value, dict) or set(value) != {"x", "y"}:
+        raise InputError(key, quoted(value), "not the points of a path", remedy)
+    columns = []
+    for name in ("x", "y"):
+        try:
+            columns.append(Column.model_validate(value[name]).in_si(units.LENGTH))
+        except ValidationError:
+            raise InputError(
+                f"{key}.{name}", quoted(value[name]), "not a column of numbers", remedy
+            ) from None
+        except units.NotAQuantity as error:
+            raise InputError(f"{key}.{name}", None, error.rule, error.remedy) from None
+    if len(columns[0]) != len(columns[1]):
+        counts = f"{len(columns[0])} values of x and {len(columns[1])} of y"
+        raise InputError(key, None, counts, "write as many of each")
+    return np.stack(columns, axis=-1)

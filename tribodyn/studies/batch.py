@@ -1,0 +1,77 @@
+"""How many cases of a study are evaluated together, for sweeps."""
+
+from collections.abc import Hashable, Sequence
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+
+from tribodyn.record.sweep_schema import SweepLayout
+
+
+class Chunk(NamedTuple):
+    """Cases to be evaluated together.
+
+    Attributes
+    ----------
+    numbers : (n,) int
+        Of the cases in the sweep's record.
+    cases : tuple of n cases or str
+        A text where the case could not even be made: why.
+    states : (n, states) or None
+        Where to start from; NaN, or None for all, where a case begins by itself.
+    """
+
+    numbers: np.ndarray
+    cases: tuple[Any, ...]
+    states: np.ndarray | None = None
+
+
+class Batch(Protocol):
+    """Evaluates cases of one kind; its results for a case do not depend on the others beside it.
+
+    Attributes
+    ----------
+    states : int
+        Numbers from which a neighbouring case can continue; 0: every case begins by itself.
+    """
+
+    states: int
+
+    def settings(self, cases: Sequence[Any], transient: int | None, engine: str) -> Any:
+        """How cases are evaluated, as a named tuple of plain data.
+
+        Parameters
+        ----------
+        cases : sequence
+            Those at both ends of the grid.
+        transient : int or None
+            Mesh cycles to march instead of seeking a steady state.
+        engine : str
+            Where: "native", "jax", "dask".
+
+        Raises
+        ------
+        InputError
+            For what such a study does not know.
+        """
+        ...
+
+    def layout(self, settings: Any) -> SweepLayout:
+        """What is recorded of every case."""
+        ...
+
+    def size_of_chunk(self, settings: Any, total: int, width: int) -> int:
+        """Cases to be evaluated together, of so many; `width` of them at the price of one."""
+        ...
+
+    def sharing(self, case: Any) -> Hashable:
+        """Cases for which this is equal share costly work, and are evaluated one after the other."""
+        ...
+
+    def check(self, case: Any, settings: Any) -> None:
+        """Prepare a case; InputError says why it cannot be evaluated."""
+        ...
+
+    def evaluate(self, chunk: Chunk, settings: Any, workers: int | None) -> dict[str, np.ndarray]:
+        """Evaluate; rows (n, …) of every variable of the layout."""
+        ...

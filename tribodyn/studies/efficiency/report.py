@@ -1,0 +1,59 @@
+"""Lines and sentences of the summary of an efficiency study, and the figures that a sweep of it keeps."""
+
+from tribodyn.numerics.variable import Variable
+from tribodyn.post.report import Line, Lines, on_closures, on_energy, on_methods
+from tribodyn.record.reader import Record
+from tribodyn.studies.gears import (
+    CONTACT_RATIO,
+    EFFECTIVE_CONTACT_RATIO,
+    ENERGY,
+    MESH_FREQUENCY,
+    NORMAL_LOAD,
+    TRIBOLOGY,
+    WALL_TIME,
+)
+
+LINES: Lines = {
+    "Geometry": (CONTACT_RATIO, EFFECTIVE_CONTACT_RATIO),
+    "Dynamics": (MESH_FREQUENCY, NORMAL_LOAD),
+    "Tribology": TRIBOLOGY,
+    "Energy": (
+        *ENERGY,
+        Line("load_sharing", "Load sharing of the samples"),
+        Line("efficiency_elastic", "Efficiency, elastic load sharing", 100.0, "%", ".3f"),
+        Line("efficiency_uniform", "Efficiency, equal loads", 100.0, "%", ".3f"),
+        Line("efficiency_single_pair", "Efficiency, one pair at a time", 100.0, "%", ".3f"),
+        Line("efficiency_torque_ratio", "Efficiency, torque ratio of one pair", 100.0, "%", ".3f"),
+        Line("efficiency_loss_factor", "Efficiency, loss factor integrated", 100.0, "%", ".3f"),
+        Line("efficiency_hoehn", "Efficiency, Höhn's loss factor", 100.0, "%", ".3f"),
+    ),
+    "Solver": (WALL_TIME,),
+}
+
+SWEPT: dict[str, Variable] = {
+    "efficiency": Variable((), "1", "efficiency over the mesh cycle"),
+    "efficiency_elastic": Variable((), "1", "efficiency, elastic load sharing"),
+    "efficiency_uniform": Variable((), "1", "efficiency, equal loads"),
+    "efficiency_single_pair": Variable((), "1", "efficiency, one pair at a time"),
+    "efficiency_torque_ratio": Variable((), "1", "efficiency, torque ratio of one pair"),
+    "friction_coefficient_mean": Variable((), "1", "friction coefficient, mean by loss"),
+    "power_friction_mean": Variable((), "W", "mean power lost to tooth friction"),
+    "contact_ratio": Variable((), "1", "contact ratio"),
+    "normal_load_max": Variable((), "N", "maximum normal load of a pair"),
+    "film_min": Variable((), "m", "minimum central film thickness"),
+    "film_parameter_min": Variable((), "1", "minimum film parameter"),
+    "hertz_pressure_max": Variable((), "Pa", "maximum Hertz pressure"),
+    "flash_temperature_max": Variable((), "K", "maximum flash temperature rise"),
+    "friction_in_range_fraction": Variable(
+        (), "1", "share of the contact in which the friction law is in its range"
+    ),
+    "closure_in_range_fraction": Variable(
+        (), "1", "share of the contact in which the film law is in its range"
+    ),
+}
+
+
+def sentences(record: Record) -> list[str]:
+    """Say how well the study satisfies what can be checked: range of the film law, balance of energy."""
+    summary = record.summary
+    return [*on_methods(summary), *on_closures(summary), *on_energy(summary)]

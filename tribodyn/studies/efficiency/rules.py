@@ -1,0 +1,17 @@
+"""Rules that tie several keys of a scenario together: what contradicts, what needs what."""
+
+from collections.abc import Iterator
+
+from tribodyn.errors import InputError
+from tribodyn.scenario.drive_rules import broken_drive_rules, broken_hertz_rules
+from tribodyn.scenario.modification_rules import Face, broken_face_rules
+from tribodyn.studies.efficiency.scenario import Scenario
+
+
+def broken_rules(scenario: Scenario) -> Iterator[InputError]:
+    """Go through the rules that tie keys of such a scenario together and that this one breaks."""
+    mesh = scenario.mesh
+    yield from broken_drive_rules(scenario.drive)
+    face = Face(scenario.drive, mesh.misalignment, mesh.slices, mesh.slice_coupling)
+    yield from broken_face_rules(face, mesh.compliance)
+    yield from broken_hertz_rules(mesh.hertz, mesh.compliance)

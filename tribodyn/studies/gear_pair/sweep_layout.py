@@ -1,0 +1,90 @@
+"""What a sweep records of every case of a gear pair's dynamics."""
+
+from typing import Any
+
+import numpy as np
+
+from tribodyn.numerics.variable import Variable, flag
+from tribodyn.record.sweep_schema import WORD, SweepLayout
+
+#: `stable`, where the linearised motion was not looked at.
+UNKNOWN = -1
+
+
+def _figure(units: str, long_name: str) -> Variable:
+    return Variable((), units, long_name)
+
+
+#: One number per case, out of its steady window.
+FIGURES: dict[str, Variable] = {
+    "mesh_frequency": _figure("Hz", "mean mesh frequency"),
+    "transmission_error_rms": _figure(
+        "m", "root mean square of the rotational transmission error about its mean"
+    ),
+    "transmission_error_peak_to_peak": _figure("m", "rotational transmission error, peak to peak"),
+    "transmission_error_mean": _figure("m", "mean rotational transmission error"),
+    "dynamic_factor": _figure("1", "maximum mesh moment over the mean load's"),
+    "normal_load_max": _figure("N", "maximum normal load of a pair"),
+    "hertz_pressure_max": _figure("Pa", "maximum Hertz pressure"),
+    "film_min": _figure("m", "minimum central film thickness"),
+    "film_parameter_min": _figure("1", "minimum film parameter"),
+    "flash_temperature_max": _figure("K", "maximum flash temperature rise"),
+    "friction_coefficient_mean": _figure("1", "friction coefficient, mean by loss"),
+    "efficiency": _figure("1", "efficiency over whole mesh cycles"),
+    "power_in_mean": _figure("W", "mean power of the drive"),
+    "power_friction_mean": _figure("W", "mean power lost to tooth friction"),
+    "contact_loss_fraction": _figure("1", "share of the time without any contact"),
+    "closure_in_range_fraction": _figure("1", "share of the contact in which the film law is in its range"),
+    "friction_in_range_fraction": _figure(
+        "1", "share of the contact in which the friction law is in its range"
+    ),
+}
+
+#: Everything a sweep records of a case.
+CASES: dict[str, Variable] = {
+    **FIGURES,
+    "period": Variable((), "1", "mesh cycles in one period of the motion; 0: none found", "<i4", 0),
+    "stable": flag((), "whether the motion is stable: 1 yes, 0 no, -1 not known", "unknown unstable stable"),
+    "multiplier_max": _figure("1", "maximum modulus of the Floquet multipliers"),
+    "residual": _figure("1", "scaled change of the state over one period of the motion"),
+    "cycles": Variable((), "1", "mesh cycles integrated", "<i8", 0),
+    "solution": Variable((), "1", "sort of motion that was found", f"S{WORD}", b""),
+    "transmission_error_rotational": Variable(
+        ("sample",), "m", "rotational transmission error in the steady window; NaN beyond whole periods"
+    ),
+    "poincare_error": Variable(
+        ("cycle",), "m", "rotational transmission error at the start of each of the last mesh cycles"
+    ),
+    "poincare_rate": Variable(
+        ("cycle",), "m/s", "rate of the rotational transmission error at the start of each mesh cycle"
+    ),
+    "mode_frequency": Variable(
+        ("mode",), "Hz", "undamped natural frequency of the model linearised at its mean mesh stiffness"
+    ),
+    "state": Variable(
+        ("state_variable",), "SI", "state at the start of a mesh cycle, from which a neighbour continues"
+    ),
+}
+
+#: The scales after those of the cases.
+SAMPLE = Variable(("sample",), "1", "phase of the mesh in mesh cycles, from the start of the window")
+CYCLE = Variable(("cycle",), "1", "mesh cycle, counted from the first that was kept")
+MODE = Variable(("mode",), "1", "mode of vibration, lowest first")
+STATE_VARIABLE = Variable(("state_variable",), "1", "state of the model, see tribodyn.dynamics.parameters")
+STATE_NAMES = (
+    *("x_p", "y_p", "x_g", "y_g", "lag", "xi", "twist"),
+    *("vx_p", "vy_p", "vx_g", "vy_g", "slip", "xi_rate", "motor_slip"),
+    *("work_in", "work_out", "work_friction", "work_damping", "work_parametric"),
+)
+
+
+def layout_of(settings: Any) -> SweepLayout:
+    """The layout of a sweep with these `evaluate.Settings`."""
+    phase = np.arange(settings.window * settings.samples) / settings.samples
+    scales = {
+        "sample": (SAMPLE, phase),
+        "cycle": (CYCLE, np.arange(settings.points)),
+        "mode": (MODE, np.arange(1, settings.modes + 1)),
+        "state_variable": (STATE_VARIABLE, STATE_NAMES),
+    }
+    return SweepLayout(CASES, scales, {"samples_per_cycle": settings.samples})

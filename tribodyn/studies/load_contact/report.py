@@ -1,0 +1,64 @@
+"""Lines and sentences of the summary of a load contact study, and the figures that a sweep of it keeps."""
+
+from tribodyn.numerics.variable import Variable
+from tribodyn.post.report import Line, Lines
+from tribodyn.record.reader import Record
+from tribodyn.studies.gears import CONTACT_RATIO, EFFECTIVE_CONTACT_RATIO, NORMAL_LOAD, SINGLE_PAIR, WALL_TIME
+
+LINES: Lines = {
+    "Geometry": (CONTACT_RATIO, EFFECTIVE_CONTACT_RATIO, SINGLE_PAIR),
+    "Load contact": (
+        Line("gear_torque", "Torque on the gear", 1.0, "N m"),
+        Line("loaded_transmission_error_mean", "Loaded transmission error, mean", 1e6, "µm"),
+        Line("loaded_transmission_error_peak_to_peak", "Loaded transmission error, peak to peak", 1e6, "µm"),
+        Line("unloaded_transmission_error_peak_to_peak", "Unloaded, peak to peak", 1e6, "µm", ".3g"),
+        Line("least_peak_to_peak", "Minimum peak to peak of all torques", 1e6, "µm"),
+        Line("least_peak_to_peak_torque", "at a torque on the gear of", 1.0, "N m"),
+        Line("mesh_stiffness_mean", "Mesh stiffness, mean", 1e-6, "N/µm"),
+        Line("mesh_stiffness_peak_to_peak", "Mesh stiffness, peak to peak", 1e-6, "N/µm", ".3g"),
+        Line("line_load_max", "Maximum line load", 1e-3, "N/mm"),
+        Line("face_load_factor", "Face load factor there", form=".3f"),
+        Line("face_load_factor_pitch_point", "Face load factor at the pitch point", form=".3f"),
+        Line("pinion_root_tension_max", "Maximum root tension, pinion", 1e-6, "MPa"),
+        Line("gear_root_tension_max", "Maximum root tension, gear", 1e-6, "MPa"),
+        Line("pinion_root_compression_max", "Maximum root compression, pinion", 1e-6, "MPa"),
+        Line("gear_root_compression_max", "Maximum root compression, gear", 1e-6, "MPa"),
+    ),
+    "Dynamics": (NORMAL_LOAD,),
+    "Tribology": (Line("hertz_pressure_max", "Maximum Hertz pressure", 1e-9, "GPa", ".3g"),),
+    "Solver": (WALL_TIME,),
+}
+
+SWEPT: dict[str, Variable] = {
+    "loaded_transmission_error_peak_to_peak": Variable(
+        (), "m", "loaded static transmission error, peak to peak"
+    ),
+    "loaded_transmission_error_mean": Variable((), "m", "mean loaded static transmission error"),
+    "unloaded_transmission_error_peak_to_peak": Variable(
+        (), "m", "unloaded transmission error, peak to peak"
+    ),
+    "mesh_stiffness_mean": Variable((), "N/m", "mean mesh stiffness"),
+    "mesh_stiffness_peak_to_peak": Variable((), "N/m", "mesh stiffness, peak to peak"),
+    "contact_ratio_effective": Variable((), "1", "contact ratio under load, corner contact included"),
+    "normal_load_max": Variable((), "N", "maximum normal load of a pair"),
+    "line_load_max": Variable((), "N/m", "maximum line load"),
+    "face_load_factor": Variable((), "1", "face load factor where the line load is at its maximum"),
+    "face_load_factor_pitch_point": Variable((), "1", "face load factor at the pitch point"),
+    "hertz_pressure_max": Variable((), "Pa", "maximum Hertz pressure"),
+    "pinion_root_tension_max": Variable((), "Pa", "maximum root tension of the pinion"),
+    "gear_root_tension_max": Variable((), "Pa", "maximum root tension of the gear"),
+    "torque_residual": Variable((), "1", "torque of the loads over the gear's torque, less 1, at most"),
+}
+
+
+def sentences(record: Record) -> list[str]:
+    """Say what the model leaves out, and how well the loads carry the torque."""
+    summary, said = record.summary, []
+    slices = summary.get("slices")
+    if slices is not None:
+        what = "in one piece, alike all along" if slices == 1 else f"in {slices} slices"
+        said.append(f"Slow rotation, no inertia; the face is taken {what}.")
+    residual = summary.get("torque_residual")
+    if residual is not None:
+        said.append(f"The loads carry the torque to within {abs(residual):.1e} of it.")
+    return said

@@ -1,0 +1,29 @@
+"""Rules that tie several keys of a scenario together: what contradicts, what needs what."""
+
+from collections.abc import Iterator
+from itertools import pairwise
+
+from tribodyn.errors import InputError
+from tribodyn.scenario.drive_rules import broken_drive_rules
+from tribodyn.scenario.modification_rules import Face, broken_slice_rules
+from tribodyn.studies.load_contact.scenario import Scenario
+
+
+def broken_rules(scenario: Scenario) -> Iterator[InputError]:
+    """Go through the rules that tie keys of such a scenario together."""
+    mesh = scenario.mesh
+    yield from broken_drive_rules(scenario.drive)
+    yield from broken_slice_rules(Face(scenario.drive, mesh.misalignment, mesh.slices, mesh.slice_coupling))
+    torques = scenario.operating.gear_torques
+    if len(torques) == 1:
+        rule = "a single torque makes no map"
+        yield InputError("operating.gear_torques", f"{torques[0]:g} N*m", rule, "give at least two")
+    for number, (one, next_one) in enumerate(pairwise(torques), start=1):
+        if next_one <= one:
+            yield InputError(
+                f"operating.gear_torques.{number}",
+                f"{next_one:g} N*m",
+                f"not greater than the {one:g} N*m before it",
+                "give the torques in increasing order",
+            )
+            break

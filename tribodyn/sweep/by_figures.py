@@ -1,0 +1,78 @@
+"""Cases of any kind, one after the other, each by the figures that its study works out without a record."""
+
+from collections.abc import Hashable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.errors import InputError, SimulationError
+from tribodyn.record.sweep_schema import DONE, FAILED, SweepLayout
+from tribodyn.studies.batch import Chunk
+from tribodyn.studies.study import Study
+
+
+class Settings(NamedTuple):
+    """Nothing can be chosen."""
+
+
+class ByFigures:
+    """See `studies.batch.Batch`.
+
+    Parameters
+    ----------
+    study : Study
+        One with `swept` figures.
+    """
+
+    states = 0
+
+    def __init__(self, study: Study) -> None:
+        if not study.swept():
+            raise InputError(
+                "kind", f'"{study.kind}"', "such a study cannot be swept", "run its cases one by one"
+            )
+        self.study = study
+
+    def settings(self, cases: Sequence[Any], transient: int | None, engine: str) -> Settings:
+        """Nothing to choose; marching and JAX belong to motions."""
+        if transient is not None:
+            rule = f"{self.study.about}: its cases have no mesh cycles to march"
+            raise InputError("--transient", transient, rule, "omit it")
+        if engine == "jax":
+            raise InputError("--engine", "jax", f"{self.study.about}: JAX integrates motions only", "omit it")
+        return Settings()
+
+    def layout(self, settings: Settings) -> SweepLayout:
+        """The figures that the study names."""
+        return SweepLayout(self.study.swept())
+
+    def size_of_chunk(self, settings: Settings, total: int, width: int) -> int:
+        """One: each is recorded as soon as it is done."""
+        return 1
+
+    def sharing(self, case: Any) -> Hashable:
+        """Nothing is known to be shared."""
+        return None
+
+    def check(self, case: Any, settings: Settings) -> None:
+        """Check a case as `tribodyn check` does."""
+        self.study.check(case)
+
+    def evaluate(self, chunk: Chunk, settings: Settings, workers: int | None) -> dict[str, np.ndarray]:
+        """Work out the figures of every case."""
+        layout = self.layout(settings)
+        rows = layout.empty_rows(len(chunk.cases))
+        for i, case in enumerate(chunk.cases):
+            try:
+                if isinstance(case, str):
+                    raise SimulationError(case)
+                figures = self.study.figures(case)
+            except (InputError, SimulationError) as error:
+                rows["message"][i] = error.reason if isinstance(error, SimulationError) else str(error)
+                rows["status"][i] = FAILED
+                continue
+            for name in layout.figures:
+                if figures.get(name) is not None:
+                    rows[name][i] = figures[name]
+            rows["status"][i] = DONE
+        return rows

@@ -1,0 +1,173 @@
+"""From a case to the film and friction laws of its contacts, and the numbers that they read."""
+
+import math
+from dataclasses import replace
+from typing import Any, Protocol, TypeVar
+
+from tribodyn.errors import InputError
+from tribodyn.geometry.drive import Drive
+from tribodyn.geometry.material import MaterialData
+from tribodyn.tribology.contact import Surfaces
+from tribodyn.tribology.data import FilmData, FrictionData, LubricantData
+from tribodyn.tribology.film import film_law
+from tribodyn.tribology.friction import friction_law
+from tribodyn.tribology.law import ActiveFilm, ActiveFriction, Closure, FilmLaw, FrictionLaw, LawInput
+from tribodyn.tribology.nominal import NominalConditions
+
+#: Pressure angle at the pitch point below which Niemann's formula has no meaning: radius and speed vanish.
+MINIMUM_ANGLE = math.radians(1.0)
+
+
+class Duty(Protocol):
+    """Nominal speed of the pinion (rad/s) and constant torque on the gear (N m)."""
+
+    @property
+    def pinion_speed(self) -> float: ...  # noqa: D102
+    @property
+    def gear_torque(self) -> float: ...  # noqa: D102
+
+
+class Lubricated(Protocol):
+    """What a case must say of its contacts."""
+
+    @property
+    def family(self) -> str: ...  # noqa: D102
+    @property
+    def drive(self) -> Drive: ...  # noqa: D102
+    @property
+    def materials(self) -> tuple[MaterialData, MaterialData]: ...  # noqa: D102
+    @property
+    def roughness(self) -> float: ...  # noqa: D102
+    @property
+    def mean_roughness(self) -> float: ...  # noqa: D102
+    @property
+    def lubricant(self) -> LubricantData: ...  # noqa: D102
+    @property
+    def operating(self) -> Duty: ...  # noqa: D102
+    @property
+    def film(self) -> FilmData: ...  # noqa: D102
+    @property
+    def friction(self) -> FrictionData: ...  # noqa: D102
+
+
+CaseType = TypeVar("CaseType", bound=Lubricated)
+
+
+def closure_of(case: Lubricated) -> Closure:
+    """Return surfaces and laws of a case's contacts.
+
+    Raises
+    ------
+    InputError
+        If a law is not known, lacks a value, or needs a mean over a mesh for which it has no meaning.
+    """
+    film, friction = laws_of(case)
+    surfaces = surfaces_of(case)
+    given = LawInput(surfaces, case.lubricant, case.materials, lambda: nominal_conditions(case))
+    return closure(given, film, friction, dict(case.film.values), dict(case.friction.values))
+
+
+def closure(
+    given: LawInput,
+    film: FilmLaw,
+    friction: FrictionLaw,
+    film_values: dict[str, Any] | None = None,
+    friction_values: dict[str, Any] | None = None,
+) -> Closure:
+    """Return surfaces and laws with the parameters that these make of what is given; raises as `made`."""
+    return Closure(
+        given.surfaces,
+        ActiveFilm(film.functions, film.made(given, film_values or {})),
+        ActiveFriction(friction.functions, friction.made(given, friction_values or {})),
+    )
+
+
+def laws_of(case: Lubricated) -> tuple[FilmLaw, FrictionLaw]:
+    """Return the film and the friction law of a case; the film law that goes with it where none is chosen."""
+    friction = case.friction.law
+    if isinstance(friction, str):
+        friction = friction_law(friction)
+    film = case.film.law or friction.film
+    return film_law(film) if isinstance(film, str) else film, friction
+
+
+def with_laws(
+    case: CaseType, film: FilmLaw | str | None = None, friction: FrictionLaw | str | None = None
+) -> CaseType:
+    """Return the case with another film or friction law, as an object or by name.
+
+    The values that the scenario gives for the keys of a law that is replaced are left out; a new law takes
+    the defaults of its keys, or those of `FrictionLaw.with_values`.
+    """
+    changed: dict[str, Any] = {}
+    if film is not None:
+        changed["film"] = FilmData(film)
+    if friction is not None:
+        changed["friction"] = replace(case.friction, law=friction, values={})
+    return replace(case, **changed)  # pyright: ignore[reportArgumentType]  (cases are dataclasses)
+
+
+def law_figures(case: Lubricated) -> dict[str, Any]:
+    """Names of the laws in use, and the ranges that they state, for a summary."""
+    film, friction = laws_of(case)
+    return {
+        "film_law": film.name,
+        "film_thickness": film.thickness,
+        "film_range": film.range or "none stated",
+        "friction_law": friction.name,
+        "friction_range": friction.range or "none stated",
+    }
+
+
+def surfaces_of(case: Lubricated) -> Surfaces:
+    """Return the surfaces and the lubricant of a case, whatever its laws."""
+    pinion, gear = case.materials
+    compliance = [(1 - m.poisson_ratio**2) / m.youngs_modulus for m in case.materials]
+    return Surfaces(
+        effective_modulus=2.0 / sum(compliance),
+        hardness=min(pinion.hardness, gear.hardness),
+        roughness=case.roughness,
+        mean_roughness=case.mean_roughness,
+        inlet_viscosity=case.lubricant.inlet_viscosity,
+        pressure_viscosity=case.lubricant.pressure_viscosity,
+        pinion_conductivity=pinion.thermal_conductivity,
+        gear_conductivity=gear.thermal_conductivity,
+        pinion_heat_capacity=pinion.density * pinion.specific_heat,
+        gear_heat_capacity=gear.density * gear.specific_heat,
+    )
+
+
+def without_nominal_conditions() -> NominalConditions:
+    """Stand for nominal conditions where there is no mesh: raise InputError."""
+    raise InputError(
+        "friction.law", None, "is a mean over the mesh, and there is none", "use a law of the local contact"
+    )
+
+
+def nominal_conditions(case: Lubricated) -> NominalConditions:
+    """Conditions at the pitch point at nominal speed and constant torque, for a mean friction coefficient."""
+    from tribodyn.geometry.families import family
+
+    path = family(case.family).working_path(case.drive)
+    angle = float(path.pressure_angle(0.0))
+    if angle < MINIMUM_ANGLE or case.operating.gear_torque <= 0.0:
+        law = case.friction.law
+        raise InputError(
+            "friction.law",
+            f'"{law if isinstance(law, str) else law.name}"',
+            "is a mean over the mesh from radius, speed and load at the pitch point, which vanish here",
+            "use a law of the local contact, such as masjedi-khonsari or xu",
+        )
+    gear_radius = float(path.gear_pitch_radius)
+    return NominalConditions(
+        case.operating.gear_torque / gear_radius,
+        float(path.pinion_pitch_radius),
+        gear_radius,
+        angle,
+        case.operating.pinion_speed,
+        min(case.drive.pinion.face_width, case.drive.gear.face_width),
+        case.lubricant.inlet_viscosity,
+        case.lubricant.density,
+        case.mean_roughness,
+        case.lubricant.load_exponent,
+    )

@@ -1,0 +1,21 @@
+"""The film laws: one a file, and their registry."""
+
+from tribodyn.numerics.registry import Registry
+from tribodyn.tribology.law import FilmLaw
+
+FILM_LAWS: Registry[FilmLaw] = Registry(
+    "film.law",
+    "film law",
+    {
+        "masjedi-khonsari": "tribodyn.tribology.film.masjedi_khonsari:LAW",
+        "masjedi-khonsari-as-printed": "tribodyn.tribology.film.masjedi_khonsari:AS_PRINTED",
+        "dowson-higginson": "tribodyn.tribology.film.dowson_higginson:LAW",
+        "moes": "tribodyn.tribology.film.moes:LAW",
+    },
+    "tribodyn.film_laws",
+)
+
+
+def film_law(name: str) -> FilmLaw:
+    """Return the film law of that name; InputError where there is none."""
+    return FILM_LAWS[name]

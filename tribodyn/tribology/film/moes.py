@@ -1,0 +1,70 @@
+"""Film of a smooth line contact in every regime, from rigid and isoviscous to elastic and piezoviscous: Moes.
+
+Moes, Proc. IMechE 180 (3B) (1965) 244 drew the map; the formula that joins its four asymptotes stands in
+Moes, Wear 159 (1992) 57, and, for the central film, in Venner's thesis (Twente, 1991). Here from memory:
+
+    M = W U_Σ^−1/2, L = G U_Σ^1/4, H = (h/ρ) U_Σ^−1/2, U_Σ = η0 (u_p + u_g)/(E' ρ), W = w'/(E' ρ), G = α_PV E'
+    H_RI = 3 M^−1                     rigid, isoviscous
+    H_RP = 1.287 L^2/3                rigid, piezoviscous
+    H_EI = 2.621 M^−1/5               elastic, isoviscous
+    H_EP = 1.311 M^−1/8 L^3/4         elastic, piezoviscous
+    H^s = (H_RI^7/3 + H_EI^7/3)^(3s/7) + (H_RP^−7/2 + H_EP^−7/2)^(−2s/7),  s = (7 + 8 exp(−2 H_EI/H_RI))/5
+
+with 2/E' = (1 − ν1²)/E1 + (1 − ν2²)/E2, as everywhere here, and Barus' exponential viscosity. The film is the
+one at which the pressure is highest, where all fluid goes through: in a rigid contact 1.226 times the film on
+the line of centres, which makes Martin's 2.449/M of it 3/M.
+"""
+
+import math
+
+from tribodyn.numerics.elementary import absolute, exp, law, log, log1p, maximum, minimum
+from tribodyn.tribology.film.dowson_higginson import smooth_film_of
+from tribodyn.tribology.law import FilmLaw
+
+_LOG_RI, _LOG_RP = math.log(3.0), math.log(1.287)
+_LOG_EI, _LOG_EP = math.log(2.621), math.log(1.311)
+_LOG_2 = math.log(2.0)
+
+
+@law
+def log_of_sum(a, b):
+    """ln(e^a + e^b) without overflow."""
+    return maximum(a, b) + log1p(exp(-absolute(a - b)))
+
+
+@law
+def log_survey(log_M, log_L):
+    """Dimensionless film ln H from ln M and ln L."""
+    rigid_isoviscous = _LOG_RI - log_M
+    rigid_piezoviscous = _LOG_RP + log_L * (2.0 / 3.0)
+    elastic_isoviscous = _LOG_EI - 0.2 * log_M
+    elastic_piezoviscous = _LOG_EP - 0.125 * log_M + 0.75 * log_L
+    ratio = exp(minimum(elastic_isoviscous - rigid_isoviscous, 30.0))
+    s = 0.2 * (7.0 + 8.0 * exp(-2.0 * minimum(ratio, 300.0)))
+    isoviscous = log_of_sum(rigid_isoviscous * (7.0 / 3.0), elastic_isoviscous * (7.0 / 3.0)) * (3.0 / 7.0)
+    piezoviscous = log_of_sum(-3.5 * rigid_piezoviscous, -3.5 * elastic_piezoviscous) * (-2.0 / 7.0)
+    return log_of_sum(s * isoviscous, s * piezoviscous) / s
+
+
+@law
+def moes(contact, surfaces, parameters):
+    """Ln of the central film (m); roughness factor 1 and no asperity load: smooth surfaces."""
+    log_curvature = log(contact.curvature)
+    log_W = log(contact.line_load) + log_curvature - parameters.log_modulus
+    log_U = (
+        _LOG_2
+        + log(contact.entrainment)
+        + log_curvature
+        + parameters.log_inlet_viscosity
+        - parameters.log_modulus
+    )
+    log_H = log_survey(log_W - 0.5 * log_U, parameters.log_material + 0.25 * log_U)
+    return log_H + 0.5 * log_U - log_curvature, 1.0, 0.0
+
+
+LAW = FilmLaw(
+    "moes",
+    "central film of smooth line contacts in all regimes, Moes' survey formula",
+    moes,
+    smooth_film_of,
+)

@@ -1,0 +1,30 @@
+"""The friction laws: one a file, and their registry."""
+
+from tribodyn.numerics.registry import Registry
+from tribodyn.tribology.law import FrictionLaw
+
+_MIXED = "tribodyn.tribology.friction.masjedi_khonsari"
+
+FRICTION_LAWS: Registry[FrictionLaw] = Registry(
+    "friction.law",
+    "friction law",
+    {
+        "none": "tribodyn.tribology.friction.none:LAW",
+        "coulomb": "tribodyn.tribology.friction.coulomb:LAW",
+        "masjedi-khonsari": f"{_MIXED}:LAW",
+        "masjedi-khonsari-mean-pressure": f"{_MIXED}:MEAN_PRESSURE",
+        "masjedi-khonsari-as-printed": f"{_MIXED}:AS_PRINTED",
+        "masjedi-khonsari-veciana": f"{_MIXED}:VECIANA",
+        "masjedi-khonsari-veciana-peak": f"{_MIXED}:VECIANA_PEAK",
+        "xu": "tribodyn.tribology.friction.xu:LAW",
+        "benedict-kelley": "tribodyn.tribology.friction.benedict_kelley:LAW",
+        "niemann": "tribodyn.tribology.friction.niemann:LAW",
+        "iso-14179-1": "tribodyn.tribology.friction.iso_14179_1:LAW",
+    },
+    "tribodyn.friction_laws",
+)
+
+
+def friction_law(name: str) -> FrictionLaw:
+    """Return the friction law of that name; InputError where there is none."""
+    return FRICTION_LAWS[name]

@@ -1,0 +1,197 @@
+"""Friction of a mixed elastohydrodynamic line contact, Masjedi & Khonsari, and its printed variants.
+
+Masjedi & Khonsari, J. Tribol. 134 (2012) 011503 and Tribol. Int. 92 (2015) 184; Liu & Ni (18)-(24).
+"""
+
+import math
+from functools import partial
+from typing import Any, NamedTuple
+
+from tribodyn.numerics.elementary import absolute, exp, expm1, law, log, maximum, minimum, skippable
+from tribodyn.tribology.contact import hertz_half_width
+from tribodyn.tribology.film.masjedi_khonsari import RANGE, in_fitted_range
+from tribodyn.tribology.flash import flash_temperature_rise
+from tribodyn.tribology.law import FrictionLaw, LawInput, film_at
+from tribodyn.tribology.rheology import limiting_shear_share, log_roelands_viscosity
+
+
+class MixedFriction(NamedTuple):
+    """Numbers of the mixed law; SI.
+
+    Attributes
+    ----------
+    asperity_friction : friction coefficient f_c of touching asperities
+    limiting_shear_coefficient : Λ_lim, limiting shear stress over pressure
+    limiting_share : 1: the limiting shear stress follows the pressure on the fluid, p(1 − λ); 0: the whole p
+    log_inlet_viscosity : ln of η0 in Pa·s
+    viscosity_pressure_index : Roelands' z
+    temperature_viscosity : K_T, 1/K
+    viscosity_pressure_factor : pressure in Roelands' law over the mean pressure: 1, or 4/π for the maximum
+    peclet_sliding : 1: both Péclet numbers contain the sliding speed; 0: each surface's own speed
+    pinion_conductivity, gear_conductivity : W/(m K)
+    pinion_heat_capacity, gear_heat_capacity : per volume, as they stand in the Péclet numbers, J/(m³ K)
+    """
+
+    asperity_friction: Any
+    limiting_shear_coefficient: Any
+    limiting_share: Any
+    log_inlet_viscosity: Any
+    viscosity_pressure_index: Any
+    temperature_viscosity: Any
+    viscosity_pressure_factor: Any
+    peclet_sliding: Any
+    pinion_conductivity: Any
+    gear_conductivity: Any
+    pinion_heat_capacity: Any
+    gear_heat_capacity: Any
+
+
+@law
+def mixed_friction(contact, film, surfaces, parameters):
+    """Friction coefficient μ = λ f_c + (τ_lim/p) [1 − exp(−η |v_s|/(τ_lim h_c))] of a local contact."""
+    log_smooth, rough, share = film_at(film, contact, surfaces)
+    sliding = absolute(contact.sliding)
+    half_width = hertz_half_width(contact.line_load, contact.curvature, surfaces.effective_modulus)
+    pressure = contact.line_load / (2.0 * half_width)
+    shear_share = limiting_shear_share(
+        share, parameters.limiting_shear_coefficient, parameters.limiting_share
+    )
+    log_viscosity = log_roelands_viscosity(
+        parameters.viscosity_pressure_factor * pressure * (1.0 - share),
+        _temperature_rise(contact, share, half_width, pressure, parameters),
+        parameters.log_inlet_viscosity,
+        parameters.viscosity_pressure_index,
+        parameters.temperature_viscosity,
+    )
+    # where asperities carry everything the fluid has no shear limit left, and no weight either
+    per_viscosity = sliding / (maximum(shear_share * pressure, 1.0) * rough)
+    newtonian = minimum(exp(log_viscosity - log_smooth) * per_viscosity, 600.0)
+    return parameters.asperity_friction * share + shear_share * saturated(newtonian)
+
+
+@law
+def _temperature_rise(contact, share, half_width, pressure, parameters):
+    """Flash temperature rise of the heat |v_s| p [f_c λ + Λ_lim (1 − λ)], K."""
+    sliding = absolute(contact.sliding)
+    heat_flux = (
+        sliding
+        * pressure
+        * (parameters.asperity_friction * share + parameters.limiting_shear_coefficient * (1.0 - share))
+    )
+    return flash_temperature_rise(
+        heat_flux,
+        half_width,
+        _peclet_speed(contact.pinion_speed, sliding, parameters.peclet_sliding),
+        _peclet_speed(contact.gear_speed, sliding, parameters.peclet_sliding),
+        parameters,
+    )
+
+
+@law
+def heat_of_mixed_friction(contact, film, surfaces, parameters, coefficient):
+    """Flash temperature rise as the law itself has it, K; see `FrictionLaw`."""
+    _, _, share = film_at(film, contact, surfaces)
+    half_width = hertz_half_width(contact.line_load, contact.curvature, surfaces.effective_modulus)
+    return _temperature_rise(contact, share, half_width, contact.line_load / (2.0 * half_width), parameters)
+
+
+@law
+def saturated(x):
+    """1 − exp(−x) for x ≥ 0. From 38 on it is 1 to the last bit, and what x is need not be waited for."""
+    if skippable(x >= 38.0):
+        return 1.0
+    return -expm1(-x)
+
+
+@law
+def _peclet_speed(speed, sliding, share):
+    """Speed in a Péclet number: the surface's own, or with `share` 1 the sliding speed (Veciana)."""
+    return (1.0 - share) * absolute(speed) + share * sliding
+
+
+@law
+def in_range_of_film(contact, film, surfaces, parameters):
+    """1.0 where the law's own regressions, those of its film, are inside their fitted range, else 0.0."""
+    return in_fitted_range(contact, surfaces, parameters)
+
+
+def _mixed(
+    given: LawInput,
+    limiting_share: float = 1.0,
+    heat_capacity: bool = True,
+    lubricant_heat: bool = False,
+    peclet_sliding: float = 0.0,
+    viscosity_pressure_factor: float = 1.0,
+) -> MixedFriction:
+    """Return the parameters.
+
+    Parameters
+    ----------
+    given : LawInput
+    limiting_share, peclet_sliding, viscosity_pressure_factor
+        As in `MixedFriction`.
+    heat_capacity : bool
+        Whether the Péclet numbers contain ρ_s c_p of the solids, as they must to be numbers.
+    lubricant_heat : bool
+        Whether the density in them is the lubricant's.
+    """
+    surfaces, lubricant = given.surfaces, given.lubricant
+    heat = [surfaces.pinion_heat_capacity, surfaces.gear_heat_capacity]
+    if lubricant_heat:
+        heat = [lubricant.density * material.specific_heat for material in given.materials]
+    if not heat_capacity:  # the printed Péclet number has none in it; 1 J/(m³ K) is what that amounts to
+        heat = [1.0, 1.0]
+    return MixedFriction(
+        asperity_friction=lubricant.asperity_friction,
+        limiting_shear_coefficient=lubricant.limiting_shear_coefficient,
+        limiting_share=limiting_share,
+        log_inlet_viscosity=log(surfaces.inlet_viscosity),
+        viscosity_pressure_index=lubricant.viscosity_pressure_index,
+        temperature_viscosity=lubricant.temperature_viscosity,
+        viscosity_pressure_factor=viscosity_pressure_factor,
+        peclet_sliding=peclet_sliding,
+        pinion_conductivity=surfaces.pinion_conductivity,
+        gear_conductivity=surfaces.gear_conductivity,
+        pinion_heat_capacity=heat[0],
+        gear_heat_capacity=heat[1],
+    )
+
+
+def _law(name: str, about: str, film: str = "masjedi-khonsari", **settings: Any) -> FrictionLaw:
+    return FrictionLaw(
+        name,
+        about,
+        mixed_friction,
+        partial(_mixed, **settings),
+        in_range=in_range_of_film,
+        range=f"that of its film: {RANGE}",
+        flash_temperature=heat_of_mixed_friction,
+        film=film,
+    )
+
+
+LAW = _law("masjedi-khonsari", "mixed elastohydrodynamic line contact, Masjedi & Khonsari (2012, 2015)")
+MEAN_PRESSURE = _law(
+    "masjedi-khonsari-mean-pressure",
+    "the same, limiting shear stress from the whole mean pressure instead of the fluid's share",
+    limiting_share=0.0,
+)
+AS_PRINTED = _law(
+    "masjedi-khonsari-as-printed",
+    "the same with Liu & Ni's misprints: 447 for 4470, Péclet numbers without ρ c_p",
+    film="masjedi-khonsari-as-printed",
+    heat_capacity=False,
+)
+VECIANA = _law(
+    "masjedi-khonsari-veciana",
+    "the same as Veciana et al. print it: Péclet numbers of sliding speed and lubricant density",
+    lubricant_heat=True,
+    peclet_sliding=1.0,
+)
+VECIANA_PEAK = _law(
+    "masjedi-khonsari-veciana-peak",
+    "the reading that meets Veciana's crossover: Roelands' law at the maximum pressure, "
+    "each surface's own speed and the lubricant's density in the Péclet numbers",
+    lubricant_heat=True,
+    viscosity_pressure_factor=4.0 / math.pi,
+)

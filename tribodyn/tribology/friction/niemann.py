@@ -1,0 +1,43 @@
+"""Mean friction coefficient of a mesh by Niemann, from the conditions at its pitch point."""
+
+from tribodyn.numerics.elementary import exp, log
+from tribodyn.tribology.friction.coulomb import Constant, constant, range_of_constant
+from tribodyn.tribology.law import FrictionLaw, LawInput
+from tribodyn.tribology.nominal import NominalConditions
+
+#: Pitch line speed up to which the FZG tests behind the formula went, m/s.
+MAXIMUM_SPEED = 50.0
+
+
+def niemann(conditions: NominalConditions) -> float:
+    """Mean friction coefficient by Niemann, as ISO/TR 14179-2 and Höhn use it.
+
+    μ_m = 0.048 [w/(V_ΣC ρ_C)]^0.2 η^−0.05 Ra^0.25 X_L, X_L = w^−d, with w in N/mm, V in m/s, ρ in mm, η in
+    mPa·s and Ra in µm: Diez-Ibarbia (6), whose print loses the face width in w. Fitted to FZG tests of
+    case-hardened gears, V up to about 50 m/s; d = 0.0651 for mineral oil 75W90.
+    """
+    load = 1e-3 * conditions.line_load
+    group = load * 1e-3 * conditions.curvature / conditions.sum_speed
+    viscosity = 1e3 * conditions.viscosity
+    roughness = 1e6 * conditions.mean_roughness
+    return 0.048 * exp(
+        0.2 * log(group)
+        - 0.05 * log(viscosity)
+        + 0.25 * log(roughness)
+        - conditions.load_exponent * log(load)
+    )
+
+
+def _mean(given: LawInput) -> Constant:
+    conditions = given.nominal()
+    return Constant(float(niemann(conditions)), float(conditions.pitch_line_speed <= MAXIMUM_SPEED))
+
+
+LAW = FrictionLaw(
+    "niemann",
+    "mean coefficient of the mesh by Niemann, as in ISO/TR 14179-2",
+    constant,
+    _mean,
+    in_range=range_of_constant,
+    range="pitch line speed up to about 50 m/s (FZG tests of case-hardened gears)",
+)

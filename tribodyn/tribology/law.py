@@ -1,0 +1,254 @@
+"""What a film law and a friction law are, and both as a model uses them.
+
+A law's functions are pure functions of scalars, marked `numerics.elementary.law`, so that the same lines
+run on floats, on arrays, under JAX and in the native kernels, which are compiled for the laws in use. A law
+may call other functions only if they are marked in the same way.
+"""
+
+from collections import namedtuple
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import Any, Literal, NamedTuple, Self
+
+from tribodyn.errors import InputError, near_name, quoted
+from tribodyn.geometry.material import MaterialData
+from tribodyn.numerics.elementary import LAWS, absolute, law
+from tribodyn.numerics.parameter import Parameter
+from tribodyn.tribology.contact import Surfaces, hertz_half_width
+from tribodyn.tribology.data import LubricantData
+from tribodyn.tribology.flash import flash_temperature_rise
+from tribodyn.tribology.nominal import NominalConditions
+
+
+class LawInput(NamedTuple):
+    """What a law may make its parameters of, beside the values of its own keys.
+
+    Attributes
+    ----------
+    surfaces : Surfaces
+    lubricant : LubricantData
+    materials : (MaterialData, MaterialData)
+        Of pinion and gear.
+    nominal : callable
+        () -> NominalConditions at the pitch point; raises InputError where they have no meaning.
+    """
+
+    surfaces: Surfaces
+    lubricant: LubricantData
+    materials: tuple[MaterialData, MaterialData]
+    nominal: Callable[[], NominalConditions]
+
+
+class FilmFunctions(NamedTuple):
+    """What kernels and models hold of a film law; see `FilmLaw`."""
+
+    film: Callable[..., Any]
+    in_range: Callable[..., Any]
+
+
+class FrictionFunctions(NamedTuple):
+    """What kernels and models hold of a friction law; see `FrictionLaw`."""
+
+    coefficient: Callable[..., Any]
+    flash_temperature: Callable[..., Any]
+    in_range: Callable[..., Any]
+
+
+class ActiveFilm(NamedTuple):
+    """A film law in use: its functions and the parameters that they read."""
+
+    functions: Any
+    parameters: Any
+
+
+class ActiveFriction(NamedTuple):
+    """A friction law in use: its functions and the parameters that they read."""
+
+    functions: Any
+    parameters: Any
+
+
+class Closure(NamedTuple):
+    """What closes the equations at a contact: its surfaces, and film and friction law in use."""
+
+    surfaces: Surfaces
+    film: ActiveFilm
+    friction: ActiveFriction
+
+
+@law
+def film_at(film, contact, surfaces):
+    """Evaluate the film law in use: ln of the smooth film (m), roughness factor, asperity load share.
+
+    What a friction law calls that needs the film; one that does not call it pays nothing for it.
+    """
+    return film.functions.film(contact, surfaces, film.parameters)
+
+
+@law
+def film_range_not_stated(contact, surfaces, parameters):
+    """NaN: the film law states no range of validity."""
+    return float("nan") + 0.0 * contact.line_load
+
+
+@law
+def range_not_stated(contact, film, surfaces, parameters):
+    """NaN: the friction law states no range of validity."""
+    return float("nan") + 0.0 * contact.line_load
+
+
+@law
+def heat_of_friction(contact, film, surfaces, parameters, coefficient):
+    """Flash temperature rise, K, of the heat μ |v_s| p that friction makes."""
+    half_width = hertz_half_width(contact.line_load, contact.curvature, surfaces.effective_modulus)
+    pressure = contact.line_load / (2.0 * half_width)
+    heat_flux = coefficient * absolute(contact.sliding) * pressure
+    return flash_temperature_rise(heat_flux, half_width, contact.pinion_speed, contact.gear_speed, surfaces)
+
+
+@cache
+def _values_type(names: tuple[str, ...]) -> Any:
+    """Type of the parameters of a law that has no other than its own keys; one type for equal names."""
+    return namedtuple("Values", names)
+
+
+@dataclass(frozen=True, eq=False)
+class _Law:
+    """What film and friction laws have in common.
+
+    Parameters
+    ----------
+    name : str
+        As scenarios give it.
+    about : str
+        What it is, in a line.
+    function : callable
+        The law itself; see the kind of law.
+    parameters : callable, optional
+        (given: LawInput, **values of the keys in SI units) -> NamedTuple of the floats that the functions
+        read. Default: the values of the keys, by name.
+    keys : tuple of Parameter
+        Keys of its own in the scenario's table.
+    in_range : callable
+        Gives 1.0 inside the range of validity, 0.0 outside, NaN where none is stated.
+    range : str
+        The range of validity in words, with its source; "" where none is stated.
+    """
+
+    name: str
+    about: str
+    function: Callable[..., Any]
+    parameters: Callable[..., Any] | None = None
+    keys: tuple[Parameter, ...] = ()
+    in_range: Callable[..., Any] = range_not_stated
+    range: str = ""
+
+    def __post_init__(self) -> None:
+        for function in self.functions:
+            if not any(function is known for known in LAWS):
+                law(function)
+
+    @property
+    def functions(self) -> Any:
+        """The functions that kernels and models hold."""
+        raise NotImplementedError
+
+    def made(self, given: LawInput, values: dict[str, Any]) -> Any:
+        """Make the parameters; keys without a value take their default.
+
+        Raises
+        ------
+        InputError
+            If a value is unknown or missing, or has no meaning under these conditions.
+        """
+        known = {key.name: key.default for key in self.keys}
+        for name, value in values.items():
+            if name not in known:
+                near = near_name(name, known)
+                remedy = f'did you mean "{near}"?' if near else f"its keys: {', '.join(known) or 'none'}"
+                raise InputError(
+                    f"{self.table}.{name}", quoted(value), f'no key of law "{self.name}"', remedy
+                )
+        full = known | values
+        for key in self.keys:
+            if full[key.name] is None:
+                rule = f'missing: law = "{self.name}" needs it'
+                raise InputError(f"{self.table}.{key.name}", None, rule, f"give it: {key.about}")
+        if self.parameters is not None:
+            return self.parameters(given, **full)
+        return _values_type(tuple(full))(**full)
+
+    @property
+    def table(self) -> str:
+        """The scenario's table that names the law and holds its keys."""
+        raise NotImplementedError
+
+    def with_values(self, **values: float) -> Self:
+        """Return the law with other values of its keys, in SI units, where none are given."""
+        known = [key.name for key in self.keys]
+        if unknown := [name for name in values if name not in known]:
+            raise TypeError(
+                f"law {self.name} has no key {unknown[0]}; its keys: {', '.join(known) or 'none'}"
+            )
+        keys = tuple(key._replace(default=values.get(key.name, key.default)) for key in self.keys)
+        return replace(self, keys=keys)
+
+
+@dataclass(frozen=True, eq=False)
+class FilmLaw(_Law):
+    """A law of film thickness: a plain object, chosen by ``[film] law`` or handed over from Python.
+
+    `function` is (contact: LocalContact, surfaces: Surfaces, parameters) -> (ln of the film of smooth
+    surfaces in m, factor by which roughness raises it, share of the load that asperities carry, 0 … 1); a law
+    of smooth surfaces returns 1.0 and 0.0 for the last two. `in_range` takes the same arguments.
+
+    Parameters
+    ----------
+    thickness : {"central", "minimum"}
+        Which thickness of the film it gives.
+    """
+
+    in_range: Callable[..., Any] = film_range_not_stated
+    thickness: Literal["central", "minimum"] = "central"
+
+    @property
+    def functions(self) -> FilmFunctions:
+        """The functions that kernels and models hold."""
+        return FilmFunctions(self.function, self.in_range)
+
+    @property
+    def table(self) -> str:
+        """The scenario's table that names the law and holds its keys."""
+        return "film"
+
+
+@dataclass(frozen=True, eq=False)
+class FrictionLaw(_Law):
+    """A law of friction: a plain object, chosen by ``[friction] law`` or handed over from Python.
+
+    `function` is (contact: LocalContact, film: ActiveFilm, surfaces: Surfaces, parameters) -> friction
+    coefficient ≥ 0; it evaluates the film, where it needs one, with `film_at`. `in_range` takes the same
+    arguments.
+
+    Parameters
+    ----------
+    flash_temperature : callable
+        (contact, film, surfaces, parameters, coefficient) -> temperature rise, K. Default: of the heat that
+        the coefficient makes.
+    film : str
+        Name of the film law that goes with it where the scenario names none.
+    """
+
+    flash_temperature: Callable[..., Any] = heat_of_friction
+    film: str = "masjedi-khonsari"
+
+    @property
+    def functions(self) -> FrictionFunctions:
+        """The functions that kernels and models hold."""
+        return FrictionFunctions(self.function, self.flash_temperature, self.in_range)
+
+    @property
+    def table(self) -> str:
+        """The scenario's table that names the law and holds its keys."""
+        return "friction"

@@ -1,0 +1,61 @@
+"""Nominal conditions of a mesh at its pitch point, for laws that give the whole mesh one mean coefficient."""
+
+import math
+from typing import Any, NamedTuple
+
+
+class NominalConditions(NamedTuple):
+    """Load, motion and oil of a mesh at its pitch point, whatever the tooth family; SI.
+
+    Attributes
+    ----------
+    tangential_load : F_t on the pitch circles, N
+    pinion_pitch_radius, gear_pitch_radius : working pitch radii, m
+    pressure_angle : α at the pitch point, rad, > 0
+    pinion_speed : rad/s
+    face_width : m
+    viscosity : η at the temperature of the oil, Pa·s
+    density : of the oil, kg/m³
+    mean_roughness : Ra, arithmetic mean roughness of the flanks, m
+    load_exponent : d of the lubricant factor X_L = (w mm/N)^−d
+    """
+
+    tangential_load: Any
+    pinion_pitch_radius: Any
+    gear_pitch_radius: Any
+    pressure_angle: Any
+    pinion_speed: Any
+    face_width: Any
+    viscosity: Any
+    density: Any
+    mean_roughness: Any
+    load_exponent: Any
+
+    @property
+    def line_load(self) -> Any:
+        """Normal load of a single pair over the face width, w = F_t/(b cos α), N/m."""
+        return self.tangential_load / self.face_width / math.cos(self.pressure_angle)
+
+    @property
+    def curvature(self) -> Any:
+        """Relative curvature 1/ρ_C at the pitch point, 1/m."""
+        return self._sum_of_curvatures / math.sin(self.pressure_angle)
+
+    @property
+    def pitch_line_speed(self) -> Any:
+        """Pitch line speed V, m/s."""
+        return self.pinion_speed * self.pinion_pitch_radius
+
+    @property
+    def sum_speed(self) -> Any:
+        """Sum of the rolling speeds at the pitch point, V_ΣC = 2 V sin α, m/s."""
+        return 2.0 * self.pitch_line_speed * math.sin(self.pressure_angle)
+
+    @property
+    def load_intensity(self) -> Any:
+        """Load intensity K = F_t (u + 1)/(b d_1 u), Pa."""
+        return self.tangential_load / self.face_width * self._sum_of_curvatures / 2.0
+
+    @property
+    def _sum_of_curvatures(self) -> Any:
+        return 1.0 / self.pinion_pitch_radius + 1.0 / self.gear_pitch_radius

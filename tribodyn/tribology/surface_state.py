@@ -1,0 +1,70 @@
+"""All that is known of a contact under the laws in use: what is recorded of it."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.numerics.elementary import exp
+from tribodyn.tribology.contact import MAXIMUM_OVER_MEAN, LocalContact, hertz_half_width
+from tribodyn.tribology.law import ActiveFilm, Closure, FilmFunctions, film_range_not_stated
+
+
+class SurfaceState(NamedTuple):
+    """Film, pressure, temperature and friction of contacts; SI, named as in a record.
+
+    Attributes
+    ----------
+    friction_coefficient : μ
+    asperity_load_ratio : share λ of the load that asperities carry; 0 of a film law of smooth surfaces
+    central_film_thickness : of the film law, m; the minimum film where the law gives that
+    flash_temperature_rise : ΔT, K
+    hertz_pressure : maximum Hertz pressure p_H, Pa
+    closure_in_range, friction_in_range
+        1.0 where the film law and the friction law are inside their range, 0.0 outside, NaN: none stated.
+    """
+
+    friction_coefficient: Any
+    asperity_load_ratio: Any
+    central_film_thickness: Any
+    flash_temperature_rise: Any
+    hertz_pressure: Any
+    closure_in_range: Any
+    friction_in_range: Any
+
+
+def _evaluated(contact: Any, surfaces: Any, parameters: Any) -> Any:
+    return parameters
+
+
+_EVALUATED = FilmFunctions(_evaluated, film_range_not_stated)
+
+
+def surface_state(contact: LocalContact, closure: Closure) -> SurfaceState:
+    """Evaluate the laws in use; arrays broadcast."""
+    surfaces, film, friction = closure
+    evaluated = film.functions.film(contact, surfaces, film.parameters)
+    log_smooth, rough, share = evaluated
+    known = ActiveFilm(_EVALUATED, evaluated)  # so that no friction law evaluates the film again
+    coefficient = friction.functions.coefficient(contact, known, surfaces, friction.parameters)
+    temperature = friction.functions.flash_temperature(
+        contact, known, surfaces, friction.parameters, coefficient
+    )
+    half_width = hertz_half_width(contact.line_load, contact.curvature, surfaces.effective_modulus)
+    zero = 0.0 * log_smooth
+    return SurfaceState(
+        zero + coefficient,
+        zero + share,
+        exp(log_smooth) * rough,
+        zero + temperature,
+        zero + MAXIMUM_OVER_MEAN * (contact.line_load / (2.0 * half_width)),
+        film.functions.in_range(contact, surfaces, film.parameters),
+        friction.functions.in_range(contact, known, surfaces, friction.parameters),
+    )
+
+
+def fraction_in_range(in_range: Any) -> float | None:
+    """Share of contacts in which a law is inside its range; None where it states none, 1 without contacts."""
+    in_range = np.asarray(in_range, dtype=float)
+    if in_range.size == 0:
+        return 1.0
+    return None if np.isnan(in_range).all() else float(np.mean(in_range))
