@@ -38,8 +38,8 @@ quick: $(VENV)/.testing
 
 # twice: where the first user of something expensive is not quick, the next one prepares it
 durations: $(VENV)/.testing
-	XLA_FLAGS="$(TESTS_XLA)" $(BIN)/python -m pytest --benchmark-disable --measure-durations -m "not bench"
-	XLA_FLAGS="$(TESTS_XLA)" $(BIN)/python -m pytest --benchmark-disable --measure-durations --quick -m "not bench and not slow"
+	XLA_FLAGS="$(TESTS_XLA)" $(BIN)/python -m pytest $(IN_PARALLEL) --measure-durations -m "not bench"
+	XLA_FLAGS="$(TESTS_XLA)" $(BIN)/python -m pytest $(IN_PARALLEL) --measure-durations --quick -m "not bench and not slow"
 
 wheel: $(VENV)/.testing
 	$(BIN)/python -m build --outdir dist
