@@ -92,7 +92,8 @@ class Study:
     figures       ``DRAWINGS``, its pictures by name; the one called overview is drawn after a run
     sweep_figures ``SWEEP_DRAWINGS``, pictures of its sweeps (optional: the response of its figures)
     batch         ``BATCH``, how many cases are evaluated together (optional), see `studies.batch.Batch`
-    template      ``template.toml``, a commented scenario in which TITLE stands for its title
+    template      ``template.toml``, a commented scenario in which TITLE stands for its title; of a study
+                  in a single module its attribute ``TEMPLATE``
     ============= =================================================================================
 
     Parameters
@@ -135,8 +136,9 @@ class Study:
     def template(self) -> str:
         """A commented scenario to begin with, in which TITLE stands for its title."""
         package = import_module(self.package)
-        folder = package.__name__ if hasattr(package, "__path__") else package.__package__ or ""
-        return resources.files(folder).joinpath("template.toml").read_text(encoding="utf-8")
+        if not hasattr(package, "__path__"):  # one module, which has no folder of its own
+            return package.TEMPLATE
+        return resources.files(package).joinpath("template.toml").read_text(encoding="utf-8")
 
     def check(self, case: Any) -> Checked:
         """Check a case and say what it describes, without a run.
