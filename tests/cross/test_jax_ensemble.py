@@ -14,8 +14,8 @@ from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE as RECORDED
 from tribodyn.record.sweep_schema import FAILED
 from tribodyn.solve import ensemble, jax_ensemble
-from tribodyn.solve.engine import DONE, STALLED, STEP_TOO_SMALL, TOO_MANY_STEPS
 from tribodyn.solve.initial import static_equilibrium
+from tribodyn.solve.integrator import Status
 from tribodyn.studies.gear_pair import batch
 from tribodyn.studies.gear_pair.sweep_layout import FIGURES
 from tribodyn.sweep.engines import Local
@@ -74,9 +74,9 @@ def test_jax_and_lanes_agree_and_tell_the_same_failure(motors):
     native = ensemble.march(models, states, **settings)
     mapped = ensemble.march(models, states, method="tsit5", **settings)
     for found in (native, mapped):
-        assert found.status[[0, 1, 3]].tolist() == [DONE, DONE, DONE]
+        assert found.status[[0, 1, 3]].tolist() == [Status.DONE] * 3
         # the rates grow without bound towards rest, so that the step may vanish before the speed does
-        assert found.status[2] in (STALLED, STEP_TOO_SMALL)
+        assert found.status[2] in (Status.STALLED, Status.STEP_TOO_SMALL)
     assert 0 < native.reached[2] < 3
     # JAX tells the segment, lanes the phase
     assert 0 <= native.reached[2] - mapped.reached[2] < 1
@@ -102,14 +102,14 @@ def test_neither_numbers_nor_fewer_cases_compile_anything_again(motors, compiled
             mechanics=model.mechanics._replace(
                 load_torque=1.1 * model.mechanics.load_torque, mesh_damping=0.5 * model.mechanics.mesh_damping
             ),
-            contact=model.contact._replace(inlet_viscosity=2.0 * model.contact.inlet_viscosity),
+            film=model.film._replace(log_inlet_viscosity=model.film.log_inlet_viscosity + np.log(2.0)),
         )
         for model in models
     ]
     others = ensemble.march([*heavier, *models, *heavier], np.tile(states, (3, 1)), samples=17, **settings)
-    assert np.sum(others.status == DONE) == 9
+    assert np.sum(others.status == Status.DONE) == 9
     hurried = ensemble.march(models[:2], states[:2], samples=40, max_steps=10, **settings)
-    assert np.all(hurried.status == TOO_MANY_STEPS)
+    assert np.all(hurried.status == Status.TOO_MANY_STEPS)
     assert len(compiled) == before
 
 

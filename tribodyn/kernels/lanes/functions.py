@@ -24,7 +24,7 @@ from tribodyn.kernels.lanes.vectors import (
     square_root,
     to_indices,
 )
-from tribodyn.kernels.native.compiler import part, part_instead
+from tribodyn.kernels.native.parts import part, part_instead
 from tribodyn.numerics import elementary
 
 LOG2_E = 1.4426950408889634
