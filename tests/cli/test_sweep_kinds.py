@@ -93,8 +93,8 @@ def test_it_is_shown_and_drawn(kind: str, tmp_path: Path):
 
 
 @pytest.mark.slow
-def test_relief_of_the_tips_evens_out_the_loaded_error(tmp_path: Path):
-    """A long linear relief lowers the peak to peak until it exceeds what the single pair deflects more."""
+def test_peak_to_peak_of_the_loaded_error_over_tip_relief(tmp_path: Path):
+    """Relief of the pinion's tips alone shortens the double contact: the error swings more."""
     words = ["--set", "drive.pinion.modification.tip_relief_length=3 mm", "--set", "mesh.slices=1"]
     words += ["--set", "output.positions_per_cycle=24"]
     path = tmp_path / "relief.h5"
@@ -111,7 +111,7 @@ def test_relief_of_the_tips_evens_out_the_loaded_error(tmp_path: Path):
         )
         alone = json.loads(shown)["summary"]["loaded_transmission_error_peak_to_peak"]
         assert spread[i] == pytest.approx(alone, rel=1e-12)
-    assert spread[2] > spread[1]
+    assert spread[0] < spread[1] < spread[2]
 
 
 @pytest.mark.parametrize("kind", VARIED)
