@@ -16,7 +16,7 @@ from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.families import family
 from tribodyn.geometry.modification import UNMODIFIED, FlankModification, Misalignment, Modifications, Relief
 from tribodyn.solve.initial import static_equilibrium
-from tribodyn.solve.transient import Chunk, Settings, transient
+from tribodyn.solve.transient import SampledStates, TransientSettings, transient
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.tribology.data import FrictionData
 
@@ -32,11 +32,11 @@ def test_creeping_run_is_the_load_contact_model(prepared, modified, slices):
     case = prepared("involute-18-36-fem", **slow).case
     mesh = dataclasses.replace(case.mesh, modifications=modified, slices=slices)
     run = prepare(dataclasses.replace(case, mesh=mesh))
-    settings = Settings("radau", 1e-8, 1, 100000, SAMPLES)
+    settings = TransientSettings("radau", 1e-8, 1, 100000, SAMPLES)
     chunks = [
         part
-        for part in transient(run.model, static_equilibrium(run.model), settings, "radau")
-        if isinstance(part, Chunk)
+        for part in transient(run.model, static_equilibrium(run.model), settings)
+        if isinstance(part, SampledStates)
     ]
     cycles = np.concatenate([chunk.cycles for chunk in chunks])
     found = outputs(cycles, np.concatenate([chunk.states for chunk in chunks]), run.model)["normal_load"]
@@ -114,11 +114,11 @@ def test_relieved_tips_quieten_the_running_pair(prepared):
     swings = []
     for name in ("involute-18-36-fem", "involute-18-36-tip-relief"):
         model = prepared(name).model
-        settings = Settings("dopri5", 1e-6, 16, 100000, SAMPLES)
+        settings = TransientSettings("dopri5", 1e-6, 16, 100000, SAMPLES)
         chunks = [
             part
-            for part in transient(model, static_equilibrium(model), settings, "dopri5")
-            if isinstance(part, Chunk)
+            for part in transient(model, static_equilibrium(model), settings)
+            if isinstance(part, SampledStates)
         ]
         cycles = np.concatenate([chunk.cycles for chunk in chunks])
         found = outputs(cycles, np.concatenate([chunk.states for chunk in chunks]), model)

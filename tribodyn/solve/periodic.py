@@ -25,13 +25,14 @@ from tribodyn.dynamics.parameters import (
     Model,
 )
 from tribodyn.errors import InputError, SimulationError
-from tribodyn.solve.engine import DONE, REASONS, absolute_tolerances
-from tribodyn.solve.ensemble import MAX_STEPS, march
+from tribodyn.solve.choice import choose
+from tribodyn.solve.engagement import engage_next
+from tribodyn.solve.ensemble import march
 from tribodyn.solve.initial import static_deflection, static_equilibrium
+from tribodyn.solve.integrator import MAX_STEPS, REASONS, Status
 from tribodyn.solve.period_map import DIFFERENCE, Marched, Tangent, by_differences
 from tribodyn.solve.steady_orbit import Method, Orbit, find
-from tribodyn.solve.stiffness import choose
-from tribodyn.solve.transient import engage_next
+from tribodyn.solve.tolerances import absolute_tolerances
 
 #: The integration's relative tolerance for a fixed point, as a share of the residual asked for: a map that
 #: carries more noise than a tenth of the residual cannot be brought to it.
@@ -260,7 +261,7 @@ class GearMap:
 
     def march(self, states: np.ndarray, cases: np.ndarray, periods: int, fine: bool) -> Marched:
         """See `period_map.PeriodMap`."""
-        samples, end, reasons = self.run(self.full(states), cases, periods, 1, fine)
+        samples, end, reasons = self.integrate(self.full(states), cases, periods, 1, fine)
         for row, case in enumerate(cases):
             if self.models[case].options.formulation == ENERGY_CONSISTENT and not reasons[row]:
                 engage_next(end[row], self.models[case])
@@ -272,7 +273,7 @@ class GearMap:
         """See `period_map.PeriodMap`; by differences."""
         return by_differences(self.march, states, cases, periods, self.scale)
 
-    def run(
+    def integrate(
         self, states: np.ndarray, cases: np.ndarray, periods: int, samples: int, fine: bool
     ) -> tuple[np.ndarray, np.ndarray, list[str]]:
         """Samples (R, periods · samples, STATES), states at the end before engagement, and reasons."""
@@ -295,8 +296,8 @@ class GearMap:
             )
             found[rows], end[rows] = batch.samples, batch.state
             for row, status, reached in zip(rows, batch.status, batch.reached, strict=True):
-                if status != DONE:
-                    reasons[row] = f"{REASONS[int(status)]} (after {reached:.2f} mesh cycles)"
+                if status != Status.DONE:
+                    reasons[row] = f"{REASONS[Status(status)]} (after {reached:.2f} mesh cycles)"
         return found, end, reasons
 
 
@@ -310,7 +311,7 @@ def _sampled(period_map: GearMap, orbits: list[Orbit], samples: int) -> list[Ste
     for period in sorted({orbit.period for orbit in orbits} - {0}):
         cases = np.array([case for case, orbit in enumerate(orbits) if orbit.period == period])
         states = period_map.full(np.array([orbits[case].state for case in cases]))
-        batch = period_map.run(states, cases, period, samples, True)
+        batch = period_map.integrate(states, cases, period, samples, True)
         found |= {int(case): row for case, row in zip(cases, zip(*batch, strict=True), strict=True)}
     steadies = []
     for case, orbit in enumerate(orbits):

@@ -4,12 +4,12 @@ from math import pi, radians
 
 import numpy as np
 import pytest
-from tribodyn.studies.kinds import KINDS
 
 from tribodyn.errors import InputError
 from tribodyn.geometry.families import FAMILIES, family
 from tribodyn.scenario.sources import names, shipped
 from tribodyn.solve.methods import SOLVERS, solver
+from tribodyn.studies import STUDIES
 from tribodyn.studies.load import json_schema, load, load_scenario
 from tribodyn.tribology.film import FILM_LAWS, film_law
 from tribodyn.tribology.friction import FRICTION_LAWS, friction_law
@@ -214,7 +214,7 @@ def test_registries_know_their_names_and_suggest_near_ones():
 def test_the_json_schema_offers_references_and_the_registries_names():
     schema = json_schema()
     assert schema["$defs"]["Friction"]["properties"]["law"]["enum"] == list(FRICTION_LAWS)
-    kinds = [kind.__name__ for kind in KINDS.values()]
+    kinds = [study.table().__name__ for _, study in STUDIES.items()]
     assert [shape["$ref"] for shape in schema["oneOf"]] == [f"#/$defs/{kind}" for kind in kinds]
     assert schema["$defs"]["EfficiencyFriction"]["properties"]["law"]["enum"] == list(FRICTION_LAWS)
     film = schema["$defs"]["FilmTable"]
@@ -223,7 +223,7 @@ def test_the_json_schema_offers_references_and_the_registries_names():
         coefficient = schema["$defs"][table]["properties"]["coefficient"]
         assert (coefficient["type"], coefficient["minimum"]) == ("number", 0)
         assert schema["$defs"][table]["additionalProperties"] is False
-    gear_pair = schema["$defs"]["Scenario"]
+    gear_pair = schema["$defs"]["GearPairScenario"]
     drive = gear_pair["properties"]["drive"]
     name, written_out, changed = drive["anyOf"]
     assert name["type"] == "string"

@@ -9,11 +9,11 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 from pydantic.fields import FieldInfo
-from tribodyn.studies.kinds import KINDS
 
 from tribodyn.geometry.families import FAMILIES
 from tribodyn.scenario.quantity import Column, Quantity, Reference, Table
 from tribodyn.solve.methods import SOLVERS
+from tribodyn.studies import STUDIES
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
 
@@ -42,7 +42,7 @@ def tables(table: type[Table]) -> dict[str, type[Table]]:
     return found
 
 
-TABLES = {name: table for kind in KINDS.values() for name, table in tables(kind).items()}
+TABLES = {name: table for _, study in STUDIES.items() for name, table in tables(study.table()).items()}
 KEYS = [(table, key) for table in TABLES for key in TABLES[table].model_fields]
 
 
