@@ -26,7 +26,7 @@ from tools.peers.batch import BATCHES, Batch, speeds, threads
 from tools.peers.numpy_model import check
 from tools.peers.single import Problem, Runner, octave, octave_timed, peers, tribodyn_engine
 from tribodyn.solve.initial import static_equilibrium
-from tribodyn.solve.transient import NativeEngine
+from tribodyn.solve.transient import make_integrator
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.load import load_scenario
 
@@ -84,8 +84,8 @@ def single(wanted: Callable[[str], bool], repeats: int) -> str:
     """Table of single runs."""
     posed = problem()
     exact = tribodyn_engine("dopri5")(posed, 1e-12)
-    engine = NativeEngine(posed.model, SAMPLES, posed.tolerances(1e-9))
-    visited = engine.block(posed.state, 0, 2).samples[:-1]
+    integrator = make_integrator("dopri5", posed.model, SAMPLES, posed.tolerances(1e-9))
+    visited = integrator.integrate(posed.state, 0, 2).samples[:-1]
     same = check(posed.model, visited, np.arange(len(visited)) % SAMPLES / SAMPLES)
     found = []
     for name, run in peers().items():

@@ -13,10 +13,9 @@ from scipy.integrate import solve_ivp
 from tools.peers import steady
 from tribodyn.dynamics.equations import derivatives, engagement
 from tribodyn.dynamics.parameters import MECHANICAL, SLIP, STATES, WORK_IN, WORK_PARAMETRIC, XI, XI_RATE
-from tribodyn.solve.engine import Tolerances, absolute_tolerances
 from tribodyn.solve.initial import static_equilibrium
-from tribodyn.solve.scipy_engine import ScipyEngine
-from tribodyn.solve.transient import NativeEngine
+from tribodyn.solve.tolerances import Tolerances, absolute_tolerances
+from tribodyn.solve.transient import make_integrator
 
 pytestmark = pytest.mark.bench
 
@@ -35,12 +34,12 @@ def case(prepared):
 def native(model, state, tolerances, cycles):
     """With tolerances for the peers; ours are `NATIVE_RTOL`."""
     ours = Tolerances(NATIVE_RTOL, tolerances.atol * (NATIVE_RTOL / RTOL), tolerances.max_steps)
-    return NativeEngine(model, SAMPLES, ours).block(state, 0, cycles).samples
+    return make_integrator("dopri5", model, SAMPLES, ours).integrate(state, 0, cycles).samples
 
 
 def exactly(model, state, tolerances, cycles):
     tight = Tolerances(1e-11, tolerances.atol * 1e-5, tolerances.max_steps)
-    return NativeEngine(model, SAMPLES, tight).block(state, 0, cycles).samples
+    return make_integrator("dopri5", model, SAMPLES, tight).integrate(state, 0, cycles).samples
 
 
 def scipy_bdf(model, state, tolerances, cycles):
@@ -112,7 +111,7 @@ def test_native_run_is_faster_than_lsoda_on_the_compiled_right_hand_side(case, c
     model, state, tolerances = case
 
     def lsoda():
-        return ScipyEngine("lsoda", model, SAMPLES, tolerances).block(state, 0, 20)
+        return make_integrator("lsoda", model, SAMPLES, tolerances).integrate(state, 0, 20)
 
     exact = exactly(*case, 20)[:, XI]
     error = float(np.max(np.abs(lsoda().samples[:, XI] - exact)) / np.ptp(exact))

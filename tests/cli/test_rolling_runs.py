@@ -10,8 +10,10 @@ from typer.testing import CliRunner
 from tribodyn.cli.app import app
 from tribodyn.record.reader import open_record
 from tribodyn.studies.load import load_scenario
-from tribodyn.studies.pictures import ROLLING_NAMES, names
+from tribodyn.studies.pictures import names
 from tribodyn.studies.run import run
+
+FIGURES = ("elements", "element-angle", "gear", "normal-load", "efficiency")
 
 
 @pytest.fixture(scope="module")
@@ -69,7 +71,7 @@ def test_every_output_says_the_mode(folder, name):
 def test_figures_are_drawn_by_name_alone_and_together(folder, tmp_path):
     paths = [folder / f"{name}.h5" for name in ("irefc", "irefc-as-published")]
     drawn = json.loads(said("plot", paths[0], "-o", tmp_path, "--json"))["pictures"]
-    assert [Path(picture).name for picture in drawn] == [f"irefc-{name}.png" for name in ROLLING_NAMES]
+    assert [Path(picture).name for picture in drawn] == [f"irefc-{name}.png" for name in FIGURES]
     both = json.loads(said("plot", *paths, "-o", tmp_path, "--against", "time", "--json"))["pictures"]
     assert [Path(picture).stem.removeprefix("irefc-irefc-as-published-") for picture in both] == [
         "elements",
@@ -77,7 +79,7 @@ def test_figures_are_drawn_by_name_alone_and_together(folder, tmp_path):
         "gear",
     ]
     with open_record(paths[0]) as record:
-        assert names([record]) == ROLLING_NAMES
+        assert names([record]) == FIGURES
 
 
 def test_figures_that_a_record_does_not_hold_are_refused(folder):

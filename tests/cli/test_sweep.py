@@ -14,8 +14,9 @@ from typer.testing import CliRunner
 from tribodyn.cli.app import app
 from tribodyn.record.reader import open_record
 from tribodyn.record.sweep_reader import SweepRecord
-from tribodyn.record.sweep_schema import DONE, FAILED, FIGURES
-from tribodyn.sweep.pictures import SWEEP_NAMES
+from tribodyn.record.sweep_schema import DONE, FAILED
+from tribodyn.studies import STUDIES
+from tribodyn.studies.gear_pair.sweep_layout import FIGURES
 
 SPEEDS = "operating.pinion_speed=100:300:100rad/s"
 SHORT = ("--transient", "4", "--set", "output.samples_per_cycle=40")
@@ -104,7 +105,7 @@ def test_directions_share_the_end_where_one_begins_only_by_their_history(grid: P
         assert not np.array_equal(states[1, :, 0], states[1, :, 1])
 
 
-@pytest.mark.parametrize("name", SWEEP_NAMES)
+@pytest.mark.parametrize("name", STUDIES["gear-pair"].sweep_drawings())
 def test_every_figure_is_drawn(grid: Path, name: str, tmp_path: Path):
     at = ("--at", "pinion_speed=1900rpm", "--at", "direction=down") if name == "poincare" else ()
     said = json.loads(tribodyn("plot", grid, name, *at, "-o", tmp_path, "--json"))

@@ -7,7 +7,7 @@ from tribodyn.dynamics.outputs import outputs
 from tribodyn.dynamics.parameters import XI
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.reversal import SHARES, stops
-from tribodyn.solve.transient import Chunk, Settings, transient
+from tribodyn.solve.transient import SampledStates, TransientSettings, transient
 from tribodyn.studies.gear_pair.summary import energy_residual
 
 SAMPLES = 100
@@ -15,8 +15,8 @@ SAMPLES = 100
 
 def solve(model, rtol=1e-9, cycles=4, method="dopri5", initial="static"):
     state = initial_state(model, initial)
-    parts = transient(model, state, Settings(method, rtol, cycles, 200000, SAMPLES), method)
-    chunks = [part for part in parts if isinstance(part, Chunk)]
+    parts = transient(model, state, TransientSettings(method, rtol, cycles, 200000, SAMPLES))
+    chunks = [part for part in parts if isinstance(part, SampledStates)]
     return np.concatenate([c.cycles for c in chunks]), np.concatenate([c.states for c in chunks])
 
 

@@ -6,13 +6,15 @@ import pytest
 from tests.support.states import random_place, random_state
 from tribodyn.dynamics.contact_forces import QUANTITIES
 from tribodyn.dynamics.parameters import DRIVE_SPEED, MECHANICAL, MOTOR_SLIP, SLIP, STATES, TWIST, XI
-from tribodyn.solve.dopri5 import rhs
-from tribodyn.solve.engine import DONE, Tolerances
+from tribodyn.solve.choice import STIFF, choose
 from tribodyn.solve.initial import accelerations, static_equilibrium
-from tribodyn.solve.jacobian import differentiate
+from tribodyn.solve.integrator import Status
+from tribodyn.solve.jacobian import Differences, differentiate
+from tribodyn.solve.marching import Place
+from tribodyn.solve.right_hand_side import rhs
 from tribodyn.solve.rosenbrock import ALPHA, GAMMA, GAMMAS, STAGES, A, C
-from tribodyn.solve.stiffness import STIFF, choose
-from tribodyn.solve.transient import NativeEngine, make_engine, tolerances_from
+from tribodyn.solve.tolerances import tolerances_from
+from tribodyn.solve.transient import make_integrator
 
 
 @pytest.fixture(scope="module")
@@ -92,7 +94,8 @@ def test_jacobian_is_the_derivative_of_the_right_hand_side(prepared, rng, overri
         f, trial, slope, jacobian = np.empty(STATES), np.empty(STATES), np.empty(STATES), np.empty((19, 19))
         rhs(phase, 0.0, segment, y, model, work, f)
         before = y.copy()
-        differentiate(phase, 1.0, 0.0, segment, y, f, scale, model, work, trial, jacobian, slope)
+        place = Place(phase, 0.0, segment, 1.0)
+        differentiate(place, y, f, scale, model, work, Differences(trial, jacobian, slope))
         np.testing.assert_array_equal(y, before)
         up, down = (accelerations(y + sign * steps, phase, segment, model) for sign in (1, -1))
         exact = (up - down).T / (2 * steps.sum(axis=1))
@@ -105,15 +108,14 @@ def test_jacobian_is_the_derivative_of_the_right_hand_side(prepared, rng, overri
 
 def solve(model, method, rtol, cycles=2, samples=100):
     state = static_equilibrium(model)
-    block = make_engine(method, model, samples, tolerances_from(model, state, rtol, 10**6)).block(
-        state, 0, cycles
-    )
-    assert block.status == DONE
-    return block
+    integrator = make_integrator(method, model, samples, tolerances_from(model, state, rtol, 10**6))
+    result = integrator.integrate(state, 0, cycles)
+    assert result.status == Status.DONE
+    return result
 
 
-def error(block, exact):
-    return np.max(np.abs(block.samples[:, XI] - exact.samples[:, XI])) / np.ptp(exact.samples[:, XI])
+def error(result, exact):
+    return np.max(np.abs(result.samples[:, XI] - exact.samples[:, XI])) / np.ptp(exact.samples[:, XI])
 
 
 @pytest.mark.parametrize("sliding", ["kinematic", "dynamic"])
@@ -122,12 +124,12 @@ def test_order_four(prepared, sliding):
     model = prepared("crc-23-47", **{"operating.pinion_speed": "30 rad/s", "friction.sliding": sliding}).model
     exact = solve(model, "dopri5", 1e-11)
     tolerances = np.array([1e-5, 1e-6, 1e-7, 1e-8])
-    blocks = [solve(model, "rodas4", rtol) for rtol in tolerances]
-    errors = [error(block, exact) for block in blocks]
-    order = -np.polyfit(np.log([block.steps for block in blocks]), np.log(errors), 1)[0]
+    results = [solve(model, "rodas4", rtol) for rtol in tolerances]
+    errors = [error(result, exact) for result in results]
+    order = -np.polyfit(np.log([result.steps for result in results]), np.log(errors), 1)[0]
     assert 3.6 < order < 4.6
     assert errors[1] < 2e-5
-    works = np.max(np.abs(blocks[-1].samples - exact.samples), axis=0) / np.ptp(exact.samples, axis=0).clip(
+    works = np.max(np.abs(results[-1].samples - exact.samples), axis=0) / np.ptp(exact.samples, axis=0).clip(
         1e-9
     )
     assert np.all(works[MECHANICAL:] < 1e-5)
@@ -172,15 +174,13 @@ def test_the_same_run_gives_the_same_bits(prepared, method):
     assert first.steps == second.steps
 
 
-def test_blocks_join(prepared):
+def test_calls_join(prepared):
     """Two cycles in one call, or one after the other: the same up to the first step of the second."""
     model = prepared("crc-23-47").model
     state = static_equilibrium(model)
-    engine = NativeEngine(
-        model, 50, Tolerances(1e-9, tolerances_from(model, state, 1e-9, 1).atol, 10**6), STIFF
-    )
-    first = engine.block(state, 0, 1)
-    second = engine.block(first.state, 1, 1)
+    integrator = make_integrator(STIFF, model, 50, tolerances_from(model, state, 1e-9, 10**6))
+    first = integrator.integrate(state, 0, 1)
+    second = integrator.integrate(first.state, 1, 1)
     whole = solve(model, "rodas4", 1e-9, samples=50)
     parts = np.concatenate([first.samples, second.samples])
     assert np.max(np.abs(parts[:, XI] - whole.samples[:, XI])) < 1e-7 * np.ptp(whole.samples[:, XI])

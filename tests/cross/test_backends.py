@@ -5,77 +5,96 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from tests.support.lubricated_contacts import LIU_NI
+from tests.support.closures import LIU_NI, MIXED, VECIANA, coulomb, under
 from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
-from tribodyn.dynamics.parameters import STATES
+from tribodyn.dynamics.parameters import STATES, Model
 from tribodyn.kernels.native import kernel
-from tribodyn.solve.diffrax_engine import right_hand_side
-from tribodyn.tribology.contact import logarithms
-from tribodyn.tribology.friction import (
-    BENEDICT_KELLEY,
-    COULOMB,
-    MASJEDI_KHONSARI,
-    NONE,
-    XU,
-    friction,
-    mixed_film,
-)
-
-LOGS = logarithms(LIU_NI)
+from tribodyn.solve.diffrax_integrator import right_hand_side
+from tribodyn.tribology.contact import local_contact
+from tribodyn.tribology.film import FILM_LAWS
+from tribodyn.tribology.law import Closure
 
 
 @kernel
-def _films(loads, curvatures, speeds, slidings, contact, logs, out):
+def _films(film, surfaces, loads, curvatures, speeds, out):
     for i in range(len(loads)):
-        u, v = speeds[i], slidings[i]
-        out[i] = mixed_film(loads[i], curvatures[i], u, v, u + 0.5 * v, u - 0.5 * v, contact, logs)[0]
+        contact = local_contact(loads[i], curvatures[i], speeds[i], 0.0, speeds[i], speeds[i])
+        out[0, i], out[1, i], out[2, i] = film.functions.film(contact, surfaces, film.parameters)
 
 
-def test_friction_agrees_between_numpy_numba_and_jax(rng):
-    n = 20000
-    load = 10 ** rng.uniform(2, 6.5, n)
-    curvature = 10 ** rng.uniform(1, 3.5, n)
-    speed = 10 ** rng.uniform(-3, 2, n)
-    sliding = speed * rng.uniform(-1, 1, n)
-    state = load, curvature, speed, sliding, speed + sliding / 2, speed - sliding / 2
-    numpy = mixed_film(*state, LIU_NI, LOGS)[0]
-    native = np.empty(n)
-    _films(load, curvature, speed, sliding, LIU_NI, LOGS, native)
-    traced = jax.jit(lambda *a: mixed_film(*a, LIU_NI, LOGS)[0])(*map(jnp.asarray, state))
-    np.testing.assert_allclose(native, numpy, rtol=2e-12, atol=1e-300)
-    np.testing.assert_allclose(traced, numpy, rtol=2e-12, atol=1e-300)
-
-
-@kernel
-def _coefficients(law, loads, curvatures, speeds, slidings, contact, out):
-    for i in range(len(loads)):
-        u, v = speeds[i], slidings[i]
-        values = friction(law, loads[i], curvatures[i], u, v, u + 0.5 * v, u - 0.5 * v, contact)
-        out[0, i] = values[0]
-        out[1, i] = values[3]
-
-
-@pytest.mark.parametrize("law", [NONE, COULOMB, MASJEDI_KHONSARI, XU, BENEDICT_KELLEY])
-def test_every_law_agrees_between_numpy_numba_and_jax(rng, law):
-    n = 5000
+def _states(rng, n):
     load, curvature = 10 ** rng.uniform(2, 6.5, n), 10 ** rng.uniform(1, 3.5, n)
     speed = 10 ** rng.uniform(-3, 2, n)
     sliding = speed * rng.uniform(-1, 1, n)
-    contact = LIU_NI._replace(peclet_sliding=1.0, viscosity_pressure_factor=4 / np.pi)
-    state = (load, curvature, speed, sliding, speed + sliding / 2, speed - sliding / 2)
-    values = friction(law, *state, contact)
+    return load, curvature, speed, sliding, speed + sliding / 2, speed - sliding / 2
+
+
+@pytest.mark.parametrize("name", list(FILM_LAWS))
+def test_every_film_agrees_between_numpy_numba_and_jax(rng, name):
+    n = 5000
+    load, curvature, speed, *_ = _states(rng, n)
+    state = load, curvature, speed, 0.0 * speed, speed, speed
+    surfaces, film, _ = under("none", LIU_NI, film=name)
+
+    def evaluate(*state):
+        return film.functions.film(local_contact(*state), surfaces, film.parameters)
+
+    native = np.empty((3, n))
+    _films(film, surfaces, load, curvature, speed, native)
+    traced = jax.jit(evaluate)(*map(jnp.asarray, state))
+    for row, (values, other) in enumerate(zip(evaluate(*state), traced, strict=True)):
+        np.testing.assert_allclose(native[row], values, rtol=2e-12, atol=1e-13)
+        np.testing.assert_allclose(other, values, rtol=2e-12, atol=1e-13)
+
+
+@kernel
+def _coefficients(closure, loads, curvatures, speeds, slidings, out):
+    surfaces, film, friction = closure.surfaces, closure.film, closure.friction
+    for i in range(len(loads)):
+        u, v = speeds[i], slidings[i]
+        contact = local_contact(loads[i], curvatures[i], u, v, u + 0.5 * v, u - 0.5 * v)
+        mu = friction.functions.coefficient(contact, film, surfaces, friction.parameters)
+        out[0, i] = mu
+        out[1, i] = friction.functions.flash_temperature(contact, film, surfaces, friction.parameters, mu)
+
+
+def _coefficient_and_rise(closure: Closure, *state):
+    contact = local_contact(*state)
+    surfaces, film, friction = closure
+    mu = friction.functions.coefficient(contact, film, surfaces, friction.parameters)
+    return mu, friction.functions.flash_temperature(contact, film, surfaces, friction.parameters, mu)
+
+
+CLOSURES = {
+    "none": under("none"),
+    "coulomb": coulomb(0.06),
+    **{name: under(name, VECIANA) for name in (MIXED, f"{MIXED}-veciana-peak", f"{MIXED}-veciana")},
+    "xu": under("xu"),
+    "benedict-kelley": under("benedict-kelley"),
+    **{film: under(MIXED, film=film) for film in ("moes", "dowson-higginson")},
+}
+
+
+@pytest.mark.parametrize("name", CLOSURES)
+def test_every_law_agrees_between_numpy_numba_and_jax(rng, name):
+    n, closure = 5000, CLOSURES[name]
+    state = _states(rng, n)
+    values = _coefficient_and_rise(closure, *state)
     native = np.empty((2, n))
-    _coefficients(law, load, curvature, speed, sliding, contact, native)
-    traced = jax.jit(lambda *a: jnp.stack(friction(law, *a, contact)))(*map(jnp.asarray, state))
-    for row, which in ((0, 0), (1, 3)):
-        np.testing.assert_allclose(native[row], values[which], rtol=1e-11, atol=1e-300)
-        np.testing.assert_allclose(traced[which], values[which], rtol=1e-11, atol=1e-300)
+    _coefficients(closure, *state[:4], native)
+    traced = jax.jit(lambda *a: _coefficient_and_rise(closure, *a))(*map(jnp.asarray, state))
+    for row in (0, 1):
+        np.testing.assert_allclose(native[row], values[row], rtol=1e-11, atol=1e-300)
+        np.testing.assert_allclose(traced[row], values[row], rtol=1e-11, atol=1e-300)
 
 
 def test_friction_has_a_gradient():
-    slope = jax.grad(lambda u: mixed_film(3.85e5, 111.0, u, 0.05, 0.2, 0.15, LIU_NI, LOGS)[0])(0.134)
+    def coefficient(u):
+        return _coefficient_and_rise(under(MIXED), 3.85e5, 111.0, u, 0.05, 0.2, 0.15)[0]
+
+    slope = jax.grad(coefficient)(0.134)
     step = 1e-6
-    values = [mixed_film(3.85e5, 111.0, 0.134 + s, 0.05, 0.2, 0.15, LIU_NI, LOGS)[0] for s in (step, -step)]
+    values = [coefficient(0.134 + s) for s in (step, -step)]
     assert float(slope) == pytest.approx((values[0] - values[1]) / (2 * step), rel=1e-6)
 
 
@@ -91,8 +110,22 @@ def test_friction_has_a_gradient():
         {"friction.law": "benedict-kelley"},
         {"friction.law": "niemann"},
         {"friction.law": "masjedi-khonsari-veciana-peak"},
+        {"film.law": "moes"},
+        {"film.law": "dowson-higginson"},
     ],
-    ids=["default", "dynamic", "hertz", "backlash", "frictionless", "xu", "benedict", "niemann", "veciana"],
+    ids=[
+        "default",
+        "dynamic",
+        "hertz",
+        "backlash",
+        "frictionless",
+        "xu",
+        "benedict",
+        "niemann",
+        "veciana",
+        "moes",
+        "dowson-higginson",
+    ],
 )
 def test_right_hand_sides_agree_over_random_states(prepared, rng, overrides):
     model = prepared("crc-23-47", **overrides).model
@@ -107,9 +140,7 @@ def test_a_changed_number_compiles_nothing_again(prepared):
     def f(y, numbers):
         nonlocal traces
         traces += 1
-        table, mechanics, contact = numbers
-        model = base._replace(table=table, mechanics=mechanics, contact=contact)
-        return right_hand_side(0.3, y, (0.0, 0, model))
+        return right_hand_side(0.3, y, (0.0, 0, Model(*numbers, options=base.options)))
 
     base = prepared("crc-23-47").model
     others = [
@@ -117,6 +148,6 @@ def test_a_changed_number_compiles_nothing_again(prepared):
         prepared("crc-23-47", **{"drive.pressure_angle": "23 deg"}).model,
     ]
     for model in (base, *others):
-        numbers = jax.tree.map(jnp.asarray, (model.table, model.mechanics, model.contact))
+        numbers = jax.tree.map(jnp.asarray, model.numbers)
         f(jnp.zeros(STATES), numbers)
     assert traces == 1

@@ -12,11 +12,12 @@ from tribodyn.cli.app import app
 from tribodyn.dynamics.parameters import XI
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE as RECORDED
-from tribodyn.record.sweep_schema import FAILED, FIGURES
+from tribodyn.record.sweep_schema import FAILED
 from tribodyn.solve import ensemble, jax_ensemble
-from tribodyn.solve.engine import DONE, STALLED, STEP_TOO_SMALL, TOO_MANY_STEPS
 from tribodyn.solve.initial import static_equilibrium
-from tribodyn.sweep import plan
+from tribodyn.solve.integrator import Status
+from tribodyn.studies.gear_pair import batch
+from tribodyn.studies.gear_pair.sweep_layout import FIGURES
 from tribodyn.sweep.engines import Local
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.run import run, settings_of
@@ -73,9 +74,9 @@ def test_jax_and_lanes_agree_and_tell_the_same_failure(motors):
     native = ensemble.march(models, states, **settings)
     mapped = ensemble.march(models, states, method="tsit5", **settings)
     for found in (native, mapped):
-        assert found.status[[0, 1, 3]].tolist() == [DONE, DONE, DONE]
+        assert found.status[[0, 1, 3]].tolist() == [Status.DONE] * 3
         # the rates grow without bound towards rest, so that the step may vanish before the speed does
-        assert found.status[2] in (STALLED, STEP_TOO_SMALL)
+        assert found.status[2] in (Status.STALLED, Status.STEP_TOO_SMALL)
     assert 0 < native.reached[2] < 3
     # JAX tells the segment, lanes the phase
     assert 0 <= native.reached[2] - mapped.reached[2] < 1
@@ -101,14 +102,14 @@ def test_neither_numbers_nor_fewer_cases_compile_anything_again(motors, compiled
             mechanics=model.mechanics._replace(
                 load_torque=1.1 * model.mechanics.load_torque, mesh_damping=0.5 * model.mechanics.mesh_damping
             ),
-            contact=model.contact._replace(inlet_viscosity=2.0 * model.contact.inlet_viscosity),
+            film=model.film._replace(log_inlet_viscosity=model.film.log_inlet_viscosity + np.log(2.0)),
         )
         for model in models
     ]
     others = ensemble.march([*heavier, *models, *heavier], np.tile(states, (3, 1)), samples=17, **settings)
-    assert np.sum(others.status == DONE) == 9
+    assert np.sum(others.status == Status.DONE) == 9
     hurried = ensemble.march(models[:2], states[:2], samples=40, max_steps=10, **settings)
-    assert np.all(hurried.status == TOO_MANY_STEPS)
+    assert np.all(hurried.status == Status.TOO_MANY_STEPS)
     assert len(compiled) == before
 
 
@@ -160,18 +161,18 @@ def test_steady_states_through_jax(tmp_path: Path):
 
 
 def test_a_stopped_sweep_goes_on_and_compiles_nothing_again(tmp_path: Path, compiled, monkeypatch):
-    monkeypatch.setattr(plan, "MOST_IN_CHUNK", 8)
+    monkeypatch.setattr(batch, "MOST_IN_CHUNK", 8)
     words = ("--vary", "operating.pinion_speed=250:400/11rad/s", "--transient", "4")
     whole = swept("jax", tmp_path / "whole.h5", *words)
 
     class Stops(Local):
-        def __call__(self, chunks, settings):
-            yield next(iter(super().__call__(chunks, settings)))
+        def __call__(self, kind, chunks, settings):
+            yield next(iter(super().__call__(kind, chunks, settings)))
             raise KeyboardInterrupt
 
     grid = Grid("crc-23-47", [words[1]], MOTOR)
     with pytest.raises(KeyboardInterrupt):
-        run(grid, settings_of(grid, 4, "tsit5"), Stops(width=8), tmp_path / "stopped.h5")
+        run(grid, settings_of(grid, 4, "jax"), Stops(width=8), tmp_path / "stopped.h5")
     before = len(compiled)
     resumed = swept("jax", tmp_path / "stopped.h5", *words, "--resume")
     assert len(compiled) == before

@@ -7,7 +7,7 @@ from scipy.linalg import expm
 from tests.support.linear_mesh import FREE, OVERRIDES, SEGMENTS, generator, matrices
 from tribodyn.dynamics.parameters import DISPLACEMENTS, SLIP, STATES
 from tribodyn.solve.initial import accelerations, static_equilibrium
-from tribodyn.solve.transient import Chunk, Settings, transient
+from tribodyn.solve.transient import SampledStates, TransientSettings, transient
 
 
 @pytest.fixture(scope="module")
@@ -47,8 +47,8 @@ def test_run_follows_the_matrix_exponential(case):
     y = static_equilibrium(case.model)
     chunks = [
         part
-        for part in transient(case.model, y, Settings("dopri5", 1e-10, 2, 100000, samples), "dopri5")
-        if isinstance(part, Chunk)
+        for part in transient(case.model, y, TransientSettings("dopri5", 1e-10, 2, 100000, samples))
+        if isinstance(part, SampledStates)
     ]
     states = np.concatenate([c.states for c in chunks])
     boundary = np.asarray(case.model.table.boundary)

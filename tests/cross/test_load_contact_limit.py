@@ -5,6 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
+from tests.support.closures import known
 from tribodyn.compliance.flank_gap import flank_gap
 from tribodyn.compliance.load_sharing import flexibility, share_load
 from tribodyn.compliance.loaded_flanks import LoadedFlanks
@@ -15,10 +16,9 @@ from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.families import family
 from tribodyn.geometry.modification import UNMODIFIED, FlankModification, Misalignment, Modifications, Relief
 from tribodyn.solve.initial import static_equilibrium
-from tribodyn.solve.transient import Chunk, Settings, transient
+from tribodyn.solve.transient import SampledStates, TransientSettings, transient
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.tribology.data import FrictionData
-from tribodyn.tribology.friction import friction
 
 SAMPLES = 100
 TIP = FlankModification(tip=Relief(12e-6, 3e-3))
@@ -32,11 +32,11 @@ def test_creeping_run_is_the_load_contact_model(prepared, modified, slices):
     case = prepared("involute-18-36-fem", **slow).case
     mesh = dataclasses.replace(case.mesh, modifications=modified, slices=slices)
     run = prepare(dataclasses.replace(case, mesh=mesh))
-    settings = Settings("radau", 1e-8, 1, 100000, SAMPLES)
+    settings = TransientSettings("radau", 1e-8, 1, 100000, SAMPLES)
     chunks = [
         part
-        for part in transient(run.model, static_equilibrium(run.model), settings, "radau")
-        if isinstance(part, Chunk)
+        for part in transient(run.model, static_equilibrium(run.model), settings)
+        if isinstance(part, SampledStates)
     ]
     cycles = np.concatenate([chunk.cycles for chunk in chunks])
     found = outputs(cycles, np.concatenate([chunk.states for chunk in chunks]), run.model)["normal_load"]
@@ -81,7 +81,7 @@ def test_friction_power_in_slow_rotation_is_that_of_the_slices(prepared):
     # the creep's own flow has no share in the friction: nominal sliding
     power = np.abs(found["friction_force"] * np.nan_to_num(found["sliding_speed"]))
 
-    case, surfaces = run.case, model.contact
+    case = run.case
     flexible = flexibility(assemble(family(case.family), case.drive), case.materials, lead=True)
     flanks = LoadedFlanks(flexible, case.mesh.modifications, 11)
     roll = cycle.roll_start + cycle.pitch_angle * (phase[:, None] + np.arange(cycle.pairs - 1.0, -1.0, -1.0))
@@ -90,15 +90,14 @@ def test_friction_power_in_slow_rotation_is_that_of_the_slices(prepared):
     radius = found["equivalent_radius"][..., None]
     entrainment, sliding = found["entrainment_speed"][..., None], found["sliding_speed"][..., None]
     with np.errstate(under="ignore", over="ignore", invalid="ignore"):
-        surface = friction(
-            model.options.friction_law,
+        surface = known(
+            model.closure,
             np.maximum(shared.slice_load, 1e-3) * 11 / flexible.width,
             1.0 / radius,
             entrainment,
             sliding,
             entrainment + sliding / 2.0,
             entrainment - sliding / 2.0,
-            surfaces,
         )
     exact = np.sum(np.nan_to_num(surface[0]) * shared.slice_load, axis=-1)
     exact = exact * np.abs(np.nan_to_num(found["sliding_speed"]))
@@ -115,11 +114,11 @@ def test_relieved_tips_quieten_the_running_pair(prepared):
     swings = []
     for name in ("involute-18-36-fem", "involute-18-36-tip-relief"):
         model = prepared(name).model
-        settings = Settings("dopri5", 1e-6, 16, 100000, SAMPLES)
+        settings = TransientSettings("dopri5", 1e-6, 16, 100000, SAMPLES)
         chunks = [
             part
-            for part in transient(model, static_equilibrium(model), settings, "dopri5")
-            if isinstance(part, Chunk)
+            for part in transient(model, static_equilibrium(model), settings)
+            if isinstance(part, SampledStates)
         ]
         cycles = np.concatenate([chunk.cycles for chunk in chunks])
         found = outputs(cycles, np.concatenate([chunk.states for chunk in chunks]), model)

@@ -14,9 +14,9 @@ from tribodyn.dynamics.parameters import (
     STATES,
     TWIST,
     VELOCITIES,
+    frictionless,
 )
 from tribodyn.solve.initial import accelerations, static_equilibrium
-from tribodyn.tribology.friction import NONE
 
 PHASES = 8
 
@@ -26,7 +26,7 @@ def by_differences(model) -> np.ndarray:
 
     At every phase about the state at which the loads there balance.
     """
-    model = model._replace(options=model.options._replace(friction_law=NONE))
+    model = frictionless(model)
     shaft = model.options.drive == DRIVE_SHAFT
     free = [*DISPLACEMENTS, *([TWIST] if shaft else [])]
     shift = np.zeros((len(free), STATES))

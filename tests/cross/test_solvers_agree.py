@@ -6,18 +6,18 @@ import pytest
 from tribodyn.dynamics.parameters import XI
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.methods import SOLVERS
-from tribodyn.solve.transient import Chunk, Settings, Stop, transient
+from tribodyn.solve.transient import SampledStates, Stop, TransientSettings, transient
 
 CYCLES, SAMPLES = 6, 100
 
 
 def solve(model, method, rtol):
     parts = list(
-        transient(model, static_equilibrium(model), Settings(method, rtol, CYCLES, 100000, SAMPLES), method)
+        transient(model, static_equilibrium(model), TransientSettings(method, rtol, CYCLES, 100000, SAMPLES))
     )
     assert isinstance(parts[-1], Stop)
     assert parts[-1].reason == ""
-    states = np.concatenate([part.states for part in parts if isinstance(part, Chunk)])
+    states = np.concatenate([part.states for part in parts if isinstance(part, SampledStates)])
     assert states.shape[0] == CYCLES * SAMPLES + 1
     return states
 

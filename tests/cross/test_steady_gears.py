@@ -15,10 +15,11 @@ from tribodyn.dynamics.parameters import (
     XI,
 )
 from tribodyn.errors import InputError
-from tribodyn.solve.engine import DONE, Tolerances, absolute_tolerances
+from tribodyn.solve.engagement import engage_next
+from tribodyn.solve.integrator import Status
 from tribodyn.solve.periodic import steady_states
-from tribodyn.solve.scipy_engine import ScipyEngine
-from tribodyn.solve.transient import engage_next
+from tribodyn.solve.tolerances import Tolerances, absolute_tolerances
+from tribodyn.solve.transient import make_integrator
 
 #: A lightly damped mesh in its parametric resonance, where the load of 100 N m is lost for part of the cycle.
 RESONANT = {
@@ -58,9 +59,9 @@ def scaled(model, difference):
 def by_another_solver(model, state, cycles):
     """State after some cycles by SciPy's DOP853, engaged into the next."""
     tolerances = Tolerances(1e-10, absolute_tolerances(model, 1e-10, abs(state[XI])), 10**6)
-    block = ScipyEngine("dop853", model, 8, tolerances).block(state, 0, cycles)
-    assert block.status == DONE
-    end = block.state.copy()
+    part = make_integrator("dop853", model, 8, tolerances).integrate(state, 0, cycles)
+    assert part.status == Status.DONE
+    end = part.state.copy()
     engage_next(end, model)
     return end
 

@@ -9,7 +9,7 @@ from tribodyn.geometry.drive import tip_radius
 from tribodyn.geometry.families.involute import FAMILY
 from tribodyn.geometry.path import contact_limits, contact_ratio
 from tribodyn.solve.initial import static_equilibrium
-from tribodyn.solve.transient import Chunk, Settings, Stop, transient
+from tribodyn.solve.transient import SampledStates, Stop, TransientSettings, transient
 
 CYCLES, SAMPLES = 4, 50
 
@@ -29,11 +29,11 @@ RTOL = {"dopri5": 1e-8, "radau": 1e-6}
 
 def run(prepared, addendum, method):
     case = prepared("involute-23-47", **{"drive.pinion.addendum": addendum, "drive.gear.addendum": addendum})
-    settings = Settings(method, RTOL[method], CYCLES, 100000, SAMPLES)
-    parts = list(transient(case.model, static_equilibrium(case.model), settings, method))
+    settings = TransientSettings(method, RTOL[method], CYCLES, 100000, SAMPLES)
+    parts = list(transient(case.model, static_equilibrium(case.model), settings))
     assert isinstance(parts[-1], Stop)
     assert parts[-1].reason == ""
-    states = np.concatenate([part.states for part in parts if isinstance(part, Chunk)])
+    states = np.concatenate([part.states for part in parts if isinstance(part, SampledStates)])
     return case, states
 
 

@@ -14,14 +14,14 @@ from typer.testing import CliRunner
 from tribodyn.cli.app import app
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE, WAITING
-from tribodyn.sweep import plan
+from tribodyn.studies.gear_pair import batch
 from tribodyn.sweep.engines import Dask, Local
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.run import run, settings_of
 
 # one case a chunk, so that there is something between nothing and everything
 ONE_A_CHUNK = (
-    "from tribodyn.sweep import plan\nplan.MOST_IN_CHUNK = 1\n"
+    "from tribodyn.studies.gear_pair import batch\nbatch.MOST_IN_CHUNK = 1\n"
     "from tribodyn.cli import main\nimport sys\nsys.argv = ['tribodyn', 'sweep', *sys.argv[1:]]\nmain()\n"
 )
 WORDS = ("crc-23-47", "--transient", "40", "--set", "output.samples_per_cycle=40")
@@ -96,7 +96,7 @@ def test_a_record_of_something_else_is_not_taken_up(tmp_path: Path):
 def test_a_cluster_that_loses_a_worker_gives_the_same_record(tmp_path: Path, monkeypatch):
     """A scheduler and two workers in processes of their own; one of them is killed half-way."""
     distributed = pytest.importorskip("distributed")
-    monkeypatch.setattr(plan, "MOST_IN_CHUNK", 1)
+    monkeypatch.setattr(batch, "MOST_IN_CHUNK", 1)
     grid = Grid("crc-23-47", ["operating.pinion_speed=100:400/12 rad/s"], {"output.samples_per_cycle": 40})
     settings = settings_of(grid, 8)
     here = run(grid, settings, Local(), tmp_path / "here.h5")

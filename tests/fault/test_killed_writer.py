@@ -17,8 +17,7 @@ BLOCK, BLOCKS, KILLS = 50, 40, 60
 WRITERS = """
 import os, random, signal, sys, time
 from pathlib import Path
-from tests.support.record_samples import block, geometry, mesh_cycle
-from tribodyn.record.writer import RecordWriter
+from tests.support.record_samples import block, gear_pair_writer, geometry
 
 folder, length, blocks, kills = Path(sys.argv[1]), *map(int, sys.argv[2:])
 chance = random.Random(20220101)
@@ -27,8 +26,7 @@ for kill in range(kills):
     path = folder / f"{kill}.h5"
     child = os.fork()
     if child == 0:
-        with RecordWriter(path, scenario_toml="", sha256="", samples=length * blocks,
-                          mesh_cycle=mesh_cycle(), geometry=geometry()) as record:
+        with gear_pair_writer(path, length * blocks, outlines=geometry()) as record:
             for i, values in enumerate(samples):
                 record.write(i * length, values)
                 time.sleep(0.0002)

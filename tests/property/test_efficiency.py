@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from tribodyn.tribology.mean_friction import iso_14179_1, mean_conditions, niemann
 
-from tests.support.lubricated_contacts import VECIANA
+from tests.support.closures import LOCAL_LAWS, VECIANA, coulomb, under
 from tribodyn.geometry.families.involute import InvolutePath
 from tribodyn.studies.efficiency.loss_factor import exact, hoehn
 from tribodyn.studies.efficiency.torque_ratio import cycloid_contact, path_contact, torque_ratio
-from tribodyn.tribology.friction import BENEDICT_KELLEY, COULOMB, MASJEDI_KHONSARI, XU
+from tribodyn.tribology.friction.iso_14179_1 import iso_14179_1
+from tribodyn.tribology.friction.niemann import niemann
+from tribodyn.tribology.nominal import NominalConditions
 
 teeth = st.integers(14, 60)
 ratios = st.floats(1.0, 5.0)
@@ -41,11 +42,11 @@ def contacts(draw):
 
 
 @often
-@given(contacts(), st.sampled_from([MASJEDI_KHONSARI, XU, BENEDICT_KELLEY]))
+@given(contacts(), st.sampled_from(LOCAL_LAWS))
 def test_friction_takes_a_part_and_no_more(contact, law):
     pair, radius = contact
     torque, speed, width = duty(radius)
-    found = torque_ratio(pair, torque, speed, width, law, VECIANA)
+    found = torque_ratio(pair, torque, speed, width, under(law, VECIANA))
     assert 0.5 < found.efficiency < 1.0
     assert np.all(found.normal_load > 0)
     lost = (
@@ -59,10 +60,7 @@ def test_friction_takes_a_part_and_no_more(contact, law):
 @given(contacts(), st.floats(0.0, 0.1), st.floats(0.001, 0.1))
 def test_more_friction_loses_more(contact, mu, more):
     pair, radius = contact
-    low, high = (
-        torque_ratio(pair, *duty(radius), COULOMB, VECIANA._replace(coulomb_coefficient=value)).efficiency
-        for value in (mu, mu + more)
-    )
+    low, high = (torque_ratio(pair, *duty(radius), coulomb(value)).efficiency for value in (mu, mu + more))
     assert high < low <= 1.0 + 1e-12
 
 
@@ -70,9 +68,9 @@ def test_more_friction_loses_more(contact, mu, more):
 @given(teeth, st.floats(0.005, 0.1), st.floats(0.1, 0.4), st.floats(0.1, 0.4))
 def test_equal_gears_may_change_places(count, mu, approach, recess):
     """i = 1, to first order in μ: driving the other gear swaps approach and recess."""
-    surfaces = VECIANA._replace(coulomb_coefficient=mu * 1e-3)
+    closure = coulomb(mu * 1e-3)
     losses = [
-        1 - torque_ratio(cycloid_contact(count, 0.03, 1.0, *c), *duty(0.03), COULOMB, surfaces).efficiency
+        1 - torque_ratio(cycloid_contact(count, 0.03, 1.0, *c), *duty(0.03), closure).efficiency
         for c in ((approach, recess), (recess, approach))
     ]
     assert losses[0] == pytest.approx(losses[1], rel=2e-3)
@@ -103,7 +101,7 @@ def test_loss_factor_does_not_know_who_drives(first, second, count, ratio):
 def test_mean_coefficients_are_coefficients(intensity, radius, ratio, angle, speed, viscosity):
     """Inside the ranges of ISO/TR 14179-1."""
     load = 2.0 * intensity * radius * radius * ratio / (1.0 + ratio)
-    conditions = mean_conditions(
+    conditions = NominalConditions(
         load, radius, radius * ratio, angle, speed / radius, radius, viscosity, 850.0, 0.5e-6, 0.0651
     )
     assert conditions.load_intensity == pytest.approx(intensity)

@@ -8,10 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from tests.support.record_samples import block, geometry, mesh_cycle
+from tests.support.record_samples import block, gear_pair_writer, geometry, mesh_cycle
 from tribodyn.mesh.cycle import as_arrays, from_arrays
 from tribodyn.record.reader import open_record
-from tribodyn.record.writer import RecordWriter
 
 NUMBERS = st.floats(allow_nan=True, allow_infinity=True)
 SCALARS = st.one_of(
@@ -32,14 +31,7 @@ def test_samples_come_back(lengths: list[int], data: st.DataObject):
     total = sum(lengths)
     load = data.draw(arrays.arrays(float, (total, 2), elements=NUMBERS))
     with tempfile.TemporaryDirectory() as folder:
-        with RecordWriter(
-            Path(folder) / "run.h5",
-            scenario_toml="",
-            sha256="",
-            samples=total,
-            mesh_cycle=mesh_cycle(),
-            geometry=geometry(),
-        ) as record:
+        with gear_pair_writer(Path(folder) / "run.h5", total, outlines=geometry()) as record:
             start = 0
             for length in lengths:
                 stop = start + length
@@ -55,9 +47,7 @@ def test_samples_come_back(lengths: list[int], data: st.DataObject):
 @given(SUMMARIES, st.text(st.characters(codec="utf-8", exclude_characters="\0"), max_size=200))
 def test_summary_and_scenario_come_back(summary: dict, scenario: str):
     with tempfile.TemporaryDirectory() as folder:
-        with RecordWriter(
-            Path(folder) / "run.h5", scenario_toml=scenario, sha256="", samples=1, mesh_cycle=mesh_cycle()
-        ) as record:
+        with gear_pair_writer(Path(folder) / "run.h5", 1, scenario_toml=scenario) as record:
             record.write(0, block(0, 1))
             path = record.finish(summary)
         with open_record(path) as record:
@@ -68,9 +58,7 @@ def test_summary_and_scenario_come_back(summary: dict, scenario: str):
 def test_the_mesh_cycle_comes_back_as_it_was():
     cycle = from_arrays(mesh_cycle())
     with tempfile.TemporaryDirectory() as folder:
-        with RecordWriter(
-            Path(folder) / "run.h5", scenario_toml="", sha256="", samples=1, mesh_cycle=as_arrays(cycle)
-        ) as record:
+        with gear_pair_writer(Path(folder) / "run.h5", 1, table=as_arrays(cycle)) as record:
             record.write(0, block(0, 1))
             path = record.finish({})
         with open_record(path) as record:

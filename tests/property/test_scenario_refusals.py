@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tribodyn.errors import InputError, InputErrors
-from tribodyn.scenario.resolve import CURVES, MODEL_FILES
+from tribodyn.scenario.quantity import references
 from tribodyn.studies.gear_pair.scenario import Scenario
 from tribodyn.studies.load import load_scenario
 
@@ -22,7 +22,7 @@ def keys(table: Any = Scenario, above: str = "") -> list[str]:
     return found
 
 
-REFERENCES = [".".join(map(str, key)) for key in (*MODEL_FILES, *CURVES)]
+REFERENCES = [".".join(map(str, key)) for key in (key for key, _ in references(Scenario))]
 KEYS = [*keys(), *REFERENCES, "nonsense", "mesh.nonsense.more"]
 QUANTITY = r"-?[0-9]{1,3}(\.[0-9])? ?(mm|N\*m|rad/s|deg|kg|Pa|1/K|%|m\*\*[0-9]|/)"
 SCALARS = st.one_of(

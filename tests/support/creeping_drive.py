@@ -4,7 +4,7 @@ import numpy as np
 
 from tribodyn.dynamics.outputs import outputs
 from tribodyn.solve.initial import static_equilibrium
-from tribodyn.solve.transient import Chunk, Settings, transient
+from tribodyn.solve.transient import SampledStates, TransientSettings, transient
 
 SLOW = {"operating.pinion_speed": "0.01 rad/s"}
 
@@ -12,9 +12,9 @@ SLOW = {"operating.pinion_speed": "0.01 rad/s"}
 def creep(case, cycles=1, samples=100):
     model = case.model
     parts = transient(
-        model, static_equilibrium(model), Settings("radau", 1e-8, cycles, 100000, samples), "radau"
+        model, static_equilibrium(model), TransientSettings("radau", 1e-8, cycles, 100000, samples)
     )
-    chunks = [part for part in parts if isinstance(part, Chunk)]
+    chunks = [part for part in parts if isinstance(part, SampledStates)]
     return outputs(
         np.concatenate([c.cycles for c in chunks]), np.concatenate([c.states for c in chunks]), model
     )

@@ -1,10 +1,15 @@
 """Records with known contents for the tests of writer, reader and plots."""
 
+from collections.abc import Mapping
+from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
-from tribodyn.record.schema import DOF, SAMPLES
+from tribodyn.dynamics.recorded import DOF, SAMPLES, scales_of
+from tribodyn.record.writer import RecordWriter
+from tribodyn.studies.gears import LAYOUT
 
 
 def mesh_cycle(contact_ratio: float = 1.5, nodes: int = 9) -> dict[str, Any]:
@@ -59,8 +64,33 @@ def geometry() -> dict[str, Any]:
     }
 
 
+def gear_pair_writer(
+    path: Path,
+    samples: int,
+    *,
+    table: Mapping[str, Any] | None = None,
+    outlines: Mapping[str, Any] = MappingProxyType({}),
+    scenario_toml: str = "",
+    sha256: str = "",
+    force: bool = False,
+) -> RecordWriter:
+    """The writer of a gear pair's record; its mesh cycle is that of `mesh_cycle` where none is given."""
+    table = mesh_cycle() if table is None else table
+    return RecordWriter(
+        path,
+        layout=LAYOUT,
+        kind="gear-pair",
+        scenario_toml=scenario_toml,
+        sha256=sha256,
+        samples=samples,
+        groups={"mesh_cycle": table, "geometry": outlines},
+        scales=scales_of(table["side"]),
+        force=force,
+    )
+
+
 def block(start: int, stop: int, pairs: int = 2) -> dict[str, np.ndarray]:
-    """Samples `start` … `stop`, each value told by its dataset, sample and column."""
+    """Samples `start` … `stop`, each value that depends on its dataset, sample and column."""
     index = np.arange(start, stop, dtype=float)
     size = {"pair": pairs, "dof": len(DOF)}
     values: dict[str, np.ndarray] = {"time": index}
@@ -69,5 +99,7 @@ def block(start: int, stop: int, pairs: int = 2) -> dict[str, np.ndarray]:
         values[name] = index.reshape(-1, *[1] * len(columns)) * 100 + number
         if columns:
             values[name] = values[name] + np.arange(columns[0]) / 10
-    values["closure_in_range"] = values["closure_in_range"].astype(int) % 2 == 0
+    for name, variable in SAMPLES.items():
+        if variable.flags:
+            values[name] = values[name].astype(int) % 2 == 0
     return values

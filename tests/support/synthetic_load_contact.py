@@ -5,9 +5,8 @@ from pathlib import Path
 import numpy as np
 
 from tests.support.synthetic_record import geometry
-from tribodyn.record.schema import LOAD_CONTACT
 from tribodyn.record.writer import RecordWriter
-from tribodyn.studies.load_contact.layout import BODIES
+from tribodyn.studies.load_contact.layout import BODIES, LAYOUT
 
 TEETH, WIDTH, START, END = 18, 0.0267, -0.27, 0.28
 PITCH = 2 * np.pi / TEETH
@@ -61,9 +60,12 @@ def write(
         scenario_toml='title = "Involute drive, 18/36 teeth"\nkind = "load-contact"\n',
         sha256="0" * 64,
         samples=values["phase"].size,
-        mesh_cycle={"face_width": WIDTH, "pinion_teeth": float(TEETH), "contact_ratio": 1.6},
-        geometry=geometry(),
-        kind=LOAD_CONTACT,
+        layout=LAYOUT,
+        kind="load-contact",
+        groups={
+            "mesh_cycle": {"face_width": WIDTH, "pinion_teeth": float(TEETH), "contact_ratio": 1.6},
+            "geometry": geometry(),
+        },
         scales=scales | ({"torque": np.array(torques)} if torques else {}),
     ) as record:
         record.write(0, values)

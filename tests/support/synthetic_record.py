@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from tribodyn.record.schema import DOF, SAMPLES
-from tribodyn.record.writer import RecordWriter
+from tests.support.record_samples import gear_pair_writer
+from tribodyn.dynamics.recorded import DOF, SAMPLES
 
 MODULE, TEETH, PRESSURE_ANGLE, SPEED, TORQUE = 3e-3, (23, 47), np.radians(20.0), 10.0, 500.0
 PITCH_RADII = tuple(MODULE * teeth / 2 for teeth in TEETH)
@@ -159,9 +159,10 @@ def samples(cycles: int, per_cycle: int, friction: float = 0.05) -> dict[str, np
     }
     over_pairs = [name for name, variable in SAMPLES.items() if variable.dims == ("time", "pair")]
     for name in over_pairs:
-        if name != "closure_in_range":
+        if SAMPLES[name].flags:
+            values[name] = np.where(contact, 1, -1)
+        else:
             values[name] = np.where(contact, values[name], np.nan)
-    values["closure_in_range"] = np.where(contact, 1, -1)
     for name, variable in SAMPLES.items():
         shape = (time.size, len(DOF)) if "dof" in variable.dims else (time.size,)
         values.setdefault(name, np.zeros(shape))
@@ -198,13 +199,13 @@ SUMMARY = {
 def write(path: Path, cycles: int = 4, per_cycle: int = 200, friction: float = 0.05) -> Path:
     """Write the record and return its path."""
     values = samples(cycles, per_cycle, friction)
-    with RecordWriter(
+    with gear_pair_writer(
         path,
+        values["time"].size,
+        table=mesh_cycle(),
+        outlines=geometry(),
         scenario_toml='title = "Involute drive, 23/47 teeth, module 3 mm"\n',
         sha256="0" * 64,
-        samples=values["time"].size,
-        mesh_cycle=mesh_cycle(),
-        geometry=geometry(),
     ) as record:
         record.write(0, values)
         return record.finish(SUMMARY)

@@ -72,10 +72,10 @@ def diffrax(models: Sequence[Model], states: Array, cycles: int, rtol: float) ->
 
 def plain_diffrax(models: Sequence[Model], states: Array, cycles: int, rtol: float) -> Array:
     """The same, but that only engagement ends a step: what its user would write who knows no more of it."""
-    from tribodyn.solve import diffrax_engine, jax_ensemble
+    from tribodyn.solve import diffrax_integrator, jax_ensemble
 
     def ends(models: Sequence[Model]) -> Array:
-        stops = diffrax_engine.steps_end_on(models)
+        stops = diffrax_integrator.steps_end_on(models)
         return np.broadcast_to(stops[..., -1:], stops.shape)
 
     with patch.object(jax_ensemble, "steps_end_on", ends):

@@ -31,7 +31,8 @@ class NumpyModel:
     """
 
     def __init__(self, model: Model):
-        self.m, self.c, self.t = model.mechanics, model.contact, model.table
+        self.m, self.t = model.mechanics, model.table
+        self.s, self.c = model.surfaces, model.friction
         self.boundary = np.asarray(self.t.boundary)
         self.pairs = [np.flatnonzero(row) for row in np.asarray(self.t.in_contact)]
         cells = self.t.channel.shape[1]
@@ -46,12 +47,11 @@ class NumpyModel:
         self.w = float(self.t.pinion_pitch_radius) / float(self.t.gear_pitch_radius)
         self.omega = float(self.m.nominal_speed)
         self.rate = float(self.t.pitch_angle) / self.omega
-        modulus, roughness = self.c.effective_modulus, self.c.roughness
-        self.material = self.c.pressure_viscosity * modulus
-        self.hardness = self.c.hardness / modulus
-        self.asperity = (
-            self.c.asperity_log_factor * roughness**6.015 * self.hardness**1.168 * self.material**-2.898
-        )
+        modulus, roughness = self.s.effective_modulus, self.s.roughness
+        self.material = self.s.pressure_viscosity * modulus
+        self.hardness = self.s.hardness / modulus
+        factor = np.exp(model.film.log_asperity_factor)
+        self.asperity = factor * roughness**6.015 * self.hardness**1.168 * self.material**-2.898
         self.rough = 0.2 * roughness**1.222 * self.hardness**0.223 * self.material**-0.842
 
     def __call__(self, phase: float, y: Array, segment: int) -> Array:
@@ -97,11 +97,11 @@ class NumpyModel:
 
     def friction(self, load: Array, radius: Array, u_p: Array, u_g: Array, sliding: Array) -> Array:
         """Friction coefficient of each pair, Masjedi & Khonsari."""
-        c = self.c
-        modulus = c.effective_modulus
+        s, c = self.s, self.c
+        modulus = s.effective_modulus
         load = np.maximum(load, 1.0)
         W = load / (modulus * radius)
-        U = c.inlet_viscosity * 0.5 * np.abs(u_p + u_g) / (modulus * radius)
+        U = s.inlet_viscosity * 0.5 * np.abs(u_p + u_g) / (modulus * radius)
         inner = self.asperity * radius**-6.015 * W**0.485 * U**-3.741
         share = np.minimum(5e-5 * W**-0.408 * U**-0.088 * self.material**0.103 * np.log1p(inner), 1.0)
         film = 2.691 * W**-0.135 * U**0.705 * self.material**0.556 * radius
@@ -121,10 +121,10 @@ class NumpyModel:
             conducted = conducted + conductivity * np.sqrt(1.0 + peclet)
         rise = 2.0 * half * flux / (np.sqrt(np.pi) * conducted)
         fluid = c.viscosity_pressure_factor * pressure * (1.0 - share)
-        exponent = (np.log(c.inlet_viscosity) + 9.67) * (
+        exponent = (np.log(s.inlet_viscosity) + 9.67) * (
             (1.0 + 5.1e-9 * fluid) ** c.viscosity_pressure_index - 1.0
         )
-        viscosity = c.inlet_viscosity * np.exp(exponent - c.temperature_viscosity * rise)
+        viscosity = s.inlet_viscosity * np.exp(exponent - c.temperature_viscosity * rise)
         newtonian = np.minimum(viscosity * sliding / (limit * film), 600.0)
         return c.asperity_friction * share - limit / pressure * np.expm1(-newtonian)
 

@@ -16,9 +16,10 @@ from scipy.io import loadmat, savemat
 from tools.peers.numpy_model import MOVING, NumpyModel
 from tribodyn.dynamics.parameters import STATES, XI, Model
 from tribodyn.kernels.native import laid_out
-from tribodyn.solve.dopri5 import buffers, rhs
-from tribodyn.solve.engine import DONE, Tolerances, absolute_tolerances
-from tribodyn.solve.transient import make_engine
+from tribodyn.solve.integrator import Status
+from tribodyn.solve.right_hand_side import rhs, work_array
+from tribodyn.solve.tolerances import Tolerances, absolute_tolerances
+from tribodyn.solve.transient import make_integrator
 
 Array = Any
 
@@ -51,11 +52,11 @@ def tribodyn_engine(method: str) -> Runner:
     """One of tribodyn's own engines."""
 
     def run(problem: Problem, rtol: float) -> Array:
-        engine = make_engine(method, problem.model, problem.samples, problem.tolerances(rtol))
-        block = engine.block(problem.state, 0, problem.cycles)
-        if block.status != DONE:
-            raise RuntimeError(f"{method}: {block.message or block.status}")
-        return block.samples[:, XI]
+        integrator = make_integrator(method, problem.model, problem.samples, problem.tolerances(rtol))
+        part = integrator.integrate(problem.state, 0, problem.cycles)
+        if part.status != Status.DONE:
+            raise RuntimeError(f"{method}: {part.message or part.status}")
+        return part.samples[:, XI]
 
     return run
 
@@ -92,7 +93,7 @@ def cvode(problem: Problem, rtol: float) -> Array:
     from sksundae.cvode import CVODE  # pyright: ignore[reportMissingImports]
 
     model = problem.model
-    work, _ = buffers(model)
+    work = work_array(model)
     atol = problem.tolerances(rtol).atol[MOVING]
     y = problem.state[MOVING].copy()
     found = []
@@ -130,7 +131,7 @@ def octave_timed(problem: Problem, rtol: float) -> tuple[Array, float]:
     model = NumpyModel(problem.model)
     numbers = {
         name: np.asarray(value, dtype=float)
-        for part in (problem.model.mechanics, problem.model.contact)
+        for part in (problem.model.mechanics, problem.model.surfaces, problem.model.friction)
         for name, value in part._asdict().items()
         if np.ndim(value) == 0
     }

@@ -15,15 +15,16 @@ import numpy as np
 
 from tribodyn.dynamics.parameters import XI, Model
 from tribodyn.record.sweep_reader import SweepRecord
-from tribodyn.solve.engine import Tolerances, absolute_tolerances
+from tribodyn.solve.gear_map import GearMap, moving_states
 from tribodyn.solve.initial import static_equilibrium
-from tribodyn.solve.periodic import GearMap, moving_states
-from tribodyn.solve.scipy_engine import ScipyEngine
+from tribodyn.solve.tolerances import Tolerances, absolute_tolerances
+from tribodyn.solve.transient import make_integrator
+from tribodyn.studies.gear_pair.batch import MOST_CYCLES
 from tribodyn.studies.gear_pair.batch.evaluate import tabulated
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.sweep.engines import Local
 from tribodyn.sweep.grid import Grid
-from tribodyn.sweep.run import MOST_CYCLES, run, settings_of
+from tribodyn.sweep.run import run, settings_of
 
 Array = Any
 
@@ -82,7 +83,7 @@ def sweep(speeds: Grid, workers: int | None = None) -> Ours:
     """What `tribodyn sweep --steady` does, file included."""
     with TemporaryDirectory() as folder:
         begun = process_time()
-        found = run(speeds, settings_of(speeds, None), Local(workers), Path(folder) / "steady.h5")
+        found = run(speeds, settings_of(speeds), Local(workers), Path(folder) / "steady.h5")
         seconds = process_time() - begun
         with SweepRecord(found.path) as record:
             names, counts = np.unique(record["solution"], return_counts=True)
@@ -104,14 +105,14 @@ def lsoda(speeds: Grid, numbers: list[int], ours: Ours) -> Theirs:
     seconds, errors = [], []
     for model, start, number, cycles in zip(models, starts, numbers, needed, strict=True):
         atol = absolute_tolerances(model, LSODA_RTOL, float(start[XI]))
-        engine = ScipyEngine("lsoda", model, samples, Tolerances(LSODA_RTOL, atol, 10**6))
+        integrator = make_integrator("lsoda", model, samples, Tolerances(LSODA_RTOL, atol, 10**6))
         marched = min(int(cycles), MOST_MARCHED)
         begun = process_time()
-        block = engine.block(start, 0, marched)
+        part = integrator.integrate(start, 0, marched)
         seconds.append((process_time() - begun) * int(cycles) / marched)
         if marched == cycles:
             window = ours.windows[number, :samples]
-            errors.append(float(np.max(np.abs(block.samples[-samples:, XI] - window)) / np.ptp(window)))
+            errors.append(float(np.max(np.abs(part.samples[-samples:, XI] - window)) / np.ptp(window)))
     return Theirs(np.array(seconds), needed, max(errors))
 
 

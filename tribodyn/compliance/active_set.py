@@ -11,13 +11,12 @@ end, only the worst place changes at a time.
 """
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from tribodyn.errors import SimulationError
-
-Array = Any
+from tribodyn.numerics.shapes import Array, Bool, Float, Int
 
 #: Steps in which all places may change sides, and steps in which one may.
 _FREE_STEPS = 25
@@ -44,19 +43,22 @@ class Pressed(NamedTuple):
         dT/dξ, N m/m: of the places that touch, the local deflection's tangent included.
     """
 
-    load: Array
-    deflection: Array
-    overlap: Array
-    stiffness: Array
+    load: Float[Array, "position place"]
+    deflection: Float[Array, " position"]
+    overlap: Float[Array, "position place"]
+    stiffness: Float[Array, " position"]
 
 
 def press(
-    matrix: Array,
-    local: Callable[[Array, Array], tuple[Array, Array]],
-    arm: Array,
-    lever: Array,
-    gap: Array,
-    torque: Array,
+    matrix: Float[Array, "position place place"],
+    local: Callable[
+        [Int[Array, " row"], Float[Array, "row place"]],
+        tuple[Float[Array, "row place"], Float[Array, "row place"]],
+    ],
+    arm: Float[Array, "position place"],
+    lever: Float[Array, "position place"],
+    gap: Float[Array, "position place"],
+    torque: Float[Array, " position"],
 ) -> Pressed:
     """Find loads that carry a torque; arrays over (position, place) unless said otherwise.
 
@@ -117,18 +119,18 @@ def press(
 
 
 def _newton_step(
-    active: Array,
-    at: Array,
-    value: Array,
-    slope: Array,
-    matrix: Array,
-    arm: Array,
-    lever: Array,
-    gap: Array,
-    torque: Array,
-    mean: Array,
-    unit: Array,
-) -> tuple[Array, Array, Array, Array]:
+    active: Bool[Array, "row place"],
+    at: Float[Array, "row place"],
+    value: Float[Array, "row place"],
+    slope: Float[Array, "row place"],
+    matrix: Float[Array, "row place place"],
+    arm: Float[Array, "row place"],
+    lever: Float[Array, "row place"],
+    gap: Float[Array, "row place"],
+    torque: Float[Array, " row"],
+    mean: Float[Array, " row"],
+    unit: Float[Array, " row"],
+) -> tuple[Float[Array, "row place"], Float[Array, " row"], Float[Array, "row place"], Float[Array, " row"]]:
     """Loads, ξ, overlaps and dT/dξ with the local deflection linearised at the loads `at`."""
     positions, places = gap.shape
     mean, unit, torque = mean[:, None], unit[:, None], torque[:, None]
@@ -151,7 +153,12 @@ def _newton_step(
     return found, deflection, overlap, stiffness
 
 
-def _worst_only(active: Array, touching: Array, found: Array, overlap: Array) -> Array:
+def _worst_only(
+    active: Bool[Array, "row place"],
+    touching: Bool[Array, "row place"],
+    found: Float[Array, "row place"],
+    overlap: Float[Array, "row place"],
+) -> Bool[Array, "row place"]:
     """Change, of the places on the wrong side, only the one furthest from where it should be."""
     wrong = touching != active
     pull = np.where(active, -found / np.max(np.abs(found)), overlap / np.max(np.abs(overlap)))

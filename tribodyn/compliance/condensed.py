@@ -10,7 +10,7 @@ model. c is thus the pair's tangent where its face touches in part: the part of 
 it is at the operating load while the load vibrates. One slice gives the secant and the gap themselves.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -24,8 +24,7 @@ from tribodyn.compliance.load_sharing import (
     press_pairs,
 )
 from tribodyn.geometry.corner_contact import PairGeometry, part_of
-
-Array = Any
+from tribodyn.numerics.shapes import Array, Float
 
 # A slice joins in over this share of the mean slice load, so that compliances do not step while the edge of
 # the contact moves along the face: neighbouring slices there differ by about as much.
@@ -40,17 +39,17 @@ class Condensed(NamedTuple):
     The ratios of `line_load` (position, pair) are those of the loads at which the pairs are linearised.
     """
 
-    compliance: Array
-    coupling: Array
-    gap: Array
-    line_load_friction: Array
-    line_load_peak: Array
+    compliance: Float[Array, "position pair"]
+    coupling: Float[Array, "position pair pair"]
+    gap: Float[Array, "position pair"]
+    line_load_friction: Float[Array, "position pair"]
+    line_load_peak: Float[Array, "position pair"]
 
 
 def condense(
     flexible: PairFlexibility,
     geometry: PairGeometry,
-    gap: Array,
+    gap: Float[Array, "position pair slice"],
     shared: SharedLoad,
     least_load: float,
     coupled: bool = True,
@@ -88,10 +87,10 @@ def condense(
 
 def _condensed(
     flexible: PairFlexibility,
-    curvature: Array,
-    matrix: Array,
-    gap: Array,
-    load: Array,
+    curvature: Float[Array, "position pair"],
+    matrix: Float[Array, "position pair slice pair slice"],
+    gap: Float[Array, "position pair slice"],
+    load: Float[Array, "position pair slice"],
     least_load: float,
 ) -> Condensed:
     """Condense pairs under loads (position, pair, slice) with Λ (position, pair, slice, pair, slice)."""
@@ -125,7 +124,11 @@ def _condensed(
     return Condensed(compliance, coupling, left, friction_ratio(alone), peak_ratio(alone))
 
 
-def _stiff_together(own: Array, secant: Array, load: Array) -> tuple[Array, Array]:
+def _stiff_together(
+    own: Float[Array, "position pair slice slice"],
+    secant: Float[Array, "position pair slice"],
+    load: Float[Array, "position pair slice"],
+) -> tuple[Float[Array, "position pair"], Float[Array, "position pair slice"]]:
     """Compliance (position, pair), m/N, of slices that touch under the loads, and their shares of a load."""
     slices = load.shape[-1]
     joined = np.clip(load / (_JOINING * np.mean(load, axis=-1, keepdims=True)), 0.0, 1.0)

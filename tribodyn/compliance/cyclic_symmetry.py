@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import splu
 
-Array = Any
+from tribodyn.numerics.shapes import Array, Complex, Float
 
 _SIDES = 4  # right-hand sides solved at a time
 
@@ -44,13 +44,15 @@ class HalfSector(NamedTuple):
 class Reduced(NamedTuple):
     """Half a sector of one symmetry as seen from its edge: what loads and edge do to the readers."""
 
-    stiffness: Array  # (edge, edge)
-    passed_on: Array  # (edge, load): forces of the loads on the edge, those that the half passes on included
-    alone: Array  # (reader, load) with the edge held
-    per_edge: Array  # (reader, edge): reading is alone − per_edge @ edge
+    stiffness: Float[Array, "edge edge"]  # (edge, edge)
+    passed_on: Float[
+        Array, "edge load"
+    ]  # (edge, load): forces of the loads on the edge, those that the half passes on included
+    alone: Float[Array, "reader load"]  # (reader, load) with the edge held
+    per_edge: Float[Array, "reader edge"]  # (reader, edge): reading is alone − per_edge @ edge
 
 
-def half_sector(place: Array, teeth: int, bore_radius: float) -> HalfSector:
+def half_sector(place: Float[Array, "2 node"], teeth: int, bore_radius: float) -> HalfSector:
     """Find the special nodes among the places (2, nodes)."""
     radius, angle = np.hypot(*place), np.arctan2(place[1], place[0])
     near = 1e-9 * bore_radius
@@ -70,15 +72,17 @@ class Ring(NamedTuple):
     Of L loads on the half y > 0 of a sector, R readers, and E components on an edge.
     """
 
-    alone: Array  # (R, L): readings with the edges held
-    within: Array  # (E, E): stiffness of an edge's two sides
-    across: Array  # (E, E): of one edge of a sector against the other
-    force_ahead: Array  # (E, L): of the loads on the sector's edge at +π/Z, with what it passes on to it
-    force_behind: Array  # (E, L): to that at −π/Z
-    read_ahead: Array  # (R, E): what the edges take off the readings
-    read_behind: Array
+    alone: Float[Array, "reader load"]  # (R, L): readings with the edges held
+    within: Float[Array, "edge edge"]  # (E, E): stiffness of an edge's two sides
+    across: Float[Array, "edge edge"]  # (E, E): of one edge of a sector against the other
+    force_ahead: Float[
+        Array, "edge load"
+    ]  # (E, L): of the loads on the sector's edge at +π/Z, with what it passes on to it
+    force_behind: Float[Array, "edge load"]  # (E, L): to that at −π/Z
+    read_ahead: Float[Array, "reader edge"]  # (R, E): what the edges take off the readings
+    read_behind: Float[Array, "reader edge"]
 
-    def at_phase(self, phase: complex) -> Array:
+    def at_phase(self, phase: complex) -> Complex[Array, "reader load"]:
         """Readings (R, L), complex, in sector 0 of loads that are `phase` times those one sector before."""
         z, back = phase, np.conjugate(phase)
         edge = np.linalg.solve(
@@ -88,7 +92,11 @@ class Ring(NamedTuple):
 
 
 def reduced_ring(
-    half: HalfSector, stiffness: Any, loads: Array, readers: Array, mirrored: NDArray[np.bool_]
+    half: HalfSector,
+    stiffness: Any,
+    loads: Float[Array, "dof load"],
+    readers: Float[Array, "reader dof"],
+    mirrored: NDArray[np.bool_],
 ) -> Ring:
     """Reduce a ring to its sectors' edges.
 
@@ -144,11 +152,11 @@ def phases(teeth: int) -> list[tuple[complex, float]]:
 def ring_response(
     half: HalfSector,
     stiffness: Any,
-    loads: Array,
-    readers: Array,
+    loads: Float[Array, "dof load"],
+    readers: Float[Array, "reader dof"],
     mirrored: NDArray[np.bool_],
     sectors: NDArray[np.int64],
-) -> Array:
+) -> Float[Array, "sector reader load"]:
     """Readings (sector, reader, load) of the ring under loads on one sector; else as `reduced_ring`.
 
     Parameters
@@ -166,8 +174,8 @@ def ring_response(
 def _reduced(
     half: HalfSector,
     stiffness: Any,
-    loads: Array,
-    readers: Array,
+    loads: Float[Array, "dof load"],
+    readers: Float[Array, "reader dof"],
     components: int,
     symmetry: int,
 ) -> Reduced:
@@ -198,7 +206,7 @@ def _dofs(nodes: NDArray[np.int64], which: Any, components: int) -> NDArray[np.i
     return (components * nodes[:, None] + np.array(list(which))).ravel()
 
 
-def _solved(solver: Any, right: Array) -> Array:
+def _solved(solver: Any, right: Float[Array, "dof side"]) -> Float[Array, "dof side"]:
     # Few sides at a time: with many, SuperLU's calls of BLAS become large enough to be threaded, and ten
     # times slower where the cores are busy; one at a time takes twice as long as four.
     parts = range(0, right.shape[1], _SIDES)

@@ -28,8 +28,7 @@ from skfem import Basis, BilinearForm, ElementQuad1
 
 from tribodyn.compliance.lead_harmonics import spline_weights
 from tribodyn.compliance.strips import COMPONENTS, moduli, value_and_gradient
-
-Array = Any
+from tribodyn.numerics.shapes import Array, Float
 
 # Beyond the largest wave number the sum goes on by its power law to this many times that.
 _TAIL = 8.0
@@ -47,12 +46,12 @@ class Openings(NamedTuple):
         D.
     """
 
-    place: Array
+    place: Float[Array, "2 opening"]
     constant: csr_matrix
     linear: csr_matrix
-    stiffness: Array
+    stiffness: Float[Array, "opening opening"]
 
-    def forces(self, wave_number: float) -> Array:
+    def forces(self, wave_number: float) -> Float[Array, "dof opening"]:
         """F (dof, J) at the wave number k, rad/m."""
         return (self.constant + wave_number * self.linear).toarray()
 
@@ -71,7 +70,7 @@ def openings(basis: Basis, poisson_ratio: float) -> Openings:
     return Openings(face.doflocs, csr_matrix(in_plane), csr_matrix(along), stiffness)
 
 
-def parity_weights(solved: Array, width: float) -> Array:
+def parity_weights(solved: Float[Array, " wave"], width: float) -> Float[Array, "2 wave"]:
     """Weights (2, K) with which S at the wave numbers solved add up over the even and the odd harmonics.
 
     Parameters

@@ -16,7 +16,7 @@ import numpy as np
 from tribodyn.compliance.foundation import foundation_compliance, ring_compliance
 from tribodyn.geometry.drive import Drive, GearBody, Side, body_of
 from tribodyn.geometry.family import Family
-from tribodyn.geometry.path import Path, distance_at_radius, seen_from
+from tribodyn.geometry.path import Path, PerContact, distance_at_radius, seen_from
 from tribodyn.geometry.tooth import (
     Tooth,
     contact_in_tooth_frame,
@@ -26,11 +26,10 @@ from tribodyn.geometry.tooth import (
 )
 from tribodyn.numerics.elementary import cos, namespace, sin, tan
 from tribodyn.numerics.iteration import chebyshev_basis
+from tribodyn.numerics.shapes import Array, Float
 
 if TYPE_CHECKING:
     from tribodyn.geometry.material import MaterialData
-
-Array = Any
 
 SHEAR_FACTOR = 1.2  # rectangular section (Timoshenko)
 
@@ -60,19 +59,21 @@ class ToothCompliance(NamedTuple):
         to a common sign, with the body turned over so that the loaded flank lies counter-clockwise.
     """
 
-    bending: Array
-    shear: Array
-    axial: Array
-    foundation: Array
-    root_load: Array
+    bending: PerContact
+    shear: PerContact
+    axial: PerContact
+    foundation: PerContact
+    root_load: Float[Array, "*contact 3"]
 
     @property
-    def total(self) -> Array:
+    def total(self) -> PerContact:
         """Sum of the parts, m/N."""
         return self.bending + self.shear + self.axial + self.foundation
 
 
-def section_integrals(x: Array, y: Array, origin: Any) -> Array:
+def section_integrals(
+    x: Float[Array, " point"], y: Float[Array, " point"], origin: Any
+) -> Float[Array, "series 4"]:
     """Series of the beam's integrals from the start of a piece of outline up to a point of it.
 
     Parameters
@@ -96,7 +97,7 @@ def section_integrals(x: Array, y: Array, origin: Any) -> Array:
 
 
 def beam_compliance(
-    integrals: Array, lever: Array, load_angle: Array, poisson_ratio: Any
+    integrals: Float[Array, "*contact 4"], lever: PerContact, load_angle: PerContact, poisson_ratio: Any
 ) -> tuple[Any, Any, Any]:
     """Bending, shear and axial compliance of a tooth, times Young's modulus and width.
 
@@ -158,7 +159,9 @@ def loaded_tooth(family: Family, drive: Drive, side: Side, working_path: Path) -
     )
 
 
-def tooth_compliance(loaded: LoadedTooth, material: "MaterialData", width: Any, r: Array) -> ToothCompliance:
+def tooth_compliance(
+    loaded: LoadedTooth, material: "MaterialData", width: Any, r: PerContact
+) -> ToothCompliance:
     """Compliance of one tooth that is loaded at the signed distances r of the drive.
 
     Parameters
@@ -206,7 +209,7 @@ def tooth_compliance(loaded: LoadedTooth, material: "MaterialData", width: Any, 
     return ToothCompliance(scale * bending, scale * shear, scale * axial, foundation, root_load)
 
 
-def neighbour_coupling(loaded: LoadedTooth, material: "MaterialData", pitches: int) -> Array:
+def neighbour_coupling(loaded: LoadedTooth, material: "MaterialData", pitches: int) -> Float[Array, "3 3"]:
     """Compliance (3, 3) between the root loads of two teeth of one body, per newton.
 
     Entry [i, j]: displacement i of the tooth that entered later from load j on the one that entered `pitches`

@@ -1,6 +1,6 @@
 """What slices of the face give way under each other's loads: harmonics of the face, and its free ends."""
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -8,16 +8,15 @@ from tribodyn.compliance.gear_compliance import NEIGHBOURS, FreeEnds, at_radii
 from tribodyn.compliance.lead_harmonics import spline_weights
 from tribodyn.compliance.slices import by_slices, face_positions, pair_harmonics
 from tribodyn.geometry.corner_contact import PairGeometry
+from tribodyn.numerics.shapes import Array, Float
 
 if TYPE_CHECKING:
     from tribodyn.compliance.load_sharing import PairFlexibility
 
-Array = Any
-
 
 def slice_compliance(
     flexible: "PairFlexibility", geometry: PairGeometry, slices: int = 1, coupled: bool = True
-) -> Array:
+) -> Float[Array, "position pair slice pair slice"]:
     """Λ (position, pair, slice, pair, slice), m/N, without the slices' own local deflection.
 
     Parameters
@@ -37,7 +36,7 @@ def slice_compliance(
     return matrix
 
 
-def end_modes(ends: FreeEnds, width: float, slices: int) -> Array:
+def end_modes(ends: FreeEnds, width: float, slices: int) -> Float[Array, "2 slice wave"]:
     """What loads on slices count for in `FreeEnds`' waves, and what slices see of them: (2, S, K), 1/m.
 
     For even and odd numbers of half waves; of loads in N that are even in a slice, and the mean over a slice
@@ -56,7 +55,11 @@ def end_modes(ends: FreeEnds, width: float, slices: int) -> Array:
     return np.stack([wave[:, parity::2] @ weights[parity::2] for parity in (0, 1)])
 
 
-def _add_free_ends(matrix: Array, flexible: "PairFlexibility", geometry: PairGeometry) -> None:
+def _add_free_ends(
+    matrix: Float[Array, "position pair slice pair slice"],
+    flexible: "PairFlexibility",
+    geometry: PairGeometry,
+) -> None:
     pairs, slices = matrix.shape[1:3]
     reaches = geometry.pinion_radius, geometry.gear_radius
     # On the pinion the earlier tooth stands on the loaded flank's side, on the gear on the other.
@@ -79,6 +82,8 @@ def _add_free_ends(matrix: Array, flexible: "PairFlexibility", geometry: PairGeo
                 matrix[:, later, :, earlier] += value.swapaxes(1, 2)
 
 
-def _spread(along: Array, found: Array) -> Array:
+def _spread(
+    along: Float[Array, "2 slice wave"], found: Float[Array, "position 2 wave wave"]
+) -> Float[Array, "position slice slice"]:
     """Matrices (position, slice, slice) of those over the wave numbers (position, parity, K, K)."""
     return np.sum(along @ found @ along.swapaxes(1, 2), axis=1)

@@ -1,7 +1,6 @@
 """Stress at the roots of teeth whose load varies along the face, their neighbours' loads included."""
 
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
@@ -11,16 +10,18 @@ from tribodyn.compliance.lead_harmonics import at_wave_numbers
 from tribodyn.compliance.load_sharing import PairFlexibility
 from tribodyn.compliance.slices import modes, wave_numbers
 from tribodyn.geometry.corner_contact import PairGeometry
-
-Array = Any
+from tribodyn.numerics.shapes import Array, Float
 
 # Positions (of the mesh) taken at a time, to bound the memory.
 _BATCH = 64
 
 
 def root_stress(
-    flexible: PairFlexibility, geometry: PairGeometry, line_load: Array, coupled: bool = True
-) -> tuple[Array, Array]:
+    flexible: PairFlexibility,
+    geometry: PairGeometry,
+    line_load: Float[Array, "position pair slice"],
+    coupled: bool = True,
+) -> tuple[Float[Array, "2 position pair slice"], Float[Array, "2 position pair slice"]]:
     """Greatest tension and greatest compression along the root of every tooth.
 
     Stresses along the profile, of both fillets, from the middle of one gap to the middle of the next; those
@@ -68,7 +69,12 @@ def root_stress(
     return tension, compression
 
 
-def _of_one_gear(per_load: Array, place: Array, amplitude: Array, sign: int) -> Array:
+def _of_one_gear(
+    per_load: Float[Array, "mode sector 2 point radius"],
+    place: Float[Array, "position pair radius"],
+    amplitude: Float[Array, "position pair wave"],
+    sign: int,
+) -> Float[Array, "fillet_point position pair wave"]:
     """Amplitudes (point, position, pair, n) of the stress, Pa, at the points of both fillets.
 
     `per_load` (1 or n, sector, fillet, point, M) per unit line load, `place` (position, pair, M) the weights
@@ -84,7 +90,13 @@ def _of_one_gear(per_load: Array, place: Array, amplitude: Array, sign: int) -> 
     return total.transpose(1, 2, 3, 0)
 
 
-def _of_free_ends(ends: FreeEnds, along: Array, place: Array, slice_load: Array, sign: int) -> Array:
+def _of_free_ends(
+    ends: FreeEnds,
+    along: Float[Array, "2 slice wave"],
+    place: Float[Array, "position pair radius"],
+    slice_load: Float[Array, "position pair slice"],
+    sign: int,
+) -> Float[Array, "fillet_point position pair slice"]:
     """What free end faces add to the stress (point, position, pair, slice), Pa.
 
     `along` as made by `end_modes`, `place` (position, pair, M) as in `_of_one_gear`.

@@ -12,8 +12,7 @@ from tribodyn.compliance.mesh_memory import check_level
 from tribodyn.compliance.root_stress import edge_points, stress_rows
 from tribodyn.compliance.strips import COMPONENTS, plane_stiffness, strip_stiffness
 from tribodyn.geometry.tooth import Tooth
-
-Array = Any
+from tribodyn.numerics.shapes import Array, Float
 
 _SECTORS = np.arange(-NEIGHBOURS, NEIGHBOURS + 1)
 
@@ -61,7 +60,7 @@ def lead_harmonics(
     poisson_ratio: float,
     depth: float,
     level: int,
-    wave_number: Array,
+    wave_number: Float[Array, " wave"],
 ) -> LeadHarmonics:
     """Solve a gear for unit loads that run like cos kz along the teeth; see `gear_compliance`.
 
@@ -83,7 +82,11 @@ def lead_harmonics(
     return LeadHarmonics(np.asarray(wave_number), inside, between, edge_points(model.root_position), stress)
 
 
-def _harmonic(model: GearModel, stiffness: Any, poisson_ratio: float, k: float) -> tuple[Array, Array, Array]:
+def _harmonic(
+    model: GearModel, stiffness: Any, poisson_ratio: float, k: float
+) -> tuple[
+    Float[Array, "2 radius"], Float[Array, "sector radius radius"], Float[Array, "sector 2 point radius"]
+]:
     """Displacements inside (2, M) and between (sector, M, M), root stress (sector, 2, P, M)."""
     loads, inner = _with_w(model.loads.T), _with_w(model.inner)
     root = stress_rows(model.root_position, model.root, stiffness.shape[0], poisson_ratio, k)
@@ -96,13 +99,15 @@ def _harmonic(model: GearModel, stiffness: Any, poisson_ratio: float, k: float) 
     return inside, between, seen[:, displacements:].reshape(len(_SECTORS), 2, len(root), len(loads))
 
 
-def _with_w(rows: Array) -> Array:
+def _with_w(rows: Float[Array, "row double"]) -> Float[Array, "row triple"]:
     """Rows over u and v as rows over u, v and w."""
     pairs = rows.reshape(len(rows), -1, 2)
     return np.pad(pairs, ((0, 0), (0, 0), (0, COMPONENTS - 2))).reshape(len(rows), -1)
 
 
-def _parted(seen: Array) -> tuple[Array, Array]:
+def _parted(
+    seen: Float[Array, "sector reader radius"],
+) -> tuple[Float[Array, "2 radius"], Float[Array, "sector radius radius"]]:
     """Part readings (sector, M + 2 M, M) into those inside, (2, M), and between, (sector, M, M)."""
     count = seen.shape[2]
     own = seen[NEIGHBOURS, count:].reshape(2, count, count)

@@ -1,16 +1,14 @@
 """Finite-element compliances kept between runs, in the user's cache folder.
 
 A file's name is the digest of everything its content depends on: the tooth as cut, the body, Poisson's ratio,
-the mesh and the source of the method. Files are written beside their place and renamed into it, so that runs
-at the same time never see half of one; a file that cannot be read is made anew.
+the mesh and the source of the method with all that it imports. A file that cannot be read is made again.
 """
 
 import hashlib
-import os
-import tempfile
 import zipfile
 import zlib
 from collections.abc import Callable
+from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
 from typing import Any, TypeVar
@@ -20,22 +18,14 @@ import numpy as np
 from tribodyn.compliance.gear_compliance import NEIGHBOURS, FreeEnds, GearCompliance, LeadHarmonics
 from tribodyn.compliance.lead_harmonics import LARGEST_AT_ENDS, wave_numbers
 from tribodyn.geometry.tooth import Tooth, tooth_outline
-from tribodyn.numerics.cache import cache_folder
+from tribodyn.numerics.cache import cache_folder, replacing
+from tribodyn.numerics.sources import digest_of
 
 Kept = TypeVar("Kept", GearCompliance, LeadHarmonics, FreeEnds)
 
 _SECTORS = 2 * NEIGHBOURS + 1
-_SOURCES = (
-    "gear_compliance.py",
-    "fem.py",
-    "gear_model.py",
-    "ring_mesh.py",
-    "strips.py",
-    "cyclic_symmetry.py",
-    "root_stress.py",
-    "end_faces.py",
-    "free_ends.py",
-)
+#: What the stored arrays come from.
+_METHODS = ("tribodyn.compliance.fem", "tribodyn.compliance.free_ends")
 
 
 def cached_gear_compliance(
@@ -146,8 +136,7 @@ def _digest(tooth: Tooth, *numbers: float) -> str:
 
 @lru_cache(maxsize=1)
 def _source_digest() -> bytes:
-    folder = Path(__file__).parent
-    return hashlib.sha256(b"".join((folder / name).read_bytes() for name in _SOURCES)).digest()
+    return digest_of(*_METHODS)
 
 
 def _read(kind: type[Kept], file: Path) -> Kept | None:
@@ -167,15 +156,5 @@ def _arrays(kind: Any) -> list[str]:
 
 def _write(file: Path, solved: GearCompliance | LeadHarmonics | FreeEnds) -> None:
     """Keep it, or do without where the folder cannot be written: the cache is a convenience."""
-    try:
-        file.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(dir=file.parent, suffix=".tmp")
-        try:
-            with os.fdopen(handle, "wb") as stream:
-                np.savez(stream, **{part: getattr(solved, part) for part in _arrays(type(solved))})
-            os.replace(name, file)
-        except BaseException:
-            Path(name).unlink(missing_ok=True)
-            raise
-    except OSError:
-        return
+    with suppress(OSError), replacing(file) as scratch, scratch.open("wb") as stream:
+        np.savez(stream, **{part: getattr(solved, part) for part in _arrays(type(solved))})

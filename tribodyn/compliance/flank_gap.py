@@ -8,8 +8,6 @@ nearest point and makes the gap smaller by e'² ρ/2 (ρ the equivalent radius):
 linear relief of 20 µm over 2 mm, by 2 % over 4 mm (test_flank_gap).
 """
 
-from typing import Any
-
 import numpy as np
 
 from tribodyn.compliance.table import check_cover, interpolate
@@ -18,9 +16,9 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry, roll_limits
 from tribodyn.geometry.drive import SIDES, Side, body_of, tip_radius
 from tribodyn.geometry.modification import FlankModification, LeadRelief, Misalignment, Modifications, Relief
+from tribodyn.geometry.path import PerContact
 from tribodyn.geometry.tooth import thickness_half_angle
-
-Array = Any
+from tribodyn.numerics.shapes import Array, Float, Int
 
 #: Greatest tip relief, as a share of the tip's thickness: both flanks together then leave half of it.
 GREATEST_TIP_SHARE = 0.25
@@ -29,8 +27,11 @@ GREATEST_SHARE = 0.1
 
 
 def flank_gap(
-    assembly: Assembly, modifications: Modifications, geometry: PairGeometry, face_position: Array
-) -> Array:
+    assembly: Assembly,
+    modifications: Modifications,
+    geometry: PairGeometry,
+    face_position: Float[Array, " slice"],
+) -> Float[Array, "*pair slice"]:
     """Gap (…, slice) beside that of the corners, m; pitch errors apart (`pitch_gap`).
 
     Parameters
@@ -47,7 +48,9 @@ def flank_gap(
     return profile[..., None] + lead_gap(assembly, modifications, face_position) + along
 
 
-def profile_gap(assembly: Assembly, modifications: Modifications, geometry: PairGeometry) -> Array:
+def profile_gap(
+    assembly: Assembly, modifications: Modifications, geometry: PairGeometry
+) -> Float[Array, "*pair"]:
     """Relief of tips and roots and error of the profile of both flanks, m; shaped like the geometry."""
     total = np.zeros_like(geometry.gap)
     for side, place in zip(SIDES, (geometry.pinion_place, geometry.gear_place), strict=True):
@@ -63,7 +66,9 @@ def profile_gap(assembly: Assembly, modifications: Modifications, geometry: Pair
     return total
 
 
-def lead_gap(assembly: Assembly, modifications: Modifications, face_position: Array) -> Array:
+def lead_gap(
+    assembly: Assembly, modifications: Modifications, face_position: Float[Array, " slice"]
+) -> Float[Array, " slice"]:
     """Relief of both flanks along the face (slice,), m; each over its own gear's face width."""
     total = np.zeros_like(face_position)
     for side in SIDES:
@@ -73,8 +78,11 @@ def lead_gap(assembly: Assembly, modifications: Modifications, face_position: Ar
 
 
 def misalignment_gap(
-    assembly: Assembly, misalignment: Misalignment, geometry: PairGeometry, face_position: Array
-) -> Array:
+    assembly: Assembly,
+    misalignment: Misalignment,
+    geometry: PairGeometry,
+    face_position: Float[Array, " slice"],
+) -> Float[Array, "*pair slice"]:
     """Gap (…, slice) that inclined axes leave, m; 0 in the middle of the face, negative on its nearer half.
 
     At z the gear stands off the pinion by d = z γ_in along the line of action of the pitch point and by
@@ -92,7 +100,7 @@ def misalignment_gap(
     return within * np.cos(turned) + across * np.sin(turned) + shift * bend / (1.0 + np.hypot(1.0, bend))
 
 
-def pitch_gap(modifications: Modifications, tooth: Array) -> Array:
+def pitch_gap(modifications: Modifications, tooth: Int[Array, "*pair"]) -> Float[Array, "*pair"]:
     """Pitch errors of both flanks, m, of pairs that are counted: pair n joins tooth n of both gears.
 
     Parameters
@@ -167,7 +175,7 @@ def same_every_pitch(modifications: Modifications) -> None:
             )
 
 
-def _relieved(relief: Relief, distance: Array) -> Array:
+def _relieved(relief: Relief, distance: PerContact) -> PerContact:
     """Relief (m) at a distance (m, along the line of action) from the end of the active profile."""
     if relief.amount == 0.0:
         return 0.0 * distance
@@ -175,7 +183,7 @@ def _relieved(relief: Relief, distance: Array) -> Array:
     return relief.amount * share**relief.exponent
 
 
-def _along_face(lead: LeadRelief, width: float, position: Array) -> Array:
+def _along_face(lead: LeadRelief, width: float, position: Float[Array, " slice"]) -> Float[Array, " slice"]:
     straight = lead.unmodified / 2.0
     share = np.maximum(np.abs(position) - straight, 0.0) / (width / 2.0 - straight)
     crowned = lead.crowning * (2.0 * position / width) ** 2

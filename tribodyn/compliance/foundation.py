@@ -16,8 +16,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.numerics.elementary import cos, log, namespace, sin
-
-Array = Any
+from tribodyn.numerics.shapes import Array, Float
 
 # Sainsot & Velex (2004), table 1: X = A/θ² + B h² + C h/θ + D/θ + E h + F
 _POLYNOMIALS = np.array(
@@ -35,7 +34,9 @@ HARMONICS = (
 )
 
 
-def sainsot_velex(radius_ratio: Array, root_half_angle: Array) -> tuple[Array, Array, Array, Array]:
+def sainsot_velex(
+    radius_ratio: Float[Array, "..."], root_half_angle: Float[Array, "..."]
+) -> tuple[Float[Array, "..."], Float[Array, "..."], Float[Array, "..."], Float[Array, "..."]]:
     """Coefficients L*, M*, P*, Q* of the fillet-foundation deflection.
 
     Fitted for 1.4 ≤ radius_ratio ≤ 7 and 0.01 ≤ root_half_angle ≤ 0.12.
@@ -64,14 +65,14 @@ def sainsot_velex(radius_ratio: Array, root_half_angle: Array) -> tuple[Array, A
 
 
 def foundation_compliance(
-    load_angle: Array,
-    lever: Array,
-    root_radius: Array,
-    bore_radius: Array,
-    root_half_angle: Array,
-    youngs_modulus: Array,
-    width: Array,
-) -> Array:
+    load_angle: Float[Array, "*contact"],
+    lever: Float[Array, "*contact"],
+    root_radius: Float[Array, ""],
+    bore_radius: Float[Array, ""],
+    root_half_angle: Float[Array, ""],
+    youngs_modulus: Float[Array, ""],
+    width: Float[Array, ""],
+) -> Float[Array, "*contact"]:
     """Deflection of the loaded tooth along the load, from its body's elasticity, per newton.
 
     Parameters
@@ -98,12 +99,12 @@ def foundation_compliance(
 
 
 def ring_compliance(
-    angle: Array,
-    root_half_angle: Array,
-    radius_ratio: Array,
-    poisson_ratio: Array,
+    angle: Float[Array, ""],
+    root_half_angle: Float[Array, ""],
+    radius_ratio: Float[Array, ""],
+    poisson_ratio: Float[Array, ""],
     harmonics: int = HARMONICS,
-) -> Array:
+) -> Float[Array, "3 3"]:
     """Compliance between the root loads of two teeth of one body.
 
     Exact for a ring in plane stress that is fixed at its bore, each tooth loading its arc of the root circle
@@ -146,7 +147,7 @@ def ring_compliance(
     )
 
 
-def _root_loads(order: Array, angle: Array) -> Array:
+def _root_loads(order: Float[Array, " order"], angle: Float[Array, ""]) -> Float[Array, "3 order 2"]:
     """Fourier amplitudes (3, n, 2) of unit root loads on |θ| < angle of a circle of radius 1.
 
     N is even, (radial cos nθ, tangential sin nθ); T and M are odd, (radial sin nθ, −tangential cos nθ), so
@@ -155,7 +156,7 @@ def _root_loads(order: Array, angle: Array) -> Array:
     """
     xp = namespace(angle)
 
-    def integral(n: Array) -> Array:  # ∫ cos nθ over half the arc
+    def integral(n: Float[Array, " order"]) -> Float[Array, " order"]:  # ∫ cos nθ over half the arc
         return angle * xp.sinc(n * angle / np.pi)
 
     below, above = integral(order - 1.0), integral(order + 1.0)
@@ -169,7 +170,9 @@ def _root_loads(order: Array, angle: Array) -> Array:
     return xp.stack([axial, across, moment])
 
 
-def _ring_receptance(order: Array, bore: Array, poisson_ratio: Array) -> Array:
+def _ring_receptance(
+    order: Float[Array, " order"], bore: Float[Array, ""], poisson_ratio: Float[Array, ""]
+) -> Float[Array, "order 2 2"]:
     """Displacement amplitudes (n, 2, 2) at radius 1 per traction amplitude, for E = 1, ring fixed at `bore`.
 
     Four plane solutions for each order: two that grow outwards, written in r, and two that decay, written in
@@ -208,14 +211,18 @@ def _ring_receptance(order: Array, bore: Array, poisson_ratio: Array) -> Array:
     return receptance * (1.0 + poisson_ratio)  # 2 G = E/(1 + ν)
 
 
-def _columns(xp: Any, first: tuple[Array, Array], second: tuple[Array, Array]) -> Array:
+def _columns(
+    xp: Any,
+    first: tuple[Float[Array, " order"], Float[Array, " order"]],
+    second: tuple[Float[Array, " order"], Float[Array, " order"]],
+) -> Float[Array, "order 2 2"]:
     """Matrices (n, 2, 2) from two columns, each (radial, tangential)."""
     return xp.stack(
         [xp.stack([first[0], second[0]], axis=-1), xp.stack([first[1], second[1]], axis=-1)], axis=-2
     )
 
 
-def _inverse(xp: Any, matrix: Array) -> Array:
+def _inverse(xp: Any, matrix: Float[Array, "order 2 2"]) -> Float[Array, "order 2 2"]:
     """Inverses of 2 × 2 matrices, written out: cheaper than LAPACK in a batch of drives."""
     a, b, c, d = matrix[:, 0, 0], matrix[:, 0, 1], matrix[:, 1, 0], matrix[:, 1, 1]
     determinant = (a * d - b * c)[:, None, None]

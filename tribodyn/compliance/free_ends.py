@@ -5,7 +5,7 @@ The openings of all teeth's end faces differ by a phase from tooth to tooth, lik
 stress that a load makes on a held face is also what an opening moves the flank by.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -19,8 +19,7 @@ from tribodyn.compliance.gear_model import GearModel, gear_model
 from tribodyn.compliance.root_stress import edge_parameters, edge_values, stress_rows
 from tribodyn.compliance.strips import COMPONENTS, strip_stiffness
 from tribodyn.geometry.tooth import Tooth
-
-Array = Any
+from tribodyn.numerics.shapes import Array, Complex, Float
 
 #: Refinement of the mesh. On a sector, twice as fine a one adds 2 % to what the ends are worth to the last of
 #: ten slices, and 0.2 % elsewhere.
@@ -42,11 +41,11 @@ class Face(NamedTuple):
     """
 
     openings: Openings
-    upper: Array
-    lower: Array
-    ahead: Array
+    upper: Float[Array, "half free"]
+    lower: Float[Array, "half free"]
+    ahead: Float[Array, "half free"]
 
-    def joined(self, phase: complex) -> Array:
+    def joined(self, phase: complex) -> Complex[Array, "both free"]:
         """Openings (2 J, O) of both halves."""
         return np.concatenate([self.upper, self.lower + np.conjugate(phase) * self.ahead])
 
@@ -59,8 +58,8 @@ class Harmonic(NamedTuple):
     """
 
     ring: Ring
-    stiffness: Array  # (J, J): of the openings by themselves
-    on_root: Array  # (P, J): stress along the root that is theirs alone
+    stiffness: Float[Array, "opening opening"]  # (J, J): of the openings by themselves
+    on_root: Float[Array, "point opening"]  # (P, J): stress along the root that is theirs alone
 
 
 def free_ends(
@@ -70,7 +69,7 @@ def free_ends(
     poisson_ratio: float,
     depth: float,
     level: int,
-    wave_number: Array,
+    wave_number: Float[Array, " wave"],
     width: float,
 ) -> FreeEnds:
     """Solve a gear for its end faces.
@@ -161,7 +160,9 @@ def harmonic_of(
     return Harmonic(ring, opening.stiffness, on_root)
 
 
-def at_phase(harmonics: list[Harmonic], face: Face, phase: complex) -> tuple[Array, Array, Array]:
+def at_phase(
+    harmonics: list[Harmonic], face: Face, phase: complex
+) -> tuple[Complex[Array, "wave free free"], Complex[Array, "free load"], Complex[Array, "reading free"]]:
     """S (K, O, O); stress on the held faces per flank load (O, K M); on the roots per opening (K 2 P, O)."""
     joined = face.joined(phase)
     held, reached, seen = [], [], []

@@ -1,11 +1,11 @@
 """What the flanks of one gear give way: the result of its finite elements, without them."""
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-Array = Any
+from tribodyn.numerics.shapes import Array, Float
 
 #: Teeth on either side whose compliances are kept: as many pairs as can touch beside the loaded one.
 NEIGHBOURS = 2
@@ -31,11 +31,11 @@ class LeadHarmonics(NamedTuple):
         pitches towards +y of the loaded one, on its own side y > 0 (0) and y < 0 (1).
     """
 
-    wave_number: Array
-    inside: Array
-    between: Array
-    root_position: Array
-    root_stress: Array
+    wave_number: Float[Array, " wave"]
+    inside: Float[Array, "wave 2 radius"]
+    between: Float[Array, "wave sector radius radius"]
+    root_position: Float[Array, "2 point"]
+    root_stress: Float[Array, "wave sector 2 point radius"]
 
 
 class FreeEnds(NamedTuple):
@@ -60,11 +60,11 @@ class FreeEnds(NamedTuple):
         As in `LeadHarmonics`.
     """
 
-    wave_number: Array
-    radius: Array
-    own: Array
-    between: Array
-    root_stress: Array
+    wave_number: Float[Array, " wave"]
+    radius: Float[Array, " radius"]
+    own: Float[Array, "2 wave wave radius"]
+    between: Float[Array, "2 wave wave sector radius radius"]
+    root_stress: Float[Array, "2 wave wave sector 2 point radius"]
 
 
 class GearCompliance(NamedTuple):
@@ -90,15 +90,15 @@ class GearCompliance(NamedTuple):
         With `lead`: that the end faces are free; without it they are planes of symmetry.
     """
 
-    radius: Array
-    inside: Array
-    between: Array
+    radius: Float[Array, " radius"]
+    inside: Float[Array, "2 radius"]
+    between: Float[Array, "sector radius radius"]
     depth: float
     lead: LeadHarmonics | None = None
     ends: FreeEnds | None = None
 
 
-def at_radii(solved: Array, radius: Array) -> Array:
+def at_radii(solved: Float[Array, " solved"], radius: Float[Array, "*pair"]) -> Float[Array, "*pair solved"]:
     """Weights (…, M) with which values at the radii solved count at others; beyond those at the nearest."""
     return CubicSpline(solved, np.eye(len(solved)))(np.clip(radius, solved[0], solved[-1]))
 

@@ -13,8 +13,7 @@ from tribodyn.compliance.strips import curved_basis
 from tribodyn.errors import InputError
 from tribodyn.geometry.path import kinematics
 from tribodyn.geometry.tooth import Tooth, flank_point
-
-Array = Any
+from tribodyn.numerics.shapes import Array, Float
 
 # Cells among which a point is sought, and Newton's steps in each: the cells are nearly parallelograms.
 _NEAREST = 9
@@ -44,11 +43,11 @@ class GearModel(NamedTuple):
 
     basis: Basis
     half: HalfSector
-    position: Array
-    loads: Array
-    inner: Array
+    position: Float[Array, "2 vertex"]
+    loads: Float[Array, "dof vertex"]
+    inner: Float[Array, "reader dof"]
     beyond: NDArray[np.bool_]
-    root_position: Array
+    root_position: Float[Array, "2 root"]
     root: NDArray[np.int64]
 
 
@@ -81,7 +80,7 @@ def gear_model(tooth: Tooth, teeth: int, bore_radius: float, depth: float, level
     return GearModel(basis, half, position, loads, inner, beyond, root, along_root)
 
 
-def _load_directions(tooth: Tooth, mesh: SectorMesh) -> Array:
+def _load_directions(tooth: Tooth, mesh: SectorMesh) -> Float[Array, "2 vertex"]:
     """Unit vectors (2, M) of the normal load on the flank's vertices, into the tooth."""
     reach = np.hypot(*mesh.nodes[:, mesh.flank])
     fine = np.linspace(tooth.form_distance, tooth.tip_distance, 2001)
@@ -91,7 +90,9 @@ def _load_directions(tooth: Tooth, mesh: SectorMesh) -> Array:
     return np.stack([-np.sin(angle), -np.cos(angle)])
 
 
-def _probes(basis: Basis, points: Array, direction: Array) -> Array:
+def _probes(
+    basis: Basis, points: Float[Array, "2 point"], direction: Float[Array, "2 point"]
+) -> Float[Array, "point dof"]:
     """Rows that take u and v to the components along the directions (2, P) at the points (2, P)."""
     cells, local = _locate(basis, points)
     rows = np.zeros((points.shape[1], basis.N, 2))
@@ -101,7 +102,9 @@ def _probes(basis: Basis, points: Array, direction: Array) -> Array:
     return rows.reshape(points.shape[1], -1)
 
 
-def _locate(basis: Basis, points: Array) -> tuple[NDArray[np.int64], Array]:
+def _locate(
+    basis: Basis, points: Float[Array, "2 point"]
+) -> tuple[NDArray[np.int64], Float[Array, "2 point 1"]]:
     """Curved cell of every point (2, P), and its place (2, P, 1) in the unit square of the cell.
 
     Newton's method in the nearest cells; of these the one counts whose square holds the point best.

@@ -22,8 +22,7 @@ from scipy.special import k0, k1
 
 from tribodyn.compliance.gear_compliance import GearCompliance
 from tribodyn.compliance.local import freed_of_depth
-
-Array = Any
+from tribodyn.numerics.shapes import Array, Float
 
 #: Largest wave number solved, in 1/module; beyond it loads act on their neighbourhood only.
 LARGEST = 6.0
@@ -51,20 +50,22 @@ class LeadCompliance(NamedTuple):
         As in `LeadHarmonics`, 1/m.
     """
 
-    radius: Array
-    own: Array
-    between: Array
-    root_stress: Array
+    radius: Float[Array, " radius"]
+    own: Float[Array, "wave radius"]
+    between: Float[Array, "wave sector radius radius"]
+    root_stress: Float[Array, "wave sector 2 point radius"]
 
 
-def wave_numbers(module: float, root_radius: float, most: float = LARGEST) -> Array:
+def wave_numbers(module: float, root_radius: float, most: float = LARGEST) -> Float[Array, " wave"]:
     """Wave numbers to solve, rad/m: from 0, dense enough for body and teeth, to `most`/module."""
     turn, largest = _TURN / root_radius, most / module
     reach = np.arcsinh(largest / turn)
     return turn * np.sinh(np.linspace(0.0, reach, int(np.ceil(reach / _STEP)) + 1))
 
 
-def at_wave_numbers(gear: GearCompliance, wave_number: Array, poisson_ratio: float) -> LeadCompliance:
+def at_wave_numbers(
+    gear: GearCompliance, wave_number: Float[Array, " wave"], poisson_ratio: float
+) -> LeadCompliance:
     """Response of a gear to line loads cos kz.
 
     Parameters
@@ -84,7 +85,7 @@ def at_wave_numbers(gear: GearCompliance, wave_number: Array, poisson_ratio: flo
     # the half-space's logarithm, rounded off at k = 0, is taken out of what is interpolated
     rounding = largest / LARGEST
 
-    def smooth(at: Array) -> Array:
+    def smooth(at: Float[Array, " wave"]) -> Float[Array, "wave 1"]:
         return half_space_surface(np.hypot(at, rounding), gear.depth, poisson_ratio)[:, None]
 
     within = np.minimum(k, largest)
@@ -98,7 +99,7 @@ def at_wave_numbers(gear: GearCompliance, wave_number: Array, poisson_ratio: flo
     return LeadCompliance(gear.radius, value, between, root_stress)
 
 
-def own_at_solved(gear: GearCompliance, poisson_ratio: float) -> Array:
+def own_at_solved(gear: GearCompliance, poisson_ratio: float) -> Float[Array, "solved radius"]:
     """Displacement (K, M) of a loaded position, freed of the depth, at the wave numbers solved."""
     lead: Any = gear.lead
     k, depth = lead.wave_number[1:], gear.depth
@@ -111,19 +112,25 @@ def own_at_solved(gear: GearCompliance, poisson_ratio: float) -> Array:
     return np.concatenate([plane[None], surface + 2.0 * excess[0] - excess[1]])
 
 
-def half_space(depth: float, wave_number: Array, poisson_ratio: float) -> Array:
+def half_space(
+    depth: float, wave_number: Float[Array, " wave"], poisson_ratio: float
+) -> Float[Array, " wave"]:
     """h_s(d; k) per unit amplitude of the line load, for unit Young's modulus; depth > 0, k > 0."""
     reach = wave_number * depth
     return (1 + poisson_ratio) / np.pi * (reach * k1(reach) + 2 * (1 - poisson_ratio) * k0(reach))
 
 
-def half_space_surface(wave_number: Array, depth: float, poisson_ratio: float) -> Array:
+def half_space_surface(
+    wave_number: Float[Array, " wave"], depth: float, poisson_ratio: float
+) -> Float[Array, " wave"]:
     """B(k) for unit Young's modulus: surface of a half-space less Weber-Banaschek's deflection; k > 0."""
     logarithm = -np.log(wave_number * depth / 2) - np.euler_gamma
     return (1 + poisson_ratio) / np.pi * (1 + 2 * (1 - poisson_ratio) * logarithm)
 
 
-def spline_weights(solved: Array, wave_number: Array) -> Array:
+def spline_weights(
+    solved: Float[Array, " solved"], wave_number: Float[Array, " wave"]
+) -> Float[Array, "wave solved"]:
     """Weights (N, K) with which values at the wave numbers solved, even in k, count at others up to them."""
     scale = solved[1]
     at, weights = np.arcsinh(solved / scale), np.eye(len(solved))

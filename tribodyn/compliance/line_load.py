@@ -11,24 +11,22 @@ whatever the law: the load-weighted geometric mean of the line load. The next te
 pressure and flash temperature are greatest where s is: that ratio is K_Hβ (ISO 6336-1).
 """
 
-from typing import Any
-
 import numpy as np
 
-Array = Any
+from tribodyn.numerics.shapes import Array, Float
 
 
-def friction_ratio(slice_load: Array) -> Array:
+def friction_ratio(slice_load: Float[Array, "*pair slice"]) -> Float[Array, "*pair"]:
     """W/q̄ of loads (…, slice) ≥ 0, N, of equal slices; at least 1, and 1 where nothing is loaded."""
     share = _share(slice_load)
     return np.exp(np.mean(share * np.log(np.where(share > 0.0, share, 1.0)), axis=-1))
 
 
-def peak_ratio(slice_load: Array) -> Array:
+def peak_ratio(slice_load: Float[Array, "*pair slice"]) -> Float[Array, "*pair"]:
     """K_Hβ of loads (…, slice) ≥ 0, N, of equal slices; 1 where nothing is loaded."""
     return np.max(_share(slice_load), axis=-1)
 
 
-def _share(slice_load: Array) -> Array:
+def _share(slice_load: Float[Array, "*pair slice"]) -> Float[Array, "*pair slice"]:
     mean = np.mean(slice_load, axis=-1, keepdims=True)
     return np.where(mean > 0.0, slice_load / np.where(mean > 0.0, mean, 1.0), 1.0)

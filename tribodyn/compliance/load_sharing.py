@@ -25,9 +25,8 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.corner_contact import pair_geometry, part_of
 from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.geometry.pitch_point import pitch_point
+from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.tribology.contact import averaged_radius
-
-Array = Any
 
 #: Depth of the local region, in modules, and refinement of the mesh: together within 0.1 % of their limits
 #: (test_load_contact).
@@ -73,14 +72,14 @@ class SharedLoad(NamedTuple):
         dT_g/dξ of what touches, N m/m.
     """
 
-    slice_load: Array
-    deflection: Array
-    overlap: Array
-    contact_deflection: Array
-    stiffness: Array
+    slice_load: Float[Array, "position pair slice"]
+    deflection: Float[Array, " position"]
+    overlap: Float[Array, "position pair slice"]
+    contact_deflection: Float[Array, "position pair slice"]
+    stiffness: Float[Array, " position"]
 
     @property
-    def normal_load(self) -> Array:
+    def normal_load(self) -> Float[Array, "position pair"]:
         """Loads of the pairs (position, pair), N."""
         return np.sum(self.slice_load, axis=-1)
 
@@ -124,7 +123,9 @@ def flexibility(
     return PairFlexibility(assembly, materials, width, (gears[0], gears[1]))
 
 
-def contact_deflection(flexible: PairFlexibility, curvature: Array, line_load: Array) -> tuple[Array, Array]:
+def contact_deflection(
+    flexible: PairFlexibility, curvature: Float[Array, "..."], line_load: Float[Array, "..."]
+) -> tuple[Float[Array, "..."], Float[Array, "..."]]:
     """Local deflection u_1 + u_2 (m) under line loads (N/m, ≥ 0), and its derivative, m per N/m.
 
     Parameters
@@ -142,7 +143,9 @@ def contact_deflection(flexible: PairFlexibility, curvature: Array, line_load: A
     return total, slope
 
 
-def half_width(flexible: PairFlexibility, curvature: Array, line_load: Array) -> Array:
+def half_width(
+    flexible: PairFlexibility, curvature: Float[Array, "..."], line_load: Float[Array, "..."]
+) -> Float[Array, "..."]:
     """Half width of the contact, m, under line loads (N/m); curvature as in `contact_deflection`."""
     # Where the flanks' radii vanish, at the pitch point of a cycloid, the contact's own width sees more of
     # them. The slope of the deflection is not quite Newton's there; the steps still settle.
@@ -154,10 +157,10 @@ def half_width(flexible: PairFlexibility, curvature: Array, line_load: Array) ->
 
 def share_load(
     flexible: PairFlexibility,
-    roll: Array,
+    roll: Float[Array, "position pair"],
     gear_torque: float,
-    friction_coefficient: Array | float = 0.0,
-    gap: Array | float = 0.0,
+    friction_coefficient: Float[Array, "..."] | float = 0.0,
+    gap: Float[Array, "..."] | float = 0.0,
     slices: int = 1,
     coupled: bool = True,
 ) -> SharedLoad:
@@ -216,12 +219,12 @@ def in_batches(shape: tuple[int, ...]) -> list[slice]:
 
 def press_pairs(
     flexible: PairFlexibility,
-    curvature: Array,
-    compliance: Array,
-    arm: Array,
-    lever: Array,
-    gap: Array,
-    torque: Array,
+    curvature: Float[Array, "position pair"],
+    compliance: Float[Array, "position pair slice pair slice"],
+    arm: Float[Array, "position pair"],
+    lever: Float[Array, "position pair"],
+    gap: Float[Array, "position pair slice"],
+    torque: Float[Array, " position"],
 ) -> SharedLoad:
     """Share torques (position,) among pairs of slices; arrays (position, pair), the gap (…, slice).
 
@@ -232,7 +235,9 @@ def press_pairs(
     width = flexible.width / slices
     bent = np.repeat(curvature, slices, axis=-1)
 
-    def local(chosen: Array, load: Array) -> tuple[Array, Array]:
+    def local(
+        chosen: Int[Array, " row"], load: Float[Array, "row place"]
+    ) -> tuple[Float[Array, "row place"], Float[Array, "row place"]]:
         value, slope = contact_deflection(flexible, bent[chosen], load / width)
         return value, slope / width
 
@@ -249,7 +254,9 @@ def press_pairs(
     return SharedLoad(load, deflection, overlap.reshape(gap.shape), taken, stiffness)
 
 
-def extended_rolls(assembly: Assembly, limits: tuple[float, float], positions: int) -> Array:
+def extended_rolls(
+    assembly: Assembly, limits: tuple[float, float], positions: int
+) -> Float[Array, "position pair"]:
     """Roll angles (position, pair) over one pitch of all pairs between the limits, for `share_load`."""
     pitch = 2.0 * np.pi / float(assembly.drive.pinion.teeth)
     count = int(np.ceil((limits[1] - limits[0]) / pitch))
@@ -257,7 +264,7 @@ def extended_rolls(assembly: Assembly, limits: tuple[float, float], positions: i
     return limits[0] + pitch * (phase[:, None] + np.arange(count - 1, -1, -1))
 
 
-def effective_contact_ratio(roll: Array, shared: SharedLoad, pitch: float) -> float:
+def effective_contact_ratio(roll: Float[Array, "position pair"], shared: SharedLoad, pitch: float) -> float:
     """Pinion angle over which one pair carries load, over the pitch.
 
     `roll` (position, pair) covers one pair's whole history once, as made by `extended_rolls`. Both ends are

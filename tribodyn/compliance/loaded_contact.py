@@ -6,7 +6,7 @@ stand. Phase 0 is where a pair passes the beginning of its path of contact, what
 
 import math
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,8 +18,7 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry, roll_at_gap, roll_limits
 from tribodyn.geometry.modification import Modifications, vary_along_lead
-
-Array = Any
+from tribodyn.numerics.shapes import Array, Float, Int
 
 #: Corners are followed to a gap of this many deflections of a single pair.
 REACH = 2.0
@@ -59,19 +58,19 @@ class LoadedContact(NamedTuple):
         Mean number of pairs that carry load.
     """
 
-    phase: Array
-    roll: Array
-    slice_position: Array
-    deflection: Array
-    unloaded: Array
-    normal_load: Array
-    line_load: Array
-    pressure: Array
-    half_width: Array
-    root_tension: Array
-    root_compression: Array
-    face_load_factor: Array
-    mesh_stiffness: Array
+    phase: Float[Array, " position"]
+    roll: Float[Array, "position pair"]
+    slice_position: Float[Array, " slice"]
+    deflection: Float[Array, " position"]
+    unloaded: Float[Array, " position"]
+    normal_load: Float[Array, "position pair"]
+    line_load: Float[Array, "position pair slice"]
+    pressure: Float[Array, "position pair slice"]
+    half_width: Float[Array, "position pair slice"]
+    root_tension: Float[Array, "2 position pair slice"]
+    root_compression: Float[Array, "2 position pair slice"]
+    face_load_factor: Float[Array, "position pair"]
+    mesh_stiffness: Float[Array, " position"]
     contact_ratio: float
 
     @property
@@ -95,10 +94,10 @@ class HarrisMap(NamedTuple):
         Of each, m.
     """
 
-    gear_torque: Array
-    phase: Array
-    deflection: Array
-    peak_to_peak: Array
+    gear_torque: Float[Array, " load"]
+    phase: Float[Array, " position"]
+    deflection: Float[Array, "load position"]
+    peak_to_peak: Float[Array, " load"]
 
 
 def roll_through(
@@ -275,19 +274,24 @@ def check(flexible: PairFlexibility, modifications: Modifications, gear_torque: 
         )
 
 
-def _ages(limits: tuple[float, float], start: float, pitch: float) -> Array:
+def _ages(limits: tuple[float, float], start: float, pitch: float) -> Int[Array, " pair"]:
     """Whole pitches since the pairs that can touch began their path, the pair that entered first in front."""
     first, last = math.floor((limits[0] - start) / pitch), math.ceil((limits[1] - start) / pitch) - 1
     return np.arange(last, first - 1, -1)
 
 
-def _nearest(flexible: PairFlexibility, modifications: Modifications, roll: Array, face: Array) -> Array:
+def _nearest(
+    flexible: PairFlexibility,
+    modifications: Modifications,
+    roll: Float[Array, "*pair"],
+    face: Float[Array, " slice"],
+) -> Float[Array, "*pair"]:
     """Least gap along the face at each angle on the path, m."""
     geometry = pair_geometry(flexible.assembly, roll)
     return np.min(flank_gap(flexible.assembly, modifications, geometry, face), axis=-1)
 
 
-def _unloaded(geometry: PairGeometry, gap: Array) -> Array:
+def _unloaded(geometry: PairGeometry, gap: Float[Array, "position pair slice"]) -> Float[Array, " position"]:
     """ξ (position,) at which the first place touches, m."""
     whole = (geometry.gap[..., None] + gap) / np.cos(geometry.motion.pressure_angle)[..., None]
     return np.min(whole, axis=(1, 2))
@@ -311,7 +315,7 @@ def check_resolved(
         )
 
 
-def _mean_pairs(overlap: Array, positions: int) -> float:
+def _mean_pairs(overlap: Float[Array, "position pair"], positions: int) -> float:
     """Mean number of pairs that carry, from overlaps (position, pair) linear in between."""
     history = [overlap[:-1], overlap[1:]]
     # a pair goes on in the slot before its own in the next cycle

@@ -1,14 +1,13 @@
 """The flanks of a pair as they are: elastic, modified, on axes as they stand, in slices along the face."""
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from tribodyn.compliance.flank_gap import flank_gap
 from tribodyn.compliance.load_sharing import PairFlexibility, SharedLoad, share_load
 from tribodyn.compliance.slices import face_positions
 from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.modification import UNMODIFIED, Modifications
-
-Array = Any
+from tribodyn.numerics.shapes import Array, Float
 
 
 class LoadedFlanks(NamedTuple):
@@ -31,7 +30,12 @@ class LoadedFlanks(NamedTuple):
     slices: int = 1
     coupled: bool = True
 
-    def share(self, roll: Array, gear_torque: float, friction_coefficient: Array | float = 0.0) -> SharedLoad:
+    def share(
+        self,
+        roll: Float[Array, "position pair"],
+        gear_torque: float,
+        friction_coefficient: Float[Array, "position pair"] | float = 0.0,
+    ) -> SharedLoad:
         """Share the gear's torque among pairs at the roll angles (position, pair), as `share_load` does."""
         flexible = self.flexible
         geometry = pair_geometry(flexible.assembly, roll)

@@ -5,11 +5,11 @@ the surface, where that makes no difference, and what lies between there and the
 half-plane under Hertz's pressure.
 """
 
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 
-Array = Any
+from tribodyn.numerics.shapes import Array, Float
 
 
 class Elastic(Protocol):
@@ -26,7 +26,9 @@ class Elastic(Protocol):
         ...
 
 
-def hertz_half_width(line_load: Array, curvature: Array, first: Elastic, second: Elastic) -> Array:
+def hertz_half_width(
+    line_load: Float[Array, "..."], curvature: Float[Array, "..."], first: Elastic, second: Elastic
+) -> Float[Array, "..."]:
     """Half width of the contact, m: L = √(4/π Σ(1 − ν²)/E q/κ), κ = 1/χ1 + 1/χ2 (Diez-Ibarbia et al. (13)).
 
     Parameters
@@ -42,7 +44,9 @@ def hertz_half_width(line_load: Array, curvature: Array, first: Elastic, second:
     return np.sqrt(4.0 / np.pi * softness * line_load / curvature)
 
 
-def weber_banaschek(line_load: Array, half_width: Array, depth: float, material: Elastic) -> Array:
+def weber_banaschek(
+    line_load: Float[Array, "..."], half_width: Float[Array, "..."], depth: float, material: Elastic
+) -> Float[Array, "..."]:
     """Approach of the surface to the point `depth` below it in a half-plane under Hertz's pressure, m.
 
     u = 2 (1 − ν²) q/(π E) {ln[t + √(1 + t²)] − ν/(1 − ν) t² [√(1 + 1/t²) − 1]}, t = depth/half width, in
@@ -67,7 +71,9 @@ def weber_banaschek(line_load: Array, half_width: Array, depth: float, material:
     return 2.0 * (1.0 - nu**2) / (np.pi * material.youngs_modulus) * line_load * shape
 
 
-def weber_banaschek_slope(line_load: Array, half_width: Array, depth: float, material: Elastic) -> Array:
+def weber_banaschek_slope(
+    line_load: Float[Array, "..."], half_width: Float[Array, "..."], depth: float, material: Elastic
+) -> Float[Array, "..."]:
     """Derivative of `weber_banaschek` by the line load, whose root the half width grows with; m per N/m."""
     nu = material.poisson_ratio
     t = depth / np.maximum(half_width, 1e-12 * depth)
@@ -79,7 +85,7 @@ def weber_banaschek_slope(line_load: Array, half_width: Array, depth: float, mat
     return 2.0 * (1.0 - nu**2) / (np.pi * material.youngs_modulus) * (shape - 0.5 * t * steeper)
 
 
-def freed_of_depth(inside: Array, poisson_ratio: float) -> Array:
+def freed_of_depth(inside: Float[Array, " 2 *load"], poisson_ratio: float) -> Float[Array, "*load"]:
     """Displacement at the depth h corrected by what the tooth, other than a half-plane, does above it.
 
     A half-plane under a point load has u(h) − u(2h) = 2 (1 − ν²)/(π E) q ln 2. What the tooth has more than

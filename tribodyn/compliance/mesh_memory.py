@@ -1,14 +1,11 @@
 """Memory that a gear's finite elements need, told before any of it is taken."""
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from tribodyn.compliance.ring_mesh import half_sector_cells
 from tribodyn.errors import InputError
-
-Array = Any
 
 # Entries of both triangular factors over n log2 n, largest of levels 2 to 8 with 2 and 3 components a node,
 # bytes of each with SuperLU's own working space, and copies of the dense sides and readers held at once:

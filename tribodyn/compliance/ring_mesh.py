@@ -6,15 +6,14 @@ the tooth and the body under the gap. Each of these is the transfinite (Coons) m
 other half is the mirror image, and the full gear is the sector repeated, node on node.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
 from tribodyn.geometry.tooth import Tooth, fillet_point, flank_point
-
-Array = Any
+from tribodyn.numerics.shapes import Array, Float
 
 #: Cells at level 1: along the flank, along the upper and the lower half of the fillet with the root circle,
 #: across the layer, across half the tooth inside it, and from there to the bore.
@@ -47,7 +46,7 @@ class SectorMesh(NamedTuple):
         the root circle and the fillet to the flank's first
     """
 
-    nodes: Array
+    nodes: Float[Array, "2 node"]
     cells: NDArray[np.int64]
     flank: NDArray[np.int64]
     root: NDArray[np.int64]
@@ -71,7 +70,7 @@ def sector_mesh(tooth: Tooth, teeth: int, bore_radius: float, level: int) -> Sec
     return _joined([*blocks, *(block * np.array([1.0, -1.0]) for block in blocks)], level)
 
 
-def _joined(blocks: list[Array], level: int) -> SectorMesh:
+def _joined(blocks: list[Float[Array, "_row _column 2"]], level: int) -> SectorMesh:
     points, cells, numbers = [], [], []
     count = 0
     for block in blocks:
@@ -94,7 +93,9 @@ def _joined(blocks: list[Array], level: int) -> SectorMesh:
     )
 
 
-def _half_blocks(tooth: Tooth, teeth: int, bore_radius: float, level: int) -> list[Array]:
+def _half_blocks(
+    tooth: Tooth, teeth: int, bore_radius: float, level: int
+) -> list[Float[Array, "_row _column 2"]]:
     """Nodes (rows, columns, 2) of the layer, whose first row is the profile, and of the three blocks."""
     boundary = _profile(tooth, teeth, level)
     inner = _below(boundary, tooth, teeth, bore_radius)
@@ -127,7 +128,7 @@ def _half_blocks(tooth: Tooth, teeth: int, bore_radius: float, level: int) -> li
     return [layer, upper, under_gap, under_tooth]
 
 
-def _profile(tooth: Tooth, teeth: int, level: int) -> Array:
+def _profile(tooth: Tooth, teeth: int, level: int) -> Float[Array, "column 2"]:
     """Nodes (columns, 2) from the middle of the gap along root circle, fillet and flank to the tip."""
     along = np.linspace(0.0, 1.0, _CURVE_POINTS)
     fillet = np.stack(fillet_point(tooth, np.pi / 2 + along * (tooth.form_angle - np.pi / 2)), axis=-1)
@@ -149,7 +150,9 @@ def _profile(tooth: Tooth, teeth: int, level: int) -> Array:
     return np.concatenate([parts[0][:-1], parts[1][:-1], parts[2]])
 
 
-def _below(boundary: Array, tooth: Tooth, teeth: int, bore_radius: float) -> Array:
+def _below(
+    boundary: Float[Array, "column 2"], tooth: Tooth, teeth: int, bore_radius: float
+) -> Float[Array, "column 2"]:
     """Inner side (columns, 2) of the layer under the profile's nodes."""
     tip_angle = float(np.arctan2(boundary[-1, 1], boundary[-1, 0]))
     share = _length(boundary) / _length(boundary)[-1]
@@ -179,13 +182,20 @@ def _below(boundary: Array, tooth: Tooth, teeth: int, bore_radius: float) -> Arr
     return below
 
 
-def _radius_and_angle(curve: Array) -> tuple[Array, Array]:
+def _radius_and_angle(
+    curve: Float[Array, "point 2"],
+) -> tuple[Float[Array, " point"], Float[Array, " point"]]:
     radius, angle = np.hypot(*curve.T), np.arctan2(curve[:, 1], curve[:, 0])
     order = np.argsort(radius)
     return radius[order], angle[order]
 
 
-def _coons(first: Array, last: Array, left: Array, right: Array) -> Array:
+def _coons(
+    first: Float[Array, "column 2"],
+    last: Float[Array, "column 2"],
+    left: Float[Array, "row 2"],
+    right: Float[Array, "row 2"],
+) -> Float[Array, "row column 2"]:
     """Fill (rows, columns, 2) between the edges first and last row, left and right column."""
     u = _fraction(left, right)[:, None, None]
     v = _fraction(first, last)[None, :, None]
@@ -195,22 +205,22 @@ def _coons(first: Array, last: Array, left: Array, right: Array) -> Array:
     return (1 - u) * first + u * last + (1 - v) * left[:, None] + v * right[:, None] - corners
 
 
-def _fraction(one: Array, other: Array) -> Array:
+def _fraction(one: Float[Array, "point 2"], other: Float[Array, "point 2"]) -> Float[Array, " point"]:
     lengths = _length(one), _length(other)
     return (lengths[0] / lengths[0][-1] + lengths[1] / lengths[1][-1]) / 2
 
 
-def _length(curve: Array) -> Array:
+def _length(curve: Float[Array, "point 2"]) -> Float[Array, " point"]:
     return np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(curve, axis=0), axis=1))])
 
 
-def _spread(curve: Array, at: Array) -> Array:
+def _spread(curve: Float[Array, "point 2"], at: Float[Array, " at"]) -> Float[Array, "at 2"]:
     """Points of a curve at fractions of its length."""
     length = _length(curve)
     return np.stack([np.interp(at * length[-1], length, curve[:, k]) for k in range(2)], axis=-1)
 
 
-def _graded(cells: int, ratio: float) -> Array:
+def _graded(cells: int, ratio: float) -> Float[Array, " point"]:
     """Fractions 0 … 1 of cells whose widths grow evenly, the first `ratio` … of them relative to the last."""
     middle = (np.arange(cells) + 0.5) / cells
     first, last = (ratio, 1.0) if ratio < 1 else (1.0, ratio)
@@ -218,22 +228,22 @@ def _graded(cells: int, ratio: float) -> Array:
     return np.concatenate([[0.0], np.cumsum(width)]) / width.sum()
 
 
-def _unit(angle: Array | float) -> Array:
+def _unit(angle: Float[Array, "*point"] | float) -> Float[Array, "*point 2"]:
     return np.stack([np.cos(angle), np.sin(angle)], axis=-1)
 
 
-def _arc(radius: float, start: float, end: float, points: int) -> Array:
+def _arc(radius: float, start: float, end: float, points: int) -> Float[Array, "point 2"]:
     return radius * _unit(np.linspace(start, end, points))
 
 
-def _merge(points: Array) -> tuple[Array, NDArray[np.int64]]:
+def _merge(points: Float[Array, "point 2"]) -> tuple[Float[Array, "distinct 2"], NDArray[np.int64]]:
     """Join points that coincide: the distinct points, and the number that each point has among them."""
     near = KDTree(points).query_ball_point(points, 1e-9 * float(np.ptp(points, axis=0).max()))
     _, index, inverse = np.unique([min(same) for same in near], return_index=True, return_inverse=True)
     return points[index], inverse
 
 
-def _counter_clockwise(nodes: Array, cells: NDArray[np.int64]) -> NDArray[np.int64]:
+def _counter_clockwise(nodes: Float[Array, "node 2"], cells: NDArray[np.int64]) -> NDArray[np.int64]:
     a, b, c = (nodes[cells[k]] for k in range(3))
     area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
     return np.where(area > 0, cells, cells[[0, 3, 2, 1, 7, 6, 5, 4, 8]])

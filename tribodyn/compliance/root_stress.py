@@ -8,23 +8,23 @@ The root's surface is free, so the stress along the profile follows from the str
 displacement is right to one order more than elsewhere (J. Barlow, Int. J. Numer. Meth. Engng 10 (1976) 243).
 """
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
-Array = Any
+from tribodyn.numerics.shapes import Array, Float
 
 _GAUSS = np.array([-1.0, 1.0]) / np.sqrt(3.0)
 
 
-def edge_points(place: Array) -> Array:
+def edge_points(place: Float[Array, "2 node"]) -> Float[Array, "2 point"]:
     """Points (2, 2 R), m, at which `stress_rows` reads, of the boundary's nodes (2, 2 R + 1)."""
     shape = np.stack([_GAUSS * (_GAUSS - 1) / 2, 1 - _GAUSS**2, _GAUSS * (_GAUSS + 1) / 2])
     return np.einsum("dne,ng->deg", _by_edge(place), shape).reshape(2, -1)
 
 
-def stress_rows(place: Array, nodes: NDArray[np.int64], size: int, poisson_ratio: float, k: float) -> Array:
+def stress_rows(
+    place: Float[Array, "2 node"], nodes: NDArray[np.int64], size: int, poisson_ratio: float, k: float
+) -> Float[Array, "point dof"]:
     """Rows (2 R, dof) that take amplitudes of the displacement to the stress's, for unit Young's modulus.
 
     Parameters
@@ -55,12 +55,12 @@ def stress_rows(place: Array, nodes: NDArray[np.int64], size: int, poisson_ratio
     return rows.reshape(2 * edges, size)
 
 
-def edge_parameters(edges: int, refined: int) -> Array:
+def edge_parameters(edges: int, refined: int) -> Float[Array, " point"]:
     """Where the points stand, in edges from the first one's beginning, when each is cut into `refined`."""
     return (np.arange(edges * refined)[:, None] + (1.0 + _GAUSS) / 2.0).ravel() / refined
 
 
-def edge_values(corners: NDArray[np.int64], size: int) -> Array:
+def edge_values(corners: NDArray[np.int64], size: int) -> Float[Array, "point size"]:
     """Rows (2 R, size) that take values at R + 1 corners to the same points, linearly on each edge."""
     rows = np.zeros((len(corners) - 1, 2, size))
     edges = np.arange(len(corners) - 1)
@@ -69,6 +69,6 @@ def edge_values(corners: NDArray[np.int64], size: int) -> Array:
     return rows.reshape(-1, size)
 
 
-def _by_edge(place: Array) -> Array:
+def _by_edge(place: Float[Array, "2 node"]) -> Float[Array, "2 3 edge"]:
     """Nodes (2, 3, R) of every edge."""
     return np.stack([place[:, :-2:2], place[:, 1::2], place[:, 2::2]], axis=1)

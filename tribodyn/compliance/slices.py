@@ -18,7 +18,7 @@ surface is each slice's own (`local`), with its line load; λ holds what a load 
 makes less than that, down to wavelengths of the contact's width.
 """
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.interpolate import CubicSpline, RectBivariateSpline
@@ -27,22 +27,21 @@ from tribodyn.compliance.gear_compliance import NEIGHBOURS, GearCompliance
 from tribodyn.compliance.lead_harmonics import at_wave_numbers
 from tribodyn.compliance.local import freed_of_depth
 from tribodyn.geometry.corner_contact import PairGeometry
+from tribodyn.numerics.shapes import Array, Float
 
 if TYPE_CHECKING:
     from tribodyn.compliance.load_sharing import PairFlexibility
-
-Array = Any
 
 #: Least number of slices where anything varies along the face.
 LEAST_SLICES = 3
 
 
-def face_positions(width: float, slices: int) -> Array:
+def face_positions(width: float, slices: int) -> Float[Array, " slice"]:
     """Middles of the slices (S,), m from the middle of the face."""
     return ((np.arange(slices) + 0.5) / slices - 0.5) * width
 
 
-def modes(count: int, slices: int) -> Array:
+def modes(count: int, slices: int) -> Float[Array, "slice slice"]:
     """Modes (S, S) of the face at the slices' middles: cosines times √c_n; each one's square sums up to S.
 
     Where `count` harmonics are one, the same for all modes, the slices themselves are as good: Λ = λ S/b δ.
@@ -54,14 +53,14 @@ def modes(count: int, slices: int) -> Array:
     return basis * np.where(number > 0, np.sqrt(2.0), 1.0)[:, None]
 
 
-def wave_numbers(width: float, slices: int, coupled: bool) -> Array:
+def wave_numbers(width: float, slices: int, coupled: bool) -> Float[Array, " wave"]:
     """k_n (n,), 1/m, of the modes that differ: all of the face's, or the uniform one for all alike."""
     return np.pi * np.arange(slices if coupled else 1) / width
 
 
 def pair_harmonics(
     flexible: "PairFlexibility", geometry: PairGeometry, slices: int = 1, coupled: bool = True
-) -> Array:
+) -> Float[Array, "mode position pair pair"]:
     """λ_jk(k_n)/b (n, position, pair, pair) of all modes of the face, or of the uniform one; m/N.
 
     Both gears: of a pair itself from the bores to the local regions' depth, of others through teeth and
@@ -89,7 +88,9 @@ def pair_harmonics(
     return matrix
 
 
-def by_slices(harmonics: Array, slices: int) -> Array:
+def by_slices(
+    harmonics: Float[Array, "mode position pair pair"], slices: int
+) -> Float[Array, "position pair slice pair slice"]:
     """Λ (position, pair, slice, pair, slice), m/N, of `pair_harmonics` (n, position, pair, pair)."""
     if len(harmonics) == 1:
         return harmonics[0][:, :, None, :, None] * (slices * np.eye(slices))[:, None, :]
@@ -100,7 +101,9 @@ def by_slices(harmonics: Array, slices: int) -> Array:
     return spread.reshape(positions, pairs, pairs, slices, slices).swapaxes(2, 3)
 
 
-def _responses(gear: GearCompliance, poisson_ratio: float, wave_number: Array) -> tuple[Array, Array]:
+def _responses(
+    gear: GearCompliance, poisson_ratio: float, wave_number: Float[Array, " mode"]
+) -> tuple[Float[Array, "mode radius"], Float[Array, "mode sector radius radius"]]:
     """Compliances freed of the local region (n, M) and of neighbours (n, sector, M, M) for E = b = 1."""
     if np.any(wave_number):
         response = at_wave_numbers(gear, wave_number, poisson_ratio)

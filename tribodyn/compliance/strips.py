@@ -19,13 +19,13 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_matrix, kron
 from skfem import Basis, BilinearForm, ElementQuad2, MeshQuad, MeshQuad2
 
-Array = Any
+from tribodyn.numerics.shapes import Array, Float
 
 #: Components of the displacement a node: u, v, w.
 COMPONENTS = 3
 
 
-def curved_basis(nodes: Array, cells: NDArray[np.int64]) -> Basis:
+def curved_basis(nodes: Float[Array, "2 node"], cells: NDArray[np.int64]) -> Basis:
     """Basis of quadratic functions on curved quadrilaterals of nine nodes, in `SectorMesh`'s order.
 
     The nodes' numbers do not survive; `Basis.doflocs` says where every node of the basis is.
@@ -95,7 +95,7 @@ def moduli(poisson_ratio: float) -> tuple[float, float]:
     )
 
 
-def _unit(size: int, row: int, column: int) -> Array:
+def _unit(size: int, row: int, column: int) -> Float[Array, "size size"]:
     matrix = np.zeros((size, size))
     matrix[row, column] = 1.0
     return matrix

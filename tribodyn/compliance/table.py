@@ -6,8 +6,7 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.numerics.elementary import is_jax, namespace
-
-Array = Any
+from tribodyn.numerics.shapes import Array, Float
 
 
 def monotone_slopes(x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -37,7 +36,7 @@ def monotone_slopes(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     return slopes
 
 
-def interpolate(x: np.ndarray, y: np.ndarray, at: Array) -> Array:
+def interpolate(x: np.ndarray, y: np.ndarray, at: Float[Array, "..."]) -> Float[Array, "..."]:
     """Value of the curve through (x, y) at `at`, which must lie inside; x increases strictly."""
     x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
     slopes = monotone_slopes(x, y)

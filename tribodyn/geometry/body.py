@@ -10,8 +10,7 @@ from tribodyn.geometry.family import Family
 from tribodyn.geometry.path import seen_from
 from tribodyn.geometry.tooth import ToothOutline, cut_tooth, outline, thickness_half_angle, tooth_outline
 from tribodyn.numerics.elementary import arctan2, cos, namespace, sin, sqrt
-
-Array = Any
+from tribodyn.numerics.shapes import Array, Float
 
 #: Points of the root circle below half a tooth and of its tip circle, beside the ends of fillet and flank.
 ROOT_POINTS, TIP_POINTS = 4, 3
@@ -19,7 +18,7 @@ ROOT_POINTS, TIP_POINTS = 4, 3
 _INTEGRATION_POINTS = 400
 
 
-def gear_polygon(family: Family, drive: Drive, side: Side, flank_points: int = 40) -> Array:
+def gear_polygon(family: Family, drive: Drive, side: Side, flank_points: int = 40) -> Float[Array, "point 2"]:
     """Draw all teeth as a closed polygon, m, shape (points, 2); the first point is repeated at the end.
 
     The frame is the body's own: origin on its axis, x and y parallel to the drive's frame (`path`) while a
@@ -46,7 +45,7 @@ def gear_polygon(family: Family, drive: Drive, side: Side, flank_points: int = 4
     return xp.concatenate([points, points[:1]])
 
 
-def half_profile(shape: ToothOutline, teeth: Any) -> tuple[Array, Array]:
+def half_profile(shape: ToothOutline, teeth: Any) -> tuple[Float[Array, " point"], Float[Array, " point"]]:
     """Polar coordinates (m, rad) of half a tooth, from the middle of the gap towards the middle of the tip.
 
     First `ROOT_POINTS` points of the root circle, then the outline's, then `TIP_POINTS` of the tip circle.

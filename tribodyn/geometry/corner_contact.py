@@ -13,10 +13,9 @@ import numpy as np
 
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import Side
-from tribodyn.geometry.path import Kinematics, distance_at_radius, kinematics, radius, seen_from
+from tribodyn.geometry.path import Kinematics, PerContact, distance_at_radius, kinematics, radius, seen_from
 from tribodyn.geometry.tooth import thickness_half_angle
-
-Array = Any
+from tribodyn.numerics.shapes import Array, Bool
 
 
 class PairGeometry(NamedTuple):
@@ -40,11 +39,11 @@ class PairGeometry(NamedTuple):
     """
 
     motion: Kinematics
-    gap: Array
-    pinion_radius: Array
-    gear_radius: Array
-    pinion_place: Array
-    gear_place: Array
+    gap: PerContact
+    pinion_radius: PerContact
+    gear_radius: PerContact
+    pinion_place: PerContact
+    gear_place: PerContact
 
 
 def part_of(geometry: PairGeometry, index: Any) -> PairGeometry:
@@ -59,7 +58,7 @@ def roll_limits(assembly: Assembly) -> tuple[float, float]:
     return float(path.rotation(assembly.r_start)), float(path.rotation(assembly.r_end))
 
 
-def pair_geometry(assembly: Assembly, roll: Array) -> PairGeometry:
+def pair_geometry(assembly: Assembly, roll: PerContact) -> PairGeometry:
     """Geometry of one pair at the pinion angles `roll` (rad from the pitch point), on and off the path."""
     path = assembly.path
     start, end = roll_limits(assembly)
@@ -71,7 +70,7 @@ def pair_geometry(assembly: Assembly, roll: Array) -> PairGeometry:
     }
     place = {"pinion": r.copy(), "gear": r.copy()}
     gap, moved = np.zeros_like(roll), np.zeros_like(roll)
-    sides: tuple[tuple[Side, Array], ...] = (("pinion", roll < start), ("gear", roll > end))
+    sides: tuple[tuple[Side, Bool[Array, "*contact"]], ...] = (("pinion", roll < start), ("gear", roll > end))
     for side, outside in sides:
         if np.any(outside):
             distance, found, at, flank = _corner(assembly, side, roll[outside])
@@ -91,7 +90,9 @@ def pair_geometry(assembly: Assembly, roll: Array) -> PairGeometry:
     return PairGeometry(motion, gap, reach["pinion"], reach["gear"], place["pinion"], place["gear"])
 
 
-def _corner(assembly: Assembly, side: Side, roll: Array) -> tuple[Array, Array, Array, Array]:
+def _corner(
+    assembly: Assembly, side: Side, roll: PerContact
+) -> tuple[PerContact, PerContact, PerContact, PerContact]:
     """Corner of the mate's tip near this body's flank at the pinion's angles.
 
     Its distance from the pitch point, the gap along the flank's normal, the radius on this body and the

@@ -5,10 +5,9 @@ from the middle of the faces; `start` is at the most negative z, `end` at the mo
 `compliance.flank_gap` makes the gap between two flanks of it.
 """
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-if TYPE_CHECKING:
-    from tribodyn.numerics.curve import Table
+from tribodyn.numerics.curve import Table
 
 
 class Relief(NamedTuple):
@@ -66,7 +65,7 @@ class FlankModification(NamedTuple):
     tip: Relief = Relief()
     root: Relief = Relief()
     lead: LeadRelief = LeadRelief()
-    profile_error: "Table | None" = None
+    profile_error: Table | None = None
     pitch_error: tuple[float, ...] = ()
 
 

@@ -13,8 +13,10 @@ import numpy as np
 from tribodyn.geometry.drive import Side
 from tribodyn.numerics.elementary import absolute, cos, namespace, sin, sqrt, where
 from tribodyn.numerics.iteration import newton
+from tribodyn.numerics.shapes import Array, Float
 
-Array = Any
+#: One number per contact: of any shape, the same for all that a call takes and returns.
+PerContact = Float[Array, "*contact"]
 
 # Twelve Gauss-Legendre points resolve 1/(r_p cos α) from P to any contact to rounding (test_geometry_path).
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
@@ -42,19 +44,19 @@ class Path(Protocol):
         """Working pitch radius of the gear, m."""
         ...
 
-    def pressure_angle(self, r: Array) -> Array:
+    def pressure_angle(self, r: PerContact) -> PerContact:
         """Pressure angle α at the signed distance r (m), rad."""
         ...
 
-    def pressure_angle_slope(self, r: Array) -> Array:
+    def pressure_angle_slope(self, r: PerContact) -> PerContact:
         """Slope dα/dr, rad/m."""
         ...
 
-    def rotation(self, r: Array) -> Array:
+    def rotation(self, r: PerContact) -> PerContact:
         """Pinion angle φ at the signed distance r, rad; 0 at the pitch point."""
         ...
 
-    def signed_distance(self, rotation: Array) -> Array:
+    def signed_distance(self, rotation: PerContact) -> PerContact:
         """Signed distance r (m) at the pinion angle φ (rad): the inverse of `rotation`."""
         ...
 
@@ -82,22 +84,22 @@ class Kinematics(NamedTuple):
         Half the sum and the difference of the two, m per radian.
     """
 
-    signed_distance: Array
-    pressure_angle: Array
-    pinion_normal_arm: Array
-    gear_normal_arm: Array
-    pinion_friction_arm: Array
-    gear_friction_arm: Array
-    pinion_curvature: Array
-    gear_curvature: Array
-    relative_curvature: Array
-    pinion_speed: Array
-    gear_speed: Array
-    entrainment: Array
-    sliding: Array
+    signed_distance: PerContact
+    pressure_angle: PerContact
+    pinion_normal_arm: PerContact
+    gear_normal_arm: PerContact
+    pinion_friction_arm: PerContact
+    gear_friction_arm: PerContact
+    pinion_curvature: PerContact
+    gear_curvature: PerContact
+    relative_curvature: PerContact
+    pinion_speed: PerContact
+    gear_speed: PerContact
+    entrainment: PerContact
+    sliding: PerContact
 
 
-def kinematics(path: Path, r: Array) -> Kinematics:
+def kinematics(path: Path, r: PerContact) -> Kinematics:
     """Lever arms, curvatures and speeds at the signed distances r (m).
 
     With κ = dα/dφ and w = r_p/r_g: ρ_p = r + r_p sin α/(1 + κ), ρ_g = r_p sin α/(w − κ) − r,
@@ -144,19 +146,19 @@ def sine_at_pitch_point(path: Path) -> tuple[Any, Any, Any]:
     return sin(alpha[0]), -cos(alpha[0]) * slope[1], cos(alpha[0]) * slope[2]
 
 
-def position(path: Path, r: Array) -> tuple[Array, Array]:
+def position(path: Path, r: PerContact) -> tuple[PerContact, PerContact]:
     """Contact point (x, y) in the fixed frame, m."""
     alpha = path.pressure_angle(r)
     return r * cos(alpha), r * sin(alpha)
 
 
-def radius(path: Path, r: Array) -> Array:
+def radius(path: Path, r: PerContact) -> PerContact:
     """Distance of the contact point from the pinion's axis, m."""
     r_p = path.pinion_pitch_radius
     return sqrt(r**2 + 2 * r_p * r * sin(path.pressure_angle(r)) + r_p**2)
 
 
-def distance_at_radius(path: Path, pinion_radius: Array) -> Array:
+def distance_at_radius(path: Path, pinion_radius: PerContact) -> PerContact:
     """Signed distance r (m) at which the contact is at `pinion_radius` (m) from the pinion's axis.
 
     The derivative of the squared radius is 2 u_p/ω_p, so the root is unique where the flank is not undercut.
@@ -177,7 +179,9 @@ def distance_at_radius(path: Path, pinion_radius: Array) -> Array:
     return newton(_step_to_radius, state, _BRACKETED_STEPS, path, pinion_radius)[0]
 
 
-def _step_to_radius(state: tuple[Array, Array, Array], path: Path, pinion_radius: Array) -> Any:
+def _step_to_radius(
+    state: tuple[PerContact, PerContact, PerContact], path: Path, pinion_radius: PerContact
+) -> Any:
     """Newton's step between bounds, of which r becomes one; to their middle where it goes beyond that.
 
     So a corner of a steep path does not send the steps to and fro.
@@ -195,7 +199,9 @@ def _step_to_radius(state: tuple[Array, Array, Array], path: Path, pinion_radius
     return where(far, (lower + upper) / 2, following), lower, upper
 
 
-def contact_limits(path: Path, pinion_tip_radius: Array, gear_tip_radius: Array) -> tuple[Array, Array]:
+def contact_limits(
+    path: Path, pinion_tip_radius: Float[Array, ""], gear_tip_radius: Float[Array, ""]
+) -> tuple[Float[Array, ""], Float[Array, ""]]:
     """Signed distances r_start < 0 < r_end (m) at which the tip circles cut the path.
 
     Contact begins at the gear's tip and ends at the pinion's.
@@ -206,12 +212,14 @@ def contact_limits(path: Path, pinion_tip_radius: Array, gear_tip_radius: Array)
     )
 
 
-def contact_ratio(path: Path, r_start: Array, r_end: Array, pinion_teeth: Array) -> Array:
+def contact_ratio(
+    path: Path, r_start: Float[Array, ""], r_end: Float[Array, ""], pinion_teeth: Float[Array, ""]
+) -> Float[Array, ""]:
     """Pinion angle from first to last contact over the pitch angle 2π/Z_p."""
     return (path.rotation(r_end) - path.rotation(r_start)) * pinion_teeth / (2 * np.pi)
 
 
-def integrated_rotation(path: Path, r: Array) -> Array:
+def integrated_rotation(path: Path, r: PerContact) -> PerContact:
     """φ(r) = ∫ dr/(r_p cos α) from 0 to r: `rotation` for a family without a closed form.
 
     The quadrature never crosses P, so α(r) may have a kink there.
@@ -222,7 +230,7 @@ def integrated_rotation(path: Path, r: Array) -> Array:
     return r * (integrand @ _WEIGHTS)
 
 
-def inverted_rotation(path: Path, rotation: Array) -> Array:
+def inverted_rotation(path: Path, rotation: PerContact) -> PerContact:
     """r(φ) by Newton's method: `signed_distance` for a family without a closed form."""
     xp = namespace(path, rotation)
     rotation = xp.asarray(rotation)
@@ -230,7 +238,7 @@ def inverted_rotation(path: Path, rotation: Array) -> Array:
     return newton(_step_to_rotation, start, _NEWTON_STEPS, path, rotation)
 
 
-def _step_to_rotation(r: Array, path: Path, rotation: Array) -> Array:
+def _step_to_rotation(r: PerContact, path: Path, rotation: PerContact) -> PerContact:
     residual = path.rotation(r) - rotation
     return r - residual * path.pinion_pitch_radius * cos(path.pressure_angle(r))
 
@@ -254,19 +262,19 @@ class MirroredPath(NamedTuple):
         """Working pitch radius of its mate, m."""
         return self.path.pinion_pitch_radius
 
-    def pressure_angle(self, r: Array) -> Array:
+    def pressure_angle(self, r: PerContact) -> PerContact:
         """Pressure angle α(−r), rad."""
         return self.path.pressure_angle(-r)
 
-    def pressure_angle_slope(self, r: Array) -> Array:
+    def pressure_angle_slope(self, r: PerContact) -> PerContact:
         """Slope dα/dr, rad/m."""
         return -self.path.pressure_angle_slope(-r)
 
-    def rotation(self, r: Array) -> Array:
+    def rotation(self, r: PerContact) -> PerContact:
         """Angle of the body, rad."""
         return -self.path.rotation(-r) * (self.gear_pitch_radius / self.pinion_pitch_radius)
 
-    def signed_distance(self, rotation: Array) -> Array:
+    def signed_distance(self, rotation: PerContact) -> PerContact:
         """Signed distance r (m) at the body's angle."""
         return -self.path.signed_distance(-rotation * (self.pinion_pitch_radius / self.gear_pitch_radius))
 

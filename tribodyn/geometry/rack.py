@@ -4,17 +4,16 @@ Frame of the tool: x along the rolling line from the axis of one of its teeth, y
 positive away from the body, so that the tool's tip lies at y = −depth and its root above the line.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from tribodyn.geometry.drive import Drive, Side, body_of
 from tribodyn.geometry.family import Family
-from tribodyn.geometry.path import position
+from tribodyn.geometry.path import PerContact, position
 from tribodyn.geometry.tooth import Tooth, cut_tooth, tangent_distance
 from tribodyn.numerics.elementary import cos, sin
-
-Array = Any
+from tribodyn.numerics.shapes import Array, Float
 
 #: Bottom clearance of the basic rack in modules, ISO 53 profiles A and B.
 CLEARANCE = 0.25
@@ -34,14 +33,14 @@ class RackOutline(NamedTuple):
         y of the tool's tip and root, m.
     """
 
-    x: Array
-    y: Array
+    x: Float[Array, " point"]
+    y: Float[Array, " point"]
     pitch: float
     tip_height: float
     root_height: float
 
 
-def rack_flank(tooth: Tooth, r: Array) -> tuple[Array, Array]:
+def rack_flank(tooth: Tooth, r: PerContact) -> tuple[PerContact, PerContact]:
     """Point (x, y) of the tool's left flank (m) that touches the body at the signed distance r (m)."""
     x, y = position(tooth.path, r)
     return x - tooth.path.pinion_pitch_radius * tooth.path.rotation(r) - tooth.corner_limit, y

@@ -16,12 +16,19 @@ import numpy as np
 
 from tribodyn.geometry.drive import Drive, Side, body_of, tip_radius
 from tribodyn.geometry.family import Family
-from tribodyn.geometry.path import Path, distance_at_radius, kinematics, position, radius, sine_at_pitch_point
+from tribodyn.geometry.path import (
+    Path,
+    PerContact,
+    distance_at_radius,
+    kinematics,
+    position,
+    radius,
+    sine_at_pitch_point,
+)
 from tribodyn.numerics.elementary import arctan2, cos, namespace, sin, sqrt, tan
 from tribodyn.numerics.iteration import newton
 from tribodyn.numerics.remembered import remembered
-
-Array = Any
+from tribodyn.numerics.shapes import Array, Float
 
 _NEWTON_STEPS = 8
 
@@ -82,10 +89,10 @@ class ToothOutline(NamedTuple):
         Half thickness at the tip circle, m; negative where the tooth would be pointed.
     """
 
-    fillet_x: Array
-    fillet_y: Array
-    flank_x: Array
-    flank_y: Array
+    fillet_x: Float[Array, " fillet"]
+    fillet_y: Float[Array, " fillet"]
+    flank_x: Float[Array, " flank"]
+    flank_y: Float[Array, " flank"]
     root_radius: Any
     form_radius: Any
     tip_radius: Any
@@ -105,9 +112,9 @@ class ToothContact(NamedTuple):
         tooth towards its axis, F sin α_1 presses it along the axis into the body.
     """
 
-    x: Array
-    y: Array
-    load_angle: Array
+    x: PerContact
+    y: PerContact
+    load_angle: PerContact
 
 
 @remembered
@@ -160,7 +167,7 @@ def tangent_distance(path: Path, depth: Any, rounding: Any) -> Any:
     return newton(_step_to_tangency, start, _NEWTON_STEPS, path, depth, rounding)
 
 
-def _step_to_tangency(r: Array, path: Path, depth: Any, rounding: Any) -> Array:
+def _step_to_tangency(r: Float[Array, ""], path: Path, depth: Any, rounding: Any) -> Float[Array, ""]:
     alpha = path.pressure_angle(r)
     residual = (r + rounding) * sin(alpha) + depth - rounding
     slope = sin(alpha) + (r + rounding) * cos(alpha) * path.pressure_angle_slope(r)
@@ -192,7 +199,9 @@ def _ended_by_undercut(tooth: Tooth) -> Tooth:
     )
 
 
-def _step_to_crossing(state: tuple[Array, Array], tooth: Tooth, overrun: Any) -> tuple[Array, Array]:
+def _step_to_crossing(
+    state: tuple[Float[Array, ""], Float[Array, ""]], tooth: Tooth, overrun: Any
+) -> tuple[Float[Array, ""], Float[Array, ""]]:
     xp = namespace(state, tooth)
     r, normal = state
     flank_rate, flank_angle = _flank_tangent(tooth, r)
@@ -210,7 +219,7 @@ def _step_to_crossing(state: tuple[Array, Array], tooth: Tooth, overrun: Any) ->
     )
 
 
-def _flank_tangent(tooth: Tooth, r: Array) -> tuple[Array, Array]:
+def _flank_tangent(tooth: Tooth, r: PerContact) -> tuple[PerContact, PerContact]:
     """Differentiate the flank's point by r along its tangent (cos λ, −sin λ), and λ = α − ψ + φ."""
     flank = kinematics(tooth.path, r)
     return (
@@ -219,7 +228,7 @@ def _flank_tangent(tooth: Tooth, r: Array) -> tuple[Array, Array]:
     )
 
 
-def _fillet_tangent(tooth: Tooth, normal_angle: Array) -> tuple[Array, Array]:
+def _fillet_tangent(tooth: Tooth, normal_angle: PerContact) -> tuple[PerContact, PerContact]:
     """Differentiate the fillet's point by the normal's angle along (cos λ, −sin λ), m per rad, and λ."""
     pitch_radius = tooth.path.pinion_pitch_radius
     r = tooth.corner_y / sin(normal_angle) - tooth.corner_radius
@@ -229,12 +238,12 @@ def _fillet_tangent(tooth: Tooth, normal_angle: Array) -> tuple[Array, Array]:
     return rate, normal_angle - tooth.half_angle + rotation
 
 
-def flank_point(tooth: Tooth, r: Array) -> tuple[Array, Array]:
+def flank_point(tooth: Tooth, r: PerContact) -> tuple[PerContact, PerContact]:
     """Point (x, y) of the flank (m) that the rack touches at the signed distance r (m)."""
     return _in_tooth_frame(tooth, *position(tooth.path, r), tooth.path.rotation(r))
 
 
-def fillet_point(tooth: Tooth, normal_angle: Array) -> tuple[Array, Array]:
+def fillet_point(tooth: Tooth, normal_angle: PerContact) -> tuple[PerContact, PerContact]:
     """Point (x, y) of the fillet (m) cut where the normal of the rack's rounding has this angle (rad).
 
     The rack's point touches the body when its normal passes through the pitch point; the angle runs from
@@ -246,21 +255,23 @@ def fillet_point(tooth: Tooth, normal_angle: Array) -> tuple[Array, Array]:
     return _in_tooth_frame(tooth, x, y, (x - rack_x) / tooth.path.pinion_pitch_radius)
 
 
-def _in_tooth_frame(tooth: Tooth, x: Array, y: Array, rotation: Array) -> tuple[Array, Array]:
+def _in_tooth_frame(
+    tooth: Tooth, x: PerContact, y: PerContact, rotation: PerContact
+) -> tuple[PerContact, PerContact]:
     pitch_radius = tooth.path.pinion_pitch_radius
     distance = sqrt(x**2 + (pitch_radius + y) ** 2)
     chi = tooth.half_angle + arctan2(x, pitch_radius + y) - rotation
     return distance * cos(chi), distance * sin(chi)
 
 
-def thickness_half_angle(tooth: Tooth, at_radius: Array) -> Array:
+def thickness_half_angle(tooth: Tooth, at_radius: PerContact) -> PerContact:
     """Half thickness angle of the tooth (rad) on the circle of this radius (m), above the form radius."""
     r = distance_at_radius(tooth.path, at_radius)
     x, y = position(tooth.path, r)
     return tooth.half_angle + arctan2(x, tooth.path.pinion_pitch_radius + y) - tooth.path.rotation(r)
 
 
-def contact_in_tooth_frame(body_path: Path, pitch_half_angle: Any, r: Array) -> ToothContact:
+def contact_in_tooth_frame(body_path: Path, pitch_half_angle: Any, r: PerContact) -> ToothContact:
     """Contact point and direction of the normal load on a tooth, while it works with its mate.
 
     Parameters

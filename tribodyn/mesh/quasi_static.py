@@ -7,8 +7,7 @@ import numpy as np
 from tribodyn.mesh.cycle import MeshCycle, derivative_matrix
 from tribodyn.numerics.elementary import namespace
 from tribodyn.numerics.iteration import iterate
-
-Array = Any
+from tribodyn.numerics.shapes import Array, Float
 
 # The contact part of a load-dependent compliance goes like F^−0.1, so that each step of the secant iteration
 # shrinks its error at least tenfold; the set of loaded pairs settles on the way.
@@ -29,12 +28,14 @@ class QuasiStatic(NamedTuple):
         tangent, all pairs together, secant where the Hertz contact is load-dependent.
     """
 
-    normal_load: Array
-    deflection: Array
-    mesh_stiffness: Array
+    normal_load: Float[Array, "segment node pair"]
+    deflection: Float[Array, "segment node"]
+    mesh_stiffness: Float[Array, "segment node"]
 
 
-def quasi_static(cycle: MeshCycle, gear_torque: Any, friction: Array = None) -> QuasiStatic:
+def quasi_static(
+    cycle: MeshCycle, gear_torque: Any, friction: Float[Array, "segment node pair"] | None = None
+) -> QuasiStatic:
     """Share the gear's torque among the driving pairs by their compliances and gaps.
 
     With h_i = cos α_i every loaded pair has Δ h_i − e_i = Σ_j C_ij F_j (+ A F_i^0.9), and r_g Σ F_i h_i is
@@ -60,7 +61,19 @@ def quasi_static(cycle: MeshCycle, gear_torque: Any, friction: Array = None) -> 
     force = gear_torque / cycle.gear_pitch_radius
     identity = np.eye(cycle.compliance.shape[-1])
 
-    def share(state: tuple[Array, Array, Array, Array]) -> tuple[Array, Array, Array, Array]:
+    def share(
+        state: tuple[
+            Float[Array, "segment node pair"],
+            Float[Array, "segment node pair"],
+            Float[Array, "..."],
+            Float[Array, "..."],
+        ],
+    ) -> tuple[
+        Float[Array, "segment node pair"],
+        Float[Array, "segment node pair"],
+        Float[Array, "..."],
+        Float[Array, "..."],
+    ]:
         load, active, *_ = state
         contact = cycle.hertz_coefficient * xp.maximum(load, 1e-9 * force) ** -0.1
         diagonal = identity * (cycle.compliance + contact)[..., None]
@@ -81,12 +94,14 @@ def quasi_static(cycle: MeshCycle, gear_torque: Any, friction: Array = None) -> 
     return QuasiStatic(load, deflection, stiffness)
 
 
-def cycle_mean(cycle: MeshCycle, values: Array) -> Array:
+def cycle_mean(cycle: MeshCycle, values: Float[Array, "segment node *pair"]) -> Float[Array, "*pair"]:
     """Mean over one mesh cycle of values (S, N, …) at the nodes: the integral of the table's splines."""
     return cycle_integral(cycle, values, cycle.boundary[1:, None])
 
 
-def cycle_integral(cycle: MeshCycle, values: Array, upto: Array) -> Array:
+def cycle_integral(
+    cycle: MeshCycle, values: Float[Array, "segment node *pair"], upto: Float[Array, "..."]
+) -> Float[Array, "*pair"]:
     """Integral over the phase from 0 up to a phase, for several such phases at once.
 
     Parameters
@@ -118,7 +133,7 @@ def cycle_integral(cycle: MeshCycle, values: Array, upto: Array) -> Array:
     cell = xp.clip(xp.floor(place).astype(int), 0, cells - 1)
     u = place - cell
 
-    def at_cell(array: Array) -> Array:
+    def at_cell(array: Float[Array, "segment cell pair"]) -> Float[Array, "segment pair"]:
         return xp.take_along_axis(array, cell[:, None, :], axis=1)[:, 0, :]
 
     a, b, m, n = (at_cell(array) for array in (start, end, begin, finish))

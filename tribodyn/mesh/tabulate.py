@@ -27,12 +27,11 @@ from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.numerics.elementary import cos, is_jax, namespace
 from tribodyn.numerics.iteration import chebyshev_basis
+from tribodyn.numerics.shapes import Array, Float
 
 if TYPE_CHECKING:
     from tribodyn.geometry.material import MaterialData
     from tribodyn.mesh.data import MeshData
-
-Array = Any
 
 # Degree of the interpolation over each half of the contact; test_tabulate shows what it leaves.
 _DEGREE = 16
@@ -173,7 +172,12 @@ def _common_width(drive: Drive) -> Any:
 
 def _phases(
     contact: _Contact, pairs: int, points: int, back: bool, corner: bool
-) -> tuple[Array, Array, Array, Array]:
+) -> tuple[
+    Float[Array, " boundary"],
+    Float[Array, "segment node"],
+    Float[Array, "segment pair"],
+    Float[Array, "segment node pair"],
+]:
     """Boundaries (S + 1,), phases (S, N), contact (S, Q) and roll angles (S, N, Q) of all slots.
 
     Positions count pitches since a pair's first contact. A back pair lives in the mirrored world, where the
@@ -206,7 +210,7 @@ def _phases(
     return boundary, phase, in_contact, xp.clip(roll, contact.roll_start, contact.roll_end)
 
 
-def _apart(boundary: Array) -> Array:
+def _apart(boundary: Float[Array, " boundary"]) -> Float[Array, " boundary"]:
     """Move boundaries that fall together, as at a whole contact ratio, so that every segment has a length."""
     xp = namespace(boundary)
     found = [boundary[0]]
@@ -227,13 +231,15 @@ class _RollCurve(NamedTuple):
     start: Any
     end: Any
 
-    def nodes(self) -> Array:
+    def nodes(self) -> Float[Array, "2 17"]:
         """Roll angles of the nodes, (2, 17), rad."""
         xp = namespace(self.start, self.end)
         unit = 0.5 + 0.5 * _POINTS
         return xp.stack([self.start * (1.0 - unit), self.end * unit])
 
-    def interpolate(self, values: Array, roll: Array) -> Array:
+    def interpolate(
+        self, values: Float[Array, "2 17 *channel"], roll: Float[Array, "*roll"]
+    ) -> Float[Array, "*roll *channel"]:
         """Values (…, k) at the roll angles (…), from values (2, 17, k) at the nodes; k may be missing."""
         xp = namespace(values, roll)
         approach = roll < 0
@@ -251,10 +257,10 @@ def _compliance(
     mesh: "MeshData",
     path: Path,
     curve: _RollCurve,
-    r_nodes: Array,
-    roll: Array,
+    r_nodes: Float[Array, "2 17"],
+    roll: Float[Array, "segment node pair"],
     pairs: int,
-) -> tuple[Array, Array]:
+) -> tuple[Float[Array, "segment node pair"], Float[Array, "segment node pair pair"]]:
     """Compliance (S, N, Q) of single pairs and coupling (S, N, Q, Q)."""
     xp = namespace(roll)
     uncoupled = xp.zeros((*roll.shape, roll.shape[-1]))
@@ -283,10 +289,10 @@ def _compliance(
 def _coupling(
     teeth: list[LoadedTooth],
     materials: tuple["MaterialData", "MaterialData"],
-    pinion_load: Array,
-    gear_load: Array,
+    pinion_load: Float[Array, "segment node pair 3"],
+    gear_load: Float[Array, "segment node pair 3"],
     pairs: int,
-) -> Array:
+) -> Float[Array, "segment node pair pair"]:
     """Deflection of one pair per load on another through both bodies, (S, N, Q, Q).
 
     Front and back flanks never carry at the same time while there is backlash, so they are left uncoupled.
@@ -311,7 +317,12 @@ def _coupling(
     return xp.stack([xp.stack(row, axis=-1) for row in entries], axis=-1)
 
 
-def _transmission_error(mesh: "MeshData", phase: Array, roll: Array, curve: _RollCurve) -> Array:
+def _transmission_error(
+    mesh: "MeshData",
+    phase: Float[Array, "segment node"],
+    roll: Float[Array, "segment node pair"],
+    curve: _RollCurve,
+) -> Float[Array, "segment node pair"]:
     """Compute the transmission error (S, N, Q), m: harmonics of the mesh phase, table over roll angle."""
     gap = 0.0 * roll
     for order, amplitude, angle in mesh.error_harmonics:

@@ -8,7 +8,7 @@ condensed to one compliance and gap a pair (`compliance.condensed`).
 """
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -27,12 +27,11 @@ from tribodyn.geometry.drive import SIDES, Drive, body_of
 from tribodyn.geometry.family import Family
 from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.numerics.shapes import Array, Float
 
 if TYPE_CHECKING:
     from tribodyn.geometry.material import MaterialData
     from tribodyn.mesh.data import MeshData
-
-Array = Any
 
 # Share of a single pair's load below which the secant no longer follows the load: the contact's compliance
 # grows without bound, like a logarithm, as the load vanishes.
@@ -173,8 +172,8 @@ def _driving(
     mesh: "MeshData",
     gear_torque: float,
     least_load: float,
-    roll: Array,
-    error: Array,
+    roll: Float[Array, "position pair"],
+    error: Float[Array, "position pair"],
 ) -> Condensed:
     """Driving pairs (position, pair) at the operating torque."""
     slices = mesh.slices
@@ -187,7 +186,9 @@ def _driving(
     return condense(flexible, geometry, whole, shared, least_load, mesh.slice_coupling)
 
 
-def _under_load(flexible: PairFlexibility, geometry: PairGeometry, load: float) -> tuple[Array, Array]:
+def _under_load(
+    flexible: PairFlexibility, geometry: PairGeometry, load: float
+) -> tuple[Float[Array, "position pair"], Float[Array, "position pair pair"]]:
     """Compliance of pairs under a load (N) each, deflection over load, and their coupling; m/N."""
     curvature = geometry.motion.relative_curvature
     deflection, _ = contact_deflection(flexible, curvature, load / flexible.width + 0.0 * curvature)
@@ -198,7 +199,7 @@ def _under_load(flexible: PairFlexibility, geometry: PairGeometry, load: float) 
 
 def _phases(
     marks: list[float], pairs: int, points: int, back: bool, enter: float
-) -> tuple[Array, Array, Array]:
+) -> tuple[Float[Array, " boundary"], Float[Array, "segment node"], Float[Array, "segment node pair"]]:
     """Boundaries (S + 1,), phases (S, N) and positions (S, N, Q) of all slots, in pitches since entering.
 
     A segment begins wherever a pair passes one of the marks (pitches since entering), for there the table has
@@ -221,8 +222,12 @@ def _phases(
 
 
 def _transmission_error(
-    mesh: "MeshData", phase: Array, roll: Array, limits: tuple[float, float], begin: float
-) -> Array:
+    mesh: "MeshData",
+    phase: Float[Array, "segment node"],
+    roll: Float[Array, "segment node pair"],
+    limits: tuple[float, float],
+    begin: float,
+) -> Float[Array, "segment node pair"]:
     """Errors of the flanks (S, N, Q), m; those given over roll angle stay at their ends beyond the path.
 
     Harmonics are in step with the beginning of the path, at the phase `begin`, as they are in `tabulate`.

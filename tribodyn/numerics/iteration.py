@@ -10,9 +10,9 @@ from typing import Any, TypeVar
 import numpy as np
 
 from tribodyn.numerics.elementary import namespace
+from tribodyn.numerics.shapes import Array, Float
 
 State = TypeVar("State")
-Array = Any
 
 
 def iterate(step: Callable[[State], State], state: State, steps: int) -> State:
@@ -61,7 +61,7 @@ def newton(step: Callable[..., Any], start: Any, count: int, *parameters: Any) -
     return step(root, *parameters)
 
 
-def chebyshev_basis(x: Array, degree: int) -> Array:
+def chebyshev_basis(x: Float[Array, "*point"], degree: int) -> Float[Array, "*point degree"]:
     """Chebyshev polynomials T_0(x) … T_degree(x), degree ≥ 1, along a new last axis.
 
     By the three-term recurrence: stable on −1 … 1 and, unlike cos(n arccos x), differentiable at the ends.

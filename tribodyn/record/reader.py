@@ -126,8 +126,9 @@ class Record:
 
     @cached_property
     def kind(self) -> str:
-        """Kind of the study, as its scenario has it."""
-        return str(self.scenario.get("kind", self.attrs.get("kind", "")))
+        """Kind of the study; a record of 0.1.0 of an efficiency says so in its scenario only."""
+        said = str(self.attrs.get("kind", ""))
+        return said if "datasets" in self.attrs else str(self.scenario.get("kind", said))
 
     @cached_property
     def samples(self) -> int:
@@ -146,8 +147,11 @@ class Record:
 
     @cached_property
     def scenario(self) -> dict[str, Any]:
-        """The resolved scenario."""
-        return tomllib.loads(str(self.attrs["scenario"]))
+        """The resolved scenario; InputError where the file's text is no scenario."""
+        try:
+            return tomllib.loads(str(self.attrs["scenario"]))
+        except (KeyError, tomllib.TOMLDecodeError) as error:
+            raise self._damaged(error) from error
 
     @cached_property
     def summary(self) -> dict[str, Any]:
@@ -214,10 +218,12 @@ class Record:
                 "the record of a sweep, not of a run",
                 "tribodyn show and plot read it",
             )
-        _ = self.scenario, self.axis, self.pairs, self.elements
+        _ = self.axis, self.pairs, self.elements
         for name in str(self.attrs.get("datasets", self.axis)).split():
             if not isinstance(self._file[name], h5py.Dataset):
                 raise ValueError(f"{name} is no dataset")
+            if "" in self._dims(name):
+                raise ValueError(f"{name} lacks the scale of an axis")
         for name in self._along:
             if self._file[name].shape[0] < self.samples:
                 raise ValueError(f"{name} is too short")

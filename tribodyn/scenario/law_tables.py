@@ -1,13 +1,14 @@
 """The tables ``[film]`` and ``[friction]``: which laws hold between the flanks, and the laws' own keys."""
 
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar, Protocol, Self
 
-from pydantic import Field
+from pydantic import Field, ValidationError, model_validator
+from pydantic_core import InitErrorDetails
 
 from tribodyn.errors import InputError, quoted
 from tribodyn.numerics.registry import Registry
 from tribodyn.scenario.own_keys import Owner, key_schema, own_key_errors, own_values
-from tribodyn.scenario.quantity import Table, Text
+from tribodyn.scenario.quantity import Table, Text, broken
 from tribodyn.tribology.data import FilmData
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
@@ -16,7 +17,13 @@ from tribodyn.tribology.friction import FRICTION_LAWS
 class LawTable(Table, extra="allow"):
     """A table that holds the own keys of the law it names, which only the law knows."""
 
+    name: ClassVar[str]
     laws: ClassVar[Registry[Any]]
+
+    @property
+    def chosen(self) -> str | None:
+        """Name of the law."""
+        raise NotImplementedError
 
     @property
     def own(self) -> dict[str, Any]:
@@ -32,27 +39,53 @@ class LawTable(Table, extra="allow"):
         choice["enum"] = list(cls.laws)
         for name, law in cls.laws.items():
             for key in law.keys:
-                found = key_schema(key)
-                found["description"] = f'of law = "{name}": {found["description"]}'
-                part["properties"].setdefault(key.name, found)
+                own = key_schema(key)
+                own["description"] = f'of law = "{name}": {own["description"]}'
+                part["properties"].setdefault(key.name, own)
         part["additionalProperties"] = False
         return part
+
+    @model_validator(mode="after")
+    def known_law_and_keys(self) -> Self:
+        """Hold the law's name and the law's own keys to the registry and the law."""
+        errors = law_errors(self)
+        if not errors:
+            return self
+        found = [
+            InitErrorDetails(
+                type=broken(error.rule, error.remedy),
+                loc=tuple(error.key.split(".")[1:]),
+                input=self.model_dump().get(error.key.split(".")[1]),
+            )
+            for error in errors
+        ]
+        raise ValidationError.from_exception_data(type(self).__name__, found)
 
 
 class FilmTable(LawTable):
     """Which law gives the film between the flanks, and the law's own keys."""
 
+    name = "film"
     laws = FILM_LAWS
-
     law: Text | None = Field(None, description="default: the one that goes with the friction law")
+
+    @property
+    def chosen(self) -> str | None:
+        """Name of the law."""
+        return self.law
 
 
 class FrictionTable(LawTable):
     """Which law acts between the flanks, and the law's own keys."""
 
+    name = "friction"
     laws = FRICTION_LAWS
-
     law: Text
+
+    @property
+    def chosen(self) -> str:
+        """Name of the law."""
+        return self.law
 
 
 class WithLaws(Protocol):
@@ -64,16 +97,38 @@ class WithLaws(Protocol):
     def friction(self) -> FrictionTable: ...  # noqa: D102
 
 
-def law_errors(scenario: WithLaws) -> list[InputError]:
-    """Return what is wrong with the names of the laws and with their own keys."""
-    errors = _errors("friction", scenario.friction, scenario.friction.law, FRICTION_LAWS)
-    film = scenario.film
-    if film is None:
-        return errors
-    law = film.law
-    if law is None and scenario.friction.law in FRICTION_LAWS and film.own:
-        law = FRICTION_LAWS[scenario.friction.law].film
-    return errors + (_errors("film", film, law, FILM_LAWS) if law is not None else [])
+def law_errors(table: LawTable) -> list[InputError]:
+    """Return what is wrong with the name of the law and with its own keys."""
+    if table.chosen is None:
+        rule = "is a key of a film law, and none is named"
+        remedy = "name it, such as law = " + quoted(next(iter(table.laws)))
+        return [
+            InputError(f"{table.name}.{key}", quoted(value), rule, remedy) for key, value in table.own.items()
+        ]
+    try:
+        law = table.laws[table.chosen]
+    except InputError as error:
+        return [error]
+    found = own_key_errors(_owner(table, law), table.own)
+    return [_explained(error, table, law) for error in found]
+
+
+def _owner(table: LawTable, law: Any) -> Owner:
+    return Owner(table.name, "law", law.keys, tuple(type(table).model_fields))
+
+
+def _explained(error: InputError, table: LawTable, law: Any) -> InputError:
+    """Say of a missing key that the law needs it, and of another law's key that this one has none."""
+    key = error.key.removeprefix(f"{table.name}.")
+    known = {one.name: one for one in law.keys}
+    if key not in table.own:
+        rule = f'missing: law = "{law.name}" needs it, {known[key].about}'
+        return InputError(error.key, None, rule, error.remedy)
+    others = [name for name, one in table.laws.items() if any(key == own.name for own in one.keys)]
+    if key not in known and others:
+        rule = f'contradicts law = "{law.name}"; it is a key of law = {", ".join(map(quoted, others))}'
+        return InputError(error.key, error.value, rule, f"leave {key} out")
+    return error
 
 
 def film_data(scenario: WithLaws) -> FilmData:
@@ -81,39 +136,11 @@ def film_data(scenario: WithLaws) -> FilmData:
     film = scenario.film
     if film is None:
         return FilmData()
-    name = film.law or FRICTION_LAWS[scenario.friction.law].film
-    return FilmData(film.law, own_values(_owner("film", film, FILM_LAWS[name]), film.own))
+    if film.law is None:
+        return FilmData()
+    return FilmData(film.law, own_values(_owner(film, FILM_LAWS[film.law]), film.own))
 
 
 def friction_values(table: FrictionTable) -> dict[str, float]:
     """Return the values of the friction law's own keys, in SI units."""
-    return own_values(_owner("friction", table, FRICTION_LAWS[table.law]), table.own)
-
-
-def _owner(table: str, given: LawTable, law: Any) -> Owner:
-    return Owner(table, "law", law.keys, tuple(type(given).model_fields))
-
-
-def _errors(table: str, given: LawTable, name: str, laws: Registry[Any]) -> list[InputError]:
-    try:
-        law = laws[name]
-    except InputError as error:
-        return [error]
-    return [
-        _said(error, table, name, law, laws) for error in own_key_errors(_owner(table, given, law), given.own)
-    ]
-
-
-def _said(error: InputError, table: str, name: str, law: Any, laws: Registry[Any]) -> InputError:
-    """Say of a missing key that the law needs it, and of another law's key that this one has none."""
-    key = error.key.removeprefix(f"{table}.")
-    known = {one.name: one for one in law.keys}
-    if error.rule.startswith("missing"):
-        return InputError(
-            error.key, None, f'missing: law = "{name}" needs it, {known[key].about}', error.remedy
-        )
-    others = [other for other, one in laws.items() if any(key == own.name for own in one.keys)]
-    if key not in known and others:
-        rule = f'contradicts law = "{name}", which has no such key; {", ".join(map(quoted, others))} has'
-        return InputError(error.key, error.value, rule, f"leave {key} out")
-    return error
+    return own_values(_owner(table, FRICTION_LAWS[table.law]), table.own)

@@ -68,7 +68,8 @@ def _explain_one(one: dict[str, Any], model: type[BaseModel]) -> InputError:
     given = quoted(one["input"])
     match one["type"]:
         case "rule":
-            return InputError(dotted, given, context["rule"], context["remedy"])
+            absent = one["input"] is None
+            return InputError(dotted, None if absent else given, context["rule"], context["remedy"])
         case "missing":
             return InputError(dotted, None, "missing", _how_to_write(model, key))
         case "extra_forbidden":

@@ -180,6 +180,7 @@ ANGLE_KIND = Kind(ANGLE, "rad", "20 deg")
 ANGULAR_SPEED = Kind(SPEED, "rad/s", "10 rad/s")
 ANGULAR_FREQUENCY = Kind(FREQUENCY, "rad/s", "30 Hz")
 TIME = Kind("time", "s", "0.1 s")
+VELOCITY = Kind("velocity", "m/s", "0.5 m/s")
 POWER = Kind("power", "W", "1500 W")
 TORQUE = Kind("torque", "N*m", "500 N*m")
 MASS = Kind("mass", "kg", "0.7 kg")
@@ -205,6 +206,7 @@ QUANTITIES = {
         ANGULAR_SPEED,
         ANGULAR_FREQUENCY,
         TIME,
+        VELOCITY,
         POWER,
         TORQUE,
         MASS,

@@ -7,7 +7,7 @@ Written as laws, so that the kernel for one case and the one for many cases side
 import numpy as np
 
 from tribodyn.dynamics.parameters import MECHANICAL, STATES
-from tribodyn.numerics.elementary import absolute, law, maximum, minimum
+from tribodyn.numerics.elementary import law, maximum, minimum
 
 A = np.array(
     [
@@ -21,7 +21,7 @@ A = np.array(
     ]
 )
 C = np.array([0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0, 1.0])
-#: Fifth-order less embedded fourth-order weights.
+#: Fifth-order minus embedded fourth-order weights.
 E = np.array([71 / 57600, 0.0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40])
 #: Weights of the dense output's highest term.
 D = np.array(
@@ -36,11 +36,6 @@ D = np.array(
     ]
 )
 STAGES = 7
-
-#: First step to try, mesh cycles, and the least one; a step is the last if it ends this close to the end.
-FIRST_STEP, LEAST_STEP, TOUCHING = 1e-3, 1e-13, 1.0000001
-#: The error remembered of the last step at the start, and the least that is remembered.
-LEAST_REMEMBERED = 1e-4
 
 
 @law
@@ -77,12 +72,6 @@ def stage_state(s, step, y, k, stage):
 def embedded_difference(k, i):
     """Difference of the two methods over the step, for state i."""
     return E[0] * k[0, i] + E[2] * k[2, i] + E[3] * k[3, i] + E[4] * k[4, i] + E[5] * k[5, i] + E[6] * k[6, i]
-
-
-@law
-def weighed_error(difference, before, after, atol, rtol):
-    """Error of one state over its tolerance."""
-    return absolute(difference) / (atol + rtol * maximum(absolute(before), absolute(after)))
 
 
 @law

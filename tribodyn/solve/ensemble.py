@@ -8,46 +8,23 @@ import os
 import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
-from typing import NamedTuple
 
 import numpy as np
 
 from tribodyn.dynamics.parameters import STATES, Model
-from tribodyn.solve.engine import DONE, TOO_MANY_STEPS, March
-from tribodyn.solve.stiffness import EXPLICIT, THROUGH_JAX, choose
-from tribodyn.solve.transient import cycles_per_block, make_engine, tolerances_from
+from tribodyn.kernels.native.internals import report_missing
+from tribodyn.numerics.shapes import Array, Float
+from tribodyn.solve.batch_result import Ensemble, nothing_yet
+from tribodyn.solve.choice import choose
+from tribodyn.solve.integrator import MAX_STEPS, March, Status
+from tribodyn.solve.methods import AUTO, EXPLICIT, Runs, runs
+from tribodyn.solve.tolerances import tolerances_from
+from tribodyn.solve.transient import cycles_at_once, make_integrator
 
-#: Explicit steps in one mesh cycle above which a case of a batch is taken out of the lanes and begun anew by
-#: itself, with the method that `stiffness.choose` finds for it: the estimate costs as much as many cycles, so
-#: that it is made for few.
+#: Explicit steps in one mesh cycle above which a case of a batch is taken out of the lanes and begun again by
+#: itself, with the method that `choice.choose` gives for it: the estimate costs as much as many cycles, so
+#: that it is made for few cases only.
 HANDED_OVER = 5000
-#: Greatest number of steps in one mesh cycle, as a scenario's `solver.max_steps` has it by default.
-MAX_STEPS = 1_000_000
-
-
-class Ensemble(NamedTuple):
-    """What became of C cases.
-
-    Attributes
-    ----------
-    state : (C, STATES)
-        At the end, before the next engagement; of a failed case the last one that was accepted.
-    samples : (C, window · samples, STATES)
-        States over the last `window` cycles at phases k/samples; NaN from where a case failed.
-    status : (C,) int
-        `engine.DONE` or the kind of failure, a key of `engine.REASONS`.
-    reached : (C,)
-        Mesh cycles done by this call.
-    steps, evaluations : (C,) int
-        Accepted steps, and evaluations of the right-hand side.
-    """
-
-    state: np.ndarray
-    samples: np.ndarray
-    status: np.ndarray
-    reached: np.ndarray
-    steps: np.ndarray
-    evaluations: np.ndarray
 
 
 def usable_cores() -> int:
@@ -59,7 +36,7 @@ def usable_cores() -> int:
 
 def march(
     models: Sequence[Model],
-    states: np.ndarray,
+    states: Float[Array, "case state"],
     *,
     cycles: int,
     window: int,
@@ -86,17 +63,17 @@ def march(
         Last cycles to keep, 0 … cycles, and samples in each of them.
     rtol : float
     max_steps : int
-        Greatest number of steps in one mesh cycle.
+        Steps, accepted ones, that one mesh cycle may take.
     started : bool
         Whether the states stand before the engagement at phase 0, as a march leaves them (False at the start
         of a run).
     first_cycle : int
         Whole mesh cycles done before; with the phase and the lag they give the time.
     method : str
-        "auto": explicit, and where that takes too many steps what `stiffness.choose` finds; or a method's
-        name, see `transient.make_engine`; those of diffrax are mapped over the cases, see `jax_ensemble`.
+        "auto": explicit, and where that takes too many steps what `choice.choose` gives; or a method's name,
+        see `methods`; those of diffrax are mapped over the cases, see `jax_ensemble`.
     workers : int, optional
-        Threads; by default one a core that this process may use.
+        Threads; by default as many as cores that this process may use.
     progress : callable, optional
         Called with the share done, 0 … 1.
     """
@@ -110,77 +87,79 @@ def march(
         # no kernel is made for it: they all do a cycle before they look
         return nothing_yet(states, window * samples)
     count = workers or usable_cores()
-    shared = March(first_cycle, cycles, window, samples, started, float(rtol), max_steps)
-    if method in THROUGH_JAX:
+    march = March(first_cycle, cycles, window, samples, started, float(rtol), max_steps)
+    if runs(method) is Runs.JAX:
         from tribodyn.solve.jax_ensemble import through_jax
 
-        return through_jax(models, states, method, shared, count, progress)
-    if method not in ("auto", EXPLICIT):
-        return one_by_one(models, states, method, shared, count, progress)
+        return through_jax(models, states, method, march, count, progress)
+    if method not in (AUTO, EXPLICIT) or report_missing():
+        return one_by_one(models, states, method, march, count, progress)
     limit = max_steps if method == EXPLICIT else min(max_steps, HANDED_OVER)
-    found = in_lanes(models, states, shared._replace(max_steps=limit), count, progress)
-    dear = np.flatnonzero((found.status == TOO_MANY_STEPS) & (limit < max_steps)).tolist()
-    if dear:
-        again = one_by_one([models[case] for case in dear], states[dear], method, shared, count, progress)
-        for whole, part in zip(found, again, strict=True):
-            whole[dear] = part
-    return found
+    result = in_lanes(models, states, march._replace(max_steps=limit), count, progress)
+    expensive = np.flatnonzero((result.status == Status.TOO_MANY_STEPS) & (limit < max_steps)).tolist()
+    if expensive:
+        again = one_by_one(
+            [models[case] for case in expensive], states[expensive], method, march, count, progress
+        )
+        for whole, part in zip(result, again, strict=True):
+            whole[expensive] = part
+    return result
 
 
 def in_lanes(
     models: Sequence[Model],
-    states: np.ndarray,
-    shared: March,
+    states: Float[Array, "case state"],
+    march: March,
     workers: int,
     progress: Callable[[float], None] | None = None,
 ) -> Ensemble:
     """Integrate with the explicit method, many cases side by side in the lanes of vectors."""
     from tribodyn.solve.lane_batch import batches, run_threads
 
-    found = nothing_yet(states, shared.window * shared.samples)
-    batches_ = batches(models, states, shared)
-    run_threads(batches_, shared, workers, progress)
+    result = nothing_yet(states, march.window * march.samples)
+    batches_ = batches(models, states, march)
+    run_threads(batches_, march, workers, progress)
     for batch in batches_:
         for name in Ensemble._fields:
-            getattr(found, name)[batch.places] = getattr(batch.queue, name)
-    return found
+            getattr(result, name)[batch.places] = getattr(batch.queue, name)
+    return result
 
 
 def one_by_one(
     models: Sequence[Model],
-    states: np.ndarray,
+    states: Float[Array, "case state"],
     method: str,
-    shared: March,
+    march: March,
     workers: int,
     progress: Callable[[float], None] | None = None,
 ) -> Ensemble:
-    """Integrate each case with its own engine, as a single run does, one case a thread."""
-    found = nothing_yet(states, shared.window * shared.samples)
+    """Integrate each case with an integrator of its own, as a single run does, one case per thread."""
+    result = nothing_yet(states, march.window * march.samples)
     cancelled = threading.Event()
-    opening = shared.cycles - shared.window
+    opening = march.cycles - march.window
 
     def one(case: int) -> None:
         model = models[case]
         chosen = choose(method, model, states[case]).method
-        tolerances = tolerances_from(model, states[case], shared.rtol, shared.max_steps)
-        engine = make_engine(chosen, model, shared.samples, tolerances)
-        engine.started = shared.started
-        size = cycles_per_block(chosen, shared.cycles)
+        tolerances = tolerances_from(model, states[case], march.rtol, march.max_steps)
+        integrator = make_integrator(chosen, model, march.samples, tolerances)
+        integrator.started = march.started
+        size = cycles_at_once(chosen, march.cycles)
         done = 0
-        while done < shared.cycles and not cancelled.is_set():
-            # blocks end where the window begins, so that nothing before it is kept for long
-            end = opening if done < opening else shared.cycles
+        while done < march.cycles and not cancelled.is_set():
+            # calls end where the window begins, so that nothing before it is kept for long
+            end = opening if done < opening else march.cycles
             cycles = min(size, end - done)
-            block = engine.block(found.state[case], shared.first_cycle + done, cycles)
+            part = integrator.integrate(result.state[case], march.first_cycle + done, cycles)
             if done >= opening:
-                first = (done - opening) * shared.samples
-                found.samples[case, first : first + len(block.samples)] = block.samples
-            found.state[case] = block.state
-            found.reached[case] += block.reached
-            found.steps[case] += block.steps
-            found.evaluations[case] += block.evaluations
-            if block.status != DONE:
-                found.status[case] = block.status
+                first = (done - opening) * march.samples
+                result.samples[case, first : first + len(part.samples)] = part.samples
+            result.state[case] = part.state
+            result.reached[case] += part.reached
+            result.steps[case] += part.steps
+            result.evaluations[case] += part.evaluations
+            if part.status != Status.DONE:
+                result.status[case] = part.status
                 return
             done += cycles
 
@@ -194,17 +173,4 @@ def one_by_one(
         finally:
             cancelled.set()
             pool.shutdown(cancel_futures=True)
-    return found
-
-
-def nothing_yet(states: np.ndarray, kept: int) -> Ensemble:
-    """Results before anything is integrated, with room for `kept` samples a case."""
-    count = len(states)
-    return Ensemble(
-        states.copy(),
-        np.full((count, kept, STATES), np.nan),
-        np.zeros(count, dtype=int),
-        np.zeros(count),
-        np.zeros(count, dtype=int),
-        np.zeros(count, dtype=int),
-    )
+    return result

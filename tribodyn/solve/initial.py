@@ -18,9 +18,14 @@ from tribodyn.dynamics.parameters import (
 )
 from tribodyn.errors import SimulationError
 from tribodyn.mesh.cycle import CHANNELS
+from tribodyn.numerics.shapes import Array, Float
+
+_COSINE, _COMPLIANCE, _GAP = (CHANNELS.index(name) for name in ("cosine", "compliance", "gap"))
 
 
-def accelerations(states: np.ndarray, phase: Any, segment: Any, model: Model) -> np.ndarray:
+def accelerations(
+    states: Float[Array, "*places state"], phase: Any, segment: Any, model: Model
+) -> Float[Array, "*places state"]:
     """Derivatives of states per mesh cycle, many at once and without compiled code.
 
     Parameters
@@ -37,14 +42,13 @@ def accelerations(states: np.ndarray, phase: Any, segment: Any, model: Model) ->
 def static_deflection(model: Model, torque: float) -> float:
     """Deflection of the mesh under a gear torque, all on the first segment's pairs, m; a scale."""
     table = model.table
-    stiffness = float(
-        np.sum(1.0 / np.asarray(table.channel)[-1, 0, :, 4, 0] * np.asarray(table.in_contact)[-1])
-    )
-    cosine = float(np.asarray(table.channel)[-1, 0, -1, CHANNELS.index("cosine"), 0])
+    channel, in_contact = np.asarray(table.channel)[-1, 0, :, :, 0], np.asarray(table.in_contact)[-1]
+    stiffness = float(np.sum(1.0 / channel[:, _COMPLIANCE] * in_contact))
+    cosine = float(channel[-1, _COSINE])
     return abs(torque) / (float(table.gear_pitch_radius) * cosine) / stiffness
 
 
-def static_equilibrium(model: Model, phase: float = 0.0, segment: int = 0) -> np.ndarray:
+def static_equilibrium(model: Model, phase: float = 0.0, segment: int = 0) -> Float[Array, " state"]:
     """State at which nothing accelerates relative to the pinion, at one phase of the mesh.
 
     Solved by damped Newton steps on the equations of motion themselves, friction included, for the
@@ -53,7 +57,7 @@ def static_equilibrium(model: Model, phase: float = 0.0, segment: int = 0) -> np
     Raises
     ------
     SimulationError
-        If no equilibrium is found, e.g. because the load does not press the flanks together.
+        If there is none, e.g. because the load does not press the flanks together.
     """
     torque = float(model.mechanics.load_torque)
     if model.mechanics.load_times.shape[0]:
@@ -64,13 +68,13 @@ def static_equilibrium(model: Model, phase: float = 0.0, segment: int = 0) -> np
     shaft = model.options.drive == DRIVE_SHAFT
     scale = np.full(len(unknown), deflection)
     y = np.zeros(STATES)
-    y[XI] = 3.0 * deflection + _greatest_gap(model, segment)
+    y[XI] = 3.0 * deflection + _maximum_gap(model, segment)
     if shaft:
         unknown.append(TWIST)
         scale = np.append(scale, model.mechanics.drive_torque / model.mechanics.shaft_stiffness)
         y[TWIST] = scale[-1]
 
-    def residual(values: np.ndarray) -> np.ndarray:
+    def residual(values: Float[Array, "*trial unknown"]) -> Float[Array, "*trial unknown"]:
         states = np.broadcast_to(y, (*values.shape[:-1], STATES)).copy()
         states[..., unknown] = values
         rate = accelerations(states, phase, segment, model)
@@ -102,21 +106,21 @@ def static_equilibrium(model: Model, phase: float = 0.0, segment: int = 0) -> np
             break
     if not np.linalg.norm(value) <= 1e-6 * start + 1e-30:
         raise SimulationError(
-            "no static equilibrium was found under the load at the start; check the sign of "
+            "there is no static equilibrium under the load at the start; check the sign of "
             'operating.gear_torque or start with solver.initial = "unloaded"'
         )
     y[unknown] = values
     return y
 
 
-def _greatest_gap(model: Model, segment: int) -> float:
-    """What the static transmission error can keep the front flanks apart, as ξ; m."""
+def _maximum_gap(model: Model, segment: int) -> float:
+    """Largest distance that the static transmission error can put between the front flanks, as ξ; m."""
     table = model.table
     front = (np.asarray(table.side) > 0) & (np.asarray(table.in_contact)[segment] > 0)
     channel = np.asarray(table.channel)[segment][:, front]
-    return float(max(0.0, np.max(channel[..., 5, 0])) / np.min(channel[..., 0, 0]))
+    return float(max(0.0, np.max(channel[..., _GAP, 0])) / np.min(channel[..., _COSINE, 0]))
 
 
-def initial_state(model: Model, kind: str) -> np.ndarray:
+def initial_state(model: Model, kind: str) -> Float[Array, " state"]:
     """State at the start of a run: "static" equilibrium, or "unloaded" with the flanks just touching."""
     return static_equilibrium(model) if kind == "static" else np.zeros(STATES)

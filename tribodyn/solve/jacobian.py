@@ -5,6 +5,8 @@ pinion's with the sign changed, but for the bearings, which are linear. Five dif
 the six degrees of freedom; what drive and load add is differenced where they are switched on.
 """
 
+from typing import NamedTuple
+
 from tribodyn.dynamics.parameters import (
     DRIVE_SHAFT,
     DRIVE_SPEED,
@@ -27,7 +29,8 @@ from tribodyn.dynamics.parameters import (
     Y_P,
 )
 from tribodyn.kernels.native import kernel
-from tribodyn.solve.dopri5 import rhs
+from tribodyn.numerics.shapes import Array, Float
+from tribodyn.solve.right_hand_side import rhs
 
 #: Difference over the scale of a state: rounding then costs 1e-8 of a derivative, and the curvature of the
 #: contact law over its width 1e-5; both are far below what the step needs.
@@ -38,46 +41,63 @@ SHARE_OF_REVERSAL = 1e-4
 PHASE_DIFFERENCE = 1e-7
 
 
+class Differences(NamedTuple):
+    """Where the derivatives go.
+
+    Attributes
+    ----------
+    trial : (STATES,)
+        Scratch.
+    jacobian : (STATES, MECHANICAL or more)
+        Receives ∂f/∂y.
+    slope : (STATES,)
+        Receives ∂f/∂φ.
+    """
+
+    trial: Float[Array, " state"]
+    jacobian: Float[Array, "state mechanical"]
+    slope: Float[Array, " state"]
+
+
 @kernel
-def column(j, difference, phase, cycle, segment, y, f, model, work, trial, jacobian):
+def column(j, difference, place, y, f, model, work, into):
     """One column by a forward difference, returns 1 for the evaluation; `y` is as before afterwards."""
     kept = y[j]
     y[j] = kept + difference
     exact = y[j] - kept
-    rhs(phase, cycle, segment, y, model, work, trial)
+    rhs(place.phase, place.cycle, place.segment, y, model, work, into.trial)
     y[j] = kept
     for i in range(STATES):
-        jacobian[i, j] = (trial[i] - f[i]) / exact
+        into.jacobian[i, j] = (into.trial[i] - f[i]) / exact
     return 1
 
 
 @kernel
-def differentiate(phase, end, cycle, segment, y, f, scale, model, work, trial, jacobian, slope):
-    """Fill `jacobian` (STATES, MECHANICAL at least) with ∂f/∂y and `slope` (STATES,) with ∂f/∂φ.
+def differentiate(place, y, f, scale, model, work, into):
+    """Jacobian and slope of the right-hand side.
 
     Parameters
     ----------
-    phase, end : float
-        Where, and the end of the segment.
-    cycle, segment, y, model, work
+    place : marching.Place
+    y, model, work
         As for `dynamics.equations.derivatives`.
     f : (STATES,)
         The right-hand side there.
     scale : (STATES,)
         Sizes of the states.
-    trial : (STATES,)
-        Scratch.
+    into : Differences
 
     Returns
     -------
     int
         Evaluations of the right-hand side that it took.
     """
+    jacobian = into.jacobian
     mechanics, table = model.mechanics, model.table
     speed = mechanics.nominal_speed
     rate = table.pitch_angle / (speed + y[SLIP])
     ratio = table.pinion_pitch_radius / table.gear_pitch_radius
-    greatest = SHARE_OF_REVERSAL * (1.0 + ratio) * mechanics.reversal_width * speed
+    maximum = SHARE_OF_REVERSAL * (1.0 + ratio) * mechanics.reversal_width * speed
     for i in range(STATES):
         for j in range(MECHANICAL):
             jacobian[i, j] = 0.0
@@ -86,7 +106,7 @@ def differentiate(phase, end, cycle, segment, y, f, scale, model, work, trial, j
         difference = SHARE * scale[j]
         wanted = j == XI or j == Y_P or j == VX_P or j == VY_P or j == XI_RATE
         if j == VX_P or j == VY_P or j == XI_RATE:
-            difference = min(difference, greatest)
+            difference = min(difference, maximum)
         elif j == SLIP:
             wanted = model.options.drive != DRIVE_SPEED
             difference = min(difference, SHARE * speed)
@@ -95,7 +115,7 @@ def differentiate(phase, end, cycle, segment, y, f, scale, model, work, trial, j
         elif j == LAG:
             wanted = mechanics.load_amplitudes.shape[0] > 0 or mechanics.load_times.shape[0] > 1
         if wanted:
-            evaluations += column(j, difference, phase, cycle, segment, y, f, model, work, trial, jacobian)
+            evaluations += column(j, difference, place, y, f, model, work, into)
 
     pinion, gear = rate / mechanics.pinion_mass, rate / mechanics.gear_mass
     for i in range(STATES):
@@ -104,7 +124,7 @@ def differentiate(phase, end, cycle, segment, y, f, scale, model, work, trial, j
         jacobian[i, Y_G] = -jacobian[i, Y_P]
         jacobian[i, VX_G] = -jacobian[i, VX_P]
         jacobian[i, VY_G] = -jacobian[i, VY_P]
-    # bearings: in the pinion's differenced columns they are there, and came over to the gear's with a minus
+    # the pinion's differenced columns hold its bearings, which came over to the gear's with a minus
     jacobian[VX_P, X_P] -= pinion * mechanics.pinion_stiffness_x
     jacobian[VX_G, X_G] -= gear * mechanics.gear_stiffness_x
     jacobian[VY_P, Y_G] -= pinion * mechanics.pinion_stiffness_y
@@ -124,9 +144,9 @@ def differentiate(phase, end, cycle, segment, y, f, scale, model, work, trial, j
         2.0 * rate * (mechanics.pinion_damping_y * y[VY_P] + mechanics.gear_damping_y * y[VY_G])
     )
 
-    difference = PHASE_DIFFERENCE if phase + PHASE_DIFFERENCE < end else -PHASE_DIFFERENCE
-    moved = phase + difference
-    rhs(moved, cycle, segment, y, model, work, trial)
+    difference = PHASE_DIFFERENCE if place.phase + PHASE_DIFFERENCE < place.end else -PHASE_DIFFERENCE
+    moved = place.phase + difference
+    rhs(moved, place.cycle, place.segment, y, model, work, into.trial)
     for i in range(STATES):
-        slope[i] = (trial[i] - f[i]) / (moved - phase)
+        into.slope[i] = (into.trial[i] - f[i]) / (moved - place.phase)
     return evaluations + 1

@@ -15,20 +15,22 @@ import jax.numpy as jnp
 import numpy as np
 
 from tribodyn.dynamics.parameters import Model, Options
-from tribodyn.solve.diffrax_engine import (
+from tribodyn.solve.batch_result import Ensemble, nothing_yet
+from tribodyn.solve.diffrax_integrator import (
     Carried,
-    How,
-    Segment,
+    SegmentControl,
+    SegmentResult,
     beginning,
     over_cycle,
-    sample_phases,
+    padded_phases,
     steps_end_on,
     use_compilation_cache,
 )
-from tribodyn.solve.engine import DONE, March
-from tribodyn.solve.ensemble import Ensemble, nothing_yet
-from tribodyn.solve.lane_packing import by_kind
-from tribodyn.solve.transient import tolerances_of_many
+from tribodyn.solve.diffrax_method import DiffraxMethod
+from tribodyn.solve.integrator import March, Status
+from tribodyn.solve.lane_packing import by_shape
+from tribodyn.solve.methods import method_file
+from tribodyn.solve.tolerances import tolerances_of_many
 
 #: Cases that are integrated side by side: a batch is done in parts of exactly so many, the last one filled up
 #: with copies of its last case, so that fewer cases compile nothing again. On a processor a thread a part.
@@ -45,15 +47,15 @@ class Part(NamedTuple):
 
     Attributes
     ----------
-    method : str
+    method : DiffraxMethod
     width : int
         At least the number of cases; what is missing is filled up.
     one_table : bool
-        Whether all cases of this kind have the same.
+        Whether all cases of this shape have the same.
     places : (n,) int
     """
 
-    method: str
+    method: DiffraxMethod
     width: int
     one_table: bool
     places: np.ndarray
@@ -63,7 +65,7 @@ def through_jax(
     models: Sequence[Model],
     states: np.ndarray,
     method: str,
-    shared: March,
+    march: March,
     workers: int,
     progress: Callable[[float], None] | None = None,
 ) -> Ensemble:
@@ -74,21 +76,21 @@ def through_jax(
 
     Notes
     -----
-    Compiled once for a method, a width, a kind of models (`lanes.packing.Kind`), tables that are shared or
-    not, and every `diffrax_engine.ROOM` samples a cycle; for no number, and not for fewer cases.
+    Compiled once for a method, a width, a shape of models (`lane_packing.ModelShape`), tables shared or
+    not, and every `diffrax_integrator.ROOM` samples a cycle; for no number, and not for fewer cases.
     """
     use_compilation_cache()
-    found = nothing_yet(states, shared.window * shared.samples)
-    parts = _parts(models, method, width_here())
+    result = nothing_yet(states, march.window * march.samples)
+    parts = _parts(models, method_file(method).METHOD, width_here())
     threads = workers if jax.default_backend() == "cpu" else 1
     cancelled = threading.Event()
     ticks: list[Part] = []
 
     def one(part: Part) -> None:
-        for _ in _cycles(part, models, shared, found):
+        for _ in _cycles(part, models, march, result):
             ticks.append(part)
             if progress:
-                progress(len(ticks) / (len(parts) * shared.cycles))
+                progress(len(ticks) / (len(parts) * march.cycles))
             if cancelled.is_set():
                 return
 
@@ -99,21 +101,21 @@ def through_jax(
         finally:
             cancelled.set()
             pool.shutdown(cancel_futures=True)
-    return found
+    return result
 
 
-def _parts(models: Sequence[Model], method: str, width: int) -> list[Part]:
-    """Parts of cases of one kind, slow and so dear ones side by side."""
+def _parts(models: Sequence[Model], method: DiffraxMethod, width: int) -> list[Part]:
+    """Parts of cases of one shape, those of low speed, which take the most steps, side by side."""
     parts = []
-    for group in by_kind(models):
+    for group in by_shape(models):
         one_table = all(models[case].table is models[group[0]].table for case in group)
         order = np.array(sorted(group, key=lambda case: float(models[case].mechanics.nominal_speed)))
         parts += [Part(method, width, one_table, order[i : i + width]) for i in range(0, len(order), width)]
     return parts
 
 
-def _cycles(part: Part, models: Sequence[Model], shared: March, found: Ensemble):
-    """Integrate a part, mesh cycle by mesh cycle, and put what comes into `found`."""
+def _cycles(part: Part, models: Sequence[Model], march: March, result: Ensemble):
+    """Integrate a part, mesh cycle by mesh cycle, and put what comes into `result`."""
     places = part.places
     rows = np.pad(places, (0, part.width - len(places)), mode="edge")
     mine = [models[case] for case in rows]
@@ -124,57 +126,63 @@ def _cycles(part: Part, models: Sequence[Model], shared: March, found: Ensemble)
         *(stacked([getattr(model, name) for model in mine]) for name in ("surfaces", "film", "friction")),
     )
     boundary = np.array([np.asarray(table.boundary) for table in tables])
-    grids = [sample_phases(row, shared.samples) for row in boundary]
+    grids = [padded_phases(row, march.samples) for row in boundary]
     dense = np.array([at for at, _ in grids])
-    how = How(
+    control = SegmentControl(
         jnp.full(dense.shape, np.nan),
         jnp.asarray(steps_end_on(mine)),
-        jnp.full(part.width, shared.rtol),
-        jnp.asarray(tolerances_of_many(mine, found.state[rows], shared.rtol)),
-        jnp.full(part.width, shared.max_steps),
+        jnp.full(part.width, march.rtol),
+        jnp.asarray(tolerances_of_many(mine, result.state[rows], march.rtol)),
+        jnp.full(part.width, march.max_steps),
     )
-    carried = beginning(found.state[rows])
-    for done in range(shared.cycles):
-        kept = done - (shared.cycles - shared.window)
+    carried = beginning(result.state[rows])
+    for done in range(march.cycles):
+        kept = done - (march.cycles - march.window)
         if kept == 0:
-            how = how._replace(at=jnp.asarray(dense))
+            control = control._replace(at=jnp.asarray(dense))
         carried, segments = _compiled(
             part,
             mine[0].options,
             numbers,
             carried,
-            shared.first_cycle + done,
-            shared.started or done > 0,
-            how,
+            march.first_cycle + done,
+            march.started or done > 0,
+            control,
         )
         cases = slice(len(places))
         status = np.asarray(segments.status)[cases]
-        whole = np.argmax(np.pad(status, ((0, 0), (0, 1)), constant_values=-1) != DONE, axis=1)
-        found.reached[places] += boundary[np.arange(len(places)), whole]
-        found.steps[places] += np.sum(np.asarray(segments.steps)[cases], axis=1)
-        found.evaluations[places] += np.sum(np.asarray(segments.evaluations)[cases], axis=1)
-        if kept >= 0 and shared.samples:
+        whole = np.argmax(np.pad(status, ((0, 0), (0, 1)), constant_values=-1) != Status.DONE, axis=1)
+        result.reached[places] += boundary[np.arange(len(places)), whole]
+        result.steps[places] += np.sum(np.asarray(segments.steps)[cases], axis=1)
+        result.evaluations[places] += np.sum(np.asarray(segments.evaluations)[cases], axis=1)
+        if kept >= 0 and march.samples:
             sampled = np.asarray(segments.samples)
             for i, case in enumerate(places):
                 block = [sampled[i, k, : grids[i][1][k]] for k in range(whole[i])]
                 block = np.concatenate([*block, np.empty((0, sampled.shape[-1]))])
-                first = kept * shared.samples
-                found.samples[case, first : first + len(block)] = block
-        found.state[places] = np.asarray(carried.y)[cases]
-        found.status[places] = status[:, -1]
+                first = kept * march.samples
+                result.samples[case, first : first + len(block)] = block
+        result.state[places] = np.asarray(carried.y)[cases]
+        result.status[places] = status[:, -1]
         yield done
-        if np.all(status[:, -1] != DONE):
+        if np.all(status[:, -1] != Status.DONE):
             return
 
 
 def _compiled(
-    part: Part, options: Options, numbers: Any, carried: Carried, cycle: int, restart: bool, how: How
-) -> tuple[Carried, Segment]:
+    part: Part,
+    options: Options,
+    numbers: Any,
+    carried: Carried,
+    cycle: int,
+    started: bool,
+    control: SegmentControl,
+) -> tuple[Carried, SegmentResult]:
     """Give `over_one_cycle`; what was not yet compiled is compiled by one thread while the others wait."""
-    shapes = tuple((x.shape, x.dtype) for x in jax.tree.leaves((numbers, how)))
+    shapes = tuple((x.shape, x.dtype) for x in jax.tree.leaves((numbers, control)))
     key = (part.method, options, part.one_table, shapes)
     call = partial(over_one_cycle, part.method, options, part.one_table)
-    arguments = (numbers, carried, cycle, restart, how)
+    arguments = (numbers, carried, cycle, started, control)
     if key not in _known:
         with _lock:
             result = jax.block_until_ready(call(*arguments))
@@ -189,21 +197,21 @@ _known: set[tuple[Any, ...]] = set()
 
 @partial(jax.jit, static_argnames=("method", "options", "one_table"))
 def over_one_cycle(
-    method: str,
+    method: DiffraxMethod,
     options: Options,
     one_table: bool,
     numbers: Any,
     carried: Carried,
     cycle: Any,
-    restart: Any,
-    how: How,
-) -> tuple[Carried, Segment]:
-    """`diffrax_engine.over_cycle` mapped over the cases: a leading axis on all but cycle and restart."""
+    started: Any,
+    control: SegmentControl,
+) -> tuple[Carried, SegmentResult]:
+    """`diffrax_integrator.over_cycle` mapped over the cases: a leading axis on all but cycle and started."""
 
-    def one(numbers: Any, carried: Carried, how: How) -> tuple[Carried, Segment]:
-        return over_cycle(method, options, numbers, carried, cycle, restart, how)
+    def one(numbers: Any, carried: Carried, control: SegmentControl) -> tuple[Carried, SegmentResult]:
+        return over_cycle(method, options, numbers, carried, cycle, started, control)
 
-    return jax.vmap(one, in_axes=((None if one_table else 0, 0, 0, 0, 0), 0, 0))(numbers, carried, how)
+    return jax.vmap(one, in_axes=((None if one_table else 0, 0, 0, 0, 0), 0, 0))(numbers, carried, control)
 
 
 def stacked(trees: list[Any]) -> Any:

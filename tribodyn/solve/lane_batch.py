@@ -1,4 +1,4 @@
-"""Cases sorted into kinds and queues, and threads that work through the queues in lanes."""
+"""Cases sorted by the shape of their models into queues, and threads that work through these in lanes."""
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
@@ -8,28 +8,32 @@ import numpy as np
 
 from tribodyn.dynamics.parameters import STATES, Model
 from tribodyn.kernels.lanes.vectors import WIDTH
-from tribodyn.solve.engine import March
+from tribodyn.numerics.shapes import Array, Float, Int
+from tribodyn.solve.integrator import March
 from tribodyn.solve.lane_march import march_lanes
-from tribodyn.solve.lane_packing import Packed, by_kind, lane_model, pack
-from tribodyn.solve.lane_queue import Queue, make_block
+from tribodyn.solve.lane_packing import Packed, by_shape, lane_model, pack
+from tribodyn.solve.lane_queue import Queue, empty_lanes
 from tribodyn.solve.reversal import stops_of_many
-from tribodyn.solve.transient import tolerances_of_many
+from tribodyn.solve.tolerances import tolerances_of_many
 
-#: How often progress is told, s.
+#: Time between two reports of progress, s.
 INTERVAL = 0.1
 
 
 class Batch(NamedTuple):
-    """Cases of one kind, in the order of the queue, and the places that they have in the whole ensemble."""
+    """Cases whose models have one shape, in the order of the queue, and their places in the ensemble."""
 
-    places: np.ndarray
+    places: Int[Array, " case"]
     packed: Packed
     queue: Queue
 
 
-def batches(models: Sequence[Model], states: np.ndarray, march: March) -> list[Batch]:
-    """One batch a kind, the slow and so dear cases first: lanes of a block then cost about the same."""
-    return [_batch(models, states, march, places) for places in by_kind(models)]
+def batches(models: Sequence[Model], states: Float[Array, "case state"], march: March) -> list[Batch]:
+    """One batch per shape of models, the cases of low speed first, which take the most steps.
+
+    Lanes side by side then cost about the same.
+    """
+    return [_batch(models, states, march, places) for places in by_shape(models)]
 
 
 def _batch(models: Sequence[Model], states: np.ndarray, march: March, places: np.ndarray) -> Batch:
@@ -57,15 +61,15 @@ def _batch(models: Sequence[Model], states: np.ndarray, march: March, places: np
 
 
 def run_threads(
-    found: list[Batch], march: March, workers: int, progress: Callable[[float], None] | None
+    batches: list[Batch], march: March, workers: int, progress: Callable[[float], None] | None
 ) -> None:
     """Work through the queues; returns when all cases are done, or raises what interrupts it."""
-    whole = sum(len(batch.places) for batch in found) * march.cycles
+    whole = sum(len(batch.places) for batch in batches) * march.cycles
     with ThreadPoolExecutor(workers) as pool:
         try:
             running = {
                 pool.submit(_work, batch, march)
-                for batch in found
+                for batch in batches
                 for _ in range(min(workers, -(-len(batch.places) // WIDTH)))
             }
             while running:
@@ -73,13 +77,13 @@ def run_threads(
                 for job in done:
                     job.result()
                 if progress and whole:
-                    progress(sum(int(batch.queue.done[0]) for batch in found) / whole)
+                    progress(sum(int(batch.queue.done[0]) for batch in batches) / whole)
         finally:
-            for batch in found:
+            for batch in batches:
                 batch.queue.stop[0] = 1
             pool.shutdown(cancel_futures=True)
 
 
 def _work(batch: Batch, march: March) -> None:
     model, numbers, addresses = lane_model(batch.packed)
-    march_lanes(model, make_block(batch.packed, numbers, addresses), batch.queue, march)
+    march_lanes(model, empty_lanes(batch.packed, numbers, addresses), batch.queue, march)

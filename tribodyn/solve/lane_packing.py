@@ -1,4 +1,4 @@
-"""Many models as rows of numbers and addresses, from which a block of lanes is filled."""
+"""Many models as rows of numbers and addresses, from which lanes are filled."""
 
 from collections.abc import Sequence
 from typing import Any, NamedTuple
@@ -11,12 +11,12 @@ from tribodyn.kernels.lanes.vectors import WIDTH
 
 #: The model's named tuples of numbers and tables.
 RECORDS = tuple(name for name in Model._fields if name != "options")
-#: Tables that models of one kind have in common, value for value: branches may hang on them.
+#: Tables that models of one shape have in common, value for value: branches may hang on them.
 SHARED = ("side", "in_contact")
 
 
-class Kind(NamedTuple):
-    """What must be the same over the lanes of a block: the options, and the shape of every field."""
+class ModelShape(NamedTuple):
+    """What must be the same in all lanes: the options, and the shape of every field."""
 
     options: Options
     shapes: tuple[tuple[tuple[int, ...], ...], ...]
@@ -37,11 +37,11 @@ class Kept(NamedTuple):
 
 
 class Packed(NamedTuple):
-    """Models of one kind.
+    """Models of one shape.
 
     Attributes
     ----------
-    kind : Kind
+    shape : ModelShape
     fields : fields of every record
     numbers : (C, F) float64
     addresses : (C, T) int64
@@ -49,7 +49,7 @@ class Packed(NamedTuple):
     kept : what the addresses point into
     """
 
-    kind: Kind
+    shape: ModelShape
     fields: tuple[tuple[Field, ...], ...]
     numbers: np.ndarray
     addresses: np.ndarray
@@ -57,10 +57,10 @@ class Packed(NamedTuple):
     kept: list[Kept]
 
 
-def kind_of(model: Model, known: dict[int, tuple[Any, ...]] | None = None) -> Kind:
-    """What a model has to share with another one to run beside it.
+def shape_of(model: Model, known: dict[int, tuple[Any, ...]] | None = None) -> ModelShape:
+    """What a model must have in common with another to run beside it.
 
-    `known` keeps what is found, by record, for models that have some in common.
+    `known` keeps the shapes of records, for models that have some in common.
     """
     known = {} if known is None else known
     shapes, contacts = [], b""
@@ -72,25 +72,25 @@ def kind_of(model: Model, known: dict[int, tuple[Any, ...]] | None = None) -> Ki
                 tuple(getattr(value, "shape", ()) for value in record),
                 b"".join(np.asarray(one, dtype=float).tobytes() for one in tables),
             )
-        found = known[id(record)]
-        shapes.append(found[0])
-        contacts += found[1]
-    return Kind(model.options, tuple(shapes), contacts)
+        own_shapes, own_contacts = known[id(record)]
+        shapes.append(own_shapes)
+        contacts += own_contacts
+    return ModelShape(model.options, tuple(shapes), contacts)
 
 
-def by_kind(models: Sequence[Model]) -> list[np.ndarray]:
-    """Places of the models of each kind; a record that many have in common is looked at once."""
+def by_shape(models: Sequence[Model]) -> list[np.ndarray]:
+    """Places of the models of each shape; a record that many have in common is examined once."""
     known: dict[int, tuple[Any, ...]] = {}
-    groups: dict[Kind, list[int]] = {}
+    groups: dict[ModelShape, list[int]] = {}
     for place, model in enumerate(models):
-        groups.setdefault(kind_of(model, known), []).append(place)
+        groups.setdefault(shape_of(model, known), []).append(place)
     return [np.array(places) for places in groups.values()]
 
 
 def pack(models: Sequence[Model]) -> Packed:
-    """Rows of models of one kind; tables stay where they are."""
-    kind = kind_of(models[0])
-    fields, lengths = _fields(models[0], kind)
+    """Rows of models of one shape; tables stay where they are."""
+    shape = shape_of(models[0])
+    fields, lengths = _fields(models[0], shape)
     kept: dict[int, Kept] = {}
     numbers = np.empty((len(models), sum(f.ndim == 0 for group in fields for f in group)))
     addresses = np.empty((len(models), sum(f.ndim > 0 for group in fields for f in group)), dtype=np.int64)
@@ -106,22 +106,22 @@ def pack(models: Sequence[Model]) -> Packed:
             addresses[case, first_address : first_address + len(own_addresses)] = own_addresses
             first_number += len(own_numbers)
             first_address += len(own_addresses)
-    return Packed(kind, fields, numbers, addresses, np.array(lengths, dtype=np.int64), list(kept.values()))
+    return Packed(shape, fields, numbers, addresses, np.array(lengths, dtype=np.int64), list(kept.values()))
 
 
-def _fields(model: Model, kind: Kind) -> tuple[tuple[tuple[Field, ...], ...], list[int]]:
-    found, lengths = [], []
+def _fields(model: Model, shape: ModelShape) -> tuple[tuple[tuple[Field, ...], ...], list[int]]:
+    fields, lengths = [], []
     number = address = 0
-    for name, shapes in zip(RECORDS, kind.shapes, strict=True):
+    for name, shapes in zip(RECORDS, shape.shapes, strict=True):
         group = []
-        for field, shape in zip(getattr(model, name)._fields, shapes, strict=True):
-            row = address if shape else number
-            group.append(Field(field, len(shape), row, len(lengths), field in SHARED))
-            number += not shape
-            address += bool(shape)
-            lengths += shape
-        found.append(tuple(group))
-    return tuple(found), lengths
+        for field, axes in zip(getattr(model, name)._fields, shapes, strict=True):
+            row = address if axes else number
+            group.append(Field(field, len(axes), row, len(lengths), field in SHARED))
+            number += not axes
+            address += bool(axes)
+            lengths += axes
+        fields.append(tuple(group))
+    return tuple(fields), lengths
 
 
 def _row(record: Any, fields: tuple[Field, ...], kept: dict[int, Kept]) -> tuple[list[float], list[int]]:
@@ -143,4 +143,4 @@ def lane_model(packed: Packed) -> tuple[Model, np.ndarray, np.ndarray]:
     numbers = np.repeat(packed.numbers[0][:, None], WIDTH, axis=1)
     addresses = np.repeat(packed.addresses[0][:, None], WIDTH, axis=1)
     records: list[Any] = [LaneRecord(group, numbers, addresses, packed.lengths) for group in packed.fields]
-    return Model(**dict(zip(RECORDS, records, strict=True)), options=packed.kind.options), numbers, addresses
+    return Model(**dict(zip(RECORDS, records, strict=True)), options=packed.shape.options), numbers, addresses

@@ -1,4 +1,8 @@
-"""The queue of cases, the block of lanes that works on it, and how cases pass between the two."""
+"""The queue of cases, the lanes that work on it, and how cases pass between the two.
+
+Whatever differs by lane stands in rows of `WIDTH` floats, flags and counters too: the compiler reads a row as
+one vector, and compares and selects without conversion. Counters stay far below 2^53, where floats are exact.
+"""
 
 from typing import NamedTuple
 
@@ -8,67 +12,62 @@ from tribodyn.dynamics.contact_forces import QUANTITIES
 from tribodyn.dynamics.parameters import STATES
 from tribodyn.kernels.lanes.arrays import rows_of
 from tribodyn.kernels.lanes.vectors import WIDTH, count
-from tribodyn.kernels.native.compiler import part
+from tribodyn.kernels.native.parts import part
 from tribodyn.numerics.elementary import where
-from tribodyn.solve.dormand_prince import FIRST_STEP, LEAST_REMEMBERED, STAGES
-from tribodyn.solve.engine import DONE
+from tribodyn.numerics.shapes import Array, Float, Int
+from tribodyn.solve.dormand_prince import STAGES
+from tribodyn.solve.integrator import Status
 from tribodyn.solve.lane_packing import Packed
+from tribodyn.solve.step_control import FIRST_STEP, MINIMUM_ERROR
 
-# Rows of what the integrator knows of every lane.
-PHASE = 0  # mesh cycles, 0 … 1
-END = 1  # of the segment; a lane runs while its phase is below
-STEP = 2
-LAST_ERROR = 3
-CYCLE = 4  # done by this lane's case
-STEPS = 5  # accepted
-STEPS_BEFORE = 6  # this mesh cycle
-EVALUATIONS = 7
-CASE = 8  # −1: none
-FRESH = 9  # 1: no engagement opens the first cycle
-DUE = 10  # phase of the next sample to keep; above 1 if none is left in this cycle
-SAMPLE = 11  # number of that sample in the cycle
-FLAG = 12  # what a lane is singled out for
-STOP = 13  # number of the next phase that a step must end on, see `reversal`
-LIMIT = 14  # that phase
-WISHED = 15  # the step, had it not been cut to end there
-LAST = 16  # 1: the step was cut
+#: Rows of the step control: phase (mesh cycles, 0 … 1); end of the segment, a lane runs while its phase is
+#: below; next stop, see `reversal`; the step, and what it was before it was cut to end there; the last error.
+PHASE, END, LIMIT, STEP, UNCUT_STEP, LAST_ERROR = range(6)
+#: Rows of counters: cycles done by the lane's case; steps accepted, and those before this mesh cycle;
+#: evaluations; number of the next stop in its segment.
+CYCLE, STEPS, STEPS_BEFORE, EVALUATIONS, STOP = range(6, 11)
+#: Rows of the case and its samples: number of the case, −1 for none; number of the next sample in the cycle
+#: and its phase, above 1 if none is left.
+CASE, SAMPLE, DUE = range(11, 14)
+#: Rows of flags, 0 or 1: no engagement opens the first cycle; the step was cut; the lane is selected.
+FRESH, CUT, SELECTED = range(14, 17)
 ROWS = 17
 #: A phase that never comes.
 NEVER = 2.0
 
 
-class Block(NamedTuple):
-    """Scratch of one block of lanes.
+class LaneBlock(NamedTuple):
+    """Scratch of the lanes that one thread works with.
 
     Attributes
     ----------
-    numbers, addresses : of the lanes' models, see `packing`
+    numbers, addresses : of the lanes' models, see `lane_packing`
     rows : (ROWS, WIDTH)
     y, new, sample, atol : (STATES, WIDTH)
     k : (STAGES, STATES, WIDTH)
     work : (quantities, pairs, WIDTH)
     """
 
-    numbers: np.ndarray
-    addresses: np.ndarray
-    rows: np.ndarray
-    y: np.ndarray
-    new: np.ndarray
-    sample: np.ndarray
-    atol: np.ndarray
-    k: np.ndarray
-    work: np.ndarray
+    numbers: Float[Array, "number lane"]
+    addresses: Int[Array, "table lane"]
+    rows: Float[Array, "row lane"]
+    y: Float[Array, "state lane"]
+    new: Float[Array, "state lane"]
+    sample: Float[Array, "state lane"]
+    atol: Float[Array, "state lane"]
+    k: Float[Array, "stage state lane"]
+    work: Float[Array, "quantity pair lane"]
 
 
 class Queue(NamedTuple):
-    """The cases of one kind in the order in which they are begun, shared by all threads.
+    """Cases of one shape in the order in which they are begun, shared by all threads.
 
     Attributes
     ----------
     numbers, addresses : (C, F) float64 and (C, T) int64
-        The models, see `packing`.
+        The models, see `lane_packing`.
     atol : (C, STATES)
-    stops : (C, segments, most)
+    stops : (C, segments, stops)
         Phases that steps end on, see `reversal.stops`.
     state : (C, STATES), samples : (C, kept, STATES), status : (C,) int64, reached : (C,)
     steps, evaluations : (C,) int64
@@ -77,25 +76,27 @@ class Queue(NamedTuple):
         Cases begun; mesh cycles done; not 0 to stop all threads.
     """
 
-    numbers: np.ndarray
-    addresses: np.ndarray
-    atol: np.ndarray
-    stops: np.ndarray
-    state: np.ndarray
-    samples: np.ndarray
-    status: np.ndarray
-    reached: np.ndarray
-    steps: np.ndarray
-    evaluations: np.ndarray
-    taken: np.ndarray
-    done: np.ndarray
-    stop: np.ndarray
+    numbers: Float[Array, "case number"]
+    addresses: Int[Array, "case table"]
+    atol: Float[Array, "case state"]
+    stops: Float[Array, "case segment stop"]
+    state: Float[Array, "case state"]
+    samples: Float[Array, "case sample state"]
+    status: Int[Array, " case"]
+    reached: Float[Array, " case"]
+    steps: Int[Array, " case"]
+    evaluations: Int[Array, " case"]
+    taken: Int[Array, "1"]
+    done: Int[Array, "1"]
+    stop: Int[Array, "1"]
 
 
-def make_block(packed: Packed, numbers: np.ndarray, addresses: np.ndarray) -> Block:
-    """Empty lanes."""
-    pairs = packed.kind.pairs
-    block = Block(
+def empty_lanes(
+    packed: Packed, numbers: Float[Array, "number lane"], addresses: Int[Array, "table lane"]
+) -> LaneBlock:
+    """Lanes without cases."""
+    pairs = packed.shape.pairs
+    block = LaneBlock(
         numbers,
         addresses,
         *(
@@ -123,7 +124,7 @@ def copy(source, target):
 
 
 @part
-def take_cases(block, queue, settings):
+def take_cases(block, queue, march):
     """Fill the lanes that have no case; False if none has one any more."""
     rows = block.rows
     running = False
@@ -139,12 +140,12 @@ def take_cases(block, queue, settings):
                     rows[row, lane] = 0.0
                 rows[CASE, lane] = case
                 rows[STEP, lane] = FIRST_STEP
-                rows[LAST_ERROR, lane] = LEAST_REMEMBERED
-                rows[FRESH, lane] = 0.0 if settings.started else 1.0
+                rows[LAST_ERROR, lane] = MINIMUM_ERROR
+                rows[FRESH, lane] = 0.0 if march.started else 1.0
         if rows[CASE, lane] >= 0.0:
             running = True
             rows[STEPS_BEFORE, lane] = rows[STEPS, lane]
-            inside = rows[CYCLE, lane] >= settings.cycles - settings.window and settings.samples > 0
+            inside = rows[CYCLE, lane] >= march.cycles - march.window and march.samples > 0
             rows[SAMPLE, lane] = 0.0
             rows[DUE, lane] = 0.0 if inside else NEVER
         else:
@@ -153,16 +154,16 @@ def take_cases(block, queue, settings):
 
 
 @part
-def close_cycle(block, queue, settings):
-    """Count the cycle, and let go of the cases that have done all of theirs."""
+def close_cycle(block, queue, march):
+    """Count the cycle, and hand in the cases that have done all of theirs."""
     rows = block.rows
     for lane in range(WIDTH):
         if rows[CASE, lane] >= 0.0:
             rows[CYCLE, lane] += 1.0
             count(queue.done, 1)
-            if rows[CYCLE, lane] >= settings.cycles:
+            if rows[CYCLE, lane] >= march.cycles:
                 rows[PHASE, lane] = 0.0
-                let_go(lane, DONE, block, queue)
+                let_go(lane, Status.DONE.value, block, queue)
 
 
 @part
@@ -180,26 +181,26 @@ def let_go(lane, status, block, queue):
 
 
 @part
-def fail(lanes, status, block, queue, settings):
+def fail(lanes, status, block, queue, march):
     """Hand in the cases of some lanes as failed."""
-    rows_of(block.rows)[FLAG] = where(lanes, 1.0, 0.0)
+    rows_of(block.rows)[SELECTED] = where(lanes, 1.0, 0.0)
     for lane in range(WIDTH):
-        if block.rows[FLAG, lane] > 0.0:
-            count(queue.done, settings.cycles - int(block.rows[CYCLE, lane]))
+        if block.rows[SELECTED, lane] > 0.0:
+            count(queue.done, march.cycles - int(block.rows[CYCLE, lane]))
             let_go(lane, status, block, queue)
 
 
 @part
-def keep_sample(lanes, sample, block, queue, settings):
+def keep_sample(lanes, sample, block, queue, march):
     """Copy the state in `sample` to the results of some lanes, and say when their next one is due."""
     rows = block.rows
-    rows_of(rows)[FLAG] = where(lanes, 1.0, 0.0)
+    rows_of(rows)[SELECTED] = where(lanes, 1.0, 0.0)
     for lane in range(WIDTH):
-        if rows[FLAG, lane] > 0.0:
+        if rows[SELECTED, lane] > 0.0:
             number = int(rows[SAMPLE, lane])
-            cycle = int(rows[CYCLE, lane]) - (settings.cycles - settings.window)
-            kept = queue.samples[int(rows[CASE, lane]), cycle * settings.samples + number]
+            cycle = int(rows[CYCLE, lane]) - (march.cycles - march.window)
+            kept = queue.samples[int(rows[CASE, lane]), cycle * march.samples + number]
             copy(sample[:, lane], kept)
             number += 1
             rows[SAMPLE, lane] = number
-            rows[DUE, lane] = number / settings.samples if number < settings.samples else NEVER
+            rows[DUE, lane] = number / march.samples if number < march.samples else NEVER

@@ -1,9 +1,9 @@
-"""Where friction reverses: phases that a step must end on, so that no step passes over the reversal.
+"""Where friction reverses: phases that steps must end on, so that none passes over the reversal.
 
 The friction of a pair changes sign about its pitch point, over less than a step of the vibration.
 With the nominal sliding velocity the place is known beforehand, as engagement is; there the force is C1 only.
-A step across it sees the reversal with some of its stages or with none, and its error estimate knows as
-little: on the CRC drive that made the error of the transmission error 30 times what it is without friction.
+A step across it evaluates the reversal in some of its stages or in none, and its error estimate misses
+it: on the CRC drive that made the error of the transmission error 30 times what it is without friction.
 """
 
 from collections.abc import Sequence
@@ -13,6 +13,7 @@ import numpy as np
 
 from tribodyn.dynamics.parameters import Model
 from tribodyn.mesh.cycle import CHANNELS
+from tribodyn.numerics.shapes import Array, Float
 
 #: Distances from the pitch point, over the width of reversal: its ends; the pitch point, where the friction
 #: coefficient has a kink in the sliding speed; and places beside it, as a fluid of high viscosity reaches its
@@ -27,7 +28,7 @@ def passages(model: Model, segment: int, distance: float) -> list[float]:
     table = model.table
     start, end = (float(x) for x in np.asarray(table.boundary)[segment : segment + 2])
     coefficients = np.asarray(table.channel)[segment, :, :, _DISTANCE]
-    found = []
+    phases = []
     for slot in np.flatnonzero(np.asarray(table.in_contact)[segment]):
         nodes = np.append(coefficients[:, slot, 0], np.sum(coefficients[-1, slot])) - distance
         for cell in np.flatnonzero((nodes[:-1] < 0.0) != (nodes[1:] < 0.0)):
@@ -36,12 +37,12 @@ def passages(model: Model, segment: int, distance: float) -> list[float]:
             for _ in range(4):  # Newton's steps from the chord of a smooth, fine table
                 value = c[0] - distance + u * (c[1] + u * (c[2] + u * c[3]))
                 u -= value / (c[1] + u * (2.0 * c[2] + 3.0 * u * c[3]))
-            found.append(start + (cell + min(max(u, 0.0), 1.0)) / len(coefficients) * (end - start))
-    return found
+            phases.append(start + (cell + min(max(u, 0.0), 1.0)) / len(coefficients) * (end - start))
+    return phases
 
 
-def stops(model: Model) -> np.ndarray:
-    """Phases (segments, most) that steps end on, ascending, each segment's end last and repeated to fill up.
+def stops(model: Model) -> Float[Array, "segment stop"]:
+    """Phases that steps end on, ascending, each segment's end last and repeated to fill up.
 
     For every pair: the places of `SHARES`.
     """
@@ -52,26 +53,26 @@ def stops(model: Model) -> np.ndarray:
         inside = [phase for share in SHARES for phase in passages(model, segment, share * width)]
         near = 1e-9 * (end - start)
         rows.append(sorted(phase for phase in inside if start + near < phase < end - near))
-    most = 1 + max(len(row) for row in rows)
-    return np.array([row + [end] * (most - len(row)) for row, end in zip(rows, boundary[1:], strict=True)])
+    count = 1 + max(len(row) for row in rows)
+    return np.array([row + [end] * (count - len(row)) for row, end in zip(rows, boundary[1:], strict=True)])
 
 
-def stops_of_many(models: Sequence[Model]) -> np.ndarray:
-    """`stops` of many cases (C, segments, most); found once for all that have them in common."""
+def stops_of_many(models: Sequence[Model]) -> Float[Array, "case segment stop"]:
+    """`stops` of many cases; computed once for all that have them in common."""
     numbers: dict[tuple[int, float], int] = {}
-    found: list[np.ndarray] = []
+    different: list[np.ndarray] = []
     rows = []
     for model in models:
         key = (id(model.table), float(model.mechanics.reversal_width))
         if key not in numbers:
-            numbers[key] = len(found)
-            found.append(stops(model))
+            numbers[key] = len(different)
+            different.append(stops(model))
         rows.append(numbers[key])
-    most = max(one.shape[1] for one in found)
-    return np.array([filled_up(one, most) for one in found])[rows]
+    count = max(one.shape[1] for one in different)
+    return np.array([filled_up(one, count) for one in different])[rows]
 
 
-def filled_up(stops: np.ndarray, most: int) -> np.ndarray:
-    """Stops (…, segments, most): the last of each segment, its end, again and again."""
-    behind = most - stops.shape[-1]
+def filled_up(stops: Float[Array, "*case segment given"], count: int) -> Float[Array, "*case segment stop"]:
+    """Stops, so many in every segment: its last one, the segment's end, is repeated."""
+    behind = count - stops.shape[-1]
     return np.concatenate([stops, np.repeat(stops[..., -1:], behind, axis=-1)], axis=-1)

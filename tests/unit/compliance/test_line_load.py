@@ -2,12 +2,11 @@
 
 import numpy as np
 import pytest
-from tribodyn.tribology.surfaces import contact_of
 
+from tests.support.closures import known, of_case
 from tests.support.faces_in_slices import CASES, model, table
 from tribodyn.compliance.line_load import friction_ratio, peak_ratio
 from tribodyn.geometry.modification import FlankModification, LeadRelief, Modifications
-from tribodyn.tribology.friction import MASJEDI_KHONSARI, friction
 
 LIKE = {**CASES, "crowned": (Modifications(FlankModification(lead=LeadRelief(crowning=20e-6))), 11)}
 
@@ -43,7 +42,7 @@ def test_the_table_has_the_friction_film_and_pressure_of_the_slices(case, name):
     modified, slices = LIKE[name]
     cycle = table(case, modified, slices)
     shared = model(case, cycle, modified, slices, case.operating.gear_torque)
-    total, width, surfaces = shared.normal_load, float(cycle.face_width), contact_of(case)
+    total, width, closure = shared.normal_load, float(cycle.face_width), of_case(case, "masjedi-khonsari")
 
     def flat(values):
         return np.asarray(values)[..., : cycle.front_pairs].reshape(total.shape)
@@ -58,15 +57,14 @@ def test_the_table_has_the_friction_film_and_pressure_of_the_slices(case, name):
         shape = (..., *[None] * (line_load.ndim - 1))
         rolling = [one[shape] for one in speeds]
         with np.errstate(under="ignore", over="ignore"):
-            return friction(
-                MASJEDI_KHONSARI,
+            return known(
+                closure,
                 np.maximum(line_load, 1.0),
                 1.0 / radius[shape],
                 sum(rolling) / 2.0,
                 rolling[0] - rolling[1],
                 rolling[0],
                 rolling[1],
-                surfaces,
             )
 
     sliding = np.abs(speeds[0] - speeds[1])

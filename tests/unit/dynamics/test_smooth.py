@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from tribodyn.dynamics.smooth import positive_part, positive_part_integral, power_law_force, ramp, sign
-from tribodyn.tribology.film import CAP_WIDTH, asperity_load_ratio
+from tribodyn.tribology.film.masjedi_khonsari import CAP_WIDTH, asperity_load_ratio
 
 X = np.linspace(-3.0, 3.0, 60001)
 

@@ -8,7 +8,7 @@ from tribodyn.kernels.lanes.arrays import rows_of
 from tribodyn.kernels.lanes.vectors import WIDTH
 from tribodyn.kernels.native import kernel
 from tribodyn.numerics import elementary
-from tribodyn.solve.lane_packing import kind_of, lane_model, pack
+from tribodyn.solve.lane_packing import lane_model, pack, shape_of
 
 EPS = np.finfo(float).eps
 extended = pytest.mark.skipif(
@@ -140,8 +140,8 @@ def test_models_of_one_table_share_it(prepared):
 
 def test_options_and_contacts_make_the_kind(prepared):
     base = prepared("crc-23-47").model
-    assert kind_of(base) == kind_of(prepared("crc-23-47-300").model)
-    assert kind_of(base) != kind_of(prepared("crc-23-47", **{"friction.law": "none"}).model)
-    assert kind_of(base) != kind_of(prepared("crc-23-47", **{"mesh.backlash": "12 um"}).model)
+    assert shape_of(base) == shape_of(prepared("crc-23-47-300").model)
+    assert shape_of(base) != shape_of(prepared("crc-23-47", **{"friction.law": "none"}).model)
+    assert shape_of(base) != shape_of(prepared("crc-23-47", **{"mesh.backlash": "12 um"}).model)
     flipped = base.table._replace(in_contact=1.0 - base.table.in_contact)
-    assert kind_of(base) != kind_of(base._replace(table=flipped))
+    assert shape_of(base) != shape_of(base._replace(table=flipped))

@@ -139,12 +139,12 @@ def test_another_processor_or_compiler_has_files_of_its_own(folder, monkeypatch)
     names = []
     for name in ("generic", "another"):
         monkeypatch.setattr(store.llvm, "get_host_cpu_name", lambda name=name: name)
-        store._sources_digest.cache_clear()
+        store._digest.cache_clear()
         names.append(store._file_of(half.function, "layout"))
     monkeypatch.setenv("NUMBA_OPT", "0")
-    store._sources_digest.cache_clear()
+    store._digest.cache_clear()
     names.append(store._file_of(half.function, "layout"))
-    store._sources_digest.cache_clear()
+    store._digest.cache_clear()
     assert len(set(names)) == 3
     assert store._file_of(half.function, "layout") != store._file_of(half.function, "other")
 

@@ -7,10 +7,10 @@ import pytest
 from rich.console import Console
 
 from tests.support import synthetic_record
-from tests.support.record_samples import block, geometry, mesh_cycle
-from tribodyn.post.report import as_json, summary_table
+from tests.support.record_samples import block, gear_pair_writer, geometry
+from tribodyn.post.report import as_json
 from tribodyn.record.reader import Record, open_record
-from tribodyn.record.writer import RecordWriter
+from tribodyn.studies.pictures import summary_table
 
 
 @pytest.fixture
@@ -26,9 +26,7 @@ def printed(record: Record) -> str:
 
 
 def failed(path: Path, summary: dict) -> Record:
-    with RecordWriter(
-        path, scenario_toml="", sha256="", samples=9, mesh_cycle=mesh_cycle(), geometry=geometry()
-    ) as writer:
+    with gear_pair_writer(path, 9, outlines=geometry()) as writer:
         writer.write(0, block(0, 4))
         return open_record(writer.fail("stopped at t = 0.1 s: step too small", summary))
 
@@ -40,9 +38,9 @@ def failed(path: Path, summary: dict) -> Record:
         ["Stiffness of one pair at the pitch point", "320", "N/µm"],
         ["Mesh frequency", "36.61", "Hz"],
         ["Transmission error, mean", "21", "µm"],
-        ["Greatest normal load", "7,850", "N"],
-        ["Least film thickness", "0.09", "µm"],
-        ["Greatest Hertz pressure", "1.4", "GPa"],
+        ["Maximum normal load", "7,850", "N"],
+        ["Minimum film thickness", "0.09", "µm"],
+        ["Maximum Hertz pressure", "1.4", "GPa"],
         ["pairs 1, 0", "310.0 / 150.0", "N"],
         ["Efficiency", "98.68", "%"],
         ["Method", "dopri5"],

@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.support.record_samples import block, geometry, mesh_cycle
+from tests.support.record_samples import block, gear_pair_writer, geometry, mesh_cycle
+from tribodyn.dynamics.recorded import DOF
 from tribodyn.errors import InputError
 from tribodyn.record.reader import open_record
-from tribodyn.record.schema import DOF
 from tribodyn.record.writer import RecordWriter, check_target
 
 SCENARIO = 'title = "test"\n[operating]\ngear_torque = "500 N*m"\n'
@@ -23,14 +23,8 @@ SUMMARY = {
 
 
 def writer(path: Path, samples: int = 30, **kwargs) -> RecordWriter:
-    return RecordWriter(
-        path,
-        scenario_toml=SCENARIO,
-        sha256="ab" * 32,
-        samples=samples,
-        mesh_cycle=mesh_cycle(),
-        geometry=geometry(),
-        **kwargs,
+    return gear_pair_writer(
+        path, samples, outlines=geometry(), scenario_toml=SCENARIO, sha256="ab" * 32, **kwargs
     )
 
 
@@ -81,9 +75,7 @@ def test_tables_come_back(record_path: Path):
 def test_pairs_are_numbered_from_the_newest(tmp_path: Path):
     three_front_and_two_back = mesh_cycle() | {"side": np.array([1.0, 1.0, 1.0, -1.0, -1.0])}
     table = {name: three_front_and_two_back[name] for name in ("side", "boundary")}
-    with RecordWriter(
-        tmp_path / "run.h5", scenario_toml="", sha256="", samples=1, mesh_cycle=table
-    ) as record:
+    with gear_pair_writer(tmp_path / "run.h5", 1, table=table) as record:
         record.write(0, block(0, 1, pairs=5))
         path = record.finish({})
     with open_record(path) as record:

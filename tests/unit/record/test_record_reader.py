@@ -7,23 +7,15 @@ import numpy as np
 import pytest
 import xarray
 
-from tests.support.record_samples import block, geometry, mesh_cycle
+from tests.support.record_samples import block, gear_pair_writer, geometry
+from tribodyn.dynamics.recorded import SAMPLES
 from tribodyn.errors import InputError
 from tribodyn.record.reader import Record, open_record
-from tribodyn.record.schema import SAMPLES
-from tribodyn.record.writer import RecordWriter
 
 
 @pytest.fixture
 def record_path(tmp_path: Path) -> Path:
-    with RecordWriter(
-        tmp_path / "run.h5",
-        scenario_toml="",
-        sha256="",
-        samples=30,
-        mesh_cycle=mesh_cycle(),
-        geometry=geometry(),
-    ) as record:
+    with gear_pair_writer(tmp_path / "run.h5", 30, outlines=geometry()) as record:
         record.write(0, block(0, 30))
         return record.finish({"efficiency": 0.98})
 
@@ -82,6 +74,15 @@ def damaged(path: Path, how: str) -> None:
         with h5py.File(path, "r+") as file:
             del file["normal_load"]
             file["normal_load"] = np.zeros((3, 2))
+            for axis, scale in enumerate(("time", "pair")):
+                file["normal_load"].dims[axis].attach_scale(file[scale])
+    elif how == "scale detached":
+        with h5py.File(path, "r+") as file:
+            file["normal_load"].dims[0].detach_scale(file["time"])
+    elif how == "group in a dataset's place":
+        with h5py.File(path, "r+") as file:
+            del file["normal_load"]
+            file.create_group("normal_load")
     elif how == "overwritten with noise":
         noise = np.random.default_rng(1).bytes(3000)
         content = path.read_bytes()
@@ -106,6 +107,8 @@ def damaged(path: Path, how: str) -> None:
         ("dataset missing", "damaged"),
         ("group missing", "damaged"),
         ("dataset too short", "normal_load is too short"),
+        ("scale detached", "normal_load lacks the scale"),
+        ("group in a dataset's place", "normal_load is no dataset"),
         ("overwritten with noise", "damaged"),
         ("of a newer format", "version 99"),
         ("of unknown status", "damaged"),
@@ -120,16 +123,30 @@ def test_what_is_no_record_is_refused(record_path: Path, how: str, message: str)
     assert error.value.value == str(record_path)
 
 
-def test_an_unknown_dataset_is_told_with_what_there_is(record_path: Path):
+def test_a_damaged_scenario_is_reported_where_it_is_read(tmp_path: Path):
+    with gear_pair_writer(tmp_path / "run.h5", 1, scenario_toml="title = ") as record:
+        record.write(0, block(0, 1))
+        path = record.finish({})
+    with open_record(path) as record:
+        assert record.kind == "gear-pair"
+        with pytest.raises(InputError, match="the record is damaged") as error:
+            _ = record.scenario
+    assert error.value.key == "record"
+
+
+def test_an_unknown_dataset_is_refused_with_what_there_is(record_path: Path):
     with open_record(record_path) as record, pytest.raises(InputError, match="normal_load"):
         record["load"]
 
 
 def test_a_record_of_an_earlier_release_may_lack_later_datasets(record_path: Path):
     with h5py.File(record_path, "r+") as file:
+        for attribute in ("axis", "datasets"):  # which 0.1.0 does not write
+            del file.attrs[attribute]
         del file["drive_torque"]
     with open_record(record_path) as record:
         assert "drive_torque" not in record
-        assert "drive_torque" not in list(record)
+        assert set(record) == {"time", *SAMPLES} - {"drive_torque"}
+        assert record.axis == "time"
         with pytest.raises(InputError, match="no such dataset"):
             record["drive_torque"]

@@ -4,14 +4,15 @@ from math import pi, radians
 
 import numpy as np
 import pytest
-from tribodyn.studies.kinds import KINDS
-from tribodyn.tribology.laws import FRICTION_LAWS, friction_law
 
 from tribodyn.errors import InputError
 from tribodyn.geometry.families import FAMILIES, family
 from tribodyn.scenario.sources import names, shipped
 from tribodyn.solve.methods import SOLVERS, solver
+from tribodyn.studies import STUDIES
 from tribodyn.studies.load import json_schema, load, load_scenario
+from tribodyn.tribology.film import FILM_LAWS, film_law
+from tribodyn.tribology.friction import FRICTION_LAWS, friction_law
 
 SCENARIO = """
 title = "a scenario"
@@ -195,13 +196,15 @@ def test_physics_errors_are_given_the_file(written):
 def test_registries_know_their_names_and_suggest_near_ones():
     assert {family(name).name for name in FAMILIES} == set(FAMILIES)
     assert {solver(name) for name in SOLVERS} == set(SOLVERS)
-    assert friction_law("masjedi-khonsari").asperity_log_factor == 4470.0
-    assert friction_law("masjedi-khonsari-as-printed").asperity_log_factor == 447.0
-    assert friction_law("masjedi-khonsari-mean-pressure").limiting_share == 0.0
-    assert [law.coefficient for name, law in FRICTION_LAWS.items() if name == "coulomb"] == [True]
+    assert {friction_law(name).name for name in FRICTION_LAWS} == set(FRICTION_LAWS)
+    assert {film_law(name).name for name in FILM_LAWS} == set(FILM_LAWS)
+    assert all(law.film in FILM_LAWS for _, law in FRICTION_LAWS.items())
+    keys = {name: [key.name for key in law.keys] for name, law in FRICTION_LAWS.items() if law.keys}
+    assert keys == {"coulomb": ["coefficient"]}
     for lookup, wrong, right in (
         (family, "involut", "involute"),
         (friction_law, "colomb", "coulomb"),
+        (film_law, "moss", "moes"),
         (solver, "rado", "radau"),
     ):
         with pytest.raises(InputError, match=f'did you mean "{right}"'):
@@ -211,10 +214,16 @@ def test_registries_know_their_names_and_suggest_near_ones():
 def test_the_json_schema_offers_references_and_the_registries_names():
     schema = json_schema()
     assert schema["$defs"]["Friction"]["properties"]["law"]["enum"] == list(FRICTION_LAWS)
-    kinds = [kind.__name__ for kind in KINDS.values()]
+    kinds = [study.table().__name__ for _, study in STUDIES.items()]
     assert [shape["$ref"] for shape in schema["oneOf"]] == [f"#/$defs/{kind}" for kind in kinds]
     assert schema["$defs"]["EfficiencyFriction"]["properties"]["law"]["enum"] == list(FRICTION_LAWS)
-    gear_pair = schema["$defs"]["Scenario"]
+    film = schema["$defs"]["FilmTable"]
+    assert film["properties"]["law"]["anyOf"][0]["enum"] == list(FILM_LAWS)
+    for table in ("Friction", "EfficiencyFriction"):
+        coefficient = schema["$defs"][table]["properties"]["coefficient"]
+        assert (coefficient["type"], coefficient["minimum"]) == ("number", 0)
+        assert schema["$defs"][table]["additionalProperties"] is False
+    gear_pair = schema["$defs"]["GearPairScenario"]
     drive = gear_pair["properties"]["drive"]
     name, written_out, changed = drive["anyOf"]
     assert name["type"] == "string"

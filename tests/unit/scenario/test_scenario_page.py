@@ -9,12 +9,13 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 from pydantic.fields import FieldInfo
-from tribodyn.studies.kinds import KINDS
-from tribodyn.tribology.laws import FRICTION_LAWS
 
 from tribodyn.geometry.families import FAMILIES
 from tribodyn.scenario.quantity import Column, Quantity, Reference, Table
 from tribodyn.solve.methods import SOLVERS
+from tribodyn.studies import STUDIES
+from tribodyn.tribology.film import FILM_LAWS
+from tribodyn.tribology.friction import FRICTION_LAWS
 
 PAGE = (Path(__file__).parents[3] / "docs" / "scenario.md").read_text(encoding="utf-8")
 
@@ -41,7 +42,7 @@ def tables(table: type[Table]) -> dict[str, type[Table]]:
     return found
 
 
-TABLES = {name: table for kind in KINDS.values() for name, table in tables(kind).items()}
+TABLES = {name: table for _, study in STUDIES.items() for name, table in tables(study.table()).items()}
 KEYS = [(table, key) for table in TABLES for key in TABLES[table].model_fields]
 
 
@@ -98,6 +99,6 @@ def toml(cell: str) -> Any:
     return tomllib.loads(f"value = {cell.strip('`')}")["value"]
 
 
-@pytest.mark.parametrize("name", [*FRICTION_LAWS, *FAMILIES, *SOLVERS])
+@pytest.mark.parametrize("name", [*FILM_LAWS, *FRICTION_LAWS, *FAMILIES, *SOLVERS])
 def test_every_name_is_on_the_page(name: str):
     assert f"`{name}`" in PAGE

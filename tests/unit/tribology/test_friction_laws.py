@@ -5,10 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from tests.support.lubricated_contacts import LIU_NI, POINT, VECIANA
-from tribodyn.tribology.empirical import benedict_kelley, xu
-from tribodyn.tribology.friction import BENEDICT_KELLEY, COULOMB, MASJEDI_KHONSARI, XU, friction
-from tribodyn.tribology.mean_friction import iso_14179_1, mean_conditions, niemann
+from tests.support.closures import POINT, VECIANA, known, under
+from tribodyn.tribology.friction.benedict_kelley import benedict_kelley
+from tribodyn.tribology.friction.iso_14179_1 import iso_14179_1
+from tribodyn.tribology.friction.niemann import niemann
+from tribodyn.tribology.friction.xu import xu
+from tribodyn.tribology.nominal import NominalConditions
 
 #: Coefficients of friction (EHL, mixed EHL) over the slide-to-roll ratio: a separate prototype of the two
 #: laws at Veciana's Table 2 (R 5 mm, V_e 5 m/s, p_H 2 GPa), with the literal reading of the mixed one.
@@ -25,11 +27,11 @@ PROTOTYPE = {
 @pytest.mark.parametrize("ratio", PROTOTYPE)
 def test_veciana_figure_1(ratio):
     radius, speed, pressure = 5e-3, 5.0, 2e9
-    load = 2 * math.pi * radius * pressure**2 / VECIANA.effective_modulus
+    load = 2 * math.pi * radius * pressure**2 / VECIANA.surfaces.effective_modulus
     state = (load, 1 / radius, speed, ratio * speed, speed * (1 + ratio / 2), speed * (1 - ratio / 2))
     ehl, mixed = PROTOTYPE[ratio]
-    assert friction(XU, *state, VECIANA)[0] == pytest.approx(ehl, rel=1e-9)
-    assert friction(MASJEDI_KHONSARI, *state, VECIANA)[0] == pytest.approx(mixed, rel=1e-9)
+    assert known(under("xu", VECIANA), *state)[0] == pytest.approx(ehl, rel=1e-9)
+    assert known(under("masjedi-khonsari-veciana", VECIANA), *state)[0] == pytest.approx(mixed, rel=1e-9)
 
 
 def test_xu_is_the_printed_regression():
@@ -76,7 +78,7 @@ def test_niemann_at_the_operating_conditions_of_diez_ibarbia():
         (159.1549, 6000): 0.03587,
     }
     for (torque, rpm), expected in printed.items():
-        conditions = mean_conditions(
+        conditions = NominalConditions(
             torque / 0.027,
             0.027,
             0.054,
@@ -97,7 +99,7 @@ def test_iso_14179_1_by_hand():
     load_intensity = 1000 * torque * (z1 + z2) / (2 * b * r1**2 * z2)
     speed = rpm * math.pi / 30 * r1 * 1e-3
     by_hand = (10.6e-3 / 820 * 1e6) ** -0.223 * load_intensity**-0.40 / (3.239 * speed**0.70)
-    conditions = mean_conditions(
+    conditions = NominalConditions(
         torque / 0.027,
         0.027,
         0.054,
@@ -114,29 +116,32 @@ def test_iso_14179_1_by_hand():
     assert 0.01 < by_hand < 0.06
 
 
-@pytest.mark.parametrize("law", [XU, BENEDICT_KELLEY, COULOMB])
+@pytest.mark.parametrize("law", ["xu", "benedict-kelley", "coulomb"])
 def test_every_law_heats_its_own_contact(law):
     """The heat that makes the flash temperature is μ |v_s| p, whatever the law."""
-    coefficient, *_, temperature, pressure, _ = friction(law, **POINT, contact=LIU_NI)
-    more = friction(law, **{**POINT, "sliding": 2 * POINT["sliding"]}, contact=LIU_NI)
-    assert coefficient > 0
-    assert more[3] / temperature == pytest.approx(2 * more[0] / coefficient, rel=1e-9)
-    assert pressure == friction(COULOMB, **POINT, contact=LIU_NI)[4]
+    laws = under(law, **({"coefficient": 0.06} if law == "coulomb" else {}))
+    once = known(laws, **POINT)
+    more = known(laws, **{**POINT, "sliding": 2 * POINT["sliding"]})
+    assert once.friction_coefficient > 0
+    rise = more.flash_temperature_rise / once.flash_temperature_rise
+    assert rise == pytest.approx(2 * more.friction_coefficient / once.friction_coefficient, rel=1e-9)
+    assert once.hertz_pressure == known(under("none"), **POINT).hertz_pressure
 
 
-@pytest.mark.parametrize("law", [XU, BENEDICT_KELLEY])
+@pytest.mark.parametrize("law", ["xu", "benedict-kelley"])
 def test_signs_of_speeds_do_not_matter(law):
     state = {name: -POINT[name] for name in ("entrainment", "sliding", "pinion_speed", "gear_speed")}
-    ours = friction(law, **{**POINT, **state}, contact=LIU_NI)
-    np.testing.assert_allclose(ours, friction(law, **POINT, contact=LIU_NI), rtol=1e-14)
+    ours = known(under(law), **{**POINT, **state})
+    np.testing.assert_allclose(ours, known(under(law), **POINT), rtol=1e-14)
 
 
-@pytest.mark.parametrize("law", [XU, BENEDICT_KELLEY])
+@pytest.mark.parametrize("law", ["xu", "benedict-kelley"])
 def test_nothing_overflows_at_the_ends(law):
+    laws = under(law)
     with np.errstate(all="raise", under="ignore"):
         for load in (0.0, 1e-3, 1e9):
             for curvature in (1e-3, 1e9):
                 for speed in (0.0, 1e3):
-                    values = friction(law, load, curvature, speed, speed, speed, speed, LIU_NI)
+                    values = known(laws, load, curvature, speed, speed, speed, speed)
                     assert np.all(np.isfinite(values))
                     assert values[0] >= 0

@@ -3,28 +3,31 @@ import math
 import numpy as np
 import pytest
 
-from tests.support.lubricated_contacts import LIU_NI, POINT
+from tests.support.closures import LIU_NI, MIXED, POINT, known, under
 from tribodyn.tribology.contact import hertz_half_width, hertz_pressure
 from tribodyn.tribology.flash import flash_temperature_rise
-from tribodyn.tribology.friction import COULOMB, MASJEDI_KHONSARI, NONE, friction
 from tribodyn.tribology.rheology import limiting_shear_share, log_roelands_viscosity
+
+LAWS = under(MIXED)
 
 
 def by_hand(w, rho, u, v, u1, u2, c):
     """Liu & Ni (18)-(24) written out with powers, 4470 and ρ_s c_p restored."""
+    c, oil = c.surfaces, c.lubricant
     E = c.effective_modulus
     W, U, G = w / (E * rho), c.inlet_viscosity * u / (E * rho), c.pressure_viscosity * E
     s, V = c.roughness / rho, c.hardness / E
     La = 0.005 * W**-0.408 * U**-0.088 * G**0.103
-    La *= math.log(1 + c.asperity_log_factor * s**6.015 * V**1.168 * W**0.485 * U**-3.741 * G**-2.898)
+    factor = 4470
+    La *= math.log(1 + factor * s**6.015 * V**1.168 * W**0.485 * U**-3.741 * G**-2.898)
     lam = min(La / 100, 1.0)
     h = 2.691 * W**-0.135 * U**0.705 * G**0.556 * rho
     h *= 1 + 0.2 * s**1.222 * V**0.223 * W**-0.229 * U**-0.748 * G**-0.842
     a = math.sqrt(8 * w * rho / (math.pi * E))
     p = w / (2 * a)
     ph = p * (1 - lam)
-    tau = c.limiting_shear_coefficient * ph
-    q = abs(v) * p * (c.asperity_friction * lam + c.limiting_shear_coefficient * (1 - lam))
+    tau = oil.limiting_shear_coefficient * ph
+    q = abs(v) * p * (oil.asperity_friction * lam + oil.limiting_shear_coefficient * (1 - lam))
     pe = [
         a * uj * hc / (2 * k)
         for uj, hc, k in (
@@ -42,10 +45,10 @@ def by_hand(w, rho, u, v, u1, u2, c):
         )
     )
     eta = c.inlet_viscosity * math.exp(
-        (math.log(c.inlet_viscosity) + 9.67) * (-1 + (1 + 5.1e-9 * ph) ** c.viscosity_pressure_index)
-        - c.temperature_viscosity * dT
+        (math.log(c.inlet_viscosity) + 9.67) * (-1 + (1 + 5.1e-9 * ph) ** oil.viscosity_pressure_index)
+        - oil.temperature_viscosity * dT
     )
-    mu = lam * c.asperity_friction + 2 * a * tau / w * (1 - math.exp(-eta * abs(v) / (tau * h)))
+    mu = lam * oil.asperity_friction + 2 * a * tau / w * (1 - math.exp(-eta * abs(v) / (tau * h)))
     return mu, lam, h, dT, math.sqrt(w * E / (2 * math.pi * rho))
 
 
@@ -53,53 +56,52 @@ def by_hand(w, rho, u, v, u1, u2, c):
 @pytest.mark.parametrize("speed", [0.1, 0.134, 5.0])
 @pytest.mark.parametrize("sliding", [1e-6, 0.02, 0.9])
 def test_mixed_film_is_the_printed_law(load, speed, sliding):
-    ours = friction(
-        MASJEDI_KHONSARI, load, 1 / 8.98e-3, speed, sliding * speed, speed * 1.2, speed * 0.8, LIU_NI
-    )
+    ours = known(LAWS, load, 1 / 8.98e-3, speed, sliding * speed, speed * 1.2, speed * 0.8)
     theirs = by_hand(load, 8.98e-3, speed, sliding * speed, speed * 1.2, speed * 0.8, LIU_NI)
     np.testing.assert_allclose(ours[:5], theirs, rtol=1e-9, atol=1e-14)
 
 
 def test_thick_film_carries_no_asperity_load():
-    _, share, film, *_ = friction(MASJEDI_KHONSARI, 3.85e5, 111.0, 20.0, 1.0, 20.5, 19.5, LIU_NI)
+    _, share, film, *_ = known(LAWS, 3.85e5, 111.0, 20.0, 1.0, 20.5, 19.5)
     assert share < 1e-3
-    assert film > 10 * LIU_NI.roughness
+    assert film > 10 * LIU_NI.surfaces.roughness
 
 
 def test_dry_limit_is_asperity_friction():
-    coefficient, share, *_ = friction(MASJEDI_KHONSARI, 3.85e5, 111.0, 1e-6, 1e-7, 1e-6, 1e-6, LIU_NI)
+    coefficient, share, *_ = known(LAWS, 3.85e5, 111.0, 1e-6, 1e-7, 1e-6, 1e-6)
     assert share == pytest.approx(1.0)
-    assert coefficient == pytest.approx(LIU_NI.asperity_friction, rel=1e-3)
+    assert coefficient == pytest.approx(LIU_NI.lubricant.asperity_friction, rel=1e-3)
 
 
 def test_film_grows_with_speed_and_falls_with_load():
     u = np.geomspace(0.05, 10, 100)
-    assert np.all(np.diff(friction(MASJEDI_KHONSARI, 3.85e5, 111.0, u, 0.1 * u, u, u, LIU_NI)[2]) > 0)
+    assert np.all(np.diff(known(LAWS, 3.85e5, 111.0, u, 0.1 * u, u, u)[2]) > 0)
     w = np.geomspace(1e4, 1e6, 100)
-    assert np.all(np.diff(friction(MASJEDI_KHONSARI, w, 111.0, 0.3, 0.03, 0.3, 0.3, LIU_NI)[2]) < 0)
+    assert np.all(np.diff(known(LAWS, w, 111.0, 0.3, 0.03, 0.3, 0.3)[2]) < 0)
 
 
 def test_friction_is_between_nothing_and_its_limits(rng):
     for _ in range(300):
         u = 10 ** rng.uniform(-3, 1.5)
         v = u * rng.uniform(0, 1)
-        mu, share, *_ = friction(
-            MASJEDI_KHONSARI,
+        mu, share, *_ = known(
+            LAWS,
             10 ** rng.uniform(3, 6.3),
             rng.uniform(50, 400),
             u,
             v,
             u + v / 2,
             u - v / 2,
-            LIU_NI,
         )
-        limit = share * LIU_NI.asperity_friction + LIU_NI.limiting_shear_coefficient * (1 - share)
+        limit = share * LIU_NI.lubricant.asperity_friction + LIU_NI.lubricant.limiting_shear_coefficient * (
+            1 - share
+        )
         assert 0.0 <= mu <= limit * (1 + 1e-12)
 
 
 def test_signs_of_speeds_do_not_matter():
-    a = friction(MASJEDI_KHONSARI, 3.85e5, 111.0, 0.3, 0.05, 0.3, 0.25, LIU_NI)
-    b = friction(MASJEDI_KHONSARI, 3.85e5, 111.0, -0.3, -0.05, -0.3, -0.25, LIU_NI)
+    a = known(LAWS, 3.85e5, 111.0, 0.3, 0.05, 0.3, 0.25)
+    b = known(LAWS, 3.85e5, 111.0, -0.3, -0.05, -0.3, -0.25)
     np.testing.assert_allclose(a, b, rtol=1e-14)
 
 
@@ -108,14 +110,14 @@ def test_nothing_overflows_at_the_ends():
         for load in (0.0, 1e-3, 1e9):
             for curvature in (1e-3, 1e9):
                 for speed in (0.0, 1e3):
-                    values = friction(MASJEDI_KHONSARI, load, curvature, speed, speed, speed, speed, LIU_NI)
+                    values = known(LAWS, load, curvature, speed, speed, speed, speed)
                     assert np.all(np.isfinite(values))
 
 
 def test_variants_move_friction_the_way_they_say():
-    printed = friction(MASJEDI_KHONSARI, **POINT, contact=LIU_NI)
-    mean = friction(MASJEDI_KHONSARI, **POINT, contact=LIU_NI._replace(limiting_share=0.0))
-    fewer = friction(MASJEDI_KHONSARI, **POINT, contact=LIU_NI._replace(asperity_log_factor=447.0))
+    printed = known(LAWS, **POINT)
+    mean = known(under("masjedi-khonsari-mean-pressure"), **POINT)
+    fewer = known(under(MIXED, film="masjedi-khonsari-as-printed"), **POINT)
     assert mean[0] > printed[0]
     assert fewer[1] < printed[1]
     tau = [limiting_shear_share(0.2, 0.091, s) for s in (1.0, 0.0)]
@@ -123,17 +125,17 @@ def test_variants_move_friction_the_way_they_say():
 
 
 def test_laws_dispatch():
-    none = friction(NONE, **POINT, contact=LIU_NI)
-    coulomb = friction(COULOMB, **POINT, contact=LIU_NI)
-    mixed = friction(MASJEDI_KHONSARI, **POINT, contact=LIU_NI)
+    none = known(under("none"), **POINT)
+    coulomb = known(under("coulomb", coefficient=0.06), **POINT)
+    mixed = known(LAWS, **POINT)
     assert none[0] == 0.0
     assert none[3] == 0.0
-    assert coulomb[0] == LIU_NI.coulomb_coefficient
+    assert coulomb[0] == 0.06
     assert none[2] == coulomb[2] == mixed[2]
     # the mean heat of a Coulomb contact: μ v p with p = w/(2a), the same conduction as every law's
-    half = hertz_half_width(POINT["line_load"], POINT["curvature"], LIU_NI.effective_modulus)
+    half = hertz_half_width(POINT["line_load"], POINT["curvature"], LIU_NI.surfaces.effective_modulus)
     heat = 0.06 * POINT["sliding"] * POINT["line_load"] / (2 * half)
-    rise = flash_temperature_rise(heat, half, POINT["pinion_speed"], POINT["gear_speed"], *LIU_NI[9:13])
+    rise = flash_temperature_rise(heat, half, POINT["pinion_speed"], POINT["gear_speed"], LIU_NI.surfaces)
     assert coulomb[3] == pytest.approx(rise, rel=1e-12)
 
 
@@ -150,7 +152,7 @@ def test_roelands_at_ambient_pressure_and_its_clip():
 
 
 def test_range_flag():
-    inside = friction(MASJEDI_KHONSARI, **POINT, contact=LIU_NI)
+    inside = known(LAWS, **POINT)
     assert inside[5] == 1.0
-    assert friction(MASJEDI_KHONSARI, **{**POINT, "line_load": 2e3}, contact=LIU_NI)[5] == 0.0
-    assert friction(MASJEDI_KHONSARI, **{**POINT, "curvature": 500.0}, contact=LIU_NI)[5] == 0.0
+    assert known(LAWS, **{**POINT, "line_load": 2e3})[5] == 0.0
+    assert known(LAWS, **{**POINT, "curvature": 500.0})[5] == 0.0

@@ -14,12 +14,11 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, reference_radius
 from tribodyn.geometry.family import Family, unshifted
+from tribodyn.geometry.path import PerContact
 from tribodyn.geometry.reach import refuse_shift, require_reach
 from tribodyn.numerics.elementary import cos, log, namespace, sin, sqrt, where
 from tribodyn.numerics.iteration import newton
 from tribodyn.numerics.parameter import Parameter
-
-Array = Any
 
 _NEWTON_STEPS = 8
 
@@ -46,31 +45,31 @@ class ArcPath(NamedTuple):
     approach_diameter: Any
     recess_diameter: Any
 
-    def _diameter(self, r: Array) -> Array:
+    def _diameter(self, r: PerContact) -> PerContact:
         """Diameter with the sign of r or φ, so that r over it is the sine of β."""
         return where(r < 0, -self.approach_diameter, self.recess_diameter)
 
-    def pressure_angle(self, r: Array) -> Array:
+    def pressure_angle(self, r: PerContact) -> PerContact:
         """Pressure angle, rad; NaN beyond the ends of a diameter."""
         sine = r / self._diameter(r)
         return self.angle + namespace(sine).arcsin(sine)
 
-    def pressure_angle_slope(self, r: Array) -> Array:
+    def pressure_angle_slope(self, r: PerContact) -> PerContact:
         """Slope dα/dr, rad/m; at P itself the recess's."""
         diameter = self._diameter(r)
         return 1 / (diameter * sqrt(1 - (r / diameter) ** 2))
 
-    def rotation(self, r: Array) -> Array:
+    def rotation(self, r: PerContact) -> PerContact:
         """Pinion angle φ, rad."""
         diameter = self._diameter(r)
         sine = r / diameter
         return self._turned(namespace(sine).arcsin(sine)) * diameter / self.pinion_pitch_radius
 
-    def _turned(self, beta: Array) -> Array:
+    def _turned(self, beta: PerContact) -> PerContact:
         """Pinion angle in units of D/r_p."""
         return cos(self.angle) * beta - sin(self.angle) * log(cos(self.angle + beta) / cos(self.angle))
 
-    def signed_distance(self, rotation: Array) -> Array:
+    def signed_distance(self, rotation: PerContact) -> PerContact:
         """Signed distance r (m) at the pinion angle φ."""
         xp = namespace(self, rotation)
         diameter = self._diameter(xp.asarray(rotation))
@@ -79,7 +78,7 @@ class ArcPath(NamedTuple):
         return diameter * sin(newton(_step_to_rotation, start, _NEWTON_STEPS, self, target))
 
 
-def _step_to_rotation(beta: Array, path: ArcPath, target: Array) -> Array:
+def _step_to_rotation(beta: PerContact, path: ArcPath, target: PerContact) -> PerContact:
     return beta - (path._turned(beta) - target) * cos(path.angle + beta) / cos(beta)
 
 

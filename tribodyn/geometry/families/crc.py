@@ -18,12 +18,11 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, reference_radius, tip_radius
 from tribodyn.geometry.family import Family, unshifted
-from tribodyn.geometry.path import Path, integrated_rotation, inverted_rotation
+from tribodyn.geometry.path import Path, PerContact, integrated_rotation, inverted_rotation
 from tribodyn.numerics.elementary import namespace, sin, sqrt
 from tribodyn.numerics.iteration import newton
 from tribodyn.numerics.remembered import remembered
-
-Array = Any
+from tribodyn.numerics.shapes import Array, Float
 
 # Nearest complex singularities are at ξ ≈ ±1.4i: degree 48 converges to rounding for intervals up to |ξ| ≈ 3.
 DEGREE = 48
@@ -37,7 +36,7 @@ _DERIVATIVE = np.vstack([np.polynomial.chebyshev.chebder(row) for row in np.eye(
 _SLOPE = _VALUE[:, :DEGREE] @ _DERIVATIVE
 
 
-def chebyshev_basis(x: Array) -> Array:
+def chebyshev_basis(x: PerContact) -> Float[Array, "*contact degree"]:
     """Evaluate T_0(x) … T_DEGREE(x) along a new last axis, as cos(k arccos x); constant beyond −1 … 1."""
     xp = namespace(x)
     # One rounding error inside, so that the derivative of arccos stays finite.
@@ -66,31 +65,31 @@ class CRCPath(NamedTuple):
     upper: Any
     coefficients: Any
 
-    def _sine(self, r: Array) -> tuple[Array, Array]:
+    def _sine(self, r: PerContact) -> tuple[PerContact, PerContact]:
         basis = chebyshev_basis((2 * r - self.lower - self.upper) / (self.upper - self.lower))
         slope = (_DERIVATIVE @ self.coefficients) * 2 / (self.upper - self.lower)
         return basis @ self.coefficients, basis[..., :DEGREE] @ slope
 
-    def pressure_angle(self, r: Array) -> Array:
+    def pressure_angle(self, r: PerContact) -> PerContact:
         """Pressure angle, rad; NaN where sin α would exceed 1."""
         sine, _ = self._sine(r)
         return namespace(sine).arcsin(sine)
 
-    def pressure_angle_slope(self, r: Array) -> Array:
+    def pressure_angle_slope(self, r: PerContact) -> PerContact:
         """Slope dα/dr of the interpolant, rad/m."""
         sine, slope = self._sine(r)
         return slope / sqrt(1 - sine**2)
 
-    def rotation(self, r: Array) -> Array:
+    def rotation(self, r: PerContact) -> PerContact:
         """Pinion angle φ, rad."""
         return integrated_rotation(self, r)
 
-    def signed_distance(self, rotation: Array) -> Array:
+    def signed_distance(self, rotation: PerContact) -> PerContact:
         """Signed distance r (m) at the pinion angle φ."""
         return inverted_rotation(self, rotation)
 
 
-def solve(ratio: Any, lower: Any, upper: Any) -> Array:
+def solve(ratio: Any, lower: Any, upper: Any) -> Float[Array, " degree"]:
     """Chebyshev coefficients of a(ξ) over lower … upper for w = `ratio`, by fixed Newton steps."""
     half = (upper - lower) / 2
     # Start on the first two terms of the series about the pitch point.
@@ -100,7 +99,9 @@ def solve(ratio: Any, lower: Any, upper: Any) -> Array:
     return newton(_step, start, _NEWTON_STEPS, ratio, (lower + upper) / 2, half)
 
 
-def _step(coefficients: Array, ratio: Any, middle: Any, half: Any) -> Array:
+def _step(
+    coefficients: Float[Array, " degree"], ratio: Any, middle: Any, half: Any
+) -> Float[Array, " degree"]:
     xp = namespace(coefficients, ratio, middle, half)
     xi = middle + half * _POINTS
     product = xi[:, None] * _SLOPE / half + _VALUE

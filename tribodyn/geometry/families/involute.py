@@ -6,11 +6,9 @@ from typing import Any, NamedTuple
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, Side, body_of, reference_radius, tip_radius
 from tribodyn.geometry.family import Family
-from tribodyn.geometry.path import Path
+from tribodyn.geometry.path import Path, PerContact
 from tribodyn.numerics.elementary import cos, namespace, sin, sqrt, tan
 from tribodyn.numerics.iteration import newton
-
-Array = Any
 
 
 class InvolutePath(NamedTuple):
@@ -28,29 +26,29 @@ class InvolutePath(NamedTuple):
     gear_pitch_radius: Any
     angle: Any
 
-    def pressure_angle(self, r: Array) -> Array:
+    def pressure_angle(self, r: PerContact) -> PerContact:
         """Pressure angle, the same everywhere, rad."""
         return self.angle + 0.0 * r
 
-    def pressure_angle_slope(self, r: Array) -> Array:
+    def pressure_angle_slope(self, r: PerContact) -> PerContact:
         """Zero, rad/m."""
         return 0.0 * r
 
-    def rotation(self, r: Array) -> Array:
+    def rotation(self, r: PerContact) -> PerContact:
         """Pinion angle r/(base radius), rad."""
         return r / (self.pinion_pitch_radius * cos(self.angle))
 
-    def signed_distance(self, rotation: Array) -> Array:
+    def signed_distance(self, rotation: PerContact) -> PerContact:
         """Signed distance, m: φ × base radius."""
         return rotation * (self.pinion_pitch_radius * cos(self.angle))
 
 
-def involute_function(angle: Array) -> Array:
+def involute_function(angle: PerContact) -> PerContact:
     """Evaluate the involute function inv α = tan α − α, rad."""
     return tan(angle) - angle
 
 
-def inverse_involute(value: Array) -> Array:
+def inverse_involute(value: PerContact) -> PerContact:
     """Solve for the angle α (rad, 0 < α < 1.2) with inv α = `value` > 0, to rounding."""
     xp = namespace(value)
     value = xp.asarray(value)

@@ -11,11 +11,10 @@ from typing import Any, NamedTuple
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, Side, body_of, reference_radius
 from tribodyn.geometry.family import Family, unshifted
+from tribodyn.geometry.path import PerContact
 from tribodyn.geometry.reach import refuse_shift, require_reach
 from tribodyn.numerics.elementary import namespace, sqrt, where
 from tribodyn.numerics.parameter import Parameter
-
-Array = Any
 
 
 class ParabolaPath(NamedTuple):
@@ -34,32 +33,32 @@ class ParabolaPath(NamedTuple):
     approach_parameter: Any
     recess_parameter: Any
 
-    def _parameter(self, r: Array) -> Array:
+    def _parameter(self, r: PerContact) -> PerContact:
         return where(r < 0, -self.approach_parameter, self.recess_parameter)
 
-    def _sine(self, r: Array) -> tuple[Array, Array]:
+    def _sine(self, r: PerContact) -> tuple[PerContact, PerContact]:
         """Sine of α, and √(p² + r²) with the sign of r."""
         p = self._parameter(r)
         root = where(r < 0, -1.0, 1.0) * sqrt(p**2 + r**2)
         return r / (p + root), root
 
-    def pressure_angle(self, r: Array) -> Array:
+    def pressure_angle(self, r: PerContact) -> PerContact:
         """Pressure angle, rad."""
         sine, _ = self._sine(r)
         return namespace(sine).arcsin(sine)
 
-    def pressure_angle_slope(self, r: Array) -> Array:
+    def pressure_angle_slope(self, r: PerContact) -> PerContact:
         """Slope dα/dr, rad/m; at P itself the recess's."""
         sine, root = self._sine(r)
         return self._parameter(r) / (root * (self._parameter(r) + root) * sqrt(1 - sine**2))
 
-    def rotation(self, r: Array) -> Array:
+    def rotation(self, r: PerContact) -> PerContact:
         """Pinion angle φ, rad."""
         sine, _ = self._sine(r)
         x = r * sqrt(1 - sine**2)
         return (x + x**3 / (6 * self._parameter(r) ** 2)) / self.pinion_pitch_radius
 
-    def signed_distance(self, rotation: Array) -> Array:
+    def signed_distance(self, rotation: PerContact) -> PerContact:
         """Signed distance r (m) at the pinion angle φ: the root of Jia's cubic in x."""
         xp = namespace(self, rotation)
         p = self._parameter(xp.asarray(rotation))

@@ -13,12 +13,11 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, reference_radius
 from tribodyn.geometry.family import Family, unshifted
-from tribodyn.geometry.path import inverted_rotation
+from tribodyn.geometry.path import PerContact, inverted_rotation
 from tribodyn.geometry.reach import refuse_shift, require_reach
 from tribodyn.numerics.elementary import cos, namespace
 from tribodyn.numerics.parameter import Parameter
-
-Array = Any
+from tribodyn.numerics.shapes import Array, Float, Int
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 _NODES, _WEIGHTS = (1 + _NODES) / 2, _WEIGHTS / 2
@@ -52,12 +51,12 @@ class PointsPath(NamedTuple):
     right_slopes: Any
     rotations: Any
 
-    def _interval(self, r: Array) -> Array:
+    def _interval(self, r: PerContact) -> Int[Array, "*contact"]:
         xp = namespace(self, r)
         found = xp.searchsorted(self.knots, r, side="right") - 1
         return xp.clip(found, 0, self.knots.shape[0] - 2)
 
-    def _cubic(self, r: Array, interval: Array) -> tuple[Array, Array]:
+    def _cubic(self, r: PerContact, interval: Int[Array, "..."]) -> tuple[PerContact, PerContact]:
         """Angle and slope; held at the ends."""
         xp = namespace(self, r)
         start, length = self.knots[interval], self.knots[interval + 1] - self.knots[interval]
@@ -69,17 +68,17 @@ class PointsPath(NamedTuple):
         slope = inside * (m + u * (2 * square + 3 * u * cube)) / length
         return a + u * (m + u * (square + u * cube)), slope
 
-    def pressure_angle(self, r: Array) -> Array:
+    def pressure_angle(self, r: PerContact) -> PerContact:
         """Pressure angle, rad."""
         r = namespace(self, r).asarray(r, dtype=float)
         return self._cubic(r, self._interval(r))[0]
 
-    def pressure_angle_slope(self, r: Array) -> Array:
+    def pressure_angle_slope(self, r: PerContact) -> PerContact:
         """Slope dα/dr, rad/m; at P itself the recess's."""
         r = namespace(self, r).asarray(r, dtype=float)
         return self._cubic(r, self._interval(r))[1]
 
-    def rotation(self, r: Array) -> Array:
+    def rotation(self, r: PerContact) -> PerContact:
         """Pinion angle φ, rad: the knot's, and the integral of dr/(r_p cos α) from there."""
         r = namespace(self, r).asarray(r, dtype=float)
         interval = self._interval(r)
@@ -90,12 +89,12 @@ class PointsPath(NamedTuple):
             (1 / cos(angle)) @ _WEIGHTS
         )
 
-    def signed_distance(self, rotation: Array) -> Array:
+    def signed_distance(self, rotation: PerContact) -> PerContact:
         """Signed distance r (m) at the pinion angle φ."""
         return inverted_rotation(self, rotation)
 
 
-def spline_slopes(x: Array, y: Array) -> Array:
+def spline_slopes(x: Float[Array, " knot"], y: Float[Array, " knot"]) -> Float[Array, " knot"]:
     """Slopes at n ≥ 4 knots of the not-a-knot cubic spline through (x, y)."""
     xp = namespace(x, y)
     h, secant = xp.diff(x), xp.diff(y) / xp.diff(x)
@@ -126,7 +125,7 @@ class Shape(NamedTuple):
     points: Any
 
 
-def polar(points: Array) -> tuple[Array, Array]:
+def polar(points: Float[Array, "*point 2"]) -> tuple[Float[Array, "*point"], Float[Array, "*point"]]:
     """Signed distances (m) and pressure angles (rad) of points x, y; the angle at P itself means nothing."""
     xp = namespace(points)
     x, y = points[..., 0], points[..., 1]

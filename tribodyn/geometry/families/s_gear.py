@@ -20,13 +20,11 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import SIDES, Drive, reference_radius, tip_radius
 from tribodyn.geometry.family import Family, unshifted
-from tribodyn.geometry.path import inverted_rotation
+from tribodyn.geometry.path import PerContact, inverted_rotation
 from tribodyn.geometry.reach import refuse_shift, require_reach
 from tribodyn.numerics.elementary import absolute, arctan2, cos, namespace, sin, where
 from tribodyn.numerics.iteration import newton
 from tribodyn.numerics.parameter import Parameter
-
-Array = Any
 
 _NEWTON_STEPS = 6
 
@@ -50,7 +48,7 @@ class PowerRackPath(NamedTuple):
     form: Any
     exponent: Any
 
-    def _cotangent(self, y: Array) -> tuple[Array, Array]:
+    def _cotangent(self, y: PerContact) -> tuple[PerContact, PerContact]:
         """Cotangent of α at the height y ≥ 0, and its derivative by y."""
         inside = 1.0 * (y < self.module)
         left = self._left(y)
@@ -61,11 +59,11 @@ class PowerRackPath(NamedTuple):
     def _power(self) -> Any:
         return (self.exponent - 1) / self.exponent
 
-    def _left(self, y: Array) -> Array:
+    def _left(self, y: PerContact) -> PerContact:
         """Share 1 − h/a_P of the power law's height that is left above y."""
         return 1 - namespace(self, y).clip(y, 0.0, self.module) / (self.form * self.module)
 
-    def _height(self, r: Array) -> Array:
+    def _height(self, r: PerContact) -> PerContact:
         """Height |y| of the contact over the pitch line at the signed distance r: y √(1 + cot² α) = |r|."""
         xp = namespace(self, r)
         distance = absolute(xp.asarray(r, dtype=float))
@@ -76,12 +74,12 @@ class PowerRackPath(NamedTuple):
         start = reached / (1 + (self.exponent * self.form) ** 2) ** 0.5
         return newton(_step_to_height, start, _NEWTON_STEPS, self, reached) + beyond / stretch
 
-    def pressure_angle(self, r: Array) -> Array:
+    def pressure_angle(self, r: PerContact) -> PerContact:
         """Pressure angle, rad."""
         cotangent, _ = self._cotangent(self._height(r))
         return arctan2(1.0 + 0.0 * cotangent, cotangent)
 
-    def pressure_angle_slope(self, r: Array) -> Array:
+    def pressure_angle_slope(self, r: PerContact) -> PerContact:
         """Slope dα/dr, rad/m; at P itself the recess's."""
         y = self._height(r)
         cotangent, rate = self._cotangent(y)
@@ -91,7 +89,7 @@ class PowerRackPath(NamedTuple):
         slope = by_height * sin(alpha) / (1 - y / sin(alpha) * cos(alpha) * by_height)
         return where(namespace(r).asarray(r) < 0, -slope, slope)
 
-    def rotation(self, r: Array) -> Array:
+    def rotation(self, r: PerContact) -> PerContact:
         """Pinion angle φ, rad: the rack goes on by the contact's x and by the flank's."""
         y = self._height(r)
         cotangent, _ = self._cotangent(y)
@@ -100,12 +98,12 @@ class PowerRackPath(NamedTuple):
         turned = (y * cotangent + flank) / self.pinion_pitch_radius
         return where(namespace(r).asarray(r) < 0, -turned, turned)
 
-    def signed_distance(self, rotation: Array) -> Array:
+    def signed_distance(self, rotation: PerContact) -> PerContact:
         """Signed distance r (m) at the pinion angle φ."""
         return inverted_rotation(self, rotation)
 
 
-def _step_to_height(y: Array, path: PowerRackPath, distance: Array) -> Array:
+def _step_to_height(y: PerContact, path: PowerRackPath, distance: PerContact) -> PerContact:
     """Euler's step, to the parabola's root: Newton's would only halve the way where r is nearly greatest."""
     xp = namespace(y, path, distance)
     y = xp.minimum(y, path.module * (1 - 1e-15))

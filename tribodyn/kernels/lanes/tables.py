@@ -110,7 +110,7 @@ class LaneRecord(NamedTuple):
     def laid_out(self) -> Laid:
         """As kernels read it: the addresses of the three arrays; the caller keeps them alive."""
         addresses = (array.ctypes.data for array in (self.numbers, self.addresses, self.lengths))
-        return Laid(LaneLayout(self.fields), struct.pack("=3q", *addresses))
+        return Laid(LaneLayout(self.fields), struct.pack("=3q", *addresses), self)
 
 
 class LaneLayout(NamedTuple):

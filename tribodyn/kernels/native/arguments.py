@@ -1,8 +1,8 @@
-"""How a kernel's arguments lie in memory: one block of words of 8 bytes, the same for every caller.
+"""How a kernel's arguments lie in memory: a single block of words of 8 bytes, the same for every caller.
 
 A number is a word; an array its address and lengths; a named tuple its fields one after the other; a function
-no word at all. What is called a layout here says which, and is all that the machine code of a kernel depends
-on: numbers and lengths are never compiled in, functions are.
+no word at all. The layout says which of these a value is, and the machine code of a kernel depends on nothing
+else: numbers and lengths are never compiled in, functions are.
 """
 
 import struct
@@ -51,16 +51,19 @@ class Record:
 class Laid(NamedTuple):
     """A value as the kernels read it; stands for it among a kernel's arguments.
 
-    What many calls have in common is laid out once. Arrays inside are pointed at, so they must be kept alive.
+    What many calls have in common is laid out once. Arrays inside are pointed at: the value keeps them alive.
 
     Attributes
     ----------
     layout : Numeric, Array, Record, FunctionLayout, or that of an object with a method `laid_out` of its own
     words : bytes
+    value : object
+        What was laid out.
     """
 
     layout: Any
     words: bytes
+    value: Any = None
 
 
 FLOAT, INT, BOOL = Numeric("float"), Numeric("int"), Numeric("bool")
@@ -85,15 +88,15 @@ def laid_out(value: Any) -> Laid:
     if isinstance(value, Laid):
         return value
     if isinstance(value, float):
-        return Laid(FLOAT, _float(value))
+        return Laid(FLOAT, _float(value), value)
     if isinstance(value, np.ndarray):
         return _laid_array(value)
     if isinstance(value, (bool, np.bool_)):
-        return Laid(BOOL, _int(value))
+        return Laid(BOOL, _int(value), value)
     if isinstance(value, (int, np.integer)):
-        return Laid(INT, _int(value))
+        return Laid(INT, _int(value), value)
     if isinstance(value, FunctionType):
-        return Laid(function_layout(value), b"")
+        return Laid(function_layout(value), b"", value)
     if hasattr(value, "laid_out"):
         return value.laid_out()
     if isinstance(value, tuple) and hasattr(value, "_fields"):
@@ -111,14 +114,14 @@ def _laid_array(array: np.ndarray) -> Laid:
     if not contiguous:
         described += array.strides
     layout = _array(array.dtype.str, array.ndim, "C" if contiguous else "A")
-    return Laid(layout, struct.pack(f"={len(described)}q", *described))
+    return Laid(layout, struct.pack(f"={len(described)}q", *described), array)
 
 
 def together(name: str, names: tuple[str, ...], values: tuple[Any, ...]) -> Laid:
     """Lay several values out as the fields of one record."""
     laid = [laid_out(value) for value in values]
     layouts = tuple(one.layout for one in laid)
-    return Laid(record(name, names, layouts), b"".join(one.words for one in laid))
+    return Laid(record(name, names, layouts), b"".join(one.words for one in laid), values)
 
 
 def is_kept(layout: Any) -> bool:

@@ -8,122 +8,19 @@ parts of the kernel that calls them, and the kernel alone becomes machine code.
 from collections.abc import Callable
 from typing import Any, cast
 
-import numba
 from llvmlite import ir
 from numba.core import types
 from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import Compiler, Flags, compile_extra
+from numba.core.compiler import Flags, compile_extra
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.cpu_options import FastMathOptions
 from numba.core.registry import cpu_target
-from numba.extending import overload, typeof_impl
 
 from tribodyn.kernels.native.arguments import Record
-from tribodyn.kernels.native.kernel import Kernel
+from tribodyn.kernels.native.code import Compiled, KernelFunction
+from tribodyn.kernels.native.functions import register_laws
+from tribodyn.kernels.native.parts import FUSE, part_of
 from tribodyn.kernels.native.records import WORDS, RecordType, fields_of, letter_of, put
-from tribodyn.kernels.native.store import Compiled
-
-#: What LLVM may do with floats: make one rounding of a product and a sum.
-FUSE = {"contract"}
-
-
-class _NotLoaded:
-    """What numba asks to connect loaded code with Python: nothing is loaded."""
-
-    def set_env(self, name, environment):
-        pass
-
-
-class PartLibrary(JITCodeLibrary):
-    """Code of a function that only kernels call: as lowered, to be optimised as part of the kernel."""
-
-    @property
-    def codegen(self) -> Any:
-        """Where numba connects the code."""
-        return _NotLoaded()
-
-    def finalize(self):
-        """Nothing is done by itself."""
-        self._finalized = True
-
-    def get_pointer_to_function(self, name):
-        """No machine code: what numba says of a function that is not defined."""
-        return 0
-
-    def _get_module_for_linking(self):
-        """The function and all that it calls."""
-        if self._shared_module is None:
-            module = _mergeable(self._final_module)
-            for library in self._below({}):
-                part = (
-                    _mergeable(library._final_module)
-                    if isinstance(library, PartLibrary)
-                    else library._get_module_for_linking()
-                )
-                module.link_in(part, preserve=True)
-            self._shared_module = module
-        return self._shared_module
-
-    def _below(self, found):
-        for library in self._linking_libraries:
-            if library not in found:
-                found[library] = None
-                if isinstance(library, PartLibrary):
-                    library._below(found)
-        return list(found)
-
-
-def _mergeable(module):
-    """A copy whose functions may be there several times and are left out where nobody calls them."""
-    copy = module.clone()
-    for function in copy.functions:
-        if not function.is_declaration and function.linkage == type(function.linkage).external:
-            function.linkage = "linkonce_odr"
-    return copy
-
-
-class PartCompiler(Compiler):
-    """numba's compiler, for parts of kernels."""
-
-    def __init__(self, typingctx, targetctx, library, args, return_type, flags, locals):
-        if library is None:
-            library = PartLibrary(targetctx.codegen(), "part")
-        super().__init__(typingctx, targetctx, library, args, return_type, flags, locals)
-
-
-#: Options of all that kernels consist of: no wrappers for Python, and no rewriting, which looks for array
-#: expressions.
-_PART: Any = {
-    "pipeline_class": PartCompiler,
-    "no_cpython_wrapper": True,
-    "no_cfunc_wrapper": True,
-    "no_rewrites": True,
-}
-
-
-def part(function: Callable[..., Any], forceinline: bool = False) -> Callable[..., Any]:
-    """Decorator of a part of kernels, compiled into each that calls it."""
-
-    @overload(function, jit_options=cast(Any, {**_PART, "forceinline": forceinline}), strict=False)
-    def implementation(*args, **kwargs):
-        return function
-
-    return function
-
-
-def part_instead(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Decorator of what gives the part to compile in place of `function`, from the types of its arguments."""
-    return overload(function, jit_options=_PART)
-
-
-@typeof_impl.register(Kernel)
-def _typeof_kernel(kernel, c):
-    """Inside another kernel a kernel is a part as any other."""
-    if not hasattr(kernel, "part"):
-        kernel.part = cast(Any, numba.njit)(**_PART, error_model="numpy", fastmath=FUSE, _nrt=False)(
-            kernel.function
-        )
-    return types.Dispatcher(kernel.part)
 
 
 class KernelLibrary(JITCodeLibrary):
@@ -164,10 +61,8 @@ _C_FUNCTIONS = {
 
 def compiled(function: Callable[..., Any], layout: Record) -> Compiled:
     """Compile a function for arguments of a layout."""
-    from tribodyn.kernels.native.functions import register_laws
-
     register_laws()
-    kernel = Kernel(function)
+    kernel: Any = KernelFunction(function)
 
     def entry(block, results):
         put(results, kernel(*fields_of(block)))
@@ -192,7 +87,7 @@ def compiled(function: Callable[..., Any], layout: Record) -> Compiled:
         library.add_ir_module(_c_function(target, lowered.fndesc, symbol))
         library.finalize()
     kinds = tuple(kind for kind, _ in record.fields.values())
-    returned = kernel.part.overloads[kinds].signature.return_type  # pyright: ignore[reportAttributeAccessIssue]
+    returned = part_of(kernel).overloads[kinds].signature.return_type
     several = isinstance(returned, types.BaseTuple)
     numbers = list(cast(Any, returned)) if several else () if returned is types.none else (returned,)
     return Compiled(symbol, "".join(map(letter_of, numbers)), not several, library.needs(), library.body)

@@ -1,8 +1,6 @@
 """numba's versions of the elementary functions, and registration of the laws, which knows none of them."""
 
 import math
-import sys
-from importlib import import_module
 from typing import Any, cast
 
 from numba.core import types
@@ -10,27 +8,10 @@ from numba.core.registry import cpu_target
 from numba.core.typing.templates import AbstractTemplate, infer_global, signature
 from numba.extending import lower_builtin
 
-import tribodyn
-from tribodyn.dynamics import equations  # noqa: F401  (the import of both registers every law)
-from tribodyn.kernels.native.compiler import part, part_instead
+from tribodyn.kernels.native import scalar_functions
+from tribodyn.kernels.native.parts import part, part_instead
 from tribodyn.numerics import elementary
 
-
-def _load_numba_without_blas() -> None:
-    """Import what numba looks for BLAS with while SciPy's seems absent: no kernel of ours uses it.
-
-    It would import all of `scipy.linalg`, a tenth of a short run's time. In a process of the command line
-    only, which no one else's kernels share.
-    """
-    if tribodyn.OWN_PROCESS and "scipy.linalg" not in sys.modules:
-        sys.modules["scipy.linalg"] = None  # pyright: ignore[reportArgumentType]
-        try:
-            import_module("numba.np.arraymath")
-        finally:
-            del sys.modules["scipy.linalg"]
-
-
-_load_numba_without_blas()
 _infer_global = cast(Any, infer_global)
 
 
@@ -98,55 +79,18 @@ _numeric(elementary.minimum, [types.Number, types.Number])(_least_by("<"))
 _numeric(elementary.maximum, [types.Number, types.Number])(_least_by(">"))
 
 
-@part_instead(elementary.log1p)
-def _log1p(x):
-    def implementation(x):
-        """log(1 + x) with the rounding of the sum put right: half the time of the C library's."""
-        shifted = 1.0 + x
-        return math.log(shifted) + (x - (shifted - 1.0)) / shifted
+def _instead(function, implementation, kind):
+    """Compile a function of ours where its first argument is of a kind."""
 
-    return implementation if isinstance(x, types.Number) else None
+    @part_instead(function)
+    def _(first, *others):
+        return implementation if isinstance(first, kind) else None
 
 
-@part_instead(elementary.expm1)
-def _expm1(x):
-    def implementation(x):
-        """exp(x) − 1: Taylor's series to x¹³ where the difference would cancel, exact to rounding."""
-        if abs(x) > 0.35:
-            return math.exp(x) - 1.0
-        square = x * x
-        low = 1.0 + x * (1 / 2) + square * (1 / 6 + x * (1 / 24))
-        middle = 1 / 120 + x * (1 / 720) + square * (1 / 5040 + x * (1 / 40320))
-        high = 1 / 362880 + x * (1 / 3628800) + square * (1 / 39916800 + x * (1 / 479001600))
-        high = high + square * square * (1 / 6227020800)
-        fourth = square * square
-        return x * (low + fourth * (middle + fourth * high))
-
-    return implementation if isinstance(x, types.Number) else None
-
-
-@part_instead(elementary.last_at_or_below)
-def _last_at_or_below(grid, x):
-    def implementation(grid, x):
-        low, high = 0, grid.shape[0] - 1
-        while high - low > 1:
-            middle = (low + high) // 2
-            if grid[middle] <= x:
-                low = middle
-            else:
-                high = middle
-        return low
-
-    return implementation if isinstance(grid, types.Array) else None
-
-
-@part_instead(elementary.last_axis_of_four)
-def _last_axis_of_four(table, a, b, c, d):
-    def implementation(table, a, b, c, d):
-        return table[a, b, c, d, 0], table[a, b, c, d, 1], table[a, b, c, d, 2], table[a, b, c, d, 3]
-
-    return implementation if isinstance(table, types.Array) else None
-
+_instead(elementary.log1p, scalar_functions.log1p, types.Number)
+_instead(elementary.expm1, scalar_functions.expm1, types.Number)
+_instead(elementary.last_at_or_below, scalar_functions.last_at_or_below, types.Array)
+_instead(elementary.last_axis_of_four, scalar_functions.last_axis_of_four, types.Array)
 
 _registered: set[Any] = set()
 

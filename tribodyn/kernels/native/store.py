@@ -1,70 +1,45 @@
-"""Machine code of kernels on disk: found there or compiled, and brought into memory.
+"""Machine code of kernels on disk: read from there or compiled, and brought into memory.
 
 A file holds one kernel for one layout of its arguments: a line of JSON, then an object file as the platform's
-linker would take it. Its name is a digest of everything that the code depends on: the sources of the kernels,
-the versions of numba and llvmlite, the processor, and the layout. A file that is damaged, or needs a function
-that this process has not, is compiled anew. Files appear by renaming: no reader ever sees half of one.
+linker would take it. Its name is a digest of everything that the code depends on: the source of the kernel
+and of all that it imports, the versions of numba and llvmlite, the processor, and the layout. A file that is
+damaged, or needs a function that this process does not have, is compiled again.
 """
 
 import hashlib
 import importlib.util
 import json
 import os
-import threading
 from collections.abc import Callable
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import llvmlite
 import llvmlite.binding as llvm
 
-import tribodyn
-from tribodyn.kernels.native.arguments import is_kept
-from tribodyn.kernels.native.kernel import Code
-from tribodyn.numerics.cache import cache_folder
+from tribodyn.kernels.native.arguments import Record, is_kept
+from tribodyn.kernels.native.code import Code, Compiled
+from tribodyn.kernels.native.internals import report_missing
+from tribodyn.numerics.cache import cache_folder, replacing
+from tribodyn.numerics.sources import digest_of
 
-#: Everything that a kernel can contain; the rules of import keep it to these.
-_KERNEL_SOURCES = (
-    "numerics",
-    "kernels",
-    "mesh",
-    "tribology",
-    "dynamics",
-    "solve",
-    "studies/backlash_oscillator",
-)
+#: What turns any kernel into machine code.
+_COMPILER = "tribodyn.kernels.native.compiler"
 
 
-class Compiled(NamedTuple):
-    """A kernel's machine code as it is kept.
+def machine_code(function: Callable[..., Any], layout: Any) -> Code | None:
+    """Machine code of a function for arguments of a layout: from disk, else compiled and kept there.
 
-    Attributes
-    ----------
-    symbol : str
-        Name of the entry, see `kernel.Code`.
-    returns, single
-        As for `kernel.Code`.
-    needs : list of str
-        Names that the code does not define.
-    body : bytes
-        The object file.
+    None where it is not on disk and this numba lacks what compiling takes, see `internals`.
     """
-
-    symbol: str
-    returns: str
-    single: bool
-    needs: list[str]
-    body: bytes
-
-
-def machine_code(function: Callable[..., Any], layout: Any) -> Code:
-    """Machine code of a function for arguments of a layout: from disk, else compiled and kept there."""
     file = _file_of(function, layout)
     kept = _read(file) if file else None
     code = loaded(kept) if kept else None
     if code is None:
+        if report_missing():
+            return None
         from tribodyn.kernels.native.compiler import compiled
 
         made = compiled(function, layout)
@@ -76,8 +51,8 @@ def machine_code(function: Callable[..., Any], layout: Any) -> Code:
 
 
 @cache
-def _sources_digest() -> str:
-    """Digest of the kernels' sources, of what compiles them and of the processor that they are made for."""
+def _digest(*modules: str) -> str:
+    """Digest of the sources of modules, of what compiles them and of the processor that they are made for."""
     numba = importlib.util.find_spec("numba")
     assert numba is not None
     assert numba.origin is not None
@@ -85,10 +60,7 @@ def _sources_digest() -> str:
     switches = sorted(item for item in os.environ.items() if item[0].startswith("NUMBA_"))
     processor = llvm.get_host_cpu_name(), llvm.get_host_cpu_features().flatten()
     digest.update(repr((llvmlite.__version__, llvm.get_process_triple(), processor, switches)).encode())
-    for name in _KERNEL_SOURCES:
-        place = Path(tribodyn.__file__).parent / name
-        for file in sorted(place.rglob("*.py")) if place.is_dir() else [place]:
-            digest.update(file.read_bytes())
+    digest.update(digest_of(*modules, _COMPILER))
     return digest.hexdigest()[:16]
 
 
@@ -99,33 +71,36 @@ def _file_of(function: Callable[..., Any], layout: Any) -> Path | None:
         return None
     digest = hashlib.sha256(repr(layout).encode() + source.read_bytes()).hexdigest()[:16]
     name = f"{function.__module__.removeprefix('tribodyn.')}.{function.__qualname__}-{digest}"
-    return cache_folder() / f"kernels-{_sources_digest()}" / name
+    modules = sorted({function.__module__, *_modules_in(layout)})
+    return cache_folder() / f"kernels-{_digest(*modules)}" / name
+
+
+def _modules_in(layout: Any) -> set[str]:
+    """Modules of the functions among a kernel's arguments, which are compiled into it."""
+    if isinstance(layout, Record):
+        return set().union(*(_modules_in(field) for _, field in layout.fields))
+    function = getattr(layout, "function", None)
+    return {function.__module__} if function is not None else set()
 
 
 def _read(file: Path) -> Compiled | None:
-    """What the file holds; None if it is not there or not as it was written."""
+    """Content of the file; None if it is not there or not as it was written."""
     try:
         head, _, body = file.read_bytes().partition(b"\n")
         kept = json.loads(head)
         checked = kept.pop("sha256") == _checksum(kept, body)
-        found = Compiled(**kept, body=body)
+        code = Compiled(**kept, body=body)
     except (OSError, ValueError, TypeError, AttributeError, KeyError):
         return None
-    return found if checked else None
+    return code if checked else None
 
 
 def _write(file: Path, code: Compiled) -> None:
-    """Keep the code; where that is not possible the next process compiles again."""
+    """Keep the code; where the folder cannot be written the next process compiles again."""
     head = {name: value for name, value in code._asdict().items() if name != "body"}
     head["sha256"] = _checksum(head, code.body)
-    scratch = file.with_name(f"{file.name}.{os.getpid()}-{threading.get_ident()}.tmp")
-    try:
-        file.parent.mkdir(parents=True, exist_ok=True)
+    with suppress(OSError), replacing(file) as scratch:
         scratch.write_bytes(json.dumps(head).encode() + b"\n" + code.body)
-        os.replace(scratch, file)
-    except OSError:
-        with suppress(OSError):
-            scratch.unlink()
 
 
 def _checksum(head: dict[str, Any], body: bytes) -> str:
@@ -137,7 +112,7 @@ _ENGINES: list[Any] = []
 
 
 def loaded(code: Compiled) -> Code | None:
-    """Bring code into memory; None if this process has not all that it calls."""
+    """Bring code into memory; None if this process does not have all that it calls."""
     llvm.initialize_native_target()
     llvm.initialize_native_asmprinter()
     target = llvm.Target.from_triple(llvm.get_process_triple())

@@ -4,7 +4,6 @@ from collections.abc import Iterator
 
 from tribodyn.errors import InputError
 from tribodyn.scenario.drive_rules import broken_drive_rules, broken_hertz_rules
-from tribodyn.scenario.law_tables import law_errors
 from tribodyn.scenario.modification_rules import Face, broken_face_rules
 from tribodyn.studies.efficiency.scenario import Scenario
 
@@ -16,4 +15,3 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     face = Face(scenario.drive, mesh.misalignment, mesh.slices, mesh.slice_coupling)
     yield from broken_face_rules(face, mesh.compliance)
     yield from broken_hertz_rules(mesh.hertz, mesh.compliance)
-    yield from law_errors(scenario)

@@ -4,7 +4,6 @@ from collections.abc import Iterator
 
 from tribodyn.errors import InputError, unknown_name
 from tribodyn.scenario.drive_rules import broken_drive_rules, broken_hertz_rules
-from tribodyn.scenario.law_tables import law_errors
 from tribodyn.scenario.model_files import Bearing
 from tribodyn.scenario.modification_rules import Face, broken_face_rules
 from tribodyn.solve.methods import SOLVERS
@@ -19,7 +18,6 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     yield from _operating(scenario.operating, scenario.mesh.backlash is not None)
     yield from _mesh(scenario.mesh)
     yield from broken_face_rules(_face(scenario), scenario.mesh.compliance)
-    yield from law_errors(scenario)
     if scenario.solver.method not in SOLVERS:
         yield unknown_name("solver.method", scenario.solver.method, SOLVERS, "solver")
 

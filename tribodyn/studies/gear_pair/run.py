@@ -13,9 +13,9 @@ from tribodyn.geometry.families import family
 from tribodyn.geometry.outlines import geometry_arrays
 from tribodyn.mesh.cycle import as_arrays
 from tribodyn.mesh.stiffness import single_pair_stiffness
+from tribodyn.solve.choice import choose
 from tribodyn.solve.initial import initial_state
-from tribodyn.solve.stiffness import choose
-from tribodyn.solve.transient import Chunk, Settings, Stop, transient
+from tribodyn.solve.transient import SampledStates, Stop, TransientSettings, transient
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.gear_pair.summary import RunningExtremes, energy_residual, steady_figures
@@ -67,10 +67,10 @@ def run(
             return RunResult(record.fail(str(error), summary), "failed", str(error), summary)
         choice = choose(case.solver.method, model, state)
         summary |= {"solver": choice.method, "solver_reason": choice.reason}
-        settings = Settings(choice.method, case.solver.rtol, cycles, case.solver.max_steps, samples)
+        settings = TransientSettings(choice.method, case.solver.rtol, cycles, case.solver.max_steps, samples)
         statistics = RunStatistics(max(1, cycles // 4), cycles)
         stop = Stop(state, 0.0, 0, 0, "", 0.0)
-        for part in transient(model, state, settings, choice.method):
+        for part in transient(model, state, settings):
             if isinstance(part, Stop):
                 stop = part
             elif len(part.cycles):
@@ -105,7 +105,7 @@ class RunStatistics:
         self.ends: list[tuple[np.ndarray, float]] = []
         self.window_start = np.empty(0)
 
-    def add(self, part: Chunk, block: dict[str, np.ndarray]) -> None:
+    def add(self, part: SampledStates, block: dict[str, np.ndarray]) -> None:
         """Take in a block: its states, and what is recorded of them."""
         self.written += len(part.cycles)
         self.extremes.add(block)

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from tests.support.closures import LOCAL_LAWS, of_case
 from tribodyn.errors import InputError
 from tribodyn.geometry.families import family
 from tribodyn.record.reader import open_record
@@ -13,12 +14,11 @@ from tribodyn.studies.efficiency.dynamic import dynamic_efficiency
 from tribodyn.studies.efficiency.given_coefficient import mean_efficiency
 from tribodyn.studies.efficiency.loss_factor import exact, tip_contact_ratios
 from tribodyn.studies.efficiency.places import SHARINGS, places
-from tribodyn.studies.efficiency.run import efficiencies
+from tribodyn.studies.efficiency.run import Study, efficiencies
 from tribodyn.studies.efficiency.run import prepare as prepare_study
 from tribodyn.studies.efficiency.torque_ratio import cycloid_contact, path_contact, torque_ratio
 from tribodyn.studies.load import load_scenario
 from tribodyn.studies.run import run
-from tribodyn.tribology.friction import BENEDICT_KELLEY, COULOMB, MASJEDI_KHONSARI, NONE, XU
 
 DRIVES = ("efficiency-crc-23-47", "efficiency-involute-18-36", "efficiency-cycloidal-23-47")
 
@@ -28,16 +28,21 @@ def studies():
     return {name: prepare_study(load_scenario(name)) for name in DRIVES}
 
 
-def with_coefficient(duty: Duty, mu: float) -> Duty:
-    return duty._replace(friction_law=COULOMB, surfaces=duty.surfaces._replace(coulomb_coefficient=mu))
+def under(study: Study, law: str, mu: float = 0.06) -> Duty:
+    values = {"coefficient": mu} if law == "coulomb" else {}
+    return study.duty._replace(closure=of_case(study.case, law, **values))
+
+
+def with_coefficient(study: Study, mu: float) -> Duty:
+    return under(study, "coulomb", mu)
 
 
 @pytest.mark.parametrize("name", DRIVES)
 @pytest.mark.parametrize("sharing", SHARINGS)
-@pytest.mark.parametrize("law", [COULOMB, MASJEDI_KHONSARI, XU, BENEDICT_KELLEY])
+@pytest.mark.parametrize("law", ["coulomb", *LOCAL_LAWS])
 def test_torque_and_power_balance_with_friction(studies, name, sharing, law):
     study = studies[name]
-    duty = with_coefficient(study.duty, 0.06)._replace(sharing=sharing, friction_law=law)
+    duty = under(study, law)._replace(sharing=sharing)
     phase = np.linspace(0.003, 0.997, 61)
     mesh = places(study.cycle, study.path, phase, sharing)
     state = engage(mesh, duty)
@@ -64,7 +69,7 @@ def test_torque_and_power_balance_with_friction(studies, name, sharing, law):
 @pytest.mark.parametrize("name", DRIVES)
 def test_no_friction_no_loss(studies, name):
     study = studies[name]
-    found = cycle_efficiency(study.cycle, study.path, study.duty._replace(friction_law=NONE))
+    found = cycle_efficiency(study.cycle, study.path, under(study, "none"))
     assert found.efficiency == pytest.approx(1.0, abs=1e-13)
 
 
@@ -72,7 +77,7 @@ def test_no_friction_no_loss(studies, name):
 def test_loss_grows_with_friction_and_vanishes_with_it(studies, name):
     study = studies[name]
     losses = [
-        1 - cycle_efficiency(study.cycle, study.path, with_coefficient(study.duty, mu)).efficiency
+        1 - cycle_efficiency(study.cycle, study.path, with_coefficient(study, mu)).efficiency
         for mu in (1e-5, 0.02, 0.04, 0.08)
     ]
     assert np.all(np.diff(losses) > 0)
@@ -83,9 +88,7 @@ def test_uniform_sharing_is_hoehns_integral_at_small_friction(studies):
     """To first order in μ: 1 − η = μ H_v."""
     study = studies["efficiency-involute-18-36"]
     mu = 1e-5
-    found = cycle_efficiency(
-        study.cycle, study.path, with_coefficient(study.duty, mu)._replace(sharing="uniform")
-    )
+    found = cycle_efficiency(study.cycle, study.path, with_coefficient(study, mu)._replace(sharing="uniform"))
     factor = exact(*tip_contact_ratios(family("involute"), study.case.drive), 18, 2.0)
     assert (1 - found.efficiency) / mu == pytest.approx(factor, rel=1e-4)
 
@@ -94,7 +97,7 @@ def test_elastic_sharing_is_the_differentiable_one_at_small_friction(studies):
     """`mean_efficiency` leaves friction out of the loads: the same to first order in μ."""
     study = studies["efficiency-crc-23-47"]
     mu = 1e-4
-    found = cycle_efficiency(study.cycle, study.path, with_coefficient(study.duty, mu)).efficiency
+    found = cycle_efficiency(study.cycle, study.path, with_coefficient(study, mu)).efficiency
     other = mean_efficiency(study.cycle, study.duty.gear_torque, mu)
     assert 1 - found == pytest.approx(1 - float(other), rel=2e-4)
 
@@ -109,12 +112,12 @@ def test_single_pair_is_the_torque_ratio(studies):
     assert found["efficiency_elastic"] > found["efficiency_uniform"]
 
 
-@pytest.mark.parametrize("law", [COULOMB, MASJEDI_KHONSARI, XU])
+@pytest.mark.parametrize("law", ["coulomb", "masjedi-khonsari", "xu"])
 def test_a_cycloidal_path_gives_veciana_closed_form(studies, law):
     study = studies["efficiency-cycloidal-23-47"]
     radius, diameter = 34.5e-3, 69e-3
-    duty = with_coefficient(study.duty, 0.07)
-    common = (duty.gear_torque * 23 / 47, duty.pinion_speed, 0.02, law, duty.surfaces)
+    duty = under(study, law, 0.07)
+    common = (duty.gear_torque * 23 / 47, duty.pinion_speed, 0.02, duty.closure)
     circle = 23.5e-3 / diameter
     for exact_speeds in (True, False):
         ours = torque_ratio(path_contact(study.path, 23, exact_speeds=exact_speeds, averaged=False), *common)
@@ -125,11 +128,11 @@ def test_a_cycloidal_path_gives_veciana_closed_form(studies, law):
         assert ours.efficiency == pytest.approx(float(closed.efficiency), abs=1e-10)
 
 
-@pytest.mark.parametrize("law", [MASJEDI_KHONSARI, XU, BENEDICT_KELLEY])
+@pytest.mark.parametrize("law", LOCAL_LAWS)
 def test_torque_ratio_and_single_pair_agree_on_vanishing_radii(studies, law):
     """Both average the contact at the pitch point over its own width."""
     study = studies["efficiency-cycloidal-23-47"]
-    found = efficiencies(study._replace(duty=study.duty._replace(friction_law=law)))
+    found = efficiencies(study._replace(duty=under(study, law)))
     loss = 1 - found["efficiency_single_pair"]
     assert abs(found["efficiency_single_pair"] - found["efficiency_torque_ratio"]) < loss**2
 

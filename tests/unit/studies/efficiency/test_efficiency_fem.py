@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from tests.support.closures import of_case
 from tribodyn.errors import InputError
 from tribodyn.geometry.corner_contact import roll_limits
 from tribodyn.geometry.modification import UNMODIFIED
@@ -13,7 +14,6 @@ from tribodyn.studies.efficiency.places import places
 from tribodyn.studies.efficiency.run import efficiencies, prepare
 from tribodyn.studies.load import load_scenario
 from tribodyn.studies.run import run
-from tribodyn.tribology.friction import COULOMB, MASJEDI_KHONSARI, NONE
 
 INVOLUTE = "efficiency-involute-18-36"
 FEM = {"mesh.compliance": "fem"}
@@ -25,8 +25,7 @@ def study():
 
 
 def coulomb(study, mu):
-    duty = study.duty
-    return duty._replace(friction_law=COULOMB, surfaces=duty.surfaces._replace(coulomb_coefficient=mu))
+    return study.duty._replace(closure=of_case(study.case, "coulomb", coefficient=mu))
 
 
 @pytest.mark.parametrize("mu", [0.01, 0.0473, 0.1])
@@ -63,9 +62,10 @@ def test_other_load_sharings_know_only_the_path(study, sharing):
     assert found == pytest.approx(cycle_efficiency(plain.cycle, plain.path, duty).efficiency, abs=1e-11)
 
 
-@pytest.mark.parametrize("law", [COULOMB, MASJEDI_KHONSARI])
+@pytest.mark.parametrize("law", ["coulomb", "masjedi-khonsari"])
 def test_torque_and_power_balance_corners_included(study, law):
-    duty = coulomb(study, 0.06)._replace(friction_law=law)
+    values = {"coefficient": 0.06} if law == "coulomb" else {}
+    duty = study.duty._replace(closure=of_case(study.case, law, **values))
     mesh = places(study.cycle, study.path, np.linspace(0.003, 0.997, 61), "elastic", study.flanks)
     state = engage(mesh, duty)
     np.testing.assert_allclose(state.gear_torque, duty.gear_torque, rtol=1e-9)
@@ -113,7 +113,7 @@ def test_of_modified_flanks_it_is_the_load_contact_models_efficiency(modified):
 
 
 def test_no_friction_no_loss(study):
-    duty = study.duty._replace(friction_law=NONE)
+    duty = study.duty._replace(closure=of_case(study.case, "none"))
     found = cycle_efficiency(study.cycle, study.path, duty, flanks=study.flanks)
     assert found.efficiency == pytest.approx(1.0, abs=1e-12)
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from tests.support.lubricated_contacts import VECIANA
+from tests.support.closures import LOCAL_LAWS, MIXED, VECIANA, coulomb, under
 from tribodyn.geometry.families.involute import InvolutePath
 from tribodyn.studies.efficiency.quadrature import piecewise
 from tribodyn.studies.efficiency.torque_ratio import (
@@ -15,21 +15,16 @@ from tribodyn.studies.efficiency.torque_ratio import (
     rotations,
     torque_ratio,
 )
-from tribodyn.tribology.friction import BENEDICT_KELLEY, COULOMB, MASJEDI_KHONSARI, NONE, XU
 
 TEETH, RADIUS, RATIO, ANGLE = 27.0, 27e-3, 2.0, math.radians(20)
 DUTY = (200.0, 400.0, 0.04)  # N m, rad/s, m
-
-
-def with_coefficient(mu):
-    return VECIANA._replace(coulomb_coefficient=mu)
 
 
 @pytest.mark.parametrize("mu", [0.0, 0.05, 0.2])
 def test_involute_is_the_closed_form(mu):
     """Γ2/Γ1 = [i + s μ (i tan α − ψ)]/[1 + s μ (tan α + ψ)], Veciana (56)."""
     pair = involute_contact(TEETH, RADIUS, RATIO, ANGLE)
-    ours = torque_ratio(pair, *DUTY, COULOMB, with_coefficient(mu)).torque_ratio
+    ours = torque_ratio(pair, *DUTY, coulomb(mu)).torque_ratio
     psi, s = pair.rotation, np.sign(pair.rotation)
     printed = (RATIO + s * mu * (RATIO * math.tan(ANGLE) - psi)) / (1 + s * mu * (math.tan(ANGLE) + psi))
     np.testing.assert_allclose(ours, printed, rtol=1e-13)
@@ -40,7 +35,7 @@ def test_involute_is_the_closed_form(mu):
 def test_cycloid_is_the_closed_form(mu, c_h, c_e):
     """Veciana (41) in approach and (42) in recess."""
     pair = cycloid_contact(TEETH, RADIUS, RATIO, c_h, c_e)
-    ours = torque_ratio(pair, *DUTY, COULOMB, with_coefficient(mu)).torque_ratio
+    ours = torque_ratio(pair, *DUTY, coulomb(mu)).torque_ratio
     psi = pair.rotation
     a, c = np.abs(psi) / (2 * c_h), c_h
     approach = (RATIO * np.cos(a) - mu * (RATIO + 2 * c) * np.sin(a)) / (
@@ -80,14 +75,15 @@ def test_cycloid_speeds_have_the_curvature_of_the_flanks():
     )
 
 
-@pytest.mark.parametrize("law", [NONE, COULOMB, MASJEDI_KHONSARI, XU, BENEDICT_KELLEY])
+@pytest.mark.parametrize("law", ["none", "coulomb", *LOCAL_LAWS])
 def test_a_path_gives_what_its_closed_form_gives(law):
     path = InvolutePath(RADIUS, RADIUS * RATIO, ANGLE)
-    ours = torque_ratio(path_contact(path, TEETH), *DUTY, law, with_coefficient(0.05))
-    closed = torque_ratio(involute_contact(TEETH, RADIUS, RATIO, ANGLE), *DUTY, law, with_coefficient(0.05))
+    closure = coulomb(0.05) if law == "coulomb" else under(law, VECIANA)
+    ours = torque_ratio(path_contact(path, TEETH), *DUTY, closure)
+    closed = torque_ratio(involute_contact(TEETH, RADIUS, RATIO, ANGLE), *DUTY, closure)
     for value, expected in zip(ours, closed, strict=True):
         np.testing.assert_allclose(value, expected, rtol=1e-9, atol=1e-12)
-    if law == NONE:
+    if law == "none":
         assert ours.efficiency == pytest.approx(1.0, abs=1e-15)
     else:
         assert 0.9 < ours.efficiency < 1.0
@@ -100,7 +96,7 @@ def test_power_balance_at_every_point():
         cycloid_contact(TEETH, RADIUS, RATIO, 0.17, 0.25),
     ):
         torque, speed, _ = DUTY
-        found = torque_ratio(pair, *DUTY, MASJEDI_KHONSARI, VECIANA)
+        found = torque_ratio(pair, *DUTY, under(MIXED, VECIANA))
         sliding = np.abs(pair.pinion_speed - pair.gear_speed) * speed
         lost = found.friction_coefficient * found.normal_load * sliding
         out = found.torque_ratio * torque * speed / RATIO
@@ -111,15 +107,15 @@ def test_a_symmetric_drive_loses_the_same_from_either_side():
     """i = 1 and equal circles: to first order in μ approach and recess lose the same."""
     pair = cycloid_contact(TEETH, RADIUS, 1.0, 0.2, 0.2)
     mu = 1e-6
-    loss = 1 - torque_ratio(pair, *DUTY, COULOMB, with_coefficient(mu)).torque_ratio
+    loss = 1 - torque_ratio(pair, *DUTY, coulomb(mu)).torque_ratio
     np.testing.assert_allclose(loss, loss[::-1], rtol=1e-4)
 
 
-@pytest.mark.parametrize("law", [MASJEDI_KHONSARI, XU, BENEDICT_KELLEY])
+@pytest.mark.parametrize("law", LOCAL_LAWS)
 def test_the_quadrature_copes_with_the_cycloids_pitch_point(law):
     coarse, fine = (
         torque_ratio(
-            cycloid_contact(TEETH, RADIUS, RATIO, 0.17, 0.17, rotations(TEETH, n)), *DUTY, law, VECIANA
+            cycloid_contact(TEETH, RADIUS, RATIO, 0.17, 0.17, rotations(TEETH, n)), *DUTY, under(law, VECIANA)
         ).efficiency
         for n in (24, 200)
     )
@@ -129,10 +125,10 @@ def test_the_quadrature_copes_with_the_cycloids_pitch_point(law):
 def test_circles_may_be_arrays():
     circles = np.array([[0.1, 0.2], [0.3, 0.4]])
     pair = cycloid_contact(TEETH, RADIUS, RATIO, circles, circles.T)
-    found = torque_ratio(pair, *DUTY, XU, VECIANA).efficiency
+    found = torque_ratio(pair, *DUTY, under("xu", VECIANA)).efficiency
     assert found.shape == (2, 2)
     one = cycloid_contact(TEETH, RADIUS, RATIO, 0.2, 0.3)
-    assert found[0, 1] == pytest.approx(torque_ratio(one, *DUTY, XU, VECIANA).efficiency, abs=1e-14)
+    assert found[0, 1] == pytest.approx(torque_ratio(one, *DUTY, under("xu", VECIANA)).efficiency, abs=1e-14)
 
 
 def test_quadrature_is_exact_for_what_it_should_be():

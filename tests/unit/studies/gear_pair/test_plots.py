@@ -13,9 +13,10 @@ from tests.support.synthetic_record import PITCH_ANGLE, SPEED, approach_and_rece
 from tribodyn.errors import InputError
 from tribodyn.post.cycles import key_points, last_cycles, pair_curve
 from tribodyn.post.figures.path_of_contact import gears_in_mesh, key_positions
+from tribodyn.post.style import save
 from tribodyn.record.reader import Record, open_record
-from tribodyn.record.writer import RecordWriter
-from tribodyn.studies.pictures import NAMES, figure, overview, save
+from tribodyn.studies import STUDIES
+from tribodyn.studies.pictures import figure, overview
 
 
 @pytest.fixture(scope="module")
@@ -52,10 +53,10 @@ def curve(drawn: Figure, label: str, axes: int = 0) -> tuple[np.ndarray, np.ndar
 
 
 def test_every_figure_has_its_labels_checked():
-    assert set(LABELS) == set(NAMES)
+    assert set(LABELS) == set(STUDIES["gear-pair"].drawings()) - {"overview", "orders"}
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", LABELS)
 def test_axes_carry_engineers_units(records: list[Record], name: str):
     drawn = figure(name, records[:1])
     assert [axes.get_ylabel() for axes in drawn.axes] == LABELS[name]
@@ -63,7 +64,7 @@ def test_axes_carry_engineers_units(records: list[Record], name: str):
     assert drawn.axes[-1].get_xlabel() == last.get(name, "Phase (mesh cycles)")
 
 
-@pytest.mark.parametrize("name", [*NAMES, "overview"])
+@pytest.mark.parametrize("name", [*LABELS, "overview"])
 @pytest.mark.parametrize("count", [1, 2])
 def test_every_figure_can_be_saved(records: list[Record], tmp_path: Path, name: str, count: int):
     path = save(figure(name, records[:count]), tmp_path / "picture.png")
@@ -219,10 +220,11 @@ def test_pyplot_is_never_imported(records: list[Record], tmp_path: Path):
     """It takes long to import and keeps figures alive in a global list."""
     drawing = (
         "import sys\n"
-        "from tribodyn.studies.pictures import NAMES, figure, save\n"
+        "from tribodyn.studies.pictures import figure, names\n"
+        "from tribodyn.post.style import save\n"
         "from tribodyn.record.reader import open_record\n"
         "with open_record(sys.argv[1]) as record:\n"
-        "    for name in NAMES:\n"
+        "    for name in names([record]):\n"
         "        drawn = figure(name, [record])\n"
         "    save(drawn, sys.argv[2])\n"
         "assert 'matplotlib.pyplot' not in sys.modules\n"
@@ -247,20 +249,14 @@ def test_bad_wishes_are_refused(records: list[Record], arguments: dict, message:
 
 def failed_record(path: Path, samples: int) -> Path:
     values = synthetic_record.samples(2, 100)
-    with RecordWriter(
-        path,
-        scenario_toml="",
-        sha256="",
-        samples=201,
-        mesh_cycle=synthetic_record.mesh_cycle(),
-        geometry=synthetic_record.geometry(),
-    ) as record:
+    table, outlines = synthetic_record.mesh_cycle(), synthetic_record.geometry()
+    with record_samples.gear_pair_writer(path, 201, table=table, outlines=outlines) as record:
         if samples:
             record.write(0, {name: array[:samples] for name, array in values.items()})
         return record.fail("gave up")
 
 
-@pytest.mark.parametrize("name", [name for name in NAMES if name != "spectrum"])
+@pytest.mark.parametrize("name", [name for name in LABELS if name != "spectrum"])
 def test_a_run_that_failed_early_is_drawn(tmp_path: Path, name: str):
     with open_record(failed_record(tmp_path / "run.h5", 60)) as record:
         save(figure(name, [record]), tmp_path / "picture.png")
@@ -279,9 +275,7 @@ def test_a_record_without_samples_is_refused(tmp_path: Path):
 
 
 def test_a_record_without_outlines_has_no_path_figure(tmp_path: Path):
-    with RecordWriter(
-        tmp_path / "run.h5", scenario_toml="", sha256="", samples=2, mesh_cycle=record_samples.mesh_cycle()
-    ) as writer:
+    with record_samples.gear_pair_writer(tmp_path / "run.h5", 2) as writer:
         writer.write(0, record_samples.block(0, 2))
         path = writer.finish({})
     with open_record(path) as record, pytest.raises(InputError, match="no tooth outlines"):

@@ -9,8 +9,9 @@ from matplotlib.figure import Figure
 from tests.support import synthetic_load_contact
 from tests.support.synthetic_load_contact import END, LOAD, PITCH, START, WIDTH
 from tribodyn.errors import InputError
+from tribodyn.post.style import save
 from tribodyn.record.reader import Record, open_record
-from tribodyn.studies.load_contact.figures import NAMES
+from tribodyn.studies.load_contact.figures import DRAWINGS
 from tribodyn.studies.load_contact.rolled import (
     at_pitch_point,
     face_map,
@@ -18,7 +19,7 @@ from tribodyn.studies.load_contact.rolled import (
     over_roll,
     pair_over_phase,
 )
-from tribodyn.studies.pictures import figure, names, save
+from tribodyn.studies.pictures import figure, names
 
 
 @pytest.fixture(scope="module")
@@ -37,6 +38,7 @@ def plain(tmp_path_factory: pytest.TempPathFactory) -> Record:
     return open_record(synthetic_load_contact.write(path, slices=1, tilt=0.0, torques=()))
 
 
+NAMES = tuple(name for name in DRAWINGS if name != "overview")
 LABELS = {
     "loaded-error": ["Loaded transmission error (µm)", "Unloaded transmission error (µm)"],
     "load-sharing": ["Normal load of each pair (N)", "Share of the load (%)"],

@@ -1,6 +1,7 @@
 """Records over phase, pair and slice: what comes back, by our reader, xarray and h5py; partial maps."""
 
 from pathlib import Path
+from typing import Any
 
 import h5py
 import numpy as np
@@ -11,9 +12,20 @@ from tests.support import synthetic_load_contact
 from tests.support.synthetic_load_contact import samples
 from tribodyn.errors import InputError
 from tribodyn.record.reader import open_record
-from tribodyn.record.schema import LOAD_CONTACT
 from tribodyn.record.writer import RecordWriter
 from tribodyn.studies.load_contact import layout as load_contact
+
+
+def writer(path: Path, samples: int, scales: dict[str, Any]) -> RecordWriter:
+    return RecordWriter(
+        path,
+        layout=load_contact.LAYOUT,
+        kind="load-contact",
+        scenario_toml="",
+        sha256="",
+        samples=samples,
+        scales=scales,
+    )
 
 
 @pytest.fixture
@@ -70,9 +82,7 @@ def test_a_study_of_one_torque_has_no_map(tmp_path: Path):
 def test_a_failed_map_keeps_what_it_has(tmp_path: Path):
     values = samples(8, 3)
     scales = {"pair": [-1, 0, 1], "slice": [-1.0, 0.0, 1.0], "body": ["pinion", "gear"], "torque": [1.0, 2.0]}
-    with RecordWriter(
-        tmp_path / "study.h5", scenario_toml="", sha256="", samples=8, kind=LOAD_CONTACT, scales=scales
-    ) as record:
+    with writer(tmp_path / "study.h5", 8, scales) as record:
         record.write(0, values)
         record.put(0, {"map_transmission_error": np.arange(8.0), "map_peak_to_peak": 7.0})
         with pytest.raises(ValueError, match="map_transmission_error: shape"):
@@ -88,9 +98,7 @@ def test_a_failed_map_keeps_what_it_has(tmp_path: Path):
 
 def test_a_study_that_fails_at_once_leaves_a_readable_record(tmp_path: Path):
     scales = {"pair": np.zeros(0, int), "slice": np.zeros(0), "body": ["pinion", "gear"]}
-    with RecordWriter(
-        tmp_path / "study.h5", scenario_toml="", sha256="", samples=0, kind=LOAD_CONTACT, scales=scales
-    ) as record:
+    with writer(tmp_path / "study.h5", 0, scales) as record:
         path = record.fail("no state of contact is found")
     with open_record(path) as failed:
         assert failed.samples == 0

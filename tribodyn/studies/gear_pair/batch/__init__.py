@@ -6,8 +6,8 @@ import numpy as np
 
 from tribodyn.dynamics.parameters import STATES
 from tribodyn.record.sweep_schema import SweepLayout
+from tribodyn.solve.methods import Runs, runs
 from tribodyn.solve.periodic import refuse_time_dependent
-from tribodyn.solve.stiffness import THROUGH_JAX
 from tribodyn.studies.batch import Batch, Chunk
 from tribodyn.studies.gear_pair.batch.evaluate import Settings, evaluate, tabulated
 from tribodyn.studies.gear_pair.case import Case
@@ -36,7 +36,7 @@ class GearPairs:
         base = cases[0]
         samples = base.output.samples_per_cycle
         modes = 6 if any(case.operating.shaft_stiffness is not None for case in cases) else 5
-        through_jax = engine == "jax" and base.solver.method not in THROUGH_JAX
+        through_jax = engine == "jax" and runs(base.solver.method) is not Runs.JAX
         method = "tsit5" if through_jax else ""
         if transient is None:
             return Settings(True, MOST_CYCLES, STEADY_WINDOW, STEADY_POINTS, samples, modes, method)

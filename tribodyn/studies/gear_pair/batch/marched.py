@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 
 from tribodyn.dynamics.parameters import STATES, Model
-from tribodyn.solve.engine import DONE
+from tribodyn.solve.engagement import engage_next
 from tribodyn.solve.ensemble import march
-from tribodyn.solve.transient import engage_next
+from tribodyn.solve.integrator import Status
 from tribodyn.studies.gear_pair.batch.outcome import Outcome, Passage, continued, failed, stopped
 
 
@@ -40,9 +40,9 @@ def marched(
         models, states, cycles=before, window=max(0, min(points, cycles) - window), samples=1, **solver
     )
     found: list[Outcome | None] = [None] * len(models)
-    for i in map(int, np.flatnonzero(led.status != DONE)):
+    for i in map(int, np.flatnonzero(led.status != Status.DONE)):
         found[i] = failed(led.state[i], led.reached[i], stopped(int(led.status[i]), led.reached[i]))
-    good = [int(i) for i in np.flatnonzero(led.status == DONE)]
+    good = [int(i) for i in np.flatnonzero(led.status == Status.DONE)]
     ran = march(
         [models[i] for i in good],
         led.state[good],
@@ -55,7 +55,7 @@ def marched(
     )
     for row, i in enumerate(good):
         reached = before + float(ran.reached[row])
-        if ran.status[row] != DONE:
+        if ran.status[row] != Status.DONE:
             found[i] = failed(ran.state[row], reached, stopped(int(ran.status[row]), reached))
             continue
         section = np.concatenate([led.samples[i], ran.samples[row, ::samples]])

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.dynamics.parameters import LAG, WORKS
-from tribodyn.solve.engine import REASONS
+from tribodyn.solve.integrator import REASONS, Status
 from tribodyn.studies.gear_pair.sweep_layout import UNKNOWN
 
 
@@ -68,7 +68,7 @@ def failed(state: np.ndarray, cycles: float, reason: str) -> Outcome:
 
 def stopped(status: int, reached: float) -> str:
     """Why an integration stopped, and after how many mesh cycles."""
-    return f"stopped after {reached:.4g} mesh cycles: {REASONS[status]}"
+    return f"stopped after {reached:.4g} mesh cycles: {REASONS[Status(status)]}"
 
 
 def continued(state: np.ndarray) -> np.ndarray:

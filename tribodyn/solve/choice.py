@@ -1,17 +1,17 @@
-"""Explicit or stiff: an estimate of what stability would cost an explicit method, and the choice by it."""
+"""Explicit or stiff: an estimate of the steps that stability asks of an explicit method, and the choice."""
 
 from typing import NamedTuple
 
 import numpy as np
 
 from tribodyn.dynamics.parameters import MECHANICAL, SLIDING_DYNAMIC, SLIDING_KINEMATIC, STATES, XI, Model
-from tribodyn.solve.engine import absolute_tolerances
+from tribodyn.mesh.cycle import CHANNELS
+from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.solve.initial import accelerations
+from tribodyn.solve.methods import AUTO, EXPLICIT, STIFF
+from tribodyn.solve.tolerances import MINIMUM_DEFLECTION, absolute_tolerances
 
-EXPLICIT, STIFF = "dopri5", "rodas4"
-#: Methods that run through JAX.
-THROUGH_JAX = ("tsit5", "dopri8", "kvaerno5")
-
+_DISTANCE = CHANNELS.index("signed_distance")
 #: Explicit steps per mesh cycle, by stability alone, above which the stiff solver is the cheaper one, with
 #: the nominal sliding velocity and with the vibration's. Measured on the CRC drive at rtol 1e-6: the native
 #: solvers cost the same at 1 rad/s (estimate 4100) and between 10 (700) and 30 rad/s (150). With the
@@ -19,10 +19,12 @@ THROUGH_JAX = ("tsit5", "dopri8", "kvaerno5")
 STIFF_ABOVE = {SLIDING_KINEMATIC: 5000, SLIDING_DYNAMIC: 500}
 #: Stability limit of Dormand-Prince 5(4) on the negative real axis.
 REAL_STABILITY = 3.3
-
-
-#: Phases in each segment at which the Jacobian is looked at.
+#: Phases in each segment at which the Jacobian is evaluated.
 PHASES = 9
+#: Phases about the place where the friction of a pair reverses, and how far they reach, over its width.
+REVERSAL_PHASES, REVERSAL_REACH = 13, 1.5
+#: Difference of a state over its scale.
+SHARE = 1e-4
 
 
 class Choice(NamedTuple):
@@ -32,28 +34,28 @@ class Choice(NamedTuple):
     reason: str
 
 
-def stability_steps(model: Model, state: np.ndarray) -> float:
+def stability_steps(model: Model, state: Float[Array, " state"]) -> float:
     """Steps per mesh cycle that an explicit method needs for stability.
 
     The spectral radius of the mechanics' Jacobian (central differences) over the stability limit, integrated
     over the phase; it is sampled finely where a pair's friction reverses, a short and possibly stiff stretch.
     """
     phases, segments = _places(model)
-    scale = absolute_tolerances(model, 1.0, max(abs(state[XI]), 1e-9))[:MECHANICAL]
+    scale = absolute_tolerances(model, 1.0, max(abs(state[XI]), MINIMUM_DEFLECTION))[:MECHANICAL]
     shift = np.zeros((MECHANICAL, STATES))
-    shift[:, :MECHANICAL] = 1e-4 * np.diag(scale)
+    shift[:, :MECHANICAL] = SHARE * np.diag(scale)
     shape = (len(phases), MECHANICAL, STATES)
     up, down = (
         accelerations(np.broadcast_to(state + sign * shift, shape), phases[:, None], segments[:, None], model)
         for sign in (1, -1)
     )
-    jacobians = np.swapaxes((up - down)[..., :MECHANICAL] / (2e-4 * scale[:, None]), 1, 2)
+    jacobians = np.swapaxes((up - down)[..., :MECHANICAL] / (2.0 * SHARE * scale[:, None]), 1, 2)
     radius = np.max(np.abs(np.linalg.eigvals(jacobians)), axis=1)
     width = np.diff(phases)
     return float(np.sum(0.5 * width * (radius[1:] + radius[:-1]))) / REAL_STABILITY
 
 
-def _places(model: Model) -> tuple[np.ndarray, np.ndarray]:
+def _places(model: Model) -> tuple[Float[Array, " place"], Int[Array, " place"]]:
     """Phases, in order, and their segments."""
     table = model.table
     boundary = np.asarray(table.boundary)
@@ -61,8 +63,8 @@ def _places(model: Model) -> tuple[np.ndarray, np.ndarray]:
     phases, segments = [], []
     for segment in range(len(boundary) - 1):
         start, end = boundary[segment], boundary[segment + 1]
-        found = list(np.linspace(start, end, PHASES))
-        distance = channel[segment, :, :, 1, 0]
+        places = list(np.linspace(start, end, PHASES))
+        distance = channel[segment, :, :, _DISTANCE, 0]
         nodes = np.linspace(start, end, distance.shape[0] + 1)[:-1]
         for slot in np.flatnonzero(np.asarray(table.in_contact)[segment]):
             low, high = sorted((0, -1), key=lambda i, slot=slot: distance[i, slot])
@@ -71,21 +73,20 @@ def _places(model: Model) -> tuple[np.ndarray, np.ndarray]:
                 pitch_point = np.interp(0.0, distance[order, slot], nodes[order])
                 slope = abs(distance[-1, slot] - distance[0, slot]) / (nodes[-1] - nodes[0])
                 width = float(model.mechanics.reversal_width) / slope
-                found += list(np.clip(pitch_point + width * np.linspace(-1.5, 1.5, 13), start, end))
-        phases += sorted(found)
-        segments += [segment] * len(found)
+                about = np.linspace(-REVERSAL_REACH, REVERSAL_REACH, REVERSAL_PHASES)
+                places += list(np.clip(pitch_point + width * about, start, end))
+        phases += sorted(places)
+        segments += [segment] * len(places)
     return np.array(phases), np.array(segments)
 
 
-def choose(method: str, model: Model, state: np.ndarray) -> Choice:
-    """The method to use: the user's, or explicit unless stability makes it dear."""
-    if method != "auto":
+def choose(method: str, model: Model, state: Float[Array, " state"]) -> Choice:
+    """Return the method to use: the user's, or explicit unless stability makes that too expensive."""
+    if method != AUTO:
         return Choice(method, "chosen in the scenario")
-    steps, most = stability_steps(model, state), STIFF_ABOVE[model.options.sliding]
-    if steps > most:
-        return Choice(
-            STIFF, f"stiff: stability would ask {steps:.0f} explicit steps a mesh cycle, above {most}"
-        )
-    return Choice(
-        EXPLICIT, f"not stiff: stability asks {steps:.0f} explicit steps a mesh cycle, below {most}"
-    )
+    steps, maximum = stability_steps(model, state), STIFF_ABOVE[model.options.sliding]
+    if steps > maximum:
+        reason = f"stiff: explicit stability would need {steps:.0f} steps per mesh cycle, above {maximum}"
+        return Choice(STIFF, reason)
+    reason = f"not stiff: explicit stability needs {steps:.0f} steps per mesh cycle, below {maximum}"
+    return Choice(EXPLICIT, reason)

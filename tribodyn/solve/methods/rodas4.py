@@ -1,17 +1,15 @@
-"""Native stiff solver: the Rosenbrock pair RODAS4P in mesh phase, restarted exactly at engagement.
+"""Native stiff method: the Rosenbrock pair RODAS4P in mesh phase, restarted exactly at engagement.
 
 Displacements have velocities and nothing else as their rates, so they are eliminated: of the 14 mechanical
 states a 7 by 7 matrix is factorised. The works depend on the mechanics only and follow without a matrix.
 """
 
-import numpy as np
-
-from tribodyn.dynamics.contact_forces import QUANTITIES
-from tribodyn.dynamics.parameters import MECHANICAL, STATES, Model
+from tribodyn.dynamics.parameters import MECHANICAL, STATES
 from tribodyn.kernels.native import kernel
-from tribodyn.solve.dopri5 import rhs
-from tribodyn.solve.jacobian import differentiate
-from tribodyn.solve.marching import NEW, OFF, OWN, march_with
+from tribodyn.numerics.shapes import Array, Float
+from tribodyn.solve.jacobian import Differences, differentiate
+from tribodyn.solve.marching import ERROR, SCRATCH, STATE, Method, march_with, scratch_buffer
+from tribodyn.solve.right_hand_side import rhs
 from tribodyn.solve.rosenbrock import ALPHA, GAMMA, GAMMAS, STAGES, A, C, D, dense_output, growth, shrinkage
 
 #: Coordinates; state HALF + i is the velocity of state i.
@@ -20,21 +18,21 @@ HALF = MECHANICAL // 2
 #: cycle; the samples between their ends are of third order only, and no error estimate sees them. Over this
 #: length a third-order interpolant of what the geometry does in a cycle is exact to 1e-6 or better.
 LONGEST_STEP = 1 / 64
-_U = OWN
+#: First rows of the method's own in the buffer: stages, five vectors, the Jacobian and the matrix.
+_U = SCRATCH
 _RATE, _TRIAL, _SLOPE, _RIGHT, _ORDER = range(_U + STAGES, _U + STAGES + 5)
 _JACOBIAN = _ORDER + 1
 _MATRIX = _JACOBIAN + STATES
 
 
-def buffers(model: Model) -> tuple[np.ndarray, np.ndarray]:
-    """Scratch for the kernel: the contacts' quantities; new state, error, stages, Jacobian, matrix."""
-    pairs = model.table.side.shape[0]
-    return np.zeros((QUANTITIES + pairs, pairs)), np.zeros((_MATRIX + HALF, STATES))
+def buffer() -> Float[Array, "row state"]:
+    """Scratch for the kernel: new state, error, stages, Jacobian, matrix."""
+    return scratch_buffer(_MATRIX + HALF - SCRATCH)
 
 
 @kernel
 def factorise(shift, jacobian, matrix, order):
-    """LU factors, with rows exchanged as `order` tells, of the velocities' matrix: s I − D − K B/s.
+    """LU factors, with rows exchanged as `order` says, of the velocities' matrix: s I − D − K B/s.
 
     B, K and D are the blocks ∂q'/∂v, ∂v'/∂q and ∂v'/∂v of the Jacobian, and s = 1/(γ h).
     """
@@ -60,51 +58,48 @@ def factorise(shift, jacobian, matrix, order):
 
 
 @kernel
-def resolve(shift, jacobian, matrix, order, right, found):
-    """Solve (s I − J) found = right for all states."""
+def resolve(shift, jacobian, matrix, order, right, solution):
+    """Solve (s I − J) solution = right for all states."""
     for i in range(HALF):
         total = right[HALF + i]
         for m in range(HALF):
             total += jacobian[HALF + i, m] * right[m] / shift
-        found[HALF + i] = total
+        solution[HALF + i] = total
     for j in range(HALF):
         best = int(order[j])
-        found[HALF + j], found[HALF + best] = found[HALF + best], found[HALF + j]
+        solution[HALF + j], solution[HALF + best] = solution[HALF + best], solution[HALF + j]
     for i in range(HALF):
         for m in range(i):
-            found[HALF + i] -= matrix[i, m] * found[HALF + m]
+            solution[HALF + i] -= matrix[i, m] * solution[HALF + m]
     for k in range(HALF):
         i = HALF - 1 - k
         for m in range(i + 1, HALF):
-            found[HALF + i] -= matrix[i, m] * found[HALF + m]
-        found[HALF + i] /= matrix[i, i]
+            solution[HALF + i] -= matrix[i, m] * solution[HALF + m]
+        solution[HALF + i] /= matrix[i, i]
     for i in range(HALF):
         total = right[i]
         for m in range(HALF, MECHANICAL):
-            total += jacobian[i, m] * found[m]
-        found[i] = total / shift
+            total += jacobian[i, m] * solution[m]
+        solution[i] = total / shift
     for i in range(MECHANICAL, STATES):
         total = right[i]
         for m in range(MECHANICAL):
-            total += jacobian[i, m] * found[m]
-        found[i] = total / shift
+            total += jacobian[i, m] * solution[m]
+        solution[i] = total / shift
 
 
 @kernel
-def attempt(fresh, phase, step, whole, segment, end, y, rtol, atol, model, work, buffer):
-    """See `marching`; the Jacobian is of the step's start, and kept while the step is tried again."""
-    stage, off = buffer[NEW], buffer[OFF]
+def attempt(fresh, step, place, y, control, model, work, buffer):
+    """See `marching.Method`; the Jacobian is of the step's start, and kept while the step is tried again."""
+    stage, error = buffer[STATE], buffer[ERROR]
     rate, trial, slope = buffer[_RATE], buffer[_TRIAL], buffer[_SLOPE]
     right, order = buffer[_RIGHT], buffer[_ORDER]
     u, jacobian, matrix = buffer[_U : _U + STAGES], buffer[_JACOBIAN:_MATRIX], buffer[_MATRIX:]
     evaluations = STAGES - 1
     if fresh:
-        rhs(phase, whole, segment, y, model, work, rate)
-        for i in range(STATES):
-            stage[i] = atol[i] / rtol  # the size of the state
-        evaluations += 1 + differentiate(
-            phase, end, whole, segment, y, rate, stage, model, work, trial, jacobian, slope
-        )
+        rhs(place.phase, place.cycle, place.segment, y, model, work, rate)
+        into = Differences(trial, jacobian, slope)
+        evaluations += 1 + differentiate(place, y, rate, control.scale, model, work, into)
     shift = 1.0 / (GAMMA * step)
     factorise(shift, jacobian, matrix, order)
     for s in range(STAGES):
@@ -114,7 +109,7 @@ def attempt(fresh, phase, step, whole, segment, end, y, rtol, atol, model, work,
                 for j in range(s):
                     total += A[s, j] * u[j, i]
                 stage[i] = y[i] + total
-            rhs(phase + ALPHA[s] * step, whole, segment, stage, model, work, trial)
+            rhs(place.phase + ALPHA[s] * step, place.cycle, place.segment, stage, model, work, trial)
         for i in range(STATES):
             total = 0.0
             for j in range(s):
@@ -123,38 +118,41 @@ def attempt(fresh, phase, step, whole, segment, end, y, rtol, atol, model, work,
             right[i] = f + total / step + GAMMAS[s] * step * slope[i]
         resolve(shift, jacobian, matrix, order, right, u[s])
     for i in range(STATES):
-        off[i] = u[STAGES - 1, i]
-        stage[i] += off[i]
+        error[i] = u[STAGES - 1, i]
+        stage[i] += error[i]
     return evaluations
 
 
 @kernel
 def sample(theta, step, y, buffer, out):
-    """See `marching`."""
+    """See `marching.Method`."""
     for i in range(STATES):
         first = 0.0
         second = 0.0
         for j in range(STAGES - 1):
             first += D[0, j] * buffer[_U + j, i]
             second += D[1, j] * buffer[_U + j, i]
-        out[i] = dense_output(theta, y[i], buffer[NEW, i], first, second)
+        out[i] = dense_output(theta, y[i], buffer[STATE, i], first, second)
 
 
 @kernel
 def accept(buffer):
-    """See `marching`: there is a new Jacobian for every step."""
+    """See `marching.Method`: there is a new Jacobian for every step."""
     return True
 
 
 @kernel
 def adapted(step, error, last_error):
-    """See `marching`."""
+    """See `marching.Method`."""
     if error > 1.0:
         return step * shrinkage(error)
     return min(step * growth(error, last_error), LONGEST_STEP)
 
 
+METHOD = Method(attempt, sample, accept, adapted)
+
+
 @kernel
-def march(model, y, asked, out, work, buffer):
+def integrate(march, control, model, y, out, work, buffer):
     """Integrate mesh cycles, see `marching.march_with`; evaluations include those for the Jacobian."""
-    return march_with(attempt, sample, accept, adapted, model, y, asked, out, work, buffer)
+    return march_with(METHOD, march, control, model, y, out, work, buffer)

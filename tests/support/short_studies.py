@@ -1,0 +1,29 @@
+"""A scenario of every kind of study that is shipped, made short: its template, and what shortens it."""
+
+from pathlib import Path
+from typing import Any
+
+from tribodyn.studies import STUDIES
+from tribodyn.studies.load import load_scenario
+
+#: Kind -> overrides under which its template takes seconds.
+SHORT: dict[str, dict[str, Any]] = {
+    "gear-pair": {"solver.cycles": 4, "output.samples_per_cycle": 40},
+    "efficiency": {"output.samples_per_cycle": 40},
+    "load-contact": {"output.positions_per_cycle": 12, "mesh.slices": 7},
+    "irefc": {"output.samples_per_cycle": 8},
+    "backlash-oscillator": {"frequency.step": 0.2},
+}
+
+
+def written_template(kind: str, folder: Path) -> Path:
+    """Write the template of a kind as `tribodyn init` does; return its path."""
+    path = folder / f"{kind}.toml"
+    path.write_text(STUDIES[kind].template().replace("TITLE", f"A study of kind {kind}"), encoding="utf-8")
+    return path
+
+
+def short_case(kind: str, folder: Path, **more: Any) -> Any:
+    """The case of a kind's template, made short; `more` are overrides with `__` in place of dots."""
+    overrides = SHORT[kind] | {key.replace("__", "."): value for key, value in more.items()}
+    return load_scenario(written_template(kind, folder), overrides)

@@ -1,0 +1,198 @@
+"""Laws as objects: parameters, ranges, a law handed over from Python, and how kernels tell laws apart."""
+
+import dataclasses
+import importlib.util
+
+import numpy as np
+import pytest
+
+from tests.support.closures import LIU_NI, POINT, known, under
+from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
+from tribodyn.dynamics.parameters import frictionless
+from tribodyn.errors import InputError
+from tribodyn.kernels.native import kernel, store
+from tribodyn.kernels.native.arguments import laid_out
+from tribodyn.numerics.elementary import absolute, law
+from tribodyn.numerics.parameter import Parameter
+from tribodyn.record.reader import open_record
+from tribodyn.studies.gear_pair.prepare import prepare
+from tribodyn.studies.gear_pair.run import run
+from tribodyn.studies.load import load_scenario
+from tribodyn.tribology.closure import closure, laws_of, with_laws
+from tribodyn.tribology.data import FilmData
+from tribodyn.tribology.film import film_law
+from tribodyn.tribology.friction import FRICTION_LAWS, friction_law
+from tribodyn.tribology.law import FilmLaw, FrictionLaw
+
+
+@law
+def _stribeck(contact, film, surfaces, parameters):
+    """Friction that falls with the sliding speed."""
+    return parameters.static / (1.0 + absolute(contact.sliding) / parameters.speed)
+
+
+STRIBECK = FrictionLaw(
+    "stribeck",
+    "friction that falls with the sliding speed",
+    _stribeck,
+    keys=(
+        Parameter("static", "number", "coefficient at rest", allowed="positive"),
+        Parameter("speed", "velocity", "sliding speed that halves it", default=0.5, source="this test"),
+    ),
+)
+
+
+@law
+def _thick(contact, surfaces, parameters):
+    return -11.0 + 0.0 * contact.line_load, 1.0, 0.0
+
+
+def test_a_law_has_the_values_of_its_keys_as_parameters():
+    laws = closure(LIU_NI, film_law("moes"), STRIBECK, {}, {"static": 0.2})
+    state = known(laws, **{**POINT, "sliding": -0.5})
+    assert state.friction_coefficient == pytest.approx(0.1)
+    slower = closure(LIU_NI, film_law("moes"), STRIBECK.with_values(static=0.2, speed=1.5))
+    assert known(slower, **{**POINT, "sliding": -0.5}).friction_coefficient == pytest.approx(0.15)
+    with pytest.raises(InputError, match=r"friction\.static: missing"):
+        closure(LIU_NI, film_law("moes"), STRIBECK)
+    with pytest.raises(
+        InputError, match=r'friction\.sped = 1\.0: no key of law "stribeck"; did you mean "speed"'
+    ):
+        closure(LIU_NI, film_law("moes"), STRIBECK, {}, {"static": 0.2, "sped": 1.0})
+    with pytest.raises(TypeError, match=r"has no key sped"):
+        STRIBECK.with_values(sped=1.0)
+
+
+def test_film_and_friction_are_chosen_separately():
+    case = load_scenario("crc-23-47", {"friction.law": "masjedi-khonsari-as-printed"})
+    assert [one.name for one in laws_of(case)] == ["masjedi-khonsari-as-printed"] * 2
+    case = load_scenario("crc-23-47", {"friction.law": "xu"})
+    assert [one.name for one in laws_of(case)] == ["masjedi-khonsari", "xu"]
+    case = load_scenario("crc-23-47", {"friction.law": "xu", "film.law": "moes"})
+    assert [one.name for one in laws_of(case)] == ["moes", "xu"]
+    assert case.film == FilmData("moes", {})
+
+
+def test_a_law_handed_over_runs_in_every_compiler(rng):
+    case = with_laws(load_scenario("crc-23-47"), friction=STRIBECK.with_values(static=0.11))
+    assert_right_hand_sides_agree(at_several_conditions(prepare(case).model), rng, 1e-12)
+
+
+def test_a_run_with_laws_handed_over_says_so(tmp_path):
+    plain = load_scenario("crc-23-47", {"solver.cycles": 1, "output.samples_per_cycle": 16})
+    thick = FilmLaw("thick", "a film of 17 µm", _thick)
+    case = with_laws(plain, film=thick, friction=STRIBECK.with_values(static=0.08))
+    result = run(case, tmp_path / "run.h5")
+    with open_record(result.path) as record:
+        assert (record.summary["film_law"], record.summary["friction_law"]) == ("thick", "stribeck")
+        assert record.summary["friction_range"] == "none stated"
+        assert "friction_in_range_fraction" not in record.summary
+        assert np.all(record["friction_in_range"] == -1)
+        touching = record["normal_load"] > 0
+        np.testing.assert_allclose(record["central_film_thickness"][touching], np.exp(-11.0))
+        found = record["friction_coefficient"][touching]
+        expected = 0.08 / (1.0 + np.abs(record["sliding_speed"][touching]) / 0.5)
+        np.testing.assert_allclose(found, expected, rtol=1e-12)
+
+
+def test_a_run_flags_the_range_of_its_friction_law(tmp_path):
+    overrides = {"solver.cycles": 1, "output.samples_per_cycle": 16, "friction.law": "xu"}
+    result = run(load_scenario("crc-23-47", overrides), tmp_path / "run.h5")
+    with open_record(result.path) as record:
+        touching = record["normal_load"] > 0
+        pressure = record["hertz_pressure"][touching]
+        ratio = np.abs(record["sliding_speed"] / record["entrainment_speed"])[touching]
+        inside = (pressure >= 0.5e9) & (pressure <= 2.5e9) & (ratio <= 1.0)
+        np.testing.assert_array_equal(record["friction_in_range"][touching], inside)
+        assert record.summary["friction_in_range_fraction"] <= 1.0
+
+
+def test_laws_that_state_a_range_flag_it_and_the_others_say_so():
+    conditions = {"coulomb": {"coefficient": 0.1}}
+    for name, one in FRICTION_LAWS.items():
+        if one.name in ("niemann", "iso-14179-1"):
+            continue  # of a mesh, not of a contact
+        flag = known(under(name, **conditions.get(name, {})), **POINT).friction_in_range
+        assert np.isnan(flag) == (one.range == ""), name
+
+
+def test_variants_share_their_machine_code():
+    """They differ in numbers alone, which no kernel has compiled in."""
+    one, other = under("masjedi-khonsari"), under("masjedi-khonsari-mean-pressure")
+    assert laid_out(one).layout == laid_out(other).layout
+    assert laid_out(one).words != laid_out(other).words
+
+
+def test_without_friction_a_model_has_none(prepared):
+    model = frictionless(prepared("crc-23-47").model)
+    assert model.options.friction == friction_law("none").functions
+    assert known(model.closure, **POINT).friction_coefficient == 0.0
+
+
+@kernel
+def _apply(function, x):
+    return function(x)
+
+
+def _twice(x):
+    return 2.0 * x
+
+
+def _closed(factor):
+    def times(x):
+        return factor * x
+
+    return times
+
+
+def test_kernels_take_functions_and_tell_them_apart():
+    assert _apply(_twice, 1.5) == 3.0
+    # of one name and source, but of another number
+    assert [_apply(_closed(factor), 1.5) for factor in (3.0, 5.0)] == [4.5, 7.5]
+
+
+def test_machine_code_is_kept_for_functions_in_files_only(tmp_path, monkeypatch):
+    monkeypatch.setenv("TRIBODYN_CACHE", str(tmp_path / "cache"))
+    layout = laid_out(_twice).layout
+    assert layout.kept
+    assert not laid_out(_closed(3.0)).layout.kept
+    whole = laid_out(Pair(_twice, 1.0)).layout
+    assert store._file_of(_apply.function, whole) is not None
+    assert store._file_of(_apply.function, laid_out(Pair(_closed(3.0), 1.0)).layout) is None
+
+
+class Pair(tuple):
+    """A function and a number as a record."""
+
+    _fields = ("function", "number")
+
+    def __new__(cls, *values):
+        """Take both."""
+        return super().__new__(cls, values)
+
+
+def _module(tmp_path, name, text):
+    file = tmp_path / f"{name}.py"
+    file.write_text(text, encoding="utf-8")
+    spec = importlib.util.spec_from_file_location("outside_law", file)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_a_changed_source_or_number_is_another_function(tmp_path):
+    text = "FACTOR = {}\ndef helper(x):\n    return FACTOR * x\ndef function(x):\n    return helper(x){}\n"
+    made = [
+        _module(tmp_path, f"module{i}", text.format(factor, tail)).function
+        for i, (factor, tail) in enumerate([("2.0", ""), ("3.0", ""), ("2.0", " + 1.0"), ("2.0", "")])
+    ]
+    identities = [laid_out(one).layout.identity for one in made]
+    assert len(set(identities)) == 3
+    assert identities[0] == identities[3]
+
+
+def test_laws_are_plain_data():
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        STRIBECK.name = "other"  # pyright: ignore[reportAttributeAccessIssue]

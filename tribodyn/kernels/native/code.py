@@ -1,0 +1,57 @@
+"""What is compiled and what comes of it: a function, its machine code as kept on disk, the code in memory."""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+
+class KernelFunction:
+    """A function for numba; compiled into every kernel that calls it.
+
+    Parameters
+    ----------
+    function : callable
+        At module level; of positional arguments.
+    """
+
+    def __init__(self, function: Callable[..., Any]):
+        self.function = function
+
+
+class Compiled(NamedTuple):
+    """A kernel's machine code as it is kept.
+
+    Attributes
+    ----------
+    symbol : str
+        Name of the entry, see `Code`.
+    returns, single
+        As for `Code`.
+    needs : list of str
+        Names that the code does not define.
+    body : bytes
+        The object file.
+    """
+
+    symbol: str
+    returns: str
+    single: bool
+    needs: list[str]
+    body: bytes
+
+
+class Code(NamedTuple):
+    """Machine code in memory.
+
+    Attributes
+    ----------
+    address : int
+        Of a C function `int32 entry(arguments, results)` on blocks of words, see `arguments`.
+    returns : str
+        A letter of the struct module for every number that it returns; empty: it returns None.
+    single : bool
+        Whether it returns a number and not a tuple.
+    """
+
+    address: int
+    returns: str
+    single: bool

@@ -1,0 +1,119 @@
+"""Parts of kernels: functions that numba lowers one by one, optimised within the kernel that calls them."""
+
+from collections.abc import Callable
+from typing import Any, cast
+
+import numba
+from numba.core import types
+from numba.core.codegen import JITCodeLibrary
+from numba.core.compiler import Compiler
+from numba.extending import overload, typeof_impl
+
+from tribodyn.kernels.native.code import KernelFunction
+
+#: What LLVM may do with floats: make one rounding of a product and a sum.
+FUSE = {"contract"}
+
+
+class _NotLoaded:
+    """What numba asks to connect loaded code with Python: nothing is loaded."""
+
+    def set_env(self, name, environment):
+        pass
+
+
+class PartLibrary(JITCodeLibrary):
+    """Code of a function that only kernels call: as lowered, to be optimised as part of the kernel."""
+
+    @property
+    def codegen(self) -> Any:
+        """Where numba connects the code."""
+        return _NotLoaded()
+
+    def finalize(self):
+        """Nothing is done by itself."""
+        self._finalized = True
+
+    def get_pointer_to_function(self, name):
+        """No machine code: what numba says of a function that is not defined."""
+        return 0
+
+    def _get_module_for_linking(self):
+        """The function and all that it calls."""
+        if self._shared_module is None:
+            module = _mergeable(self._final_module)
+            for library in self._below({}):
+                part = (
+                    _mergeable(library._final_module)
+                    if isinstance(library, PartLibrary)
+                    else library._get_module_for_linking()
+                )
+                module.link_in(part, preserve=True)
+            self._shared_module = module
+        return self._shared_module
+
+    def _below(self, found):
+        for library in self._linking_libraries:
+            if library not in found:
+                found[library] = None
+                if isinstance(library, PartLibrary):
+                    library._below(found)
+        return list(found)
+
+
+def _mergeable(module):
+    """A copy whose functions may be there several times and are left out where nobody calls them."""
+    copy = module.clone()
+    for function in copy.functions:
+        if not function.is_declaration and function.linkage == type(function.linkage).external:
+            function.linkage = "linkonce_odr"
+    return copy
+
+
+class PartCompiler(Compiler):
+    """numba's compiler, for parts of kernels."""
+
+    def __init__(self, typingctx, targetctx, library, args, return_type, flags, locals):
+        if library is None:
+            library = PartLibrary(targetctx.codegen(), "part")
+        super().__init__(typingctx, targetctx, library, args, return_type, flags, locals)
+
+
+#: Options of all that kernels consist of: no wrappers for Python, and no rewriting, which looks for array
+#: expressions.
+_PART: Any = {
+    "pipeline_class": PartCompiler,
+    "no_cpython_wrapper": True,
+    "no_cfunc_wrapper": True,
+    "no_rewrites": True,
+}
+
+
+def part(function: Callable[..., Any], forceinline: bool = False) -> Callable[..., Any]:
+    """Decorator of a part of kernels, compiled into each that calls it."""
+
+    @overload(function, jit_options=cast(Any, {**_PART, "forceinline": forceinline}), strict=False)
+    def implementation(*args, **kwargs):
+        return function
+
+    return function
+
+
+def part_instead(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Decorator of what gives the part to compile in place of `function`, from the types of its arguments."""
+    return overload(function, jit_options=_PART, strict=False)
+
+
+@typeof_impl.register(KernelFunction)
+def _typeof_kernel(kernel, c):
+    """Inside another kernel a kernel is a part as any other."""
+    return types.Dispatcher(part_of(kernel))
+
+
+def part_of(kernel: Any) -> Any:
+    """The part that a kernel is inside another."""
+    if not hasattr(kernel, "part"):
+        kernel.part = cast(Any, numba.njit)(**_PART, error_model="numpy", fastmath=FUSE, _nrt=False)(
+            kernel.function
+        )
+    return kernel.part

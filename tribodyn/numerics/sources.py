@@ -1,0 +1,97 @@
+"""Which source files a module depends on, from its imports, and a digest of them: what a cached result is of.
+
+Imports inside functions count, those for a type checker alone do not. Only modules of the same distribution
+as the first ones and of this package are followed; of other libraries the version says enough.
+"""
+
+import hashlib
+import re
+import sys
+from functools import cache
+from importlib.util import find_spec
+from pathlib import Path
+
+#: ``from module import names`` and ``import module``, wherever they stand in the text: one in a docstring
+#: counts too, which only makes the digest depend on more.
+_FROM = re.compile(r"^[ \t]*from[ \t]+([\w.]+)[ \t]+import[ \t]+(\([^)]*\)|[^\n]*)", re.MULTILINE)
+_IMPORT = re.compile(r"^[ \t]*import[ \t]+([\w. \t,]+)", re.MULTILINE)
+_FOR_TYPES = re.compile(r"^if (?:typing\.)?TYPE_CHECKING:\n(?:[ \t]+[^\n]*\n|\n)+", re.MULTILINE)
+_COMMENT = re.compile(r"#[^\n]*")
+_NAME = re.compile(r"(\w+)(?:[ \t]+as[ \t]+\w+)?")
+
+
+def modules_behind(*names: str) -> dict[str, Path]:
+    """Files of modules and of all modules that they import, and these in turn, by the modules' names.
+
+    Parameters
+    ----------
+    *names : str
+        Names of modules, imported or not; those without a source file are left out.
+    """
+    followed = {name.partition(".")[0] for name in names} | {__name__.partition(".")[0]}
+    found: dict[str, Path] = {}
+    waiting = [part for name in names for part in _with_packages(name)]
+    while waiting:
+        name = waiting.pop()
+        if name in found or name.partition(".")[0] not in followed:
+            continue
+        file = _file_of(name)
+        if file is not None:
+            found[name] = file
+            waiting += _imports(name, file)
+    return dict(sorted(found.items()))
+
+
+def digest_of(*names: str) -> bytes:
+    """SHA-256 over the sources of modules and of all that they import."""
+    digest = hashlib.sha256()
+    for name, file in modules_behind(*names).items():
+        digest.update(name.encode() + b"\0" + hashlib.sha256(_text(file)).digest())
+    return digest.digest()
+
+
+def _with_packages(name: str) -> list[str]:
+    """A module's name after those of the packages that it lies in, which its import runs too."""
+    parts = name.split(".")
+    return [".".join(parts[: i + 1]) for i in range(len(parts))]
+
+
+@cache
+def _file_of(name: str) -> Path | None:
+    """Source of a module; None for what is none, as an attribute of one."""
+    if place := getattr(sys.modules.get(name), "__file__", None):
+        return Path(place) if place.endswith(".py") and Path(place).is_file() else None
+    package, _, last = name.rpartition(".")
+    if not package:
+        spec = find_spec(name)
+        return Path(spec.origin) if spec and spec.origin and spec.origin.endswith(".py") else None
+    above = _file_of(package)
+    if above is None or above.name != "__init__.py":
+        return None
+    for file in (above.with_name(f"{last}.py"), above.parent / last / "__init__.py"):
+        if file.is_file():
+            return file
+    return None
+
+
+@cache
+def _text(file: Path) -> bytes:
+    return file.read_bytes()
+
+
+@cache
+def _imports(name: str, file: Path) -> tuple[str, ...]:
+    """Names that a module's text imports, with the packages that they lie in; some may be no modules."""
+    package = name if file.name == "__init__.py" else name.rpartition(".")[0]
+    text = _FOR_TYPES.sub("", _COMMENT.sub("", _text(file).decode()))
+    found: list[str] = []
+    for match in _FROM.finditer(text):
+        base, names = match.groups()
+        if base.startswith("."):
+            dots = len(base) - len(base.lstrip("."))
+            above = package.split(".")[: len(package.split(".")) - dots + 1]
+            base = ".".join([*above, *filter(None, [base.lstrip(".")])])
+        found += [base, *(f"{base}.{one}" for one in _NAME.findall(names))]
+    for match in _IMPORT.finditer(text):
+        found += [one.split()[0] for one in match[1].split(",") if one.split()]
+    return tuple(dict.fromkeys(part for one in found for part in _with_packages(one)))

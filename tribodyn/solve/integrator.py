@@ -1,0 +1,101 @@
+"""What every integrator takes and returns, and how it ended."""
+
+from enum import IntEnum
+from typing import NamedTuple, Protocol
+
+from tribodyn.numerics.shapes import Array, Float
+
+
+class Status(IntEnum):
+    """How an integration ended."""
+
+    DONE = 0
+    STEP_TOO_SMALL = 1
+    TOO_MANY_STEPS = 2
+    NOT_FINITE = 3
+    STALLED = 4
+    GAVE_UP = 5
+
+
+REASONS = {
+    Status.STEP_TOO_SMALL: "the step size fell below 1e-13 mesh cycles",
+    Status.TOO_MANY_STEPS: "the limit of steps in one mesh cycle was reached; raise solver.max_steps or "
+    "choose a stiff solver.method",
+    Status.NOT_FINITE: "the solution stopped being finite",
+    Status.STALLED: "the pinion came to rest; integration in mesh phase needs it to turn forwards",
+    Status.GAVE_UP: "the solver gave up",
+}
+
+#: Steps allowed in one mesh cycle, as a scenario's `solver.max_steps` has it by default.
+MAX_STEPS = 1_000_000
+
+
+class March(NamedTuple):
+    """What to do, the same for all cases of a batch.
+
+    Attributes
+    ----------
+    first_cycle : int
+        Whole mesh cycles done before; with the phase and the lag they give the time.
+    cycles : int
+        Mesh cycles to do.
+    window : int
+        Last cycles of which samples are kept.
+    samples : int
+        Samples in a mesh cycle.
+    started : bool
+        Whether the states stand before the engagement at phase 0, as a march leaves them: not at the start
+        of a run.
+    rtol : float
+    max_steps : int
+        Steps, accepted ones, that one mesh cycle may take; a case that needs more fails. This is what
+        `solver.max_steps` means whatever the method.
+    """
+
+    first_cycle: int
+    cycles: int
+    window: int
+    samples: int
+    started: bool
+    rtol: float
+    max_steps: int
+
+
+class IntegratedCycles(NamedTuple):
+    """A run of whole mesh cycles.
+
+    Attributes
+    ----------
+    samples : (n, STATES)
+        States at phases k/samples_per_cycle, first one included, last one not; fewer on a failure.
+    state : (STATES,)
+        State at the end, before the next engagement.
+    status : Status
+    reached : float
+        Mesh cycles done in this call.
+    steps, evaluations : int
+        Accepted steps, and evaluations of the right-hand side.
+    message : str
+        The solver's own words, if any.
+    """
+
+    samples: Float[Array, "sample state"]
+    state: Float[Array, " state"]
+    status: Status
+    reached: float
+    steps: int
+    evaluations: int
+    message: str = ""
+
+
+class Integrator(Protocol):
+    """Integrates whole mesh cycles, call after call.
+
+    `started` says whether the next call opens with the engagement at phase 0: not at the start of a run.
+    """
+
+    started: bool
+
+    def integrate(self, state: Float[Array, " state"], first_cycle: int, cycles: int) -> IntegratedCycles:
+        """Integrate `cycles` cycles; `state` stands before the engagement that opens the first."""
+        ...

@@ -1,0 +1,67 @@
+"""A step-size controller of diffrax that ends the integration after so many accepted steps."""
+
+from typing import Any
+
+import diffrax
+import jax.numpy as jnp
+
+#: Untyped, as diffrax declares tolerances as variables where wrappers have properties.
+_Controller: Any = diffrax.AbstractAdaptiveStepSizeController
+
+
+class LimitedSteps(_Controller):
+    """Wraps a controller; the result is `max_steps_reached` where it would accept one step more than allowed.
+
+    diffrax's own limit counts rejected steps too, and is compiled in.
+
+    Parameters
+    ----------
+    controller : AbstractAdaptiveStepSizeController
+    allowed : int
+        Accepted steps.
+    """
+
+    controller: diffrax.AbstractAdaptiveStepSizeController
+    allowed: Any
+
+    @property
+    def rtol(self) -> Any:  # noqa: D102  (diffrax's)
+        return self.controller.rtol
+
+    @property
+    def atol(self) -> Any:  # noqa: D102  (diffrax's)
+        return self.controller.atol
+
+    @property
+    def norm(self) -> Any:  # noqa: D102  (diffrax's)
+        return self.controller.norm
+
+    def wrap(self, direction: Any) -> "LimitedSteps":
+        """Return the controller for times that run in a direction."""
+        return LimitedSteps(self.controller.wrap(direction), self.allowed)
+
+    def init(self, *arguments: Any) -> tuple[Any, Any]:
+        """First step, and the state: that of the controller inside, and no step accepted."""
+        first, inside = self.controller.init(*arguments)
+        return first, (inside, jnp.zeros((), dtype=int))
+
+    def adapt_step_size(
+        self,
+        t0: Any,
+        t1: Any,
+        y0: Any,
+        y1_candidate: Any,
+        args: Any,
+        y_error: Any,
+        error_order: Any,
+        controller_state: Any,
+    ) -> tuple[Any, ...]:
+        """Ask the controller inside and count."""
+        inside, accepted = controller_state
+        keep, next_t0, next_t1, jump, inside, result = self.controller.adapt_step_size(
+            t0, t1, y0, y1_candidate, args, y_error, error_order, inside
+        )
+        accepted = accepted + jnp.where(keep, 1, 0)
+        over = (accepted > self.allowed) & (result == diffrax.RESULTS.successful)
+        result = diffrax.RESULTS.where(over, diffrax.RESULTS.max_steps_reached, result)
+        return keep, next_t0, next_t1, jump, (inside, accepted), result

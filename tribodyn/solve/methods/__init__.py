@@ -1,0 +1,75 @@
+"""The methods of integration, by the names that a scenario gives them; one file for each.
+
+A file is imported when its method is used: those of JAX and SciPy take long to import.
+"""
+
+from enum import StrEnum
+from importlib import import_module
+from typing import Any, NamedTuple
+
+from tribodyn.errors import unknown_name
+
+
+class Runs(StrEnum):
+    """What runs a method: kernels of our own, SciPy's solvers, or diffrax through JAX."""
+
+    NATIVE = "native"
+    SCIPY = "scipy"
+    JAX = "jax"
+
+
+class Entry(NamedTuple):
+    """A method: what it is, in a line, and what runs it."""
+
+    about: str
+    runs: Runs
+
+
+METHODS = {
+    "dopri5": Entry("Dormand-Prince 5(4), native kernel", Runs.NATIVE),
+    "tsit5": Entry("Tsitouras 5(4), diffrax", Runs.JAX),
+    "dopri8": Entry("Dormand-Prince 8(7), diffrax", Runs.JAX),
+    "kvaerno5": Entry("Kvaerno 5(4), implicit, diffrax", Runs.JAX),
+    "rodas4": Entry("Rodas4P 4(3), Rosenbrock, native", Runs.NATIVE),
+    "radau": Entry("Radau IIA 5, implicit, SciPy", Runs.SCIPY),
+    "bdf": Entry("backward differentiation, implicit, SciPy", Runs.SCIPY),
+    "lsoda": Entry("Adams/BDF with switching, SciPy", Runs.SCIPY),
+    "dop853": Entry("Dormand-Prince 8(5,3), SciPy", Runs.SCIPY),
+}
+AUTO = "auto"
+#: Between these "auto" chooses, see `choice`; batches in lanes run the explicit one.
+EXPLICIT, STIFF = "dopri5", "rodas4"
+#: What a scenario may say, with a line on each.
+SOLVERS = {
+    AUTO: "explicit or stiff by an estimate; the record says which and why",
+    **{name: entry.about for name, entry in METHODS.items()},
+}
+#: Which class makes an integrator of a method, given its file.
+_INTEGRATORS = {
+    Runs.NATIVE: "tribodyn.solve.native_integrator:NativeIntegrator",
+    Runs.SCIPY: "tribodyn.solve.scipy_integrator:ScipyIntegrator",
+    Runs.JAX: "tribodyn.solve.diffrax_integrator:DiffraxIntegrator",
+}
+
+
+def solver(name: str) -> str:
+    """Return the solver's name if there is one of that name."""
+    if name not in SOLVERS:
+        raise unknown_name("solver.method", name, SOLVERS, "solver")
+    return name
+
+
+def runs(name: str) -> Runs | None:
+    """What runs a method; None for "auto", which is not yet decided."""
+    return METHODS[name].runs if name in METHODS else None
+
+
+def method_file(name: str) -> Any:
+    """The file of a method, imported."""
+    return import_module(f"{__name__}.{name}")
+
+
+def integrator_class(name: str) -> Any:
+    """The class of integrators that runs a method; takes its file, model, samples and tolerances."""
+    module, _, attribute = _INTEGRATORS[METHODS[name].runs].partition(":")
+    return getattr(import_module(module), attribute)

@@ -1,0 +1,114 @@
+"""SciPy's solvers on the compiled right-hand side, segment by segment, step by step."""
+
+import warnings
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from tribodyn.dynamics.parameters import SLIP, STATES, Model
+from tribodyn.kernels.native import laid_out
+from tribodyn.numerics.shapes import Array, Float
+from tribodyn.solve.engagement import engage
+from tribodyn.solve.integrator import IntegratedCycles, Status
+from tribodyn.solve.right_hand_side import rhs, work_array
+from tribodyn.solve.sampling import sample_phases
+from tribodyn.solve.tolerances import Tolerances
+
+
+class _Ended(Exception):
+    """The integration cannot go on from a phase."""
+
+    def __init__(self, status: Status, phase: float, message: str = ""):
+        self.status = status
+        self.phase = phase
+        self.message = message
+
+
+class ScipyIntegrator:
+    """Integrates with a solver of SciPy, made anew at every engagement; see `integrator.Integrator`.
+
+    Parameters
+    ----------
+    method : module
+        One of `methods` that SciPy runs: its `METHOD` is a class of solvers.
+    model : Model
+    samples : int
+        Samples per mesh cycle.
+    tolerances : Tolerances
+    """
+
+    def __init__(self, method: Any, model: Model, samples: int, tolerances: Tolerances):
+        self.method = method.METHOD
+        self.model = model
+        self.boundary = np.asarray(model.table.boundary)
+        self.phases = sample_phases(self.boundary, samples)
+        self.tolerances = tolerances
+        self.started = False
+
+    def integrate(self, state: Float[Array, " state"], first_cycle: int, cycles: int) -> IntegratedCycles:
+        """See `integrator.Integrator`."""
+        walk = _Walk(self, state)
+        for cycle in range(first_cycle, first_cycle + cycles):
+            walk.steps_before = walk.steps
+            for segment, (start, end) in enumerate(pairwise(self.boundary)):
+                if segment or self.started:
+                    engage(segment, True, walk.y, self.model, walk.work, walk.y)
+                self.started = True
+                try:
+                    with warnings.catch_warnings():
+                        warnings.simplefilter("ignore")  # LSODA's own words arrive in its message
+                        walk.over(float(cycle), segment, start, end)
+                except _Ended as ended:
+                    return walk.result(ended.status, cycle - first_cycle + ended.phase, ended.message)
+        return walk.result(Status.DONE, float(cycles))
+
+
+class _Walk:
+    """A walk through segments: state, samples and counts so far."""
+
+    def __init__(self, integrator: ScipyIntegrator, state: Float[Array, " state"]):
+        self.integrator = integrator
+        self.y = state.copy()
+        self.work = work_array(integrator.model)
+        self.samples: list[np.ndarray] = []
+        self.steps = self.steps_before = self.evaluations = 0
+        self._place, self._rates = np.empty(STATES), np.empty(STATES)
+        self._arguments = [laid_out(one) for one in (self._place, integrator.model, self.work, self._rates)]
+
+    def over(self, cycle: float, segment: int, start: float, end: float) -> None:
+        """Integrate over a segment; raises `_Ended` where that cannot be done."""
+        rtol, atol, max_steps = self.integrator.tolerances
+        nominal_speed = self.integrator.model.mechanics.nominal_speed
+
+        def slope(phase: float, y: Float[Array, " state"]) -> Float[Array, " state"]:
+            self.evaluations += 1
+            if nominal_speed + y[SLIP] <= 0.0:
+                raise _Ended(Status.STALLED, phase)
+            self._place[:] = y
+            rhs(phase, cycle, segment, *self._arguments)
+            if not np.all(np.isfinite(self._rates)):
+                raise _Ended(Status.NOT_FINITE, phase)
+            return self._rates.copy()
+
+        at = self.integrator.phases[segment]
+        solver = self.integrator.method(slope, start, self.y, end, rtol=rtol, atol=atol)
+        try:
+            while solver.status == "running":
+                if self.steps - self.steps_before >= max_steps:
+                    raise _Ended(Status.TOO_MANY_STEPS, solver.t)
+                message = solver.step()
+                if solver.status == "failed":
+                    raise _Ended(Status.GAVE_UP, solver.t, message)
+                self.steps += 1
+                count = int(np.searchsorted(at, solver.t, side="right"))
+                if count:
+                    self.samples.append(solver.dense_output()(at[:count]).T)
+                    at = at[count:]
+        finally:
+            self.y = solver.y.copy()
+
+    def result(self, status: Status, reached: float, message: str = "") -> IntegratedCycles:
+        """What became of it."""
+        samples = np.concatenate(self.samples) if self.samples else np.empty((0, STATES))
+        return IntegratedCycles(samples, self.y, status, reached, self.steps, self.evaluations, message)

@@ -1,0 +1,67 @@
+"""Steps: where they end, which are accepted, how they are given up. One set of rules for every native method.
+
+Written as laws, so that the march of one case and that of many cases side by side apply the same rules.
+"""
+
+from tribodyn.numerics.elementary import absolute, law, maximum, where
+
+#: First step to try and the smallest one, mesh cycles; a step is the last if it ends this close to the end.
+FIRST_STEP, MINIMUM_STEP, TOUCHING = 1e-3, 1e-13, 1.0000001
+#: Error taken for that of the last step at the start, and the smallest that is remembered.
+MINIMUM_ERROR = 1e-4
+#: Share of the nominal speed below which steps that vanish mean that the pinion comes to rest: rates with
+#: respect to phase grow without bound there.
+STANDSTILL = 1e-3
+#: Factor on a step that gives no finite numbers, and the step below which it is given up, mesh cycles.
+RETRY, MINIMUM_RETRY = 0.1, 1e-9
+INFINITE = float("inf")
+
+
+@law
+def cut_at_stop(phase, step, stop):
+    """Whether a step comes so near the next stop that it is to end there, and the step as it then is."""
+    cut = phase + TOUCHING * step >= stop
+    return cut, where(cut, stop - phase, step)
+
+
+@law
+def refused(steps, max_steps, step, speed, nominal_speed):
+    """Whether no step can be taken: too many in this mesh cycle; too small; too small as the pinion stops.
+
+    Parameters
+    ----------
+    steps, max_steps : number
+        Accepted in this mesh cycle so far, and allowed.
+    step : float
+        To be taken, mesh cycles.
+    speed, nominal_speed : float
+        Of the pinion, rad/s.
+    """
+    vanishing = step < MINIMUM_STEP
+    return steps >= max_steps, vanishing, vanishing & (speed < STANDSTILL * nominal_speed)
+
+
+@law
+def weighed_error(difference, before, after, atol, rtol):
+    """Error of one state over its tolerance; the step's is the maximum over all states.
+
+    A mean would let the states at rest dilute the others' error.
+    """
+    return absolute(difference) / (atol + rtol * maximum(absolute(before), absolute(after)))
+
+
+@law
+def judged(error, step, speed_after):
+    """What a step attempted is: accepted; not finite; not finite and too small to try again; at rest.
+
+    `error` is over the tolerance, and not a number where any state's is not.
+    """
+    accepted = error <= 1.0
+    undefined = (error != error) | (error >= INFINITE)
+    return accepted, undefined, undefined & (step < MINIMUM_RETRY), accepted & (speed_after <= 0.0)
+
+
+@law
+def next_step(step, cut, uncut_step):
+    """Step to try after an accepted one that was cut or not: cutting says nothing against the one wanted."""
+    return where(cut, maximum(step, uncut_step), step)
