@@ -7,6 +7,8 @@ from inspect import ismodule
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from tribodyn.numerics.registry import cannot_be_loaded
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -244,7 +246,22 @@ class Study:
         return self._part("batch", "BATCH", optional=True)
 
     def _part(self, part: str, name: str, optional: bool = False) -> Any:
-        """What a part of the study holds; None where it is optional and not there."""
+        """What a part of the study holds; None where it is optional and not there.
+
+        Raises
+        ------
+        InputError
+            If the study is of another package, and that lacks the part or cannot be imported.
+        """
+        try:
+            return self._imported(part, name, optional)
+        except Exception as error:
+            if self.package.startswith("tribodyn."):
+                raise
+            package = self.package.partition(".")[0]
+            raise cannot_be_loaded("kind", self.kind, package, error) from error
+
+    def _imported(self, part: str, name: str, optional: bool) -> Any:
         package = import_module(self.package)
         own = getattr(package, name, None)
         if own is not None and not ismodule(own):  # a part may have the name of what it holds
@@ -256,7 +273,7 @@ class Study:
             if optional and error.name in (module, self.package):
                 return None
             raise
-        except AttributeError:
-            if optional:
+        except AttributeError as error:
+            if optional and error.name == name:
                 return None
             raise
