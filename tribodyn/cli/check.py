@@ -139,11 +139,12 @@ def _stiffness(
     `found` is ours in N/m, by the method `name`, under the normal load `load` in N.
     """
     from tribodyn.compliance.iso6336 import single_pair_stiffness as iso6336
+    from tribodyn.geometry.families import family
 
     pinion, gear = case.drive.pinion, case.drive.gear
     width = min(pinion.face_width, gear.face_width)
     per_width = {name: found / width}
-    if case.family == "involute":
+    if family(case.family).involute:
         iso = iso6336(pinion.teeth, gear.teeth, pinion.profile_shift, gear.profile_shift)
         per_width["ISO 6336 c', which contains the measured correction 0.8"] = iso.single_pair
         per_width["ISO 6336 c'_th, theory"] = iso.theoretical

@@ -136,7 +136,7 @@ def _by_loss_factor(study: Study) -> dict[str, float]:
     from tribodyn.tribology.friction import COULOMB
 
     case, coefficient = study.case, study.duty.surfaces.coulomb_coefficient
-    if case.family != "involute" or study.duty.friction_law != COULOMB:
+    if not family(case.family).involute or study.duty.friction_law != COULOMB:
         return {}
     tips = tip_contact_ratios(family(case.family), case.drive)
     teeth, ratio = case.drive.pinion.teeth, case.drive.gear.teeth / case.drive.pinion.teeth
