@@ -147,7 +147,7 @@ def relief_rolls(assembly: Assembly, modifications: Modifications) -> list[float
 
 
 def check_modifications(assembly: Assembly, modifications: Modifications) -> None:
-    """Refuse reliefs that are no longer reliefs, and errors that are not one a tooth.
+    """Refuse reliefs that are no longer reliefs, and errors that are not one per tooth.
 
     Raises
     ------
@@ -171,7 +171,7 @@ def same_every_pitch(modifications: Modifications) -> None:
             raise InputError(
                 f"drive.{side}.modification.pitch_errors",
                 rule="differ from tooth to tooth, but one mesh cycle stands for all teeth here",
-                remedy='use kind = "load-contact", or leave them away',
+                remedy="use a load contact study, or leave them out",
             )
 
 

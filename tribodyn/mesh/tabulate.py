@@ -21,13 +21,14 @@ from tribodyn.compliance.energy import (
 from tribodyn.compliance.table import check_cover, interpolate
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.drive import SIDES, Drive, body_of
+from tribodyn.geometry.drive import SIDES, Drive
 from tribodyn.geometry.material import MaterialData
 from tribodyn.geometry.path import kinematics
 from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.data import MeshData
-from tribodyn.numerics.elementary import cos, is_jax, namespace
+from tribodyn.mesh.rules import check_backlash, check_bores
+from tribodyn.numerics.elementary import cos, namespace
 from tribodyn.numerics.iteration import chebyshev_basis
 from tribodyn.numerics.shapes import Array, Float
 
@@ -119,15 +120,8 @@ def tabulate(
 
 
 def _check_options(drive: Drive, mesh: MeshData, back: bool) -> None:
-    for side in SIDES:
-        bore = body_of(drive, side).bore_radius
-        if mesh.compliance == "energy" and not is_jax(bore) and bore <= 0:
-            raise InputError(
-                f"drive.{side}.bore_radius",
-                bore,
-                "the energy method takes the body for a ring that is held at its bore",
-                "give the radius at which the shaft holds it",
-            )
+    if mesh.compliance == "energy":
+        check_bores(drive)
     if mesh.compliance == "constant" and mesh.stiffness is None:
         raise InputError(
             "mesh.stiffness", rule="is needed for compliance = 'constant'", remedy="give one pair's"
@@ -141,10 +135,7 @@ def _check_options(drive: Drive, mesh: MeshData, back: bool) -> None:
             f"compliance = '{mesh.compliance}' already contains the contact",
             "use 'linear', or compliance = 'energy'",
         )
-    if back and mesh.backlash is None:
-        raise InputError(
-            "mesh.backlash", rule="is needed for the contact of back flanks", remedy="give a length"
-        )
+    check_backlash(mesh, back)
 
 
 def _phases(

@@ -15,18 +15,18 @@ from tribodyn.compliance.condensed import Condensed, condense
 from tribodyn.compliance.flank_gap import flank_gap, relief_rolls, same_every_pitch
 from tribodyn.compliance.gear_compliance import without_neighbours
 from tribodyn.compliance.load_sharing import PairFlexibility, contact_deflection, flexibility, share_load
-from tribodyn.compliance.loaded_contact import check, check_resolved, reach
+from tribodyn.compliance.loaded_contact import reach
 from tribodyn.compliance.loaded_flanks import LoadedFlanks
+from tribodyn.compliance.loaded_rules import check_contact, check_resolved, check_torque
 from tribodyn.compliance.slices import face_positions, pair_harmonics
 from tribodyn.compliance.table import check_cover, interpolate
-from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry, part_of
-from tribodyn.geometry.drive import SIDES, Drive, body_of
 from tribodyn.geometry.material import MaterialData
 from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.data import MeshData
+from tribodyn.mesh.rules import check_backlash, check_bores
 from tribodyn.numerics.shapes import Array, Float
 
 # Share of a single pair's load below which the secant no longer follows the load: the contact's compliance
@@ -55,9 +55,12 @@ def tabulate_loaded(
     InputError
         If a body has no bore, or the torque drives nothing.
     """
-    _check(assembly.drive, mesh, gear_torque, back)
+    check_bores(assembly.drive)
+    check_torque(gear_torque)
+    same_every_pitch(mesh.modifications)
+    check_backlash(mesh, back)
     flexible, modifications, *_ = flanks_of(assembly, materials, mesh)
-    check(flexible, modifications, gear_torque, mesh.slices)
+    check_contact(flexible, modifications, gear_torque, mesh.slices)
     # where the mesh vibrates by more than this reach, contact begins too late in the model
     limits = reach(flexible, modifications, gear_torque, mesh.slices, mesh.slice_coupling)
     pitch = assembly.pitch_angle
@@ -135,30 +138,6 @@ def flanks_of(
         apart = [without_neighbours(gear) for gear in flexible.gears]
         flexible = flexible._replace(gears=(apart[0], apart[1]))
     return LoadedFlanks(flexible, mesh.modifications, mesh.slices, mesh.slice_coupling)
-
-
-def _check(drive: Drive, mesh: MeshData, gear_torque: float, back: bool) -> None:
-    for side in SIDES:
-        bore = body_of(drive, side).bore_radius
-        if bore <= 0:
-            raise InputError(
-                f"drive.{side}.bore_radius",
-                bore,
-                "the finite elements are held at the bore",
-                "give the radius at which the shaft holds the gear",
-            )
-    if gear_torque <= 0:
-        raise InputError(
-            "operating.gear_torque",
-            gear_torque,
-            'compliance = "fem" is taken at this load, which must be greater than zero',
-            'write a torque such as "500 N*m", or use compliance = "energy"',
-        )
-    same_every_pitch(mesh.modifications)
-    if back and mesh.backlash is None:
-        raise InputError(
-            "mesh.backlash", rule="is needed for the contact of back flanks", remedy="give a length"
-        )
 
 
 def _driving(

@@ -59,13 +59,12 @@ def checked(
         Of pinion and gear, where they are to stand in the sheet.
     """
     from tribodyn.compliance.iso6336 import single_pair_stiffness as iso6336
-    from tribodyn.geometry.families import involute
     from tribodyn.geometry.sheet import geometry_sheet
 
     pinion, gear = assembly.drive.pinion, assembly.drive.gear
     width = float(min(pinion.face_width, gear.face_width))
     per_width = {method: stiffness / width}
-    if assembly.family is involute.FAMILY:
+    if assembly.family.involute:
         iso = iso6336(pinion.teeth, gear.teeth, pinion.profile_shift, gear.profile_shift)
         per_width["ISO 6336 c', which contains the measured correction 0.8"] = iso.single_pair
         per_width["ISO 6336 c'_th, theory"] = iso.theoretical

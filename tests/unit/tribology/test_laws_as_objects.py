@@ -5,6 +5,7 @@ import importlib.util
 
 import numpy as np
 import pytest
+from tribodyn.solve.dopri5 import buffers, rhs
 
 from tests.support.closures import LIU_NI, POINT, known, under
 from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
@@ -15,7 +16,6 @@ from tribodyn.kernels.native.arguments import laid_out
 from tribodyn.numerics.elementary import absolute, law
 from tribodyn.numerics.parameter import Parameter
 from tribodyn.record.reader import open_record
-from tribodyn.solve.dopri5 import buffers, rhs
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.gear_pair.run import run
 from tribodyn.studies.load import load_scenario

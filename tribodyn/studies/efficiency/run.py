@@ -144,7 +144,7 @@ def efficiencies(
 
 def _by_loss_factor(study: Prepared) -> dict[str, float]:
     case, friction = study.case, study.duty.closure.friction
-    if case.family != "involute" or friction.functions.coefficient is not constant:
+    if not study.assembly.family.involute or friction.functions.coefficient is not constant:
         return {}
     coefficient = friction.parameters.coefficient
     tips = tip_contact_ratios(family(case.family), case.drive)

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.compliance.load_sharing import PairFlexibility, flexibility, share_load
-from tribodyn.compliance.loaded_contact import LoadedContact, roll_through
+from tribodyn.compliance.loaded_contact import LoadedContact, loaded_error, roll_through
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.families import family
@@ -53,16 +53,21 @@ def roll(study: Prepared, gear_torque: float) -> LoadedContact:
     SimulationError
         If no state of contact is found.
     """
+    return roll_through(*_contact(study, gear_torque))
+
+
+def _contact(study: Study, gear_torque: float) -> tuple[Any, ...]:
+    """Arguments of `roll_through` and `loaded_error`."""
     case = study.case
-    return roll_through(
+    return (
         study.flexible,
         case.modifications,
         gear_torque,
         case.positions_per_cycle,
-        cycles=case.cycles,
-        friction_coefficient=case.friction_coefficient,
-        slices=case.slices,
-        coupled=case.slice_coupling,
+        case.cycles,
+        case.friction_coefficient,
+        case.slices,
+        case.slice_coupling,
     )
 
 
@@ -98,7 +103,7 @@ def run(
         spread = []
         for row, torque in enumerate(case.gear_torques):
             try:
-                error_at = roll(study, torque).deflection
+                error_at = loaded_error(*_contact(study, torque))
             except SimulationError as error:
                 failure = f"at operating.gear_torques.{row} = {torque:g} N*m: {error.reason}"
                 return RunResult(record.fail(failure, summary), "failed", failure, summary)
