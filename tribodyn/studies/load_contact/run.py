@@ -56,7 +56,7 @@ def roll(study: Prepared, gear_torque: float) -> LoadedContact:
     return roll_through(*_contact(study, gear_torque))
 
 
-def _contact(study: Study, gear_torque: float) -> tuple[Any, ...]:
+def _contact(study: Prepared, gear_torque: float) -> tuple[Any, ...]:
     """Arguments of `roll_through` and `loaded_error`."""
     case = study.case
     return (
@@ -78,7 +78,7 @@ def run(
     force: bool = False,
     progress: Progress | None = None,
 ) -> RunResult:
-    """Run a case and write its record; see `study.Study.run`."""
+    """Run a case and write its record; see `study.Prepared.run`."""
     path = target(case, output, force)
     begun = perf_counter()
     study = prepare(case)
