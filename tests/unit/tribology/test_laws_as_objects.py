@@ -15,7 +15,7 @@ from tribodyn.kernels.native.arguments import laid_out
 from tribodyn.numerics.elementary import absolute, law
 from tribodyn.numerics.parameter import Parameter
 from tribodyn.record.reader import open_record
-from tribodyn.solve.dopri5 import buffers, rhs
+from tribodyn.solve.right_hand_side import rhs, work_array
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.gear_pair.run import run
 from tribodyn.studies.load import load_scenario
@@ -205,9 +205,8 @@ def _unfinished(contact, film, surfaces, parameters):
 def test_a_law_that_cannot_be_compiled_says_why():
     case = with_laws(load_scenario("crc-23-47"), friction=FrictionLaw("unfinished", "", _unfinished))
     model = prepare(case).model
-    work, rates = buffers(model)
     with pytest.raises(InputError, match=r"law = _unfinished.*_unmarked.*marked with its `law`"):
-        rhs(0.3, 0.0, 0, np.zeros(STATES), model, work, rates)
+        rhs(0.3, 0.0, 0, np.zeros(STATES), model, work_array(model), np.empty(STATES))
 
 
 def test_laws_are_plain_data():
