@@ -205,9 +205,8 @@ def _unfinished(contact, film, surfaces, parameters):
 def test_a_law_that_cannot_be_compiled_says_why():
     case = with_laws(load_scenario("crc-23-47"), friction=FrictionLaw("unfinished", "", _unfinished))
     model = prepare(case).model
-    work, rates = work_array(model), np.empty(STATES)
     with pytest.raises(InputError, match=r"law = _unfinished.*_unmarked.*marked with its `law`"):
-        rhs(0.3, 0.0, 0, np.zeros(STATES), model, work, rates)
+        rhs(0.3, 0.0, 0, np.zeros(STATES), model, work_array(model), np.empty(STATES))
 
 
 def test_laws_are_plain_data():
