@@ -26,7 +26,7 @@ def try_laws(film: FilmLaw, friction: FrictionLaw, closure: Closure) -> None:
         If a law calls what kernels cannot compile, fails, or gives what is no film or coefficient.
     """
     for law in (film, friction):
-        if law.function.__module__.partition(".")[0] != "tribodyn":
+        if (law.function.__module__ or "").partition(".")[0] != "tribodyn":
             _try(law, closure)
 
 

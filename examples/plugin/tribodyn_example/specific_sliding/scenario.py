@@ -39,27 +39,30 @@ class SlidingCase(CaseHead):
     positions: int
 
 
-class Operating(Table):
+class SlidingOperating(Table):
     """At which speed."""
 
     pinion_speed: Annotated[float, Quantity(units.positive(units.ANGULAR_SPEED))]
 
 
-class Output(Table):
+class SlidingOutput(Table):
     """What is recorded."""
 
     positions: Annotated[int, Field(strict=True, ge=2)] = Field(201, description="along the path of contact")
 
 
-class Scenario(Table):
+class SlidingScenario(Table):
     """A scenario file."""
 
     title: Text = Field(description="what it shows, in a line")
     name: Name | None = Field(None, description="names the record; default: the file's own name")
     kind: Literal["specific-sliding"]
     drive: Annotated[DriveTable, model_file("drives")]
-    operating: Operating
-    output: Output = written({})
+    operating: SlidingOperating
+    output: SlidingOutput = written({})
+
+
+Scenario = SlidingScenario
 
 
 def case_of(scenario: Scenario, toml: str, sha256: str) -> SlidingCase:

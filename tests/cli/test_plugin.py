@@ -1,0 +1,362 @@
+"""The example package, installed into an environment of its own: its family, laws and study from TOML.
+
+The environment sees the packages of the running one, and this checkout; what is installed into it is the
+example alone, by pip, without a network.
+"""
+
+import json
+import os
+import shutil
+import site
+import subprocess
+import sys
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+from tribodyn.record.reader import open_record
+from tribodyn.record.sweep_reader import SweepRecord
+from tribodyn.record.sweep_schema import DONE
+
+ROOT = Path(__file__).parents[2]
+pytestmark = pytest.mark.slow
+
+GEARS, EFFICIENCY, SLIDING = "circle-23-47", "efficiency-circle-23-47", "sliding-circle-23-47"
+SHORT = ("solver.cycles=2", "output.samples_per_cycle=40", "solver.rtol=1e-8")
+#: The same pair and film under the shipped law.
+COULOMB = """
+title = "The same under Coulomb's law"
+lubricant = "liu-ni-2022"
+drive = {like = "liu-ni-involute-23-47", family = "circle", shape = {diameter = "-300 mm"}}
+operating = {pinion_speed = "300 rad/s", gear_torque = "500 N*m"}
+mesh = {damping_ratio = 0.05}
+film = {law = "constant-film", thickness = "0.5 um"}
+friction = {law = "coulomb", coefficient = 0.05}
+"""
+AS_COULOMB = ("friction.boundary_coefficient=0.05", "friction.fluid_coefficient=0.05")
+#: The same circle as two arcs, which the shipped family has.
+AS_ARCS = ("drive.family=circular-arc", 'drive.shape={approach_diameter="300 mm",recess_diameter="-300 mm"}')
+
+
+class Environment(NamedTuple):
+    """An interpreter with the example installed, and where its files are."""
+
+    python: Path
+    packages: Path
+    scenarios: Path
+    cache: Path
+
+    def __call__(self, *words: str, folder: Path, status: int = 0, cache: Path | None = None):
+        """Run `tribodyn` in a folder."""
+        ran = subprocess.run(
+            [str(self.python), "-P", "-m", "tribodyn", *words],
+            cwd=folder,
+            env=surroundings(cache or self.cache),
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert ran.returncode == status, f"{words}: {ran.returncode}\n{ran.stdout}\n{ran.stderr}"
+        return ran
+
+    def scenario(self, name: str) -> str:
+        """Path of one of the example's scenarios."""
+        return str(self.scenarios / f"{name}.toml")
+
+
+def surroundings(cache: Path) -> dict[str, str]:
+    """Environment variables: this checkout, and a cache of compiled kernels that starts empty."""
+    more = {"PYTHONPATH": str(ROOT), "TRIBODYN_CACHE": str(cache), "OPENBLAS_NUM_THREADS": "1"}
+    return {**os.environ, **more}
+
+
+def fresh_environment(folder: Path, source: Path) -> Environment:
+    """Make an environment and install a package into it."""
+    subprocess.run([sys.executable, "-m", "venv", "--without-pip", str(folder)], check=True)
+    python = folder / "bin" / "python"
+    show = [str(python), "-c", "import sysconfig; print(sysconfig.get_path('purelib'))"]
+    packages = Path(subprocess.run(show, check=True, capture_output=True, text=True).stdout.strip())
+    (packages / "running.pth").write_text("\n".join(site.getsitepackages()), encoding="utf-8")
+    options = ("--quiet", "--no-deps", "--no-build-isolation", "--no-index", "--disable-pip-version-check")
+    install = [str(python), "-m", "pip", "install", *options, str(source)]
+    ran = subprocess.run(install, capture_output=True, text=True, check=False)
+    assert ran.returncode == 0, ran.stderr
+    return Environment(python, packages, source / "scenarios", folder / "cache")
+
+
+@pytest.fixture(scope="module")
+def plugin(tmp_path_factory) -> Environment:
+    """The example as its users install it."""
+    folder = tmp_path_factory.mktemp("plugin")
+    shutil.copytree(ROOT / "examples" / "plugin", folder / "source")
+    return fresh_environment(folder / "environment", folder / "source")
+
+
+def settings(*given: str) -> list[str]:
+    return [word for one in given for word in ("--set", one)]
+
+
+def run(plugin: Environment, folder: Path, name: str, *given: str, scenario: str = "") -> Path:
+    """Run one of the example's scenarios; return the record."""
+    where = scenario or plugin.scenario(name)
+    plugin("run", where, "-o", f"{name}.h5", "--no-plot", *settings(*given), folder=folder)
+    return folder / f"{name}.h5"
+
+
+def arrays(path: Path) -> dict[str, np.ndarray]:
+    with open_record(path) as record:
+        return {name: record[name] for name in record}
+
+
+def kernels(cache: Path) -> dict[str, int]:
+    """Compiled kernels on disk, and when each was written."""
+    return {str(file): file.stat().st_mtime_ns for file in cache.glob("kernels-*/*")}
+
+
+def test_list_and_schema_name_all_that_it_adds(plugin, tmp_path):
+    listed = json.loads(plugin("list", "--json", folder=tmp_path).stdout)
+    assert "circular arc" in listed["families"]["circle"]
+    assert "entrainment" in listed["laws"]["stribeck"]
+    assert "constant-film" in listed["film-laws"]
+    assert "specific sliding" in listed["kinds"]["specific-sliding"]
+    assert "(specific-sliding)" in listed["plots"]["specific-sliding"]
+    schema = json.loads(plugin("schema", folder=tmp_path).stdout)
+    tables = schema["$defs"]
+    assert "circle" in tables["DriveTable"]["properties"]["family"]["enum"]
+    friction = tables["Friction"]["properties"]
+    assert "stribeck" in friction["law"]["enum"]
+    assert friction["reference_speed"]["examples"] == ['"1 m/s"']
+    assert "velocity" in friction["reference_speed"]["description"]
+    assert 'of law = "stribeck"' in friction["reference_speed"]["description"]
+    assert "thickness" in tables["FilmTable"]["properties"]
+    assert schema["discriminator"]["mapping"]["specific-sliding"] == "#/$defs/SlidingScenario"
+    assert "positions" in tables["SlidingOutput"]["properties"]
+
+
+def test_check_of_all_three(plugin, tmp_path):
+    for name in (GEARS, EFFICIENCY, SLIDING):
+        checked = json.loads(plugin("check", plugin.scenario(name), "--json", folder=tmp_path).stdout)
+        assert checked["geometry"]["contact ratio"][0] > 1.6
+
+
+def test_own_keys_are_held_to_their_units(plugin, tmp_path):
+    wrong = plugin(
+        "check", plugin.scenario(GEARS), "--set", "friction.reference_speed=2", folder=tmp_path, status=2
+    )
+    assert "friction.reference_speed" in wrong.stderr
+    assert "m/s" in wrong.stderr
+    wrong = plugin("check", plugin.scenario(GEARS), "--set", "film.thicknes=1 um", folder=tmp_path, status=2)
+    assert 'did you mean "thickness"?' in wrong.stderr
+
+
+def test_the_law_reduces_to_coulombs(plugin, tmp_path):
+    """Without a decay; the film is the one that is given."""
+    shipped = tmp_path / "shipped.toml"
+    shipped.write_text(COULOMB, encoding="utf-8")
+    theirs = arrays(run(plugin, tmp_path, "coulomb", *SHORT, scenario=str(shipped)))
+    own = arrays(run(plugin, tmp_path, GEARS, *SHORT, *AS_COULOMB))
+    for name in theirs.keys() - {"friction_in_range"}:
+        scale = np.nanmax(np.abs(theirs[name])) or 1.0
+        np.testing.assert_allclose(own[name], theirs[name], rtol=0, atol=1e-12 * scale, err_msg=name)
+    loaded = own["normal_load"] > 0.0
+    np.testing.assert_allclose(own["central_film_thickness"][loaded], 0.5e-6, rtol=1e-12)
+
+
+def test_the_family_reduces_to_two_arcs(plugin, tmp_path):
+    """Of opposite diameters, for which the shipped family has closed forms where the example integrates."""
+    own = run(plugin, tmp_path, "circle", scenario=plugin.scenario(SLIDING))
+    theirs = run(plugin, tmp_path, "arcs", *AS_ARCS, scenario=plugin.scenario(SLIDING))
+    with open_record(own) as one, open_record(theirs) as other:
+        assert one.summary["contact_ratio"] == pytest.approx(other.summary["contact_ratio"], rel=1e-12)
+        for name in other:
+            np.testing.assert_allclose(one[name], other[name], rtol=1e-10, atol=1e-13, err_msg=name)
+
+
+def test_all_integrators_agree(plugin, tmp_path):
+    """The native kernels, JAX and SciPy over NumPy, on one case, to what their tolerances leave."""
+    found = {}
+    for method in ("dopri5", "rodas4", "tsit5", "radau"):
+        found[method] = arrays(
+            run(plugin, tmp_path, GEARS, *SHORT, f"solver.method={method}", "solver.cycles=1")
+        )
+        (tmp_path / f"{GEARS}.h5").unlink()
+    first = found["dopri5"]
+    for name in ("transmission_error_rotational", "normal_load", "friction_coefficient", "friction_force"):
+        scale = np.nanmax(np.abs(first[name]))
+        for method, other in found.items():
+            np.testing.assert_allclose(
+                other[name], first[name], rtol=0, atol=1e-5 * scale, err_msg=f"{name} {method}"
+            )
+    speed, coefficient = first["entrainment_speed"], first["friction_coefficient"]
+    expected = 0.03 + 0.09 * np.exp(-np.abs(speed) / 2.0)
+    np.testing.assert_allclose(coefficient, expected, rtol=1e-12)
+    assert set(np.unique(first["friction_in_range"][first["normal_load"] > 0.0])) == {1}
+
+
+def test_a_kernel_is_kept_until_the_source_changes(plugin, tmp_path):
+    """A second process compiles nothing; an edit of the law compiles anew, and is what then runs."""
+    cache, steel = tmp_path / "cache", settings(*SHORT, "solver.method=dopri5")
+    given = ("run", plugin.scenario(GEARS), "-o", "run.h5", "--no-plot", "--force", *steel)
+    plugin(*given, folder=tmp_path, cache=cache)
+    first, before = kernels(cache), arrays(tmp_path / "run.h5")
+    assert first
+    plugin(*given, folder=tmp_path, cache=cache)
+    assert kernels(cache) == first
+    source = plugin.packages / "tribodyn_example" / "stribeck.py"
+    text = source.read_text(encoding="utf-8")
+    formula = "exp(-contact.entrainment"
+    assert text.count(formula) == 1
+    try:
+        source.write_text(text.replace(formula, "exp(-2.0 * contact.entrainment"), encoding="utf-8")
+        plugin(*given, folder=tmp_path, cache=cache)
+        after = arrays(tmp_path / "run.h5")
+    finally:
+        source.write_text(text, encoding="utf-8")
+    later = kernels(cache)
+    assert len(later) > len(first)
+    assert {name: later[name] for name in first} == first
+    expected = 0.03 + 0.09 * np.exp(-2.0 * np.abs(after["entrainment_speed"]) / 2.0)
+    np.testing.assert_allclose(after["friction_coefficient"], expected, rtol=1e-12)
+    assert np.max(after["friction_force"]) < np.max(before["friction_force"])
+
+
+def test_a_sweep_over_the_laws_own_key_runs_in_the_lanes(plugin, tmp_path):
+    """Nine cases side by side; each is the run of its value alone, and friction grows with the key."""
+    vary = "friction.reference_speed=1:9:1m/s"
+    given = settings("solver.rtol=1e-8")
+    plugin("sweep", plugin.scenario(GEARS), "--vary", vary, "-o", "sweep.h5", *given, folder=tmp_path)
+    with SweepRecord(tmp_path / "sweep.h5") as record:
+        assert np.all(record["status"] == DONE)
+        np.testing.assert_allclose(record["reference_speed"], np.arange(1.0, 10.0))
+        efficiency = record["efficiency"]
+    assert np.all(np.diff(efficiency) < 0.0)
+    plugin("plot", "sweep.h5", "response", folder=tmp_path)
+    assert (tmp_path / "sweep-response.png").exists()
+
+
+def test_the_efficiency_study_takes_family_and_law(plugin, tmp_path):
+    """Between the efficiencies of both of the law's ends, which are Coulomb's."""
+    found = []
+    for boundary, fluid in (("0.03", "0.03"), ("0.12", "0.03"), ("0.12", "0.12")):
+        given = (f"friction.boundary_coefficient={boundary}", f"friction.fluid_coefficient={fluid}")
+        path = run(plugin, tmp_path, EFFICIENCY, *given)
+        with open_record(path) as record:
+            found.append(record.summary["efficiency"])
+        path.unlink()
+    assert found[0] > found[1] > found[2]
+
+
+def test_the_study_runs_draws_shows_and_compares(plugin, tmp_path):
+    first = run(plugin, tmp_path, SLIDING)
+    other = tmp_path / "involute.h5"
+    plugin("run", plugin.scenario(SLIDING), "-o", other.name, *settings("drive.family=involute"),
+           "--set", "drive.shape={}", folder=tmp_path)  # fmt: skip
+    assert (tmp_path / "involute-overview.png").exists()
+    shown = plugin("show", first.name, folder=tmp_path).stdout
+    assert "Minimum specific sliding, pinion" in shown
+    assert "no load, no vibration" in shown
+    plugin("plot", first.name, other.name, "all", folder=tmp_path)
+    assert list(tmp_path.glob("*-specific-sliding.png"))
+    compared = plugin("compare", first.name, other.name, folder=tmp_path).stdout
+    assert "Minimum specific sliding, gear" in compared
+    checked = plugin("check", plugin.scenario(SLIDING), "--json", folder=tmp_path)
+    sheet = json.loads(checked.stdout)["geometry"]
+    with open_record(first) as record:
+        assert record.axis == "signed_distance"
+        assert record.units("sliding_speed") == "m/s"
+        for body in ("pinion", "gear"):
+            least = np.min(record[f"{body}_specific_sliding"])
+            assert least == record.summary[f"{body}_specific_sliding_min"]
+            assert least == pytest.approx(sheet[body]["least specific sliding"][0], rel=1e-9)
+
+
+def test_specific_sliding_of_an_involute(plugin, tmp_path):
+    """Closed form: u_p = ω_p (r_p sin α + r), u_g = ω_p r_p/r_g (r_g sin α − r)."""
+    path = run(plugin, tmp_path, "involute", "drive.family=involute", "drive.shape={}",
+               scenario=plugin.scenario(SLIDING))  # fmt: skip
+    r_p, r_g, sine = 3e-3 * 23 / 2, 3e-3 * 47 / 2, np.sin(np.radians(20.0))
+    with open_record(path) as record:
+        r = record["signed_distance"]
+        u_p, u_g = r_p * sine + r, r_p / r_g * (r_g * sine - r)
+        np.testing.assert_allclose(record["pinion_specific_sliding"], 1 - u_g / u_p, rtol=1e-12, atol=1e-12)
+        np.testing.assert_allclose(record["gear_specific_sliding"], 1 - u_p / u_g, rtol=1e-12, atol=1e-12)
+        speed = 1500 * np.pi / 30
+        np.testing.assert_allclose(
+            record["sliding_speed"], speed * (1 + r_p / r_g) * r, rtol=1e-12, atol=1e-12
+        )
+
+
+def test_a_sweep_of_the_study(plugin, tmp_path):
+    """Over a key of its own: the sliding speed goes with the speed, and nothing else changes."""
+    vary = "operating.pinion_speed=500:2000:500rpm"
+    plugin("sweep", plugin.scenario(SLIDING), "--vary", vary, "-o", "sweep.h5", folder=tmp_path)
+    with SweepRecord(tmp_path / "sweep.h5") as record:
+        fastest = record["sliding_speed_max"]
+        np.testing.assert_allclose(fastest / fastest[0], [1.0, 2.0, 3.0, 4.0], rtol=1e-12)
+        assert len(set(record["pinion_specific_sliding_min"])) == 1
+    plugin("plot", "sweep.h5", folder=tmp_path)
+    assert list(tmp_path.glob("sweep-*.png"))
+
+
+def test_init_writes_a_scenario_of_the_study(plugin, tmp_path):
+    plugin("init", "mine", "--kind", "specific-sliding", folder=tmp_path)
+    plugin("check", "mine.toml", folder=tmp_path)
+
+
+BROKEN = {
+    "family": ("circle.py", GEARS),
+    "friction law": ("stribeck.py", GEARS),
+    "film law": ("constant_film.py", GEARS),
+    "study": ("specific_sliding/__init__.py", SLIDING),
+    "part of the study": ("specific_sliding/scenario.py", SLIDING),
+}
+
+
+@pytest.mark.parametrize("what", BROKEN)
+def test_a_module_that_cannot_be_imported(plugin, tmp_path, what):
+    """One error where its name is used, one line on stderr where it would be listed; all else works."""
+    name, scenario = BROKEN[what]
+    source = plugin.packages / "tribodyn_example" / name
+    text = source.read_text(encoding="utf-8")
+    try:
+        source.write_text("import no_such_module\n" + text, encoding="utf-8")
+        used = plugin("check", plugin.scenario(scenario), folder=tmp_path, status=2)
+        listed = plugin("list", "--json", folder=tmp_path)
+        schema = plugin("schema", folder=tmp_path)
+        plugin("check", "crc-23-47", folder=tmp_path)
+        unknown = plugin("check", "crc-23-47", "--set", "friction.law=xuu", folder=tmp_path, status=2)
+    finally:
+        source.write_text(text, encoding="utf-8")
+    said = [text for ran in (used, listed, schema) if (text := ran.stderr.strip())]
+    assert len(said) >= 2  # the names of families stand in the schema, whatever becomes of them
+    for text in said:
+        assert text.count("\n") == 0
+        assert "No module named 'no_such_module'" in text
+        assert "tribodyn-example" in text or "tribodyn_example" in text
+    assert "masjedi-khonsari" in json.loads(listed.stdout)["laws"]
+    assert "GearPairScenario" in json.loads(schema.stdout)["$defs"]
+    assert 'did you mean "xu"?' in unknown.stderr
+
+
+IMPOSTORS = {
+    "a string": ("LAW = 'a law'", "offers a str, where a FrictionLaw is due"),
+    "another name": ("from tribodyn.tribology.friction.none import LAW", 'it calls itself "none"'),
+}
+
+
+@pytest.mark.parametrize("what", IMPOSTORS)
+def test_what_is_not_what_it_should_be(plugin, tmp_path, what):
+    text, said = IMPOSTORS[what]
+    source = plugin.packages / "tribodyn_example" / "stribeck.py"
+    sound = source.read_text(encoding="utf-8")
+    try:
+        source.write_text(text + "\n", encoding="utf-8")
+        used = plugin("check", plugin.scenario(GEARS), folder=tmp_path, status=2)
+        listed = plugin("list", "laws", folder=tmp_path)
+    finally:
+        source.write_text(sound, encoding="utf-8")
+    assert said in used.stderr
+    assert "stribeck" not in listed.stdout
+    assert "stribeck" in listed.stderr

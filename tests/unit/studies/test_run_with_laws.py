@@ -1,0 +1,239 @@
+"""Laws of film and friction that are handed over from Python: defined anywhere, in every integrator."""
+
+import tomllib
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from tribodyn import FilmLaw, FrictionLaw, InputError, Parameter, load_scenario, open_record, run
+from tribodyn.kernels.native.identity import function_layout
+from tribodyn.numerics.elementary import exp, law, log
+from tribodyn.solve.ensemble import march
+from tribodyn.solve.initial import initial_state
+from tribodyn.studies.gear_pair.prepare import prepare
+from tribodyn.studies.run import with_law
+
+SHORT = {"solver.cycles": 1, "output.samples_per_cycle": 40, "solver.rtol": 1e-8}
+COULOMB = {"friction": {"law": "coulomb", "coefficient": 0.05, "sliding": "kinematic"}}
+IN_A_NOTEBOOK = """
+from tribodyn.numerics.elementary import exp
+
+def coefficient(contact, film, surfaces, parameters):
+    return 0.03 + 0.05 * exp(-contact.entrainment / 2.0)
+"""
+
+
+def falling(contact, film, surfaces, parameters):
+    return 0.03 + 0.05 * exp(-contact.entrainment / 2.0)
+
+
+def closure(least):
+    def coefficient(contact, film, surfaces, parameters):
+        return least + 0.05 * exp(-contact.entrainment / 2.0)
+
+    return coefficient
+
+
+def notebook():
+    """As a cell of a notebook defines it: its source is in no file."""
+    cell = {}
+    exec(IN_A_NOTEBOOK, cell)
+    return cell["coefficient"]
+
+
+def constant(contact, film, surfaces, parameters):
+    return 0.05
+
+
+def thin(contact, surfaces, parameters):
+    return log(2e-7) + 0.0 * contact.line_load, 1.0, 0.0
+
+
+PLACES = {"module": falling, "closure": closure(0.03), "notebook": notebook()}
+
+
+@pytest.fixture(scope="module")
+def case():
+    return load_scenario("crc-23-47", {**SHORT, "solver.method": "dopri5"})
+
+
+@pytest.fixture(scope="module")
+def by_numpy(tmp_path_factory):
+    """Transmission error and friction under the law, by SciPy's Radau method over NumPy."""
+    case = load_scenario("crc-23-47", {**SHORT, "solver.method": "radau"})
+    path = tmp_path_factory.mktemp("radau") / "radau.h5"
+    return sampled(run(case, path, friction=FrictionLaw("falling", "", falling)))
+
+
+def sampled(result):
+    assert result.status == "complete", result.message
+    with open_record(result.path) as record:
+        return record["transmission_error_rotational"], record["friction_coefficient"]
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_a_law_works_wherever_it_is_defined(place, case, by_numpy, tmp_path):
+    """The same formula in the native kernel as in NumPy, to what the integrators' tolerances leave."""
+    found = sampled(run(case, tmp_path / "run.h5", friction=FrictionLaw(place, "", PLACES[place])))
+    scale = np.max(np.abs(by_numpy[0]))
+    np.testing.assert_allclose(found[0], by_numpy[0], rtol=0, atol=2e-6 * scale)
+    np.testing.assert_allclose(found[1], by_numpy[1], rtol=1e-12)
+
+
+@pytest.mark.parametrize("method", ["dopri5", "rodas4"])
+def test_a_constant_law_is_coulombs(method, tmp_path):
+    """A law that returns a plain number gives bit for bit what the shipped law gives."""
+    case = load_scenario("crc-23-47", {**SHORT, "solver.method": method, **COULOMB})
+    shipped = sampled(run(case, tmp_path / "shipped.h5"))
+    own = sampled(run(case, tmp_path / "own.h5", friction=FrictionLaw("own", "", constant)))
+    np.testing.assert_allclose(own[0], shipped[0], rtol=1e-11)
+    np.testing.assert_allclose(own[1], shipped[1], rtol=0, atol=0)
+
+
+@pytest.mark.slow
+def test_the_lanes_take_a_law_that_is_a_closure(case):
+    """Eight cases side by side under a constant from outside the function, as under the shipped law."""
+    coefficient = 0.05
+
+    def closed(contact, film, surfaces, parameters):
+        return coefficient
+
+    own = prepare(with_law(case, "friction", FrictionLaw("own", "", closed))).model
+    shipped = prepare(load_scenario("crc-23-47", {**SHORT, **COULOMB})).model
+    states = np.tile(initial_state(own, "static"), (8, 1))
+    given = {"cycles": 2, "window": 1, "samples": 20, "rtol": 1e-8, "method": "dopri5", "workers": 1}
+    ends = [march([model] * 8, states, **given).state for model in (own, shipped)]
+    np.testing.assert_allclose(ends[0], ends[1], rtol=1e-9, atol=1e-18)
+
+
+def test_a_film_law_from_python(case, tmp_path):
+    result = run(case, tmp_path / "film.h5", film=FilmLaw("thin", "", thin))
+    with open_record(result.path) as record:
+        film, load = record["central_film_thickness"], record["normal_load"]
+        assert record.scenario["film"] == {"law": "python:thin"}
+    np.testing.assert_allclose(film[load > 0.0], 2e-7, rtol=1e-12)
+
+
+def test_an_efficiency_study_takes_a_law(tmp_path):
+    """The efficiency under a constant law is that under Coulomb's."""
+    study = {"friction.law": "coulomb", "friction.coefficient": 0.05}
+    case = load_scenario("efficiency-crc-23-47", study)
+    own = run(case, tmp_path / "own.h5", friction=FrictionLaw("own", "", constant))
+    assert own.summary["efficiency"] == run(case, tmp_path / "shipped.h5").summary["efficiency"]
+
+
+def test_the_record_names_the_law_that_was_used(case, tmp_path):
+    """Its name and its keys with units; the old law's keys are gone, the table's other keys stay."""
+    keys = (
+        Parameter("floor", "number", "at speed"),
+        Parameter("reference_speed", "velocity", "of the decay", 2.0, "chosen"),
+    )
+
+    def decay(contact, film, surfaces, parameters):
+        return parameters.floor + 0.05 * exp(-contact.entrainment / parameters.reference_speed)
+
+    own = FrictionLaw("decay", "", decay, keys=keys).with_values(floor=0.03)
+    coulomb = load_scenario("crc-23-47", {**SHORT, **COULOMB})
+    result = run(coulomb, tmp_path / "own.h5", friction=own)
+    with open_record(result.path) as record:
+        text, told = str(record.attrs["scenario"]), record.scenario["friction"]
+        assert record.attrs["scenario_sha256"] != coulomb.sha256
+        assert record.summary["friction_law"] == "python:decay"
+    assert (told.pop("sliding"), told.pop("reversal_width")) == ("kinematic", "20 um")
+    assert told == {"law": "python:decay", "floor": 0.03, "reference_speed": "2.0 m/s"}
+    assert tomllib.loads(coulomb.toml)["friction"]["law"] == "coulomb"
+    again = tmp_path / "again.toml"
+    again.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match=r'friction.law = "python:decay".*handed over from Python'):
+        load_scenario(again)
+
+
+def test_two_laws_of_one_name_in_one_file_have_kernels_of_their_own():
+    """What is kept on disk is looked up by this identity."""
+    first, second = (lambda c, f, s, p: 0.03), (lambda c, f, s, p: 0.05)
+    layouts = [function_layout(one) for one in (first, second)]
+    assert all(one.kept for one in layouts)
+    assert layouts[0].identity != layouts[1].identity
+    assert not function_layout(closure(0.03)).kept
+    assert not function_layout(notebook()).kept
+
+
+@pytest.mark.parametrize("scenario", ["load-contact-18-36", "irefc", "backlash-oscillator"])
+@pytest.mark.parametrize("table", ["film", "friction"])
+def test_a_case_without_laws_refuses_one(scenario, table, tmp_path):
+    given = {"film": FilmLaw("own", "", thin), "friction": FrictionLaw("own", "", constant)}
+    with pytest.raises(InputError, match=f"has no {table} law"):
+        run(load_scenario(scenario), tmp_path / "no.h5", **{table: given[table]})
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("given", [constant, "coulomb", FilmLaw("film", "", thin), SimpleNamespace(name="x")])
+def test_what_is_no_law_is_refused(given, case, tmp_path):
+    with pytest.raises(InputError, match=r"a FrictionLaw is due here.*tribodyn\.FrictionLaw"):
+        run(case, tmp_path / "no.h5", friction=given)
+
+
+def branching(contact, film, surfaces, parameters):
+    return 0.05 if contact.sliding > 0.0 else 0.04
+
+
+def too_few(contact):
+    return 0.05
+
+
+def negative(contact, film, surfaces, parameters):
+    return -0.05 + 0.0 * contact.sliding
+
+
+def halved(x):
+    return 0.5 * x
+
+
+def unmarked(contact, film, surfaces, parameters):
+    return halved(0.1)
+
+
+def closed_over_unmarked():
+    def helper(x):
+        return 0.5 * x
+
+    return lambda contact, film, surfaces, parameters: helper(0.1)
+
+
+@law
+def marked_half(x):
+    return 0.5 * x
+
+
+def marked(contact, film, surfaces, parameters):
+    return marked_half(0.1)
+
+
+@pytest.mark.parametrize(
+    ("function", "said"),
+    [
+        (branching, r"fails on arrays.*where\(\) and not if"),
+        (too_few, "fails on a number: TypeError"),
+        (negative, "gives -0.05 in an ordinary contact"),
+        (unmarked, "calls halved, which is not marked"),
+        (closed_over_unmarked(), "calls helper, which is not marked"),
+    ],
+)
+def test_a_law_that_cannot_work_is_refused_before_anything_is_written(function, said, case, tmp_path):
+    with pytest.raises(InputError, match=said):
+        run(case, tmp_path / "no.h5", friction=FrictionLaw("bad", "", function))
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_law_may_call_functions_that_are_marked(case, tmp_path):
+    result = run(case, tmp_path / "run.h5", friction=FrictionLaw("marked", "", marked))
+    with open_record(result.path) as record:
+        found, load = record["friction_coefficient"], record["normal_load"]
+    np.testing.assert_allclose(found[load > 0.0], 0.05, rtol=1e-14)
+
+
+def test_a_key_without_a_value_is_named(case, tmp_path):
+    own = FrictionLaw("own", "", constant, keys=(Parameter("floor", "number", "at speed"),))
+    with pytest.raises(InputError, match=r'friction\.floor: missing: law = "python:own" needs it'):
+        run(case, tmp_path / "no.h5", friction=own)
