@@ -75,11 +75,11 @@ def _about(what: What) -> dict[str, str]:
         case What.sweep_plots:
             from tribodyn.studies import STUDIES
 
-            return _drawn({kind: study.sweep_drawings() for kind, study in STUDIES.items() if study.swept()})
+            return _drawn(dict(STUDIES.each(lambda study: study.sweep_drawings() if study.swept() else {})))
         case What.plots:
             from tribodyn.studies import STUDIES
 
-            return _drawn({kind: study.drawings() for kind, study in STUDIES.items()})
+            return _drawn(dict(STUDIES.each(lambda study: study.drawings())))
 
 
 def _described(registry: Any) -> dict[str, str]:

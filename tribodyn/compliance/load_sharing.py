@@ -24,9 +24,8 @@ from tribodyn.compliance.local import Elastic, hertz_half_width, weber_banaschek
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.corner_contact import pair_geometry, part_of
 from tribodyn.geometry.drive import SIDES, body_of
-from tribodyn.geometry.pitch_point import pitch_point
+from tribodyn.geometry.pitch_point import averaged_radius, pitch_point
 from tribodyn.numerics.shapes import Array, Float, Int
-from tribodyn.tribology.contact import averaged_radius
 
 #: Depth of the local region, in modules, and refinement of the mesh: together within 0.1 % of their limits
 #: (test_load_contact).
@@ -107,7 +106,7 @@ def flexibility(
         Also for loads that vary along the teeth, with free end faces, and with root stress.
     """
     drive = assembly.drive
-    width = min(float(drive.pinion.face_width), float(drive.gear.face_width))
+    width = float(assembly.common_width)
     gears = [
         cached_gear_compliance(
             assembly.tooth(side),
@@ -258,7 +257,7 @@ def extended_rolls(
     assembly: Assembly, limits: tuple[float, float], positions: int
 ) -> Float[Array, "position pair"]:
     """Roll angles (position, pair) over one pitch of all pairs between the limits, for `share_load`."""
-    pitch = 2.0 * np.pi / float(assembly.drive.pinion.teeth)
+    pitch = assembly.pitch_angle
     count = int(np.ceil((limits[1] - limits[0]) / pitch))
     phase = (np.arange(positions) + 0.5) / positions
     return limits[0] + pitch * (phase[:, None] + np.arange(count - 1, -1, -1))

@@ -1,6 +1,6 @@
 """Names that a scenario chooses among: what this package offers, and what installed packages add to it."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
 from importlib import import_module
 from typing import Any, Generic, TypeVar, cast
@@ -8,6 +8,10 @@ from typing import Any, Generic, TypeVar, cast
 from tribodyn.errors import InputError, quoted, unknown_name
 
 T = TypeVar("T")
+U = TypeVar("U")
+
+#: Begins the name of what was handed over from Python: no scenario can give it again.
+FROM_PYTHON = "python:"
 
 
 class Registry(Generic[T]):
@@ -23,21 +27,29 @@ class Registry(Generic[T]):
         Name -> ``module:attribute``, of this package.
     group : str
         Entry points of this group add names; a name of this package cannot be taken by one of them.
+    of : type
+        What all of them are instances of. It says its own name as `name`, or as `kind`.
     """
 
-    def __init__(self, key: str, what: str, places: Mapping[str, str], group: str) -> None:
+    def __init__(self, key: str, what: str, places: Mapping[str, str], group: str, of: type[T]) -> None:
         self.key = key
         self.what = what
         self.group = group
         self._places = dict(places)
+        self._of = of
         self._loaded: dict[str, T] = {}
+        self._warned: set[str] = set()
 
     @cached_property
-    def _outside(self) -> dict[str, Any]:
+    def _outside(self) -> dict[str, list[Any]]:
         """Entry points by name; looked for only where a name is not ours, because that reads the disk."""
         from importlib.metadata import entry_points
 
-        return {one.name: one for one in entry_points(group=self.group) if one.name not in self._places}
+        offered: dict[str, list[Any]] = {}
+        for entry in entry_points(group=self.group):
+            if entry.name not in self._places:
+                offered.setdefault(entry.name, []).append(entry)
+        return offered
 
     def __contains__(self, name: object) -> bool:
         return name in self._places or name in self._outside
@@ -48,9 +60,31 @@ class Registry(Generic[T]):
         yield from sorted(self._outside)
 
     def items(self) -> Iterator[tuple[str, T]]:
-        """Go through all names and what they stand for."""
+        """Go through all names that can be loaded, and what they stand for; see `each`."""
+        return self.each(lambda thing: thing)
+
+    def each(self, part: Callable[[T], U]) -> Iterator[tuple[str, U]]:
+        """Go through all names and a part of what they stand for.
+
+        What an installed package offers and cannot be loaded is left out, so that one broken package does
+        not take the rest down; a line of the log, which Python writes to stderr, names it once.
+        """
         for name in self:
-            yield name, self[name]
+            try:
+                found = part(self[name])
+            except InputError as error:
+                if name in self._places:
+                    raise
+                self._warn(name, error)
+            else:
+                yield name, found
+
+    def _warn(self, name: str, error: InputError) -> None:
+        if name not in self._warned:
+            self._warned.add(name)
+            import logging
+
+            logging.getLogger(__name__).warning("left out: %s", error)
 
     def __getitem__(self, name: str) -> T:
         """Return what a name stands for.
@@ -61,19 +95,47 @@ class Registry(Generic[T]):
             If there is nothing of that name, or the package that offers it cannot be loaded.
         """
         if name not in self._loaded:
-            self._loaded[name] = self._found(name)
+            self._loaded[name] = self._load(name)
         return self._loaded[name]
 
-    def _found(self, name: str) -> T:
+    def _load(self, name: str) -> T:
         if name in self._places:
             module, _, attribute = self._places[name].partition(":")
             return cast(T, getattr(import_module(module), attribute))
+        if name.startswith(FROM_PYTHON):
+            rule = f"this {self.what} was handed over from Python; a scenario cannot name it"
+            raise InputError(
+                self.key, quoted(name), rule, "run it from Python again, or offer it in a package"
+            )
         if name not in self._outside:
             raise unknown_name(self.key, name, self, self.what)
-        entry = self._outside[name]
+        first, *others = self._outside[name]
+        if others:
+            packages = " and ".join(sorted({package_of(entry) for entry in (first, *others)}))
+            raise InputError(
+                self.key, quoted(name), f"offered more than once, by {packages}", "uninstall one"
+            )
         try:
-            return cast(T, entry.load())
+            thing = first.load()
         except Exception as error:
-            package = entry.dist.name if entry.dist else entry.value
-            rule = f"the package {package} that offers it cannot be loaded: {type(error).__name__}: {error}"
-            raise InputError(self.key, quoted(name), rule, f"mend or uninstall {package}") from error
+            raise cannot_be_loaded(self.key, name, package_of(first), error) from error
+        if not isinstance(thing, self._of):
+            rule = f"{package_of(first)} offers a {type(thing).__name__}, where a {self._of.__name__} is due"
+            raise InputError(self.key, quoted(name), rule, f"mend or uninstall {package_of(first)}")
+        own = getattr(thing, "name", None) or getattr(thing, "kind", None)
+        if own != name:
+            rule = f"{package_of(first)} offers it by this name, but it calls itself {quoted(own)}"
+            raise InputError(self.key, quoted(name), rule, f"mend or uninstall {package_of(first)}")
+        return thing
+
+
+def package_of(entry: Any) -> str:
+    """Name of the package that an entry point belongs to."""
+    return entry.dist.name if entry.dist else entry.value
+
+
+def cannot_be_loaded(key: str, name: str, package: str, error: Exception) -> InputError:
+    """Return what to say of a name whose package fails when it is imported."""
+    why = " ".join(f"{type(error).__name__}: {error}".split())
+    rule = f"the package {package} that offers it cannot be loaded: {why}"
+    return InputError(key, quoted(name), rule, f"mend or uninstall {package}")

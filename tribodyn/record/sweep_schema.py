@@ -1,6 +1,7 @@
 """The layout of a sweep's record: its axes are the varied parameters, its datasets hold a value per case."""
 
 from collections.abc import Mapping
+from enum import IntEnum
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
@@ -8,8 +9,16 @@ from tribodyn.numerics.variable import Variable, flag
 
 SWEEP = "sweep"
 
-#: `status` of a case.
-WAITING, DONE, FAILED = 0, 1, 2
+
+class CaseStatus(IntEnum):
+    """`status` of a case, as the file has it."""
+
+    WAITING = 0
+    DONE = 1
+    FAILED = 2
+
+
+WAITING, DONE, FAILED = CaseStatus
 DIRECTIONS = ("up", "down")
 
 #: Bytes kept of a message and of a word.

@@ -100,6 +100,11 @@ def value_in_si(parameter: Parameter, value: Any, key: str = "") -> Any:
         raise InputError(key, quoted(value), error.rule, error.remedy) from None
 
 
+def in_toml(parameter: Parameter, value: float) -> Any:
+    """Return a number in SI units as the scenario gives it."""
+    return float(value) if parameter.kind == "number" else f"{float(value)!r} {_kind(parameter).si}"
+
+
 def _kind(parameter: Parameter) -> units.Kind:
     signed = parameter.kind.startswith("signed ")
     kind = units.QUANTITIES[parameter.kind.removeprefix("signed ")]

@@ -195,6 +195,7 @@ SPECIFIC_HEAT = Kind("specific heat", "J/(kg*K)", "434 J/(kg*K)")
 VISCOSITY = Kind("dynamic viscosity", "Pa*s", "0.35 Pa*s")
 PRESSURE_VISCOSITY = Kind("pressure-viscosity coefficient", "1/Pa", "25 1/GPa")
 PER_KELVIN = Kind("temperature coefficient", "1/K", "0.045 1/K")
+VELOCITY = Kind("velocity", "m/s", "2 m/s")
 
 #: Quantities that a tooth family or a law may have a key of, by name: `numerics.parameter.Parameter.kind`.
 QUANTITIES = {
@@ -220,5 +221,6 @@ QUANTITIES = {
         VISCOSITY,
         PRESSURE_VISCOSITY,
         PER_KELVIN,
+        VELOCITY,
     )
 }

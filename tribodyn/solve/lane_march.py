@@ -49,10 +49,12 @@ from tribodyn.solve.lane_queue import (
 from tribodyn.solve.step_control import (
     MINIMUM_ERROR,
     RETRY,
+    collected,
     cut_at_stop,
     judged,
     next_step,
     refused,
+    step_error,
     weighed_error,
 )
 
@@ -150,11 +152,11 @@ def judge(evaluations, segment, model, block, queue, march):
     running = phase < rows[END]
     cut = rows[CUT] > 0.0
     rows[EVALUATIONS] = rows[EVALUATIONS] + where(running, 1.0 * evaluations, 0.0)
-    error = 0.0 * step
+    worst, total = 0.0 * step, 0.0 * step
     for i in range(STATES):
-        error = maximum(
-            error, weighed_error(step * embedded_difference(k, i), y[i], new[i], atol[i], march.rtol)
-        )
+        weighed = weighed_error(step * embedded_difference(k, i), y[i], new[i], atol[i], march.rtol)
+        worst, total = collected(worst, total, weighed)
+    error = step_error(worst, total)
     accepted, undefined, lost, stalled = judged(error, step, model.mechanics.nominal_speed + new[SLIP])
     stalled, lost = running & stalled, running & lost
     accepted = running & accepted & ~stalled

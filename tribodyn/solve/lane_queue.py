@@ -67,7 +67,7 @@ class Queue(NamedTuple):
     numbers, addresses : (C, F) float64 and (C, T) int64
         The models, see `lane_packing`.
     atol : (C, STATES)
-    stops : (C, segments, most)
+    stops : (C, segments, stops)
         Phases that steps end on, see `reversal.stops`.
     state : (C, STATES), samples : (C, kept, STATES), status : (C,) int64, reached : (C,)
     steps, evaluations : (C,) int64

@@ -1,4 +1,4 @@
-"""What a periodically driven system has to offer for its steady states to be found: its map over one period.
+"""What the search for steady states needs of a periodically driven system: its map over one period.
 
 The state of the map is what the motion depends on at the start of a period, sampled once a period (Poincaré's
 section by the phase of the excitation). A steady state of n periods is a fixed point of the n-fold map.
@@ -10,7 +10,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 #: Step of a difference quotient, as a share of the state's scale: divides the noise of a map integrated to
-#: 1e-9 down to 1e-4 or less of the greatest multiplier (measured on the CRC drive at 1 and 5 % damping, where
+#: 1e-9 down to 1e-4 or less of the largest multiplier (measured on the CRC drive at 1 and 5 % damping, where
 #: truncation stays below that up to 3e-3), and is a third of the width over which contact sets in.
 DIFFERENCE = 1e-3
 

@@ -1,10 +1,4 @@
-"""Periodic steady states of gear pairs: the map over one mesh cycle, given to `steady_orbit.find`.
-
-The map takes the mechanical state at phase 0, just after engagement, to the same place a mesh cycle later.
-The rigid rotation has no part in it: the independent variable is the mesh's phase, and the time lag, on which
-nothing depends while the load is steady, is left out together with the audit's works. With prescribed speed
-ten states remain, with a torque source eleven, with a shaft thirteen.
-"""
+"""Periodic steady states of gear pairs: fixed points of `gear_map.GearMap`, from `steady_orbit.find`."""
 
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
@@ -12,33 +6,22 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.dynamics.parameters import (
-    DISPLACEMENTS,
-    DRIVE_SHAFT,
     DRIVE_SPEED,
-    ENERGY_CONSISTENT,
-    MOTOR_SLIP,
-    SLIP,
     STATES,
-    TWIST,
-    VELOCITIES,
-    XI,
     Model,
 )
 from tribodyn.errors import InputError, SimulationError
-from tribodyn.solve.choice import choose
-from tribodyn.solve.engagement import engage_next
-from tribodyn.solve.ensemble import march
-from tribodyn.solve.initial import static_deflection, static_equilibrium
-from tribodyn.solve.integrator import MAX_STEPS, REASONS, Status
-from tribodyn.solve.period_map import DIFFERENCE, Marched, Tangent, by_differences
-from tribodyn.solve.steady_orbit import Method, Orbit, find
-from tribodyn.solve.tolerances import absolute_tolerances
+from tribodyn.solve.gear_map import GearMap, moving_states
+from tribodyn.solve.initial import static_equilibrium
+from tribodyn.solve.integrator import MAX_STEPS
+from tribodyn.solve.orbit import Orbit
+from tribodyn.solve.steady_orbit import Method, find
 
-#: The integration's relative tolerance for a fixed point, as a share of the residual asked for: a map that
-#: carries more noise than a tenth of the residual cannot be brought to it.
+#: The integration's relative tolerance for a fixed point, as a share of the residual required: a map that
+#: carries more noise than a tenth of the residual does not reach it.
 FINE = 1e-2
-#: Least change of a motion that did not repeat, over the scale, which may be noise of the fine integration:
-#: where contact opens and closes it is a few hundred times the tolerance. Such a case is marched once more,
+#: Change of a motion that did not repeat, over the scale, up to which it may be integration noise: that is
+#: a few hundred times the tolerance where contact opens and closes. Such a case is marched once more,
 #: over so many mesh cycles at the fine tolerance, with fixed points at a hundredth of that.
 NOISE, ONCE_MORE = 1e-5, 120
 
@@ -53,12 +36,12 @@ class Steady(NamedTuple):
     last : (STATES,)
         Where marching ended, likewise: the place to start a neighbouring case from.
     period : int
-        Mesh cycles in one period of the motion; 0 where none was found.
+        Mesh cycles in one period of the motion; 0 where there is none.
     residual : float
-        Greatest change of the mechanical state over one period, each over its scale: displacements over the
+        Maximum change of the mechanical state over one period, each over its scale: displacements over the
         static deflection, velocities over that times the mesh's natural frequency.
     multipliers : (N,) complex
-        Floquet multipliers over one period of the motion, greatest first, rigid rotation left out.
+        Floquet multipliers over one period of the motion, largest first, without the rigid rotation.
     stable : bool
     kind : str
         "period-1" … "period-4", "unstable", "not periodic", "failed".
@@ -109,13 +92,13 @@ def steady_states(
         They may differ in every number, table and option.
     states : (C, STATES), optional
         Where each starts, at phase 0 after engagement; default: the static equilibrium. Where several steady
-        states coexist this decides which is found.
+        states coexist this decides which one results.
     samples : int
-        Samples per mesh cycle of the states found.
+        Samples per mesh cycle of the steady states.
     rtol : float
         Of marching; the last steps and the samples are integrated to a hundredth of `tolerance`.
     tolerance : float
-        Greatest scaled change over a period of the motion.
+        Maximum scaled change over a period of the motion.
     max_cycles : int
         Mesh cycles to march before giving up.
     method : {"auto", "marching", "shooting"}
@@ -134,7 +117,7 @@ def steady_states(
     InputError
         For a load that varies in time otherwise than with the mesh.
     """
-    found: list[Steady | None] = [None] * len(models)
+    steadies: list[Steady | None] = [None] * len(models)
     for model in models:
         refuse_time_dependent(model)
     starts: dict[int, np.ndarray] = {}
@@ -143,7 +126,7 @@ def steady_states(
             given = static_equilibrium(model) if states is None else states[case]
             starts[case] = np.asarray(given, dtype=float)
         except SimulationError as error:
-            found[case] = _without_state(np.zeros(STATES), error.reason)
+            steadies[case] = _without_state(np.zeros(STATES), error.reason)
     groups: dict[tuple[int, ...], list[int]] = {}
     for case in starts:
         groups.setdefault(moving_states(models[case]), []).append(case)
@@ -157,8 +140,8 @@ def steady_states(
         if method == "auto":
             _once_more(period_map, orbits, tolerance, settings)
         for case, steady in zip(cases, _sampled(period_map, orbits, samples), strict=True):
-            found[case] = steady
-    return [steady for steady in found if steady is not None]
+            steadies[case] = steady
+    return [steady for steady in steadies if steady is not None]
 
 
 def _once_more(before: "GearMap", orbits: list[Orbit], tolerance: float, settings: dict[str, Any]) -> None:
@@ -169,8 +152,8 @@ def _once_more(before: "GearMap", orbits: list[Orbit], tolerance: float, setting
     models, begin = [before.models[i] for i in noisy], np.array([orbits[i].last for i in noisy])
     rtol = {"rtol": FINE * tolerance, "fine_rtol": FINE**2 * tolerance}
     finest = GearMap(models, before.full(begin), tuple(before.moving), **rtol, **settings)
-    found = find(finest, begin, tolerance=tolerance, max_periods=ONCE_MORE)
-    for i, orbit in zip(noisy, found, strict=True):
+    finer = find(finest, begin, tolerance=tolerance, max_periods=ONCE_MORE)
+    for i, orbit in zip(noisy, finer, strict=True):
         if orbit.period and orbit.stable:
             orbits[i] = orbit._replace(marched=orbits[i].marched + orbit.marched)
 
@@ -187,7 +170,7 @@ def refuse_time_dependent(model: Model) -> None:
             "operating.gear_torque_table",
             None,
             "a load that changes over time has no steady state over the mesh cycle",
-            "leave the table out, or run the scenario in time",
+            "omit the table, or run the scenario in time",
         )
     period = float(model.table.pitch_angle) / float(mechanics.nominal_speed)
     frequencies = np.asarray(mechanics.load_frequencies)[np.asarray(mechanics.load_amplitudes) != 0.0]
@@ -203,120 +186,18 @@ def refuse_time_dependent(model: Model) -> None:
             )
 
 
-def moving_states(model: Model) -> tuple[int, ...]:
-    """Indices of the states that the map over a mesh cycle acts on."""
-    free = {*DISPLACEMENTS, *VELOCITIES}
-    if model.options.drive != DRIVE_SPEED:
-        free |= {SLIP}
-    if model.options.drive == DRIVE_SHAFT:
-        free |= {TWIST, MOTOR_SLIP}
-    return tuple(sorted(free))
-
-
-class GearMap:
-    """Maps over a mesh cycle of gear pairs with the same moving states, as `period_map.PeriodMap`.
-
-    Parameters
-    ----------
-    models : sequence of C Models
-    starts : (C, STATES)
-        States that scale and integration method are judged by.
-    moving : tuple of int
-        See `moving_states`.
-    solver, rtol, fine_rtol, max_steps, workers
-        Method, tolerances of marching and of fixed points, steps a cycle, threads.
-    """
-
-    blur = DIFFERENCE
-
-    def __init__(
-        self,
-        models: Sequence[Model],
-        starts: np.ndarray,
-        moving: tuple[int, ...],
-        *,
-        solver: str,
-        rtol: float,
-        fine_rtol: float,
-        max_steps: int,
-        workers: int | None,
-    ):
-        self.models = models
-        self.moving = list(moving)
-        self.rtol = {False: rtol, True: min(rtol, fine_rtol)}
-        self.settings: dict[str, Any] = {"max_steps": max_steps, "workers": workers}
-        self.solvers = [choose(solver, m, y).method for m, y in zip(models, starts, strict=True)]
-        self.scale = np.array(
-            [
-                absolute_tolerances(model, 1.0, _deflection(model, start))[self.moving]
-                for model, start in zip(models, starts, strict=True)
-            ]
-        )
-
-    def full(self, states: np.ndarray) -> np.ndarray:
-        """States of the model (R, STATES) from states of the map (R, N)."""
-        whole = np.zeros((len(states), STATES))
-        whole[:, self.moving] = states
-        return whole
-
-    def march(self, states: np.ndarray, cases: np.ndarray, periods: int, fine: bool) -> Marched:
-        """See `period_map.PeriodMap`."""
-        samples, end, reasons = self.integrate(self.full(states), cases, periods, 1, fine)
-        for row, case in enumerate(cases):
-            if self.models[case].options.formulation == ENERGY_CONSISTENT and not reasons[row]:
-                engage_next(end[row], self.models[case])
-        after = np.concatenate([samples[:, 1:], end[:, None]], axis=1)[..., self.moving]
-        after[[bool(reason) for reason in reasons]] = np.nan
-        return Marched(after, reasons)
-
-    def tangent(self, states: np.ndarray, cases: np.ndarray, periods: int) -> Tangent:
-        """See `period_map.PeriodMap`; by differences."""
-        return by_differences(self.march, states, cases, periods, self.scale)
-
-    def integrate(
-        self, states: np.ndarray, cases: np.ndarray, periods: int, samples: int, fine: bool
-    ) -> tuple[np.ndarray, np.ndarray, list[str]]:
-        """Samples (R, periods · samples, STATES), states at the end before engagement, and reasons."""
-        found = np.full((len(states), periods * samples, STATES), np.nan)
-        end = states.copy()
-        reasons = [""] * len(states)
-        for solver in sorted(set(self.solvers)):
-            rows = [row for row, case in enumerate(cases) if self.solvers[case] == solver]
-            if not rows:
-                continue
-            batch = march(
-                [self.models[cases[row]] for row in rows],
-                states[rows],
-                cycles=periods,
-                window=periods,
-                samples=samples,
-                rtol=self.rtol[fine],
-                method=solver,
-                **self.settings,
-            )
-            found[rows], end[rows] = batch.samples, batch.state
-            for row, status, reached in zip(rows, batch.status, batch.reached, strict=True):
-                if status != Status.DONE:
-                    reasons[row] = f"{REASONS[Status(status)]} (after {reached:.2f} mesh cycles)"
-        return found, end, reasons
-
-
-def _deflection(model: Model, start: np.ndarray) -> float:
-    return max(abs(float(start[XI])), static_deflection(model, float(model.mechanics.load_torque)), 1e-9)
-
-
 def _sampled(period_map: GearMap, orbits: list[Orbit], samples: int) -> list[Steady]:
     """Each orbit with its samples, marched once more over its period."""
-    found: dict[int, tuple[np.ndarray, np.ndarray, str]] = {}
+    sampled: dict[int, tuple[np.ndarray, np.ndarray, str]] = {}
     for period in sorted({orbit.period for orbit in orbits} - {0}):
         cases = np.array([case for case, orbit in enumerate(orbits) if orbit.period == period])
         states = period_map.full(np.array([orbits[case].state for case in cases]))
         batch = period_map.integrate(states, cases, period, samples, True)
-        found |= {int(case): row for case, row in zip(cases, zip(*batch, strict=True), strict=True)}
+        sampled |= {int(case): row for case, row in zip(cases, zip(*batch, strict=True), strict=True)}
     steadies = []
     for case, orbit in enumerate(orbits):
         state, last = period_map.full(np.array([orbit.state, orbit.last]))
-        window, end, reason = found.get(case, (np.empty((0, STATES)), state, ""))
+        window, end, reason = sampled.get(case, (np.empty((0, STATES)), state, ""))
         steady = Steady(
             state,
             last,

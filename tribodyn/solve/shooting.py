@@ -6,7 +6,7 @@ import numpy as np
 
 from tribodyn.solve.period_map import PeriodMap
 
-#: Halvings of a Newton step before shooting gives up, and the least relative decrease that it must bring.
+#: Halvings of a Newton step before shooting gives up, and the smallest relative decrease that it must bring.
 HALVINGS = 7
 DECREASE = 1e-3
 #: A derivative serves the next step too where the last one brought the residual down to this share.
@@ -22,7 +22,7 @@ class Shot(NamedTuple):
     residual : float
         max |x − Pⁿ(x)| over the scale of each state; inf where the map failed.
     multipliers : (N,) complex
-        Eigenvalues of the n-fold map's derivative, greatest modulus first: Floquet's where the residual
+        Eigenvalues of the n-fold map's derivative, largest modulus first: Floquet's where the residual
         vanishes.
     steps : int
         Newton steps taken.
@@ -57,7 +57,7 @@ def shoot(
     periods : int
         n.
     tolerance : float
-        Greatest scaled residual of a solution.
+        Maximum scaled residual of a solution.
     max_steps : int
         Newton steps allowed; 0 only judges the states given.
 
@@ -148,7 +148,7 @@ def _search(period_map: PeriodMap, rows: list[_Row], periods: int) -> None:
         share *= 0.5
     for row in rows:
         if row.base is row.x:
-            row.reason = f"shooting found no way down from the residual {row.residual:.1e}"
+            row.reason = f"no Newton step lowers the residual {row.residual:.1e}"
             row.done = True
         row.jacobian = None  # it was taken elsewhere: try with that of the place
 

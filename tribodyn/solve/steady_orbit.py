@@ -3,20 +3,21 @@
 Written over `period_map.PeriodMap`, so that the gear model and the backlash oscillator share it. A system is
 marched until its states once a period repeat, or until their contraction tells that Newton's method would get
 there sooner; a state that shooting found is taken only if it is stable and near what marching was heading
-for, otherwise marching goes on. What marching leaves, it leaves: no average of an unstable state is returned.
+for, otherwise marching goes on. An unstable state that marching leaves is not returned as an average.
 """
 
 from collections.abc import Callable, Iterator
-from typing import Literal, NamedTuple
+from typing import Literal
 
 import numpy as np
 
+from tribodyn.solve.orbit import Orbit, failed_orbit
 from tribodyn.solve.period_map import PeriodMap
 from tribodyn.solve.shooting import Shot, shoot
 
 Method = Literal["auto", "marching", "shooting"]
 
-#: Greatest number of excitation periods in one period of the motion.
+#: Maximum number of excitation periods in one period of the motion.
 MAX_PERIOD = 4
 #: Periods marched between two looks at the states: at least twice MAX_PERIOD.
 BLOCK = 12
@@ -35,45 +36,6 @@ STUCK = 2
 STEPS, LAST_STEPS = 8, 20
 #: Distance of a multiplier's modulus from 1 within which a state counts as neutral.
 NEUTRAL = 1e-6
-
-
-class Orbit(NamedTuple):
-    """One system's steady state, or what can be said instead.
-
-    Attributes
-    ----------
-    state : (N,)
-        At the start of a period, on the steady orbit; the last one marched where there is none.
-    last : (N,)
-        Where marching ended: the start for a neighbouring system, on the orbit only if that was taken.
-    period : int
-        Periods of the excitation in one of the motion; 0 where none was found.
-    residual : float
-        Scaled change of the state over one period of the motion; of a motion that is not periodic the least
-        over 1 … MAX_PERIOD periods.
-    multipliers : (N,) complex
-        Floquet multipliers over one period of the motion, greatest first; NaN without a steady state.
-    stable : bool
-        No multiplier outside the unit circle.
-    kind : str
-        "period-1" … "period-4", "unstable", "not periodic", "failed".
-    method : str
-        "marching" or "shooting": what closed the orbit to the tolerance.
-    marched : int
-        Periods marched.
-    message : str
-    """
-
-    state: np.ndarray
-    last: np.ndarray
-    period: int
-    residual: float
-    multipliers: np.ndarray
-    stable: bool
-    kind: str
-    method: str
-    marched: int
-    message: str
 
 
 class _Progress:
@@ -122,7 +84,7 @@ def find(
     states : (C, N)
         Where each system starts.
     tolerance : float
-        Greatest scaled change over a period of the motion.
+        Maximum scaled change over a period of the motion.
     max_periods : int
         Periods that a system may march.
     method : {"auto", "marching", "shooting"}
@@ -141,7 +103,7 @@ def find(
         wanted: dict[int, list[int]] = {}
         for case, states_on, reason in _block(period_map, so_far, pending, method):
             if reason:
-                done[case] = _failed(so_far.current[case], int(so_far.marched[case]), reason)
+                done[case] = failed_orbit(so_far.current[case], int(so_far.marched[case]), reason)
                 continue
             track = np.concatenate([so_far.current[case][None], states_on])
             so_far.current[case] = track[-1]
@@ -180,7 +142,7 @@ def _candidate(so_far: _Progress, case: int, tolerance: float, method: Method) -
     half, track = BLOCK // 2, so_far.track[case]
     for n in range(1, MAX_PERIOD + 1):
         change = np.max(np.abs(track[n:] - track[:-n]), axis=1)
-        # the greatest over n periods, so that a passing zero of an oscillating approach deceives nobody
+        # the maximum over n periods: an oscillating approach passes zero now and then
         last, middle = float(np.max(change[-n:])), float(np.max(change[-n - half : -half]))
         so_far.changes[case, n - 1] = last
         if n == 1:
@@ -241,7 +203,7 @@ def _heading(track: np.ndarray, target: np.ndarray, period: int, neutral: bool) 
 
 
 def _judge(period_map, shot: Shot, case: int, period: int, marched: int, tolerance: float) -> Orbit:
-    """The orbit of a converged shot, with its least period and its stability."""
+    """The orbit of a converged shot, with its shortest period and its stability."""
     if period > 1:
         one, scale = np.array([case]), period_map.scale[case]
         track = period_map.march(shot.state[None], one, period, True).states[0]
@@ -252,10 +214,10 @@ def _judge(period_map, shot: Shot, case: int, period: int, marched: int, toleran
                 if not again.reason:
                     shot, period = again._replace(steps=again.steps + shot.steps), n
                     break
-    greatest = float(np.abs(shot.multipliers[0]))
-    stable = greatest <= 1.0 + NEUTRAL
+    modulus = float(np.abs(shot.multipliers[0]))
+    stable = modulus <= 1.0 + NEUTRAL
     message = "" if stable else f"an unstable state of period {period}: {_way_out(shot.multipliers[0])}"
-    if stable and greatest >= 1.0 - NEUTRAL:
+    if stable and modulus >= 1.0 - NEUTRAL:
         message = "neutral: a multiplier of modulus 1, neighbouring states neither return nor leave"
     return Orbit(
         state=shot.state,
@@ -272,8 +234,8 @@ def _judge(period_map, shot: Shot, case: int, period: int, marched: int, toleran
 
 
 def _way_out(multiplier: complex) -> str:
-    """In words, how a state with that greatest multiplier is left."""
-    modulus = f"greatest multiplier {abs(multiplier):.4g}"
+    """In words, how a state whose largest multiplier this is is left."""
+    modulus = f"largest multiplier {abs(multiplier):.4g}"
     if abs(multiplier.imag) > 1e-6 * abs(multiplier):
         return f"{modulus} at ±{np.degrees(abs(np.angle(multiplier))):.0f}°, left by a second frequency"
     if multiplier.real < 0.0:
@@ -293,10 +255,10 @@ def _last_resort(period_map, so_far: _Progress, late, tolerance, method) -> dict
         orbit = so_far.fallback.get(case)
         if shot is not None and not shot.reason:
             orbit = _judge(period_map, shot, case, 1, marched, tolerance)
-        least = float(np.min(so_far.changes[case]))
-        wandering = f"marched {marched} periods without repeating, least change {least:.1e}"
+        smallest = float(np.min(so_far.changes[case]))
+        wandering = f"marched {marched} periods without repeating, smallest change {smallest:.1e}"
         if orbit is not None and orbit.stable and so_far.approaching(case):
-            said[case] = orbit._replace(message=f"found by shooting, still far off: {wandering}")
+            said[case] = orbit._replace(message=f"obtained by shooting, still far away: {wandering}")
         elif orbit is not None and not orbit.stable:
             said[case] = orbit._replace(last=last, marched=marched, message=f"{orbit.message}; {wandering}")
         else:
@@ -304,7 +266,7 @@ def _last_resort(period_map, so_far: _Progress, late, tolerance, method) -> dict
             none = np.full(last.shape, np.nan, dtype=complex)
             message = wandering + beside
             said[case] = Orbit(
-                last, last, 0, least, none, False, "not periodic", "marching", marched, message
+                last, last, 0, smallest, none, False, "not periodic", "marching", marched, message
             )
     return said
 
@@ -313,14 +275,8 @@ def _shoot_from(period_map, states, tolerance) -> list[Orbit]:
     found = []
     for case, shot in enumerate(shoot(period_map, states, np.arange(len(states)), 1, tolerance)):
         found.append(
-            _failed(shot.state, 0, shot.reason)
+            failed_orbit(shot.state, 0, shot.reason)
             if shot.reason
             else _judge(period_map, shot, case, 1, 0, tolerance)._replace(method="shooting")
         )
     return found
-
-
-def _failed(state: np.ndarray, marched: int, reason: str) -> Orbit:
-    none = np.full(len(state), np.nan, dtype=complex)
-    last = state.copy()
-    return Orbit(last, last, 0, np.inf, none, False, "failed", "marching", marched, reason)

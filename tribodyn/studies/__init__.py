@@ -17,6 +17,7 @@ STUDIES: Registry[Study] = Registry(
         "backlash-oscillator": "tribodyn.studies.backlash_oscillator:STUDY",
     },
     "tribodyn.studies",
+    Study,
 )
 DEFAULT = next(iter(STUDIES))
 

@@ -102,6 +102,6 @@ def _located(errors: list[InputError], origins: Origins) -> InputError:
 
 def json_schema() -> dict[str, Any]:
     """Return the JSON schema of a scenario file of any kind, the registries' names included."""
-    tables = tuple(study.table() for _, study in STUDIES.items())
+    tables = tuple(table for _, table in STUDIES.each(lambda study: study.table()))
     kinds: Any = Annotated[Union[tables], Field(discriminator="kind")]  # noqa: UP007
     return {"title": "Scenario", **TypeAdapter(kinds).json_schema()}

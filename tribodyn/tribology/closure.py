@@ -8,11 +8,13 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.material import MaterialData
 from tribodyn.tribology.contact import Surfaces
-from tribodyn.tribology.data import FilmData, FrictionData, LubricantData
+from tribodyn.tribology.data import FilmData, FrictionData
 from tribodyn.tribology.film import film_law
 from tribodyn.tribology.friction import friction_law
 from tribodyn.tribology.law import ActiveFilm, ActiveFriction, Closure, FilmLaw, FrictionLaw, LawInput
+from tribodyn.tribology.lubricant import LubricantData
 from tribodyn.tribology.nominal import NominalConditions
+from tribodyn.tribology.trial import try_laws
 
 #: Pressure angle at the pitch point below which Niemann's formula has no meaning: radius and speed vanish.
 MINIMUM_ANGLE = math.radians(1.0)
@@ -59,12 +61,15 @@ def closure_of(case: Lubricated) -> Closure:
     Raises
     ------
     InputError
-        If a law is not known, lacks a value, or needs a mean over a mesh for which it has no meaning.
+        If a law is not known, lacks a value, needs a mean over a mesh for which it has no meaning, or comes
+        from outside this package and does not work (`trial.try_laws`).
     """
     film, friction = laws_of(case)
     surfaces = surfaces_of(case)
     given = LawInput(surfaces, case.lubricant, case.materials, lambda: nominal_conditions(case))
-    return closure(given, film, friction, dict(case.film.values), dict(case.friction.values))
+    made = closure(given, film, friction, dict(case.film.values), dict(case.friction.values))
+    try_laws(film, friction, made)
+    return made
 
 
 def closure(

@@ -16,6 +16,7 @@ FAMILIES: Registry[Family] = Registry(
         "circular-arc": "tribodyn.geometry.families.circular_arc:FAMILY",
     },
     "tribodyn.families",
+    Family,
 )
 
 

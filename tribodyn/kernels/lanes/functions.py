@@ -44,7 +44,7 @@ MANTISSA = 0x000FFFFFFFFFFFFF
 ROUNDER = 6755399441055744.0
 ROUNDER_BITS = 0x4338000000000000
 INFINITE, UNDEFINED = float("inf"), float("nan")
-LEAST_NORMAL = 2.2250738585072014e-308
+SMALLEST_NORMAL = 2.2250738585072014e-308
 
 
 @part
@@ -73,7 +73,7 @@ def exp_lanes(x):
     """Exponential."""
     bounded = select(x < 710.0, select(x > -750.0, x, -750.0), 710.0)
     n, rise = exponential_parts(bounded)
-    half = shift_right(n, 1)  # in two factors, for results below the least normal number
+    half = shift_right(n, 1)  # in two factors, for results below the smallest normal number
     result = (1.0 + rise) * power_of_two(half) * power_of_two(n - half)
     return select(x == x, result, x)
 
@@ -92,7 +92,7 @@ def expm1_lanes(x):
 @part
 def log_lanes(x):
     """Natural logarithm."""
-    tiny = x < LEAST_NORMAL
+    tiny = x < SMALLEST_NORMAL
     bits = bits_of(select(tiny, x * 18014398509481984.0, x))  # 2^54
     above = bits + (ONE_BITS - ROOT_HALF_BITS)
     k = shift_right(above, 52) - 1023

@@ -14,9 +14,9 @@ from numba.core.typeconv.castgraph import Conversion
 from numba.core.typing.templates import ConcreteTemplate, infer_global, signature
 from numba.extending import lower_builtin, lower_cast, models, register_model
 
-#: Decorator of what LLVM is told directly; typed here because numba's own type names the compiler's argument.
+#: Decorator of functions that emit LLVM code; untyped because numba's own type names the compiler's argument.
 intrinsic = cast(Any, extending.intrinsic)
-#: Decorator of what numba is told about an operator's types.
+#: Decorator of the types of an operator.
 of_operator = cast(Any, infer_global)
 
 #: Cases side by side: one AVX-512 register of floats, two of AVX2, four of NEON.

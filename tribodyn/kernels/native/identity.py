@@ -71,9 +71,14 @@ def _parts(function: Callable[..., Any]) -> Iterator[bytes]:
             if one.__closure__ or one.__defaults__ or one.__kwdefaults__:
                 raise _NotInFilesError
             yield f"{one.__module__}.{one.__qualname__}".encode()
+            # two functions of one name in one file: lambdas, or one that was defined again
+            yield repr((one.__code__.co_firstlineno, list(one.__code__.co_positions()))).encode()
             yield _source(one.__code__.co_filename)
             names = sorted(_names(one.__code__))
-            waiting += [one.__globals__[name] for name in names if name in one.__globals__]
+            known = [one.__globals__[name] for name in names if name in one.__globals__]
+            modules = [other for other in known if isinstance(other, ModuleType)]
+            waiting += known
+            waiting += [getattr(of, name) for of in modules for name in names if hasattr(of, name)]
         elif isinstance(one, ModuleType):
             if getattr(one, "__file__", None):  # `math` and others of the interpreter have none
                 yield _source(str(one.__file__))

@@ -74,9 +74,12 @@ def _typeof_kernel(kernel, c):
 
 
 def _dispatcher(kernel: Any) -> Any:
-    if not hasattr(kernel, "plain"):
-        kernel.plain = cast(Any, numba.njit)(**_OPTIONS)(kernel.function)
-    return kernel.plain
+    return _compiled(kernel.function)
+
+
+@cache
+def _compiled(function: Callable[..., Any]) -> Any:
+    return cast(Any, numba.njit)(**_OPTIONS)(function)
 
 
 def plainly_compiled(kernel: KernelFunction) -> Callable[[bytes, tuple[Any, ...]], Any]:
@@ -90,18 +93,12 @@ def plainly_compiled(kernel: KernelFunction) -> Callable[[bytes, tuple[Any, ...]
     return call
 
 
-@cache
-def _function(function: Callable[..., Any]) -> Any:
-    """A function among a kernel's arguments as numba takes it."""
-    return cast(Any, numba.njit)(**_OPTIONS)(function)
-
-
 def _given(value: Any) -> Any:
-    """An argument as numba takes it: what was laid out, and numbers for arrays without axes."""
+    """An argument as numba takes it: a number for an array without axes, a function as a compiled one."""
     if isinstance(value, Laid):
         value = value.value
     if isinstance(value, FunctionType):
-        return _function(value)
+        return _compiled(value)
     if isinstance(value, tuple) and hasattr(value, "_fields"):
         return cast(Any, type(value))(*map(_given, value))
     return value.item() if isinstance(value, np.ndarray) and value.ndim == 0 else value

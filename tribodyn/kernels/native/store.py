@@ -19,7 +19,7 @@ from typing import Any
 import llvmlite
 import llvmlite.binding as llvm
 
-from tribodyn.kernels.native.arguments import is_kept
+from tribodyn.kernels.native.arguments import Record, is_kept
 from tribodyn.kernels.native.code import Code, Compiled
 from tribodyn.kernels.native.internals import report_missing
 from tribodyn.numerics.cache import cache_folder, replacing
@@ -51,8 +51,8 @@ def machine_code(function: Callable[..., Any], layout: Any) -> Code | None:
 
 
 @cache
-def _digest(module: str) -> str:
-    """Digest of a kernel's sources, of what compiles them and of the processor that they are made for."""
+def _digest(*modules: str) -> str:
+    """Digest of the sources of modules, of what compiles them and of the processor that they are made for."""
     numba = importlib.util.find_spec("numba")
     assert numba is not None
     assert numba.origin is not None
@@ -60,7 +60,7 @@ def _digest(module: str) -> str:
     switches = sorted(item for item in os.environ.items() if item[0].startswith("NUMBA_"))
     processor = llvm.get_host_cpu_name(), llvm.get_host_cpu_features().flatten()
     digest.update(repr((llvmlite.__version__, llvm.get_process_triple(), processor, switches)).encode())
-    digest.update(digest_of(module, _COMPILER))
+    digest.update(digest_of(*modules, _COMPILER))
     return digest.hexdigest()[:16]
 
 
@@ -71,7 +71,16 @@ def _file_of(function: Callable[..., Any], layout: Any) -> Path | None:
         return None
     digest = hashlib.sha256(repr(layout).encode() + source.read_bytes()).hexdigest()[:16]
     name = f"{function.__module__.removeprefix('tribodyn.')}.{function.__qualname__}-{digest}"
-    return cache_folder() / f"kernels-{_digest(function.__module__)}" / name
+    modules = sorted({function.__module__, *_modules_in(layout)})
+    return cache_folder() / f"kernels-{_digest(*modules)}" / name
+
+
+def _modules_in(layout: Any) -> set[str]:
+    """Modules of the functions among a kernel's arguments, which are compiled into it."""
+    if isinstance(layout, Record):
+        return set().union(*(_modules_in(field) for _, field in layout.fields))
+    function = getattr(layout, "function", None)
+    return {function.__module__} if function is not None else set()
 
 
 def _read(file: Path) -> Compiled | None:

@@ -1,11 +1,13 @@
 """Frequency response of the oscillator with backlash: steady states followed up and down."""
 
 from collections.abc import Callable
+from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.solve.steady_orbit import Orbit, find
+from tribodyn.solve.orbit import Orbit
+from tribodyn.solve.steady_orbit import find
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.motion import (
     BACK,
@@ -20,8 +22,18 @@ from tribodyn.studies.backlash_oscillator.motion import (
 UP, DOWN = 0, 1
 #: Periods over which a motion that is not periodic is measured.
 WINDOW = 100
-#: Codes of the kind of motion.
-NOT_PERIODIC, STABLE, UNSTABLE, FAILED = range(4)
+
+
+class MotionKind(IntEnum):
+    """The kind of motion, as the record has it."""
+
+    NOT_PERIODIC = 0
+    STABLE = 1
+    UNSTABLE = 2
+    FAILED = 3
+
+
+NOT_PERIODIC, STABLE, UNSTABLE, FAILED = MotionKind
 
 
 class Response(NamedTuple):

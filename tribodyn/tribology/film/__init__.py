@@ -13,6 +13,7 @@ FILM_LAWS: Registry[FilmLaw] = Registry(
         "moes": "tribodyn.tribology.film.moes:LAW",
     },
     "tribodyn.film_laws",
+    FilmLaw,
 )
 
 

@@ -22,6 +22,7 @@ FRICTION_LAWS: Registry[FrictionLaw] = Registry(
         "iso-14179-1": "tribodyn.tribology.friction.iso_14179_1:LAW",
     },
     "tribodyn.friction_laws",
+    FrictionLaw,
 )
 
 

@@ -1,0 +1,1 @@
+"""A tooth family, a friction law, a film law and a kind of study for tribodyn: one file or folder each."""

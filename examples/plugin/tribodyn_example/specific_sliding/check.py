@@ -1,0 +1,15 @@
+"""What `tribodyn check` says of a case."""
+
+from tribodyn.geometry.families import family
+from tribodyn.geometry.sheet import geometry_sheet
+from tribodyn.studies.gears import sheet_tables
+from tribodyn.studies.study import Checked
+from tribodyn_example.specific_sliding.scenario import SlidingCase
+from tribodyn_example.specific_sliding.sliding import sliding_of
+
+
+def check(case: SlidingCase) -> Checked:
+    """Check a case, and say what gears it describes."""
+    sliding_of(case)
+    sheet = geometry_sheet(family(case.family), case.drive)
+    return Checked({"geometry": sheet}, sheet_tables(sheet))

@@ -1,0 +1,147 @@
+"""The map of gear pairs over one mesh cycle, as the search for steady states takes it.
+
+It takes the mechanical state at phase 0, just after engagement, to the same place a mesh cycle later. The
+rigid rotation has no part in it: the independent variable is the mesh's phase, and the time lag, on which
+nothing depends while the load is steady, is omitted together with the audit's works. With prescribed speed
+ten states remain, with a torque source eleven, with a shaft thirteen.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from tribodyn.dynamics.parameters import (
+    DISPLACEMENTS,
+    DRIVE_SHAFT,
+    DRIVE_SPEED,
+    ENERGY_CONSISTENT,
+    MOTOR_SLIP,
+    SLIP,
+    STATES,
+    TWIST,
+    VELOCITIES,
+    XI,
+    Model,
+)
+from tribodyn.numerics.shapes import Array, Float, Int
+from tribodyn.solve.choice import choose
+from tribodyn.solve.engagement import engage_next
+from tribodyn.solve.ensemble import march
+from tribodyn.solve.initial import static_deflection
+from tribodyn.solve.integrator import REASONS, Status
+from tribodyn.solve.period_map import DIFFERENCE, Marched, Tangent, by_differences
+from tribodyn.solve.tolerances import MINIMUM_DEFLECTION, absolute_tolerances
+
+
+def moving_states(model: Model) -> tuple[int, ...]:
+    """Indices of the states that the map over a mesh cycle acts on."""
+    free = {*DISPLACEMENTS, *VELOCITIES}
+    if model.options.drive != DRIVE_SPEED:
+        free |= {SLIP}
+    if model.options.drive == DRIVE_SHAFT:
+        free |= {TWIST, MOTOR_SLIP}
+    return tuple(sorted(free))
+
+
+class GearMap:
+    """Maps over a mesh cycle of gear pairs with the same moving states, as `period_map.PeriodMap`.
+
+    Parameters
+    ----------
+    models : sequence of C Models
+    starts : (C, STATES)
+        States that scale and integration method are judged by.
+    moving : tuple of int
+        See `moving_states`.
+    solver, rtol, fine_rtol, max_steps, workers
+        Method, tolerances of marching and of fixed points, steps allowed per cycle, threads.
+    """
+
+    blur = DIFFERENCE
+
+    def __init__(
+        self,
+        models: Sequence[Model],
+        starts: Float[Array, "case state"],
+        moving: tuple[int, ...],
+        *,
+        solver: str,
+        rtol: float,
+        fine_rtol: float,
+        max_steps: int,
+        workers: int | None,
+    ):
+        self.models = models
+        self.moving = list(moving)
+        self.rtol = {False: rtol, True: min(rtol, fine_rtol)}
+        self.settings: dict[str, Any] = {"max_steps": max_steps, "workers": workers}
+        self.solvers = [choose(solver, m, y).method for m, y in zip(models, starts, strict=True)]
+        self.scale = np.array(
+            [
+                absolute_tolerances(model, 1.0, _deflection(model, start))[self.moving]
+                for model, start in zip(models, starts, strict=True)
+            ]
+        )
+
+    def full(self, states: Float[Array, "row moving"]) -> Float[Array, "row state"]:
+        """States of the model from states of the map."""
+        whole = np.zeros((len(states), STATES))
+        whole[:, self.moving] = states
+        return whole
+
+    def march(
+        self, states: Float[Array, "row moving"], cases: Int[Array, " row"], periods: int, fine: bool
+    ) -> Marched:
+        """See `period_map.PeriodMap`."""
+        samples, end, reasons = self.integrate(self.full(states), cases, periods, 1, fine)
+        for row, case in enumerate(cases):
+            if self.models[case].options.formulation == ENERGY_CONSISTENT and not reasons[row]:
+                engage_next(end[row], self.models[case])
+        after = np.concatenate([samples[:, 1:], end[:, None]], axis=1)[..., self.moving]
+        after[[bool(reason) for reason in reasons]] = np.nan
+        return Marched(after, reasons)
+
+    def tangent(self, states: Float[Array, "row moving"], cases: Int[Array, " row"], periods: int) -> Tangent:
+        """See `period_map.PeriodMap`; by differences."""
+        return by_differences(self.march, states, cases, periods, self.scale)
+
+    def integrate(
+        self,
+        states: Float[Array, "row state"],
+        cases: Int[Array, " row"],
+        periods: int,
+        samples: int,
+        fine: bool,
+    ) -> tuple[Float[Array, "row sample state"], Float[Array, "row state"], list[str]]:
+        """Samples (R, periods · samples, STATES), states at the end before engagement, and reasons."""
+        sampled = np.full((len(states), periods * samples, STATES), np.nan)
+        end = states.copy()
+        reasons = [""] * len(states)
+        for solver in sorted(set(self.solvers)):
+            rows = [row for row, case in enumerate(cases) if self.solvers[case] == solver]
+            if not rows:
+                continue
+            batch = march(
+                [self.models[cases[row]] for row in rows],
+                states[rows],
+                cycles=periods,
+                window=periods,
+                samples=samples,
+                rtol=self.rtol[fine],
+                method=solver,
+                **self.settings,
+            )
+            sampled[rows], end[rows] = batch.samples, batch.state
+            for row, status, reached in zip(rows, batch.status, batch.reached, strict=True):
+                if status != Status.DONE:
+                    reasons[row] = f"{REASONS[Status(status)]} (after {reached:.2f} mesh cycles)"
+        return sampled, end, reasons
+
+
+def _deflection(model: Model, start: np.ndarray) -> float:
+    return max(
+        abs(float(start[XI])),
+        static_deflection(model, float(model.mechanics.load_torque)),
+        MINIMUM_DEFLECTION,
+    )
