@@ -56,7 +56,7 @@ def roll(study: Prepared, gear_torque: float) -> LoadedContact:
     return roll_through(*_contact(study, gear_torque))
 
 
-def _contact(study: Study, gear_torque: float) -> tuple[Any, ...]:
+def _contact(study: Prepared, gear_torque: float) -> tuple[Any, ...]:
     """Arguments of `roll_through` and `loaded_error`."""
     case = study.case
     return (
