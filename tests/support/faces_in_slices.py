@@ -39,7 +39,7 @@ def table(case, modified, slices, **changes):
     mesh = dataclasses.replace(case.mesh, modifications=modified, slices=slices, points=33, **changes)
     torque = case.operating.gear_torque
     back = mesh.backlash is not None
-    return tabulate_loaded(family(case.family), case.drive, case.materials, mesh, torque, back)
+    return tabulate_loaded(assemble(family(case.family), case.drive), case.materials, mesh, torque, back)
 
 
 def model(case, cycle, modified, slices, torque, coupled=True):

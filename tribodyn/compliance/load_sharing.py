@@ -24,9 +24,8 @@ from tribodyn.compliance.local import Elastic, hertz_half_width, weber_banaschek
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.corner_contact import pair_geometry, part_of
 from tribodyn.geometry.drive import SIDES, body_of
-from tribodyn.geometry.pitch_point import pitch_point
+from tribodyn.geometry.pitch_point import averaged_radius, pitch_point
 from tribodyn.numerics.shapes import Array, Float, Int
-from tribodyn.tribology.contact import averaged_radius
 
 #: Depth of the local region, in modules, and refinement of the mesh: together within 0.1 % of their limits
 #: (test_load_contact).

@@ -9,7 +9,7 @@ from tribodyn.geometry.modification import Modifications, vary_along_lead
 from tribodyn.scenario import model_files
 from tribodyn.scenario.modification import MisalignmentTable, flank_of, misalignment_of
 from tribodyn.scenario.shape import shape_of
-from tribodyn.tribology.data import LubricantData
+from tribodyn.tribology.lubricant import LubricantData
 
 #: Slices along the face where nothing is said and anything varies along it.
 SLICES = 21

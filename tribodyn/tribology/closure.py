@@ -8,10 +8,11 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.material import MaterialData
 from tribodyn.tribology.contact import Surfaces
-from tribodyn.tribology.data import FilmData, FrictionData, LubricantData
+from tribodyn.tribology.data import FilmData, FrictionData
 from tribodyn.tribology.film import film_law
 from tribodyn.tribology.friction import friction_law
 from tribodyn.tribology.law import ActiveFilm, ActiveFriction, Closure, FilmLaw, FrictionLaw, LawInput
+from tribodyn.tribology.lubricant import LubricantData
 from tribodyn.tribology.nominal import NominalConditions
 from tribodyn.tribology.trial import try_laws
 

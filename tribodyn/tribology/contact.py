@@ -3,7 +3,9 @@
 import math
 from typing import Any, NamedTuple
 
-from tribodyn.numerics.elementary import absolute, exp, law, log, maximum, sqrt
+# of a radius that the geometry gives, for whoever evaluates laws: dynamics see no geometry
+from tribodyn.geometry.pitch_point import averaged_radius as averaged_radius
+from tribodyn.numerics.elementary import absolute, law, maximum, sqrt
 
 #: Minimum line load (N/m) and entrainment speed (m/s) at which laws are evaluated: they diverge at zero.
 MINIMUM_LINE_LOAD = 1.0
@@ -82,25 +84,3 @@ def hertz_half_width(line_load, curvature, effective_modulus):
 def hertz_pressure(line_load, curvature, effective_modulus):
     """Maximum Hertz pressure p_H = √(w' E'/(2π ρ)), Pa."""
     return sqrt(line_load * effective_modulus * curvature / (2.0 * math.pi))
-
-
-@law
-def averaged_radius(radius, line_load, effective_modulus, pitch_point_length):
-    """Equivalent radius averaged over the half width a of its own contact, m; for one that vanishes at P.
-
-    The exact mean at P is ρ̄² = M a (`geometry.pitch_point`). A contact beside P covers P while that is nearer
-    than a; for it there is no closed form, but ρ⁴ = ρ̄⁴ + 14 (M a)² − 15 (M a)⁴/ρ̄⁴ is exact at P and where the
-    contact's edge is at P, goes over to ρ̄ = ρ far away, and between meets the mean over a flank of curvature
-    k/√s to 10 %. With a² = 8 w' ρ̄/(π E') it is a polynomial in ρ̄, to whose root Newton's steps come down.
-    A load below 1 N/m counts as that; with M = 0 the radius stays as it is.
-    """
-    scale = pitch_point_length * pitch_point_length * 8.0 * maximum(line_load, 1.0)
-    scale = exp(log(maximum(scale / (math.pi * effective_modulus), 1e-60)) / 3.0)  # ρ̄ at P
-    fourth = (radius / scale) * (radius / scale) * (radius / scale) * (radius / scale)
-    root = sqrt(1.0 + (radius / scale) * (radius / scale))
-    for _ in range(6):
-        square = root * root
-        cube = square * root
-        value = cube * cube + 14.0 * cube - 15.0 - fourth * square
-        root = root - value / (6.0 * cube * square + 42.0 * square - 2.0 * fourth * root)
-    return scale * root

@@ -16,8 +16,8 @@ from tribodyn.geometry.material import MaterialData
 from tribodyn.numerics.elementary import LAWS, absolute, law
 from tribodyn.numerics.parameter import Parameter
 from tribodyn.tribology.contact import Surfaces, hertz_half_width
-from tribodyn.tribology.data import LubricantData
 from tribodyn.tribology.flash import flash_temperature_rise
+from tribodyn.tribology.lubricant import LubricantData
 from tribodyn.tribology.nominal import NominalConditions
 
 

@@ -16,10 +16,10 @@ from tribodyn.studies.efficiency.torque_ratio import (
 )
 from tribodyn.tribology.closure import closure, without_nominal_conditions
 from tribodyn.tribology.contact import Surfaces
-from tribodyn.tribology.data import LubricantData
 from tribodyn.tribology.film import film_law
 from tribodyn.tribology.friction import friction_law
 from tribodyn.tribology.law import Closure, LawInput
+from tribodyn.tribology.lubricant import LubricantData
 
 #: Readings of the friction laws. "A" is the mixed law as printed: Roelands at the mean pressure, sliding
 #: speed in the Péclet numbers; "B" has the greatest pressure and each surface's own speed.

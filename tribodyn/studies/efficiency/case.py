@@ -8,7 +8,8 @@ from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.material import MaterialData
 from tribodyn.mesh.data import MeshData
 from tribodyn.studies.study import CaseHead
-from tribodyn.tribology.data import FilmData, FrictionData, LubricantData
+from tribodyn.tribology.data import FilmData, FrictionData
+from tribodyn.tribology.lubricant import LubricantData
 
 if TYPE_CHECKING:  # the study's array code, and SciPy with it, is for the run
     from tribodyn.studies.efficiency.places import Sharing

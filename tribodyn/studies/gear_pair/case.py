@@ -12,7 +12,8 @@ from tribodyn.geometry.material import BodyMass, MaterialData
 from tribodyn.mesh.data import MeshData
 from tribodyn.solve.data import SolverData
 from tribodyn.studies.study import CaseHead
-from tribodyn.tribology.data import FilmData, FrictionData, LubricantData
+from tribodyn.tribology.data import FilmData, FrictionData
+from tribodyn.tribology.lubricant import LubricantData
 
 
 @dataclass(frozen=True)
