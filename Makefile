@@ -1,19 +1,20 @@
 # make demo   run the CRC drive of Liu & Ni (2022): record, summary and picture in ./demo
 # make test   lint, types and all tests, the slow ones and the speed ratios included
-# make quick  the tests that take seconds
+# make quick  the shortest tests, under a minute (docs/development.md)
+# make durations  measure the tests anew, on an idle machine: which are the quick ones, in which order all run
 PYTHON ?= python3
 # two test processes share the cores; a BLAS's own threads would only stand in their way
 export OPENBLAS_NUM_THREADS ?= 1
 # the tests run XLA's programs once or twice: its older code generator makes them in a third to a half of the time
 TESTS_XLA := --xla_cpu_use_fusion_emitters=false
-# a file's tests share what it prepares; the longest files come first (tests/conftest.py)
+# a file's tests share what it prepares; the longest files come first (tests/durations.json)
 IN_PARALLEL := -n 2 --dist loadfile --no-loadscope-reorder --benchmark-disable
 VENV := .venv
 BIN := $(VENV)/bin
 # the constraints also hold for what builds the package
 INSTALL := PIP_CONSTRAINT=$(CURDIR)/constraints.txt $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
-.PHONY: demo test quick lint types tests wheel clean
+.PHONY: demo test quick durations lint types tests wheel clean
 
 demo: $(VENV)/.installed
 	@mkdir -p demo
@@ -33,7 +34,12 @@ tests: $(VENV)/.testing
 	$(BIN)/python -m pytest -m bench
 
 quick: $(VENV)/.testing
-	XLA_FLAGS="$(TESTS_XLA)" $(BIN)/python -m pytest $(IN_PARALLEL) -m "not bench and not slow"
+	XLA_FLAGS="$(TESTS_XLA)" $(BIN)/python -m pytest $(IN_PARALLEL) --quick -m "not bench and not slow"
+
+# twice: where the first user of something expensive is not quick, the next one prepares it
+durations: $(VENV)/.testing
+	XLA_FLAGS="$(TESTS_XLA)" $(BIN)/python -m pytest $(IN_PARALLEL) --measure-durations -m "not bench"
+	XLA_FLAGS="$(TESTS_XLA)" $(BIN)/python -m pytest $(IN_PARALLEL) --measure-durations --quick -m "not bench and not slow"
 
 wheel: $(VENV)/.testing
 	$(BIN)/python -m build --outdir dist

@@ -38,7 +38,7 @@ def teeth(axes: Any, case: Case) -> None:
     kind = family(case.family)
     assembly = assemble(kind, case.drive)
     for side, colour in zip(SIDES, PALETTE, strict=False):
-        outline = np.asarray(gear_polygon(kind, case.drive, side))
+        outline = np.asarray(gear_polygon(assembly, side))
         pitch = getattr(assembly.path, f"{side}_pitch_radius")
         centre = -pitch if side == "pinion" else pitch
         axes.fill(1e3 * outline[:, 0], 1e3 * (outline[:, 1] + centre), colour, alpha=0.25, lw=0)

@@ -10,8 +10,9 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from tribodyn import load_scenario, open_record, run
+from tribodyn.post.style import save
 from tribodyn.record.reader import Record
-from tribodyn.studies.pictures import figure, save
+from tribodyn.studies.pictures import figure
 
 FOLDER = Path(__file__).parents[1] / "docs" / "pictures"
 UNRELIEVED = {

@@ -73,7 +73,7 @@ def row(name: str) -> str:
     assembly = assemble(teeth, drive)
     arm = float(assembly.path.gear_pitch_radius * np.cos(assembly.path.pressure_angle(0.0)))
     torque = LINE_LOAD * min(drive.pinion.face_width, drive.gear.face_width) * arm
-    elements = figures(tabulate_loaded(teeth, drive, case.materials, MESH, torque), torque)
+    elements = figures(tabulate_loaded(assembly, case.materials, MESH, torque), torque)
     ratio = load_contact(flexibility(assembly, case.materials), torque, 0.0).contact_ratio
     cells = [
         name,
@@ -82,7 +82,7 @@ def row(name: str) -> str:
     ]
     for hertz in ("linear", "load-dependent"):
         mesh = replace(MESH, hertz=hertz)
-        energy = figures(tabulate(teeth, drive, case.materials, mesh, pair_slots(teeth, drive)), torque)
+        energy = figures(tabulate(assembly, case.materials, mesh, pair_slots(assembly)), torque)
         at = np.linspace(elements.roll[0], elements.roll[-1], 2001)
         shares = [np.interp(at, x.roll, x.share, left=0.0, right=0.0) for x in (elements, energy)]
         inside = (at > energy.roll[0]) & (at < energy.roll[-1])

@@ -11,7 +11,8 @@ import numpy as np
 from marked_block import put
 
 from tribodyn import load_scenario, open_record, run
-from tribodyn.studies.pictures import overview, save
+from tribodyn.post.style import save
+from tribodyn.studies.pictures import overview
 
 PAGE = Path(__file__).parents[1] / "docs" / "rolling-elements.md"
 PICTURE = PAGE.parent / "pictures" / "irefc.png"

@@ -23,6 +23,7 @@ from tribodyn.compliance.energy import (
 )
 from tribodyn.compliance.foundation import ring_compliance
 from tribodyn.compliance.iso6336 import single_pair_stiffness
+from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import SIDES, Drive, GearBody
 from tribodyn.geometry.families import crc, involute
 from tribodyn.geometry.family import Family
@@ -67,8 +68,9 @@ def weber_banaschek(tooth: LoadedTooth, relative_curvature: float) -> float:
 
 def breakdown() -> str:
     pair = drive(20.0, (18, 36), (0.012, 0.025), WIDTH)
-    path = involute.FAMILY.working_path(pair)
-    teeth = [loaded_tooth(involute.FAMILY, pair, side, path) for side in SIDES]
+    assembly = assemble(involute.FAMILY, pair)
+    path = assembly.path
+    teeth = [loaded_tooth(assembly, side) for side in SIDES]
     parts = [tooth_compliance(tooth, STEEL, WIDTH, np.zeros(1)) for tooth in teeth]
     rows = ["| part, nm per N/mm | pinion | gear | both |", "|---|---|---|---|"]
     for name in ("bending", "shear", "axial", "foundation"):
@@ -122,9 +124,10 @@ def coupling() -> str:
     ]
     for name, family, angle in cases:
         pair = drive(angle, (23, 47), (0.015, 0.025), 0.02)
-        slots = pair_slots(family, pair)
+        assembly = assemble(family, pair)
+        slots = pair_slots(assembly)
         cycles = [
-            tabulate(family, pair, (STEEL, STEEL), MeshData("energy", 0.05, foundation_coupling=on), slots)
+            tabulate(assembly, (STEEL, STEEL), MeshData("energy", 0.05, foundation_coupling=on), slots)
             for on in (False, True)
         ]
         c = cycles[1]

@@ -85,7 +85,7 @@ def test_without_a_folder_nothing_is_left_behind(both, tmp_path: Path, monkeypat
     assert shown.exit_code == 0, shown.stderr
     assert "record " not in shown.stdout
     assert list(tmp_path.iterdir()) == []
-    for label in ("Contact ratio", "Least film parameter", "Loss, share of the power in", "pp"):
+    for label in ("Contact ratio", "Minimum film parameter", "Loss, share of the power in", "pp"):
         assert label in shown.stdout
     assert "are the same in all runs" in shown.stdout
 

@@ -185,12 +185,6 @@ def test_a_load_that_changes_over_time_has_no_steady_state(tmp_path: Path):
     assert not list(tmp_path.iterdir())
 
 
-def test_only_gear_pairs_in_motion_are_swept():
-    ended = CliRunner().invoke(app, ["sweep", "irefc", "--vary", "operating.input_speed=100,200rpm"])
-    assert ended.exit_code == 2
-    assert "only gear pairs" in ended.stderr
-
-
 def test_verbs_for_runs_refuse_a_sweep(grid: Path, tmp_path: Path):
     copy = shutil.copy(grid, tmp_path / "copy.h5")
     ended = CliRunner().invoke(app, ["compare", str(grid), str(copy)])

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
+from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import cycloidal
 from tribodyn.geometry.material import MaterialData
@@ -49,7 +50,7 @@ def test_the_mesh_cycle_differentiates_by_the_shape():
     """Derivative of what the table holds by the shape's numbers, against differences."""
     family, shape = cycloidal.FAMILY, cycloidal.Shape(0.0235, 0.02)
     mesh = MeshData("energy", 0.05, points=9)
-    pairs = pair_slots(family, drive(shape))
+    pairs = pair_slots(assemble(family, drive(shape)))
 
     def figure(values):
         cycle = tabulate(family, drive(cycloidal.Shape(*values)), (STEEL, STEEL), mesh, pairs)

@@ -109,7 +109,7 @@ MISTAKES = {
         (f'{PINION}.pitch_errors=["1 um", "2 um"]',),
         f"{PINION}.pitch_errors = 2 values",
         "the gear has 18 teeth",
-        "one value a tooth",
+        "one value per tooth",
     ),
     "pitch error without unit": (
         (f"{PINION}.pitch_errors=[1, 2]",),

@@ -6,6 +6,7 @@ import pytest
 from tribodyn.errors import InputError
 from tribodyn.record.reader import open_record
 from tribodyn.studies.load import load_scenario
+from tribodyn.studies.pictures import compare
 from tribodyn.studies.run import run
 
 NAME = "backlash-oscillator"
@@ -70,8 +71,6 @@ def test_a_record_is_replaced_only_when_told(tmp_path):
 
 
 def test_sweeps_are_drawn_together_and_not_compared(tmp_path):
-    from tribodyn.post.compare import compare
-
     for name in ("one", "two"):
         run(load_scenario(NAME, {"frequency": [0.5]}), tmp_path / f"{name}.h5")
     with open_record(tmp_path / "one.h5") as one, open_record(tmp_path / "two.h5") as two:

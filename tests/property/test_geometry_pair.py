@@ -6,6 +6,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from tests.support.random_drives import DEGENERATE, FAMILIES, drives
+from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.body import gear_polygon, section_area_and_inertia
 from tribodyn.geometry.drive import SIDES, tip_radius
 from tribodyn.geometry.families import involute
@@ -18,7 +19,7 @@ from tribodyn.geometry.path import (
     radius,
     seen_from,
 )
-from tribodyn.geometry.tooth import cut_tooth, flank_point, outline, thickness_half_angle
+from tribodyn.geometry.tooth import cut_tooth, flank_point, thickness_half_angle, tooth_outline
 
 
 def limits_of(family, drive):
@@ -178,7 +179,7 @@ def test_curvature_is_that_of_the_flank_as_cut(pair, where):
 def test_outline_is_continuous_and_narrows_outwards(pair):
     family, drive = pair
     for side in SIDES:
-        shape = outline(family, drive, side, 80, 80)
+        shape = tooth_outline(cut_tooth(family, drive, side), 80, 80)
         tooth = cut_tooth(family, drive, side)
         assert shape.fillet_x[-1] == pytest.approx(shape.flank_x[0], abs=1e-12)
         assert shape.fillet_y[-1] == pytest.approx(shape.flank_y[0], abs=1e-12)
@@ -199,9 +200,9 @@ def test_gears_are_closed_and_as_large_as_their_section(pair):
     """The polygon closes, runs once round the axis between root and tip, and encloses the section's area."""
     family, drive = pair
     for side in SIDES:
-        polygon = np.asarray(gear_polygon(family, drive, side))
+        polygon = np.asarray(gear_polygon(assemble(family, drive), side))
         np.testing.assert_array_equal(polygon[0], polygon[-1])
-        shape = outline(family, drive, side, 200, 200)
+        shape = tooth_outline(cut_tooth(family, drive, side), 200, 200)
         distance = np.hypot(*polygon.T)
         assert distance.min() > shape.root_radius * (1 - 1e-9)
         assert distance.max() < shape.tip_radius * (1 + 1e-9)

@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.support.random_drives import drives
+from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.material import MaterialData
 from tribodyn.mesh.cycle import as_arrays, from_arrays
 from tribodyn.mesh.data import MeshData
@@ -21,7 +22,7 @@ def cycles(draw, back=False):
     """Mesh cycle of a random valid drive."""
     family, drive = draw(drives())
     mesh = MeshData("energy", 0.05, points=17, backlash=4e-5)
-    return tabulate(family, drive, (STEEL, BRONZE), mesh, pair_slots(family, drive), back)
+    return tabulate(assemble(family, drive), (STEEL, BRONZE), mesh, pair_slots(assemble(family, drive)), back)
 
 
 @settings(max_examples=40, deadline=None)

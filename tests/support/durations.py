@@ -92,12 +92,14 @@ def _by_file(tests: Mapping[str, float]) -> dict[str, float]:
 def _quick_limit(seconds: Iterable[float]) -> float:
     """Return the duration up to which a test is quick, rounded as in the list."""
     ordered = sorted(seconds)
-    total = 0.0
+    share = QUICK_SHARE * sum(ordered)
+    limit, total = LISTED, 0.0
     for one in ordered:
         total += one
-        if total > QUICK_SHARE * sum(ordered):
-            return max(LISTED, round(one, 2))
-    return ordered[-1]
+        if total > share:
+            break
+        limit = max(limit, round(one, 2))
+    return limit
 
 
 def _longest_first(seconds: Mapping[str, float]) -> dict[str, float]:

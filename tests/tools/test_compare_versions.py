@@ -30,6 +30,12 @@ def test_columns_of_different_units_are_related_to_themselves():
     assert one.relative == relative(old, new, by_column=True)
 
 
+def test_residuals_are_shares_already():
+    old, new = {"summary@energy_residual": np.array(1e-17)}, {"summary@energy_residual": np.array(-3e-17)}
+    (one,) = compared(old, new).differences
+    assert one.relative == pytest.approx(4e-17)
+
+
 @pytest.mark.parametrize(
     "new",
     [

@@ -1,14 +1,14 @@
 """Run two versions of the package on the same cases and compare every number of what they leave behind.
 
 python -m tools.compare_versions 05aa37e .                       # a commit, and this folder
-python -m tools.compare_versions v0.1.0 HEAD --keep /tmp/kept    # results stay: only what changed runs again
+python -m tools.compare_versions HEAD~1 HEAD --keep /tmp/kept    # results stay: only what changed runs again
 python -m tools.compare_versions 05aa37e . --only 'sweep*' 'validate*'
 python -m tools.compare_versions 05aa37e . --explained "run load-step*: a defect mended: ..."
 
 A version is a folder or a git revision. Both run with this Python, each with a cache of its own. Compared are
 all records, what is printed as JSON, and exit statuses: numbers, NaN patterns, shapes, types. A difference is
-relative to the largest magnitude of its dataset (in displacement and velocity: of its column). Exit status 1
-if one above the threshold is not explained, or something that the old version has is missing.
+relative to the largest magnitude of its dataset (in displacement and velocity: of its column; residuals
+are shares already). Exit status 1 if one above the threshold is not explained, or something is missing.
 """
 
 import argparse

@@ -9,7 +9,7 @@ from tribodyn.cli.output import make_folder, unwritable
 from tribodyn.cli.overrides import SetOption, overrides
 
 if TYPE_CHECKING:
-    from tribodyn.geometry.family import Family
+    from tribodyn.geometry.assembly import Assembly
     from tribodyn.studies.drive_file import DriveModel
 
 EXAMPLES = (
@@ -41,13 +41,12 @@ def gear(
     from tribodyn.studies.gears import sheet_tables
 
     loaded = load_drive(model, overrides(settings))
-    teeth = family(loaded.family)
     with loaded.origins.naming():
-        check(teeth, loaded.drive)
+        assembly = check(family(loaded.family), loaded.drive)
     given = [(one.mass, one.inertia) for one in loaded.masses]
-    masses = body_masses(teeth, loaded.drive, given, [one.density for one in loaded.materials])
-    sheet = geometry_sheet(teeth, loaded.drive, masses)
-    files = _draw(loaded, teeth, output, points) if output is not None else []
+    masses = body_masses(assembly, given, [one.density for one in loaded.materials])
+    sheet = geometry_sheet(assembly, masses)
+    files = _draw(loaded, assembly, output, points) if output is not None else []
     if json:
         print_json(
             {
@@ -66,7 +65,7 @@ def gear(
         typer.echo(f"{file.suffix[1:]:8} {quoted_path(file)}")
 
 
-def _draw(model: "DriveModel", teeth: "Family", folder: Path, points: int) -> list[Path]:
+def _draw(model: "DriveModel", assembly: "Assembly", folder: Path, points: int) -> list[Path]:
     """Write every drawing of a gear pair into a folder; return the files."""
     from tribodyn.cli.progress import progress_bar
     from tribodyn.drawing.dxf import write_gear, write_pair, write_rack
@@ -78,19 +77,18 @@ def _draw(model: "DriveModel", teeth: "Family", folder: Path, points: int) -> li
     def file(what: str) -> Path:
         return folder / f"{model.name}-{what}"
 
-    drive = model.drive
     make_folder(folder)
     try:
         with progress_bar("drawing") as progress:
-            picture = pair_figure(teeth, drive, model.title, points)
+            picture = pair_figure(assembly, model.title, points)
             files = [save(picture, file(f"pair.{ending}")) for ending in ("svg", "png")]
             progress(0.5)
-            files.append(write_pair(file("pair.dxf"), teeth, drive, points))
+            files.append(write_pair(file("pair.dxf"), assembly, points))
             for side in SIDES:
                 files += [
-                    write_gear(file(f"{side}.dxf"), teeth, drive, side, points),
-                    write_rack(file(f"{side}-rack.dxf"), teeth, drive, side, points),
-                    write_profile(file(f"{side}.csv"), tooth_profile(teeth, drive, side, points)),
+                    write_gear(file(f"{side}.dxf"), assembly, side, points),
+                    write_rack(file(f"{side}-rack.dxf"), assembly, side, points),
+                    write_profile(file(f"{side}.csv"), tooth_profile(assembly, side, points)),
                 ]
             progress(1.0)
     except OSError as error:

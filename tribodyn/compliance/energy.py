@@ -9,27 +9,24 @@ Widths: the teeth and the contact carry over the common face width only, which l
 tooth's free ends (on the soft side); each body gives way with its own face width.
 """
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from tribodyn.compliance.foundation import foundation_compliance, ring_compliance
-from tribodyn.geometry.drive import Drive, GearBody, Side, body_of
-from tribodyn.geometry.family import Family
-from tribodyn.geometry.path import Path, PerContact, distance_at_radius, seen_from
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.drive import GearBody, Side, body_of
+from tribodyn.geometry.material import MaterialData
+from tribodyn.geometry.path import PerContact, distance_at_radius
 from tribodyn.geometry.tooth import (
     Tooth,
     contact_in_tooth_frame,
-    cut_tooth,
     fillet_point,
     thickness_half_angle,
 )
 from tribodyn.numerics.elementary import cos, namespace, sin, tan
 from tribodyn.numerics.iteration import chebyshev_basis
 from tribodyn.numerics.shapes import Array, Float
-
-if TYPE_CHECKING:
-    from tribodyn.geometry.material import MaterialData
 
 SHEAR_FACTOR = 1.2  # rectangular section (Timoshenko)
 
@@ -145,22 +142,21 @@ class LoadedTooth(NamedTuple):
     side: Side
 
 
-def loaded_tooth(family: Family, drive: Drive, side: Side, working_path: Path) -> LoadedTooth:
-    """Cut a tooth and put it to work on the drive's working path."""
-    tooth = cut_tooth(family, drive, side)
-    path = seen_from(working_path, side)
+def loaded_tooth(assembly: Assembly, side: Side) -> LoadedTooth:
+    """Put a tooth to work on the drive's working path."""
+    tooth, path = assembly.tooth(side), assembly.path_of(side)
     return LoadedTooth(
         tooth=tooth,
         path=path,
         pitch_half_angle=thickness_half_angle(tooth, path.pinion_pitch_radius),
         root_half_angle=tooth.half_angle + tooth.corner_x / tooth.path.pinion_pitch_radius,
-        body=body_of(drive, side),
+        body=body_of(assembly.drive, side),
         side=side,
     )
 
 
 def tooth_compliance(
-    loaded: LoadedTooth, material: "MaterialData", width: Any, r: PerContact
+    loaded: LoadedTooth, material: MaterialData, width: Any, r: PerContact
 ) -> ToothCompliance:
     """Compliance of one tooth that is loaded at the signed distances r of the drive.
 
@@ -209,7 +205,7 @@ def tooth_compliance(
     return ToothCompliance(scale * bending, scale * shear, scale * axial, foundation, root_load)
 
 
-def neighbour_coupling(loaded: LoadedTooth, material: "MaterialData", pitches: int) -> Float[Array, "3 3"]:
+def neighbour_coupling(loaded: LoadedTooth, material: MaterialData, pitches: int) -> Float[Array, "3 3"]:
     """Compliance (3, 3) between the root loads of two teeth of one body, per newton.
 
     Entry [i, j]: displacement i of the tooth that entered later from load j on the one that entered `pitches`
@@ -226,7 +222,7 @@ def neighbour_coupling(loaded: LoadedTooth, material: "MaterialData", pitches: i
     return earlier_to_later / (material.youngs_modulus * loaded.body.face_width)
 
 
-def hertz_linear(first: "MaterialData", second: "MaterialData", width: Any) -> Any:
+def hertz_linear(first: MaterialData, second: MaterialData, width: Any) -> Any:
     """Linear compliance of a line contact, m/N: Σ 2(1 − ν²)/(π E b), independent of load and curvature.
 
     For one material 4(1 − ν²)/(π E b) (Yang & Lin 1987, after Hertz); here each body brings its half of it.
@@ -234,7 +230,7 @@ def hertz_linear(first: "MaterialData", second: "MaterialData", width: Any) -> A
     return sum(2.0 * (1.0 - m.poisson_ratio**2) / (np.pi * m.youngs_modulus * width) for m in (first, second))
 
 
-def hertz_coefficient(first: "MaterialData", second: "MaterialData", width: Any) -> Any:
+def hertz_coefficient(first: MaterialData, second: MaterialData, width: Any) -> Any:
     """Coefficient A = 1.275/(E^0.9 b^0.8), m/N^0.9, of the load-dependent deflection δ = A F^0.9.
 
     Palmgren's power law for rollers in the form usual with the energy method; for two materials E is their

@@ -13,7 +13,7 @@ import numpy as np
 from tribodyn.compliance.table import check_cover, interpolate
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry, roll_limits
+from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry
 from tribodyn.geometry.drive import SIDES, Side, body_of, tip_radius
 from tribodyn.geometry.modification import FlankModification, LeadRelief, Misalignment, Modifications, Relief
 from tribodyn.geometry.path import PerContact
@@ -60,7 +60,7 @@ def profile_gap(
         total = total + _relieved(first, place - assembly.r_start) + _relieved(last, assembly.r_end - place)
         if flank.profile_error is not None:
             at, error = flank.profile_error
-            check_cover(at, *roll_limits(assembly), f"drive.{side}.modification.profile_error")
+            check_cover(at, *assembly.roll_limits, f"drive.{side}.modification.profile_error")
             roll = np.clip(assembly.path.rotation(place), at[0], at[-1])
             total = total + interpolate(at, error, roll)
     return total
@@ -125,7 +125,7 @@ def lead_amounts(lead: LeadRelief) -> dict[str, float]:
 def greatest_along_lead(assembly: Assembly, modifications: Modifications) -> tuple[str, str]:
     """Key and value of what opens the flanks most along the face: an angle of the axes, or a relief."""
     width = min(float(body_of(assembly.drive, side).face_width) for side in SIDES)
-    ends, geometry = np.array([-width, width]) / 2.0, pair_geometry(assembly, np.array(roll_limits(assembly)))
+    ends, geometry = np.array([-width, width]) / 2.0, pair_geometry(assembly, np.array(assembly.roll_limits))
     found = []
     for name, angle in modifications.misalignment._asdict().items():
         opened = np.max(np.abs(misalignment_gap(assembly, Misalignment(**{name: angle}), geometry, ends)))
@@ -147,7 +147,7 @@ def relief_rolls(assembly: Assembly, modifications: Modifications) -> list[float
 
 
 def check_modifications(assembly: Assembly, modifications: Modifications) -> None:
-    """Refuse reliefs that are no longer reliefs, and errors that are not one a tooth.
+    """Refuse reliefs that are no longer reliefs, and errors that are not one per tooth.
 
     Raises
     ------
@@ -171,7 +171,7 @@ def same_every_pitch(modifications: Modifications) -> None:
             raise InputError(
                 f"drive.{side}.modification.pitch_errors",
                 rule="differ from tooth to tooth, but one mesh cycle stands for all teeth here",
-                remedy='use kind = "load-contact", or leave them away',
+                remedy="use a load contact study, or leave them out",
             )
 
 

@@ -107,7 +107,7 @@ def flexibility(
         Also for loads that vary along the teeth, with free end faces, and with root stress.
     """
     drive = assembly.drive
-    width = min(float(drive.pinion.face_width), float(drive.gear.face_width))
+    width = float(assembly.common_width)
     gears = [
         cached_gear_compliance(
             assembly.tooth(side),
@@ -258,7 +258,7 @@ def extended_rolls(
     assembly: Assembly, limits: tuple[float, float], positions: int
 ) -> Float[Array, "position pair"]:
     """Roll angles (position, pair) over one pitch of all pairs between the limits, for `share_load`."""
-    pitch = 2.0 * np.pi / float(assembly.drive.pinion.teeth)
+    pitch = assembly.pitch_angle
     count = int(np.ceil((limits[1] - limits[0]) / pitch))
     phase = (np.arange(positions) + 0.5) / positions
     return limits[0] + pitch * (phase[:, None] + np.arange(count - 1, -1, -1))

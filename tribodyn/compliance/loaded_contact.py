@@ -5,19 +5,17 @@ stand. Phase 0 is where a pair passes the beginning of its path of contact, what
 """
 
 import math
-from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from tribodyn.compliance.face_root_stress import root_stress
-from tribodyn.compliance.flank_gap import check_modifications, flank_gap, greatest_along_lead, pitch_gap
+from tribodyn.compliance.flank_gap import flank_gap, pitch_gap
 from tribodyn.compliance.load_sharing import PairFlexibility, SharedLoad, half_width, share_load
-from tribodyn.compliance.slices import LEAST_SLICES, face_positions
-from tribodyn.errors import InputError
-from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry, roll_at_gap, roll_limits
-from tribodyn.geometry.modification import Modifications, vary_along_lead
+from tribodyn.compliance.loaded_rules import check_contact, check_resolved
+from tribodyn.compliance.slices import face_positions
+from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry, roll_at_gap
+from tribodyn.geometry.modification import Modifications
 from tribodyn.numerics.shapes import Array, Float, Int
 
 #: Corners are followed to a gap of this many deflections of a single pair.
@@ -79,27 +77,6 @@ class LoadedContact(NamedTuple):
         return float(np.ptp(self.deflection))
 
 
-class HarrisMap(NamedTuple):
-    """Loaded static transmission error at several torques (S. L. Harris, Proc. IMechE 172 (1958) 87).
-
-    Attributes
-    ----------
-    gear_torque : (L,)
-        N m.
-    phase : (T,)
-        As in `LoadedContact`.
-    deflection : (L, T)
-        ξ, m.
-    peak_to_peak : (L,)
-        Of each, m.
-    """
-
-    gear_torque: Float[Array, " load"]
-    phase: Float[Array, " position"]
-    deflection: Float[Array, "load position"]
-    peak_to_peak: Float[Array, " load"]
-
-
 def roll_through(
     flexible: PairFlexibility,
     modifications: Modifications,
@@ -139,23 +116,9 @@ def roll_through(
     SimulationError
         If no state of contact is found.
     """
-    check(flexible, modifications, gear_torque, slices)
-    limits = reach(flexible, modifications, gear_torque, slices, coupled)
-    assembly = flexible.assembly
-    pitch = 2.0 * np.pi / float(assembly.drive.pinion.teeth)
-    start, _ = roll_limits(assembly)
-    ages = _ages(limits, start, pitch)
-    phase = np.arange(positions * cycles) / positions
-    cycle = np.arange(positions * cycles) // positions
-    roll = start + pitch * ((phase - cycle)[:, None] + ages)
-
-    face = face_positions(flexible.width, slices)
-    geometry = pair_geometry(assembly, roll)
-    gap = flank_gap(assembly, modifications, geometry, face)
-    gap = gap + pitch_gap(modifications, cycle[:, None] - ages)[..., None]
-    shared = share_load(flexible, roll, gear_torque, friction_coefficient, gap, slices, coupled)
-    check_resolved(assembly, shared, modifications, gear_torque)
-
+    phase, roll, geometry, gap, shared = _rolled(
+        flexible, modifications, gear_torque, positions, cycles, friction_coefficient, slices, coupled
+    )
     line_load = shared.slice_load * (slices / flexible.width)
     half = half_width(flexible, geometry.motion.relative_curvature[..., None], line_load)
     total = shared.normal_load
@@ -166,7 +129,7 @@ def roll_through(
     return LoadedContact(
         phase=phase,
         roll=roll,
-        slice_position=face,
+        slice_position=face_positions(flexible.width, slices),
         deflection=shared.deflection,
         unloaded=_unloaded(geometry, gap),
         normal_load=total,
@@ -176,37 +139,66 @@ def roll_through(
         root_tension=tension,
         root_compression=compression,
         face_load_factor=factor,
-        mesh_stiffness=shared.stiffness / assembly.path.gear_pitch_radius,
+        mesh_stiffness=shared.stiffness / flexible.assembly.path.gear_pitch_radius,
         contact_ratio=_mean_pairs(np.max(shared.overlap, axis=-1), positions),
     )
 
 
-def harris_map(
+def loaded_error(
     flexible: PairFlexibility,
     modifications: Modifications,
-    gear_torques: Sequence[float],
+    gear_torque: float,
     positions: int,
+    cycles: int = 1,
+    friction_coefficient: float = 0.0,
     slices: int = 1,
     coupled: bool = True,
-) -> HarrisMap:
-    """Loaded static transmission error of one mesh cycle at several torques; else as `roll_through`."""
-    for torque in gear_torques:
-        check(flexible, modifications, torque, slices)
-    assembly = flexible.assembly
-    pitch = 2.0 * np.pi / float(assembly.drive.pinion.teeth)
-    start, _ = roll_limits(assembly)
-    limits = reach(flexible, modifications, max(gear_torques), slices, coupled)
-    ages = _ages(limits, start, pitch)
-    phase = np.arange(positions) / positions
-    roll = start + pitch * (phase[:, None] + ages)
-    gap = flank_gap(
-        assembly, modifications, pair_geometry(assembly, roll), face_positions(flexible.width, slices)
+) -> Float[Array, " position"]:
+    """Loaded static transmission error ξ alone, m; parameters and errors as those of `roll_through`.
+
+    At several torques it makes Harris' map (S. L. Harris, Proc. IMechE 172 (1958) 87).
+    """
+    rolled = _rolled(
+        flexible, modifications, gear_torque, positions, cycles, friction_coefficient, slices, coupled
     )
-    curves = [
-        share_load(flexible, roll, torque, 0.0, gap, slices, coupled).deflection for torque in gear_torques
-    ]
-    deflection = np.array(curves)
-    return HarrisMap(np.array(gear_torques, dtype=float), phase, deflection, np.ptp(deflection, axis=1))
+    return rolled.shared.deflection
+
+
+class _Rolled(NamedTuple):
+    """Pairs at all positions, and the state of their contact."""
+
+    phase: Float[Array, " position"]
+    roll: Float[Array, "position pair"]
+    geometry: PairGeometry
+    gap: Float[Array, "position pair slice"]
+    shared: SharedLoad
+
+
+def _rolled(
+    flexible: PairFlexibility,
+    modifications: Modifications,
+    gear_torque: float,
+    positions: int,
+    cycles: int,
+    friction_coefficient: float,
+    slices: int,
+    coupled: bool,
+) -> _Rolled:
+    check_contact(flexible, modifications, gear_torque, slices)
+    limits = reach(flexible, modifications, gear_torque, slices, coupled)
+    assembly = flexible.assembly
+    pitch = assembly.pitch_angle
+    start, _ = assembly.roll_limits
+    ages = _ages(limits, start, pitch)
+    phase = np.arange(positions * cycles) / positions
+    cycle = np.arange(positions * cycles) // positions
+    roll = start + pitch * ((phase - cycle)[:, None] + ages)
+    geometry = pair_geometry(assembly, roll)
+    gap = flank_gap(assembly, modifications, geometry, face_positions(flexible.width, slices))
+    gap = gap + pitch_gap(modifications, cycle[:, None] - ages)[..., None]
+    shared = share_load(flexible, roll, gear_torque, friction_coefficient, gap, slices, coupled)
+    check_resolved(assembly, shared, modifications, gear_torque)
+    return _Rolled(phase, roll, geometry, gap, shared)
 
 
 def reach(
@@ -231,8 +223,8 @@ def reach(
     arm = np.cos(geometry.motion.pressure_angle[0, 0])
     deflection = float(single.deflection[0] * arm - np.min(gap))
 
-    start, end = roll_limits(assembly)
-    pitch = 2.0 * np.pi / float(assembly.drive.pinion.teeth)
+    start, end = assembly.roll_limits
+    pitch = assembly.pitch_angle
     roll = start + pitch * np.arange(0.0, (end - start) / pitch, 1.0 / _PHASES)
     nearest = _nearest(flexible, modifications, roll, face)
     whole = np.full(math.ceil(len(roll) / _PHASES) * _PHASES, np.inf)
@@ -245,33 +237,6 @@ def reach(
     most = factor * deflection + open_between + float(sum(errors))
     before, beyond = _nearest(flexible, modifications, np.array([start, end]), face)
     return roll_at_gap(assembly, (most - float(before), most - float(beyond)))
-
-
-def check(flexible: PairFlexibility, modifications: Modifications, gear_torque: float, slices: int) -> None:
-    """Refuse loads that drive nothing, modifications that are none, too few slices for them, and too many.
-
-    A slice must be as wide as its contact: the loads of narrower ones are not line loads to each other.
-    """
-    if gear_torque <= 0:
-        raise InputError("operating.gear_torque", gear_torque, "must drive the gear", "use more than 0 N m")
-    check_modifications(flexible.assembly, modifications)
-    if vary_along_lead(modifications) and slices < LEAST_SLICES:
-        raise InputError(
-            "mesh.slices",
-            slices,
-            f"is less than {LEAST_SLICES}, but flanks or axes differ along the face",
-            "leave it away (21 slices), or give more",
-        )
-    motion = pair_geometry(flexible.assembly, np.zeros(1)).motion
-    line_load = gear_torque / motion.gear_normal_arm / flexible.width
-    contact = 2.0 * float(half_width(flexible, motion.relative_curvature, line_load)[0])
-    if slices * contact > flexible.width:
-        raise InputError(
-            "mesh.slices",
-            slices,
-            f"makes slices narrower than the contact at {gear_torque:g} N m, {contact * 1e3:.2g} mm",
-            f"give at most {int(flexible.width / contact)}",
-        )
 
 
 def _ages(limits: tuple[float, float], start: float, pitch: float) -> Int[Array, " pair"]:
@@ -295,24 +260,6 @@ def _unloaded(geometry: PairGeometry, gap: Float[Array, "position pair slice"]) 
     """ξ (position,) at which the first place touches, m."""
     whole = (geometry.gap[..., None] + gap) / np.cos(geometry.motion.pressure_angle)[..., None]
     return np.min(whole, axis=(1, 2))
-
-
-def check_resolved(
-    assembly: Assembly, shared: SharedLoad, modifications: Modifications, gear_torque: float
-) -> None:
-    """Refuse what leaves the heaviest pair on fewer slices than a distribution along the face needs."""
-    slices = shared.slice_load.shape[-1]
-    if slices < LEAST_SLICES or not vary_along_lead(modifications):
-        return
-    heaviest = np.argmax(shared.normal_load, axis=1)[:, None, None]
-    touching = np.sum(np.take_along_axis(shared.slice_load, heaviest, axis=1)[:, 0] > 0.0, axis=-1)
-    if np.any(touching < LEAST_SLICES):
-        raise InputError(
-            *greatest_along_lead(assembly, modifications),
-            f"lifts the flanks off each other: at {gear_torque:g} N m only {int(np.min(touching))} "
-            f"of {slices} slices carry the heaviest pair",
-            "give less, or more torque; or more mesh.slices, to resolve so narrow a contact",
-        )
 
 
 def _mean_pairs(overlap: Float[Array, "position pair"], positions: int) -> float:

@@ -32,9 +32,6 @@ from tribodyn.numerics.shapes import Array, Float
 if TYPE_CHECKING:
     from tribodyn.compliance.load_sharing import PairFlexibility
 
-#: Least number of slices where anything varies along the face.
-LEAST_SLICES = 3
-
 
 def face_positions(width: float, slices: int) -> Float[Array, " slice"]:
     """Middles of the slices (S,), m from the middle of the face."""

@@ -11,10 +11,9 @@ from ezdxf import units
 from ezdxf.filemanagement import new
 
 from tribodyn.drawing.picture import gears_in_mesh
+from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import gear_polygon
-from tribodyn.geometry.drive import SIDES, Drive, Side, body_of, root_radius, tip_radius
-from tribodyn.geometry.family import Family
-from tribodyn.geometry.path import seen_from
+from tribodyn.geometry.drive import SIDES, Side, body_of, root_radius, tip_radius
 from tribodyn.geometry.rack import rack_outline
 
 #: Layer -> (AutoCAD colour index, line type).
@@ -35,18 +34,18 @@ _MILLIMETRES = 1e3
 _SAME_POINT = 1e-12
 
 
-def write_gear(path: Path, family: Family, drive: Drive, side: Side, flank_points: int = 60) -> Path:
+def write_gear(path: Path, assembly: Assembly, side: Side, flank_points: int = 60) -> Path:
     """Draw one gear about its own axis, turned as it is while a pair touches at the pitch point."""
     drawing = _drawing()
-    _add_gear(drawing, family, drive, side, gear_polygon(family, drive, side, flank_points), (0.0, 0.0))
+    _add_gear(drawing, assembly, side, gear_polygon(assembly, side, flank_points), (0.0, 0.0))
     drawing.saveas(path)
     return path
 
 
-def write_rack(path: Path, family: Family, drive: Drive, side: Side, flank_points: int = 60) -> Path:
+def write_rack(path: Path, assembly: Assembly, side: Side, flank_points: int = 60) -> Path:
     """Draw the rack cutter of one body, teeth down, x along the rolling line from a tooth's axis."""
     drawing = _drawing()
-    shape = rack_outline(family, drive, side, flank_points)
+    shape = rack_outline(assembly, side, flank_points)
     offsets = (np.arange(RACK_TEETH) - (RACK_TEETH - 1) / 2) * shape.pitch
     # Neighbouring pitches share the middle of a gap.
     x = np.concatenate([shape.x[:-1] + offset for offset in offsets] + [shape.x[-1:] + offsets[-1]])
@@ -59,13 +58,13 @@ def write_rack(path: Path, family: Family, drive: Drive, side: Side, flank_point
     return path
 
 
-def write_pair(path: Path, family: Family, drive: Drive, flank_points: int = 60) -> Path:
+def write_pair(path: Path, assembly: Assembly, flank_points: int = 60) -> Path:
     """Draw both gears as a pair begins contact, with the path of contact, from the pitch point."""
     drawing = _drawing()
-    mesh = gears_in_mesh(family, drive, flank_points)
+    mesh = gears_in_mesh(assembly, flank_points)
     centres = (0.0, -mesh.pitch_radii[0]), (0.0, mesh.pitch_radii[1])
     for side, outline, centre in zip(SIDES, (mesh.pinion, mesh.gear), centres, strict=True):
-        _add_gear(drawing, family, drive, side, outline, centre)
+        _add_gear(drawing, assembly, side, outline, centre)
     _add_line(drawing, "CENTRE_LINE", np.array(centres))
     _add_line(drawing, "PATH_OF_CONTACT", mesh.path)
     drawing.saveas(path)
@@ -80,14 +79,15 @@ def _drawing() -> Any:
 
 
 def _add_gear(
-    drawing: Any, family: Family, drive: Drive, side: Side, outline: np.ndarray, centre: tuple[float, float]
+    drawing: Any, assembly: Assembly, side: Side, outline: np.ndarray, centre: tuple[float, float]
 ) -> None:
     """Add an outline (closed by its last point) and the circles about its axis, m."""
     _add_outline(drawing, outline[:-1])
+    drive = assembly.drive
     circles = {
         "BORE": body_of(drive, side).bore_radius,
         "ROOT_CIRCLE": root_radius(drive, side),
-        "PITCH_CIRCLE": seen_from(family.working_path(drive), side).pinion_pitch_radius,
+        "PITCH_CIRCLE": assembly.path_of(side).pinion_pitch_radius,
         "TIP_CIRCLE": tip_radius(drive, side),
     }
     for layer, radius in circles.items():

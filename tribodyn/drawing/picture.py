@@ -3,25 +3,24 @@
 import numpy as np
 from matplotlib.figure import Figure
 
+from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import gear_polygon
-from tribodyn.geometry.drive import SIDES, Drive, tip_radius
-from tribodyn.geometry.family import Family
-from tribodyn.geometry.path import contact_limits, position
+from tribodyn.geometry.drive import SIDES, tip_radius
+from tribodyn.geometry.path import position
 from tribodyn.post.figures.gears_in_mesh import GearsInMesh, draw_gears, draw_whole, key_rolls, placed
 from tribodyn.post.style import WIDTH, house_style, mark_panel, new_figure
 
 _PATH_POINTS = 201
 
 
-def gears_in_mesh(family: Family, drive: Drive, flank_points: int = 60) -> GearsInMesh:
+def gears_in_mesh(assembly: Assembly, flank_points: int = 60) -> GearsInMesh:
     """Place the gears of a drive as they stand when a pair begins contact."""
-    path = family.working_path(drive)
-    limits = contact_limits(path, tip_radius(drive, "pinion"), tip_radius(drive, "gear"))
-    start, end = (float(path.rotation(r)) for r in limits)
-    rolls = key_rolls(start, end, 2 * np.pi / float(drive.pinion.teeth))
+    path, drive = assembly.path, assembly.drive
+    start, end = assembly.roll_limits
+    rolls = key_rolls(start, end, assembly.pitch_angle)
     points = {name: position(path, path.signed_distance(np.asarray(roll))) for name, roll in rolls.items()}
     radii = float(path.pinion_pitch_radius), float(path.gear_pitch_radius)
-    outlines = [np.asarray(gear_polygon(family, drive, side, flank_points)) for side in SIDES]
+    outlines = [np.asarray(gear_polygon(assembly, side, flank_points)) for side in SIDES]
     pinion, gear = placed(outlines[0], outlines[1], radii, start)
     along = path.signed_distance(np.linspace(start, end, _PATH_POINTS))
     return GearsInMesh(
@@ -34,9 +33,9 @@ def gears_in_mesh(family: Family, drive: Drive, flank_points: int = 60) -> Gears
     )
 
 
-def pair_figure(family: Family, drive: Drive, title: str, flank_points: int = 60) -> Figure:
+def pair_figure(assembly: Assembly, title: str, flank_points: int = 60) -> Figure:
     """Draw the pair: (a) whole, (b) the teeth in contact, tip and pitch circles, path and key points."""
-    mesh = gears_in_mesh(family, drive, flank_points)
+    drive, mesh = assembly.drive, gears_in_mesh(assembly, flank_points)
     with house_style():
         # as tall as the whole pair at this width
         width = 1.5 * WIDTH

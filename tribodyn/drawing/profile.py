@@ -6,10 +6,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import ROOT_POINTS, TIP_POINTS, half_profile
-from tribodyn.geometry.drive import Drive, Side, body_of
-from tribodyn.geometry.family import Family
-from tribodyn.geometry.tooth import outline
+from tribodyn.geometry.drive import Side, body_of
+from tribodyn.geometry.tooth import tooth_outline
 
 #: Columns of the file.
 HEADER = ("part", "x [mm]", "y [mm]", "radius [mm]", "angle [deg]")
@@ -32,11 +32,11 @@ class Profile(NamedTuple):
     angle: np.ndarray
 
 
-def tooth_profile(family: Family, drive: Drive, side: Side, flank_points: int = 60) -> Profile:
-    """Points of one tooth of a body of a drive of plain numbers; the gear repeats it `teeth` times."""
+def tooth_profile(assembly: Assembly, side: Side, flank_points: int = 60) -> Profile:
+    """Points of one tooth of a body, of plain numbers; the gear repeats it `teeth` times."""
     fillet_points = max(flank_points // 2, 8)
-    shape = outline(family, drive, side, flank_points, fillet_points)
-    radius, angle = half_profile(shape, body_of(drive, side).teeth)
+    shape = tooth_outline(assembly.tooth(side), flank_points, fillet_points)
+    radius, angle = half_profile(shape, body_of(assembly.drive, side).teeth)
     part = [
         *["root"] * ROOT_POINTS,
         *["fillet"] * fillet_points,

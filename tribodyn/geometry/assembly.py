@@ -1,6 +1,8 @@
-"""A drive with plain numbers put together, and the margins by which it can be made and run."""
+"""A drive put together, and the margins by which it can be made and run."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -9,33 +11,77 @@ from tribodyn.geometry.drive import SIDES, Drive, Side, root_radius, tip_radius
 from tribodyn.geometry.family import Family
 from tribodyn.geometry.path import Path, contact_limits, contact_ratio, kinematics, radius, seen_from
 from tribodyn.geometry.tooth import Tooth, cut_tooth, fillet_point, thickness_half_angle
+from tribodyn.numerics.elementary import is_jax, namespace
 
 _SAMPLES = 400
 
 
 @dataclass(frozen=True)
 class Assembly:
-    """Paths, teeth and contact limits of a drive.
+    """Path, teeth and contact limits of a drive, each worked out once, when it is first asked for.
 
     Parameters
     ----------
     family, drive
-        What was put together.
-    path : Path
-        Working path of contact.
-    pinion, gear : Tooth
-        The teeth as cut.
-    r_start, r_end : float
-        Signed distances of first and last contact, m; NaN where the tip circles do not reach the path.
+        What is put together; the drive's numbers may be traced. Lengths and angles are then tracers too.
     """
 
     family: Family
     drive: Drive
-    path: Path
-    pinion: Tooth
-    gear: Tooth
-    r_start: float
-    r_end: float
+
+    @cached_property
+    def path(self) -> Path:
+        """Working path of contact."""
+        return self.family.working_path(self.drive)
+
+    @cached_property
+    def pinion(self) -> Tooth:
+        """Tooth of the pinion, as cut."""
+        return cut_tooth(self.family, self.drive, "pinion")
+
+    @cached_property
+    def gear(self) -> Tooth:
+        """Tooth of the gear, as cut."""
+        return cut_tooth(self.family, self.drive, "gear")
+
+    @cached_property
+    def limits(self) -> tuple[Any, Any]:
+        """Signed distances r_start and r_end of first and last contact, m.
+
+        NaN where the tip circles do not reach the path.
+        """
+        return _plain(contact_limits(self.path, *(tip_radius(self.drive, side) for side in SIDES)))
+
+    @property
+    def r_start(self) -> Any:
+        """Signed distance of the first contact, m, < 0."""
+        return self.limits[0]
+
+    @property
+    def r_end(self) -> Any:
+        """Signed distance of the last contact, m, > 0."""
+        return self.limits[1]
+
+    @cached_property
+    def roll_limits(self) -> tuple[Any, Any]:
+        """Pinion angles at which the path of contact begins and ends, rad from the pitch point."""
+        return _plain(self.path.rotation(limit) for limit in self.limits)
+
+    @cached_property
+    def contact_ratio(self) -> Any:
+        """Transverse contact ratio."""
+        return _plain([contact_ratio(self.path, *self.limits, self.drive.pinion.teeth)])[0]
+
+    @property
+    def common_width(self) -> Any:
+        """Width over which both gears' teeth meet, m."""
+        widths = self.drive.pinion.face_width, self.drive.gear.face_width
+        return namespace(*widths).minimum(*widths)
+
+    @property
+    def pitch_angle(self) -> Any:
+        """Pinion angle from one pair to the next, rad."""
+        return 2 * np.pi / self.drive.pinion.teeth
 
     def tooth(self, side: Side) -> Tooth:
         """Return the tooth of one body."""
@@ -45,10 +91,14 @@ class Assembly:
         """Signed distance (m), in the body's own view, where the mate's tip touches this body's flank."""
         return self.r_start if side == "pinion" else -self.r_end
 
-    @property
-    def contact_ratio(self) -> float:
-        """Transverse contact ratio."""
-        return float(contact_ratio(self.path, self.r_start, self.r_end, self.drive.pinion.teeth))
+    def path_of(self, side: Side) -> Path:
+        """Return the working path as one body sees it, which is that path's pinion."""
+        return seen_from(self.path, side)
+
+
+def _plain(values: Iterable[Any]) -> tuple[Any, ...]:
+    """Floats, where they are not JAX's."""
+    return tuple(value if is_jax(value) else float(value) for value in values)
 
 
 def mate_of(side: Side) -> Side:
@@ -57,11 +107,8 @@ def mate_of(side: Side) -> Side:
 
 
 def assemble(family: Family, drive: Drive) -> Assembly:
-    """Put a drive of plain numbers together."""
-    path = family.working_path(drive)
-    limits = contact_limits(path, tip_radius(drive, "pinion"), tip_radius(drive, "gear"))
-    pinion, gear = (cut_tooth(family, drive, side) for side in SIDES)
-    return Assembly(family, drive, path, pinion, gear, float(limits[0]), float(limits[1]))
+    """Put a drive together."""
+    return Assembly(family, drive)
 
 
 def tip_clearance(assembly: Assembly, side: Side) -> float:
@@ -73,22 +120,22 @@ def tip_clearance(assembly: Assembly, side: Side) -> float:
 
 def lowest_contact_speed(assembly: Assembly, side: Side) -> float:
     """Speed of the lowest contact along this body's flank, m per rad; no flank is there unless > 0."""
-    path = seen_from(assembly.path, side)
+    path = assembly.path_of(side)
     return float(kinematics(path, assembly.lowest_contact(side)).pinion_speed)
 
 
 def lowest_contact_radius(assembly: Assembly, side: Side) -> float:
     """Radius on this body at which the mate's tip touches its flank, m."""
-    return float(radius(seen_from(assembly.path, side), assembly.lowest_contact(side)))
+    return float(radius(assembly.path_of(side), assembly.lowest_contact(side)))
 
 
 def tip_corner_gap(assembly: Assembly, side: Side) -> float:
-    """Least gap (m) between this body's fillet and the corner of the mate's tip; infinite if they never meet.
+    """Minimum gap (m) from this body's fillet to the corner of the mate's tip; infinite if they never meet.
 
     The corner is followed in the tooth's frame from the lowest contact to the line of centres, where it is
     deepest, and compared with the fillet at the same radius.
     """
-    tooth, path = assembly.tooth(side), seen_from(assembly.path, side)
+    tooth, path = assembly.tooth(side), assembly.path_of(side)
     r_p, r_g = path.pinion_pitch_radius, path.gear_pitch_radius
     lowest = assembly.lowest_contact(side)
     alpha = path.pressure_angle(lowest)

@@ -5,10 +5,9 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.geometry.drive import SIDES, Drive, Side, body_of
-from tribodyn.geometry.family import Family
-from tribodyn.geometry.path import seen_from
-from tribodyn.geometry.tooth import ToothOutline, cut_tooth, outline, thickness_half_angle, tooth_outline
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.drive import SIDES, Side, body_of
+from tribodyn.geometry.tooth import ToothOutline, thickness_half_angle, tooth_outline
 from tribodyn.numerics.elementary import arctan2, cos, namespace, sin, sqrt
 from tribodyn.numerics.shapes import Array, Float
 
@@ -18,7 +17,7 @@ ROOT_POINTS, TIP_POINTS = 4, 3
 _INTEGRATION_POINTS = 400
 
 
-def gear_polygon(family: Family, drive: Drive, side: Side, flank_points: int = 40) -> Float[Array, "point 2"]:
+def gear_polygon(assembly: Assembly, side: Side, flank_points: int = 40) -> Float[Array, "point 2"]:
     """Draw all teeth as a closed polygon, m, shape (points, 2); the first point is repeated at the end.
 
     The frame is the body's own: origin on its axis, x and y parallel to the drive's frame (`path`) while a
@@ -26,20 +25,19 @@ def gear_polygon(family: Family, drive: Drive, side: Side, flank_points: int = 4
     carried to (0, −r_p), the gear's counter-clockwise by φ r_p/r_g and carried to (0, r_g). The teeth have
     no backlash. The number of teeth must be a plain number.
     """
-    tooth = cut_tooth(family, drive, side)
+    tooth, teeth = assembly.tooth(side), body_of(assembly.drive, side).teeth
     shape = tooth_outline(tooth, flank_points, max(flank_points // 2, 8))
     xp = namespace(tooth)
-    half_radius, half_angle = half_profile(shape, body_of(drive, side).teeth)
+    half_radius, half_angle = half_profile(shape, teeth)
     # The middle of the gap belongs to the next tooth.
     radius = xp.concatenate([half_radius, half_radius[:0:-1]])
     angle = xp.concatenate([-half_angle, half_angle[:0:-1]])
-    body_path = seen_from(family.working_path(drive), side)
-    pitch_half_angle = thickness_half_angle(tooth, body_path.pinion_pitch_radius)
-    teeth = round(float(body_of(drive, side).teeth))
-    index = np.arange(teeth)[:, None]
+    pitch_half_angle = thickness_half_angle(tooth, assembly.path_of(side).pinion_pitch_radius)
+    count = round(float(teeth))
+    index = np.arange(count)[:, None]
     # Angles from the line of centres, counter-clockwise, with the tooth left of the pitch point.
-    turned = (pitch_half_angle + angle + index * (2 * np.pi / teeth)).reshape(-1)
-    radius = xp.concatenate([radius] * teeth)
+    turned = (pitch_half_angle + angle + index * (2 * np.pi / count)).reshape(-1)
+    radius = xp.concatenate([radius] * count)
     upwards = 1.0 if side == "pinion" else -1.0
     points = xp.stack([-upwards * radius * sin(turned), upwards * radius * cos(turned)], axis=-1)
     return xp.concatenate([points, points[:1]])
@@ -83,20 +81,19 @@ def section_area_and_inertia(shape: ToothOutline, teeth: Any, bore_radius: Any) 
     return area, inertia
 
 
-def mass_and_inertia(family: Family, drive: Drive, side: Side, density: Any) -> tuple[Any, Any]:
+def mass_and_inertia(assembly: Assembly, side: Side, density: Any) -> tuple[Any, Any]:
     """Mass (kg) and moment of inertia about the axis (kg m²) of a body without hub, web or shaft.
 
     The toothed section less the bore, as wide as the teeth.
     """
-    body = body_of(drive, side)
-    shape = outline(family, drive, side, _INTEGRATION_POINTS, _INTEGRATION_POINTS)
+    body = body_of(assembly.drive, side)
+    shape = tooth_outline(assembly.tooth(side), _INTEGRATION_POINTS, _INTEGRATION_POINTS)
     area, inertia = section_area_and_inertia(shape, body.teeth, body.bore_radius)
     return density * body.face_width * area, density * body.face_width * inertia
 
 
 def body_masses(
-    family: Family,
-    drive: Drive,
+    assembly: Assembly,
     given: Sequence[tuple[float | None, float | None]],
     densities: Sequence[float],
 ) -> tuple[tuple[float, float], tuple[float, float]]:
@@ -104,8 +101,8 @@ def body_masses(
 
     Parameters
     ----------
-    family, drive
-        The teeth and bodies; plain numbers.
+    assembly : Assembly
+        Of plain numbers.
     given : sequence of (mass, inertia)
         None where it is to be computed.
     densities : sequence of float
@@ -113,7 +110,7 @@ def body_masses(
     """
     masses = []
     for side, known, density in zip(SIDES, given, densities, strict=True):
-        computed = (0.0, 0.0) if None not in known else mass_and_inertia(family, drive, side, density)
+        computed = (0.0, 0.0) if None not in known else mass_and_inertia(assembly, side, density)
         mass, inertia = (one if own is None else own for own, one in zip(known, computed, strict=True))
         masses.append((float(mass), float(inertia)))
     return masses[0], masses[1]

@@ -9,7 +9,6 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import (
     Assembly,
-    assemble,
     lowest_contact_radius,
     lowest_contact_speed,
     mate_of,
@@ -18,7 +17,7 @@ from tribodyn.geometry.assembly import (
 )
 from tribodyn.geometry.drive import SIDES, Drive, GearBody, Side, body_of, root_radius
 from tribodyn.geometry.family import Family
-from tribodyn.geometry.tooth import cut_tooth, flank_point
+from tribodyn.geometry.tooth import Tooth, flank_point
 
 _GREATEST_PRESSURE_ANGLE = math.radians(45)
 # An overlap below this share of the module is the chord error of the fillet's points.
@@ -26,8 +25,8 @@ _OVERLAP_TOLERANCE = 1e-5
 _LENGTHS = ("module", "face_width", "bore_radius", "tip_radius")
 
 
-def check(family: Family, drive: Drive) -> None:
-    """Refuse a drive that cannot be made or cannot run.
+def check(family: Family, drive: Drive) -> Assembly:
+    """Put a drive together, or refuse one that cannot be made or cannot run.
 
     Sizes; the family's own rules; for each body root and bore, corners of the rack, undercut, pointed tip;
     for the pair tip clearance, contact ratio, interference. Plain numbers only; messages give lengths in mm.
@@ -40,7 +39,7 @@ def check(family: Family, drive: Drive) -> None:
     check_sizes(drive, family.pressure_angle)
     with np.errstate(all="ignore"):
         family.check(drive)
-        assembly = assemble(family, drive)
+        assembly = Assembly(family, drive)
         for side in SIDES:
             _check_root(assembly, side)
             _check_rack_corners(assembly, side)
@@ -51,6 +50,7 @@ def check(family: Family, drive: Drive) -> None:
         _check_contact_ratio(assembly)
         for side in SIDES:
             _check_interference(assembly, side)
+    return assembly
 
 
 def check_sizes(drive: Drive, pressure_angle: bool = True) -> None:
@@ -122,10 +122,10 @@ def _check_root(assembly: Assembly, side: Side) -> None:
 
 def _check_rack_corners(assembly: Assembly, side: Side) -> None:
     def fits(**changes: float) -> bool:
-        tooth = cut_tooth(assembly.family, replaced(assembly.drive, side, **changes), side)
+        tooth = Assembly(assembly.family, replaced(assembly.drive, side, **changes)).tooth(side)
         return bool(tooth.corner_x <= tooth.corner_limit)
 
-    if fits():
+    if assembly.tooth(side).corner_x <= assembly.tooth(side).corner_limit:
         return
     body = body_of(assembly.drive, side)
     greatest = boundary(lambda value: fits(fillet_radius=value), body.fillet_radius, 0.0)
@@ -149,7 +149,7 @@ def _check_undercut(assembly: Assembly, side: Side) -> None:
         return
 
     def sound(shift: float) -> bool:
-        return bool(cut_tooth(family, replaced(drive, side, profile_shift=shift), side).overrun <= 0)
+        return bool(Assembly(family, replaced(drive, side, profile_shift=shift)).tooth(side).overrun <= 0)
 
     rule = (
         f"the rack undercuts the working part of the flank up to the radius {_millimetres(tooth.form_radius)}"
@@ -168,24 +168,26 @@ def _check_tip(assembly: Assembly, side: Side) -> None:
     family, drive, tooth = assembly.family, assembly.drive, assembly.tooth(side)
     body = body_of(drive, side)
 
-    def thickness(changed: Drive) -> float:
-        cut = cut_tooth(family, changed, side)
+    def thickness(cut: Tooth) -> float:
         return 2 * float(flank_point(cut, cut.tip_distance)[1])
+
+    def blunt(changed: Drive) -> bool:
+        return thickness(Assembly(family, changed).tooth(side)) > 0
 
     if not tooth.tip_radius > tooth.form_radius:
         rule = f"nothing is left of the flank, which begins at the radius {_millimetres(tooth.form_radius)}"
         raise InputError(*_tip_key(drive, side), rule, "use a larger one")
-    if thickness(drive) > 0:
+    if thickness(tooth) > 0:
         return
-    rule = f"the tip is pointed (thickness {_millimetres(thickness(drive))})"
+    rule = f"the tip is pointed (thickness {_millimetres(thickness(tooth))})"
     if body.tip_radius is None and family.shiftable and body.profile_shift > 0:
         greatest = boundary(
-            lambda shift: thickness(replaced(drive, side, profile_shift=shift)) > 0, body.profile_shift, 0.0
+            lambda shift: blunt(replaced(drive, side, profile_shift=shift)), body.profile_shift, 0.0
         )
         if greatest is not None:
             key = f"drive.{side}.profile_shift"
             raise InputError(key, body.profile_shift, rule, f"use at most {greatest:.7g}")
-    _refuse_tip(drive, side, rule, lambda changed: thickness(changed) > 0, tooth.form_radius)
+    _refuse_tip(drive, side, rule, blunt, tooth.form_radius)
 
 
 def _tip_key(drive: Drive, side: Side) -> tuple[str, Any]:
@@ -215,7 +217,7 @@ def _refuse_tip(drive: Drive, side: Side, rule: str, holds: Callable[[Drive], bo
 
 def _check_clearance(assembly: Assembly, side: Side) -> None:
     def clear(drive: Drive) -> bool:
-        return tip_clearance(assemble(assembly.family, drive), side) > 0
+        return tip_clearance(Assembly(assembly.family, drive), side) > 0
 
     clearance = tip_clearance(assembly, side)
     if not clearance > 0:
@@ -256,6 +258,6 @@ def _check_interference(assembly: Assembly, side: Side) -> None:
             assembly.drive,
             mate,
             rule,
-            lambda drive: not _interference(assemble(assembly.family, drive), side),
+            lambda drive: not _interference(Assembly(assembly.family, drive), side),
             assembly.tooth(mate).form_radius,
         )

@@ -13,7 +13,7 @@ import numpy as np
 
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import Side
-from tribodyn.geometry.path import Kinematics, PerContact, distance_at_radius, kinematics, radius, seen_from
+from tribodyn.geometry.path import Kinematics, PerContact, distance_at_radius, kinematics, radius
 from tribodyn.geometry.tooth import thickness_half_angle
 from tribodyn.numerics.shapes import Array, Bool
 
@@ -52,21 +52,15 @@ def part_of(geometry: PairGeometry, index: Any) -> PairGeometry:
     return PairGeometry(motion._make(field[index] for field in motion), *(field[index] for field in others))
 
 
-def roll_limits(assembly: Assembly) -> tuple[float, float]:
-    """Pinion angles at which the path of contact begins and ends, rad from the pitch point."""
-    path = assembly.path
-    return float(path.rotation(assembly.r_start)), float(path.rotation(assembly.r_end))
-
-
 def pair_geometry(assembly: Assembly, roll: PerContact) -> PairGeometry:
     """Geometry of one pair at the pinion angles `roll` (rad from the pitch point), on and off the path."""
     path = assembly.path
-    start, end = roll_limits(assembly)
+    start, end = assembly.roll_limits
     r = path.signed_distance(np.clip(roll, start, end))
     motion = kinematics(path, r)
     reach = {
         "pinion": np.array(radius(path, r), dtype=float),
-        "gear": np.array(radius(seen_from(path, "gear"), -r), dtype=float),
+        "gear": np.array(radius(assembly.path_of("gear"), -r), dtype=float),
     }
     place = {"pinion": r.copy(), "gear": r.copy()}
     gap, moved = np.zeros_like(roll), np.zeros_like(roll)
@@ -98,7 +92,7 @@ def _corner(
     Its distance from the pitch point, the gap along the flank's normal, the radius on this body and the
     signed distance, in this body's view, at which the flank would be in contact at that radius; m.
     """
-    path: Any = seen_from(assembly.path, side)
+    path: Any = assembly.path_of(side)
     tooth = assembly.tooth(side)
     first = assembly.lowest_contact(side)
     r_body, r_mate = path.pinion_pitch_radius, path.gear_pitch_radius
@@ -121,10 +115,10 @@ def roll_at_gap(assembly: Assembly, gap: float | tuple[float, float]) -> tuple[f
     Two gaps are those before and beyond; where one is not positive the angle is the path's end. No further
     than one pitch outside the path.
     """
-    pitch = 2.0 * np.pi / assembly.drive.pinion.teeth
+    pitch = assembly.pitch_angle
     gaps = gap if isinstance(gap, tuple) else (gap, gap)
     found = []
-    for limit, outwards, least in zip(roll_limits(assembly), (-1.0, 1.0), gaps, strict=True):
+    for limit, outwards, least in zip(assembly.roll_limits, (-1.0, 1.0), gaps, strict=True):
         low, high = 0.0, pitch if least > 0.0 else 0.0
         # ten steps of 32 intervals at once, as exact as fifty of two
         for _ in range(10):

@@ -33,6 +33,8 @@ class Family(NamedTuple):
         Whether a drive gives its pressure angle; where not, it is 0 at the pitch point.
     corner : bool
         Whether α(r) has a corner at the pitch point; the mesh cycle then begins a segment there.
+    involute : bool
+        Whether flanks are involutes, for which the formulas of ISO 6336 and of loss factors hold.
     about : str
         What it is, in a line.
     """
@@ -46,6 +48,7 @@ class Family(NamedTuple):
     parameters: tuple[Parameter, ...] = ()
     pressure_angle: bool = True
     corner: bool = False
+    involute: bool = False
     about: str = ""
 
 

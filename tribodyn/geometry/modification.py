@@ -7,7 +7,11 @@ from the middle of the faces; `start` is at the most negative z, `end` at the mo
 
 from typing import NamedTuple
 
+from tribodyn.errors import InputError
 from tribodyn.numerics.curve import Table
+
+#: Minimum number of slices where anything varies along the face.
+LEAST_SLICES = 3
 
 
 class Relief(NamedTuple):
@@ -59,7 +63,7 @@ class FlankModification(NamedTuple):
     profile_error : Table or None
         Material missing along the normal over the pinion's roll angle from the pitch point (rad, m).
     pitch_error : tuple of float
-        One a tooth in the order in which they enter, m along the normal, material missing > 0; empty: none.
+        One per tooth in the order in which they enter, m along the normal, material missing > 0; empty: none.
     """
 
     tip: Relief = Relief()
@@ -107,3 +111,11 @@ def vary_along_lead(modifications: Modifications) -> bool:
     return any(modifications.misalignment) or any(
         flank.lead.start or flank.lead.end or flank.lead.crowning for flank in both
     )
+
+
+def too_few_slices(slices: int, varies: bool) -> InputError | None:
+    """Return what is wrong with a number of slices of the face, over which something `varies`; else None."""
+    if slices >= LEAST_SLICES or not (varies or slices > 1):
+        return None
+    rule = "too few for what varies along the face" if varies else "neither one slice nor enough of them"
+    return InputError("mesh.slices", slices, rule, f"use at least {LEAST_SLICES}, or leave it out for 21")

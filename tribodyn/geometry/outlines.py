@@ -4,22 +4,21 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import gear_polygon
-from tribodyn.geometry.drive import SIDES, Drive, body_of, root_radius, tip_radius
-from tribodyn.geometry.family import Family
-from tribodyn.geometry.path import contact_limits, position
+from tribodyn.geometry.drive import SIDES, body_of, root_radius, tip_radius
+from tribodyn.geometry.path import position
 
 
-def geometry_arrays(family: Family, drive: Drive) -> dict[str, Any]:
+def geometry_arrays(assembly: Assembly) -> dict[str, Any]:
     """Outlines, path and circles, in each body's own frame, m."""
-    path = family.working_path(drive)
-    limits = contact_limits(path, tip_radius(drive, "pinion"), tip_radius(drive, "gear"))
-    start, end = (float(path.rotation(limit)) for limit in limits)
+    path, drive = assembly.path, assembly.drive
+    start, end = assembly.roll_limits
     roll = np.linspace(start, end, 201)
     x, y = position(path, path.signed_distance(roll))
     arrays: dict[str, Any] = {"path_of_contact": np.stack([x, y], axis=-1)}
     for side in SIDES:
-        arrays[f"{side}_outline"] = np.asarray(gear_polygon(family, drive, side))
+        arrays[f"{side}_outline"] = np.asarray(gear_polygon(assembly, side))
         arrays[f"{side}_tip_radius"] = float(tip_radius(drive, side))
         arrays[f"{side}_root_radius"] = float(root_radius(drive, side))
         arrays[f"{side}_pitch_radius"] = float(getattr(path, f"{side}_pitch_radius"))

@@ -8,10 +8,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.geometry.drive import Drive, Side, body_of
-from tribodyn.geometry.family import Family
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.drive import Side, body_of
 from tribodyn.geometry.path import PerContact, position
-from tribodyn.geometry.tooth import Tooth, cut_tooth, tangent_distance
+from tribodyn.geometry.tooth import Tooth, tangent_distance
 from tribodyn.numerics.elementary import cos, sin
 from tribodyn.numerics.shapes import Array, Float
 
@@ -46,17 +46,16 @@ def rack_flank(tooth: Tooth, r: PerContact) -> tuple[PerContact, PerContact]:
     return x - tooth.path.pinion_pitch_radius * tooth.path.rotation(r) - tooth.corner_limit, y
 
 
-def rack_outline(family: Family, drive: Drive, side: Side, flank_points: int = 60) -> RackOutline:
+def rack_outline(assembly: Assembly, side: Side, flank_points: int = 60) -> RackOutline:
     """One pitch of the rack cutter that makes one body of a drive of plain numbers.
 
     The flank is the one that generates: from the rounded tip to where it leaves the body's tip. Above, where
     it cuts nothing, it goes on along its tangent to the tool's root, a bottom clearance above the body's tip
     circle, or to the middle of the gap if that comes first.
     """
-    body = body_of(drive, side)
-    tooth = cut_tooth(family, drive, side)
+    drive, tooth = assembly.drive, assembly.tooth(side)
     pitch_radius = float(tooth.path.pinion_pitch_radius)
-    pitch = 2 * np.pi * pitch_radius / float(body.teeth)
+    pitch = 2 * np.pi * pitch_radius / float(body_of(drive, side).teeth)
     depth = pitch_radius - float(tooth.root_radius)
     # An undercut tooth's own flank begins above the point where the tool's flank ends.
     end = float(tangent_distance(tooth.path, depth, tooth.corner_radius))

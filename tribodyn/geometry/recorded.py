@@ -2,7 +2,7 @@
 
 from tribodyn.numerics.variable import Variable
 
-#: Curves; lengths such as radii are numbers beside them, in m.
+#: Curves and radii.
 GEOMETRY: dict[str, Variable] = {
     "pinion_outline": Variable(
         ("pinion_point", "axis"),
@@ -17,4 +17,14 @@ GEOMETRY: dict[str, Variable] = {
     "path_of_contact": Variable(
         ("path_point", "axis"), "m", "path of contact, origin at the pitch point, x along the pitch tangent"
     ),
+    **{
+        f"{side}_{circle}_radius": Variable((), "m", f"radius of the {side}'s {what}")
+        for side in ("pinion", "gear")
+        for circle, what in (
+            ("tip", "tip circle"),
+            ("root", "root circle"),
+            ("pitch", "pitch circle"),
+            ("bore", "bore"),
+        )
+    },
 }

@@ -6,10 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.geometry.assembly import Assembly, assemble, lowest_contact_radius, tip_clearance
-from tribodyn.geometry.drive import SIDES, Drive, Side, body_of, reference_radius
-from tribodyn.geometry.family import Family
-from tribodyn.geometry.path import kinematics, seen_from
+from tribodyn.geometry.assembly import Assembly, lowest_contact_radius, tip_clearance
+from tribodyn.geometry.drive import SIDES, Side, body_of, reference_radius
+from tribodyn.geometry.path import kinematics
 from tribodyn.geometry.tooth import flank_point, thickness_half_angle
 
 Quantity = tuple[float, str]
@@ -17,15 +16,13 @@ Quantity = tuple[float, str]
 _SAMPLES = 400
 
 
-def geometry_sheet(
-    family: Family, drive: Drive, masses: Sequence[tuple[float, float]] | None = None
-) -> dict[str, Any]:
+def geometry_sheet(assembly: Assembly, masses: Sequence[tuple[float, float]] | None = None) -> dict[str, Any]:
     """Summarise a drive that has passed `checks.check`.
 
     Parameters
     ----------
-    family, drive
-        What to summarise; plain numbers.
+    assembly : Assembly
+        Of plain numbers.
     masses : sequence of (mass kg, inertia kg m²), optional
         Of pinion and gear, where they are to stand in the sheet.
 
@@ -35,8 +32,7 @@ def geometry_sheet(
         Name -> (value, unit) for the pair, in reading order, and under "pinion" and "gear" the same for
         each body. Lengths in mm, angles in degrees.
     """
-    assembly = assemble(family, drive)
-    path = assembly.path
+    path, drive = assembly.path, assembly.drive
     at_pitch, at_start, at_end = (kinematics(path, r) for r in (0.0, assembly.r_start, assembly.r_end))
     pitch_angle = 2 * math.pi / drive.pinion.teeth
     pair: dict[str, Any] = {
@@ -45,8 +41,8 @@ def geometry_sheet(
         "centre distance": _millimetres(path.pinion_pitch_radius + path.gear_pitch_radius),
         "pressure angle of the rack on its rolling line": _degrees(assembly.pinion.path.pressure_angle(0.0)),
         "contact ratio": (assembly.contact_ratio, ""),
-        "approach contact ratio": (-float(path.rotation(assembly.r_start)) / pitch_angle, ""),
-        "recess contact ratio": (float(path.rotation(assembly.r_end)) / pitch_angle, ""),
+        "approach contact ratio": (-assembly.roll_limits[0] / pitch_angle, ""),
+        "recess contact ratio": (assembly.roll_limits[1] / pitch_angle, ""),
         "start of contact from pitch point": _millimetres(assembly.r_start),
         "end of contact from pitch point": _millimetres(assembly.r_end),
         "pressure angle at start of contact": _degrees(at_start.pressure_angle),
@@ -60,7 +56,7 @@ def geometry_sheet(
     pair |= sliding.pop("pair")
     for number, side in enumerate(SIDES):
         tooth, body = assembly.tooth(side), body_of(drive, side)
-        working = seen_from(path, side).pinion_pitch_radius
+        working = assembly.path_of(side).pinion_pitch_radius
         pair[side] = {
             "teeth": (float(body.teeth), ""),
             "profile shift": (float(body.profile_shift), ""),

@@ -27,7 +27,6 @@ from tribodyn.geometry.path import (
 )
 from tribodyn.numerics.elementary import arctan2, cos, namespace, sin, sqrt, tan
 from tribodyn.numerics.iteration import newton
-from tribodyn.numerics.remembered import remembered
 from tribodyn.numerics.shapes import Array, Float
 
 _NEWTON_STEPS = 8
@@ -117,7 +116,6 @@ class ToothContact(NamedTuple):
     load_angle: PerContact
 
 
-@remembered
 def cut_tooth(family: Family, drive: Drive, side: Side) -> Tooth:
     """Cut a tooth of one body by its rack."""
     body = body_of(drive, side)
@@ -315,10 +313,3 @@ def tooth_outline(tooth: Tooth, flank_points: int = 60, fillet_points: int = 30)
         root_half_angle=tooth.half_angle + tooth.corner_x / tooth.path.pinion_pitch_radius,
         tip_half_thickness=flank_y[-1],
     )
-
-
-def outline(
-    family: Family, drive: Drive, side: Side, flank_points: int = 60, fillet_points: int = 30
-) -> ToothOutline:
-    """Half a tooth of one body of the drive as points; see `tooth_outline`."""
-    return tooth_outline(cut_tooth(family, drive, side), flank_points, fillet_points)

@@ -61,3 +61,8 @@ class MeshData:
     modifications: Modifications = UNMODIFIED
     slices: int = 1
     slice_coupling: bool = True
+
+    @property
+    def at_load(self) -> bool:
+        """Whether the compliance is that of finite elements, taken at the operating torque."""
+        return self.compliance == "fem"

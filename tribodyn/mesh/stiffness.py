@@ -1,18 +1,40 @@
-"""Stiffness of a single pair, out of the mesh cycle."""
+"""Stiffness of a single pair that carries the whole torque, out of the mesh cycle."""
+
+from typing import NamedTuple
 
 import numpy as np
 
 from tribodyn.mesh.cycle import MeshCycle
 
 
-def single_pair_stiffness(cycle: MeshCycle, load: float) -> float:
-    """Stiffness of one pair at the pitch point, N/m; with a load-dependent Hertz contact at `load` (N)."""
+class SinglePair(NamedTuple):
+    """One pair at the pitch point.
+
+    Attributes
+    ----------
+    normal_load : float
+        Load along the normal, N.
+    stiffness : float
+        dF/dδ along the normal, N/m; with a load-dependent Hertz contact the tangent at the load.
+    """
+
+    normal_load: float
+    stiffness: float
+
+
+def single_pair(cycle: MeshCycle, gear_torque: float) -> SinglePair:
+    """One pair at the pitch point under a gear torque, N m, of either sign, with the load T_g/(r_g cos α)."""
     roll = np.asarray(cycle.signed_distance)[:, :, : cycle.front_pairs]
     inside = np.asarray(cycle.in_contact)[:, None, : cycle.front_pairs] > 0
     distance = np.where(inside, np.abs(roll), np.inf)
     segment, _, slot = np.unravel_index(np.argmin(distance), distance.shape)
     near = roll[segment, :, slot]
     order = np.argsort(near)
-    compliance = np.interp(0.0, near[order], np.asarray(cycle.compliance)[segment, order, slot])
-    coefficient = float(cycle.hertz_coefficient)
-    return float(1.0 / (compliance + 0.9 * coefficient * max(load, 1.0) ** -0.1))
+    compliance = float(np.interp(0.0, near[order], np.asarray(cycle.compliance)[segment, order, slot]))
+    # the cubic through the nearest nodes: the load has no error that a linear one would leave
+    close = np.argsort(np.abs(near))[:4]
+    step = np.ptp(near[close])
+    angle = np.polyfit(near[close] / step, np.asarray(cycle.pressure_angle)[segment, close, slot], 3)[-1]
+    load = abs(gear_torque) / (float(cycle.gear_pitch_radius) * float(np.cos(angle)))
+    contact = 0.9 * float(cycle.hertz_coefficient) * max(load, 1.0) ** -0.1
+    return SinglePair(load, 1.0 / (compliance + contact))

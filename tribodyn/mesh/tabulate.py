@@ -6,7 +6,7 @@ Whatever is costly is evaluated at a few Chebyshev points on either side of the 
 """
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -20,18 +20,17 @@ from tribodyn.compliance.energy import (
 )
 from tribodyn.compliance.table import check_cover, interpolate
 from tribodyn.errors import InputError
-from tribodyn.geometry.drive import SIDES, Drive, body_of, tip_radius
-from tribodyn.geometry.family import Family
-from tribodyn.geometry.path import Path, contact_limits, contact_ratio, kinematics
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.drive import SIDES, Drive
+from tribodyn.geometry.material import MaterialData
+from tribodyn.geometry.path import kinematics
 from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.mesh.cycle import MeshCycle
-from tribodyn.numerics.elementary import cos, is_jax, namespace
+from tribodyn.mesh.data import MeshData
+from tribodyn.mesh.rules import check_backlash, check_bores
+from tribodyn.numerics.elementary import cos, namespace
 from tribodyn.numerics.iteration import chebyshev_basis
 from tribodyn.numerics.shapes import Array, Float
-
-if TYPE_CHECKING:
-    from tribodyn.geometry.material import MaterialData
-    from tribodyn.mesh.data import MeshData
 
 # Degree of the interpolation over each half of the contact; test_tabulate shows what it leaves.
 _DEGREE = 16
@@ -41,28 +40,15 @@ _POINTS = -np.cos(np.pi * np.arange(_DEGREE + 1) / _DEGREE)
 _TO_SERIES = np.linalg.inv(np.polynomial.chebyshev.chebvander(_POINTS, _DEGREE))
 
 
-def pair_slots(family: Family, drive: Drive) -> int:
-    """Greatest number of pairs in contact at once: the contact ratio rounded up. Concrete drives only."""
-    path = family.working_path(drive)
-    limits = contact_limits(path, tip_radius(drive, "pinion"), tip_radius(drive, "gear"))
-    return math.ceil(contact_ratio(path, *limits, drive.pinion.teeth))
-
-
-class _Contact(NamedTuple):
-    """The whole contact of one pair, and where its slots are at each phase."""
-
-    path: Any
-    roll_start: Any
-    roll_end: Any
-    contact_ratio: Any
-    pitch_angle: Any
+def pair_slots(assembly: Assembly) -> int:
+    """Maximum number of pairs in contact at once: the contact ratio rounded up. Plain numbers only."""
+    return math.ceil(assembly.contact_ratio)
 
 
 def tabulate(
-    family: Family,
-    drive: Drive,
-    materials: tuple["MaterialData", "MaterialData"],
-    mesh: "MeshData",
+    assembly: Assembly,
+    materials: tuple[MaterialData, MaterialData],
+    mesh: MeshData,
     pairs: int,
     back: bool = False,
 ) -> MeshCycle:
@@ -70,14 +56,14 @@ def tabulate(
 
     Parameters
     ----------
-    family, drive
+    assembly : Assembly
         The gear pair; every number of the drive may be traced.
     materials : (MaterialData, MaterialData)
         Of pinion and gear.
     mesh : MeshData
         Source of the compliance, transmission error, backlash and number of nodes.
     pairs : int
-        Front slots, `pair_slots(family, drive)`.
+        Front slots, `pair_slots(assembly)`.
     back : bool
         Whether to add as many slots for the back flanks, `mesh.backlash` away.
 
@@ -86,23 +72,20 @@ def tabulate(
     InputError
         If a table does not cover the contact, an option lacks its numbers, or options contradict each other.
     """
+    drive, path, corner = assembly.drive, assembly.path, assembly.family.corner
     _check_options(drive, mesh, back)
-    path = family.working_path(drive)
-    limits = contact_limits(path, tip_radius(drive, "pinion"), tip_radius(drive, "gear"))
-    ratio = contact_ratio(path, *limits, drive.pinion.teeth)
-    start, end = path.rotation(limits[0]), path.rotation(limits[1])
-    contact = _Contact(path, start, end, ratio, 2 * np.pi / drive.pinion.teeth)
-    boundary, phase, in_contact, roll = _phases(contact, pairs, mesh.points, back, family.corner)
+    start, end = assembly.roll_limits
+    boundary, phase, in_contact, roll = _phases(assembly, pairs, mesh.points, back)
     curve = _RollCurve(start, end)
 
     r_nodes = path.signed_distance(curve.nodes())
     r = curve.interpolate(r_nodes, roll)
-    if family.corner:  # paths that may be steep at their ends: one of Newton's steps from the series
+    if corner:  # paths that may be steep at their ends: one of Newton's steps from the series
         r = r - (path.rotation(r) - roll) * path.pinion_pitch_radius * cos(path.pressure_angle(r))
     motion = kinematics(path, r)
     vanishing = pitch_point(path)
-    width = _common_width(drive)
-    compliance, coupling = _compliance(family, drive, materials, mesh, path, curve, r_nodes, roll, pairs)
+    width = assembly.common_width
+    compliance, coupling = _compliance(assembly, materials, mesh, curve, r_nodes, roll, pairs)
     gap = _transmission_error(mesh, phase, roll, curve)
     side = np.ones(pairs)
     if back:
@@ -127,8 +110,8 @@ def tabulate(
         gear_pitch_radius=path.gear_pitch_radius,
         pinion_teeth=drive.pinion.teeth,
         face_width=width,
-        contact_ratio=ratio,
-        pitch_point_phase=-start / contact.pitch_angle,
+        contact_ratio=assembly.contact_ratio,
+        pitch_point_phase=-start / assembly.pitch_angle,
         roll_start=start,
         roll_end=end,
         pitch_point_length=vanishing.length,
@@ -136,16 +119,9 @@ def tabulate(
     )
 
 
-def _check_options(drive: Drive, mesh: "MeshData", back: bool) -> None:
-    for side in SIDES:
-        bore = body_of(drive, side).bore_radius
-        if mesh.compliance == "energy" and not is_jax(bore) and bore <= 0:
-            raise InputError(
-                f"drive.{side}.bore_radius",
-                bore,
-                "the energy method takes the body for a ring that is held at its bore",
-                "give the radius at which the shaft holds it",
-            )
+def _check_options(drive: Drive, mesh: MeshData, back: bool) -> None:
+    if mesh.compliance == "energy":
+        check_bores(drive)
     if mesh.compliance == "constant" and mesh.stiffness is None:
         raise InputError(
             "mesh.stiffness", rule="is needed for compliance = 'constant'", remedy="give one pair's"
@@ -159,19 +135,11 @@ def _check_options(drive: Drive, mesh: "MeshData", back: bool) -> None:
             f"compliance = '{mesh.compliance}' already contains the contact",
             "use 'linear', or compliance = 'energy'",
         )
-    if back and mesh.backlash is None:
-        raise InputError(
-            "mesh.backlash", rule="is needed for the contact of back flanks", remedy="give a length"
-        )
-
-
-def _common_width(drive: Drive) -> Any:
-    widths = drive.pinion.face_width, drive.gear.face_width
-    return namespace(*widths).minimum(*widths)
+    check_backlash(mesh, back)
 
 
 def _phases(
-    contact: _Contact, pairs: int, points: int, back: bool, corner: bool
+    assembly: Assembly, pairs: int, points: int, back: bool
 ) -> tuple[
     Float[Array, " boundary"],
     Float[Array, "segment node"],
@@ -185,15 +153,16 @@ def _phases(
     front flank, so that its roll angle there is π/Z_p − φ. Where the path has a corner at the pitch point a
     segment also begins when a pair passes it, for no spline may run across.
     """
-    xp = namespace(contact.roll_start, contact.contact_ratio)
-    leave = contact.contact_ratio - (pairs - 1)
+    (start, end), ratio, pitch = assembly.roll_limits, assembly.contact_ratio, assembly.pitch_angle
+    xp = namespace(start, ratio)
+    leave = ratio - (pairs - 1)
     ages = np.arange(pairs - 1.0, -1.0, -1.0)
-    enter = (0.5 - 2.0 * contact.roll_start / contact.pitch_angle) % 1.0
+    enter = (0.5 - 2.0 * start / pitch) % 1.0
     boundary = [0.0 * leave, leave, 1.0 + 0.0 * leave]
     if back:
         boundary += [enter, (enter - leave) % 1.0]
-    if corner:
-        passes = -contact.roll_start / contact.pitch_angle
+    if assembly.family.corner:
+        passes = -start / pitch
         boundary += [passes % 1.0] + ([(passes + 0.5) % 1.0] if back else [])
     boundary = _apart(xp.sort(xp.stack(boundary)))
     lower, upper = boundary[:-1, None], boundary[1:, None]
@@ -205,9 +174,9 @@ def _phases(
         mirrored = (enter - phase + wrapped)[:, :, None] + ages
         position = xp.concatenate([position, mirrored], axis=-1)
         centre = xp.concatenate([centre, enter - middle + wrapped + ages], axis=-1)
-    in_contact = xp.where(centre < contact.contact_ratio, 1.0, 0.0)
-    roll = contact.roll_start + contact.pitch_angle * position
-    return boundary, phase, in_contact, xp.clip(roll, contact.roll_start, contact.roll_end)
+    in_contact = xp.where(centre < ratio, 1.0, 0.0)
+    roll = start + pitch * position
+    return boundary, phase, in_contact, xp.clip(roll, start, end)
 
 
 def _apart(boundary: Float[Array, " boundary"]) -> Float[Array, " boundary"]:
@@ -237,9 +206,7 @@ class _RollCurve(NamedTuple):
         unit = 0.5 + 0.5 * _POINTS
         return xp.stack([self.start * (1.0 - unit), self.end * unit])
 
-    def interpolate(
-        self, values: Float[Array, "2 17 *channel"], roll: Float[Array, "*roll"]
-    ) -> Float[Array, "*roll *channel"]:
+    def interpolate(self, values: Float[Array, "2 17 ..."], roll: Float[Array, "..."]) -> Float[Array, "..."]:
         """Values (…, k) at the roll angles (…), from values (2, 17, k) at the nodes; k may be missing."""
         xp = namespace(values, roll)
         approach = roll < 0
@@ -251,11 +218,9 @@ class _RollCurve(NamedTuple):
 
 
 def _compliance(
-    family: Family,
-    drive: Drive,
-    materials: tuple["MaterialData", "MaterialData"],
-    mesh: "MeshData",
-    path: Path,
+    assembly: Assembly,
+    materials: tuple[MaterialData, MaterialData],
+    mesh: MeshData,
     curve: _RollCurve,
     r_nodes: Float[Array, "2 17"],
     roll: Float[Array, "segment node pair"],
@@ -271,8 +236,8 @@ def _compliance(
         check_cover(angle, curve.start, curve.end, "mesh.table")
         return 1.0 / interpolate(angle, stiffness, xp.clip(roll, angle[0], angle[-1])), uncoupled
 
-    width = _common_width(drive)
-    teeth = [loaded_tooth(family, drive, side, path) for side in SIDES]
+    width = assembly.common_width
+    teeth = [loaded_tooth(assembly, side) for side in SIDES]
     parts = [tooth_compliance(t, m, width, r_nodes) for t, m in zip(teeth, materials, strict=True)]
     pair = parts[0].total + parts[1].total
     if mesh.hertz == "linear":
@@ -288,7 +253,7 @@ def _compliance(
 
 def _coupling(
     teeth: list[LoadedTooth],
-    materials: tuple["MaterialData", "MaterialData"],
+    materials: tuple[MaterialData, MaterialData],
     pinion_load: Float[Array, "segment node pair 3"],
     gear_load: Float[Array, "segment node pair 3"],
     pairs: int,
@@ -318,7 +283,7 @@ def _coupling(
 
 
 def _transmission_error(
-    mesh: "MeshData",
+    mesh: MeshData,
     phase: Float[Array, "segment node"],
     roll: Float[Array, "segment node pair"],
     curve: _RollCurve,

@@ -8,7 +8,6 @@ condensed to one compliance and gap a pair (`compliance.condensed`).
 """
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,22 +15,19 @@ from tribodyn.compliance.condensed import Condensed, condense
 from tribodyn.compliance.flank_gap import flank_gap, relief_rolls, same_every_pitch
 from tribodyn.compliance.gear_compliance import without_neighbours
 from tribodyn.compliance.load_sharing import PairFlexibility, contact_deflection, flexibility, share_load
-from tribodyn.compliance.loaded_contact import check, check_resolved, reach
+from tribodyn.compliance.loaded_contact import reach
 from tribodyn.compliance.loaded_flanks import LoadedFlanks
+from tribodyn.compliance.loaded_rules import check_contact, check_resolved, check_torque
 from tribodyn.compliance.slices import face_positions, pair_harmonics
 from tribodyn.compliance.table import check_cover, interpolate
-from tribodyn.errors import InputError
-from tribodyn.geometry.assembly import Assembly, assemble
-from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry, part_of, roll_limits
-from tribodyn.geometry.drive import SIDES, Drive, body_of
-from tribodyn.geometry.family import Family
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry, part_of
+from tribodyn.geometry.material import MaterialData
 from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.mesh.data import MeshData
+from tribodyn.mesh.rules import check_backlash, check_bores
 from tribodyn.numerics.shapes import Array, Float
-
-if TYPE_CHECKING:
-    from tribodyn.geometry.material import MaterialData
-    from tribodyn.mesh.data import MeshData
 
 # Share of a single pair's load below which the secant no longer follows the load: the contact's compliance
 # grows without bound, like a logarithm, as the load vanishes.
@@ -39,19 +35,18 @@ _LEAST_SHARE = 0.05
 
 
 def tabulate_loaded(
-    family: Family,
-    drive: Drive,
-    materials: tuple["MaterialData", "MaterialData"],
-    mesh: "MeshData",
+    assembly: Assembly,
+    materials: tuple[MaterialData, MaterialData],
+    mesh: MeshData,
     gear_torque: float,
     back: bool = False,
 ) -> MeshCycle:
-    """Tabulate the mesh cycle of a drive of plain numbers at an operating torque.
+    """Tabulate the mesh cycle of a drive at an operating torque.
 
     Parameters
     ----------
-    family, drive, materials, mesh, back
-        As in `tabulate.tabulate`.
+    assembly, materials, mesh, back
+        As in `tabulate.tabulate`, of plain numbers.
     gear_torque : float
         T_g > 0 at which the compliances are taken, N m.
 
@@ -60,18 +55,20 @@ def tabulate_loaded(
     InputError
         If a body has no bore, or the torque drives nothing.
     """
-    _check(drive, mesh, gear_torque, back)
-    assembly = assemble(family, drive)
+    check_bores(assembly.drive)
+    check_torque(gear_torque)
+    same_every_pitch(mesh.modifications)
+    check_backlash(mesh, back)
     flexible, modifications, *_ = flanks_of(assembly, materials, mesh)
-    check(flexible, modifications, gear_torque, mesh.slices)
+    check_contact(flexible, modifications, gear_torque, mesh.slices)
     # where the mesh vibrates by more than this reach, contact begins too late in the model
     limits = reach(flexible, modifications, gear_torque, mesh.slices, mesh.slice_coupling)
-    pitch = 2.0 * np.pi / drive.pinion.teeth
+    pitch = assembly.pitch_angle
     span = (limits[1] - limits[0]) / pitch
     pairs = math.ceil(span)
-    marks = [0.0, span, *((roll - limits[0]) / pitch for roll in roll_limits(assembly))]
+    marks = [0.0, span, *((roll - limits[0]) / pitch for roll in assembly.roll_limits)]
     marks += [(roll - limits[0]) / pitch for roll in relief_rolls(assembly, modifications)]
-    if family.corner:
+    if assembly.family.corner:
         marks.append(-limits[0] / pitch)
     boundary, phase, position = _phases(marks, pairs, mesh.points, back, enter=0.5 - 2.0 * limits[0] / pitch)
     middle = position[:, mesh.points // 2]
@@ -81,7 +78,7 @@ def tabulate_loaded(
     slots = position.shape[-1]
     front, behind = slice(0, pairs), slice(pairs, slots)
     geometry = pair_geometry(assembly, roll.reshape(-1, slots))
-    error = _transmission_error(mesh, phase, roll, roll_limits(assembly), begin=marks[2])
+    error = _transmission_error(mesh, phase, roll, assembly.roll_limits, begin=marks[2])
     full = gear_torque / pair_geometry(assembly, np.zeros(1)).motion.gear_normal_arm[0]
     compliance, gap = np.zeros_like(geometry.gap), np.zeros_like(geometry.gap)
     coupling = np.zeros((*gap.shape, slots))
@@ -119,7 +116,7 @@ def tabulate_loaded(
         hertz_coefficient=0.0,
         pinion_pitch_radius=assembly.path.pinion_pitch_radius,
         gear_pitch_radius=assembly.path.gear_pitch_radius,
-        pinion_teeth=drive.pinion.teeth,
+        pinion_teeth=assembly.drive.pinion.teeth,
         face_width=flexible.width,
         contact_ratio=assembly.contact_ratio,
         pitch_point_phase=-limits[0] / pitch,
@@ -133,7 +130,7 @@ def tabulate_loaded(
 
 
 def flanks_of(
-    assembly: Assembly, materials: tuple["MaterialData", "MaterialData"], mesh: "MeshData"
+    assembly: Assembly, materials: tuple[MaterialData, MaterialData], mesh: MeshData
 ) -> LoadedFlanks:
     """The flanks that the load contact model presses together, as a scenario's mesh describes them."""
     flexible = flexibility(assembly, materials, lead=mesh.slice_coupling and mesh.slices > 1)
@@ -143,33 +140,9 @@ def flanks_of(
     return LoadedFlanks(flexible, mesh.modifications, mesh.slices, mesh.slice_coupling)
 
 
-def _check(drive: Drive, mesh: "MeshData", gear_torque: float, back: bool) -> None:
-    for side in SIDES:
-        bore = body_of(drive, side).bore_radius
-        if bore <= 0:
-            raise InputError(
-                f"drive.{side}.bore_radius",
-                bore,
-                "the finite elements are held at the bore",
-                "give the radius at which the shaft holds the gear",
-            )
-    if gear_torque <= 0:
-        raise InputError(
-            "operating.gear_torque",
-            gear_torque,
-            'compliance = "fem" is taken at this load, which must be greater than zero',
-            'write a torque such as "500 N*m", or use compliance = "energy"',
-        )
-    same_every_pitch(mesh.modifications)
-    if back and mesh.backlash is None:
-        raise InputError(
-            "mesh.backlash", rule="is needed for the contact of back flanks", remedy="give a length"
-        )
-
-
 def _driving(
     flexible: PairFlexibility,
-    mesh: "MeshData",
+    mesh: MeshData,
     gear_torque: float,
     least_load: float,
     roll: Float[Array, "position pair"],
@@ -222,7 +195,7 @@ def _phases(
 
 
 def _transmission_error(
-    mesh: "MeshData",
+    mesh: MeshData,
     phase: Float[Array, "segment node"],
     roll: Float[Array, "segment node pair"],
     limits: tuple[float, float],

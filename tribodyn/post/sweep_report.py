@@ -27,7 +27,7 @@ def sweep_table(record: SweepRecord, lines: Sequence[Line]) -> Group:
     lines : sequence of Line
         The figures shown, by name; none: all, as the record describes them.
     """
-    columns = lines or [_described(record, name) for name in record.figures]
+    columns = lines or [described(record, name) for name in record.figures]
     parts: list[Any] = [Text(str(record.scenario.get("title", record.label)), style="bold")]
     if record.status != "complete":
         parts.append(Text(f"{record.status}: {record.message}", style="bold red"))
@@ -52,7 +52,7 @@ def sweep_table(record: SweepRecord, lines: Sequence[Line]) -> Group:
     return Group(*parts)
 
 
-def _described(record: SweepRecord, name: str) -> Line:
+def described(record: SweepRecord, name: str) -> Line:
     """A figure as the record itself describes it."""
     unit, factor = shown_unit(record.units(name))
     label = record.long_name(name)

@@ -5,13 +5,10 @@ from math import degrees
 from typing import NamedTuple
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.modification import vary_along_lead
+from tribodyn.geometry.modification import too_few_slices, vary_along_lead
 from tribodyn.scenario.drive_data import modifications_of
 from tribodyn.scenario.model_files import DriveTable
 from tribodyn.scenario.modification import MisalignmentTable, Modification
-
-#: Fewest slices that say anything about what varies along the face: its ends and its middle.
-LEAST_SLICES = 3
 
 
 class Face(NamedTuple):
@@ -60,18 +57,15 @@ def _flank(key: str, table: Modification, teeth: int, face_width: float) -> Iter
             f"{key}.pitch_errors",
             _values(len(table.pitch_errors)),
             f"the gear has {teeth} teeth",
-            "give one value a tooth",
+            "give one value per tooth",
         )
 
 
 def broken_slice_rules(face: Face) -> Iterator[InputError]:
     """Go through the rules of a run that knows modifications: slices enough for what varies."""
     varies = vary_along_lead(modifications_of(face.drive, face.misalignment))
-    if face.slices is not None and face.slices < LEAST_SLICES and (varies or face.slices > 1):
-        rule = "too few for what varies along the face" if varies else "neither one slice nor enough of them"
-        yield InputError(
-            "mesh.slices", face.slices, rule, f"use at least {LEAST_SLICES}, or leave it out for 21"
-        )
+    if face.slices is not None and (broken := too_few_slices(face.slices, varies)):
+        yield broken
 
 
 def broken_face_rules(face: Face, compliance: str) -> Iterator[InputError]:
@@ -105,7 +99,7 @@ def _contradicted_pitch_errors(drive: DriveTable) -> Iterator[InputError]:
             key,
             value,
             "the run repeats one mesh cycle, in which all teeth are alike",
-            'leave it out, or use kind = "load-contact"',
+            "leave it out, or use a load contact study",
         )
 
 

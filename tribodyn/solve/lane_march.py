@@ -49,10 +49,12 @@ from tribodyn.solve.lane_queue import (
 from tribodyn.solve.step_control import (
     MINIMUM_ERROR,
     RETRY,
+    collected,
     cut_at_stop,
     judged,
     next_step,
     refused,
+    step_error,
     weighed_error,
 )
 
@@ -130,10 +132,11 @@ def choose_step(model, block, queue, march):
         nominal_speed + rows_of(block.y)[SLIP],
         nominal_speed,
     )
-    if any_of(running & (too_many | vanishing)):
-        fail(running & too_many, Status.TOO_MANY_STEPS.value, block, queue, march)
-        fail(running & ~too_many & at_rest, Status.STALLED.value, block, queue, march)
-        fail(running & ~too_many & vanishing & ~at_rest, Status.STEP_TOO_SMALL.value, block, queue, march)
+    failure = where(too_many, Status.TOO_MANY_STEPS.value, where(vanishing, Status.STEP_TOO_SMALL.value, 0.0))
+    failure = where(at_rest & ~too_many, Status.STALLED.value, failure)
+    failed = running & (failure > 0.0)
+    if any_of(failed):
+        fail(where(failed, failure, 0.0), block, queue, march)
 
 
 @part
@@ -150,17 +153,17 @@ def judge(evaluations, segment, model, block, queue, march):
     running = phase < rows[END]
     cut = rows[CUT] > 0.0
     rows[EVALUATIONS] = rows[EVALUATIONS] + where(running, 1.0 * evaluations, 0.0)
-    error = 0.0 * step
+    worst, total = 0.0 * step, 0.0 * step
     for i in range(STATES):
-        error = maximum(
-            error, weighed_error(step * embedded_difference(k, i), y[i], new[i], atol[i], march.rtol)
-        )
+        weighed = weighed_error(step * embedded_difference(k, i), y[i], new[i], atol[i], march.rtol)
+        worst, total = collected(worst, total, weighed)
+    error = step_error(worst, total)
     accepted, undefined, lost, stalled = judged(error, step, model.mechanics.nominal_speed + new[SLIP])
     stalled, lost = running & stalled, running & lost
     accepted = running & accepted & ~stalled
     if any_of(stalled | lost):
-        fail(stalled, Status.STALLED.value, block, queue, march)
-        fail(lost, Status.NOT_FINITE.value, block, queue, march)
+        failure = where(stalled, Status.STALLED.value, where(lost, Status.NOT_FINITE.value, 0.0))
+        fail(failure, block, queue, march)
         running = running & ~(stalled | lost)
     reached = where(cut, rows[LIMIT], phase + step)
     keep_dense(phase, step, reached, accepted, block, queue, march)

@@ -29,7 +29,8 @@ CYCLE, STEPS, STEPS_BEFORE, EVALUATIONS, STOP = range(6, 11)
 #: Rows of the case and its samples: number of the case, −1 for none; number of the next sample in the cycle
 #: and its phase, above 1 if none is left.
 CASE, SAMPLE, DUE = range(11, 14)
-#: Rows of flags, 0 or 1: no engagement opens the first cycle; the step was cut; the lane is selected.
+#: Rows of flags, 0 or 1: no engagement opens the first cycle; the step was cut; the lane is selected (where
+#: it fails, with its status).
 FRESH, CUT, SELECTED = range(14, 17)
 ROWS = 17
 #: A phase that never comes.
@@ -181,13 +182,13 @@ def let_go(lane, status, block, queue):
 
 
 @part
-def fail(lanes, status, block, queue, march):
-    """Hand in the cases of some lanes as failed."""
-    rows_of(block.rows)[SELECTED] = where(lanes, 1.0, 0.0)
+def fail(failure, block, queue, march):
+    """Hand in the cases of those lanes as failed that have another `Status` than 0, which is DONE."""
+    rows_of(block.rows)[SELECTED] = failure
     for lane in range(WIDTH):
         if block.rows[SELECTED, lane] > 0.0:
             count(queue.done, march.cycles - int(block.rows[CYCLE, lane]))
-            let_go(lane, status, block, queue)
+            let_go(lane, int(block.rows[SELECTED, lane]), block, queue)
 
 
 @part

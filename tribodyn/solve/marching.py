@@ -17,10 +17,12 @@ from tribodyn.solve.integrator import Status
 from tribodyn.solve.step_control import (
     MINIMUM_ERROR,
     RETRY,
+    collected,
     cut_at_stop,
     judged,
     next_step,
     refused,
+    step_error,
     weighed_error,
 )
 
@@ -139,12 +141,13 @@ def march_with(method, march, control, model, y, out, work, buffer):
                 place = Place(phase, whole, segment, end)
                 evaluations += method.attempt(fresh, step, place, y, control, model, work, buffer)
                 fresh = False
-                error = 0.0
+                worst, total = 0.0, 0.0
                 for i in range(STATES):
                     weighed = weighed_error(
                         buffer[ERROR, i], y[i], buffer[STATE, i], control.atol[i], march.rtol
                     )
-                    error = maximum(error, weighed)
+                    worst, total = collected(worst, total, weighed)
+                error = step_error(worst, total)
                 accepted, undefined, lost, stalled = judged(error, step, nominal_speed + buffer[STATE, SLIP])
                 if lost:
                     return Status.NOT_FINITE.value, cycle + phase, step, steps, evaluations, written

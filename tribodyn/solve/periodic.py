@@ -20,8 +20,8 @@ from tribodyn.solve.steady_orbit import Method, find
 #: The integration's relative tolerance for a fixed point, as a share of the residual required: a map that
 #: carries more noise than a tenth of the residual does not reach it.
 FINE = 1e-2
-#: Change of a motion that did not repeat, over the scale, up to which it may be noise of the fine integration:
-#: where contact opens and closes that is a few hundred times the tolerance. Such a case is marched once more,
+#: Change of a motion that did not repeat, over the scale, up to which it may be integration noise: that is
+#: a few hundred times the tolerance where contact opens and closes. Such a case is marched once more,
 #: over so many mesh cycles at the fine tolerance, with fixed points at a hundredth of that.
 NOISE, ONCE_MORE = 1e-5, 120
 

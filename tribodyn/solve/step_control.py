@@ -43,11 +43,23 @@ def refused(steps, max_steps, step, speed, nominal_speed):
 
 @law
 def weighed_error(difference, before, after, atol, rtol):
-    """Error of one state over its tolerance; the step's is the maximum over all states.
-
-    A mean would let the states at rest dilute the others' error.
-    """
+    """Error of one state over its tolerance."""
     return absolute(difference) / (atol + rtol * maximum(absolute(before), absolute(after)))
+
+
+@law
+def collected(worst, total, weighed):
+    """Largest error of some states and the sum of them, with another state's: see `step_error`."""
+    return where(weighed > worst, weighed, worst), total + weighed
+
+
+@law
+def step_error(worst, total):
+    """Error of a step over its tolerance, that of the worst state: a mean would let states at rest dilute it.
+
+    The sum over all states says where it is not finite, which comparisons do not see.
+    """
+    return where(total < INFINITE, worst, total)
 
 
 @law

@@ -1,15 +1,15 @@
 """What the studies of gear pairs have in common: records over time, lines of a summary, what `check` says."""
 
-import math
 from collections.abc import Sequence
 from typing import Any
 
 from tribodyn.dynamics.recorded import DOF_SCALE, PAIR, SAMPLES
+from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.recorded import GEOMETRY
 from tribodyn.mesh.recorded import MESH_CYCLE
 from tribodyn.post.report import Line
 from tribodyn.record.schema import TIME, Layout
-from tribodyn.studies.study import CaseHead, Checked, TextTable
+from tribodyn.studies.study import Checked, TextTable
 
 LAYOUT = Layout(
     TIME, SAMPLES, {"pair": PAIR, "dof": DOF_SCALE}, groups={"mesh_cycle": MESH_CYCLE, "geometry": GEOMETRY}
@@ -41,37 +41,36 @@ WALL_TIME = Line("wall_time", "Wall time", 1.0, "s", ".3g")
 
 
 def checked(
-    case: CaseHead, pair: Any, method: str, line_load: float, stiffness: float, masses: Any = None
+    assembly: Assembly, method: str, normal_load: float, stiffness: float, masses: Any = None
 ) -> Checked:
     """Say what gears a case describes and how stiff they are.
 
     Parameters
     ----------
-    case : CaseHead
-    pair
-        What has the gear pair's `family` (name) and `drive`: mostly the case itself.
+    assembly : Assembly
+        Checked.
     method : str
         How the stiffness was worked out.
-    line_load : float
-        Normal load of a single pair at the pitch point over the face width, N/m.
+    normal_load : float
+        Of a single pair at the pitch point, N.
     stiffness : float
         Of that pair at that load, N/m.
     masses : sequence of (mass kg, inertia kg m²), optional
         Of pinion and gear, where they are to stand in the sheet.
     """
     from tribodyn.compliance.iso6336 import single_pair_stiffness as iso6336
-    from tribodyn.geometry.families import FAMILIES
     from tribodyn.geometry.sheet import geometry_sheet
 
-    pinion, gear = pair.drive.pinion, pair.drive.gear
-    width = min(pinion.face_width, gear.face_width)
+    pinion, gear = assembly.drive.pinion, assembly.drive.gear
+    width = float(min(pinion.face_width, gear.face_width))
     per_width = {method: stiffness / width}
-    if pair.family == "involute":
+    if assembly.family.involute:
         iso = iso6336(pinion.teeth, gear.teeth, pinion.profile_shift, gear.profile_shift)
         per_width["ISO 6336 c', which contains the measured correction 0.8"] = iso.single_pair
         per_width["ISO 6336 c'_th, theory"] = iso.theoretical
     by = {name: {"per_width": value, "stiffness": value * width} for name, value in per_width.items()}
-    sheet = geometry_sheet(FAMILIES[pair.family], pair.drive, masses)
+    sheet = geometry_sheet(assembly, masses)
+    line_load = normal_load / width
     table = TextTable(
         f"Stiffness of a single pair at the pitch point, at {line_load * 1e-3:.0f} N/mm",
         ("by", "N/(mm um)", "N/m"),
@@ -82,14 +81,6 @@ def checked(
     )
     data = {"geometry": sheet, "stiffness": {"line_load": line_load, "by": by}}
     return Checked(data, (*sheet_tables(sheet), table))
-
-
-def pitch_point_load(pair: Any, gear_torque: float) -> float:
-    """Normal load of a single pair at the pitch point, N: torque over r_g cos α."""
-    from tribodyn.geometry.families import FAMILIES
-
-    path = FAMILIES[pair.family].working_path(pair.drive)
-    return abs(gear_torque) / (float(path.gear_pitch_radius) * math.cos(float(path.pressure_angle(0.0))))
 
 
 def sheet_tables(sheet: dict[str, Any]) -> Sequence[TextTable]:

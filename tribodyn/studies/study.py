@@ -10,11 +10,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from tribodyn.numerics.registry import cannot_be_loaded
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from tribodyn.errors import InputError
     from tribodyn.numerics.variable import Variable
     from tribodyn.post.figures.drawing import Drawing, SweepDrawing
     from tribodyn.post.report import Line, Lines
     from tribodyn.record.reader import Record
+    from tribodyn.record.sweep_reader import SweepRecord
     from tribodyn.scenario.quantity import Table
     from tribodyn.studies.batch import Batch
 
@@ -94,7 +97,8 @@ class Study:
     figures       ``DRAWINGS``, its pictures by name; the one called overview is drawn after a run
     sweep_figures ``SWEEP_DRAWINGS``, pictures of its sweeps (optional: the response of its figures)
     batch         ``BATCH``, how many cases are evaluated together (optional), see `studies.batch.Batch`
-    template      ``template.toml``, a commented scenario in which TITLE stands for its title
+    template      ``template.toml``, a commented scenario in which TITLE stands for its title; of a study
+                  in a single module its attribute ``TEMPLATE``
     ============= =================================================================================
 
     Parameters
@@ -137,8 +141,9 @@ class Study:
     def template(self) -> str:
         """A commented scenario to begin with, in which TITLE stands for its title."""
         package = import_module(self.package)
-        folder = package.__name__ if hasattr(package, "__path__") else package.__package__ or ""
-        return resources.files(folder).joinpath("template.toml").read_text(encoding="utf-8")
+        if not hasattr(package, "__path__"):  # one module, which has no folder of its own
+            return package.TEMPLATE
+        return resources.files(package).joinpath("template.toml").read_text(encoding="utf-8")
 
     def check(self, case: Any) -> Checked:
         """Check a case and say what it describes, without a run.
@@ -209,10 +214,17 @@ class Study:
         return self._part("report", "SWEPT", optional=True) or {}
 
     def sweep_lines(self) -> "Sequence[Line]":
-        """Figures that a sweep prints; none: all of them, as the record describes them."""
+        """Figures that a sweep prints: the study's own choice, or the summary's lines of those it keeps.
+
+        The latter are called as the record describes them, because a line of the summary may lean on the one
+        above it: "at the frequency".
+        """
         chosen = self._part("report", "SWEEP_LINES", optional=True)
-        swept = self.swept()
-        return chosen or [line for lines in self.lines().values() for line in lines if line.name in swept]
+        if chosen:
+            return chosen
+        lines = {line.name: line for lines in self.lines().values() for line in lines}
+        labels = {name: one.long_name for name, one in self.swept().items() if name in lines}
+        return [lines[name]._replace(label=text[:1].upper() + text[1:]) for name, text in labels.items()]
 
     def sweep_drawings(self) -> "Mapping[str, SweepDrawing]":
         """Pictures of its sweeps by name; the first is drawn where none is named."""
@@ -220,10 +232,14 @@ class Study:
         if own:
             return own
         from tribodyn.post.figures.drawing import SweepDrawing
-        from tribodyn.post.figures.sweep.response import response_figure
+        from tribodyn.post.figures.sweep.response import panels_of, response_figure
 
         about = "figures of the cases over the first varied key"
-        return {"response": SweepDrawing(about, lambda records, _: response_figure(records))}
+
+        def draw(records: "Sequence[SweepRecord]", _: "Mapping[str, float | str]") -> "Figure":
+            return response_figure(records, panels_of(records, self.sweep_lines()))
+
+        return {"response": SweepDrawing(about, draw)}
 
     def batch(self) -> "Batch | None":
         """How many cases are evaluated together; None: one after the other, by `figures`."""

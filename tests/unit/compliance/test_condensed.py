@@ -6,7 +6,6 @@ import pytest
 from tests.support.faces_in_slices import CASES, model, table
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.corner_contact import roll_limits
 from tribodyn.geometry.families import family
 from tribodyn.geometry.modification import FlankModification, Misalignment, Modifications
 from tribodyn.mesh.quasi_static import quasi_static
@@ -60,7 +59,7 @@ def test_slices_of_straight_flanks_change_nothing_but_that_their_ends_are_free(c
 def test_relief_begins_on_the_boundary_of_a_segment(case):
     cycle = table(case, *CASES["tips"])
     assembly = assemble(family(case.family), case.drive)
-    start, end = roll_limits(assembly)
+    start, end = assembly.roll_limits
     reach = float(assembly.path.rotation(assembly.r_start + 3e-3)) - start
     for roll in (start + reach, float(assembly.path.rotation(assembly.r_end - 3e-3))):
         phase = (roll - cycle.roll_start) / cycle.pitch_angle % 1.0

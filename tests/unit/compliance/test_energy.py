@@ -17,6 +17,7 @@ from tribodyn.compliance.energy import (
     tooth_compliance,
 )
 from tribodyn.compliance.iso6336 import single_pair_stiffness
+from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import SIDES, Drive, GearBody
 from tribodyn.geometry.families import crc, involute
 from tribodyn.geometry.material import MaterialData
@@ -35,7 +36,7 @@ def drive(pressure_angle=20.0, pinion=None, gear=None):
 
 
 def loaded(family, pair, side):
-    return loaded_tooth(family, pair, side, family.working_path(pair))
+    return loaded_tooth(assemble(family, pair), side)
 
 
 def pair_compliance(family, pair, material, r, width=0.0267):

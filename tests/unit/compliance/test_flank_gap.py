@@ -14,7 +14,7 @@ from tribodyn.compliance.flank_gap import (
 )
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.corner_contact import pair_geometry, roll_limits
+from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families.involute import FAMILY
 from tribodyn.geometry.modification import (
@@ -36,7 +36,7 @@ DRIVE = Drive(
 )
 ASSEMBLY = assemble(FAMILY, DRIVE)
 BASE = 27e-3 * np.cos(ANGLE)
-START, END = roll_limits(ASSEMBLY)
+START, END = ASSEMBLY.roll_limits
 TIP = FlankModification(tip=Relief(20e-6, 2e-3))
 
 

@@ -13,10 +13,11 @@ from tests.support.sample_drives import LIU_NI, SHIFTED, SOUND, STANDARD, bodies
 from tribodyn.drawing.dxf import RACK_TEETH, write_gear, write_pair, write_rack
 from tribodyn.drawing.picture import gears_in_mesh, pair_figure
 from tribodyn.drawing.profile import HEADER, tooth_profile, write_profile
+from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.body import section_area_and_inertia
 from tribodyn.geometry.drive import body_of, root_radius, tip_radius
 from tribodyn.geometry.families import crc, involute
-from tribodyn.geometry.tooth import outline
+from tribodyn.geometry.tooth import cut_tooth, tooth_outline
 from tribodyn.post.style import save
 
 SHARP = STANDARD._replace(pinion=STANDARD.pinion._replace(fillet_radius=0.0, bore_radius=0.0))
@@ -48,11 +49,11 @@ def crossings(values: np.ndarray) -> int:
 
 @bodies([*SOUND, (involute.FAMILY, SHARP)])
 def test_gear_in_dxf(family, drive, side, tmp_path: Path):
-    space = opened(write_gear(tmp_path / "gear.dxf", family, drive, side, flank_points=150))
+    space = opened(write_gear(tmp_path / "gear.dxf", assemble(family, drive), side, flank_points=150))
     (points,) = outlines(space)
     body = body_of(drive, side)
     section, _ = section_area_and_inertia(
-        outline(family, drive, side, 400, 400), body.teeth, body.bore_radius
+        tooth_outline(cut_tooth(family, drive, side), 400, 400), body.teeth, body.bore_radius
     )
     assert area(points) - 1e6 * np.pi * body.bore_radius**2 == pytest.approx(1e6 * section, rel=2e-5)
     distance = np.hypot(*points.T)
@@ -69,7 +70,7 @@ def test_gear_in_dxf(family, drive, side, tmp_path: Path):
 
 @bodies(SOUND)
 def test_rack_in_dxf(family, drive, side, tmp_path: Path):
-    space = opened(write_rack(tmp_path / "rack.dxf", family, drive, side))
+    space = opened(write_rack(tmp_path / "rack.dxf", assemble(family, drive), side))
     (points,) = outlines(space)
     assert np.ptp(points[:, 0]) == pytest.approx(1e3 * RACK_TEETH * np.pi * drive.module, rel=1e-12)
     shift = body_of(drive, side).profile_shift
@@ -84,7 +85,7 @@ def test_rack_in_dxf(family, drive, side, tmp_path: Path):
 
 
 def test_pair_in_dxf_has_both_gears_at_the_working_centre_distance(tmp_path: Path):
-    space = opened(write_pair(tmp_path / "pair.dxf", involute.FAMILY, SHIFTED))
+    space = opened(write_pair(tmp_path / "pair.dxf", assemble(involute.FAMILY, SHIFTED)))
     assert len(outlines(space)) == 2
     bores = [np.array(one.dxf.center)[:2] for one in space.query('CIRCLE[layer=="BORE"]')]
     # a_w = a cos α/cos α_w (ISO 21771)
@@ -98,7 +99,7 @@ def test_pair_in_dxf_has_both_gears_at_the_working_centre_distance(tmp_path: Pat
 
 @pytest.mark.parametrize(("family", "drive"), [(crc.FAMILY, LIU_NI), (involute.FAMILY, STANDARD)])
 def test_gears_in_mesh_touch_where_the_path_begins(family, drive):
-    mesh = gears_in_mesh(family, drive)
+    mesh = gears_in_mesh(assemble(family, drive))
     assert list(mesh.key_points) == ["B_g", "C_p", "P", "C_g", "B_p"]
     assert mesh.key_points["P"] == (0.0, 0.0)
     np.testing.assert_allclose(mesh.key_points["B_g"], mesh.path[0], atol=1e-12)
@@ -111,7 +112,7 @@ def test_gears_in_mesh_touch_where_the_path_begins(family, drive):
 
 @bodies(SOUND)
 def test_profile_as_csv(family, drive, side, tmp_path: Path):
-    profile = tooth_profile(family, drive, side, flank_points=40)
+    profile = tooth_profile(assemble(family, drive), side, flank_points=40)
     path = write_profile(tmp_path / "profile.csv", profile)
     with path.open(newline="", encoding="utf-8") as file:
         header, *rows = csv.reader(file)
@@ -130,7 +131,7 @@ def test_profile_as_csv(family, drive, side, tmp_path: Path):
 
 @pytest.mark.parametrize("ending", ["png", "svg"])
 def test_picture_of_the_pair(tmp_path: Path, ending: str):
-    figure = pair_figure(crc.FAMILY, LIU_NI, "CRC drive", flank_points=20)
+    figure = pair_figure(assemble(crc.FAMILY, LIU_NI), "CRC drive", flank_points=20)
     whole, close = figure.axes
     assert whole.get_ylabel() == close.get_ylabel() == "Along the line of centres (mm)"
     names = [text.get_text() for text in close.texts]
@@ -144,7 +145,10 @@ def test_picture_of_the_pair(tmp_path: Path, ending: str):
 @bodies(SOUND)
 def test_chords_stay_on_the_curve_as_the_page_promises(family, drive, side):
     """At the command's 100 points to a flank: 0.3 µm on the flank, 2 µm on the fillet, for 3 mm."""
-    coarse, fine = outline(family, drive, side, 100, 50), outline(family, drive, side, 199, 99)
+    coarse, fine = (
+        tooth_outline(cut_tooth(family, drive, side), 100, 50),
+        tooth_outline(cut_tooth(family, drive, side), 199, 99),
+    )
     for curve, most in (("flank", 0.3e-6), ("fillet", 2.0e-6)):
         x, y = getattr(coarse, f"{curve}_x"), getattr(coarse, f"{curve}_y")
         between_x, between_y = getattr(fine, f"{curve}_x")[1::2], getattr(fine, f"{curve}_y")[1::2]

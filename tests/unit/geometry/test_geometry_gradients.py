@@ -6,11 +6,12 @@ import jax
 import numpy as np
 import pytest
 
+from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.body import mass_and_inertia
 from tribodyn.geometry.drive import SIDES, Drive, GearBody, tip_radius
 from tribodyn.geometry.families import crc, involute
 from tribodyn.geometry.path import contact_limits, contact_ratio, kinematics, seen_from
-from tribodyn.geometry.tooth import contact_in_tooth_frame, cut_tooth, outline, thickness_half_angle
+from tribodyn.geometry.tooth import contact_in_tooth_frame, cut_tooth, thickness_half_angle, tooth_outline
 
 jax.config.update("jax_enable_x64", True)
 
@@ -70,8 +71,8 @@ def everything_of(family, drive):
         tooth, view = cut_tooth(family, drive, side), seen_from(path, side)
         half_angle = thickness_half_angle(tooth, view.pinion_pitch_radius)
         contact = contact_in_tooth_frame(view, half_angle, end if side == "pinion" else -end)
-        shape = outline(family, drive, side, 5, 5)
-        mass, inertia = mass_and_inertia(family, drive, side, 7850.0)
+        shape = tooth_outline(cut_tooth(family, drive, side), 5, 5)
+        mass, inertia = mass_and_inertia(assemble(family, drive), side, 7850.0)
         result += [contact.y * 1000, contact.load_angle, mass, inertia * 1000]
         result += [shape.fillet_x[2] * 100, shape.fillet_y[2] * 1000, shape.fillet_y[4] * 1000]
         result += [shape.flank_x[2] * 100, shape.flank_y[0] * 1000, shape.flank_y[2] * 1000]

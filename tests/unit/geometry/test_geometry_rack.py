@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from tests.support.sample_drives import DRIVES, LIU_NI, SHIFTED, SOUND, STANDARD, bodies
+from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import SIDES, body_of, reference_radius, tip_radius
 from tribodyn.geometry.families import crc, involute
 from tribodyn.geometry.rack import CLEARANCE, rack_flank, rack_outline
@@ -17,7 +18,7 @@ def test_rack_of_the_involute_is_straight(drive, side):
     x, y = rack_flank(tooth, np.linspace(tooth.form_distance, tooth.tip_distance, 11))
     # the left flank of a tooth that points down
     np.testing.assert_allclose(np.diff(x) / np.diff(y), -np.tan(drive.pressure_angle), rtol=1e-9)
-    shape = rack_outline(involute.FAMILY, drive, side)
+    shape = rack_outline(assemble(involute.FAMILY, drive), side)
     body = body_of(drive, side)
     assert shape.pitch == pytest.approx(np.pi * drive.module, rel=1e-14)
     assert shape.tip_height == pytest.approx((body.profile_shift - body.dedendum) * drive.module)
@@ -40,7 +41,7 @@ def test_racks_of_both_bodies_are_counterparts(family, drive):
 
 @bodies(DRIVES)
 def test_outline_is_one_pitch_of_a_symmetric_tool(family, drive, side):
-    shape = rack_outline(family, drive, side)
+    shape = rack_outline(assemble(family, drive), side)
     np.testing.assert_allclose(shape.x, -shape.x[::-1], atol=1e-15)
     np.testing.assert_allclose(shape.y, shape.y[::-1], atol=1e-15)
     assert shape.x[-1] - shape.x[0] == pytest.approx(shape.pitch, rel=1e-14)
@@ -54,7 +55,10 @@ def test_outline_is_one_pitch_of_a_symmetric_tool(family, drive, side):
 @bodies(SOUND)
 def test_rolling_the_rack_over_the_body_leaves_the_tooth(family, drive, side):
     """In the tool's frame the rolling tooth touches the outline everywhere it was cut and never enters it."""
-    tooth, shape = cut_tooth(family, drive, side), rack_outline(family, drive, side, flank_points=400)
+    tooth, shape = (
+        cut_tooth(family, drive, side),
+        rack_outline(assemble(family, drive), side, flank_points=400),
+    )
     profile = tooth_outline(tooth, 120, 60)
     x = np.concatenate([profile.fillet_x, profile.flank_x[1:]])
     y = np.concatenate([profile.fillet_y, profile.flank_y[1:]])

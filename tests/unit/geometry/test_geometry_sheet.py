@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from tests.support.sample_drives import LIU_NI, SHIFTED, STANDARD, UNDERCUT
+from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import SIDES, body_of, reference_radius, tip_radius
 from tribodyn.geometry.families import crc, involute
 from tribodyn.geometry.sheet import geometry_sheet
@@ -12,7 +13,7 @@ from tribodyn.geometry.sheet import geometry_sheet
 @pytest.mark.parametrize("drive", [STANDARD, SHIFTED])
 def test_specific_sliding_of_the_involute(drive):
     """ζ = 1 − ρ_mate/(u ρ) at the ends of contact, from tip and base circles alone (ISO 21771)."""
-    sheet = geometry_sheet(involute.FAMILY, drive)
+    sheet = geometry_sheet(assemble(involute.FAMILY, drive))
     working = involute.working_pressure_angle(drive)
     base = [reference_radius(drive, side) * np.cos(drive.pressure_angle) for side in SIDES]
     length = sum(base) * np.tan(working)
@@ -38,7 +39,7 @@ def test_specific_sliding_of_the_involute(drive):
 @pytest.mark.parametrize("side", SIDES)
 def test_undercut_margin_of_the_involute(side):
     """On the line of action, from the end of the rack's flank to the point of tangency of the base circle."""
-    sheet = geometry_sheet(involute.FAMILY, STANDARD)[side]
+    sheet = geometry_sheet(assemble(involute.FAMILY, STANDARD))[side]
     body, alpha = body_of(STANDARD, side), STANDARD.pressure_angle
     depth = body.dedendum - body.fillet_radius * (1 - np.sin(alpha))
     margin = STANDARD.module * (body.teeth / 2 * np.sin(alpha) - depth / np.sin(alpha))
@@ -49,18 +50,18 @@ def test_undercut_margin_of_the_involute(side):
 
 
 def test_undercut_is_a_negative_margin():
-    pinion = geometry_sheet(involute.FAMILY, UNDERCUT)["pinion"]
+    pinion = geometry_sheet(assemble(involute.FAMILY, UNDERCUT))["pinion"]
     assert pinion["undercut margin"][0] < 0
     assert pinion["undercut by the rack"][0] == 1
 
 
 def test_no_base_circle_where_the_path_is_curved():
-    assert "base diameter" not in geometry_sheet(crc.FAMILY, LIU_NI)["pinion"]
+    assert "base diameter" not in geometry_sheet(assemble(crc.FAMILY, LIU_NI))["pinion"]
 
 
 def test_masses_stand_in_the_sheet_when_they_are_known():
-    bare = geometry_sheet(crc.FAMILY, LIU_NI)
-    full = geometry_sheet(crc.FAMILY, LIU_NI, [(1.5, 2e-3), (3.0, 4e-3)])
+    bare = geometry_sheet(assemble(crc.FAMILY, LIU_NI))
+    full = geometry_sheet(assemble(crc.FAMILY, LIU_NI), [(1.5, 2e-3), (3.0, 4e-3)])
     assert "mass" not in bare["pinion"]
     assert full["gear"]["mass"] == (3.0, "kg")
     assert full["gear"]["moment of inertia"] == (pytest.approx(4000.0), "kg mm²")

@@ -26,8 +26,8 @@ from tribodyn.geometry.tooth import (
     cut_tooth,
     fillet_point,
     flank_point,
-    outline,
     thickness_half_angle,
+    tooth_outline,
 )
 
 
@@ -75,7 +75,7 @@ class TestInvolute:
 @bodies(DRIVES)
 class TestOutline:
     def test_ends_on_root_and_tip_circles(self, family, drive, side):
-        shape = outline(family, drive, side)
+        shape = tooth_outline(cut_tooth(family, drive, side))
         assert np.hypot(shape.fillet_x[0], shape.fillet_y[0]) == pytest.approx(
             root_radius(drive, side), rel=1e-14
         )
@@ -127,7 +127,7 @@ class TestOutline:
 @bodies(SOUND)
 class TestOutlineWithoutUndercut:
     def test_radius_grows_and_angle_falls_from_root_to_tip(self, family, drive, side):
-        shape = outline(family, drive, side, 200, 200)
+        shape = tooth_outline(cut_tooth(family, drive, side), 200, 200)
         x = np.concatenate([shape.fillet_x, shape.flank_x[1:]])
         y = np.concatenate([shape.fillet_y, shape.flank_y[1:]])
         assert np.all(np.diff(np.hypot(x, y)) > 0)
@@ -185,8 +185,8 @@ class TestUndercut:
 @bodies(DRIVES)
 class TestBody:
     def test_mass_of_the_polygon(self, family, drive, side):
-        mass, inertia = mass_and_inertia(family, drive, side, 7850.0)
-        points = gear_polygon(family, drive, side, 200)
+        mass, inertia = mass_and_inertia(assemble(family, drive), side, 7850.0)
+        points = gear_polygon(assemble(family, drive), side, 200)
         x, y = points[:, 0], points[:, 1]
         cross = x[:-1] * y[1:] - x[1:] * y[:-1]
         square = x[:-1] ** 2 + x[1:] ** 2 + x[:-1] * x[1:] + y[:-1] ** 2 + y[1:] ** 2 + y[:-1] * y[1:]
@@ -197,7 +197,7 @@ class TestBody:
         assert inertia == pytest.approx(7850 * width * second, rel=2e-5)
 
     def test_mass_lies_between_root_and_tip_disc(self, family, drive, side):
-        mass, inertia = mass_and_inertia(family, drive, side, 7850.0)
+        mass, inertia = mass_and_inertia(assemble(family, drive), side, 7850.0)
         bore = body_of(drive, side).bore_radius
         for power, value, factor in ((2, mass, np.pi), (4, inertia, np.pi / 2)):
             small, large = (
@@ -212,7 +212,7 @@ def test_polygons_touch_at_the_pitch_point():
     for family, drive in DRIVES:
         path = family.working_path(drive)
         for side, centre in (("pinion", -path.pinion_pitch_radius), ("gear", path.gear_pitch_radius)):
-            points = gear_polygon(family, drive, side, 400) + np.array([0.0, centre])
+            points = gear_polygon(assemble(family, drive), side, 400) + np.array([0.0, centre])
             assert np.hypot(points[:, 0], points[:, 1]).min() < 0.01 * drive.module
 
 
@@ -235,7 +235,7 @@ def test_tip_clearance_of_a_standard_pair_is_a_quarter_module():
 
 
 def test_geometry_sheet_of_liu_ni():
-    sheet = geometry_sheet(crc.FAMILY, LIU_NI)
+    sheet = geometry_sheet(assemble(crc.FAMILY, LIU_NI))
     assert sheet["contact ratio"][0] == pytest.approx(1.5233, abs=5e-4)
     assert sheet["centre distance"] == (pytest.approx(105.0), "mm")
     assert sheet["equivalent radius at end of contact"] == (pytest.approx(8.980, abs=5e-4), "mm")

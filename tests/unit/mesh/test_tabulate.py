@@ -12,6 +12,7 @@ from scipy.interpolate import PchipInterpolator
 
 from tribodyn.compliance.table import interpolate
 from tribodyn.errors import InputError
+from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import crc, involute
 from tribodyn.geometry.material import MaterialData
@@ -44,7 +45,7 @@ def mesh(**options):
 
 @FAMILIES
 def test_kinematics_are_those_of_the_path(family):
-    cycle = tabulate(family, DRIVE, (STEEL, STEEL), ENERGY, 2)
+    cycle = tabulate(assemble(family, DRIVE), (STEEL, STEEL), ENERGY, 2)
     path = family.working_path(DRIVE)
     position = cycle.phase[..., None] + np.array([1.0, 0.0])
     rolls = cycle.roll_start + position * cycle.pitch_angle
@@ -57,7 +58,9 @@ def test_kinematics_are_those_of_the_path(family):
 
 def test_involute_contact_ratio():
     drive = drive_of((math.radians(20.0), 0.0, 1.0, 0.02))
-    cycle = tabulate(involute.FAMILY, drive, (STEEL, STEEL), ENERGY, pair_slots(involute.FAMILY, drive))
+    cycle = tabulate(
+        assemble(involute.FAMILY, drive), (STEEL, STEEL), ENERGY, pair_slots(assemble(involute.FAMILY, drive))
+    )
     assert cycle.contact_ratio == pytest.approx(involute.closed_form_contact_ratio(drive), rel=1e-12)
     np.testing.assert_allclose(cycle.boundary, [0, cycle.contact_ratio - 1, 1])
     np.testing.assert_array_equal(cycle.in_contact, [[1, 1], [0, 1]])
@@ -67,16 +70,16 @@ def test_involute_contact_ratio():
 
 @FAMILIES
 def test_nodes_are_enough(family):
-    coarse = tabulate(family, DRIVE, (STEEL, STEEL), mesh(points=9), 2)
-    fine = tabulate(family, DRIVE, (STEEL, STEEL), mesh(points=65), 2)
+    coarse = tabulate(assemble(family, DRIVE), (STEEL, STEEL), mesh(points=9), 2)
+    fine = tabulate(assemble(family, DRIVE), (STEEL, STEEL), mesh(points=65), 2)
     for cycle in (coarse, fine):  # the last node of a pair is its own last contact, whatever the grid
         assert cycle.signed_distance[0, -1, 0] == pytest.approx(fine.signed_distance[0, -1, 0], rel=1e-13)
     np.testing.assert_allclose(coarse.compliance, fine.compliance[:, ::8], rtol=1e-13)
 
 
 def test_two_pairs_share_their_bodies():
-    cycle = tabulate(crc.FAMILY, DRIVE, (STEEL, STEEL), ENERGY, 2)
-    alone = tabulate(crc.FAMILY, DRIVE, (STEEL, STEEL), mesh(foundation_coupling=False), 2)
+    cycle = tabulate(assemble(crc.FAMILY, DRIVE), (STEEL, STEEL), ENERGY, 2)
+    alone = tabulate(assemble(crc.FAMILY, DRIVE), (STEEL, STEEL), mesh(foundation_coupling=False), 2)
     assert not alone.coupling.any()
     np.testing.assert_array_equal(cycle.compliance, alone.compliance)
     ratio = cycle.coupling[0, :, 0, 1] / np.sqrt(cycle.compliance[0, :, 0] * cycle.compliance[0, :, 1])
@@ -88,20 +91,24 @@ def test_hub_at_the_rim_uncouples():
     stiff = DRIVE._replace(
         pinion=DRIVE.pinion._replace(bore_radius=0.0295), gear=DRIVE.gear._replace(bore_radius=0.065)
     )
-    usual = tabulate(crc.FAMILY, DRIVE, (STEEL, STEEL), ENERGY, 2).coupling[0, :, 0, 1]
-    assert np.all(tabulate(crc.FAMILY, stiff, (STEEL, STEEL), ENERGY, 2).coupling[0, :, 0, 1] < 0.15 * usual)
+    usual = tabulate(assemble(crc.FAMILY, DRIVE), (STEEL, STEEL), ENERGY, 2).coupling[0, :, 0, 1]
+    assert np.all(
+        tabulate(assemble(crc.FAMILY, stiff), (STEEL, STEEL), ENERGY, 2).coupling[0, :, 0, 1] < 0.15 * usual
+    )
 
 
 class TestOptions:
     def test_constant(self):
-        cycle = tabulate(crc.FAMILY, DRIVE, (STEEL, STEEL), mesh(compliance="constant", stiffness=3e8), 2)
+        cycle = tabulate(
+            assemble(crc.FAMILY, DRIVE), (STEEL, STEEL), mesh(compliance="constant", stiffness=3e8), 2
+        )
         np.testing.assert_allclose(cycle.compliance, 1 / 3e8)
         assert cycle.hertz_coefficient == 0
         assert not cycle.coupling.any()
 
     def test_load_dependent_contact_stands_apart(self):
-        linear = tabulate(crc.FAMILY, DRIVE, (STEEL, STEEL), ENERGY, 2)
-        dependent = tabulate(crc.FAMILY, DRIVE, (STEEL, STEEL), mesh(hertz="load-dependent"), 2)
+        linear = tabulate(assemble(crc.FAMILY, DRIVE), (STEEL, STEEL), ENERGY, 2)
+        dependent = tabulate(assemble(crc.FAMILY, DRIVE), (STEEL, STEEL), mesh(hertz="load-dependent"), 2)
         hertz = 4 * (1 - 0.3**2) / (math.pi * 206e9 * 0.02)
         np.testing.assert_allclose(linear.compliance - dependent.compliance, hertz, rtol=1e-9)
         assert dependent.hertz_coefficient == pytest.approx(1.275 / (206e9**0.9 * 0.02**0.8))
@@ -110,7 +117,7 @@ class TestOptions:
         roll = np.linspace(-0.25, 0.25, 2001)
         stiffness = 2e8 * (1 + 0.3 * np.cos(5 * roll))
         cycle = tabulate(
-            crc.FAMILY, DRIVE, (STEEL, STEEL), mesh(compliance="table", table=(roll, stiffness)), 2
+            assemble(crc.FAMILY, DRIVE), (STEEL, STEEL), mesh(compliance="table", table=(roll, stiffness)), 2
         )
         rolls = cycle.roll_start + cycle.phase * cycle.pitch_angle
         np.testing.assert_allclose(
@@ -120,7 +127,7 @@ class TestOptions:
     def test_harmonics_and_table_of_the_error_add_up(self):
         roll = np.linspace(-0.3, 0.3, 5)
         options = mesh(error_harmonics=((1, 2e-6, 0.3), (3, 1e-6, 0.0)), error_table=(roll, 1e-5 * roll))
-        cycle = tabulate(crc.FAMILY, DRIVE, (STEEL, STEEL), options, 2)
+        cycle = tabulate(assemble(crc.FAMILY, DRIVE), (STEEL, STEEL), options, 2)
         angle = 2 * np.pi * cycle.phase
         rolls = cycle.roll_start + cycle.phase * cycle.pitch_angle
         expected = 2e-6 * np.cos(angle + 0.3) + 1e-6 * np.cos(3 * angle) + 1e-5 * rolls
@@ -139,13 +146,13 @@ class TestOptions:
     )
     def test_refusals_name_the_key(self, options, back, key):
         with pytest.raises(InputError) as error:
-            tabulate(crc.FAMILY, DRIVE, (STEEL, STEEL), mesh(**options), 2, back)
+            tabulate(assemble(crc.FAMILY, DRIVE), (STEEL, STEEL), mesh(**options), 2, back)
         assert error.value.key == key
 
     def test_solid_body_is_refused(self):
         solid = DRIVE._replace(gear=DRIVE.gear._replace(bore_radius=0.0))
         with pytest.raises(InputError, match="held at its bore"):
-            tabulate(crc.FAMILY, solid, (STEEL, STEEL), ENERGY, 2)
+            tabulate(assemble(crc.FAMILY, solid), (STEEL, STEEL), ENERGY, 2)
 
     def test_interpolation_is_the_monotone_one(self):
         rng = np.random.default_rng(4)
@@ -158,8 +165,8 @@ class TestOptions:
 
 @FAMILIES
 def test_back_flanks_are_the_mirror_image(family):
-    cycle = tabulate(family, DRIVE, (STEEL, STEEL), mesh(backlash=5e-5), 2, back=True)
-    front = tabulate(family, DRIVE, (STEEL, STEEL), ENERGY, 2)
+    cycle = tabulate(assemble(family, DRIVE), (STEEL, STEEL), mesh(backlash=5e-5), 2, back=True)
+    front = tabulate(assemble(family, DRIVE), (STEEL, STEEL), ENERGY, 2)
     np.testing.assert_array_equal(cycle.side, [1, 1, -1, -1])
     assert cycle.in_contact.shape == (4, 4)
     np.testing.assert_allclose(cycle.gap[..., 2:], 5e-5)
@@ -181,13 +188,13 @@ def test_no_jax_in_a_plain_run():
     code = (
         "import math, sys\n"
         "from tribodyn.geometry.material import MaterialData\nfrom tribodyn.mesh.data import MeshData\n"
-        "from tribodyn.geometry.families import crc\n"
+        "from tribodyn.geometry.assembly import assemble\nfrom tribodyn.geometry.families import crc\n"
         "from tribodyn.geometry.drive import Drive, GearBody\n"
         "from tribodyn.mesh.tabulate import tabulate\n"
         "steel = MaterialData('steel', 206e9, 0.3, 7850.0, 46.0, 470.0, 6e9)\n"
         "body = lambda z, bore: GearBody(z, 0.0, 1.0, 1.25, 0.25, 0.02, bore)\n"
         "drive = Drive(0.003, math.radians(22.81), body(23.0, 0.015), body(47.0, 0.025))\n"
-        "tabulate(crc.FAMILY, drive, (steel, steel), MeshData('energy', 0.05), 2)\n"
+        "tabulate(assemble(crc.FAMILY, drive), (steel, steel), MeshData('energy', 0.05), 2)\n"
         "assert 'jax' not in sys.modules\n"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
@@ -195,7 +202,7 @@ def test_no_jax_in_a_plain_run():
 
 def figures(family, parameters, points=33):
     """Contact ratio, mean mesh stiffness (1e8 N/m) and quasi-static efficiency with μ = 0.05."""
-    cycle = tabulate(family, drive_of(parameters), (STEEL, STEEL), mesh(points=points), 2)
+    cycle = tabulate(assemble(family, drive_of(parameters)), (STEEL, STEEL), mesh(points=points), 2)
     stiffness = cycle_mean(cycle, quasi_static(cycle, 500.0).mesh_stiffness)
     return cycle.contact_ratio, stiffness / 1e8, mean_efficiency(cycle, 500.0, 0.05)
 
@@ -241,7 +248,7 @@ class TestQuasiStatic:
     def test_gap_takes_a_pair_out_of_contact(self):
         roll = np.linspace(-0.3, 0.3, 3)
         late = mesh(error_table=(roll, np.array([1e-3, 0.0, 0.0])))  # far too much relief in approach
-        cycle = tabulate(crc.FAMILY, DRIVE, (STEEL, STEEL), late, 2)
+        cycle = tabulate(assemble(crc.FAMILY, DRIVE), (STEEL, STEEL), late, 2)
         loads = quasi_static(cycle, 500.0).normal_load
         assert loads[0, 0, 1] == 0
         assert loads[0, 0, 0] * cycle.gear_pitch_radius * math.cos(
@@ -249,7 +256,7 @@ class TestQuasiStatic:
         ) == pytest.approx(500.0)
 
     def test_load_dependent_contact_is_in_equilibrium(self):
-        cycle = tabulate(crc.FAMILY, DRIVE, (STEEL, STEEL), mesh(hertz="load-dependent"), 2)
+        cycle = tabulate(assemble(crc.FAMILY, DRIVE), (STEEL, STEEL), mesh(hertz="load-dependent"), 2)
         state = quasi_static(cycle, 500.0)
         loads, arms = state.normal_load[0], np.cos(cycle.pressure_angle[0])
         approach = cycle.compliance[0] * loads + cycle.hertz_coefficient * loads**0.9
@@ -258,8 +265,8 @@ class TestQuasiStatic:
 
     @FAMILIES
     def test_loss_is_the_integral_of_sliding_friction(self, family):
-        cycle = tabulate(family, DRIVE, (STEEL, STEEL), ENERGY, 2)
-        fine = tabulate(family, DRIVE, (STEEL, STEEL), mesh(points=4001), 2)
+        cycle = tabulate(assemble(family, DRIVE), (STEEL, STEEL), ENERGY, 2)
+        fine = tabulate(assemble(family, DRIVE), (STEEL, STEEL), mesh(points=4001), 2)
         loads = quasi_static(fine, 500.0).normal_load
         power = (0.05 * loads * np.abs(fine.pinion_speed - fine.gear_speed)).sum(axis=-1)
         loss = sum(np.trapezoid(power[s], fine.phase[s]) for s in range(2))

@@ -21,7 +21,7 @@ def table(case, **changes):
     mesh = dataclasses.replace(case.mesh, **changes)
     torque = case.operating.gear_torque
     back = mesh.backlash is not None
-    return tabulate_loaded(family(case.family), case.drive, case.materials, mesh, torque, back)
+    return tabulate_loaded(assemble(family(case.family), case.drive), case.materials, mesh, torque, back)
 
 
 def rolls(cycle):
@@ -123,14 +123,14 @@ def test_radii_that_vanish_at_the_pitch_point_leave_a_smooth_table(drive):
 def test_no_load_is_refused():
     case = load_scenario(NAME, {"mesh.backlash": "50 um"})
     with pytest.raises(InputError, match="gear_torque"):
-        tabulate_loaded(family(case.family), case.drive, case.materials, case.mesh, 0.0, True)
+        tabulate_loaded(assemble(family(case.family), case.drive), case.materials, case.mesh, 0.0, True)
 
 
 def test_solid_body_is_refused():
     case = load_scenario(NAME, {})
     solid = case.drive._replace(gear=case.drive.gear._replace(bore_radius=0.0))
     with pytest.raises(InputError, match="bore"):
-        tabulate_loaded(family(case.family), solid, case.materials, case.mesh, 100.0)
+        tabulate_loaded(assemble(family(case.family), solid), case.materials, case.mesh, 100.0)
 
 
 def test_effective_contact_ratio_of_a_shipped_drive():

@@ -8,13 +8,14 @@ import pytest
 
 from tests.support.closures import LIU_NI, POINT, known, under
 from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
-from tribodyn.dynamics.parameters import frictionless
+from tribodyn.dynamics.parameters import STATES, frictionless
 from tribodyn.errors import InputError
 from tribodyn.kernels.native import kernel, store
 from tribodyn.kernels.native.arguments import laid_out
 from tribodyn.numerics.elementary import absolute, law
 from tribodyn.numerics.parameter import Parameter
 from tribodyn.record.reader import open_record
+from tribodyn.solve.right_hand_side import rhs, work_array
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.gear_pair.run import run
 from tribodyn.studies.load import load_scenario
@@ -191,6 +192,21 @@ def test_a_changed_source_or_number_is_another_function(tmp_path):
     identities = [laid_out(one).layout.identity for one in made]
     assert len(set(identities)) == 3
     assert identities[0] == identities[3]
+
+
+def _unmarked(x):
+    return 0.1 * x
+
+
+def _unfinished(contact, film, surfaces, parameters):
+    return _unmarked(contact.sliding)
+
+
+def test_a_law_that_cannot_be_compiled_says_why():
+    case = with_laws(load_scenario("crc-23-47"), friction=FrictionLaw("unfinished", "", _unfinished))
+    model = prepare(case).model
+    with pytest.raises(InputError, match=r"law = _unfinished.*_unmarked.*marked with its `law`"):
+        rhs(0.3, 0.0, 0, np.zeros(STATES), model, work_array(model), np.empty(STATES))
 
 
 def test_laws_are_plain_data():

@@ -19,6 +19,7 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, reference_radius, tip_radius
 from tribodyn.geometry.family import Family, unshifted
 from tribodyn.geometry.path import Path, PerContact, integrated_rotation, inverted_rotation
+from tribodyn.geometry.reach import refuse_shift
 from tribodyn.numerics.elementary import namespace, sin, sqrt
 from tribodyn.numerics.iteration import newton
 from tribodyn.numerics.remembered import remembered
@@ -152,15 +153,7 @@ def working_path(drive: Drive) -> Path:
 
 def check(drive: Drive) -> None:
     """Refuse profile shift, and teeth that reach further than a path of constant relative curvature does."""
-    for side in ("pinion", "gear"):
-        shift = getattr(drive, side).profile_shift
-        if shift != 0:
-            raise InputError(
-                f"drive.{side}.profile_shift",
-                shift,
-                "a CRC drive cannot be profile-shifted: its path of contact belongs to one centre distance",
-                "use 0",
-            )
+    refuse_shift(drive)
     with np.errstate(all="ignore"):
         path = working_path(drive)
         inner = np.linspace(path.lower, path.upper, 201) / _REACH_MARGIN  # pyright: ignore

@@ -122,5 +122,6 @@ FAMILY = Family(
     generating_path,
     True,
     check,
+    involute=True,
     about="standard or profile-shifted involute; pressure_angle is the rack's",
 )

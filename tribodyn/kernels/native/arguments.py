@@ -6,6 +6,7 @@ else: numbers and lengths are never compiled in, functions are.
 """
 
 import struct
+from collections.abc import Iterator
 from functools import cache
 from types import FunctionType
 from typing import Any, NamedTuple
@@ -124,8 +125,15 @@ def together(name: str, names: tuple[str, ...], values: tuple[Any, ...]) -> Laid
     return Laid(record(name, names, layouts), b"".join(one.words for one in laid), values)
 
 
+def functions_in(layout: Any) -> Iterator[FunctionLayout]:
+    """Go through the functions that a layout holds."""
+    if isinstance(layout, FunctionLayout):
+        yield layout
+    elif isinstance(layout, Record):
+        for _, field in layout.fields:
+            yield from functions_in(field)
+
+
 def is_kept(layout: Any) -> bool:
     """Whether machine code for a layout may be kept on disk: no function in it is this process's own."""
-    if isinstance(layout, FunctionLayout):
-        return layout.kept
-    return not isinstance(layout, Record) or all(is_kept(field) for _, field in layout.fields)
+    return all(one.kept for one in functions_in(layout))

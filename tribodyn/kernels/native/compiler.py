@@ -14,9 +14,11 @@ from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Flags, compile_extra
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.cpu_options import FastMathOptions
+from numba.core.errors import NumbaError
 from numba.core.registry import cpu_target
 
-from tribodyn.kernels.native.arguments import Record
+from tribodyn.errors import InputError
+from tribodyn.kernels.native.arguments import Record, functions_in
 from tribodyn.kernels.native.code import Compiled, KernelFunction
 from tribodyn.kernels.native.functions import register_laws
 from tribodyn.kernels.native.parts import FUSE, part_of
@@ -82,7 +84,10 @@ def compiled(function: Callable[..., Any], layout: Record) -> Compiled:
         typing.refresh()
         target.refresh()
         arguments = (record, WORDS)
-        lowered = compile_extra(typing, target, entry, arguments, types.none, flags, {}, library)
+        try:
+            lowered = compile_extra(typing, target, entry, arguments, types.none, flags, {}, library)
+        except NumbaError as error:
+            raise explained(error, layout) from error
         symbol = f"tribodyn.{layout.name}"
         library.add_ir_module(_c_function(target, lowered.fndesc, symbol))
         library.finalize()
@@ -91,6 +96,23 @@ def compiled(function: Callable[..., Any], layout: Record) -> Compiled:
     several = isinstance(returned, types.BaseTuple)
     numbers = list(cast(Any, returned)) if several else () if returned is types.none else (returned,)
     return Compiled(symbol, "".join(map(letter_of, numbers)), not several, library.needs(), library.body)
+
+
+def explained(error: NumbaError, layout: Record) -> Exception:
+    """Say of an error of numba's in a function from outside this package what its author can do about it."""
+    outside = [one for one in functions_in(layout) if not one.function.__module__.startswith("tribodyn.")]
+    if not outside:
+        return error
+    lines = [line.strip() for line in str(error).splitlines() if line.strip()]
+    said = [line for line in lines if "Untyped global" in line or "Unknown attribute" in line]
+    names = ", ".join(one.function.__qualname__ for one in outside)
+    return InputError(
+        "law",
+        names,
+        f"cannot be compiled: {(said or lines)[0]}",
+        "use arithmetic, the functions of tribodyn.numerics.elementary, "
+        "and functions marked with its `law`, and no fields but those of the arguments",
+    )
 
 
 def _c_function(target, described, symbol):

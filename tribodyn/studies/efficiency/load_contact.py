@@ -14,7 +14,8 @@ from tribodyn.compliance.load_sharing import (
     extended_rolls,
     share_load,
 )
-from tribodyn.compliance.loaded_contact import check, reach
+from tribodyn.compliance.loaded_contact import reach
+from tribodyn.compliance.loaded_rules import check_contact
 from tribodyn.compliance.slices import face_positions
 from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.modification import UNMODIFIED, Modifications
@@ -78,7 +79,7 @@ def load_contact(
     InputError
         If the torque drives nothing, or as `roll_through` does.
     """
-    check(flexible, modifications, gear_torque, slices)
+    check_contact(flexible, modifications, gear_torque, slices)
     same_every_pitch(modifications)
     assembly = flexible.assembly
     ratio = assembly.path.pinion_pitch_radius / assembly.path.gear_pitch_radius

@@ -6,7 +6,7 @@ import numpy as np
 
 from tribodyn.compliance.loaded_flanks import LoadedFlanks
 from tribodyn.errors import InputError
-from tribodyn.geometry.corner_contact import pair_geometry, roll_limits
+from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.path import Kinematics, Path, kinematics
 from tribodyn.mesh.cycle import CHANNELS, MeshCycle, Polynomials, polynomials
 from tribodyn.studies.efficiency.quadrature import Array
@@ -84,7 +84,7 @@ def places(
     start, end = float(cycle.roll_start), float(cycle.roll_end)
     corners = flanks is not None and sharing == "elastic"
     if flanks is not None and not corners:
-        start, end = roll_limits(flanks.flexible.assembly)
+        start, end = flanks.flexible.assembly.roll_limits
     # closed at the beginning, and open at the end by more than rounding
     inside = ((roll >= start - 1e-12) & (roll < end - 1e-12)).astype(float)
     if sharing == "single-pair":

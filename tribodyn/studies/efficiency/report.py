@@ -32,18 +32,18 @@ LINES: Lines = {
 
 SWEPT: dict[str, Variable] = {
     "efficiency": Variable((), "1", "efficiency over the mesh cycle"),
+    "power_friction_mean": Variable((), "W", "mean power lost to tooth friction"),
+    "friction_coefficient_mean": Variable((), "1", "friction coefficient, mean by loss"),
+    "film_min": Variable((), "m", "minimum central film thickness"),
+    "hertz_pressure_max": Variable((), "Pa", "maximum Hertz pressure"),
+    "flash_temperature_max": Variable((), "K", "maximum flash temperature rise"),
+    "film_parameter_min": Variable((), "1", "minimum film parameter"),
+    "normal_load_max": Variable((), "N", "maximum normal load of a pair"),
+    "contact_ratio": Variable((), "1", "contact ratio"),
     "efficiency_elastic": Variable((), "1", "efficiency, elastic load sharing"),
     "efficiency_uniform": Variable((), "1", "efficiency, equal loads"),
     "efficiency_single_pair": Variable((), "1", "efficiency, one pair at a time"),
     "efficiency_torque_ratio": Variable((), "1", "efficiency, torque ratio of one pair"),
-    "friction_coefficient_mean": Variable((), "1", "friction coefficient, mean by loss"),
-    "power_friction_mean": Variable((), "W", "mean power lost to tooth friction"),
-    "contact_ratio": Variable((), "1", "contact ratio"),
-    "normal_load_max": Variable((), "N", "maximum normal load of a pair"),
-    "film_min": Variable((), "m", "minimum central film thickness"),
-    "film_parameter_min": Variable((), "1", "minimum film parameter"),
-    "hertz_pressure_max": Variable((), "Pa", "maximum Hertz pressure"),
-    "flash_temperature_max": Variable((), "K", "maximum flash temperature rise"),
     "friction_in_range_fraction": Variable(
         (), "1", "share of the contact in which the friction law is in its range"
     ),

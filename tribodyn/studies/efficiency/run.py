@@ -12,7 +12,7 @@ from tribodyn.compliance.load_sharing import effective_contact_ratio
 from tribodyn.compliance.loaded_flanks import LoadedFlanks
 from tribodyn.dynamics.recorded import scales_of
 from tribodyn.errors import InputError
-from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.families import family
 from tribodyn.geometry.outlines import geometry_arrays
 from tribodyn.geometry.path import Path as PathOfContact
@@ -32,16 +32,21 @@ from tribodyn.tribology.surface_state import fraction_in_range
 
 
 class Prepared(NamedTuple):
-    """A case made ready: the table of the mesh, the path it was made from, and what the mesh has to do.
+    """A case made ready: the table of the mesh, the gears it was made from, and what the mesh has to do.
 
     `flanks` are those of the load contact model that shares the load, where the scenario asks for it.
     """
 
     case: EfficiencyCase
     cycle: MeshCycle
-    path: PathOfContact
+    assembly: Assembly
     duty: Duty
     flanks: LoadedFlanks | None = None
+
+    @property
+    def path(self) -> PathOfContact:
+        """The working path of contact."""
+        return self.assembly.path
 
 
 def prepare(case: EfficiencyCase) -> Prepared:
@@ -53,24 +58,18 @@ def prepare(case: EfficiencyCase) -> Prepared:
         Where the teeth cannot be made or cannot run together, or the load sharing does not fit them.
     """
     from tribodyn.geometry.checks import check
-    from tribodyn.mesh.tabulate import pair_slots, tabulate
-    from tribodyn.mesh.tabulate_loaded import flanks_of, tabulate_loaded
+    from tribodyn.mesh.by_compliance import loaded_flanks_of, mesh_cycle_of
 
-    teeth = family(case.family)
-    check(teeth, case.drive)
-    flanks, mesh = None, case.mesh
-    if mesh.compliance == "fem":
-        cycle = tabulate_loaded(teeth, case.drive, case.materials, mesh, case.operating.gear_torque)
-        flanks = flanks_of(assemble(teeth, case.drive), case.materials, mesh)
-    else:
-        cycle = tabulate(teeth, case.drive, case.materials, case.mesh, pairs=pair_slots(teeth, case.drive))
+    assembly = check(family(case.family), case.drive)
+    cycle = mesh_cycle_of(assembly, case.materials, case.mesh, case.operating.gear_torque)
+    flanks = loaded_flanks_of(assembly, case.materials, case.mesh)
     duty = Duty(
         case.operating.gear_torque,
         case.operating.pinion_speed,
         closure_of(case),
         case.load_sharing,
     )
-    return Prepared(case, cycle, teeth.working_path(case.drive), duty, flanks)
+    return Prepared(case, cycle, assembly, duty, flanks)
 
 
 def run(
@@ -91,7 +90,7 @@ def run(
     summary = _figures(study, mesh, state) | {"wall_time": perf_counter() - begun}
     groups = {
         "mesh_cycle": as_arrays(study.cycle),
-        "geometry": geometry_arrays(family(case.family), case.drive),
+        "geometry": geometry_arrays(study.assembly),
     }
     scales = scales_of(study.cycle.side)
     with writer(case, path, LAYOUT, len(samples), groups=groups, scales=scales, force=force) as record:
@@ -145,7 +144,7 @@ def efficiencies(
 
 def _by_loss_factor(study: Prepared) -> dict[str, float]:
     case, friction = study.case, study.duty.closure.friction
-    if case.family != "involute" or friction.functions.coefficient is not constant:
+    if not study.assembly.family.involute or friction.functions.coefficient is not constant:
         return {}
     coefficient = friction.parameters.coefficient
     tips = tip_contact_ratios(family(case.family), case.drive)

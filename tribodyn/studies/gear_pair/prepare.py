@@ -20,6 +20,7 @@ from tribodyn.dynamics.parameters import (
     Model,
     Options,
 )
+from tribodyn.geometry.assembly import Assembly
 from tribodyn.mesh.cycle import MeshCycle, Polynomials, polynomials
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.tribology.closure import Closure, closure_of
@@ -40,12 +41,14 @@ class Prepared(NamedTuple):
     model : Model
     masses : tuple of (mass kg, inertia kg m²)
         Of pinion and gear alone, without what is attached to them.
+    assembly : Assembly
     """
 
     case: Case
     cycle: MeshCycle
     model: Model
     masses: tuple[tuple[float, float], tuple[float, float]]
+    assembly: Assembly
 
 
 class Tabulated(NamedTuple):
@@ -58,11 +61,13 @@ class Tabulated(NamedTuple):
         The same as the right-hand side reads it.
     masses : tuple of (mass kg, inertia kg m²)
         Of pinion and gear alone.
+    assembly : Assembly
     """
 
     cycle: MeshCycle
     table: Polynomials
     masses: tuple[tuple[float, float], tuple[float, float]]
+    assembly: Assembly
 
 
 #: Fields of a case that its table does not depend on. Whatever is not named here is taken to matter.
@@ -92,7 +97,7 @@ def table_key(case: Case) -> Hashable:
         if one.name not in (*_NOT_IN_TABLE, "mesh")
     ]
     parts.append(dataclasses.replace(case.mesh, **_MESH_NOT_IN_TABLE))
-    if case.mesh.compliance == "fem":
+    if case.mesh.at_load:
         parts.append(case.operating.gear_torque)
     return _hashable(parts)
 
@@ -122,11 +127,11 @@ def prepare(case: Case, tabulated: Tabulated | None = None) -> Prepared:
     InputError
         Where the teeth cannot be made or cannot run together, or a table does not cover the contact.
     """
-    cycle, table, (pinion, gear) = tabulated or tables(case)
+    cycle, table, (pinion, gear), assembly = tabulated or tables(case)
     surfaces, film, friction = closure = closure_of(case)
     mechanics, options = _mechanics(case, pinion, gear, cycle), _options(case, cycle, closure)
     model = Model(table, mechanics, surfaces, film.parameters, friction.parameters, options)
-    return Prepared(case, cycle, model, (pinion, gear))
+    return Prepared(case, cycle, model, (pinion, gear), assembly)
 
 
 def tables(case: Case) -> Tabulated:
@@ -134,22 +139,14 @@ def tables(case: Case) -> Tabulated:
     from tribodyn.geometry.body import body_masses
     from tribodyn.geometry.checks import check
     from tribodyn.geometry.families import family
-    from tribodyn.mesh.tabulate import pair_slots, tabulate
+    from tribodyn.mesh.by_compliance import mesh_cycle_of
 
-    teeth = family(case.family)
-    check(teeth, case.drive)
-    back = case.mesh.backlash is not None
-    if case.mesh.compliance == "fem":
-        from tribodyn.mesh.tabulate_loaded import tabulate_loaded
-
-        torque = case.operating.gear_torque
-        cycle = tabulate_loaded(teeth, case.drive, case.materials, case.mesh, torque, back)
-    else:
-        pairs = pair_slots(teeth, case.drive)
-        cycle = tabulate(teeth, case.drive, case.materials, case.mesh, pairs=pairs, back=back)
+    assembly = check(family(case.family), case.drive)
+    back, torque = case.mesh.backlash is not None, case.operating.gear_torque
+    cycle = mesh_cycle_of(assembly, case.materials, case.mesh, torque, back)
     given = [(one.mass, one.inertia) for one in case.masses]
-    pinion, gear = body_masses(teeth, case.drive, given, [one.density for one in case.materials])
-    return Tabulated(cycle, polynomials(cycle), (pinion, gear))
+    pinion, gear = body_masses(assembly, given, [one.density for one in case.materials])
+    return Tabulated(cycle, polynomials(cycle), (pinion, gear), assembly)
 
 
 def _options(case: Case, cycle: MeshCycle, closure: Closure) -> Options:

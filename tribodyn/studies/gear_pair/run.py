@@ -9,17 +9,16 @@ import numpy as np
 from tribodyn.dynamics.outputs import outputs
 from tribodyn.dynamics.recorded import scales_of
 from tribodyn.errors import SimulationError
-from tribodyn.geometry.families import family
 from tribodyn.geometry.outlines import geometry_arrays
 from tribodyn.mesh.cycle import as_arrays
-from tribodyn.mesh.stiffness import single_pair_stiffness
+from tribodyn.mesh.stiffness import single_pair
 from tribodyn.solve.choice import choose
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.transient import SampledStates, Stop, TransientSettings, transient
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.gear_pair.summary import RunningExtremes, energy_residual, steady_figures
-from tribodyn.studies.gears import LAYOUT, pitch_point_load
+from tribodyn.studies.gears import LAYOUT
 from tribodyn.studies.recording import target, writer
 from tribodyn.studies.study import Progress, RunResult
 from tribodyn.tribology.closure import law_figures
@@ -41,10 +40,9 @@ def run(
     prepared = prepare(case)
     model, cycle = prepared.model, prepared.cycle
     samples, cycles = case.output.samples_per_cycle, case.solver.cycles
-    load = pitch_point_load(case, case.operating.gear_torque)
     summary: dict[str, Any] = {
         "contact_ratio": float(cycle.contact_ratio),
-        "stiffness_single_pair_at_pitch_point": single_pair_stiffness(cycle, load),
+        "stiffness_single_pair_at_pitch_point": single_pair(cycle, case.operating.gear_torque).stiffness,
         "pinion_mass": prepared.masses[0][0],
         "gear_mass": prepared.masses[1][0],
         "pinion_inertia": prepared.masses[0][1],
@@ -54,7 +52,7 @@ def run(
     }
     groups = {
         "mesh_cycle": as_arrays(cycle),
-        "geometry": geometry_arrays(family(case.family), case.drive),
+        "geometry": geometry_arrays(prepared.assembly),
     }
     scales = scales_of(cycle.side)
     with writer(

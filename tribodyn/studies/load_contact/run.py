@@ -7,10 +7,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.compliance.load_sharing import PairFlexibility, flexibility, share_load
-from tribodyn.compliance.loaded_contact import LoadedContact, roll_through
+from tribodyn.compliance.loaded_contact import LoadedContact, loaded_error, roll_through
 from tribodyn.errors import SimulationError
-from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.corner_contact import pair_geometry, roll_limits
+from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.families import family
 from tribodyn.geometry.outlines import geometry_arrays
 from tribodyn.studies.load_contact.case import LoadContactCase
@@ -39,9 +38,7 @@ def prepare(case: LoadContactCase) -> Prepared:
     from tribodyn.compliance.flank_gap import check_modifications
     from tribodyn.geometry.checks import check
 
-    teeth = family(case.family)
-    check(teeth, case.drive)
-    assembly = assemble(teeth, case.drive)
+    assembly = check(family(case.family), case.drive)
     check_modifications(assembly, case.modifications)
     return Prepared(case, flexibility(assembly, case.materials, lead=True))
 
@@ -56,16 +53,21 @@ def roll(study: Prepared, gear_torque: float) -> LoadedContact:
     SimulationError
         If no state of contact is found.
     """
+    return roll_through(*_contact(study, gear_torque))
+
+
+def _contact(study: Prepared, gear_torque: float) -> tuple[Any, ...]:
+    """Arguments of `roll_through` and `loaded_error`."""
     case = study.case
-    return roll_through(
+    return (
         study.flexible,
         case.modifications,
         gear_torque,
         case.positions_per_cycle,
-        cycles=case.cycles,
-        friction_coefficient=case.friction_coefficient,
-        slices=case.slices,
-        coupled=case.slice_coupling,
+        case.cycles,
+        case.friction_coefficient,
+        case.slices,
+        case.slice_coupling,
     )
 
 
@@ -76,7 +78,7 @@ def run(
     force: bool = False,
     progress: Progress | None = None,
 ) -> RunResult:
-    """Run a case and write its record; see `study.Study.run`."""
+    """Run a case and write its record; see `study.Prepared.run`."""
     path = target(case, output, force)
     begun = perf_counter()
     study = prepare(case)
@@ -88,7 +90,7 @@ def run(
         loaded, failure = None, error.reason
     groups = {
         "mesh_cycle": _numbers(study),
-        "geometry": geometry_arrays(family(case.family), case.drive),
+        "geometry": geometry_arrays(study.flexible.assembly),
     }
     samples, scales = 0 if loaded is None else len(loaded.phase), _scales(study, loaded)
     with writer(case, path, LAYOUT, samples, groups=groups, scales=scales, force=force) as record:
@@ -101,7 +103,7 @@ def run(
         spread = []
         for row, torque in enumerate(case.gear_torques):
             try:
-                error_at = roll(study, torque).deflection
+                error_at = loaded_error(*_contact(study, torque))
             except SimulationError as error:
                 failure = f"at operating.gear_torques.{row} = {torque:g} N*m: {error.reason}"
                 return RunResult(record.fail(failure, summary), "failed", failure, summary)
@@ -191,7 +193,7 @@ def single_pair_stiffness(study: Prepared) -> float:
 def _numbers(study: Prepared) -> dict[str, float]:
     """Numbers of the mesh; there is no table."""
     path, assembly = study.flexible.assembly.path, study.flexible.assembly
-    start, end = roll_limits(assembly)
+    start, end = assembly.roll_limits
     return {
         "pinion_pitch_radius": float(path.pinion_pitch_radius),
         "gear_pitch_radius": float(path.gear_pitch_radius),
@@ -213,7 +215,7 @@ def _scales(study: Prepared, loaded: LoadedContact | None) -> dict[str, Array]:
 
 def pair_numbers(study: Prepared, loaded: LoadedContact) -> Array:
     """Numbers of the pairs: 1 passed the beginning of the path last, 2 is the next to do so."""
-    start, _ = roll_limits(study.flexible.assembly)
+    start, _ = study.flexible.assembly.roll_limits
     pitch = 2.0 * np.pi / float(study.case.drive.pinion.teeth)
     ages = (loaded.roll[0] - start) / pitch - (loaded.phase[0] - np.floor(loaded.phase[0]))
     return 1 - np.round(ages).astype(int)

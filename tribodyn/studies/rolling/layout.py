@@ -37,12 +37,23 @@ SAMPLES: dict[str, Variable] = {
     "efficiency": Variable(("time",), "1", "instantaneous efficiency; as_published: the product (23)"),
 }
 
-#: Curves of the geometry; lengths are numbers beside them, in m.
+#: Curves and lengths of the geometry.
 GEOMETRY: dict[str, Variable] = {
     "cam_outline": Variable(
         ("cam_point", "axis"), "m", "profile of the cam about its centre, as it stands at the start"
     ),
     "crown_outline": Variable(("crown_point", "axis"), "m", "profile of the crown about the shaft's axis"),
+    **{
+        name: Variable((), "m", about)
+        for name, about in {
+            "pitch_radius": "radius of the cage's pitch circle",
+            "centre_circle_radius": "radius of the circle of the elements' centres",
+            "element_radius": "radius of an element",
+            "eccentricity": "distance of the cage's axis from the shaft's",
+            "cam_pitch_radius": "radius of the cam's pitch circle",
+            "crown_pitch_radius": "radius of the crown's pitch circle",
+        }.items()
+    },
 }
 
 LAYOUT = Layout(TIME, SAMPLES, {"element": ELEMENT}, groups={"mesh_cycle": {}, "geometry": GEOMETRY})

@@ -14,7 +14,7 @@ from tribodyn.studies.efficiency.dynamic import dynamic_efficiency
 from tribodyn.studies.efficiency.given_coefficient import mean_efficiency
 from tribodyn.studies.efficiency.loss_factor import exact, tip_contact_ratios
 from tribodyn.studies.efficiency.places import SHARINGS, places
-from tribodyn.studies.efficiency.run import Study, efficiencies
+from tribodyn.studies.efficiency.run import Prepared, efficiencies
 from tribodyn.studies.efficiency.run import prepare as prepare_study
 from tribodyn.studies.efficiency.torque_ratio import cycloid_contact, path_contact, torque_ratio
 from tribodyn.studies.load import load_scenario
@@ -28,12 +28,12 @@ def studies():
     return {name: prepare_study(load_scenario(name)) for name in DRIVES}
 
 
-def under(study: Study, law: str, mu: float = 0.06) -> Duty:
+def under(study: Prepared, law: str, mu: float = 0.06) -> Duty:
     values = {"coefficient": mu} if law == "coulomb" else {}
     return study.duty._replace(closure=of_case(study.case, law, **values))
 
 
-def with_coefficient(study: Study, mu: float) -> Duty:
+def with_coefficient(study: Prepared, mu: float) -> Duty:
     return under(study, "coulomb", mu)
 
 

@@ -5,7 +5,6 @@ import pytest
 
 from tests.support.closures import of_case
 from tribodyn.errors import InputError
-from tribodyn.geometry.corner_contact import roll_limits
 from tribodyn.geometry.modification import UNMODIFIED
 from tribodyn.record.reader import open_record
 from tribodyn.studies.efficiency.along_path import cycle_efficiency, engage
@@ -70,7 +69,7 @@ def test_torque_and_power_balance_corners_included(study, law):
     state = engage(mesh, duty)
     np.testing.assert_allclose(state.gear_torque, duty.gear_torque, rtol=1e-9)
     np.testing.assert_allclose(state.power_in, state.power_out + state.power_friction, rtol=1e-9)
-    start, end = roll_limits(study.flanks.flexible.assembly)
+    start, end = study.flanks.flexible.assembly.roll_limits
     beyond = (mesh.roll < start) | (mesh.roll > end)
     assert np.any(state.normal_load[beyond] > 0)
     assert np.all(state.central_film_thickness[state.normal_load > 0] > 0)

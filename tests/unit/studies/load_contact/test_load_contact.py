@@ -12,7 +12,7 @@ from tribodyn.compliance.load_sharing import (
 )
 from tribodyn.compliance.slices import pair_harmonics
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.corner_contact import pair_geometry, roll_at_gap, roll_limits
+from tribodyn.geometry.corner_contact import pair_geometry, roll_at_gap
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families.involute import FAMILY
 from tribodyn.geometry.material import MaterialData
@@ -166,7 +166,7 @@ def test_neighbours_are_coupled_symmetrically_and_less_than_a_pair_with_itself(p
 
 def test_corner_gap_opens_with_the_square_of_the_distance():
     assembly = assemble(FAMILY, DRIVE)
-    start, end = roll_limits(assembly)
+    start, end = assembly.roll_limits
     for limit, outwards in ((start, -1), (end, 1)):
         near, far = (pair_geometry(assembly, np.array([limit + outwards * x])).gap[0] for x in (1e-3, 2e-3))
         assert 3.8 < far / near < 4.3

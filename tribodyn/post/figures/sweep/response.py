@@ -16,8 +16,9 @@ from tribodyn.post.figures.sweep.branch import (
     shade_contact_loss,
     sweep_title,
 )
-from tribodyn.post.shown_units import shown_unit
+from tribodyn.post.report import Line
 from tribodyn.post.style import PANEL_HEIGHT, WIDTH, mark_panel, new_figure
+from tribodyn.post.sweep_report import described
 from tribodyn.record.sweep_reader import SweepRecord
 
 
@@ -36,17 +37,33 @@ MOST_PANELS = 6
 FLAT = 1e-5
 
 
-def described_panels(record: SweepRecord) -> list[Panel]:
-    """Panels of the first figures of a sweep, as the record describes them."""
-    panels = []
-    for name in record.figures[:MOST_PANELS]:
-        unit, factor = shown_unit(record.units(name))
-        label = "\n".join(wrap(record.long_name(name), 26))
-        panels.append(Panel(name, factor, f"{label[:1].upper()}{label[1:]}" + (f" ({unit})" if unit else "")))
-    return panels
+def panels_of(records: Sequence[SweepRecord], lines: Sequence[Line]) -> list[Panel]:
+    """Panels of the first figures that vary; of the first that there are where none does.
+
+    Parameters
+    ----------
+    records : sequence of SweepRecord
+    lines : sequence of Line
+        What the figures are called, and their units; none: as the first record describes them.
+    """
+    lines = lines or [described(records[0], name) for name in records[0].figures]
+    known = [line for line in lines if all(line.name in record for record in records)]
+    varying = [line for line in known if _varies(records, line.name)]
+    return [_panel(line) for line in (varying or known)[:MOST_PANELS]]
 
 
-def response_figure(records: Sequence[SweepRecord], panels: Sequence[Panel] = ()) -> Figure:
+def _varies(records: Sequence[SweepRecord], name: str) -> bool:
+    values = np.concatenate([record[name].ravel() for record in records])
+    values = values[np.isfinite(values)]
+    return bool(values.size) and np.ptp(values) > FLAT * np.max(np.abs(values))
+
+
+def _panel(line: Line) -> Panel:
+    label = "\n".join(wrap(f"{line.label} ({line.unit or '–'})", 28))
+    return Panel(line.name, line.factor, label)
+
+
+def response_figure(records: Sequence[SweepRecord], panels: Sequence[Panel]) -> Figure:
     """Draw figures of every case over the first parameter; up and down apart where both were followed.
 
     Shaded where contact is lost at times; marked where the motion does not repeat with the mesh.
@@ -55,9 +72,8 @@ def response_figure(records: Sequence[SweepRecord], panels: Sequence[Panel] = ()
     ----------
     records : sequence of SweepRecord
     panels : sequence of Panel
-        None: `described_panels` of the first record.
+        At most `MOST_PANELS`.
     """
-    panels = panels or described_panels(records[0])
     columns = min(2, len(panels))
     count = -(-len(panels) // columns)
     figure = new_figure(WIDTH, count * (PANEL_HEIGHT - 0.4) + 0.6 + 0.6 * (count == 1))

@@ -1,0 +1,169 @@
+"""Sweeps of studies whose cases are evaluated one by one: figures, pictures, what is refused, going on."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from tests.support.short_studies import SHORT, short_case, written_template
+from tribodyn.cli.app import app
+from tribodyn.record.sweep_reader import SweepRecord
+from tribodyn.record.sweep_schema import DONE, FAILED
+from tribodyn.studies import STUDIES
+from tribodyn.studies.run import run as run_case
+from tribodyn.sweep.engines import Local
+from tribodyn.sweep.grid import Grid
+from tribodyn.sweep.run import run, settings_of
+
+#: Kind -> the varied key, and two of its values.
+VARIED = {
+    "efficiency": ("operating.gear_torque", ("200 N*m", "300 N*m")),
+    "load-contact": ("drive.pinion.modification.tip_relief", ("0 um", "10 um")),
+    "irefc": ("friction.sliding_coefficient", ("0.05", "0.1")),
+    "backlash-oscillator": ("damping", ("0.05", "0.1")),
+}
+KINDS = [pytest.param(kind, marks=pytest.mark.slow) if kind == "load-contact" else kind for kind in VARIED]
+
+
+def invoked(*words: object, status: int = 0) -> str:
+    ended = CliRunner().invoke(app, [str(word) for word in words])
+    assert ended.exit_code == status, f"{ended.output}\n{ended.exception}"
+    return ended.stderr if status else ended.stdout
+
+
+def words_of(kind: str) -> list[str]:
+    """``--vary`` and what makes the cases short."""
+    key, values = VARIED[kind]
+    unit = values[0].partition(" ")[2]
+    short = [word for name, value in SHORT[kind].items() for word in ("--set", f"{name}={value}")]
+    return ["--vary", f"{key}={','.join(value.partition(' ')[0] for value in values)}{unit}", *short]
+
+
+def grid_of(kind: str, folder: Path) -> Grid:
+    return Grid(str(written_template(kind, folder)), [words_of(kind)[1]], SHORT[kind])
+
+
+def test_every_kind_without_a_batch_is_tested():
+    assert set(VARIED) == {kind for kind, study in STUDIES.items() if study.batch() is None}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_sweep_has_the_figures_of_single_runs(kind: str, tmp_path: Path):
+    key, values = VARIED[kind]
+    path, scenario = tmp_path / "sweep.h5", written_template(kind, tmp_path)
+    shown = json.loads(invoked("sweep", scenario, *words_of(kind), "-o", path, "--json"))
+    assert shown["cases"] == shown["done"] == 2
+    swept = STUDIES[kind].swept()
+    with SweepRecord(path) as record:
+        assert (record.status, record.kind_of_study) == ("complete", kind)
+        assert set(record.figures) == set(swept)
+        assert (record["status"] == DONE).all()
+        for name, variable in swept.items():
+            assert (record.units(name), record.long_name(name)) == (variable.units, variable.long_name)
+        found = {name: record[name] for name in swept}
+    compared = 0
+    for i, value in enumerate(values):
+        more: dict[str, Any] = {key.replace(".", "__"): value}
+        summary = run_case(short_case(kind, tmp_path, **more), tmp_path / f"{i}.h5").summary
+        for name in swept:
+            if summary.get(name) is None:
+                assert np.isnan(found[name][i]), name
+                continue
+            np.testing.assert_allclose(found[name][i], summary[name], rtol=1e-12, err_msg=name)
+            compared += 1
+    assert compared > len(swept)
+    assert any(found[name][0] != found[name][1] for name in swept)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_it_is_shown_and_drawn(kind: str, tmp_path: Path):
+    path = tmp_path / "sweep.h5"
+    said = invoked("sweep", written_template(kind, tmp_path), *words_of(kind), "-o", path)
+    assert "minimum" in said
+    assert "2 done" in said
+    lines = [line for line in STUDIES[kind].sweep_lines() if line.label in invoked("show", path)]
+    assert len(lines) >= 3
+    drawn = json.loads(invoked("plot", path, "-o", tmp_path, "--json"))["pictures"]
+    assert [Path(picture).name for picture in drawn] == ["sweep-response.png"]
+    assert Path(drawn[0]).read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.slow
+def test_peak_to_peak_of_the_loaded_error_over_tip_relief(tmp_path: Path):
+    """Relief of the pinion's tips alone shortens the double contact: the error swings more."""
+    words = ["--set", "drive.pinion.modification.tip_relief_length=3 mm", "--set", "mesh.slices=1"]
+    words += ["--set", "output.positions_per_cycle=24"]
+    path = tmp_path / "relief.h5"
+    key = "drive.pinion.modification.tip_relief"
+    invoked("sweep", "load-contact-18-36", *words, "--vary", f"{key}=0:40:20um", "-o", path)
+    with SweepRecord(path) as record:
+        np.testing.assert_allclose(record.parameters[0].values, [0.0, 20e-6, 40e-6])
+        assert record.units("loaded_transmission_error_peak_to_peak") == "m"
+        spread = record["loaded_transmission_error_peak_to_peak"]
+    for i, relief in enumerate((0, 20, 40)):
+        single = tmp_path / f"{i}.h5"
+        shown = invoked(
+            "run", "load-contact-18-36", *words, "--set", f"{key}={relief} um", "-o", single, "--json"
+        )
+        alone = json.loads(shown)["summary"]["loaded_transmission_error_peak_to_peak"]
+        assert spread[i] == pytest.approx(alone, rel=1e-12)
+    assert spread[0] < spread[1] < spread[2]
+
+
+@pytest.mark.parametrize("kind", VARIED)
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("--direction", "up"), "--direction: "),
+        (("--transient", "4"), "--transient = 4: "),
+        (("--engine", "jax"), "--engine = jax: "),
+    ],
+)
+def test_what_belongs_to_motions_is_refused(kind: str, words: tuple[str, str], said: str, tmp_path: Path):
+    path = tmp_path / "sweep.h5"
+    told = invoked("sweep", written_template(kind, tmp_path), *words_of(kind), *words, "-o", path, status=2)
+    (line,) = told.splitlines()
+    assert said in line
+    assert STUDIES[kind].about in line
+    assert not path.exists()
+    assert not (tmp_path / "sweep.partial.h5").exists()
+
+
+def test_a_stopped_sweep_goes_on_to_the_same_record(tmp_path: Path):
+    class Stops(Local):
+        def __call__(self, kind, chunks, settings):
+            yield next(iter(super().__call__(kind, chunks, settings)))
+            raise KeyboardInterrupt
+
+    kind = "irefc"
+    grid = grid_of(kind, tmp_path)
+    whole = run(grid, settings_of(grid), Local(), tmp_path / "whole.h5")
+    with pytest.raises(KeyboardInterrupt):
+        run(grid, settings_of(grid), Stops(), tmp_path / "stopped.h5")
+    with SweepRecord(tmp_path / "stopped.partial.h5") as left:
+        assert left.count() == {"cases": 2, "done": 1, "failed": 0, "waiting": 1}
+    words = [written_template(kind, tmp_path), *words_of(kind), "-o", tmp_path / "stopped.h5", "--resume"]
+    invoked("sweep", *words)
+    with SweepRecord(tmp_path / "stopped.h5") as record:
+        assert record.summary["cases_done_by_this_call"] == 1
+    with h5py.File(whole.path) as a, h5py.File(tmp_path / "stopped.h5") as b:
+        assert set(a) == set(b)
+        for name in a:
+            if isinstance(a[name], h5py.Dataset):
+                assert a[name][...].tobytes() == b[name][...].tobytes(), name
+
+
+def test_a_case_that_fails_says_why_beside_the_others(tmp_path: Path):
+    """Of two lever arms of rolling resistance, with the longer the gear locks."""
+    path = tmp_path / "sweep.h5"
+    words = ["--vary", "friction.rolling_arm=0.01,5mm", "--set", "output.samples_per_cycle=8"]
+    invoked("sweep", written_template("irefc", tmp_path), *words, "-o", path)
+    with SweepRecord(path) as record:
+        assert record["status"].tolist() == [DONE, FAILED]
+        assert "the gear locks" in record["message"][1]
+        assert np.isfinite(record["efficiency"]).tolist() == [True, False]
+        assert record.failures()[0][0] == {"rolling_arm": 0.005}
