@@ -223,15 +223,21 @@ def test_a_kernel_is_kept_until_the_source_changes(plugin, tmp_path):
 
 
 def test_a_sweep_over_the_laws_own_key_runs_in_the_lanes(plugin, tmp_path):
-    """Nine cases side by side; each is the run of its value alone, and friction grows with the key."""
-    vary = "friction.reference_speed=1:9:1m/s"
+    """Nine cases side by side, each as if it were alone; friction grows with the key."""
     given = settings("solver.rtol=1e-8")
-    plugin("sweep", plugin.scenario(GEARS), "--vary", vary, "-o", "sweep.h5", *given, folder=tmp_path)
-    with SweepRecord(tmp_path / "sweep.h5") as record:
-        assert np.all(record["status"] == DONE)
-        np.testing.assert_allclose(record["reference_speed"], np.arange(1.0, 10.0))
-        efficiency = record["efficiency"]
-    assert np.all(np.diff(efficiency) < 0.0)
+    efficiency = {}
+    for name, values in (("sweep", "1:9:1m/s"), ("alone", "5m/s")):
+        vary = f"friction.reference_speed={values}"
+        plugin("sweep", plugin.scenario(GEARS), "--vary", vary, "-o", f"{name}.h5", *given, folder=tmp_path)
+        with SweepRecord(tmp_path / f"{name}.h5") as record:
+            assert np.all(record["status"] == DONE)
+            efficiency |= {
+                (name, round(at)): one
+                for at, one in zip(record["reference_speed"], record["efficiency"], strict=True)
+            }
+    swept = [efficiency["sweep", at] for at in range(1, 10)]
+    assert np.all(np.diff(swept) < 0.0)
+    assert efficiency["alone", 5] == pytest.approx(efficiency["sweep", 5], rel=1e-9)
     plugin("plot", "sweep.h5", "response", folder=tmp_path)
     assert (tmp_path / "sweep-response.png").exists()
 
