@@ -8,14 +8,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.compliance.flank_gap import flank_gap, same_every_pitch
-from tribodyn.compliance.load_sharing import (
-    PairFlexibility,
-    effective_contact_ratio,
-    extended_rolls,
-    share_load,
-)
+from tribodyn.compliance.load_sharing import effective_contact_ratio, extended_rolls, share_load
 from tribodyn.compliance.loaded_contact import reach
 from tribodyn.compliance.loaded_rules import check_contact
+from tribodyn.compliance.pair_flexibility import PairFlexibility
 from tribodyn.compliance.slices import face_positions
 from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.modification import UNMODIFIED, Modifications

@@ -6,8 +6,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.compliance.load_sharing import PairFlexibility, flexibility, share_load
+from tribodyn.compliance.load_sharing import flexibility, share_load
 from tribodyn.compliance.loaded_contact import LoadedContact, loaded_error, roll_through
+from tribodyn.compliance.pair_flexibility import PairFlexibility
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.families import family
