@@ -3,7 +3,7 @@
 The proposed approach of A. Diez-Ibarbia et al., section 2.2: constant friction coefficient, slow rotation.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,8 +15,7 @@ from tribodyn.compliance.pair_flexibility import PairFlexibility
 from tribodyn.compliance.slices import face_positions
 from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.modification import UNMODIFIED, Modifications
-
-Array = Any
+from tribodyn.numerics.shapes import Array, Float
 
 #: Positions over one pitch: the efficiency is then known to 1e-6 (test_load_contact_efficiency).
 POSITIONS = 240
@@ -41,9 +40,9 @@ class LoadContact(NamedTuple):
 
     efficiency: float
     contact_ratio: float
-    roll: Array
-    normal_load: Array
-    loss: Array
+    roll: Float[Array, "position pair"]
+    normal_load: Float[Array, "position pair"]
+    loss: Float[Array, "position pair"]
 
 
 def load_contact(
