@@ -67,8 +67,8 @@ def main() -> None:
 def table(engines: list[str], sizes: list[int]) -> str:
     """Table of the page."""
     rows = [
-        "| engine | cases | cycles | cycles × cases a second | a second of one core "
-        "| ns an evaluation | of the roofline | peak memory |",
+        "| engine | cases | cycles | cycles × cases per second | per second of one core "
+        "| ns per evaluation | of the roofline | peak memory |",
         "|---|--:|--:|--:|--:|--:|--:|--:|",
     ]
     for engine in engines:

@@ -161,10 +161,10 @@ def main() -> None:
     half = hertz_half_width(load / sector.width, curvature, material, material)
     above = weber_banaschek_slope(load / sector.width, half, depth, material) * slices / sector.width
     place = (np.arange(slices) + 0.5) * sector.width / slices - sector.width / 2
-    print("greatest over mean line load: ends free, symmetric; slices apart; by harmonics as the first two")
+    print("maximum over mean line load: ends free, symmetric; slices apart; by harmonics as the first two")
     columns = free, symmetric, apart, *sector.by_harmonics()
     for minutes in (0, 1, 2, 3):
-        greatest = []
+        maximum = []
         for compliance in columns:
             system = np.block(
                 [
@@ -173,8 +173,8 @@ def main() -> None:
                 ]
             )
             right = np.append(-minutes * ARC_MINUTE * place, load)
-            greatest.append(np.max(np.linalg.solve(system, right)[:slices]) * slices / load)
-        print(f"{minutes}'", *(f"{value:.3f}" for value in greatest))
+            maximum.append(np.max(np.linalg.solve(system, right)[:slices]) * slices / load)
+        print(f"{minutes}'", *(f"{value:.3f}" for value in maximum))
 
 
 if __name__ == "__main__":

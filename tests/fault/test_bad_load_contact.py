@@ -175,7 +175,7 @@ def test_a_mistake(
     assert list(tmp_path.iterdir()) == []
 
 
-#: Kinds of run that do not know the face: what is given, and which contradiction is told.
+#: Kinds of run that do not know the face: what is given, and which contradiction is reported.
 ELSEWHERE = {
     "relief by the energy method": (
         "crc-23-47",

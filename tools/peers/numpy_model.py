@@ -39,7 +39,7 @@ class NumpyModel:
         self.cells = cells
         self.channel, self.stiffness = [], []
         for segment, pairs in enumerate(self.pairs):
-            # (cell, power, channel, pair): one row of coefficients a look-up
+            # (cell, power, channel, pair): one row of coefficients per look-up
             coefficients = self.t.channel[segment][:, pairs, :NEEDED]
             self.channel.append(np.ascontiguousarray(coefficients.transpose(0, 3, 2, 1)))
             block = self.t.stiffness[segment][:, pairs][:, :, pairs]
@@ -130,7 +130,7 @@ class NumpyModel:
 
 
 def check(model: Model, states: Array, phases: Array) -> float:
-    """Greatest difference from tribodyn's right-hand side, over each rate's greatest, at given states."""
+    """Maximum difference from tribodyn's right-hand side, over each rate's maximum, at given states."""
     ours = NumpyModel(model)
     expected, found = [], []
     for phase, state in zip(phases, states, strict=True):

@@ -24,7 +24,7 @@ _CAREFUL_STEPS = 400
 _SETTLED = 1e-11
 # Load, as a share of the mean, at which a place that just touches is linearised: the contact's deflection
 # goes like F ln(1/F) and has no slope at 0.
-_LEAST_LOAD = 1e-7
+_MINIMUM_LOAD = 1e-7
 
 
 class Pressed(NamedTuple):
@@ -95,7 +95,7 @@ def press(
     worst = np.inf
     for step in range(_FREE_STEPS + _CAREFUL_STEPS):
         part = (matrix[rows], arm[rows], lever[rows], gap[rows], torque[rows], mean[rows], unit[rows])
-        at = np.maximum(load, (_LEAST_LOAD / places * mean[rows])[:, None])
+        at = np.maximum(load, (_MINIMUM_LOAD / places * mean[rows])[:, None])
         value, slope = local(rows, at)
         found, deflection, overlap, stiffness = _newton_step(active, at, value, slope, *part)
         touching = np.where(active, found > 0.0, overlap > 0.0)

@@ -22,7 +22,7 @@ def root_stress(
     line_load: Float[Array, "position pair slice"],
     coupled: bool = True,
 ) -> tuple[Float[Array, "2 position pair slice"], Float[Array, "2 position pair slice"]]:
-    """Greatest tension and greatest compression along the root of every tooth.
+    """Maximum tension and maximum compression along the root of every tooth.
 
     Stresses along the profile, of both fillets, from the middle of one gap to the middle of the next; those
     that the neighbours' loads make in the rim add to the tooth's own.

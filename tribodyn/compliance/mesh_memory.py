@@ -1,4 +1,4 @@
-"""Memory that a gear's finite elements need, told before any of it is taken."""
+"""Memory that a gear's finite elements need, estimated before any of it is taken."""
 
 from pathlib import Path
 
@@ -7,7 +7,7 @@ import numpy as np
 from tribodyn.compliance.ring_mesh import half_sector_cells
 from tribodyn.errors import InputError
 
-# Entries of both triangular factors over n log2 n, largest of levels 2 to 8 with 2 and 3 components a node,
+# Entries of both triangular factors over n log2 n, largest of levels 2 to 8 with 2 and 3 components per node,
 # bytes of each with SuperLU's own working space, and copies of the dense sides and readers held at once:
 # together they meet the peaks measured (22 MB to 960 MB) within a fifth (test_mesh_memory).
 _FILL = {2: 10.5, 3: 12.5}

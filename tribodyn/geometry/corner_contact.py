@@ -118,12 +118,12 @@ def roll_at_gap(assembly: Assembly, gap: float | tuple[float, float]) -> tuple[f
     pitch = assembly.pitch_angle
     gaps = gap if isinstance(gap, tuple) else (gap, gap)
     found = []
-    for limit, outwards, least in zip(assembly.roll_limits, (-1.0, 1.0), gaps, strict=True):
-        low, high = 0.0, pitch if least > 0.0 else 0.0
+    for limit, outwards, smallest in zip(assembly.roll_limits, (-1.0, 1.0), gaps, strict=True):
+        low, high = 0.0, pitch if smallest > 0.0 else 0.0
         # ten steps of 32 intervals at once, as exact as fifty of two
         for _ in range(10):
             tried = np.linspace(low, high, 33)[1:-1]
-            wide = pair_geometry(assembly, limit + outwards * tried).gap > least
+            wide = pair_geometry(assembly, limit + outwards * tried).gap > smallest
             first = int(np.argmax(wide)) if np.any(wide) else len(tried)
             ends = [low, *tried, high]
             low, high = float(ends[first]), float(ends[first + 1])

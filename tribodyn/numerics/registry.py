@@ -15,7 +15,7 @@ FROM_PYTHON = "python:"
 
 
 class Registry(Generic[T]):
-    """Things by name, each imported when it is first asked for.
+    """Things by name, each imported when it is first used.
 
     Parameters
     ----------

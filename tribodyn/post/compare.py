@@ -1,4 +1,4 @@
-"""Records side by side: one table of what they found, and what besides the gears differs between the runs."""
+"""Records side by side: one table of their results, and what besides the gears differs between the runs."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
@@ -105,7 +105,7 @@ def _refuse(records: Sequence[Record]) -> None:
 
 
 def distinct_labels(records: Sequence[Record]) -> list[str]:
-    """Name every record by its file, and by as many folders above as tell it from the others."""
+    """Name every record by its file, and by as many folders above as distinguish it from the others."""
     labels = [record.label for record in records]
     for depth in range(1, max(len(record.path.resolve().parts) for record in records)):
         same = {label for label in labels if labels.count(label) > 1}
@@ -161,7 +161,7 @@ def _differing(conditions: Sequence[Mapping[str, str]]) -> dict[str, tuple[str, 
     if "kind" in different:
         # another kind of study has no such key, which says nothing
         different = {key: value for key, value in different.items() if "–" not in value}
-    # where the titles of two models differ, they tell it better than all the numbers
+    # where the titles of two models differ, they identify it better than all the numbers
     titled = [key for key in different if "." not in key]
     return {
         key: value

@@ -1,7 +1,7 @@
 """Amplitude spectra over whole mesh cycles.
 
-Samples are uniform in the phase of the mesh, so a spectrum is one of orders: its line at order n turns n
-times a mesh cycle whatever the speed does. At constant speed, order times mesh frequency is the frequency.
+Samples are uniform in the phase of the mesh, so a spectrum is one of orders: its line at order n has n
+periods per mesh cycle whatever the speed does. At constant speed, frequency is order times mesh frequency.
 Whole cycles are taken, so harmonics of the mesh fall exactly on lines and no window is needed.
 """
 

@@ -155,7 +155,7 @@ class Record:
 
     @cached_property
     def summary(self) -> dict[str, Any]:
-        """What the run found; names that hold `/` become nested dictionaries."""
+        """Results of the run; names that hold `/` become nested dictionaries."""
         nested: dict[str, Any] = {}
         for name, value in attributes(self._file["summary"]).items():
             *parents, leaf = name.split("/")

@@ -237,7 +237,7 @@ def _write_scale(file: h5py.File, name: str, variable: Variable, values: Sequenc
 
 
 def _case_place(dataset: h5py.Dataset, dims: int) -> layout.Place:
-    """Where a dataset lies, with a row a case."""
+    """Where a dataset lies, with one row per case."""
     row = dataset.shape[dims:]
     stride = dataset.dtype.itemsize * int(np.prod(row, dtype=int))
     return layout.Place(layout.place_of(dataset).offset, stride, row)

@@ -47,7 +47,7 @@ class LawTable(Table, extra="allow"):
 
     @model_validator(mode="after")
     def known_law_and_keys(self) -> Self:
-        """Hold the law's name and the law's own keys to the registry and the law."""
+        """Check the law's name against the registry, and its own keys against the law."""
         errors = law_errors(self)
         if not errors:
             return self

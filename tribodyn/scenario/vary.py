@@ -39,7 +39,7 @@ class Axis(NamedTuple):
     key : str
         Its dotted key in the scenario.
     name : str
-        The last part of the key, or as much of it as tells the axes apart; names the record's dimension.
+        The last part of the key, or as much of it as distinguishes the axes; names the record's dimension.
     written : tuple
         The values as TOML would hold them.
     values : tuple of float, or tuple of str

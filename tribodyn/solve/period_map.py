@@ -23,7 +23,7 @@ class Marched(NamedTuple):
     states : (R, periods, N)
         After one, two, … periods; NaN from a failure on.
     reasons : list of str
-        One a row, empty where all went well.
+        One per row, empty where all went well.
     """
 
     states: np.ndarray
@@ -76,7 +76,7 @@ def by_differences(
     periods: int,
     scale: np.ndarray,
 ) -> Tangent:
-    """The tangent of a map by one-sided differences: N companions a row, all marched in one batch."""
+    """The tangent of a map by one-sided differences: N companions per row, all marched in one batch."""
     rows, size = states.shape
     shift = DIFFERENCE * scale[cases]
     moved = states[:, None, :] + shift[:, :, None] * np.eye(size)

@@ -1,7 +1,7 @@
 """Steady states of periodically driven systems: march, recognise the period, shoot, judge the stability.
 
 Written over `period_map.PeriodMap`, so that the gear model and the backlash oscillator share it. A system is
-marched until its states once a period repeat, or until their contraction tells that Newton's method would get
+marched until its states once a period repeat, or until their contraction shows that Newton's method would get
 there sooner; a state that shooting found is taken only if it is stable and near what marching was heading
 for, otherwise marching goes on. An unstable state that marching leaves is not returned as an average.
 """
@@ -25,7 +25,7 @@ BLOCK = 12
 #: from afar too where marching on would take twice the maps of the derivatives that shooting should need.
 NEAR = 1e-3
 DERIVATIVES = 2
-#: Distance within which what shooting found is what marching had come to, whatever the last periods did.
+#: Distance within which the result of shooting is that of marching, whatever the last periods did.
 THERE = 1e-5
 #: Changes of a motion that falls no further, over the scale, which may be the integration's own noise: where
 #: contact opens and closes marching at 1e-6 leaves up to a few 1e-4. It is marched finely from then on; and

@@ -1,4 +1,4 @@
-"""A gear pair without a scenario: from a drive file, or out of any scenario, to what its geometry needs."""
+"""A gear pair without a scenario: from a drive file, or from any scenario, to what its geometry needs."""
 
 from collections.abc import Mapping
 from pathlib import Path

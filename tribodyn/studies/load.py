@@ -46,7 +46,7 @@ def load_scenario(scenario: str | Path, overrides: Mapping[str, Any] | None = No
     Raises
     ------
     InputError
-        Anything that is wrong with it; `InputErrors`, one a line, where there is more than one mistake.
+        Anything that is wrong with it; `InputErrors`, one per line, where there is more than one mistake.
     """
     return load(scenario, overrides).case
 

@@ -1,4 +1,4 @@
-"""Figures, summaries and comparisons of records, asked of their studies."""
+"""Figures, summaries and comparisons of records, as their studies make them."""
 
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any

@@ -1,4 +1,4 @@
-"""What is behind figures 1, 5, 6, 8, 9 and 10 of Veciana et al. (2024): arrays by name, units in brackets."""
+"""Data behind figures 1, 5, 6, 8, 9 and 10 of Veciana et al. (2024): arrays by name, units in brackets."""
 
 import math
 
@@ -59,7 +59,7 @@ def efficiencies(law: Law) -> Arrays:
 
 
 def heights() -> Arrays:
-    """Contact height of the pinion and greatest pressure angle against the generating circles."""
+    """Contact height of the pinion and maximum pressure angle against the generating circles."""
     study = Study(1.0, 2e-3, "EHL")
     half = math.pi / PINION_TEETH
     ends = np.array([-half, half]), np.array([0.5, 0.5])

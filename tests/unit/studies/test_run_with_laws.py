@@ -28,9 +28,9 @@ def falling(contact, film, surfaces, parameters):
     return 0.03 + 0.05 * exp(-contact.entrainment / 2.0)
 
 
-def closure(least):
+def closure(minimum):
     def coefficient(contact, film, surfaces, parameters):
-        return least + 0.05 * exp(-contact.entrainment / 2.0)
+        return minimum + 0.05 * exp(-contact.entrainment / 2.0)
 
     return coefficient
 

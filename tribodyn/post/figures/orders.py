@@ -19,7 +19,7 @@ NAME = "orders"
 WINDOW, HOP = 16, 4
 #: Orders of the mesh shown, and those followed in the lower panel.
 SHOWN, FOLLOWED = 8.0, 4
-#: Amplitudes below this part of the greatest are off the scale.
+#: Amplitudes below this part of the maximum are off the scale.
 FLOOR = 1e-3
 #: A speed that changes by more than this share is worth tracking.
 CHANGING = 0.05
@@ -116,9 +116,9 @@ def orders_figure(records: Sequence[Record], view: View) -> Figure:
 
 
 def _draw_map(figure: Figure, axes: Axes, x: np.ndarray, found: Track) -> None:
-    greatest = float(found.amplitudes.max()) * 1e6
-    norm = LogNorm(FLOOR * greatest, greatest) if greatest > 0 else None
-    shown = np.maximum(found.amplitudes.T * 1e6, FLOOR * greatest)
+    maximum = float(found.amplitudes.max()) * 1e6
+    norm = LogNorm(FLOOR * maximum, maximum) if maximum > 0 else None
+    shown = np.maximum(found.amplitudes.T * 1e6, FLOOR * maximum)
     image = axes.pcolormesh(
         x, found.orders, shown, norm=norm, cmap="viridis", shading="nearest", rasterized=True
     )

@@ -82,7 +82,7 @@ def jumps(values: np.ndarray, periodic: np.ndarray) -> list[int]:
 
 
 def _multipliers(records: Sequence[Record]) -> Figure:
-    """Greatest modulus, and its angle, of the Floquet multipliers."""
+    """Largest modulus, and its angle, of the Floquet multipliers."""
     drawn = new_figure(WIDTH, 2 * PANEL_HEIGHT)
     upper, lower = drawn.subplots(2, 1, sharex=True)
     for number, record in enumerate(records):
@@ -93,7 +93,7 @@ def _multipliers(records: Sequence[Record]) -> Figure:
             upper.plot(record["frequency"], modulus, color=color, linestyle=LINES[direction])
             lower.plot(record["frequency"], angle, color=color, linestyle=LINES[direction])
     upper.axhline(1.0, color=INK, linewidth=0.7)
-    upper.set_ylabel("Greatest multiplier, modulus")
+    upper.set_ylabel("Largest multiplier, modulus")
     upper.set_ylim(bottom=0)
     lower.set_ylabel("its angle (°)")
     lower.set_yticks(range(0, 181, 45))

@@ -12,9 +12,9 @@ from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.motion import (
     BACK,
     FREE,
-    GREATEST,
     INTEGRAL,
-    LEAST,
+    MAXIMUM,
+    MINIMUM,
     SQUARE,
     OscillatorMap,
 )
@@ -61,7 +61,7 @@ class Response(NamedTuple):
     displacement, velocity : (F, 2)
         State where cos Ωτ = 1: on the steady orbit, or where marching ended.
     messages : list of (frequency, direction, text)
-        What is to be said of single points.
+        Remarks on single points.
     """
 
     frequency: np.ndarray
@@ -142,7 +142,7 @@ def _put(found: Response, place: int, direction: int, orbit: Orbit, oscillator: 
     mean = figures[INTEGRAL] / duration
     found.mean[at] = mean
     found.rms[at] = np.sqrt(max(figures[SQUARE] / duration - mean * mean, 0.0))
-    found.peak_to_peak[at] = figures[GREATEST] - figures[LEAST]
+    found.peak_to_peak[at] = figures[MAXIMUM] - figures[MINIMUM]
     found.free[at], found.back[at] = figures[FREE] / duration, figures[BACK] / duration
     found.kind[at] = STABLE if orbit.stable else UNSTABLE if orbit.kind == "unstable" else NOT_PERIODIC
     found.period[at] = orbit.period if orbit.stable else 0

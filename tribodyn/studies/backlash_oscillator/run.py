@@ -25,7 +25,7 @@ from tribodyn.studies.study import Progress, RunResult
 #: Relative difference of the RMS above which the ways up and down count as different branches: hundreds of
 #: times what the residuals leave.
 APART = 1e-3
-#: How many single points the summary says something of.
+#: Maximum number of single points that the summary remarks on.
 REMARKS = 3
 
 
@@ -90,13 +90,13 @@ def response_figures(response: Response) -> dict[str, Any]:
         "points_unstable_state": int(np.sum(kind == UNSTABLE)),
         "points_failed": int(np.sum(kind == FAILED)),
         "points_of_longer_period": int(np.sum(response.period > 1)),
-        "residual_max": _greatest(response.residual[kind == STABLE]),
+        "residual_max": _maximum(response.residual[kind == STABLE]),
     }
     if np.any(np.isfinite(rms)):
         place = np.unravel_index(np.nanargmax(rms), rms.shape)
         found |= {"rms_max": float(rms[place]), "rms_max_frequency": float(frequency[place[0]])}
-        found["contact_loss_fraction_max"] = _greatest(response.free)
-        found["back_contact_fraction_max"] = _greatest(response.back)
+        found["contact_loss_fraction_max"] = _maximum(response.free)
+        found["back_contact_fraction_max"] = _maximum(response.back)
     losing = np.flatnonzero(np.any(np.nan_to_num(response.free) > 0.0, axis=1))
     if losing.size:
         found |= {
@@ -125,6 +125,6 @@ def branches_apart(response: Response) -> np.ndarray:
     return apart & np.all(response.kind == STABLE, axis=1)
 
 
-def _greatest(values: np.ndarray) -> float | None:
+def _maximum(values: np.ndarray) -> float | None:
     finite = values[np.isfinite(values)]
     return float(np.max(finite)) if finite.size else None

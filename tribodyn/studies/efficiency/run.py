@@ -172,10 +172,10 @@ def _figures(study: Prepared, mesh: Places, state: Engagement) -> dict[str, Any]
     share = 1.0 / len(state.power_in[:-1])
     balance = means.power_in - means.power_out - means.power_friction
 
-    def greatest(values: np.ndarray) -> float:
+    def maximum(values: np.ndarray) -> float:
         return float(np.max(values[loaded]))
 
-    def least(values: np.ndarray) -> float:
+    def minimum(values: np.ndarray) -> float:
         return float(np.min(values[loaded]))
 
     return {
@@ -183,11 +183,11 @@ def _figures(study: Prepared, mesh: Places, state: Engagement) -> dict[str, Any]
         **_effective_contact_ratio(mesh, state, duty),
         "load_sharing": duty.sharing,
         "mesh_frequency": duty.pinion_speed / float(cycle.pitch_angle),
-        "normal_load_max": greatest(state.normal_load),
-        "film_min": least(state.central_film_thickness),
-        "film_parameter_min": least(state.central_film_thickness) / duty.closure.surfaces.roughness,
-        "hertz_pressure_max": greatest(state.hertz_pressure),
-        "flash_temperature_max": greatest(state.flash_temperature_rise),
+        "normal_load_max": maximum(state.normal_load),
+        "film_min": minimum(state.central_film_thickness),
+        "film_parameter_min": minimum(state.central_film_thickness) / duty.closure.surfaces.roughness,
+        "hertz_pressure_max": maximum(state.hertz_pressure),
+        "flash_temperature_max": maximum(state.flash_temperature_rise),
         "friction_coefficient_mean": means.friction_coefficient,
         "friction_force_mean": np.sum(np.abs(state.friction_force[:-1]), axis=0) * share,
         **law_figures(study.case),

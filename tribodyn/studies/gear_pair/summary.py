@@ -36,7 +36,7 @@ class RunningExtremes:
 
 
 def energy_residual(first: np.ndarray, last: np.ndarray, stored: float) -> float:
-    """What the energy balance misses over a run, as a share of the work done by the drive.
+    """Residual of the energy balance over a run, as a share of the work done by the drive.
 
     W_in + W_parametric − W_out − W_friction − W_damping − ΔE from the first to the last state; `stored` is
     ΔE, J.

@@ -1,6 +1,6 @@
 """Figures 1, 5, 6, 8, 9 and 10 of Veciana et al., Machines 12 (2024) 943.
 
-The mixed law is drawn in both readings: A as printed, B with Roelands' law at the greatest pressure and each
+The mixed law is drawn in both readings: A as printed, B with Roelands' law at the maximum pressure and each
 surface's own speed in the Péclet numbers. Dotted curves of cycloids have the motion of the contact along the
 path in the rolling speeds, which the paper leaves out.
 """
@@ -93,7 +93,7 @@ def figure_8(arrays: Arrays) -> Figure:
     other.grid(False)
     (height,) = axes.plot(circle, 1e3 * arrays["height [m]"], color=PALETTE[0], label="contact height")
     angles = np.degrees(arrays["angle [rad]"])
-    (angle,) = other.plot(circle, angles, color=PALETTE[1], label="greatest pressure angle")
+    (angle,) = other.plot(circle, angles, color=PALETTE[1], label="maximum pressure angle")
     involute = 1e3 * float(arrays["involute height [m]"])
     axes.axhline(involute, color=PALETTE[0], linestyle=":", linewidth=0.9)
     other.axhline(20.0, color=PALETTE[1], linestyle=":", linewidth=0.9)

@@ -16,7 +16,7 @@ from tribodyn.post.style import PALETTE, QUIET
 from tribodyn.record.sweep_reader import Parameter, SweepRecord
 from tribodyn.record.sweep_schema import DONE
 
-#: Branches that a figure tells apart; of more, so many are shown.
+#: Maximum number of branches in a figure; of more, this many are shown.
 MOST_BRANCHES = 6
 UP, DOWN = "-", (0, (3, 1.5))
 #: Shade of the range in which contact is lost.
@@ -42,7 +42,7 @@ class Branch(NamedTuple):
     style : str or tuple
         Line style: solid upwards and for single cases, dashed downwards.
     label : str
-        What tells it apart, but for the direction.
+        What distinguishes it, except the direction.
     direction : str
         "up", "down" or "".
     """
@@ -113,14 +113,14 @@ def _value(parameter: Parameter, index: int) -> str:
 
 
 def named(branch: Branch) -> str:
-    """What tells a branch apart, its direction included; empty where there is only one."""
+    """What distinguishes a branch, its direction included; empty where there is only one."""
     return ", ".join(word for word in (branch.label, branch.direction) if word)
 
 
 def draw_branch(axes: Axes, branch: Branch, values: np.ndarray) -> None:
-    """Draw a curve, broken where cases failed, with dots where they can be told apart: hollow downwards.
+    """Draw a curve, broken where cases failed, with dots where they can be distinguished: hollow downwards.
 
-    Where the motion does not repeat with the mesh there is a greater mark, by `MOTIONS`.
+    Where the motion does not repeat with the mesh there is a larger mark, by `MOTIONS`.
     """
     marker = "o" if len(branch.x) <= 80 else ""
     axes.plot(

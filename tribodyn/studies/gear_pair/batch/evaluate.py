@@ -1,4 +1,4 @@
-"""What becomes of a handful of cases: prepared, brought to their steady state or marched, summed up.
+"""Evaluation of a few cases: prepared, brought to their steady state or marched, summed up.
 
 A pure function of plain data, so that it runs in this process or in another one on another machine, and gives
 the same numbers in both. Nothing of a case depends on the others that it is evaluated with.
@@ -40,7 +40,7 @@ class Settings(NamedTuple):
     window : int
         Mesh cycles that the figures are taken from.
     points : int
-        Points of the Poincaré section, one a mesh cycle.
+        Points of the Poincaré section, one per mesh cycle.
     samples : int
         Samples in a mesh cycle.
     modes : int
@@ -65,7 +65,7 @@ def evaluate(chunk: Chunk, settings: Settings, workers: int | None = None) -> di
     chunk : Chunk
     settings : Settings
     workers : int, optional
-        Threads; by default one a core.
+        Threads; by default one per core.
     """
     rows = layout_of(settings).empty_rows(len(chunk.cases))
     ready: dict[int, tuple[Prepared, np.ndarray]] = {}
@@ -120,7 +120,7 @@ def _solve(
 def _fill(
     rows: dict[str, np.ndarray], i: int, prepared: Prepared, outcome: Outcome, settings: Settings
 ) -> None:
-    """Put what a case came to into its row."""
+    """Put the outcome of a case into its row."""
     for name in ("period", "stable", "multiplier_max", "residual", "cycles", "solution", "message"):
         rows[name][i] = getattr(outcome, name)
     if outcome.passage is None:

@@ -1,4 +1,4 @@
-"""The figures of one case, out of its way through the window."""
+"""The figures of one case, from its states in the window."""
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from tribodyn.studies.gear_pair.sweep_layout import FIGURES
 
 
 def window_figures(prepared: Prepared, passage: Passage, samples: int) -> dict[str, float]:
-    """Return the figures of `sweep_layout.FIGURES` over a window with `samples` a mesh cycle, SI units."""
+    """Return the figures of `sweep_layout.FIGURES` over a window with `samples` per mesh cycle, SI units."""
     cycles = passage.first_cycle + np.arange(len(passage.window)) / samples
     block = outputs(cycles, passage.window, prepared.model)
     extremes = RunningExtremes()
