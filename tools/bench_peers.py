@@ -87,7 +87,7 @@ def single(wanted: Callable[[str], bool], repeats: int) -> str:
     integrator = make_integrator("dopri5", posed.model, SAMPLES, posed.tolerances(1e-9))
     visited = integrator.integrate(posed.state, 0, 2).samples[:-1]
     same = check(posed.model, visited, np.arange(len(visited)) % SAMPLES / SAMPLES)
-    found = []
+    timings = []
     for name, run in peers().items():
         if wanted(name):
             one = _timed(name, run, posed, exact, repeats)
@@ -95,10 +95,10 @@ def single(wanted: Callable[[str], bool], repeats: int) -> str:
                 f"{one.name:24s} rtol {one.rtol:.0e}  error {one.error:.1e}  {1e3 * one.seconds:.2f} ms",
                 flush=True,
             )
-            found.append(one)
-    ours = next((one for one in found if one.name == "tribodyn dopri5"), None)
+            timings.append(one)
+    ours = next((one for one in timings if one.name == "tribodyn dopri5"), None)
     rows = ["| program | rtol | error | ms | times ours |", "|---|--:|--:|--:|--:|"]
-    for one in sorted(found, key=lambda one: one.seconds):
+    for one in sorted(timings, key=lambda one: one.seconds):
         ratio = f"{one.seconds / ours.seconds:.3g}" if ours else ""
         rows.append(f"| {one.name} | {one.rtol:.0e} | {one.error:.1e} | {1e3 * one.seconds:.3g} | {ratio} |")
     rows += [

@@ -25,8 +25,8 @@ CRC, INVOLUTE, DRY = "crc-23-47", "involute-23-47", "crc-23-47-frictionless"
 
 #: Enough: at 10 rad/s the start has died out within one mesh cycle; the figures are those of the last one.
 CYCLES = 4
-#: At 10 rad/s the mesh vibrates some fifty times in one mesh cycle: means need more than the 200 samples of the
-#: shipped scenarios, four per period.
+#: At 10 rad/s the mesh vibrates some fifty times per mesh cycle: means need more than the 200 samples of
+#: the shipped scenarios, four per period.
 SAMPLES = 2000
 
 

@@ -97,7 +97,7 @@ MISTAKES = {
         ("drive.material.poisson_ratio=0.5",),
         "drive.material.poisson_ratio = 0.5",
         "must be less than 0.5",
-        "lesser",
+        "smaller",
     ),
     "modulus": (
         ("drive.material.youngs_modulus=0 GPa",),

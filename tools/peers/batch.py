@@ -48,10 +48,10 @@ def lanes(models: Sequence[Model], states: Array, cycles: int, rtol: float) -> A
 
 
 def _together(method: str, models: Sequence[Model], states: Array, cycles: int, rtol: float) -> Array:
-    found = ensemble.march(
+    result = ensemble.march(
         models, states, cycles=cycles, window=WINDOW, samples=SAMPLES, rtol=rtol, method=method
     )
-    return found.samples[..., XI]
+    return result.samples[..., XI]
 
 
 def threads(method: str) -> Callable[[Sequence[Model], Array, int, float], Array]:
@@ -59,8 +59,8 @@ def threads(method: str) -> Callable[[Sequence[Model], Array, int, float], Array
 
     def march(models: Sequence[Model], states: Array, cycles: int, rtol: float) -> Array:
         settings = ensemble.March(0, cycles, WINDOW, SAMPLES, False, rtol, 10**6)
-        found = ensemble.one_by_one(models, states, method, settings, ensemble.usable_cores())
-        return found.samples[..., XI]
+        result = ensemble.one_by_one(models, states, method, settings, ensemble.usable_cores())
+        return result.samples[..., XI]
 
     return march
 

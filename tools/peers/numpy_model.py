@@ -132,13 +132,13 @@ class NumpyModel:
 def check(model: Model, states: Array, phases: Array) -> float:
     """Maximum difference from tribodyn's right-hand side, over each rate's maximum, at given states."""
     ours = NumpyModel(model)
-    expected, found = [], []
+    expected, computed = [], []
     for phase, state in zip(phases, states, strict=True):
         segment = int(np.searchsorted(ours.boundary, phase, side="right")) - 1
         full, rates = np.zeros(STATES), {}
         full[MOVING] = state[MOVING]
         derivatives(float(phase), 0.0, segment, full, model, {}, rates)
         expected.append([rates[i] for i in MOVING])
-        found.append(ours(float(phase), full[MOVING], segment))
-    difference = np.abs(np.array(found) - np.array(expected))
+        computed.append(ours(float(phase), full[MOVING], segment))
+    difference = np.abs(np.array(computed) - np.array(expected))
     return float(np.max(difference / np.max(np.abs(expected), axis=0)))

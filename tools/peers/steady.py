@@ -83,9 +83,9 @@ def sweep(speeds: Grid, workers: int | None = None) -> Ours:
     """What `tribodyn sweep --steady` does, file included."""
     with TemporaryDirectory() as folder:
         begun = process_time()
-        found = run(speeds, settings_of(speeds), Local(workers), Path(folder) / "steady.h5")
+        result = run(speeds, settings_of(speeds), Local(workers), Path(folder) / "steady.h5")
         seconds = process_time() - begun
-        with SweepRecord(found.path) as record:
+        with SweepRecord(result.path) as record:
             names, counts = np.unique(record["solution"], return_counts=True)
             return Ours(
                 seconds,

@@ -126,14 +126,14 @@ def maximum_along_lead(assembly: Assembly, modifications: Modifications) -> tupl
     """Key and value of what opens the flanks most along the face: an angle of the axes, or a relief."""
     width = min(float(body_of(assembly.drive, side).face_width) for side in SIDES)
     ends, geometry = np.array([-width, width]) / 2.0, pair_geometry(assembly, np.array(assembly.roll_limits))
-    found = []
+    openings = []
     for name, angle in modifications.misalignment._asdict().items():
         opened = np.max(np.abs(misalignment_gap(assembly, Misalignment(**{name: angle}), geometry, ends)))
-        found.append((opened, f"mesh.misalignment.{name}", f"{np.degrees(angle) * 60:.6g} arcmin"))
+        openings.append((opened, f"mesh.misalignment.{name}", f"{np.degrees(angle) * 60:.6g} arcmin"))
     for side in SIDES:
         for name, amount in lead_amounts(getattr(modifications, side).lead).items():
-            found.append((amount, f"drive.{side}.modification.{name}", f"{amount * 1e6:.6g} um"))
-    return max(found)[1:]
+            openings.append((amount, f"drive.{side}.modification.{name}", f"{amount * 1e6:.6g} um"))
+    return max(openings)[1:]
 
 
 def relief_rolls(assembly: Assembly, modifications: Modifications) -> list[float]:

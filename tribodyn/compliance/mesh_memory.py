@@ -40,19 +40,19 @@ def memory_needed(level: int, components: int) -> float:
 
 def available_memory() -> float:
     """Bytes that this process can still take; infinite where the system does not say."""
-    found = [np.inf]
+    limits = [np.inf]
     try:
         lines = Path("/proc/meminfo").read_text(encoding="ascii").splitlines()
-        found += [1024.0 * float(line.split()[1]) for line in lines if line.startswith("MemAvailable:")]
+        limits += [1024.0 * float(line.split()[1]) for line in lines if line.startswith("MemAvailable:")]
     except OSError:
         pass
     try:
         limit, used = (path.read_text(encoding="ascii").strip() for path in _LIMITS)
         if limit != "max":
-            found.append(float(limit) - float(used))
+            limits.append(float(limit) - float(used))
     except OSError:
         pass
-    return min(found)
+    return min(limits)
 
 
 def check_level(level: int, components: int) -> None:

@@ -202,9 +202,9 @@ def polynomials(cycle: MeshCycle) -> Polynomials:
     if cycle.compliance.dtype != np.float64:
         raise TypeError(f"the mesh cycle is {cycle.compliance.dtype}, not float64: enable jax_enable_x64")
     angle = {"cosine": xp.cos(cycle.pressure_angle), "sine": xp.sin(cycle.pressure_angle)}
-    found = [angle[name] if name in angle else getattr(cycle, name) for name in CHANNELS]
-    found = [xp.broadcast_to(values, cycle.compliance.shape) for values in found]
-    channels = xp.stack(found, axis=-1)
+    columns = [angle[name] if name in angle else getattr(cycle, name) for name in CHANNELS]
+    columns = [xp.broadcast_to(values, cycle.compliance.shape) for values in columns]
+    channels = xp.stack(columns, axis=-1)
     return Polynomials(
         boundary=cycle.boundary,
         in_contact=cycle.in_contact,

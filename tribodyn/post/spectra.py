@@ -26,11 +26,11 @@ class Spectrum(NamedTuple):
 
     def harmonics(self, count: int) -> np.ndarray:
         """Amplitudes at the mesh orders 1 … count, 0 beyond the last line."""
-        found = np.zeros(count)
+        amplitudes = np.zeros(count)
         whole = (self.orders >= 0.5) & (np.abs(self.orders - np.round(self.orders)) < 1e-9)
         harmonics = self.amplitudes[whole][:count]
-        found[: harmonics.size] = harmonics
-        return found
+        amplitudes[: harmonics.size] = harmonics
+        return amplitudes
 
 
 def amplitude_spectrum(signal: np.ndarray, samples_per_cycle: int) -> Spectrum:

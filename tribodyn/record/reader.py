@@ -89,8 +89,8 @@ class Record:
     def _along(self) -> tuple[str, ...]:
         """The axis, and the datasets along it."""
         names = str(self.attrs["datasets"]).split() if "datasets" in self.attrs else sorted(self._file)
-        found = [name for name in names if self.axis in self._dims(name)[:1]]
-        return self.axis, *(name for name in found if name != self.axis)
+        datasets = [name for name in names if self.axis in self._dims(name)[:1]]
+        return self.axis, *(name for name in datasets if name != self.axis)
 
     def _dims(self, name: str) -> tuple[str, ...]:
         """Names of a dataset's dimensions; none of a group, or of a number."""

@@ -133,8 +133,8 @@ def _block(
     for exactly in (False, True):
         cases = pending[fine == exactly]
         if cases.size:
-            found = period_map.march(so_far.current[cases], cases, BLOCK, exactly)
-            yield from zip(map(int, cases), found.states, found.reasons, strict=True)
+            marched = period_map.march(so_far.current[cases], cases, BLOCK, exactly)
+            yield from zip(map(int, cases), marched.states, marched.reasons, strict=True)
 
 
 def _candidate(so_far: _Progress, case: int, tolerance: float, method: Method) -> int:
@@ -272,11 +272,11 @@ def _last_resort(period_map, so_far: _Progress, late, tolerance, method) -> dict
 
 
 def _shoot_from(period_map, states, tolerance) -> list[Orbit]:
-    found = []
+    orbits = []
     for case, shot in enumerate(shoot(period_map, states, np.arange(len(states)), 1, tolerance)):
-        found.append(
+        orbits.append(
             failed_orbit(shot.state, 0, shot.reason)
             if shot.reason
             else _judge(period_map, shot, case, 1, 0, tolerance)._replace(method="shooting")
         )
-    return found
+    return orbits

@@ -136,14 +136,14 @@ def compare(records: Sequence[Record]) -> "Comparison":
 
 def _compared_lines(studies: Sequence[Study]) -> "dict[str, tuple[Line, ...]]":
     """Heading -> lines that any of the studies compares, in the order of the first that has them."""
-    found: dict[str, dict[str, Any]] = {}
+    headings: dict[str, dict[str, Any]] = {}
     for study in studies:
         lines = study.lines()
         for heading in study.compared:
-            some = found.setdefault(heading, {})
+            some = headings.setdefault(heading, {})
             for line in lines.get(heading, ()):
                 some.setdefault(line.name, line)
-    return {heading: tuple(lines.values()) for heading, lines in found.items()}
+    return {heading: tuple(lines.values()) for heading, lines in headings.items()}
 
 
 def study_of_sweep(record: "SweepRecord") -> Study:

@@ -57,9 +57,9 @@ def chained_steps(
             cases = tuple(case_or_reason(grid, grid.flat(places[i])) for i in chosen)
             chunks.append(Chunk(numbers[chosen], cases, states[chosen]))
         yield chunks
-        status, found = recorded(numbers)
+        status, final = recorded(numbers)
         good = status == DONE
-        states[good] = found[good]
+        states[good] = final[good]
 
 
 def case_or_reason(grid: Grid, number: int) -> Any:

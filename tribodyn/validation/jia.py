@@ -121,7 +121,7 @@ def _families() -> dict[str, tuple[Any, str]]:
     ours, theirs = (maximum_line_load(name).value for name in ("parabolic", "involute"))
     pressure = [maximum_pressure(name).value for name in ("parabolic", "involute")]
     away = [maximum_pressure(name, away=_NEAR).value for name in ("parabolic", "involute")]
-    found: dict[str, tuple[Any, str]] = {
+    compared: dict[str, tuple[Any, str]] = {
         "jia/ratio-contact": (
             ours / theirs,
             f"ratio of maximum line loads, {ours / 1e3:.0f} and {theirs / 1e3:.0f} N/mm. Hertz pressure "
@@ -132,10 +132,10 @@ def _families() -> dict[str, tuple[Any, str]]:
     }
     for key, tension in (("compression", False), ("tension", True)):
         parabolic, involute = (maximum_root_stress(name, tension) for name in ("parabolic", "involute"))
-        found[f"jia/ratio-{key}"] = (
+        compared[f"jia/ratio-{key}"] = (
             max(parabolic) / max(involute),
             "maximum root stress of pinion, gear: "
             f"parabolic {parabolic[0] / 1e6:.0f}, {parabolic[1] / 1e6:.0f} MPa, "
             f"involute {involute[0] / 1e6:.0f}, {involute[1] / 1e6:.0f} MPa",
         )
-    return found
+    return compared

@@ -109,6 +109,6 @@ def by_module() -> Arrays:
                 "cycloid": [study.cycloid(CHOSEN) for study in studies],
                 "cycloid, exact speeds": [study.cycloid(CHOSEN, exact_speeds=True) for study in studies],
             }
-            for name, found in values.items():
-                arrays[f"{law}, i = {ratio:g}, {name} [1]"] = np.array(found, dtype=float)
+            for name, efficiency in values.items():
+                arrays[f"{law}, i = {ratio:g}, {name} [1]"] = np.array(efficiency, dtype=float)
     return arrays

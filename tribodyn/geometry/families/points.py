@@ -53,8 +53,8 @@ class PointsPath(NamedTuple):
 
     def _interval(self, r: PerContact) -> Int[Array, "*contact"]:
         xp = namespace(self, r)
-        found = xp.searchsorted(self.knots, r, side="right") - 1
-        return xp.clip(found, 0, self.knots.shape[0] - 2)
+        interval = xp.searchsorted(self.knots, r, side="right") - 1
+        return xp.clip(interval, 0, self.knots.shape[0] - 2)
 
     def _cubic(self, r: PerContact, interval: Int[Array, "..."]) -> tuple[PerContact, PerContact]:
         """Angle and slope; held at the ends."""

@@ -179,12 +179,12 @@ def _gather(context, builder, signature, values):
     if table.shared:
         place = builder.add(builder.extract_element(address, INT64(0)), offset)
         return builder.load(builder.inttoptr(place, DOUBLE.as_pointer()))
-    found = ir.Constant(FLOATS, ir.Undefined)
+    vector = ir.Constant(FLOATS, ir.Undefined)
     for lane in range(WIDTH):
         place = builder.add(builder.extract_element(address, INT64(lane)), offset)
         value = builder.load(builder.inttoptr(place, DOUBLE.as_pointer()))
-        found = builder.insert_element(found, value, INT64(lane))
-    return found
+        vector = builder.insert_element(vector, value, INT64(lane))
+    return vector
 
 
 @intrinsic

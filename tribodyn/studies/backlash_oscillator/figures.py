@@ -73,12 +73,12 @@ def jumps(values: np.ndarray, periodic: np.ndarray) -> list[int]:
     step = np.abs(np.diff(values))
     both = periodic[:-1] & periodic[1:]
     spread = np.nanmax(values, initial=0.0) - np.nanmin(values, initial=np.inf)
-    found = []
+    places = []
     for i in np.flatnonzero(both & (np.nan_to_num(step) > 0.1 * spread)):
         beside = [step[j] for j in (i - 1, i + 1) if 0 <= j < len(step) and np.isfinite(step[j])]
         if len(step) > 2 and beside and step[i] > 10.0 * min(beside):
-            found.append(int(i))
-    return found
+            places.append(int(i))
+    return places
 
 
 def _multipliers(records: Sequence[Record]) -> Figure:

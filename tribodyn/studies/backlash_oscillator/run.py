@@ -84,7 +84,7 @@ def record_arrays(response: Response) -> dict[str, Any]:
 def response_figures(response: Response) -> dict[str, Any]:
     """Figures of the whole sweep."""
     frequency, rms, kind = response.frequency, response.rms, response.kind
-    found: dict[str, Any] = {
+    summary: dict[str, Any] = {
         "points": int(kind.size),
         "points_not_periodic": int(np.sum((kind == NOT_PERIODIC) | (kind == UNSTABLE))),
         "points_unstable_state": int(np.sum(kind == UNSTABLE)),
@@ -94,27 +94,27 @@ def response_figures(response: Response) -> dict[str, Any]:
     }
     if np.any(np.isfinite(rms)):
         place = np.unravel_index(np.nanargmax(rms), rms.shape)
-        found |= {"rms_max": float(rms[place]), "rms_max_frequency": float(frequency[place[0]])}
-        found["contact_loss_fraction_max"] = _maximum(response.free)
-        found["back_contact_fraction_max"] = _maximum(response.back)
+        summary |= {"rms_max": float(rms[place]), "rms_max_frequency": float(frequency[place[0]])}
+        summary["contact_loss_fraction_max"] = _maximum(response.free)
+        summary["back_contact_fraction_max"] = _maximum(response.back)
     losing = np.flatnonzero(np.any(np.nan_to_num(response.free) > 0.0, axis=1))
     if losing.size:
-        found |= {
+        summary |= {
             "contact_loss_from": float(frequency[losing[0]]),
             "contact_loss_to": float(frequency[losing[-1]]),
         }
     bistable = np.flatnonzero(branches_apart(response))
     if bistable.size:
-        found |= {
+        summary |= {
             "bistable_from": float(frequency[bistable[0]]),
             "bistable_to": float(frequency[bistable[-1]]),
         }
     said = response.messages
     for number, (at, direction, text) in enumerate(said[:REMARKS]):
-        found[f"remark_{number + 1}"] = f"frequency {at:g}, {'up' if direction == UP else 'down'}: {text}"
+        summary[f"remark_{number + 1}"] = f"frequency {at:g}, {'up' if direction == UP else 'down'}: {text}"
     if len(said) > REMARKS:
-        found["remarks_more"] = len(said) - REMARKS
-    return found
+        summary["remarks_more"] = len(said) - REMARKS
+    return summary
 
 
 def branches_apart(response: Response) -> np.ndarray:

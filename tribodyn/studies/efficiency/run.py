@@ -121,14 +121,14 @@ def efficiencies(
     What is `known` by its load sharing is not computed again. A load sharing that does not fit the teeth, and
     Höhn's formula where friction is not one mean coefficient, are left out.
     """
-    found = {}
+    results = {}
     for sharing in SHARINGS:
         duty = study.duty._replace(sharing=sharing)
         try:
             means = known.get(sharing) or cycle_efficiency(study.cycle, study.path, duty, flanks=study.flanks)
         except InputError:
             continue
-        found[f"efficiency_{sharing.replace('-', '_')}"] = means.efficiency
+        results[f"efficiency_{sharing.replace('-', '_')}"] = means.efficiency
     case, duty = study.case, study.duty
     ratio = float(study.cycle.gear_pitch_radius) / float(study.cycle.pinion_pitch_radius)
     single = torque_ratio(
@@ -138,8 +138,8 @@ def efficiencies(
         float(study.cycle.face_width),
         duty.closure,
     )
-    found["efficiency_torque_ratio"] = float(single.efficiency)
-    return found | _by_loss_factor(study)
+    results["efficiency_torque_ratio"] = float(single.efficiency)
+    return results | _by_loss_factor(study)
 
 
 def _by_loss_factor(study: Prepared) -> dict[str, float]:
@@ -150,10 +150,10 @@ def _by_loss_factor(study: Prepared) -> dict[str, float]:
     tips = tip_contact_ratios(family(case.family), case.drive)
     teeth, ratio = case.drive.pinion.teeth, case.drive.gear.teeth / case.drive.pinion.teeth
     factor = exact(*tips, teeth, ratio)
-    found = {"loss_factor": factor, "efficiency_loss_factor": 1.0 - coefficient * factor}
+    results = {"loss_factor": factor, "efficiency_loss_factor": 1.0 - coefficient * factor}
     if max(tips) <= 1.0 <= sum(tips):
-        found["efficiency_hoehn"] = 1.0 - coefficient * hoehn(*tips, teeth, ratio)
-    return found
+        results["efficiency_hoehn"] = 1.0 - coefficient * hoehn(*tips, teeth, ratio)
+    return results
 
 
 def _effective_contact_ratio(mesh: Places, state: Engagement, duty: Duty) -> dict[str, float]:

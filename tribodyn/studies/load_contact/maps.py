@@ -34,8 +34,8 @@ def draw_map(axes: Axes, records: Sequence[Record], record: Record, quantity: Ov
     A cross marks the maximum value, unless it is the same all along the face.
     """
     top = max(float(np.max(one[quantity.dataset])) for one in records) * quantity.factor
-    found = face_map(record, quantity.dataset)
-    roll, values = np.degrees(found.roll), found.values * quantity.factor
+    face_values = face_map(record, quantity.dataset)
+    roll, values = np.degrees(face_values.roll), face_values.values * quantity.factor
     middles = (roll[1:] + roll[:-1]) / 2
     edges = np.concatenate([[2 * roll[0] - middles[0]], middles, [2 * roll[-1] - middles[-1]]])
     mesh = axes.pcolormesh(
@@ -44,7 +44,7 @@ def draw_map(axes: Axes, records: Sequence[Record], record: Record, quantity: Ov
     at = np.unravel_index(np.argmax(values), values.shape)
     if np.ptp(values[at[0]]) > _EVEN * top:
         for color, width in (("white", 2.4), (INK, 1.0)):
-            place = roll[at[0]], found.face[at[1]] * 1e3
+            place = roll[at[0]], face_values.face[at[1]] * 1e3
             axes.plot(*place, "x", color=color, markersize=6, markeredgewidth=width)
     axes.axvline(0.0, color="white", linewidth=0.7, linestyle=":")
     axes.grid(visible=False)

@@ -64,10 +64,10 @@ def surfaces(law: Law, arrays: Arrays) -> Figure:
     figure = new_figure(8.2, 5.0)
     panels = figure.subplots(2, 3, sharex=True, sharey=True)
     keys = [drive_key(*drive) for drive in DRIVES]
-    found = [100.0 * arrays[f"{key} [1]"] for key in keys]
-    steps = np.linspace(min(map(np.min, found)), max(map(np.max, found)), 15)
+    percentages = [100.0 * arrays[f"{key} [1]"] for key in keys]
+    steps = np.linspace(min(map(np.min, percentages)), max(map(np.max, percentages)), 15)
     filled: Any = None
-    for letter, axes, key, values in zip("abcdef", panels.flat, keys, found, strict=True):
+    for letter, axes, key, values in zip("abcdef", panels.flat, keys, percentages, strict=True):
         filled = axes.contourf(approach, recess, values, levels=steps, cmap="viridis")
         level = 100.0 * float(arrays[f"involute, {key} [1]"])
         axes.contour(approach, recess, values, levels=[level], colors=[PALETTE[1]], linewidths=2.0)

@@ -75,7 +75,7 @@ def branches(records: Sequence[SweepRecord]) -> list[Branch]:
         raise InputError(
             "record", str(records[1].path), f"other first parameters: {', '.join(sorted(keys))}", "draw apart"
         )
-    found = []
+    curves = []
     for record in records:
         first, *others = record.parameters
         if first.values.dtype.kind not in "fi":
@@ -87,11 +87,11 @@ def branches(records: Sequence[SweepRecord]) -> list[Branch]:
             label = ", ".join(_value(one, i) for one, i in zip(others, place, strict=True))
             if len(records) > 1:
                 label = f"{record.label}, {label}" if label else record.label
-            found.append((record, place, label))
-    keep = np.unique(np.linspace(0, len(found) - 1, min(len(found), MOST_BRANCHES)).round().astype(int))
+            curves.append((record, place, label))
+    keep = np.unique(np.linspace(0, len(curves) - 1, min(len(curves), MOST_BRANCHES)).round().astype(int))
     drawn = []
     for number, chosen in enumerate(keep):
-        record, place, label = found[chosen]
+        record, place, label = curves[chosen]
         for d, direction in enumerate(record.directions or ("",)):
             index = (slice(None), *place, *((d,) if direction else ()))
             style = DOWN if direction == "down" else UP

@@ -168,14 +168,14 @@ def _start(prepared: Prepared, settings: Settings) -> np.ndarray:
     speedless = model.mechanics._replace(nominal_speed=0.0)
     key = (id(model.table), model.options, *(np.asarray(value).tobytes() for value in speedless))
     with _lock:
-        found = _equilibria.get(key)
-    if found is None or found[0] is not model.table:
-        found = model.table, static_equilibrium(frictionless(model))
+        kept = _equilibria.get(key)
+    if kept is None or kept[0] is not model.table:
+        kept = model.table, static_equilibrium(frictionless(model))
         with _lock:
-            _equilibria[key] = found
+            _equilibria[key] = kept
             while len(_equilibria) > TABLES_KEPT:
                 _equilibria.popitem(last=False)
-    return found[1].copy()
+    return kept[1].copy()
 
 
 _equilibria: OrderedDict[Hashable, tuple[Any, np.ndarray]] = OrderedDict()

@@ -17,11 +17,11 @@ def window_figures(prepared: Prepared, passage: Passage, samples: int) -> dict[s
     extremes = RunningExtremes()
     extremes.add(block)
     error = passage.window[:, XI]
-    found = steady_figures(block, passage.end - passage.start, prepared.cycle, samples)
+    figures = steady_figures(block, passage.end - passage.start, prepared.cycle, samples)
     # a run's summary means the newest pair's; over a sweep only the error of the whole mesh is continuous
-    found |= extremes.values | {
+    figures |= extremes.values | {
         "transmission_error_rms": float(np.std(error)),
         "transmission_error_peak_to_peak": float(np.ptp(error)),
         "transmission_error_mean": float(np.mean(error)),
     }
-    return {name: float("nan") if (value := found.get(name)) is None else value for name in FIGURES}
+    return {name: float("nan") if (value := figures.get(name)) is None else value for name in FIGURES}
