@@ -15,7 +15,7 @@ from scipy.io import loadmat, savemat
 
 from tools.peers.numpy_model import MOVING, NumpyModel
 from tribodyn.dynamics.parameters import STATES, XI, Model
-from tribodyn.kernels.native import laid_out
+from tribodyn.kernels.native import packed
 from tribodyn.solve.integrator import Status
 from tribodyn.solve.right_hand_side import rhs, work_array
 from tribodyn.solve.tolerances import Tolerances, absolute_tolerances
@@ -111,11 +111,11 @@ def cvode(problem: Problem, rtol: float) -> Array:
 
 def _right_hand_side(model: Model, work: Array, cycle: float, segment: int) -> Callable[..., None]:
     full, rates = np.zeros(STATES), np.zeros(STATES)
-    laid = [laid_out(one) for one in (full, model, work, rates)]
+    items = [packed(one) for one in (full, model, work, rates)]
 
     def function(t: float, y: Array, out: Array) -> None:
         full[MOVING] = y
-        rhs(t, cycle, segment, *laid)
+        rhs(t, cycle, segment, *items)
         out[:] = rates[MOVING]
 
     return function

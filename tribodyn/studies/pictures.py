@@ -201,6 +201,6 @@ def sweep_figure(
 
 def sweep_table(record: "SweepRecord") -> "Group":
     """Lay out the summary of a sweep for the terminal."""
-    from tribodyn.post.sweep_report import sweep_table as laid_out
+    from tribodyn.post.sweep_report import sweep_table as table_of
 
-    return laid_out(record, study_of_sweep(record).sweep_lines())
+    return table_of(record, study_of_sweep(record).sweep_lines())
