@@ -25,7 +25,7 @@ def oscillator(frequencies, damping=0.05, mean_force=0.1, error=0.05, variation=
 
 
 def by_scipy(parameters, state, periods):
-    """States once a period by DOP853, restarted at every corner that SciPy's own events find."""
+    """States once per period by DOP853, restarted at every corner that SciPy's own events find."""
     damping, mean_force, error, variation, frequency = parameters
 
     def rates(t, y, side):
