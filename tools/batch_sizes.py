@@ -67,8 +67,8 @@ def main() -> None:
 def table(engines: list[str], sizes: list[int]) -> str:
     """Table of the page."""
     rows = [
-        "| engine | cases | cycles | cycles × cases a second | a second of one core "
-        "| ns an evaluation | of the roofline | peak memory |",
+        "| engine | cases | cycles | cycles × cases per second | per second of one core "
+        "| ns per evaluation | of the roofline | peak memory |",
         "|---|--:|--:|--:|--:|--:|--:|--:|",
     ]
     for engine in engines:
@@ -103,10 +103,10 @@ def measured(engine: str, cases: int, cycles: int, repeats: int) -> Measured:
         ]
         states = np.tile(posed.state, (len(models), 1))
         begun = perf_counter(), process_time()
-        found = march(models, states, cycles=cycles, window=1, samples=SAMPLES, rtol=rtol, method=method)
+        result = march(models, states, cycles=cycles, window=1, samples=SAMPLES, rtol=rtol, method=method)
         spent = perf_counter() - begun[0], process_time() - begun[1]
-        swing[first : first + PART] = np.ptp(found.samples[..., XI], axis=1)
-        return Measured(*spent, float(np.sum(found.evaluations)), int(np.sum(found.status != 0)))
+        swing[first : first + PART] = np.ptp(result.samples[..., XI], axis=1)
+        return Measured(*spent, float(np.sum(result.evaluations)), int(np.sum(result.status != 0)))
 
     part(cases - 64)  # compiles
     runs = [np.sum([part(first) for first in range(0, cases, PART)], axis=0) for _ in range(repeats)]

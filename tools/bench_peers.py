@@ -1,11 +1,11 @@
-"""Speed beside other programs, at equal error, in one run: ratios of medians, never a time alone.
+"""Speed compared with other programs, at equal error, in one run: ratios of medians, never a time alone.
 
 python tools/bench_peers.py                              # everything that is installed, to the terminal
 python tools/bench_peers.py --into docs/performance.md   # and into the page
 python tools/bench_peers.py --only tribodyn LSODA        # programs whose names contain a word
 
 Single: the CRC drive at 300 rad/s over 20 mesh cycles. Every program gets the loosest tolerance (of a ladder)
-with which the greatest error of the transmission error, over its range, is within TARGET of the solution at
+with which the maximum error of the transmission error, over its range, is within TARGET of the solution at
 1e-12; compilation, tables and files are outside. Batch: the same drive at many speeds. Steady: its periodic
 steady states over the speed, and LSODA marching to them.
 """
@@ -87,7 +87,7 @@ def single(wanted: Callable[[str], bool], repeats: int) -> str:
     integrator = make_integrator("dopri5", posed.model, SAMPLES, posed.tolerances(1e-9))
     visited = integrator.integrate(posed.state, 0, 2).samples[:-1]
     same = check(posed.model, visited, np.arange(len(visited)) % SAMPLES / SAMPLES)
-    found = []
+    timings = []
     for name, run in peers().items():
         if wanted(name):
             one = _timed(name, run, posed, exact, repeats)
@@ -95,10 +95,10 @@ def single(wanted: Callable[[str], bool], repeats: int) -> str:
                 f"{one.name:24s} rtol {one.rtol:.0e}  error {one.error:.1e}  {1e3 * one.seconds:.2f} ms",
                 flush=True,
             )
-            found.append(one)
-    ours = next((one for one in found if one.name == "tribodyn dopri5"), None)
+            timings.append(one)
+    ours = next((one for one in timings if one.name == "tribodyn dopri5"), None)
     rows = ["| program | rtol | error | ms | times ours |", "|---|--:|--:|--:|--:|"]
-    for one in sorted(found, key=lambda one: one.seconds):
+    for one in sorted(timings, key=lambda one: one.seconds):
         ratio = f"{one.seconds / ours.seconds:.3g}" if ours else ""
         rows.append(f"| {one.name} | {one.rtol:.0e} | {one.error:.1e} | {1e3 * one.seconds:.3g} | {ratio} |")
     rows += [
@@ -140,7 +140,7 @@ def _marching(program: Batch, cases: tuple[list[Any], Array]) -> Callable[[float
 
 
 def batch(wanted: Callable[[str], bool], repeats: int) -> str:
-    """Table of batches: mesh cycles × cases a second; programs take turns, as the machine may be shared."""
+    """Table of batches: mesh cycles × cases per second; programs take turns, as the machine may be shared."""
     posed = problem()
     few = speeds(posed, 8)
     chosen = {name: program for name, program in BATCHES.items() if wanted(name)}
@@ -155,7 +155,7 @@ def batch(wanted: Callable[[str], bool], repeats: int) -> str:
             if turn:  # the first one compiles
                 taken[name].append((perf_counter() - begun[0], process_time() - begun[1]))
     rows = [
-        "| program | rtol | error | cycles × cases a second | a second of one core | ours over it |",
+        "| program | rtol | error | cycles × cases per second | per second of one core | ours over it |",
         "|---|--:|--:|--:|--:|--:|",
     ]
     ours = None

@@ -49,8 +49,8 @@ def lines() -> list[str]:
                 )
                 assert isinstance(case, EfficiencyCase)
                 try:
-                    found = efficiencies(prepare(case))
-                    cells = [f"{100 * found[key]:.3f}" if key in found else "–" for key in COLUMNS]
+                    values = efficiencies(prepare(case))
+                    cells = [f"{100 * values[key]:.3f}" if key in values else "–" for key in COLUMNS]
                 except InputError:  # a mean law where radius and speed vanish at the pitch point
                     continue
                 table.append(f"| {conditions} | `{law}` | {name} | {' | '.join(cells)} |")

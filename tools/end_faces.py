@@ -76,7 +76,7 @@ class Sector:
         ends = (self.axis == 2) & ((z < 1e-9) | (z > self.width - 1e-9))
         surface, inner, into, depth = self._places()
         loads, reads = (self._lines(node, into) for node in (surface, inner))
-        found = []
+        displacements = []
         for fixed in (held, held | ends):
             free = np.flatnonzero(~fixed)
             factors = splu(
@@ -84,8 +84,8 @@ class Sector:
                 permc_spec="MMD_AT_PLUS_A",
                 options={"SymmetricMode": True},
             )
-            found.append(reads[free].T @ factors.solve(loads[free]) / self.material.youngs_modulus)
-        return found[0], found[1], depth
+            displacements.append(reads[free].T @ factors.solve(loads[free]) / self.material.youngs_modulus)
+        return displacements[0], displacements[1], depth
 
     def by_harmonics(self) -> tuple[np.ndarray, np.ndarray]:
         """The same by harmonics along the face, and the openings of its ends."""
@@ -107,10 +107,10 @@ class Sector:
             k = n * np.pi / self.width
             matrix = (matrices[0] + k * matrices[1] + k**2 * matrices[2]).tocsc()[free][:, free]
             forces = opening.forces(k)[np.ix_(free, faces)]
-            found = splu(matrix).solve(np.hstack([lines[free], forces]))
-            own[n] = lines[free, 1] @ found[:, 0]
-            reached.append(forces.T @ found[:, :2])
-            stiffness.append(count[n] * (opening.stiffness[np.ix_(faces, faces)] - forces.T @ found[:, 2:]))
+            solved = splu(matrix).solve(np.hstack([lines[free], forces]))
+            own[n] = lines[free, 1] @ solved[:, 0]
+            reached.append(forces.T @ solved[:, :2])
+            stiffness.append(count[n] * (opening.stiffness[np.ix_(faces, faces)] - forces.T @ solved[:, 2:]))
         symmetric = wave * own * count @ wave.T
         more = np.zeros_like(symmetric)
         for part in (slice(0, None, 2), slice(1, None, 2)):
@@ -161,10 +161,10 @@ def main() -> None:
     half = hertz_half_width(load / sector.width, curvature, material, material)
     above = weber_banaschek_slope(load / sector.width, half, depth, material) * slices / sector.width
     place = (np.arange(slices) + 0.5) * sector.width / slices - sector.width / 2
-    print("greatest over mean line load: ends free, symmetric; slices apart; by harmonics as the first two")
+    print("maximum over mean line load: ends free, symmetric; slices apart; by harmonics as the first two")
     columns = free, symmetric, apart, *sector.by_harmonics()
     for minutes in (0, 1, 2, 3):
-        greatest = []
+        maximum = []
         for compliance in columns:
             system = np.block(
                 [
@@ -173,8 +173,8 @@ def main() -> None:
                 ]
             )
             right = np.append(-minutes * ARC_MINUTE * place, load)
-            greatest.append(np.max(np.linalg.solve(system, right)[:slices]) * slices / load)
-        print(f"{minutes}'", *(f"{value:.3f}" for value in greatest))
+            maximum.append(np.max(np.linalg.solve(system, right)[:slices]) * slices / load)
+        print(f"{minutes}'", *(f"{value:.3f}" for value in maximum))
 
 
 if __name__ == "__main__":

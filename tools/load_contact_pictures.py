@@ -50,7 +50,7 @@ PICTURES: dict[str, tuple[str, list[tuple[str, str, dict[str, Any]]]]] = {
 
 
 def figures(record: Record) -> dict[str, float]:
-    """What the page says of a run: face load factor, greatest values."""
+    """What the page says of a run: face load factor, maximum values."""
     return {key: value for key, value in record.summary.items() if key.endswith(("_max", "factor"))}
 
 

@@ -1,4 +1,4 @@
-"""The energy method beside the load contact model, over the shipped drives.
+"""The energy method compared with the load contact model, over the shipped drives.
 
 python tools/load_contact_table.py                               # prints the table
 python tools/load_contact_table.py --into docs/load-contact.md   # and puts it into the page
@@ -103,7 +103,7 @@ def table() -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description="The energy method beside the load contact model.")
+    parser = argparse.ArgumentParser(description="The energy method compared with the load contact model.")
     parser.add_argument("--into", type=Path, help="page with the marked block")
     page = parser.parse_args().into
     text = table()

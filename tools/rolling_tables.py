@@ -55,7 +55,7 @@ def modes(folder: Path) -> str:
         ("loss, W", "power_friction_mean", ".1f"),
         ("of it at the cam, W", "power_cam_mean", ".1f"),
         ("of it at the crown, W", "power_crown_mean", ".1f"),
-        ("greatest slip, mm/s", "slip_speed_max", ".2f"),
+        ("maximum slip, mm/s", "slip_speed_max", ".2f"),
         ("efficiency", "efficiency", ".4f"),
         ("efficiency by energy", "efficiency_by_energy", ".4f"),
     ):

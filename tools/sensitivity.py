@@ -25,8 +25,8 @@ CRC, INVOLUTE, DRY = "crc-23-47", "involute-23-47", "crc-23-47-frictionless"
 
 #: Enough: at 10 rad/s the start has died out within one mesh cycle; the figures are those of the last one.
 CYCLES = 4
-#: At 10 rad/s the mesh rings some fifty times in one mesh cycle: means want more than the 200 samples of the
-#: shipped scenarios, four a period.
+#: At 10 rad/s the mesh vibrates some fifty times per mesh cycle: means need more than the 200 samples of
+#: the shipped scenarios, four per period.
 SAMPLES = 2000
 
 
@@ -103,7 +103,7 @@ VARIANTS = (
     Variant("numerics", "contact width 0.02 µm instead of 0.1", {"mesh.contact_width": "0.02 um"}),
     Variant("numerics", "contact width 0.5 µm", {"mesh.contact_width": "0.5 um"}),
     Variant("numerics", "rtol = 1e-8 instead of 1e-6", {"solver.rtol": 1e-8}),
-    Variant("numerics", "200 samples a cycle instead of 2000", {"output.samples_per_cycle": 200}),
+    Variant("numerics", "200 samples per cycle instead of 2000", {"output.samples_per_cycle": 200}),
 )
 
 #: Heading of a column, the row of the paper that it belongs to (if any), and how it is written.

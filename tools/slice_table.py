@@ -1,4 +1,4 @@
-"""Slices that hold each other beside slices that do not, on the pair 18/36 at 318.3 N m.
+"""Slices that hold each other compared with slices that do not, on the pair 18/36 at 318.3 N m.
 
 python tools/slice_table.py                               # prints the table
 python tools/slice_table.py --into docs/load-contact.md   # and puts it into the page
@@ -57,7 +57,7 @@ def table() -> str:
     assert isinstance(case, Case)
     flexible = flexibility(assemble(family(case.family), case.drive), case.materials, lead=True)
     head = (
-        "| | K_Hβ at the pitch point | greatest pressure there, GPa | pinion's root, greatest tension, MPa "
+        "| | K_Hβ at the pitch point | maximum pressure there, GPa | pinion's root, maximum tension, MPa "
         "| mean mesh stiffness, N/(mm µm) | loaded error, peak to peak, µm |"
     )
     rows = [head, "|---|---|---|---|---|---|"]
@@ -69,7 +69,7 @@ def table() -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description="Coupled slices beside independent ones.")
+    parser = argparse.ArgumentParser(description="Coupled slices compared with independent ones.")
     parser.add_argument("--into", type=Path, help="page with the marked block")
     page = parser.parse_args().into
     text = table()

@@ -1,4 +1,4 @@
-"""Stiffness of the 18/36 pair at its pitch point, part by part, beside ISO 6336 and the FE reference.
+"""Stiffness of the 18/36 pair at its pitch point, part by part, compared with ISO 6336 and the FE reference.
 
     python tools/stiffness_table.py                              # prints the tables
     python tools/stiffness_table.py --into docs/mesh-stiffness.md
@@ -140,7 +140,7 @@ def coupling() -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description="Mesh stiffness beside its references.")
+    parser = argparse.ArgumentParser(description="Mesh stiffness compared with its references.")
     parser.add_argument("--into", type=Path, help="page with the marked blocks")
     page = parser.parse_args().into
     for name, text in (("breakdown", breakdown()), ("coupling", coupling())):

@@ -1,4 +1,4 @@
-"""Our figures beside the published ones, as a Markdown table.
+"""Our figures compared with the published ones, as a Markdown table.
 
 python tools/validation_table.py                              # prints the table
 python tools/validation_table.py --into docs/validation.md    # and puts it into the page
@@ -24,7 +24,7 @@ def cell(value: object) -> str:
 
 
 def share(row: Row, value: float | list[float] | None) -> str:
-    """A difference or tolerance, in per cent where the row is judged so; the greatest of several."""
+    """A difference or tolerance, in per cent where the row is judged so; the maximum of several."""
     if value is None or value == []:
         return ""
     value = max(value, key=abs) if isinstance(value, list) else value
@@ -48,7 +48,7 @@ def table(rows: list[Row]) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description="Published figures beside ours.")
+    parser = argparse.ArgumentParser(description="Published figures compared with ours.")
     parser.add_argument("paper", nargs="?", default="liu-ni-2022")
     parser.add_argument("--into", type=Path, help="page to put the table into")
     options = parser.parse_args()

@@ -32,10 +32,10 @@ def write(path: Path, arrays: Arrays, about: str) -> None:
 def read(path: Path) -> Arrays:
     """Inverse of `write`."""
     with h5py.File(path, "r") as file:
-        found: dict[str, Any] = {name: dataset for name, dataset in file.items()}
+        datasets: dict[str, Any] = {name: dataset for name, dataset in file.items()}
         return {
             f"{name} [{str(dataset.attrs['units']).replace('/', ' per ')}]": np.asarray(dataset[()])
-            for name, dataset in found.items()
+            for name, dataset in datasets.items()
         }
 
 

@@ -39,7 +39,7 @@ class InputError(Exception):
 
 
 class InputErrors(InputError):
-    """Several mistakes found at once, one a line; the first stands for them where only one is looked at."""
+    """Several mistakes found at once, one per line; the first stands for them where only one is looked at."""
 
     def __init__(self, errors: Sequence[InputError]):
         first = errors[0]
@@ -91,7 +91,7 @@ def quoted(value: Any) -> str:
         text = "[" + ", ".join(map(quoted, value)) + "]"
     else:
         text = str(value)
-    most = 240 if isinstance(value, str) else 80  # a path of a file is told whole
+    most = 240 if isinstance(value, str) else 80  # a file's path is quoted in full
     return text if len(text) <= most else text[: most - 3] + "..."
 
 

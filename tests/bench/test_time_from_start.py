@@ -1,6 +1,6 @@
 """What `tribodyn run` takes from start to end, as a ratio to other programs in the same run, never as a time.
 
-Processor time of whole processes, the least of several: the machine may be busy. The peers are a start of
+Processor time of whole processes, the minimum of several: the machine may be busy. The peers are a start of
 Python with the libraries that a run stands on, and a loop of additions in pure Python. Where the loop takes
 0.7 s the targets, 0.5 s for a run and 6 s for the first one, are 0.7 and 8.5 loops.
 """

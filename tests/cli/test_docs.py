@@ -1,6 +1,6 @@
 """Every page of the documentation: commands run, scenarios load, Python runs, links lead somewhere.
 
-Blocks are told apart by the words after the fence: ``toml scenario`` is a whole scenario, ``toml fragment``
+Blocks differ by the words after the fence: ``toml scenario`` is a whole scenario, ``toml fragment``
 is put over the shipped CRC scenario, ``csv NAME`` is a file that others on the page refer to, ``console``
 holds shell commands, of which those of tribodyn are run, two mesh cycles long.
 """

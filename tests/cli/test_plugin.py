@@ -273,9 +273,9 @@ def test_the_study_runs_draws_shows_and_compares(plugin, tmp_path):
         assert record.axis == "signed_distance"
         assert record.units("sliding_speed") == "m/s"
         for body in ("pinion", "gear"):
-            least = np.min(record[f"{body}_specific_sliding"])
-            assert least == record.summary[f"{body}_specific_sliding_min"]
-            assert least == pytest.approx(sheet[body]["least specific sliding"][0], rel=1e-9)
+            minimum = np.min(record[f"{body}_specific_sliding"])
+            assert minimum == record.summary[f"{body}_specific_sliding_min"]
+            assert minimum == pytest.approx(sheet[body]["least specific sliding"][0], rel=1e-9)
 
 
 def test_specific_sliding_of_an_involute(plugin, tmp_path):

@@ -90,7 +90,7 @@ def test_figures_that_a_record_does_not_hold_are_refused(folder):
 
 MISTAKES = {
     "two elements": ("drive.elements=2", "drive.elements = 2", "too few", "use 3 or more"),
-    "no elements": ("drive.elements=0", "drive.elements = 0", "greater than 0", "write a greater number"),
+    "no elements": ("drive.elements=0", "drive.elements = 0", "greater than 0", "write a larger number"),
     "half an element": ("drive.elements=5.5", "drive.elements", "not a whole number", "write a whole number"),
     "overlap": ('drive.element_radius="3.4 mm"', "drive.element_radius = 3.4 mm", "overlap", "3.375 mm"),
     "undercut": ('drive.element_radius="5 mm"', "drive.element_radius = 5 mm", "undercut", "3.375 mm"),

@@ -125,8 +125,10 @@ def test_peak_to_peak_of_the_loaded_error_over_tip_relief(tmp_path: Path):
 )
 def test_what_belongs_to_motions_is_refused(kind: str, words: tuple[str, str], said: str, tmp_path: Path):
     path = tmp_path / "sweep.h5"
-    told = invoked("sweep", written_template(kind, tmp_path), *words_of(kind), *words, "-o", path, status=2)
-    (line,) = told.splitlines()
+    printed = invoked(
+        "sweep", written_template(kind, tmp_path), *words_of(kind), *words, "-o", path, status=2
+    )
+    (line,) = printed.splitlines()
     assert said in line
     assert STUDIES[kind].about in line
     assert not path.exists()

@@ -95,7 +95,7 @@ def test_energy_balance_closes_at_the_published_speed(prepared, formulation):
 
 
 def test_parametric_work_is_there_only_in_the_classical_formulation(prepared):
-    """Sizes of the prototype: 0.04 J a cycle in engagement, of 68 J transmitted."""
+    """Sizes of the prototype: 0.04 J per cycle in engagement, of 68 J transmitted."""
     work = {}
     for formulation in ("classical", "energy-consistent"):
         case = prepared("crc-23-47", **{"mesh.formulation": formulation})

@@ -25,7 +25,7 @@ def oscillator(frequencies, damping=0.05, mean_force=0.1, error=0.05, variation=
 
 
 def by_scipy(parameters, state, periods):
-    """States once a period by DOP853, restarted at every corner that SciPy's own events find."""
+    """States once per period by DOP853, restarted at every corner that SciPy's own events find."""
     damping, mean_force, error, variation, frequency = parameters
 
     def rates(t, y, side):
@@ -106,7 +106,7 @@ def test_a_motion_that_grazes_the_corner_goes_on():
     for state in ((1.0, 0.0), (-1.0, 0.0), (1.0, 1e-15), (1.0 - 1e-16, -1e-12)):
         track = one.march(np.array([state]), np.array([0]), 2, True)
         np.testing.assert_allclose(track.states[0], by_scipy(parameters[0], state, 2), atol=1e-8)
-    # linear response whose least x is exactly 1
+    # linear response whose minimum x is exactly 1
     gain = 0.25 / abs(0.75 + 2j * 0.05 * 0.5)
     touching = oscillator([0.5], error=0.1 / gain)
     response = frequency_response(touching)
@@ -163,8 +163,8 @@ def test_the_tongue_at_twice_the_natural_frequency():
                 inside = middle
         assert inside == pytest.approx(2.0 + side * half_width, abs=variation**2 / 4.0)
         # and to the last digit against the fundamental matrix
-        greatest = np.max(np.abs(np.linalg.eigvals(fundamental(damping, variation, inside))))
-        assert greatest == pytest.approx(1.0, abs=2e-6)
+        largest = np.max(np.abs(np.linalg.eigvals(fundamental(damping, variation, inside))))
+        assert largest == pytest.approx(1.0, abs=2e-6)
 
 
 @pytest.fixture(scope="module")
@@ -216,10 +216,10 @@ def test_a_multiplier_goes_to_plus_one_at_the_fold(folds):
     """As a saddle-node's must, real, with the square root of the distance."""
     before = folds[0] - np.array([1e-2, 8e-5, 4e-5, 2e-5])
     response = frequency_response(oscillator([*np.arange(0.4, 0.81, 0.01), *before]))
-    greatest = response.multiplier[-3:, UP, 0]
-    assert np.all(greatest.imag == 0.0)
-    assert np.all(np.diff(greatest.real) > 0.02)
-    assert 0.88 < greatest[-1].real < 1.0
+    largest = response.multiplier[-3:, UP, 0]
+    assert np.all(largest.imag == 0.0)
+    assert np.all(np.diff(largest.real) > 0.02)
+    assert 0.88 < largest[-1].real < 1.0
 
 
 def test_amplitudes_are_those_of_harmonic_balance(softening):
@@ -241,12 +241,12 @@ def test_period_two_and_what_it_leaves():
     (single,) = find(one, np.array([[1.1, 0.0]]), method="shooting")
     assert single.kind == "unstable"
     assert np.max(np.abs(by_scipy(parameters, single.state, 1)[0] - single.state)) < 1e-6
-    greatest = single.multipliers[0]
-    assert greatest.real < -1.0
+    largest = single.multipliers[0]
+    assert largest.real < -1.0
     # a neighbour leaves it by that factor a period
     away = one.march(single.state[None] + [[1e-6, 0.0]], np.array([0]), 12, True).states[0] - single.state
     growth = np.linalg.norm(away[11]) / np.linalg.norm(away[9])
-    assert growth == pytest.approx(abs(greatest) ** 2, rel=1e-2)
+    assert growth == pytest.approx(abs(largest) ** 2, rel=1e-2)
 
 
 def test_marching_and_shooting_agree():

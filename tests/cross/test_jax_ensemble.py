@@ -78,7 +78,7 @@ def test_jax_and_lanes_agree_and_tell_the_same_failure(motors):
         # the rates grow without bound towards rest, so that the step may vanish before the speed does
         assert found.status[2] in (Status.STALLED, Status.STEP_TOO_SMALL)
     assert 0 < native.reached[2] < 3
-    # JAX tells the segment, lanes the phase
+    # JAX reports the segment, lanes the phase
     assert 0 <= native.reached[2] - mapped.reached[2] < 1
     assert np.isnan(mapped.samples[2]).all()
     for case in (0, 1, 3):

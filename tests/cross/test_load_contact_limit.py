@@ -62,7 +62,7 @@ def test_creeping_run_is_the_load_contact_model(prepared, modified, slices):
 
 
 def test_friction_power_in_slow_rotation_is_that_of_the_slices(prepared):
-    """Misaligned: one friction a pair in the right-hand side, against the sum over the slices.
+    """Misaligned: one friction per pair in the right-hand side, against the sum over the slices.
 
     At rest but for creep; oil thick enough for the mixed regime, in which friction depends on the line load.
     """

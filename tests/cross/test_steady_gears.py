@@ -91,7 +91,7 @@ def test_their_product_is_what_damping_takes_from_phase_space(linear):
             np.trace(generator(case, pairs)) * (boundary[segment + 1] - boundary[segment])
             for segment, pairs in SEGMENTS
         )
-        if trace > -20.0:  # otherwise the least multipliers are below the difference quotient's noise
+        if trace > -20.0:  # otherwise the smallest multipliers are below the difference quotient's noise
             assert np.prod(steady.multipliers).real == pytest.approx(np.exp(trace), rel=1e-3)
 
 

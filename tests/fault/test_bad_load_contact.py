@@ -97,7 +97,7 @@ MISTAKES = {
         ("drive.material.poisson_ratio=0.5",),
         "drive.material.poisson_ratio = 0.5",
         "must be less than 0.5",
-        "lesser",
+        "smaller",
     ),
     "modulus": (
         ("drive.material.youngs_modulus=0 GPa",),
@@ -175,7 +175,7 @@ def test_a_mistake(
     assert list(tmp_path.iterdir()) == []
 
 
-#: Kinds of run that do not know the face: what is given, and which contradiction is told.
+#: Kinds of run that do not know the face: what is given, and which contradiction is reported.
 ELSEWHERE = {
     "relief by the energy method": (
         "crc-23-47",

@@ -79,7 +79,7 @@ def _done(path: Path) -> int:
     try:
         with SweepRecord(path) as record:
             return int(np.sum(record["status"] == DONE))
-    except Exception:  # it is being laid out
+    except Exception:  # its datasets are being made
         return 0
 
 

@@ -26,7 +26,7 @@ def _lanes(phase, segment, y, model, work, dy):
 
 
 def assert_right_hand_sides_agree(models: list[Model], rng: np.random.Generator, rtol: float) -> None:
-    """Every compiler's derivatives at random states of every model; small ones within 1e-12 of the greatest.
+    """Every compiler's derivatives at random states of every model; small ones within 1e-12 of the maximum.
 
     The models are of one kind and run in the lanes of the same vectors.
     """

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from tribodyn.geometry.families import family
-from tribodyn.geometry.families.parabolic import greatest_coefficient, published_limits
+from tribodyn.geometry.families.parabolic import maximum_coefficient, published_limits
 from tribodyn.geometry.path import kinematics
 from tribodyn.post.style import house_style
 from tribodyn.studies.load import load_scenario
@@ -53,7 +53,7 @@ def test_closed_forms_are_within_tolerance(rows, key):
 def test_ratios_have_the_papers_order_and_no_miss_is_beyond_six_per_cent(rows):
     for key in (*MISALIGNED, *RELIEVED):
         assert abs(rows[key].difference) < 0.06, key
-        assert "of greatest Hertz pressures" in rows[key].note
+        assert "of maximum Hertz pressures" in rows[key].note
     for keys in (
         MISALIGNED[:3],
         MISALIGNED[3:6],
@@ -108,13 +108,13 @@ def test_figures_are_drawn(rows):
 
 @pytest.mark.parametrize("teeth", [17.0, 29.0, 60.0])
 def test_published_limits_are_the_equalities_of_42(teeth):
-    least, most = published_limits(teeth)
+    lowest, highest = published_limits(teeth)
 
     def sine(k):
         return (1 - 2 * k) / (2 * math.sqrt(k * (1 - k)))
 
-    assert sine(most) == pytest.approx(math.sin(math.pi / (2 * teeth)), rel=1e-12)
-    assert sine(least) == pytest.approx((1 - 2 * least) / (1 - least), rel=1e-12)
+    assert sine(highest) == pytest.approx(math.sin(math.pi / (2 * teeth)), rel=1e-12)
+    assert sine(lowest) == pytest.approx((1 - 2 * lowest) / (1 - lowest), rel=1e-12)
 
 
 @pytest.mark.parametrize(("half", "name"), [(1, "k1"), (-1, "k2")])
@@ -124,7 +124,7 @@ def test_at_the_geometrys_limit_the_flank_stands_still_at_the_mates_tip(half, na
     from tribodyn.geometry.path import contact_limits
 
     case = load_scenario("jia-parabolic-17-29")
-    limit = greatest_coefficient(case.drive, half)
+    limit = maximum_coefficient(case.drive, half)
     drive = case.drive._replace(shape=case.drive.shape._replace(**{name: limit}))
     path = family(case.family).working_path(drive)
     start, end = contact_limits(path, tip_radius(drive, "pinion"), tip_radius(drive, "gear"))

@@ -40,7 +40,7 @@ def test_both_readings_of_the_mixed_law_are_told(rows):
     for number in (5, 8, 9, 12, 13, 15, 16):
         note = rows[f"veciana/{number:02d}"].note
         assert "reading A (as printed)" in note
-        assert "reading B (greatest pressure, own speeds)" in note
+        assert "reading B (maximum pressure, own speeds)" in note
 
 
 @pytest.mark.parametrize("case", PROTOTYPE)

@@ -100,8 +100,8 @@ class Explained(NamedTuple):
     @classmethod
     def parse(cls, text: str) -> "Explained":
         """Read ``PATTERN: REASON``; the first colon followed by a space parts them."""
-        pattern, found, reason = text.partition(": ")
-        if not found or not reason.strip():
+        pattern, colon, reason = text.partition(": ")
+        if not colon or not reason.strip():
             raise SystemExit(f'--explained "{text}": write it "NAME: reason"')
         return cls(pattern.strip(), reason.strip())
 

@@ -1,4 +1,4 @@
-"""What a case left behind, as one flat table a file: the JSON it printed, its records, its exit status."""
+"""What a case left behind, as one flat table per file: the JSON it printed, its records, its exit status."""
 
 import json
 from collections.abc import Iterator

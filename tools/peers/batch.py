@@ -48,25 +48,25 @@ def lanes(models: Sequence[Model], states: Array, cycles: int, rtol: float) -> A
 
 
 def _together(method: str, models: Sequence[Model], states: Array, cycles: int, rtol: float) -> Array:
-    found = ensemble.march(
+    result = ensemble.march(
         models, states, cycles=cycles, window=WINDOW, samples=SAMPLES, rtol=rtol, method=method
     )
-    return found.samples[..., XI]
+    return result.samples[..., XI]
 
 
 def threads(method: str) -> Callable[[Sequence[Model], Array, int, float], Array]:
-    """One case a thread, each with its own engine."""
+    """One case per thread, each with its own engine."""
 
     def march(models: Sequence[Model], states: Array, cycles: int, rtol: float) -> Array:
         settings = ensemble.March(0, cycles, WINDOW, SAMPLES, False, rtol, 10**6)
-        found = ensemble.one_by_one(models, states, method, settings, ensemble.usable_cores())
-        return found.samples[..., XI]
+        result = ensemble.one_by_one(models, states, method, settings, ensemble.usable_cores())
+        return result.samples[..., XI]
 
     return march
 
 
 def diffrax(models: Sequence[Model], states: Array, cycles: int, rtol: float) -> Array:
-    """Vmapped over 64 similar speeds at a time, a core each; steps end where friction reverses."""
+    """Vmapped over 64 similar speeds at a time, one core each; steps end where friction reverses."""
     return _together("tsit5", models, states, cycles, rtol)
 
 
@@ -84,7 +84,7 @@ def plain_diffrax(models: Sequence[Model], states: Array, cycles: int, rtol: flo
 
 BATCHES = {
     "tribodyn, lanes": Batch(lanes, 256, 40),
-    "tribodyn, one case a thread": Batch(threads("dopri5"), 256, 40),
+    "tribodyn, one case per thread": Batch(threads("dopri5"), 256, 40),
     "SciPy LSODA, numba, one by one": Batch(threads("lsoda"), 8, 20),
     "diffrax Tsit5, vmapped": Batch(diffrax, 128, 20),
     "diffrax Tsit5, vmapped, no stops": Batch(plain_diffrax, 64, 20),

@@ -39,7 +39,7 @@ class NumpyModel:
         self.cells = cells
         self.channel, self.stiffness = [], []
         for segment, pairs in enumerate(self.pairs):
-            # (cell, power, channel, pair): one row of coefficients a look-up
+            # (cell, power, channel, pair): one row of coefficients per look-up
             coefficients = self.t.channel[segment][:, pairs, :NEEDED]
             self.channel.append(np.ascontiguousarray(coefficients.transpose(0, 3, 2, 1)))
             block = self.t.stiffness[segment][:, pairs][:, :, pairs]
@@ -130,15 +130,15 @@ class NumpyModel:
 
 
 def check(model: Model, states: Array, phases: Array) -> float:
-    """Greatest difference from tribodyn's right-hand side, over each rate's greatest, at given states."""
+    """Maximum difference from tribodyn's right-hand side, over each rate's maximum, at given states."""
     ours = NumpyModel(model)
-    expected, found = [], []
+    expected, computed = [], []
     for phase, state in zip(phases, states, strict=True):
         segment = int(np.searchsorted(ours.boundary, phase, side="right")) - 1
         full, rates = np.zeros(STATES), {}
         full[MOVING] = state[MOVING]
         derivatives(float(phase), 0.0, segment, full, model, {}, rates)
         expected.append([rates[i] for i in MOVING])
-        found.append(ours(float(phase), full[MOVING], segment))
-    difference = np.abs(np.array(found) - np.array(expected))
+        computed.append(ours(float(phase), full[MOVING], segment))
+    difference = np.abs(np.array(computed) - np.array(expected))
     return float(np.max(difference / np.max(np.abs(expected), axis=0)))

@@ -15,7 +15,7 @@ from scipy.io import loadmat, savemat
 
 from tools.peers.numpy_model import MOVING, NumpyModel
 from tribodyn.dynamics.parameters import STATES, XI, Model
-from tribodyn.kernels.native import laid_out
+from tribodyn.kernels.native import packed
 from tribodyn.solve.integrator import Status
 from tribodyn.solve.right_hand_side import rhs, work_array
 from tribodyn.solve.tolerances import Tolerances, absolute_tolerances
@@ -68,7 +68,7 @@ def scipy_on_numpy(method: str) -> Runner:
         function = NumpyModel(problem.model)
         atol = problem.tolerances(rtol).atol[MOVING]
         y = problem.state[MOVING].copy()
-        found = []
+        samples = []
         for _ in range(problem.cycles):
             for segment, start, end, at in problem.segments():
                 solution = solve_ivp(
@@ -81,9 +81,9 @@ def scipy_on_numpy(method: str) -> Runner:
                     t_eval=np.append(at, end),
                     args=(segment,),
                 )
-                found.append(solution.y[4, :-1])
+                samples.append(solution.y[4, :-1])
                 y = solution.y[:, -1]
-        return np.concatenate(found)
+        return np.concatenate(samples)
 
     return run
 
@@ -96,7 +96,7 @@ def cvode(problem: Problem, rtol: float) -> Array:
     work = work_array(model)
     atol = problem.tolerances(rtol).atol[MOVING]
     y = problem.state[MOVING].copy()
-    found = []
+    samples = []
     for cycle in range(problem.cycles):
         for segment, start, end, at in problem.segments():
             # of three or more times the solver reports exactly these
@@ -104,18 +104,18 @@ def cvode(problem: Problem, rtol: float) -> Array:
             function = _right_hand_side(model, work, float(cycle), segment)
             solver = CVODE(function, method="BDF", rtol=rtol, atol=atol, max_num_steps=10**6)
             solution = solver.solve(times, y)
-            found.append(solution.y[np.isin(times, at), 4])
+            samples.append(solution.y[np.isin(times, at), 4])
             y = solution.y[-1].copy()
-    return np.concatenate(found)
+    return np.concatenate(samples)
 
 
 def _right_hand_side(model: Model, work: Array, cycle: float, segment: int) -> Callable[..., None]:
     full, rates = np.zeros(STATES), np.zeros(STATES)
-    laid = [laid_out(one) for one in (full, model, work, rates)]
+    items = [packed(one) for one in (full, model, work, rates)]
 
     def function(t: float, y: Array, out: Array) -> None:
         full[MOVING] = y
-        rhs(t, cycle, segment, *laid)
+        rhs(t, cycle, segment, *items)
         out[:] = rates[MOVING]
 
     return function
@@ -173,13 +173,13 @@ def octave_timed(problem: Problem, rtol: float) -> tuple[Array, float]:
             capture_output=True,
             text=True,
         )
-        found: Any = loadmat(folder / "found.mat")
-    return found["xi"].ravel(), float(found["seconds"].item())
+        output: Any = loadmat(folder / "found.mat")
+    return output["xi"].ravel(), float(output["seconds"].item())
 
 
 def peers() -> dict[str, Runner]:
     """All programs that can be run here, ours first."""
-    found: dict[str, Runner] = {
+    runners: dict[str, Runner] = {
         "tribodyn dopri5": tribodyn_engine("dopri5"),
         "tribodyn rodas4": tribodyn_engine("rodas4"),
         "SciPy BDF, NumPy": scipy_on_numpy("BDF"),
@@ -192,7 +192,7 @@ def peers() -> dict[str, Runner]:
         "diffrax Kvaerno5": tribodyn_engine("kvaerno5"),
     }
     if find_spec("sksundae"):
-        found["CVODE BDF, numba"] = cvode
+        runners["CVODE BDF, numba"] = cvode
     if shutil.which("octave-cli"):
-        found["Octave ode15s"] = octave
-    return found
+        runners["Octave ode15s"] = octave
+    return runners

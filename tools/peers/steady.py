@@ -1,9 +1,9 @@
 """Periodic steady states over the speed: the sweep of the command line, and LSODA marching to the same.
 
 An expert would march every speed with SciPy's LSODA on the compiled right-hand side until the motion repeats.
-LSODA is told beforehand how many mesh cycles that takes: those after which the change over one period is
+LSODA is given beforehand how many mesh cycles that takes: those after which the change over one period is
 within TOLERANCE by the sweep's own measure, found by marching at a tight tolerance. It gets the tolerance
-with which its transmission error is as exact as the single runs are asked to be.
+with which its transmission error is as exact as the single runs are required to be.
 """
 
 from pathlib import Path
@@ -32,7 +32,7 @@ SCENARIO, SPEEDS = "crc-23-47", "100:600"  # rad/s
 #: Speeds of the comparison, every how many LSODA takes one, and the damping ratios.
 COUNT, EVERY = 256, 16
 DAMPING = (0.05, 0.01)
-#: Greatest scaled change over a period: what `steady_states` asks for.
+#: Maximum scaled change over a period: what `steady_states` asks for.
 TOLERANCE = 1e-7
 #: Tolerance of LSODA: the loosest of the ladder whose error is within the target, see the batches.
 LSODA_RTOL = 1e-6
@@ -42,14 +42,14 @@ PERIODS = (1, 2, 3, 4)
 
 
 class Ours(NamedTuple):
-    """What the sweep came to.
+    """Results of the sweep.
 
     Attributes
     ----------
     seconds : float
         Processor time of all threads, from the grid to the file.
     residual : float
-        Greatest over the periodic states.
+        Maximum over the periodic states.
     solutions : dict
         Sort of motion to number of speeds.
     windows : (speeds, samples)
@@ -66,7 +66,7 @@ class Ours(NamedTuple):
 
 
 class Theirs(NamedTuple):
-    """What LSODA came to at some of the speeds: processor seconds, cycles marched, greatest error."""
+    """Results of LSODA at some of the speeds: processor seconds, cycles marched, maximum error."""
 
     seconds: Array
     cycles: Array
@@ -83,9 +83,9 @@ def sweep(speeds: Grid, workers: int | None = None) -> Ours:
     """What `tribodyn sweep --steady` does, file included."""
     with TemporaryDirectory() as folder:
         begun = process_time()
-        found = run(speeds, settings_of(speeds), Local(workers), Path(folder) / "steady.h5")
+        result = run(speeds, settings_of(speeds), Local(workers), Path(folder) / "steady.h5")
         seconds = process_time() - begun
-        with SweepRecord(found.path) as record:
+        with SweepRecord(result.path) as record:
             names, counts = np.unique(record["solution"], return_counts=True)
             return Ours(
                 seconds,
@@ -126,7 +126,7 @@ def table(repeats: int) -> str:
     sweep(grid(DAMPING[0], EVERY))  # compiles
     lsoda(grid(DAMPING[0], 2), [0], sweep(grid(DAMPING[0], 2)))
     rows = [
-        "| damping ratio | program | mesh cycles a speed, median (most) | s of one core | share |",
+        "| damping ratio | program | mesh cycles per speed, median (maximum) | s of one core | share |",
         "|--:|---|--:|--:|--:|",
     ]
     said = []

@@ -1,4 +1,4 @@
-"""The command line, one file a verb; nothing heavy is imported before a verb needs it."""
+"""The command line, one file per verb; nothing heavy is imported before a verb needs it."""
 
 
 def main() -> None:

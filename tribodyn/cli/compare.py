@@ -20,7 +20,7 @@ EXAMPLES = (
     '  tribodyn compare crc-23-47 involute-23-47 --set operating.gear_torque="300 N*m" -o comparison\n'
     "  tribodyn compare before.h5 after.h5 --json\n"
     "\b\nScenarios are run, records are read; with -o the records of what was run\n"
-    "and one picture a quantity, all runs in it, are kept."
+    "and one picture per quantity, all runs in it, are kept."
 )
 
 
@@ -89,7 +89,7 @@ def _scenarios(what: list[str], settings: Mapping[str, str]) -> dict[str, "Loade
     scenarios = {word: load(word, settings) for word in what if not _is_record(word)}
     if settings and not scenarios:
         raise InputError(
-            "--set", None, "nothing is run: records are as they are", "name scenarios, or leave it"
+            "--set", None, "nothing is run: records are as they are", "name scenarios, or omit it"
         )
     studies: dict[str, Study] = {}
     cases: dict[str, str] = {}

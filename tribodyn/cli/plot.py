@@ -45,7 +45,7 @@ def plot(
         list[str],
         typer.Argument(
             metavar="RECORD... [NAME...]",
-            help="Records, then figures: all, or names out of `tribodyn list plots`.",
+            help="Records, then figures: all, or names from `tribodyn list plots`.",
         ),
     ],
     output: Annotated[Path, typer.Option("--output", "-o", help="Folder of the pictures.")] = Path(),

@@ -67,9 +67,7 @@ def sweep(
             help="Follow the first key up, down or both, each case from its neighbour's state: shows jumps."
         ),
     ] = None,
-    resume: Annotated[
-        bool, typer.Option("--resume", help="Go on with what a stopped sweep of that name left.")
-    ] = False,
+    resume: Annotated[bool, typer.Option("--resume", help="Continue a stopped sweep of that name.")] = False,
     engine: Annotated[
         EngineName,
         typer.Option(help="native: compiled, all cores; jax: diffrax, on its device; dask: many machines."),
@@ -79,7 +77,7 @@ def sweep(
         typer.Option(metavar="ADDRESS", help="Dask's scheduler, tcp://host:8786; default: one of its own."),
     ] = None,
     workers: Annotated[
-        int | None, typer.Option(min=1, help="Threads, or Dask's worker processes; default: one a core.")
+        int | None, typer.Option(min=1, help="Threads, or Dask's worker processes; default: one per core.")
     ] = None,
     output: Annotated[
         Path | None,

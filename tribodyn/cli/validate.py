@@ -1,4 +1,4 @@
-"""`tribodyn validate`: our numbers beside the published ones."""
+"""`tribodyn validate`: our numbers compared with the published ones."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated

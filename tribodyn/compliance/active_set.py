@@ -24,7 +24,7 @@ _CAREFUL_STEPS = 400
 _SETTLED = 1e-11
 # Load, as a share of the mean, at which a place that just touches is linearised: the contact's deflection
 # goes like F ln(1/F) and has no slope at 0.
-_LEAST_LOAD = 1e-7
+_MINIMUM_LOAD = 1e-7
 
 
 class Pressed(NamedTuple):
@@ -95,18 +95,18 @@ def press(
     worst = np.inf
     for step in range(_FREE_STEPS + _CAREFUL_STEPS):
         part = (matrix[rows], arm[rows], lever[rows], gap[rows], torque[rows], mean[rows], unit[rows])
-        at = np.maximum(load, (_LEAST_LOAD / places * mean[rows])[:, None])
+        at = np.maximum(load, (_MINIMUM_LOAD / places * mean[rows])[:, None])
         value, slope = local(rows, at)
-        found, deflection, overlap, stiffness = _newton_step(active, at, value, slope, *part)
-        touching = np.where(active, found > 0.0, overlap > 0.0)
+        trial, deflection, overlap, stiffness = _newton_step(active, at, value, slope, *part)
+        touching = np.where(active, trial > 0.0, overlap > 0.0)
         if step >= _FREE_STEPS:
-            touching = _worst_only(active, touching, found, overlap)
+            touching = _worst_only(active, touching, trial, overlap)
         # a torque must be carried by something: where all let go, the closest place holds on
         none = ~np.any(touching, axis=-1)
         touching[none] = gap[rows][none] <= np.min(gap[rows][none], axis=-1, keepdims=True)
-        change = np.max(np.abs(found - load), axis=-1) / mean[rows]
+        change = np.max(np.abs(trial - load), axis=-1) / mean[rows]
         settled = (change < _SETTLED) & np.all(touching == active, axis=-1)
-        load, active = np.maximum(found, 0.0), touching
+        load, active = np.maximum(trial, 0.0), touching
         for whole, new in zip(result, (load, deflection, overlap, stiffness), strict=True):
             whole[rows[settled]] = new[settled]
         if np.all(settled):
@@ -145,23 +145,23 @@ def _newton_step(
     right[:, :places, 0] = np.where(active, slope * at - gap - value, 0.0) / unit
     right[:, places] = 1.0  # the torque; alone in the second column
     solution = np.linalg.solve(system, right)
-    found = active * solution[:, :places, 0] * mean
+    load = active * solution[:, :places, 0] * mean
     deflection = solution[:, places, 0] * unit[:, 0]
     stiffness = torque[:, 0] / (solution[:, places, 1] * unit[:, 0])
-    overlap = deflection[:, None] * arm - gap - np.einsum("...ij,...j->...i", matrix, found)
-    overlap += np.einsum("...ii->...i", matrix) * found
-    return found, deflection, overlap, stiffness
+    overlap = deflection[:, None] * arm - gap - np.einsum("...ij,...j->...i", matrix, load)
+    overlap += np.einsum("...ii->...i", matrix) * load
+    return load, deflection, overlap, stiffness
 
 
 def _worst_only(
     active: Bool[Array, "row place"],
     touching: Bool[Array, "row place"],
-    found: Float[Array, "row place"],
+    load: Float[Array, "row place"],
     overlap: Float[Array, "row place"],
 ) -> Bool[Array, "row place"]:
     """Change, of the places on the wrong side, only the one furthest from where it should be."""
     wrong = touching != active
-    pull = np.where(active, -found / np.max(np.abs(found)), overlap / np.max(np.abs(overlap)))
+    pull = np.where(active, -load / np.max(np.abs(load)), overlap / np.max(np.abs(overlap)))
     furthest = np.argmax(np.where(wrong, pull, -np.inf), axis=-1)
     chosen = wrong & (np.arange(active.shape[-1]) == furthest[:, None])
     return np.where(chosen, touching, active)

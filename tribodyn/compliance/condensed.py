@@ -1,4 +1,4 @@
-"""The face condensed to one load a pair: what the dynamics see of slices that touch.
+"""The face condensed to one load per pair: what the dynamics see of slices that touch.
 
 At the operating load the slices that touch, with their local deflections as secants s, are a linear system.
 Pair j alone has the stiffness K_j = (Λ_jj + s_j)⁻¹ between its slices, hence
@@ -25,7 +25,7 @@ from tribodyn.numerics.shapes import Array, Float
 # the contact moves along the face: neighbouring slices there differ by about as much.
 _JOINING = 0.2
 # Slices that carry less than this share of the mean are linearised there.
-_LEAST_SLICE = 1e-3
+_MINIMUM_SLICE = 1e-3
 
 
 class Condensed(NamedTuple):
@@ -46,7 +46,7 @@ def condense(
     geometry: PairGeometry,
     gap: Float[Array, "position pair slice"],
     shared: SharedLoad,
-    least_load: float,
+    minimum_load: float,
     coupled: bool = True,
 ) -> Condensed:
     """Condense the state of the mesh to pairs.
@@ -60,7 +60,7 @@ def condense(
         All of it, m.
     shared : SharedLoad
         The state.
-    least_load : float
+    minimum_load : float
         Load, N, with which a pair is linearised that carries less or nothing: pressed alone, as the others'
         loads leave its flank.
     coupled : bool
@@ -73,7 +73,7 @@ def condense(
             slice_compliance(flexible, part_of(geometry, rows), gap.shape[-1], coupled),
             gap[rows],
             shared.slice_load[rows],
-            least_load,
+            minimum_load,
         )
         for rows in in_batches(gap.shape)
     ]
@@ -86,7 +86,7 @@ def _condensed(
     matrix: Float[Array, "position pair slice pair slice"],
     gap: Float[Array, "position pair slice"],
     load: Float[Array, "position pair slice"],
-    least_load: float,
+    minimum_load: float,
 ) -> Condensed:
     """Condense pairs under loads (position, pair, slice) with Λ (position, pair, slice, pair, slice)."""
     positions, pairs, slices = load.shape
@@ -94,7 +94,7 @@ def _condensed(
     own = np.einsum("tjmjn->tjmn", matrix)
     across = matrix * ~np.eye(pairs, dtype=bool)[:, None, :, None]
     moved = np.einsum("tjmkn,tkn->tjm", across, load)
-    level = np.hypot(total, least_load)
+    level = np.hypot(total, minimum_load)
     one = np.ones((positions * pairs, 1))
     alone = press_pairs(
         flexible,
@@ -106,7 +106,7 @@ def _condensed(
         level.ravel(),
     ).slice_load.reshape(load.shape)
 
-    at = np.maximum(alone, (_LEAST_SLICE / slices * level)[..., None])
+    at = np.maximum(alone, (_MINIMUM_SLICE / slices * level)[..., None])
     width = flexible.width / slices
     secant = contact_deflection(flexible, curvature[..., None], at / width)[0] / at
     compliance, share = _stiff_together(own, secant, alone)

@@ -7,7 +7,7 @@ d(x, y) loads each harmonic like an eigenstrain, with the same amplitude in all 
 
     K_n a_n = p q_n − (c_n/b) F_n d,   Fᵀ a = ∫ φ σ_z of the amplitudes a,
 
-and the potential is least where the faces carry nothing,
+and the potential is a minimum where the faces carry nothing,
 
     Σ_n (c_n/b) S_n d = −Σ_n r_n q_n,   S_n = D − F_nᵀ K_n⁻¹ F_n,   r_n = F_nᵀ K_n⁻¹ p,
 

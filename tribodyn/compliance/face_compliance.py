@@ -70,16 +70,16 @@ def _add_free_ends(
             matrix[:, later, :, later] += _spread(along, own) / material.youngs_modulus
             for earlier in range(max(0, later - NEIGHBOURS), later):
                 rows = ends.between[:, :, :, NEIGHBOURS + sign * (later - earlier)]
-                found = np.einsum(
+                opened = np.einsum(
                     "pklmn,tm,tn->tpkl", rows, place[:, earlier], place[:, later], optimize=True
                 )
-                value = _spread(along, found) / material.youngs_modulus
+                value = _spread(along, opened) / material.youngs_modulus
                 matrix[:, earlier, :, later] += value
                 matrix[:, later, :, earlier] += value.swapaxes(1, 2)
 
 
 def _spread(
-    along: Float[Array, "2 slice wave"], found: Float[Array, "position 2 wave wave"]
+    along: Float[Array, "2 slice wave"], amplitudes: Float[Array, "position 2 wave wave"]
 ) -> Float[Array, "position slice slice"]:
     """Matrices (position, slice, slice) of those over the wave numbers (position, parity, K, K)."""
-    return np.sum(along @ found @ along.swapaxes(1, 2), axis=1)
+    return np.sum(along @ amplitudes @ along.swapaxes(1, 2), axis=1)

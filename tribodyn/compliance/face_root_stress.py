@@ -22,7 +22,7 @@ def root_stress(
     line_load: Float[Array, "position pair slice"],
     coupled: bool = True,
 ) -> tuple[Float[Array, "2 position pair slice"], Float[Array, "2 position pair slice"]]:
-    """Greatest tension and greatest compression along the root of every tooth.
+    """Maximum tension and maximum compression along the root of every tooth.
 
     Stresses along the profile, of both fillets, from the middle of one gap to the middle of the next; those
     that the neighbours' loads make in the rim add to the tooth's own.
@@ -61,11 +61,11 @@ def root_stress(
         )
         for first in range(0, positions, _BATCH):
             rows = slice(first, first + _BATCH)
-            found = _of_one_gear(per_load, place[rows], amplitude[rows], sign) @ basis
+            stress = _of_one_gear(per_load, place[rows], amplitude[rows], sign) @ basis
             if ends is not None and weights is not None:
                 along, at_ends = weights
-                found += _of_free_ends(ends, along, at_ends[rows], slice_load[rows], sign)
-            tension[body, rows], compression[body, rows] = np.max(found, axis=0), np.min(found, axis=0)
+                stress += _of_free_ends(ends, along, at_ends[rows], slice_load[rows], sign)
+            tension[body, rows], compression[body, rows] = np.max(stress, axis=0), np.min(stress, axis=0)
     return tension, compression
 
 
@@ -109,8 +109,8 @@ def _of_free_ends(
         for sector, read, loaded in _sectors(pairs, sign):
             rows = ends.root_stress[parity, :, :, sector].reshape(waves, waves, points, -1)
             loads = place[:, loaded, :, None] * counted[:, loaded, None, :]
-            found = np.einsum("klpm,tjml->ptjk", rows, loads, optimize=True)
-            total[:, :, read] += found @ along[parity].T
+            amplitudes = np.einsum("klpm,tjml->ptjk", rows, loads, optimize=True)
+            total[:, :, read] += amplitudes @ along[parity].T
     return total
 
 

@@ -56,14 +56,14 @@ def cached_gear_compliance(
     waves = wave_numbers(module, float(tooth.root_radius))
     harmonics = _kept(
         LeadHarmonics,
-        lambda found: _lead_fits(found, len(waves), len(plane.radius)),
+        lambda stored: _lead_fits(stored, len(waves), len(plane.radius)),
         "lead-" + _digest(tooth, *numbers, *waves),
         lambda: _lead(tooth, *numbers, waves),
     )
     shorter = wave_numbers(module, float(tooth.root_radius), LARGEST_AT_ENDS)
     ends = _kept(
         FreeEnds,
-        lambda found: _ends_fit(found, len(shorter), harmonics.root_position.shape[-1]),
+        lambda stored: _ends_fit(stored, len(shorter), harmonics.root_position.shape[-1]),
         "ends-" + _digest(tooth, *numbers, *shorter, width),
         lambda: _ends(tooth, *numbers, shorter, width),
     )
@@ -91,37 +91,37 @@ def _ends(*arguments: Any) -> FreeEnds:
 def _kept(kind: type[Kept], fits: Callable[[Kept], bool], name: str, solve: Callable[[], Kept]) -> Kept:
     """Arrays of a file, or of `solve`, which are then kept in it."""
     file = cache_folder() / "fem" / f"{name}.npz"
-    found = _read(kind, file)
-    if found is not None and fits(found):
-        return found
+    stored = _read(kind, file)
+    if stored is not None and fits(stored):
+        return stored
     solved = solve()
     _write(file, solved)
     return solved
 
 
-def _plane_fits(found: GearCompliance) -> bool:
-    count = len(found.radius)
-    return found.inside.shape == (2, count) and found.between.shape == (_SECTORS, count, count)
+def _plane_fits(stored: GearCompliance) -> bool:
+    count = len(stored.radius)
+    return stored.inside.shape == (2, count) and stored.between.shape == (_SECTORS, count, count)
 
 
-def _lead_fits(found: LeadHarmonics, waves: int, count: int) -> bool:
-    points = found.root_position.shape[-1]
+def _lead_fits(stored: LeadHarmonics, waves: int, count: int) -> bool:
+    points = stored.root_position.shape[-1]
     return (
-        found.wave_number.shape == (waves,)
-        and found.inside.shape == (waves, 2, count)
-        and found.between.shape == (waves, _SECTORS, count, count)
-        and found.root_position.shape == (2, points)
-        and found.root_stress.shape == (waves, _SECTORS, 2, points, count)
+        stored.wave_number.shape == (waves,)
+        and stored.inside.shape == (waves, 2, count)
+        and stored.between.shape == (waves, _SECTORS, count, count)
+        and stored.root_position.shape == (2, points)
+        and stored.root_stress.shape == (waves, _SECTORS, 2, points, count)
     )
 
 
-def _ends_fit(found: FreeEnds, waves: int, points: int) -> bool:
-    count = len(found.radius)
+def _ends_fit(stored: FreeEnds, waves: int, points: int) -> bool:
+    count = len(stored.radius)
     return (
-        found.wave_number.shape == (waves,)
-        and found.own.shape == (2, waves, waves, count)
-        and found.between.shape == (2, waves, waves, _SECTORS, count, count)
-        and found.root_stress.shape == (2, waves, waves, _SECTORS, 2, points, count)
+        stored.wave_number.shape == (waves,)
+        and stored.own.shape == (2, waves, waves, count)
+        and stored.between.shape == (2, waves, waves, _SECTORS, count, count)
+        and stored.root_stress.shape == (2, waves, waves, _SECTORS, 2, points, count)
     )
 
 

@@ -20,10 +20,10 @@ from tribodyn.geometry.path import PerContact
 from tribodyn.geometry.tooth import thickness_half_angle
 from tribodyn.numerics.shapes import Array, Float, Int
 
-#: Greatest tip relief, as a share of the tip's thickness: both flanks together then leave half of it.
-GREATEST_TIP_SHARE = 0.25
-#: Greatest of all other modifications, in modules. What is more changes the tooth, not its flank.
-GREATEST_SHARE = 0.1
+#: Maximum tip relief, as a share of the tip's thickness: both flanks together then leave half of it.
+MAXIMUM_TIP_SHARE = 0.25
+#: Maximum of all other modifications, in modules. What is more changes the tooth, not its flank.
+MAXIMUM_SHARE = 0.1
 
 
 def flank_gap(
@@ -122,18 +122,18 @@ def lead_amounts(lead: LeadRelief) -> dict[str, float]:
     return {"lead_relief_start": lead.start, "lead_relief_end": lead.end, "crowning": lead.crowning}
 
 
-def greatest_along_lead(assembly: Assembly, modifications: Modifications) -> tuple[str, str]:
+def maximum_along_lead(assembly: Assembly, modifications: Modifications) -> tuple[str, str]:
     """Key and value of what opens the flanks most along the face: an angle of the axes, or a relief."""
     width = min(float(body_of(assembly.drive, side).face_width) for side in SIDES)
     ends, geometry = np.array([-width, width]) / 2.0, pair_geometry(assembly, np.array(assembly.roll_limits))
-    found = []
+    openings = []
     for name, angle in modifications.misalignment._asdict().items():
         opened = np.max(np.abs(misalignment_gap(assembly, Misalignment(**{name: angle}), geometry, ends)))
-        found.append((opened, f"mesh.misalignment.{name}", f"{np.degrees(angle) * 60:.6g} arcmin"))
+        openings.append((opened, f"mesh.misalignment.{name}", f"{np.degrees(angle) * 60:.6g} arcmin"))
     for side in SIDES:
         for name, amount in lead_amounts(getattr(modifications, side).lead).items():
-            found.append((amount, f"drive.{side}.modification.{name}", f"{amount * 1e6:.6g} um"))
-    return max(found)[1:]
+            openings.append((amount, f"drive.{side}.modification.{name}", f"{amount * 1e6:.6g} um"))
+    return max(openings)[1:]
 
 
 def relief_rolls(assembly: Assembly, modifications: Modifications) -> list[float]:
@@ -196,20 +196,20 @@ def _check_flank(assembly: Assembly, flank: FlankModification, side: Side) -> No
     width = float(body_of(assembly.drive, side).face_width)
     tip = float(tip_radius(assembly.drive, side))
     thickness = 2.0 * tip * float(thickness_half_angle(assembly.tooth(side), tip))
-    greatest = GREATEST_SHARE * module
-    deepest = min(greatest, GREATEST_TIP_SHARE * thickness)
-    for name, relief, most in (("tip_relief", flank.tip, deepest), ("root_relief", flank.root, greatest)):
+    maximum = MAXIMUM_SHARE * module
+    deepest = min(maximum, MAXIMUM_TIP_SHARE * thickness)
+    for name, relief, most in (("tip_relief", flank.tip, deepest), ("root_relief", flank.root, maximum)):
         _require(key + name, relief.amount, 0.0, most, "deepest relief of this tooth")
         if relief.amount:
             path = assembly.r_end - assembly.r_start
             _require(key + name + "_length", relief.length, 0.0, path, "path of contact", above=True)
     for name, amount in lead_amounts(flank.lead).items():
-        _require(key + name, amount, 0.0, greatest, "tenth of the module")
+        _require(key + name, amount, 0.0, maximum, "tenth of the module")
     if flank.lead.start or flank.lead.end:
         _require(key + "lead_unmodified", flank.lead.unmodified, 0.0, width * (1 - 1e-9), "face width")
     if flank.profile_error is not None:
         worst = float(np.max(np.abs(flank.profile_error[1])))
-        _require(key + "profile_error", worst, 0.0, greatest, "tenth of the module")
+        _require(key + "profile_error", worst, 0.0, maximum, "tenth of the module")
     if len(flank.pitch_error):
         teeth = round(float(body_of(assembly.drive, side).teeth))
         if len(flank.pitch_error) != teeth:
@@ -220,14 +220,15 @@ def _check_flank(assembly: Assembly, flank: FlankModification, side: Side) -> No
                 f"give {teeth} lengths",
             )
         worst = float(np.max(np.abs(flank.pitch_error)))
-        _require(key + "pitch_errors", worst, 0.0, greatest, "tenth of the module")
+        _require(key + "pitch_errors", worst, 0.0, maximum, "tenth of the module")
 
 
-def _require(key: str, value: float, least: float, most: float, name: str, above: bool = False) -> None:
-    if not (least <= value <= most) or (above and value <= least):
+def _require(key: str, value: float, lowest: float, highest: float, name: str, above: bool = False) -> None:
+    if not (lowest <= value <= highest) or (above and value <= lowest):
         raise InputError(
             key,
             f"{value * 1e6:.6g} um",
-            f"must be {'more than' if above else 'at least'} 0 and at most {most * 1e6:.4g} um, the {name}",
+            f"must be {'more than' if above else 'at least'} 0 and at most {highest * 1e6:.4g} um, "
+            f"the {name}",
             "give a length in between",
         )

@@ -124,13 +124,13 @@ def ring_compliance(
     Exact for a ring in plane stress that is fixed at its bore, each tooth loading its arc of the root circle
     with uniform (N, T) and linear (M) traction along its own axes; displacements are the work conjugates
     (means over the arc). Truncated after `harmonics` terms: the self term (angle 0) converges like
-    (harmonics · root_half_angle)^−2 and wants about 40/root_half_angle of them, the term between two teeth
+    (harmonics · root_half_angle)^−2 and needs about 40/root_half_angle of them, the term between two teeth
     converges faster.
 
     Parameters
     ----------
     angle : array, shape ()
-        Angle of the loaded tooth, counter-clockwise from the one whose displacement is asked for, rad.
+        Angle of the loaded tooth, counter-clockwise from the one whose displacement is wanted, rad.
     root_half_angle, radius_ratio, poisson_ratio : array, shape ()
         Half the angle of a tooth's root, rad; root radius/bore radius; Poisson's ratio.
 

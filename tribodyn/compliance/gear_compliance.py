@@ -85,7 +85,7 @@ class GearCompliance(NamedTuple):
     depth : float
         Depth below the surface to which `inside` refers, m.
     lead : LeadHarmonics or None
-        Loads that vary along the teeth, and root stress, where they were asked for.
+        Loads that vary along the teeth, and root stress, where they were requested.
     ends : FreeEnds or None
         With `lead`: that the end faces are free; without it they are planes of symmetry.
     """
@@ -104,7 +104,7 @@ def at_radii(solved: Float[Array, " solved"], radius: Float[Array, "*pair"]) -> 
 
 
 def without_neighbours(gear: GearCompliance) -> GearCompliance:
-    """Return a gear whose teeth do not know of each other's loads."""
+    """Return a gear whose teeth do not feel each other's loads."""
     lead = gear.lead and gear.lead._replace(between=0.0 * gear.lead.between)
     ends = gear.ends and gear.ends._replace(between=0.0 * gear.ends.between)
     return gear._replace(between=0.0 * gear.between, lead=lead, ends=ends)

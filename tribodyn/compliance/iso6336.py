@@ -1,4 +1,4 @@
-"""Tooth stiffness after ISO 6336-1, method B: the figures that our own are shown beside.
+"""Tooth stiffness after ISO 6336-1, method B: the figures that ours are compared with.
 
 External spur gears with the standard basic rack (20°, addendum 1.0, dedendum 1.2), steel on steel, solid
 discs, specific load at least 100 N/mm. Theory after Weber & Banaschek, corrected by measurements.
@@ -15,9 +15,9 @@ class ToothStiffness(NamedTuple):
     Parameters
     ----------
     theoretical : float
-        c'_th, greatest stiffness of a single pair, from theory.
+        c'_th, maximum stiffness of a single pair, from theory.
     single_pair : float
-        c' = 0.8 c'_th, with the correction C_M for what measurements found.
+        c' = 0.8 c'_th, with the correction C_M from measurements.
     """
 
     theoretical: Any

@@ -8,7 +8,7 @@ have a small m, |m| < 0.3, and as m goes to zero this becomes
 
 whatever the law: the load-weighted geometric mean of the line load. The next term of ln W is
 ½ m (⟨s ln² s⟩ − ⟨s ln s⟩²), 5 % of W for a triangle and m = 0.3, 1.5 % of the friction. The film is thinnest,
-pressure and flash temperature are greatest where s is: that ratio is K_Hβ (ISO 6336-1).
+pressure and flash temperature are largest where s is: that ratio is K_Hβ (ISO 6336-1).
 """
 
 import numpy as np

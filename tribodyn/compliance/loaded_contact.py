@@ -45,12 +45,12 @@ class LoadedContact(NamedTuple):
     line_load : (T, P, S)
         N/m.
     pressure, half_width : (T, P, S)
-        Greatest Hertz pressure, Pa, and half width, m, of each slice's line load.
+        Maximum Hertz pressure, Pa, and half width, m, of each slice's line load.
     root_tension, root_compression : (2, T, P, S)
-        Greatest stress along the root of each pair's tooth of pinion and gear, tension positive and
+        Maximum stress along the root of each pair's tooth of pinion and gear, tension positive and
         compression negative, Pa (`face_root_stress`).
     face_load_factor : (T, P)
-        K_Hβ, greatest over mean line load along the face (ISO 6336-1); NaN where a pair carries nothing.
+        K_Hβ, maximum over mean line load along the face (ISO 6336-1); NaN where a pair carries nothing.
     mesh_stiffness : (T,)
         dF/dξ of the force on the pitch circles, N/m: of what touches, tangent.
     contact_ratio : float
@@ -252,7 +252,7 @@ def _nearest(
     roll: Float[Array, "*pair"],
     face: Float[Array, " slice"],
 ) -> Float[Array, "*pair"]:
-    """Least gap along the face at each angle on the path, m."""
+    """Minimum gap along the face at each angle on the path, m."""
     geometry = pair_geometry(flexible.assembly, roll)
     return np.min(flank_gap(flexible.assembly, modifications, geometry, face), axis=-1)
 

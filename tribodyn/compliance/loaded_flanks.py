@@ -12,7 +12,7 @@ from tribodyn.numerics.shapes import Array, Float
 
 
 class LoadedFlanks(NamedTuple):
-    """What the load contact model needs to know but position, load and friction.
+    """What the load contact model needs to know except position, load and friction.
 
     Attributes
     ----------

@@ -1,14 +1,14 @@
-"""What the load contact model can be asked: torque, modifications, slices."""
+"""What the load contact model can take: torque, modifications, slices."""
 
 import numpy as np
 
-from tribodyn.compliance.flank_gap import check_modifications, greatest_along_lead
+from tribodyn.compliance.flank_gap import check_modifications, maximum_along_lead
 from tribodyn.compliance.load_sharing import SharedLoad, half_width
 from tribodyn.compliance.pair_flexibility import PairFlexibility
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.corner_contact import pair_geometry
-from tribodyn.geometry.modification import LEAST_SLICES, Modifications, too_few_slices, vary_along_lead
+from tribodyn.geometry.modification import MINIMUM_SLICES, Modifications, too_few_slices, vary_along_lead
 
 
 def check_torque(gear_torque: float) -> None:
@@ -51,13 +51,13 @@ def check_resolved(
 ) -> None:
     """Refuse what leaves the heaviest pair on fewer slices than a distribution along the face needs."""
     slices = shared.slice_load.shape[-1]
-    if slices < LEAST_SLICES or not vary_along_lead(modifications):
+    if slices < MINIMUM_SLICES or not vary_along_lead(modifications):
         return
     heaviest = np.argmax(shared.normal_load, axis=1)[:, None, None]
     touching = np.sum(np.take_along_axis(shared.slice_load, heaviest, axis=1)[:, 0] > 0.0, axis=-1)
-    if np.any(touching < LEAST_SLICES):
+    if np.any(touching < MINIMUM_SLICES):
         raise InputError(
-            *greatest_along_lead(assembly, modifications),
+            *maximum_along_lead(assembly, modifications),
             f"lifts the flanks off each other: at {gear_torque:g} N m only {int(np.min(touching))} "
             f"of {slices} slices carry the heaviest pair",
             "give less, or more torque; or more mesh.slices, to resolve so narrow a contact",

@@ -1,4 +1,4 @@
-"""Memory that a gear's finite elements need, told before any of it is taken."""
+"""Memory that a gear's finite elements need, estimated before any of it is taken."""
 
 from pathlib import Path
 
@@ -7,7 +7,7 @@ import numpy as np
 from tribodyn.compliance.ring_mesh import half_sector_cells
 from tribodyn.errors import InputError
 
-# Entries of both triangular factors over n log2 n, largest of levels 2 to 8 with 2 and 3 components a node,
+# Entries of both triangular factors over n log2 n, largest of levels 2 to 8 with 2 and 3 components per node,
 # bytes of each with SuperLU's own working space, and copies of the dense sides and readers held at once:
 # together they meet the peaks measured (22 MB to 960 MB) within a fifth (test_mesh_memory).
 _FILL = {2: 10.5, 3: 12.5}
@@ -40,19 +40,19 @@ def memory_needed(level: int, components: int) -> float:
 
 def available_memory() -> float:
     """Bytes that this process can still take; infinite where the system does not say."""
-    found = [np.inf]
+    limits = [np.inf]
     try:
         lines = Path("/proc/meminfo").read_text(encoding="ascii").splitlines()
-        found += [1024.0 * float(line.split()[1]) for line in lines if line.startswith("MemAvailable:")]
+        limits += [1024.0 * float(line.split()[1]) for line in lines if line.startswith("MemAvailable:")]
     except OSError:
         pass
     try:
         limit, used = (path.read_text(encoding="ascii").strip() for path in _LIMITS)
         if limit != "max":
-            found.append(float(limit) - float(used))
+            limits.append(float(limit) - float(used))
     except OSError:
         pass
-    return min(found)
+    return min(limits)
 
 
 def check_level(level: int, components: int) -> None:

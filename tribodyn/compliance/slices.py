@@ -12,7 +12,7 @@ on slice t is
 
     Λ_st = (1/b) Σ_n c_n λ(k_n) cos k_n z_s cos k_n z_t,  c_0 = 1, c_n = 2.
 
-Cosines at the middles of equal slices are orthogonal: λ the same for all n makes slices that do not know of
+Cosines at the middles of equal slices are orthogonal: λ the same for all n makes slices that do not feel
 each other, Λ = λ S/b δ_st, and a uniform load meets λ(0), plane strain, alone. The local deflection under the
 surface is each slice's own (`local`), with its line load; λ holds what a load that varies along the face
 makes less than that, down to wavelengths of the contact's width.

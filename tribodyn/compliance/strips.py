@@ -21,7 +21,7 @@ from skfem import Basis, BilinearForm, ElementQuad2, MeshQuad, MeshQuad2
 
 from tribodyn.numerics.shapes import Array, Float
 
-#: Components of the displacement a node: u, v, w.
+#: Components of the displacement per node: u, v, w.
 COMPONENTS = 3
 
 

@@ -216,8 +216,8 @@ def engagement(before, phase_before, after, phase_after, y, model, work):
     """Changes of (pinion slip, ξ', work in, parametric work) where the set of contacting pairs changes.
 
     The strain energy that appears or vanishes there is the parametric work of an impulse. The classical
-    equations leave it unbalanced and the audit books it; the energy-consistent ones take it from the drive
-    (prescribed speed) or from the pinion's kinetic energy.
+    equations leave it unbalanced and the energy audit counts it; the energy-consistent ones take it from
+    the drive (prescribed speed) or from the pinion's kinetic energy.
     """
     step = strain_energy(phase_after, after, y, model, work) - strain_energy(
         phase_before, before, y, model, work

@@ -44,13 +44,13 @@ SAMPLES: dict[str, Variable] = {
         ("time", "pair"), "1", "friction coefficient of the pair, its whole face"
     ),
     "asperity_load_ratio": Variable(
-        ("time", "pair"), "1", "share of the load that asperities carry, where the line load is greatest"
+        ("time", "pair"), "1", "share of the load that asperities carry, where the line load is largest"
     ),
     "film_parameter": Variable(
         ("time", "pair"), "1", "film parameter: central film thickness over composite roughness"
     ),
     "central_film_thickness": Variable(
-        ("time", "pair"), "m", "central film thickness where the line load is greatest"
+        ("time", "pair"), "m", "central film thickness where the line load is largest"
     ),
     "equivalent_radius": Variable(
         ("time", "pair"),
@@ -58,10 +58,10 @@ SAMPLES: dict[str, Variable] = {
         "equivalent radius of the two flanks; averaged over the contact where it vanishes at the pitch point",
     ),
     "hertz_pressure": Variable(
-        ("time", "pair"), "Pa", "greatest Hertz pressure along the face, at the equivalent radius"
+        ("time", "pair"), "Pa", "maximum Hertz pressure along the face, at the equivalent radius"
     ),
     "flash_temperature_rise": Variable(
-        ("time", "pair"), "K", "flash temperature rise where the line load is greatest"
+        ("time", "pair"), "K", "flash temperature rise where the line load is largest"
     ),
     "entrainment_speed": Variable(
         ("time", "pair"),

@@ -18,7 +18,7 @@ _SAMPLES = 400
 
 @dataclass(frozen=True)
 class Assembly:
-    """Path, teeth and contact limits of a drive, each worked out once, when it is first asked for.
+    """Path, teeth and contact limits of a drive, each worked out once, when it is first needed.
 
     Parameters
     ----------

@@ -19,7 +19,7 @@ from tribodyn.geometry.drive import SIDES, Drive, GearBody, Side, body_of, root_
 from tribodyn.geometry.family import Family
 from tribodyn.geometry.tooth import Tooth, flank_point
 
-_GREATEST_PRESSURE_ANGLE = math.radians(45)
+_MAXIMUM_PRESSURE_ANGLE = math.radians(45)
 # An overlap below this share of the module is the chord error of the fillet's points.
 _OVERLAP_TOLERANCE = 1e-5
 _LENGTHS = ("module", "face_width", "bore_radius", "tip_radius")
@@ -57,7 +57,7 @@ def check_sizes(drive: Drive, pressure_angle: bool = True) -> None:
     """Refuse numbers that are not finite or have the wrong sign; the pressure angle if the family has one."""
     _require("module", drive.module, drive.module > 0, "must be greater than zero")
     if pressure_angle:
-        angle_holds = 0 < drive.pressure_angle <= _GREATEST_PRESSURE_ANGLE
+        angle_holds = 0 < drive.pressure_angle <= _MAXIMUM_PRESSURE_ANGLE
         _require("pressure_angle", drive.pressure_angle, angle_holds, "must be between 0 and 45°")
     for side in SIDES:
         body = body_of(drive, side)
@@ -128,15 +128,15 @@ def _check_rack_corners(assembly: Assembly, side: Side) -> None:
     if assembly.tooth(side).corner_x <= assembly.tooth(side).corner_limit:
         return
     body = body_of(assembly.drive, side)
-    greatest = boundary(lambda value: fits(fillet_radius=value), body.fillet_radius, 0.0)
-    if greatest is not None:
+    maximum = boundary(lambda value: fits(fillet_radius=value), body.fillet_radius, 0.0)
+    if maximum is not None:
         rule = "the rounded corners of the rack's tip overlap"
         raise InputError(
-            f"drive.{side}.fillet_radius", body.fillet_radius, rule, f"use at most {greatest:.7g}"
+            f"drive.{side}.fillet_radius", body.fillet_radius, rule, f"use at most {maximum:.7g}"
         )
     rule = "the rack's flanks meet before they reach its tip"
-    greatest = boundary(lambda value: fits(dedendum=value), body.dedendum, body.fillet_radius)
-    remedy = _advice(greatest, "at most", "use a smaller pressure angle")
+    maximum = boundary(lambda value: fits(dedendum=value), body.dedendum, body.fillet_radius)
+    remedy = _advice(maximum, "at most", "use a smaller pressure angle")
     raise InputError(f"drive.{side}.dedendum", body.dedendum, rule, remedy)
 
 
@@ -158,8 +158,8 @@ def _check_undercut(assembly: Assembly, side: Side) -> None:
     if family.parameters:
         otherwise = "use more teeth, another shape of the path or a smaller dedendum"
     if family.shiftable:
-        least = boundary(sound, body.profile_shift, body.profile_shift + 2)
-        remedy = _advice(least, "at least", otherwise)
+        minimum = boundary(sound, body.profile_shift, body.profile_shift + 2)
+        remedy = _advice(minimum, "at least", otherwise)
         raise InputError(f"drive.{side}.profile_shift", body.profile_shift, rule, remedy)
     raise InputError(f"drive.{side}.dedendum", body.dedendum, rule, otherwise)
 
@@ -181,12 +181,12 @@ def _check_tip(assembly: Assembly, side: Side) -> None:
         return
     rule = f"the tip is pointed (thickness {_millimetres(thickness(tooth))})"
     if body.tip_radius is None and family.shiftable and body.profile_shift > 0:
-        greatest = boundary(
+        maximum = boundary(
             lambda shift: blunt(replaced(drive, side, profile_shift=shift)), body.profile_shift, 0.0
         )
-        if greatest is not None:
+        if maximum is not None:
             key = f"drive.{side}.profile_shift"
-            raise InputError(key, body.profile_shift, rule, f"use at most {greatest:.7g}")
+            raise InputError(key, body.profile_shift, rule, f"use at most {maximum:.7g}")
     _refuse_tip(drive, side, rule, blunt, tooth.form_radius)
 
 
@@ -198,8 +198,8 @@ def _tip_key(drive: Drive, side: Side) -> tuple[str, Any]:
     return f"drive.{side}.tip_radius", _millimetres(body.tip_radius)
 
 
-def _refuse_tip(drive: Drive, side: Side, rule: str, holds: Callable[[Drive], bool], least: float) -> None:
-    """Refuse a tip circle that is too large, naming the largest usable one above the radius `least` (m)."""
+def _refuse_tip(drive: Drive, side: Side, rule: str, holds: Callable[[Drive], bool], minimum: float) -> None:
+    """Refuse a tip circle that is too large, naming the largest usable one above the radius `minimum` (m)."""
     body = body_of(drive, side)
     if body.tip_radius is None:
         usable = boundary(lambda height: holds(replaced(drive, side, addendum=height)), body.addendum, 0.0)
@@ -208,7 +208,7 @@ def _refuse_tip(drive: Drive, side: Side, rule: str, holds: Callable[[Drive], bo
         usable = boundary(
             lambda length: holds(replaced(drive, side, tip_radius=length / 1e3)),
             1e3 * body.tip_radius,
-            1e3 * least,
+            1e3 * minimum,
         )
         unit = " mm"
     remedy = "use a smaller one" if usable is None else f"use at most {usable:.7g}{unit}"

@@ -67,8 +67,8 @@ def pair_geometry(assembly: Assembly, roll: PerContact) -> PairGeometry:
     sides: tuple[tuple[Side, Bool[Array, "*contact"]], ...] = (("pinion", roll < start), ("gear", roll > end))
     for side, outside in sides:
         if np.any(outside):
-            distance, found, at, flank = _corner(assembly, side, roll[outside])
-            gap[outside], reach[side][outside] = found, at
+            distance, corner_gap, at, flank = _corner(assembly, side, roll[outside])
+            gap[outside], reach[side][outside] = corner_gap, at
             place[side][outside] = flank if side == "pinion" else -flank
             moved[outside] = (-distance if side == "pinion" else distance) - r[outside]
     ratio = path.pinion_pitch_radius / path.gear_pitch_radius
@@ -117,15 +117,15 @@ def roll_at_gap(assembly: Assembly, gap: float | tuple[float, float]) -> tuple[f
     """
     pitch = assembly.pitch_angle
     gaps = gap if isinstance(gap, tuple) else (gap, gap)
-    found = []
-    for limit, outwards, least in zip(assembly.roll_limits, (-1.0, 1.0), gaps, strict=True):
-        low, high = 0.0, pitch if least > 0.0 else 0.0
+    angles = []
+    for limit, outwards, smallest in zip(assembly.roll_limits, (-1.0, 1.0), gaps, strict=True):
+        low, high = 0.0, pitch if smallest > 0.0 else 0.0
         # ten steps of 32 intervals at once, as exact as fifty of two
         for _ in range(10):
             tried = np.linspace(low, high, 33)[1:-1]
-            wide = pair_geometry(assembly, limit + outwards * tried).gap > least
+            wide = pair_geometry(assembly, limit + outwards * tried).gap > smallest
             first = int(np.argmax(wide)) if np.any(wide) else len(tried)
             ends = [low, *tried, high]
             low, high = float(ends[first]), float(ends[first + 1])
-        found.append(limit + outwards * high)
-    return found[0], found[1]
+        angles.append(limit + outwards * high)
+    return angles[0], angles[1]

@@ -11,7 +11,7 @@ from tribodyn.errors import InputError
 from tribodyn.numerics.curve import Table
 
 #: Minimum number of slices where anything varies along the face.
-LEAST_SLICES = 3
+MINIMUM_SLICES = 3
 
 
 class Relief(NamedTuple):
@@ -76,8 +76,8 @@ class FlankModification(NamedTuple):
 class Misalignment(NamedTuple):
     """Angles between the axes, rad: the gear's against the pinion's, which meet at z = 0.
 
-    Against the plane of action at the pitch point, not, as ISO/TR 10064-3 tells inclination f_Σδ (in the
-    common plane of the axes) from skew f_Σβ (across it): of two such angles, positive where the gear stands
+    Against the plane of action at the pitch point, not, as in ISO/TR 10064-3, as inclination f_Σδ (in the
+    common plane of the axes) and skew f_Σβ (across it): of two such angles, positive where the gear stands
     off towards +y (away from the pinion) and +x at z > 0,
 
         in_plane = skew cos α_w + inclination sin α_w,  out_of_plane = inclination cos α_w − skew sin α_w.
@@ -115,7 +115,7 @@ def vary_along_lead(modifications: Modifications) -> bool:
 
 def too_few_slices(slices: int, varies: bool) -> InputError | None:
     """Return what is wrong with a number of slices of the face, over which something `varies`; else None."""
-    if slices >= LEAST_SLICES or not (varies or slices > 1):
+    if slices >= MINIMUM_SLICES or not (varies or slices > 1):
         return None
     rule = "too few for what varies along the face" if varies else "neither one slice nor enough of them"
-    return InputError("mesh.slices", slices, rule, f"use at least {LEAST_SLICES}, or leave it out for 21")
+    return InputError("mesh.slices", slices, rule, f"use at least {MINIMUM_SLICES}, or leave it out for 21")

@@ -26,7 +26,7 @@ _NEWTON_STEPS = 6
 # Where a path is steep at its end, some steps go to find its end first.
 _BRACKETED_STEPS = 12
 # Where the flanks' speeds and radii vanish (a cycloid's pitch point), a radius of this share
-# of the pitch radius stands for zero. The same distance tells the two sides of the pitch point apart.
+# of the pitch radius stands for zero. The same distance separates the two sides of the pitch point.
 _VANISHING = 1e-12
 _BESIDE = 1e-9
 
@@ -114,9 +114,9 @@ def kinematics(path: Path, r: PerContact) -> Kinematics:
     gear_friction_arm = path.gear_pitch_radius * sin(alpha) - r
     pinion_speed = pinion_friction_arm + r * kappa
     gear_speed = ratio * gear_friction_arm + r * kappa
-    least = _VANISHING * path.pinion_pitch_radius
-    pinion_curvature = (1 + kappa) / where(absolute(pinion_speed) < least, least, pinion_speed)
-    gear_curvature = (ratio - kappa) / where(absolute(gear_speed) < least, least, gear_speed)
+    floor = _VANISHING * path.pinion_pitch_radius
+    pinion_curvature = (1 + kappa) / where(absolute(pinion_speed) < floor, floor, pinion_speed)
+    gear_curvature = (ratio - kappa) / where(absolute(gear_speed) < floor, floor, gear_speed)
     return Kinematics(
         signed_distance=r,
         pressure_angle=alpha,
@@ -172,7 +172,7 @@ def distance_at_radius(path: Path, pinion_radius: PerContact) -> PerContact:
     arm = r_p * sine
     root = sqrt(xp.maximum(arm**2 + quadratic * square, (1e-3 * arm) ** 2 + (_BESIDE * r_p) ** 2))
     start = square / (arm + root)
-    # Above the pitch circle r² ≤ R² − r_p²; below it the radius is least, the path at an end, before −r_p.
+    # Above the pitch circle r² ≤ R² − r_p²; below it the radius is smallest, the path at an end, before −r_p.
     furthest = xp.where(square < 0, -r_p, sqrt(xp.maximum(square, 0.0)))
     lower, upper = xp.minimum(furthest, 0.0), xp.maximum(furthest, 0.0)
     state = xp.clip(start, lower, upper), lower, upper
@@ -191,7 +191,7 @@ def _step_to_radius(
     alpha = path.pressure_angle(r)
     residual = r**2 + 2 * r_p * r * sin(alpha) + r_p**2 - pinion_radius**2
     slope = 2 * (r + r_p * sin(alpha) + r * r_p * cos(alpha) * path.pressure_angle_slope(r))
-    beyond = slope < -_VANISHING * r_p  # the least radius, where it grows again
+    beyond = slope < -_VANISHING * r_p  # the minimum radius, where it grows again
     short = (residual < 0) | beyond
     lower, upper = where(short, r, lower), where(short, upper, r)
     following = r - residual / where(absolute(slope) < _VANISHING * r_p, _VANISHING * r_p, slope)

@@ -1,4 +1,4 @@
-"""What a family with one path for rack and mate is asked: does the path reach as far as the teeth do."""
+"""Checks of a family with one path for rack and mate: does the path reach as far as the teeth do."""
 
 from collections.abc import Callable
 from typing import Any

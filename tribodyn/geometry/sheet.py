@@ -88,7 +88,7 @@ def geometry_sheet(assembly: Assembly, masses: Sequence[tuple[float, float]] | N
 
 
 def _sliding(assembly: Assembly) -> dict[str, dict[str, Quantity]]:
-    """Greatest sliding in approach and recess, and each flank's extremes of specific sliding.
+    """Maximum sliding in approach and recess, and each flank's extremes of specific sliding.
 
     Sliding per rad of the pinion, so mm/rad times rad/s is mm/s. Specific sliding is the flank's speed less
     its mate's, over the flank's own: −∞ where a flank is touched at its point of zero velocity.

@@ -19,7 +19,7 @@ from tribodyn.numerics.elementary import namespace
 class MeshCycle(NamedTuple):
     """Immutable table of one mesh cycle; a JAX pytree of float64 arrays.
 
-    Dimensions: S segments, N nodes a segment, Q pair slots. The front slots come first, the pair that
+    Dimensions: S segments, N nodes per segment, Q pair slots. The front slots come first, the pair that
     entered last in the last of them ("pair 1" of two, as Liu & Ni number them); slots of back flanks, if
     any, follow. Where a slot is out of contact its values are finite but mean nothing.
 
@@ -54,7 +54,7 @@ class MeshCycle(NamedTuple):
         bodies; zero diagonal, symmetric; m/N.
     line_load_friction, line_load_peak : (S, N, Q)
         Line loads over their mean along the whole face, at the load of the table, ≥ 1: the one at which
-        friction acts as it does on the uneven face, and the greatest, K_Hβ (`compliance.line_load`).
+        friction acts as it does on the uneven face, and the maximum, K_Hβ (`compliance.line_load`).
     hertz_coefficient : float
         A of the load-dependent Hertz deflection A F^0.9, m/N^0.9; 0 where the Hertz contact is linear.
     pinion_pitch_radius, gear_pitch_radius : float
@@ -202,9 +202,9 @@ def polynomials(cycle: MeshCycle) -> Polynomials:
     if cycle.compliance.dtype != np.float64:
         raise TypeError(f"the mesh cycle is {cycle.compliance.dtype}, not float64: enable jax_enable_x64")
     angle = {"cosine": xp.cos(cycle.pressure_angle), "sine": xp.sin(cycle.pressure_angle)}
-    found = [angle[name] if name in angle else getattr(cycle, name) for name in CHANNELS]
-    found = [xp.broadcast_to(values, cycle.compliance.shape) for values in found]
-    channels = xp.stack(found, axis=-1)
+    columns = [angle[name] if name in angle else getattr(cycle, name) for name in CHANNELS]
+    columns = [xp.broadcast_to(values, cycle.compliance.shape) for values in columns]
+    channels = xp.stack(columns, axis=-1)
     return Polynomials(
         boundary=cycle.boundary,
         in_contact=cycle.in_contact,
@@ -249,7 +249,7 @@ def from_arrays(arrays: dict[str, Any]) -> MeshCycle:
     fields = {}
     for name in MeshCycle._fields:
         if name in _RATIOS and name not in arrays:
-            continue  # a record of before the ratios were in the table
+            continue  # a record of version 0.1.0, whose table lacks the ratios
         value = np.asarray(arrays[name], dtype=float)
         if name == "in_contact":
             value = value[::nodes]

@@ -39,7 +39,7 @@ MESH_CYCLE: dict[str, Variable] = {
         ("phase", "pair"), "1", "line load at which friction acts as on the uneven face, over the mean"
     ),
     "line_load_peak": Variable(
-        ("phase", "pair"), "1", "greatest line load along the face over the mean, K_Hbeta"
+        ("phase", "pair"), "1", "maximum line load along the face over the mean, K_Hbeta"
     ),
     "coupling": Variable(
         ("phase", "pair", "other_pair"),

@@ -7,7 +7,7 @@ from tribodyn.numerics.elementary import is_jax
 
 
 def check_bores(drive: Drive) -> None:
-    """Refuse a solid body where its elasticity is asked for: it is held at its bore.
+    """Refuse a solid body where its elasticity is needed: it is held at its bore.
 
     Traced radii are not checked.
 

@@ -1,4 +1,4 @@
-"""Stiffness of a single pair that carries the whole torque, out of the mesh cycle."""
+"""Stiffness of a single pair that carries the whole torque, from the mesh cycle."""
 
 from typing import NamedTuple
 

@@ -35,7 +35,7 @@ from tribodyn.numerics.shapes import Array, Float
 # Degree of the interpolation over each half of the contact; test_tabulate shows what it leaves.
 _DEGREE = 16
 # Mesh cycles; far below anything that is resolved, far above rounding.
-_LEAST_SEGMENT = 1e-11
+_MINIMUM_SEGMENT = 1e-11
 _POINTS = -np.cos(np.pi * np.arange(_DEGREE + 1) / _DEGREE)
 _TO_SERIES = np.linalg.inv(np.polynomial.chebyshev.chebvander(_POINTS, _DEGREE))
 
@@ -182,13 +182,13 @@ def _phases(
 def _apart(boundary: Float[Array, " boundary"]) -> Float[Array, " boundary"]:
     """Move boundaries that fall together, as at a whole contact ratio, so that every segment has a length."""
     xp = namespace(boundary)
-    found = [boundary[0]]
+    phases = [boundary[0]]
     for value in boundary[1:-1]:
-        found.append(xp.maximum(value, found[-1] + _LEAST_SEGMENT))
-    found.append(boundary[-1])
-    for i in range(len(found) - 2, 0, -1):
-        found[i] = xp.minimum(found[i], found[i + 1] - _LEAST_SEGMENT)
-    return xp.stack(found)
+        phases.append(xp.maximum(value, phases[-1] + _MINIMUM_SEGMENT))
+    phases.append(boundary[-1])
+    for i in range(len(phases) - 2, 0, -1):
+        phases[i] = xp.minimum(phases[i], phases[i + 1] - _MINIMUM_SEGMENT)
+    return xp.stack(phases)
 
 
 class _RollCurve(NamedTuple):

@@ -4,7 +4,7 @@ What `tabulate` does with formulas, from finite elements and Hertz. A pair is ta
 contact, as far as corners can touch, with the gap between them. The contact's deflection is not proportional
 to the load; the table holds its secant at the load which the model finds in slow rotation without friction,
 so that the quasi-static mesh at the operating torque is the load contact model's. Faces in slices are
-condensed to one compliance and gap a pair (`compliance.condensed`).
+condensed to one compliance and gap per pair (`compliance.condensed`).
 """
 
 import math
@@ -32,7 +32,7 @@ from tribodyn.numerics.shapes import Array, Float
 
 # Share of a single pair's load below which the secant no longer follows the load: the contact's compliance
 # grows without bound, like a logarithm, as the load vanishes.
-_LEAST_SHARE = 0.05
+_MINIMUM_SHARE = 0.05
 
 
 def tabulate_loaded(
@@ -88,7 +88,7 @@ def tabulate_loaded(
         flexible,
         mesh,
         gear_torque,
-        _LEAST_SHARE * full,
+        _MINIMUM_SHARE * full,
         roll[..., front].reshape(-1, pairs),
         error[..., front].reshape(-1, pairs),
     )
@@ -145,7 +145,7 @@ def _driving(
     flexible: PairFlexibility,
     mesh: MeshData,
     gear_torque: float,
-    least_load: float,
+    minimum_load: float,
     roll: Float[Array, "position pair"],
     error: Float[Array, "position pair"],
 ) -> Condensed:
@@ -157,7 +157,7 @@ def _driving(
     shared = share_load(flexible, roll, gear_torque, 0.0, gap, slices, mesh.slice_coupling)
     check_resolved(flexible.assembly, shared, mesh.modifications, gear_torque)
     whole = geometry.gap[..., None] + gap
-    return condense(flexible, geometry, whole, shared, least_load, mesh.slice_coupling)
+    return condense(flexible, geometry, whole, shared, minimum_load, mesh.slice_coupling)
 
 
 def _under_load(

@@ -111,14 +111,14 @@ def skippable(condition: Any) -> bool:
 
 
 def minimum(a: Any, b: Any) -> Any:
-    """The lesser of the two; NaN if either is."""
+    """The smaller of the two; NaN if either is."""
     if type(a) is float and type(b) is float:
         return b if b < a or b != b else a
     return namespace(a, b).minimum(a, b)
 
 
 def maximum(a: Any, b: Any) -> Any:
-    """The greater of the two; NaN if either is."""
+    """The larger of the two; NaN if either is."""
     if type(a) is float and type(b) is float:
         return b if b > a or b != b else a
     return namespace(a, b).maximum(a, b)

@@ -15,7 +15,7 @@ FROM_PYTHON = "python:"
 
 
 class Registry(Generic[T]):
-    """Things by name, each imported when it is first asked for.
+    """Things by name, each imported when it is first used.
 
     Parameters
     ----------
@@ -71,13 +71,13 @@ class Registry(Generic[T]):
         """
         for name in self:
             try:
-                found = part(self[name])
+                result = part(self[name])
             except InputError as error:
                 if name in self._places:
                     raise
                 self._warn(name, error)
             else:
-                yield name, found
+                yield name, result
 
     def _warn(self, name: str, error: InputError) -> None:
         if name not in self._warned:

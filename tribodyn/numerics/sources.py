@@ -29,17 +29,17 @@ def modules_behind(*names: str) -> dict[str, Path]:
         Names of modules, imported or not; those without a source file are left out.
     """
     followed = {name.partition(".")[0] for name in names} | {__name__.partition(".")[0]}
-    found: dict[str, Path] = {}
+    files: dict[str, Path] = {}
     waiting = [part for name in names for part in _with_packages(name)]
     while waiting:
         name = waiting.pop()
-        if name in found or name.partition(".")[0] not in followed:
+        if name in files or name.partition(".")[0] not in followed:
             continue
         file = _file_of(name)
         if file is not None:
-            found[name] = file
+            files[name] = file
             waiting += _imports(name, file)
-    return dict(sorted(found.items()))
+    return dict(sorted(files.items()))
 
 
 def digest_of(*names: str) -> bytes:
@@ -84,14 +84,14 @@ def _imports(name: str, file: Path) -> tuple[str, ...]:
     """Names that a module's text imports, with the packages that they lie in; some may be no modules."""
     package = name if file.name == "__init__.py" else name.rpartition(".")[0]
     text = _FOR_TYPES.sub("", _COMMENT.sub("", _text(file).decode()))
-    found: list[str] = []
+    imported: list[str] = []
     for match in _FROM.finditer(text):
         base, names = match.groups()
         if base.startswith("."):
             dots = len(base) - len(base.lstrip("."))
             above = package.split(".")[: len(package.split(".")) - dots + 1]
             base = ".".join([*above, *filter(None, [base.lstrip(".")])])
-        found += [base, *(f"{base}.{one}" for one in _NAME.findall(names))]
+        imported += [base, *(f"{base}.{one}" for one in _NAME.findall(names))]
     for match in _IMPORT.finditer(text):
-        found += [one.split()[0] for one in match[1].split(",") if one.split()]
-    return tuple(dict.fromkeys(part for one in found for part in _with_packages(one)))
+        imported += [one.split()[0] for one in match[1].split(",") if one.split()]
+    return tuple(dict.fromkeys(part for one in imported for part in _with_packages(one)))

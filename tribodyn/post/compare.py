@@ -1,4 +1,4 @@
-"""Records side by side: one table of what they found, and what besides the gears differs between the runs."""
+"""Records side by side: one table of their results, and what besides the gears differs between the runs."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
@@ -105,7 +105,7 @@ def _refuse(records: Sequence[Record]) -> None:
 
 
 def distinct_labels(records: Sequence[Record]) -> list[str]:
-    """Name every record by its file, and by as many folders above as tell it from the others."""
+    """Name every record by its file, and by as many folders above as distinguish it from the others."""
     labels = [record.label for record in records]
     for depth in range(1, max(len(record.path.resolve().parts) for record in records)):
         same = {label for label in labels if labels.count(label) > 1}
@@ -161,7 +161,7 @@ def _differing(conditions: Sequence[Mapping[str, str]]) -> dict[str, tuple[str, 
     if "kind" in different:
         # another kind of study has no such key, which says nothing
         different = {key: value for key, value in different.items() if "–" not in value}
-    # where the titles of two models differ, they tell it better than all the numbers
+    # where the titles of two models differ, they identify it better than all the numbers
     titled = [key for key in different if "." not in key]
     return {
         key: value
@@ -192,7 +192,7 @@ def comparison_table(comparison: Comparison) -> Group:
             for value, difference in zip(written[1:], _differences(row), strict=True):
                 cells += [value, difference]
             table.add_row(f"  {row.line.label}", *cells, row.line.unit)
-    parts += ["", table, "", *_conditions_told(comparison)]
+    parts += ["", table, "", *_conditions_text(comparison)]
     return Group(*parts)
 
 
@@ -202,24 +202,24 @@ def _written(line: Line, value: Any) -> str:
 
 def _differences(row: Row) -> list[str]:
     """Write how later records differ from the first: in per cent, or of shares in percentage points."""
-    found = []
+    texts = []
     for value, relative in zip(row.values[1:], row.differences(), strict=True):
         if relative is None:
-            found.append("")
+            texts.append("")
         elif row.line.unit == "%" and row.line is not LOSS:
-            found.append(f"{100 * (value - row.values[0]):+.2f} pp")
+            texts.append(f"{100 * (value - row.values[0]):+.2f} pp")
         else:
-            found.append(f"{100 * relative:+.1f} %")
-    return found
+            texts.append(f"{100 * relative:+.1f} %")
+    return texts
 
 
-def _conditions_told(comparison: Comparison) -> list[Text]:
+def _conditions_text(comparison: Comparison) -> list[Text]:
     if not comparison.conditions:
         return [Text("Speed, load, lubricant, friction law, bearings and mesh are the same in all runs.")]
-    told = [Text("What besides the drive differs between the runs", style="bold cyan")]
+    lines = [Text("What besides the drive differs between the runs", style="bold cyan")]
     for key, values in comparison.conditions.items():
-        told.append(Text(f"  {key}: {' / '.join(values)}"))
-    return told
+        lines.append(Text(f"  {key}: {' / '.join(values)}"))
+    return lines
 
 
 def as_json(comparison: Comparison) -> dict[str, Any]:

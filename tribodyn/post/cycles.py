@@ -30,7 +30,7 @@ class Window(NamedTuple):
 
     @property
     def mesh_frequency(self) -> float:
-        """Mean number of mesh cycles a second in the window, Hz."""
+        """Mean number of mesh cycles per second in the window, Hz."""
         return float((self.phase[-1] - self.phase[0]) / (self.time[-1] - self.time[0]))
 
 

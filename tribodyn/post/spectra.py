@@ -1,7 +1,7 @@
 """Amplitude spectra over whole mesh cycles.
 
-Samples are uniform in the phase of the mesh, so a spectrum is one of orders: its line at order n turns n
-times a mesh cycle whatever the speed does. At constant speed, order times mesh frequency is the frequency.
+Samples are uniform in the phase of the mesh, so a spectrum is one of orders: its line at order n has n
+periods per mesh cycle whatever the speed does. At constant speed, frequency is order times mesh frequency.
 Whole cycles are taken, so harmonics of the mesh fall exactly on lines and no window is needed.
 """
 
@@ -26,11 +26,11 @@ class Spectrum(NamedTuple):
 
     def harmonics(self, count: int) -> np.ndarray:
         """Amplitudes at the mesh orders 1 … count, 0 beyond the last line."""
-        found = np.zeros(count)
+        amplitudes = np.zeros(count)
         whole = (self.orders >= 0.5) & (np.abs(self.orders - np.round(self.orders)) < 1e-9)
         harmonics = self.amplitudes[whole][:count]
-        found[: harmonics.size] = harmonics
-        return found
+        amplitudes[: harmonics.size] = harmonics
+        return amplitudes
 
 
 def amplitude_spectrum(signal: np.ndarray, samples_per_cycle: int) -> Spectrum:

@@ -1,4 +1,4 @@
-"""House style of the figures: one look, fit for print, told apart by the colour-blind."""
+"""House style of the figures: one look, fit for print, with colours for every kind of colour vision."""
 
 import warnings
 from collections.abc import Iterator

@@ -48,7 +48,7 @@ class Head(NamedTuple):
 
 
 class Place(NamedTuple):
-    """Where a dataset's bytes lie in the file: offset of the first row, bytes a row, shape of a row."""
+    """Where a dataset's bytes lie in the file: offset of the first row, bytes per row, shape of a row."""
 
     offset: int
     stride: int

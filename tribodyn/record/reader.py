@@ -89,8 +89,8 @@ class Record:
     def _along(self) -> tuple[str, ...]:
         """The axis, and the datasets along it."""
         names = str(self.attrs["datasets"]).split() if "datasets" in self.attrs else sorted(self._file)
-        found = [name for name in names if self.axis in self._dims(name)[:1]]
-        return self.axis, *(name for name in found if name != self.axis)
+        datasets = [name for name in names if self.axis in self._dims(name)[:1]]
+        return self.axis, *(name for name in datasets if name != self.axis)
 
     def _dims(self, name: str) -> tuple[str, ...]:
         """Names of a dataset's dimensions; none of a group, or of a number."""
@@ -155,7 +155,7 @@ class Record:
 
     @cached_property
     def summary(self) -> dict[str, Any]:
-        """What the run found; names that hold `/` become nested dictionaries."""
+        """Results of the run; names that hold `/` become nested dictionaries."""
         nested: dict[str, Any] = {}
         for name, value in attributes(self._file["summary"]).items():
             *parents, leaf = name.split("/")

@@ -26,14 +26,14 @@ MESSAGE, WORD = 240, 24
 
 #: What every sweep records of a case. `status` is written last: what it calls done is there.
 OF_EVERY_SWEEP: dict[str, Variable] = {
-    "message": Variable((), "1", "why a case failed, or what is to be said of it", f"S{MESSAGE}", b""),
+    "message": Variable((), "1", "why a case failed, or a remark on its result", f"S{MESSAGE}", b""),
     "status": flag((), "state of the case: 0 waiting, 1 done, 2 failed", "waiting done failed", WAITING),
 }
 
 DIRECTION = Variable(
     ("direction",),
     "1",
-    "sense in which the first parameter went from case to case, each from the last's state",
+    "sense in which the first parameter went from case to case, each from the previous one's state",
 )
 
 

@@ -103,7 +103,7 @@ class SweepWriter:
         except OSError as error:
             raise unwritable(self.path, error) from error
         try:
-            self._places = self._laid_out(head, force, resume)
+            self._places = self._datasets(head, force, resume)
             with h5py.File(self.partial, "r") as file:
                 self.status: np.ndarray = file["status"][...].ravel()  # pyright: ignore
             self._file = self.partial.open("r+b", buffering=0)
@@ -111,7 +111,7 @@ class SweepWriter:
             self._lock.release()
             raise
 
-    def _laid_out(self, head: SweepHead, force: bool, resume: bool) -> dict[str, layout.Place]:
+    def _datasets(self, head: SweepHead, force: bool, resume: bool) -> dict[str, layout.Place]:
         """Places of all datasets in what is left, or in a file made anew."""
         if resume and not force and self.partial.exists():
             return _places_of(self.partial, head)
@@ -237,7 +237,7 @@ def _write_scale(file: h5py.File, name: str, variable: Variable, values: Sequenc
 
 
 def _case_place(dataset: h5py.Dataset, dims: int) -> layout.Place:
-    """Where a dataset lies, with a row a case."""
+    """Where a dataset lies, with one row per case."""
     row = dataset.shape[dims:]
     stride = dataset.dtype.itemsize * int(np.prod(row, dtype=int))
     return layout.Place(layout.place_of(dataset).offset, stride, row)

@@ -24,7 +24,7 @@ from tribodyn.record.writing_lock import WritingLock, refuse_if_written
 
 
 def check_target(path: Path, force: bool = False) -> None:
-    """Whether a record may be written to `path`; touches nothing, so it can be asked before any work.
+    """Whether a record may be written to `path`; touches nothing, so it can be called before any work.
 
     Raises
     ------

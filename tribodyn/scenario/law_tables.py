@@ -47,11 +47,11 @@ class LawTable(Table, extra="allow"):
 
     @model_validator(mode="after")
     def known_law_and_keys(self) -> Self:
-        """Hold the law's name and the law's own keys to the registry and the law."""
+        """Check the law's name against the registry, and its own keys against the law."""
         errors = law_errors(self)
         if not errors:
             return self
-        found = [
+        details = [
             InitErrorDetails(
                 type=broken(error.rule, error.remedy),
                 loc=tuple(error.key.split(".")[1:]),
@@ -59,7 +59,7 @@ class LawTable(Table, extra="allow"):
             )
             for error in errors
         ]
-        raise ValidationError.from_exception_data(type(self).__name__, found)
+        raise ValidationError.from_exception_data(type(self).__name__, details)
 
 
 class FilmTable(LawTable):
@@ -109,8 +109,8 @@ def law_errors(table: LawTable) -> list[InputError]:
         law = table.laws[table.chosen]
     except InputError as error:
         return [error]
-    found = own_key_errors(_owner(table, law), table.own)
-    return [_explained(error, table, law) for error in found]
+    errors = own_key_errors(_owner(table, law), table.own)
+    return [_explained(error, table, law) for error in errors]
 
 
 def _owner(table: LawTable, law: Any) -> Owner:

@@ -13,7 +13,7 @@ Key = tuple[str | int, ...]
 
 
 class Origins:
-    """Which file each part of a scenario came from: the longest key that begins the one asked for tells.
+    """Which file each part of a scenario came from: the longest known prefix of its key decides.
 
     Parameters
     ----------
@@ -98,9 +98,9 @@ _PLAIN = {
     "model_type": ("not a table", "write a table, or see the keys with: tribodyn schema"),
     "tuple_type": ("not a list", "write a list: [ … ]"),
     "too_short": ("fewer than {min_length} values", "write at least {min_length}"),
-    "greater_than": ("must be greater than {gt:g}", "write a greater number"),
+    "greater_than": ("must be greater than {gt:g}", "write a larger number"),
     "greater_than_equal": ("must be at least {ge:g}", "write {ge:g} or more"),
-    "less_than": ("must be less than {lt:g}", "write a lesser number"),
+    "less_than": ("must be less than {lt:g}", "write a smaller number"),
     "less_than_equal": ("must be at most {le:g}", "write {le:g} or less"),
 }
 

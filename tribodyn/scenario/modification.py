@@ -46,7 +46,7 @@ class Modification(Table):
     ) = Field(None, description="positive where material is missing")
     pitch_errors: Annotated[
         tuple[Annotated[float, Quantity(units.DEVIATION)], ...], csv_file("error", as_list=True)
-    ] = Field((), description="one a tooth, positive where material is missing")
+    ] = Field((), description="one per tooth, positive where material is missing")
 
 
 class MisalignmentTable(Table):

@@ -130,7 +130,7 @@ def _number(parameter: Parameter, value: Any, key: str) -> float:
     if parameter.allowed == "not negative" and value < 0:
         raise InputError(key, quoted(value), "must be at least 0", "write 0 or more")
     if parameter.allowed == "positive" and value <= 0:
-        raise InputError(key, quoted(value), "must be greater than 0", "write a greater number")
+        raise InputError(key, quoted(value), "must be greater than 0", "write a larger number")
     return float(value)
 
 

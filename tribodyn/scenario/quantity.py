@@ -15,9 +15,9 @@ from tribodyn.scenario.units import Kind, NotAQuantity, factor_to_si, to_si
 
 
 class Table(BaseModel):
-    """A TOML table: frozen, no unknown keys, defaults held to the same rules as what the user writes."""
+    """A TOML table: frozen, no unknown keys, defaults validated by the same rules as what the user writes."""
 
-    # deferred: of all tables only those that a file is held against are made ready
+    # deferred: of all tables only those that a file is validated against are built
     model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True, defer_build=True)
 
 
@@ -155,7 +155,7 @@ class Curve(Table):
         return columns[0], columns[1]
 
     def model_post_init(self, _: Any) -> None:
-        """Hold units, lengths and order to the rules."""
+        """Check units, lengths and order."""
         columns: dict[str, Column] = {name: getattr(self, name) for name in type(self).model_fields}
         for name, field in type(self).model_fields.items():
             try:

@@ -203,10 +203,10 @@ def _merged(under: dict[str, Any], over: Mapping[str, Any]) -> dict[str, Any]:
 
 def _leaves(table: Mapping[str, Any], above: Key = ()) -> list[Key]:
     """Return the keys of everything in a table that is no table."""
-    found: list[Key] = []
+    keys: list[Key] = []
     for name, value in table.items():
-        found += _leaves(value, (*above, name)) if isinstance(value, dict) else [(*above, name)]
-    return found
+        keys += _leaves(value, (*above, name)) if isinstance(value, dict) else [(*above, name)]
+    return keys
 
 
 def _quantities(column: Mapping[str, Any]) -> list[str]:

@@ -151,16 +151,16 @@ def read_curve(path: Path, key: str, columns: Iterable[str]) -> dict[str, Any]:
         raise bad(1, "the file is empty", f"begin it with {example}")
     rows = list(csv.reader(line for _, line in numbered))
     heads = [_HEADER.match(cell) for cell in rows[0]]
-    found = {head["name"]: (head["unit"], index) for index, head in enumerate(heads) if head}
+    header = {head["name"]: (head["unit"], index) for index, head in enumerate(heads) if head}
     for name in due:
-        if name not in found:
+        if name not in header:
             raise bad(numbered[0][0], f'no column "{name} [unit]" in the header', f"write {example}")
     values: dict[str, list[float]] = {name: [] for name in due}
     for (number, _), row in zip(numbered[1:], rows[1:], strict=True):
         for name in due:
-            cell = row[found[name][1]] if found[name][1] < len(row) else ""
+            cell = row[header[name][1]] if header[name][1] < len(row) else ""
             try:
                 values[name].append(float(cell))
             except ValueError:
                 raise bad(number, f"{quoted(cell)} is not a number ({name})", "write numbers only") from None
-    return {name: {"unit": found[name][0], "values": values[name]} for name in due}
+    return {name: {"unit": header[name][0], "values": values[name]} for name in due}

@@ -39,7 +39,7 @@ class Axis(NamedTuple):
     key : str
         Its dotted key in the scenario.
     name : str
-        The last part of the key, or as much of it as tells the axes apart; names the record's dimension.
+        The last part of the key, or as much of it as distinguishes the axes; names the record's dimension.
     written : tuple
         The values as TOML would hold them.
     values : tuple of float, or tuple of str
@@ -104,12 +104,12 @@ def _axis(option: str, table: type[BaseModel]) -> Axis:
 
 def _values(option: str, text: str, leaf: Any) -> list[str]:
     """Split into values, each with the unit."""
-    if found := _STEPS.fullmatch(text):
-        start, stop, step, unit = found.groups()
+    if match := _STEPS.fullmatch(text):
+        start, stop, step, unit = match.groups()
         return _with_unit(_by_step(option, *map(Decimal, (start, stop, step))), unit)
     for pattern, order in zip(_COUNTS, ((1, 2, 3, 4), (1, 2, 4, 3)), strict=True):
-        if found := pattern.fullmatch(text):
-            start, stop, count, unit = (found[i] for i in order)
+        if match := pattern.fullmatch(text):
+            start, stop, count, unit = (match[i] for i in order)
             return _with_unit(_by_count(option, Fraction(start), Fraction(stop), int(count)), unit)
     if re.match(rf"\s*{_NUMBER}[^,]*:", text) and not isinstance(leaf, Reference):
         raise _refusal(option, "neither a range nor a list", GRAMMAR)
@@ -166,7 +166,7 @@ def _in_si(
         return tuple(float(value) for value in written), "1"
     if any(isinstance(value, (dict, list)) for value in written):
         raise _refusal(option, "tables and lists cannot be varied", "vary one number in them")
-    quantities = [found for found in map(_base_units, written) if found]
+    quantities = [base for base in map(_base_units, written) if base]
     if len(quantities) == len(written) and len({unit for _, unit in quantities}) == 1:  # of a family's shape
         return tuple(magnitude for magnitude, _ in quantities), quantities[0][1]
     return tuple(str(value).lower() if isinstance(value, bool) else str(value) for value in written), ""
@@ -176,14 +176,14 @@ def _base_units(value: Any) -> tuple[float, str] | None:
     """Magnitude and SI base units of a quantity whose kind only a family of teeth knows; None if none."""
     from tribodyn.scenario.units import registry
 
-    found = re.fullmatch(rf"\s*({_NUMBER})\s*(\S.*)", value, re.ASCII) if isinstance(value, str) else None
-    if found is None:
+    match = re.fullmatch(rf"\s*({_NUMBER})\s*(\S.*)", value, re.ASCII) if isinstance(value, str) else None
+    if match is None:
         return None
     try:
-        base = registry().Quantity(1.0, found[2]).to_base_units()
+        base = registry().Quantity(1.0, match[2]).to_base_units()
     except Exception:  # pint raises whatever Python's tokenizer and arithmetic do
         return None
-    number, factor = float(found[1]), float(base.magnitude)
+    number, factor = float(match[1]), float(base.magnitude)
     exact = number / round(1 / factor) if 0 < factor < 1 and abs(1 / factor % 1) < 1e-9 else number * factor
     return exact, f"{base.units:~C}".replace("**", "") or "1"
 
@@ -197,10 +197,10 @@ def _leaf(table: type[BaseModel], key: str) -> Any:
         fields = getattr(place, "model_fields", {})
         if part not in fields:
             return None
-        found = list(parts_of(fields[part]))
-        references = [one for one in found if isinstance(one, Reference)]
-        kinds = [one.kind for one in found if isinstance(one, Quantity)]
-        tables = [one for one in found if isinstance(one, type) and issubclass(one, BaseModel)]
+        parts = list(parts_of(fields[part]))
+        references = [one for one in parts if isinstance(one, Reference)]
+        kinds = [one.kind for one in parts if isinstance(one, Quantity)]
+        tables = [one for one in parts if isinstance(one, type) and issubclass(one, BaseModel)]
         last = part == key.rpartition(".")[2]
         place = next(iter(references if last and references else kinds or tables), None)
     return place

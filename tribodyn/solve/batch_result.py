@@ -1,4 +1,4 @@
-"""What became of the cases of a batch."""
+"""Results of the cases of a batch."""
 
 from typing import NamedTuple
 
@@ -9,7 +9,7 @@ from tribodyn.numerics.shapes import Array, Float, Int
 
 
 class Ensemble(NamedTuple):
-    """What became of C cases.
+    """Results of C cases.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Explicit or stiff: an estimate of the steps that stability asks of an explicit method, and the choice."""
+"""Explicit or stiff: an estimate of the steps that an explicit method needs for stability, and the choice."""
 
 from typing import NamedTuple
 

@@ -33,7 +33,7 @@ from tribodyn.solve.methods import method_file
 from tribodyn.solve.tolerances import tolerances_of_many
 
 #: Cases that are integrated side by side: a batch is done in parts of exactly so many, the last one filled up
-#: with copies of its last case, so that fewer cases compile nothing again. On a processor a thread a part.
+#: with copies of its last case, so that fewer cases compile nothing again. On a CPU one thread per part.
 WIDTH, WIDTH_ON_CPU = 1024, 64
 
 
@@ -77,7 +77,7 @@ def through_jax(
     Notes
     -----
     Compiled once for a method, a width, a shape of models (`lane_packing.ModelShape`), tables shared or
-    not, and every `diffrax_integrator.ROOM` samples a cycle; for no number, and not for fewer cases.
+    not, and every `diffrax_integrator.ROOM` samples per cycle; for no number, and not for fewer cases.
     """
     use_compilation_cache()
     result = nothing_yet(states, march.window * march.samples)

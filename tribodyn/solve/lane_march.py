@@ -1,4 +1,4 @@
-"""Dormand-Prince 5(4) for a vector of cases side by side, one case a lane.
+"""Dormand-Prince 5(4) for a vector of cases side by side, one case per lane.
 
 Every lane has its own phase, step and error control; the lanes meet only at the ends of segments, where they
 wait for the last. A lane that is done, or that failed, takes the queue's next case at the end of the cycle.

@@ -56,7 +56,7 @@ class LimitedSteps(_Controller):
         error_order: Any,
         controller_state: Any,
     ) -> tuple[Any, ...]:
-        """Ask the controller inside and count."""
+        """Call the inner controller and count."""
         inside, accepted = controller_state
         keep, next_t0, next_t1, jump, inside, result = self.controller.adapt_step_size(
             t0, t1, y0, y1_candidate, args, y_error, error_order, inside

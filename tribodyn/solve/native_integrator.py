@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.dynamics.parameters import STATES, Model
-from tribodyn.kernels.native import laid_out
+from tribodyn.kernels.native import packed
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.integrator import IntegratedCycles, March, Status
 from tribodyn.solve.marching import Control
@@ -32,7 +32,7 @@ class NativeIntegrator:
         self._integrate = method.integrate
         self._buffer = method.buffer()
         self._work = work_array(model)
-        self._model = laid_out(model)
+        self._model = packed(model)
         self._stops = stops(model)
         self.samples = samples
         self.tolerances = tolerances

@@ -1,4 +1,4 @@
-"""What the search for a steady state found of one system."""
+"""Result of the search for a steady state of one system."""
 
 from typing import NamedTuple
 

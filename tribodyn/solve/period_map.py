@@ -1,7 +1,7 @@
 """What the search for steady states needs of a periodically driven system: its map over one period.
 
-The state of the map is what the motion depends on at the start of a period, sampled once a period (Poincaré's
-section by the phase of the excitation). A steady state of n periods is a fixed point of the n-fold map.
+The state of the map is what the motion depends on at the start of a period, sampled once per period
+(Poincaré's section by the phase of the excitation). A steady state of n periods is a fixed point of the n-fold map.
 """
 
 from collections.abc import Callable
@@ -16,14 +16,14 @@ DIFFERENCE = 1e-3
 
 
 class Marched(NamedTuple):
-    """States once a period, and what stopped a row.
+    """States once per period, and what stopped a row.
 
     Attributes
     ----------
     states : (R, periods, N)
         After one, two, … periods; NaN from a failure on.
     reasons : list of str
-        One a row, empty where all went well.
+        One per row, empty where all went well.
     """
 
     states: np.ndarray
@@ -76,7 +76,7 @@ def by_differences(
     periods: int,
     scale: np.ndarray,
 ) -> Tangent:
-    """The tangent of a map by one-sided differences: N companions a row, all marched in one batch."""
+    """The tangent of a map by one-sided differences: N companions per row, all marched in one batch."""
     rows, size = states.shape
     shift = DIFFERENCE * scale[cases]
     moved = states[:, None, :] + shift[:, :, None] * np.eye(size)

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.dynamics.parameters import SLIP, STATES, Model
-from tribodyn.kernels.native import laid_out
+from tribodyn.kernels.native import packed
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.engagement import engage
 from tribodyn.solve.integrator import IntegratedCycles, Status
@@ -74,7 +74,7 @@ class _Walk:
         self.samples: list[np.ndarray] = []
         self.steps = self.steps_before = self.evaluations = 0
         self._place, self._rates = np.empty(STATES), np.empty(STATES)
-        self._arguments = [laid_out(one) for one in (self._place, integrator.model, self.work, self._rates)]
+        self._arguments = [packed(one) for one in (self._place, integrator.model, self.work, self._rates)]
 
     def over(self, cycle: float, segment: int, start: float, end: float) -> None:
         """Integrate over a segment; raises `_Ended` where that cannot be done."""

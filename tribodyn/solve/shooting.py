@@ -14,7 +14,7 @@ WELL_DOWN = 0.1
 
 
 class Shot(NamedTuple):
-    """Where shooting came to for one system.
+    """Result of shooting for one system.
 
     Attributes
     ----------

@@ -1,8 +1,8 @@
 """Steady states of periodically driven systems: march, recognise the period, shoot, judge the stability.
 
 Written over `period_map.PeriodMap`, so that the gear model and the backlash oscillator share it. A system is
-marched until its states once a period repeat, or until their contraction tells that Newton's method would get
-there sooner; a state that shooting found is taken only if it is stable and near what marching was heading
+marched until its states once per period repeat, or until their contraction shows that Newton's method would
+get there sooner; a state that shooting found is taken only if it is stable and near what marching was heading
 for, otherwise marching goes on. An unstable state that marching leaves is not returned as an average.
 """
 
@@ -25,7 +25,7 @@ BLOCK = 12
 #: from afar too where marching on would take twice the maps of the derivatives that shooting should need.
 NEAR = 1e-3
 DERIVATIVES = 2
-#: Distance within which what shooting found is what marching had come to, whatever the last periods did.
+#: Distance within which the result of shooting is that of marching, whatever the last periods did.
 THERE = 1e-5
 #: Changes of a motion that falls no further, over the scale, which may be the integration's own noise: where
 #: contact opens and closes marching at 1e-6 leaves up to a few 1e-4. It is marched finely from then on; and
@@ -133,8 +133,8 @@ def _block(
     for exactly in (False, True):
         cases = pending[fine == exactly]
         if cases.size:
-            found = period_map.march(so_far.current[cases], cases, BLOCK, exactly)
-            yield from zip(map(int, cases), found.states, found.reasons, strict=True)
+            marched = period_map.march(so_far.current[cases], cases, BLOCK, exactly)
+            yield from zip(map(int, cases), marched.states, marched.reasons, strict=True)
 
 
 def _candidate(so_far: _Progress, case: int, tolerance: float, method: Method) -> int:
@@ -272,11 +272,11 @@ def _last_resort(period_map, so_far: _Progress, late, tolerance, method) -> dict
 
 
 def _shoot_from(period_map, states, tolerance) -> list[Orbit]:
-    found = []
+    orbits = []
     for case, shot in enumerate(shoot(period_map, states, np.arange(len(states)), 1, tolerance)):
-        found.append(
+        orbits.append(
             failed_orbit(shot.state, 0, shot.reason)
             if shot.reason
             else _judge(period_map, shot, case, 1, 0, tolerance)._replace(method="shooting")
         )
-    return found
+    return orbits

@@ -61,7 +61,7 @@ class Batch(Protocol):
         ...
 
     def size_of_chunk(self, settings: Any, total: int, width: int) -> int:
-        """Cases to be evaluated together, of so many; `width` of them at the price of one."""
+        """Cases to be evaluated together, of so many; `width` of them at the cost of one."""
         ...
 
     def sharing(self, case: Any) -> Hashable:

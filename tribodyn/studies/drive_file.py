@@ -1,4 +1,4 @@
-"""A gear pair without a scenario: from a drive file, or out of any scenario, to what its geometry needs."""
+"""A gear pair without a scenario: from a drive file, or from any scenario, to what its geometry needs."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -80,8 +80,8 @@ def load_drive(model: str, overrides: Mapping[str, Any] | None = None) -> DriveM
         if "family" not in written:
             raise _no_pair(path, "not a pair of gears: it names no family of paths of contact") from None
         known = unresolved_keys(unresolved)
-        found = [one for one in explain(error, _DriveAlone) if one.key not in known]
-        raise InputErrors([origins.locate(one) for one in (*unresolved, *found)]) from None
+        mistakes = [one for one in explain(error, _DriveAlone) if one.key not in known]
+        raise InputErrors([origins.locate(one) for one in (*unresolved, *mistakes)]) from None
     errors = [*unresolved, *broken_drive_rules(table)]
     if errors:
         raise InputErrors([origins.locate(one) for one in errors])

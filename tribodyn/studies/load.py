@@ -46,7 +46,7 @@ def load_scenario(scenario: str | Path, overrides: Mapping[str, Any] | None = No
     Raises
     ------
     InputError
-        Anything that is wrong with it; `InputErrors`, one a line, where there is more than one mistake.
+        Anything that is wrong with it; `InputErrors`, one per line, where there is more than one mistake.
     """
     return load(scenario, overrides).case
 
@@ -85,8 +85,8 @@ def loaded_from(resolved: Resolved, path: Path) -> Loaded:
     except ValidationError as error:
         # a reference that could not be followed has been complained of already
         known = unresolved_keys(unresolved)
-        found = [one for one in explain(error, model) if one.key not in known]
-        raise _located([*unresolved, *found], origins) from None
+        mistakes = [one for one in explain(error, model) if one.key not in known]
+        raise _located([*unresolved, *mistakes], origins) from None
     # of a key whose value only its family knows to be a file
     if errors := unresolved or list(study.broken_rules(scenario)):
         raise _located(errors, origins)

@@ -1,4 +1,4 @@
-"""Figures, summaries and comparisons of records, asked of their studies."""
+"""Figures, summaries and comparisons of records, as their studies make them."""
 
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
@@ -136,14 +136,14 @@ def compare(records: Sequence[Record]) -> "Comparison":
 
 def _compared_lines(studies: Sequence[Study]) -> "dict[str, tuple[Line, ...]]":
     """Heading -> lines that any of the studies compares, in the order of the first that has them."""
-    found: dict[str, dict[str, Any]] = {}
+    headings: dict[str, dict[str, Any]] = {}
     for study in studies:
         lines = study.lines()
         for heading in study.compared:
-            some = found.setdefault(heading, {})
+            some = headings.setdefault(heading, {})
             for line in lines.get(heading, ()):
                 some.setdefault(line.name, line)
-    return {heading: tuple(lines.values()) for heading, lines in found.items()}
+    return {heading: tuple(lines.values()) for heading, lines in headings.items()}
 
 
 def study_of_sweep(record: "SweepRecord") -> Study:
@@ -201,6 +201,6 @@ def sweep_figure(
 
 def sweep_table(record: "SweepRecord") -> "Group":
     """Lay out the summary of a sweep for the terminal."""
-    from tribodyn.post.sweep_report import sweep_table as laid_out
+    from tribodyn.post.sweep_report import sweep_table as table_of
 
-    return laid_out(record, study_of_sweep(record).sweep_lines())
+    return table_of(record, study_of_sweep(record).sweep_lines())

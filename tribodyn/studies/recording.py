@@ -16,7 +16,7 @@ def target(case: CaseHead, output: str | Path | None, force: bool) -> Path:
     Raises
     ------
     InputError
-        If it cannot be written there, see `record.writer.check_target`; so it is asked before any work.
+        If it cannot be written there, see `record.writer.check_target`; so it is checked before any work.
     """
     path = Path(output) if output is not None else Path(f"{case.name}.h5")
     check_target(path, force)

@@ -1,4 +1,4 @@
-"""What a kind of study is: everything that is asked of it outside its own folder."""
+"""What a kind of study is: everything that the rest of the package needs of it."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -80,8 +80,8 @@ class Checked(NamedTuple):
 class Study:
     """A kind of study: what it is, and where its parts are.
 
-    The parts are modules of its package, or attributes of the package itself, imported when they are asked
-    for: that there is a study costs nothing.
+    The parts are modules of its package, or attributes of the package itself, imported on first
+    use, so that a registered study costs nothing.
 
     ============= =================================================================================
     part          what it holds

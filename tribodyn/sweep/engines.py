@@ -25,7 +25,7 @@ def evaluate(kind: str, chunk: Chunk, settings: Any, workers: int | None = None)
 class Engine(Protocol):
     """Evaluates chunks; results come in any order, each once."""
 
-    #: Cases that are integrated side by side at the price of one.
+    #: Cases that are integrated side by side at the cost of one.
     width: int
 
     def __call__(self, kind: str, chunks: Iterable[Chunk], settings: Any) -> Iterator[tuple[Chunk, Block]]:
@@ -39,7 +39,7 @@ class Local:
     Parameters
     ----------
     workers : int, optional
-        Threads; by default one a core.
+        Threads; by default one per core.
     width : int
         See `Engine`.
     """
@@ -68,7 +68,7 @@ class Dask:
         self.client = client
 
     def _under_way(self) -> int:
-        """Two chunks a worker, so that none waits for the next one to be sent; this bounds the memory."""
+        """Two chunks per worker, so that none waits for the next one to be sent; this bounds the memory."""
         return 2 * max(1, len(self.client.scheduler_info(n_workers=-1)["workers"]))
 
     def __call__(self, kind: str, chunks: Iterable[Chunk], settings: Any) -> Iterator[tuple[Chunk, Block]]:

@@ -35,10 +35,10 @@ def single_steps(grid: Grid, waiting: np.ndarray, size: int) -> Iterator[list[Ch
 def chained_steps(
     grid: Grid, waiting: np.ndarray, size: int, directions: Sequence[str], recorded: Recorded
 ) -> Iterator[list[Chunk]]:
-    """Step after step along the first parameter, each case from the state that its neighbour came to.
+    """Step after step along the first parameter, each case from the final state of its neighbour.
 
     Numbers of cases run over the grid and, fastest, over the directions. A step waits until the one before it
-    is recorded. After a case that failed the chain goes on from the last state that there was.
+    is recorded. After a case that failed the chain goes on from the last state available.
     """
     shape = (*grid.shape, len(directions))
     lanes = [(place, d) for place in np.ndindex(*grid.shape[1:]) for d in range(len(directions))]
@@ -57,9 +57,9 @@ def chained_steps(
             cases = tuple(case_or_reason(grid, grid.flat(places[i])) for i in chosen)
             chunks.append(Chunk(numbers[chosen], cases, states[chosen]))
         yield chunks
-        status, found = recorded(numbers)
+        status, final = recorded(numbers)
         good = status == DONE
-        states[good] = found[good]
+        states[good] = final[good]
 
 
 def case_or_reason(grid: Grid, number: int) -> Any:

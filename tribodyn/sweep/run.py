@@ -18,7 +18,7 @@ from tribodyn.sweep.plan import chained_steps, single_steps
 
 #: Above these a sweep is refused: surely mistyped, or too large for one file.
 MOST_CASES, MOST_BYTES = 1_000_000, 64 * 2**30
-#: Seconds that a case takes on one core, for what is said of a sweep too large.
+#: Seconds that a case takes on one core, for the message about a sweep that is too large.
 SECONDS_A_CASE = 0.02
 
 Follow = Callable[[int, int], None]

@@ -1,1 +1,1 @@
-"""Film, rheology, heat and friction of a lubricated line contact: one family of closures a file."""
+"""Film, rheology, heat and friction of a lubricated line contact: one family of closures per file."""

@@ -3,7 +3,7 @@
 from tribodyn.numerics.elementary import exp, law, log, maximum, minimum
 
 #: Above this the exponential overflows; 1 − exp(−η …) has long reached 1.
-GREATEST_EXPONENT = 600.0
+MAXIMUM_EXPONENT = 600.0
 
 
 @law
@@ -15,7 +15,7 @@ def log_roelands_viscosity(pressure, temperature_rise, log_inlet_viscosity, inde
     """
     rise = exp(index * log(1.0 + 5.1e-9 * pressure)) - 1.0
     exponent = (log_inlet_viscosity + 9.67) * rise - temperature_coefficient * temperature_rise
-    exponent = maximum(minimum(exponent, GREATEST_EXPONENT), -GREATEST_EXPONENT)
+    exponent = maximum(minimum(exponent, MAXIMUM_EXPONENT), -MAXIMUM_EXPONENT)
     return log_inlet_viscosity + exponent
 
 

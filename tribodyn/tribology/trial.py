@@ -14,7 +14,7 @@ from tribodyn.tribology.law import Closure, FilmLaw, FrictionLaw
 #: Line load (N/m), curvature (1/m), entrainment, sliding, speeds of both flanks (m/s) of an ordinary gear
 #: contact on either side of the pitch point.
 _CONTACTS = ((4e5, 100.0, 2.0, 1.0, 2.5, 1.5), (2e5, 150.0, 2.0, -1.0, 1.5, 2.5))
-_REMEDY = "write it for scalars, out of arithmetic and tribodyn.numerics.elementary: where() and not if"
+_REMEDY = "write it for scalars, with arithmetic and tribodyn.numerics.elementary: where() and not if"
 
 
 def try_laws(film: FilmLaw, friction: FrictionLaw, closure: Closure) -> None:

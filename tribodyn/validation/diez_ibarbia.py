@@ -142,7 +142,7 @@ def _by_load_contact(scenario: Scenario) -> list[str]:
         course = "falls"
         if np.any(steps > 0.0):
             highest = int(np.argmax(values))
-            course = "rises" if highest == len(shifts) - 1 else f"greatest of these at {shifts[highest]:g}"
+            course = "rises" if highest == len(shifts) - 1 else f"largest of these at {shifts[highest]:g}"
         figures = ", ".join(f"{100 * value:.3f}" for value in values)
         said.append(f"{scenario} by load contact {condition} {figures}: {course}")
     return said

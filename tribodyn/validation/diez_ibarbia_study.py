@@ -94,7 +94,7 @@ def loss_factors(pair: Drive) -> tuple[float, float]:
 
 
 def peak(scenario: Scenario) -> tuple[float, float]:
-    """Shift at which Höhn's efficiency is greatest, and the shift beyond which it is below that without."""
+    """Shift at which Höhn's efficiency is largest, and the shift beyond which it is below that without."""
     from scipy.optimize import brentq, minimize_scalar
 
     base = drive()

@@ -7,7 +7,7 @@ from typing import Any
 
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
-from tribodyn.geometry.families.parabolic import greatest_coefficient, published_limits
+from tribodyn.geometry.families.parabolic import maximum_coefficient, published_limits
 from tribodyn.geometry.path import kinematics
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.tribology.contact import hertz_pressure
@@ -16,9 +16,9 @@ from tribodyn.validation.jia_study import (
     Name,
     State,
     case_of,
-    greatest_line_load,
-    greatest_pressure,
-    greatest_root_stress,
+    maximum_line_load,
+    maximum_pressure,
+    maximum_root_stress,
 )
 from tribodyn.validation.rows import Row, compare, published
 
@@ -64,17 +64,17 @@ def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[
 def _geometry() -> dict[str, tuple[Any, str]]:
     parabolic, involute = case_of("parabolic"), case_of("involute")
     pinion, gear = parabolic.drive.pinion.teeth, parabolic.drive.gear.teeth
-    least, most_k1 = published_limits(gear)
+    lowest, highest_k1 = published_limits(gear)
     _, most_k2 = published_limits(pinion)
-    actual = [greatest_coefficient(parabolic.drive, half) for half in (1, -1)]
+    actual = [maximum_coefficient(parabolic.drive, half) for half in (1, -1)]
     true = "by the geometry, with the mate's actual tip: below {:.3f}"
     pressure, ratio = pressure_at_pitch_point(involute), contact_ratio(involute)
     # Z_ε of ISO 6336-2 for spur gears, which takes off the part of the load that a second pair carries
     factor = math.sqrt((4.0 - ratio) / 3.0)
     return {
-        "jia/k1-max": (most_k1, true.format(actual[0])),
+        "jia/k1-max": (highest_k1, true.format(actual[0])),
         "jia/k2-max": (most_k2, true.format(actual[1])),
-        "jia/k-min": (least, "by the geometry there is no such limit: smaller k only steepens the path"),
+        "jia/k-min": (lowest, "by the geometry there is no such limit: smaller k only steepens the path"),
         "jia/cr-novel": (contact_ratio(parabolic), ""),
         "jia/cr-involute": (ratio, ""),
         "jia/hertz-pitch": (factor * pressure, f"{pressure / 1e6:.2f} MPa without Z_eps = {factor:.4f}"),
@@ -102,40 +102,40 @@ def _relieved() -> dict[str, tuple[Any, str]]:
 
 
 def _ratio(name: Name, state: State, base: State, apart: bool) -> tuple[float, str]:
-    """Ratio of the greatest line loads; the note has where, and the ratios of other readings."""
-    greatest = greatest_line_load(name, state)
-    pressures = greatest_pressure(name, state).value / greatest_pressure(name, base).value
+    """Ratio of the maximum line loads; the note has where, and the ratios of other readings."""
+    maximum = maximum_line_load(name, state)
+    pressures = maximum_pressure(name, state).value / maximum_pressure(name, base).value
     note = (
-        f"ratio of greatest line loads over mesh cycle and face, {greatest.value / 1e3:.0f} N/mm at "
-        f"{greatest.roll:+.1f} deg from the pitch point, {greatest.place:+.0f} mm from the middle; "
-        f"of greatest Hertz pressures {pressures:.4f}"
+        f"ratio of maximum line loads over mesh cycle and face, {maximum.value / 1e3:.0f} N/mm at "
+        f"{maximum.roll:+.1f} deg from the pitch point, {maximum.place:+.0f} mm from the middle; "
+        f"of maximum Hertz pressures {pressures:.4f}"
     )
     if apart:
-        free = [greatest_line_load(name, one._replace(coupled=False)).value for one in (state, base)]
+        free = [maximum_line_load(name, one._replace(coupled=False)).value for one in (state, base)]
         note += f"; of line loads on slices that do not hold each other {free[0] / free[1]:.4f}"
-    return greatest.value / greatest_line_load(name, base).value, note
+    return maximum.value / maximum_line_load(name, base).value, note
 
 
 def _families() -> dict[str, tuple[Any, str]]:
     """Rows of Table 2: parabolic over involute, neither modified nor misaligned."""
-    ours, theirs = (greatest_line_load(name).value for name in ("parabolic", "involute"))
-    pressure = [greatest_pressure(name).value for name in ("parabolic", "involute")]
-    away = [greatest_pressure(name, away=_NEAR).value for name in ("parabolic", "involute")]
-    found: dict[str, tuple[Any, str]] = {
+    ours, theirs = (maximum_line_load(name).value for name in ("parabolic", "involute"))
+    pressure = [maximum_pressure(name).value for name in ("parabolic", "involute")]
+    away = [maximum_pressure(name, away=_NEAR).value for name in ("parabolic", "involute")]
+    compared: dict[str, tuple[Any, str]] = {
         "jia/ratio-contact": (
             ours / theirs,
-            f"ratio of greatest line loads, {ours / 1e3:.0f} and {theirs / 1e3:.0f} N/mm. Hertz pressure "
+            f"ratio of maximum line loads, {ours / 1e3:.0f} and {theirs / 1e3:.0f} N/mm. Hertz pressure "
             f"does not fall: {pressure[0] / 1e6:.0f} and {pressure[1] / 1e6:.0f} MPa at most, "
             f"{away[0] / 1e6:.0f} and {away[1] / 1e6:.0f} MPa more than {_NEAR:g} deg from the pitch point, "
             "where the parabolic flanks' radius goes to zero",
         )
     }
     for key, tension in (("compression", False), ("tension", True)):
-        parabolic, involute = (greatest_root_stress(name, tension) for name in ("parabolic", "involute"))
-        found[f"jia/ratio-{key}"] = (
+        parabolic, involute = (maximum_root_stress(name, tension) for name in ("parabolic", "involute"))
+        compared[f"jia/ratio-{key}"] = (
             max(parabolic) / max(involute),
-            "greatest root stress of pinion, gear: "
+            "maximum root stress of pinion, gear: "
             f"parabolic {parabolic[0] / 1e6:.0f}, {parabolic[1] / 1e6:.0f} MPa, "
             f"involute {involute[0] / 1e6:.0f}, {involute[1] / 1e6:.0f} MPa",
         )
-    return found
+    return compared

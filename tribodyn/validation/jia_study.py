@@ -28,7 +28,7 @@ POSITIONS, SLICES = 21, 25
 
 
 class State(NamedTuple):
-    """What is done to the gears.
+    """Modifications and misalignment of the gears.
 
     Attributes
     ----------
@@ -76,38 +76,38 @@ def rolled(name: Name, state: State = State()) -> LoadedContact:
     return roll_through(flexible, modifications, torque, POSITIONS, slices=SLICES, coupled=state.coupled)
 
 
-class Greatest(NamedTuple):
-    """Greatest value of a mesh cycle, and where: pinion angle (°) and place along the face (mm)."""
+class Maximum(NamedTuple):
+    """Maximum value of a mesh cycle, and where: pinion angle (°) and place along the face (mm)."""
 
     value: float
     roll: float
     place: float
 
 
-def greatest_line_load(name: Name, state: State = State()) -> Greatest:
-    """Greatest line load over mesh cycle and face, N/m."""
+def maximum_line_load(name: Name, state: State = State()) -> Maximum:
+    """Maximum line load over mesh cycle and face, N/m."""
     run = rolled(name, state)
-    return _greatest(run, run.line_load)
+    return _maximum(run, run.line_load)
 
 
-def greatest_pressure(name: Name, state: State = State(), away: float = 0.0) -> Greatest:
-    """Greatest Hertz pressure, Pa; of pairs at least `away` degrees from the pitch point."""
+def maximum_pressure(name: Name, state: State = State(), away: float = 0.0) -> Maximum:
+    """Maximum Hertz pressure, Pa; of pairs at least `away` degrees from the pitch point."""
     run = rolled(name, state)
     far = np.abs(np.degrees(run.roll)) >= away
-    return _greatest(run, run.pressure * far[..., None])
+    return _maximum(run, run.pressure * far[..., None])
 
 
-def greatest_root_stress(name: Name, tension: bool, state: State = State()) -> tuple[float, float]:
-    """Greatest root stress of pinion and gear over mesh cycle and face, Pa, as an amount."""
+def maximum_root_stress(name: Name, tension: bool, state: State = State()) -> tuple[float, float]:
+    """Maximum root stress of pinion and gear over mesh cycle and face, Pa, as an amount."""
     run = rolled(name, state)
     stress = run.root_tension if tension else -run.root_compression
     pinion, gear = np.nanmax(stress, axis=(1, 2, 3))
     return float(pinion), float(gear)
 
 
-def _greatest(run: LoadedContact, values: np.ndarray) -> Greatest:
+def _maximum(run: LoadedContact, values: np.ndarray) -> Maximum:
     position, pair, part = np.unravel_index(int(np.argmax(values)), values.shape)
-    return Greatest(
+    return Maximum(
         float(values[position, pair, part]),
         float(np.degrees(run.roll[position, pair])),
         1e3 * float(run.slice_position[part]),
@@ -115,14 +115,14 @@ def _greatest(run: LoadedContact, values: np.ndarray) -> Greatest:
 
 
 class Passage(NamedTuple):
-    """What one pair of teeth goes through, over increasing pinion angle (point,), greatest over the face.
+    """What one pair of teeth goes through, over increasing pinion angle (point,), maximum over the face.
 
     Attributes
     ----------
     roll : pinion angle from the pitch point, rad
     line_load : N/m
-    pressure : greatest Hertz pressure, Pa
-    compression, tension : greatest root stress of both gears, Pa, as amounts
+    pressure : maximum Hertz pressure, Pa
+    compression, tension : maximum root stress of both gears, Pa, as amounts
     """
 
     roll: np.ndarray

@@ -15,7 +15,7 @@ from tribodyn.validation.rows import Row, compare, published
 PAPER = "liu-ni-2022"
 SCENARIOS = ("crc-23-47", "involute-23-47", "crc-23-47-frictionless", "involute-23-47-frictionless")
 
-#: Samples per mesh cycle: at 10 rad/s the mesh rings 49 times a cycle; the scenarios' 200 hardly show it.
+#: Samples per mesh cycle: at 10 rad/s the mesh vibrates 49 times per cycle, which 200 hardly resolve.
 SAMPLES = 2000
 
 #: Half-open window of phase about the pitch point in which friction is reversing, mesh cycles.
@@ -93,7 +93,7 @@ def _numbers(crc: Steady, involute: Steady, crc_dry: Steady) -> dict[str, tuple[
     return {
         "liu-ni/contact-ratio-crc": (crc.contact_ratio, ""),
         "liu-ni/contact-ratio-involute": (involute.contact_ratio, ""),
-        "liu-ni/mesh-frequency": (float(spectrum[1][first]), "greatest line of the DTE spectrum"),
+        "liu-ni/mesh-frequency": (float(spectrum[1][first]), "largest line of the DTE spectrum"),
         "liu-ni/load-stcp-6dof": (load, ""),
         "liu-ni/load-stcp-mbd": (load, ""),
         "liu-ni/load-stcp-fem": (load, ""),
@@ -112,7 +112,7 @@ def _share(above: np.ndarray, *values: np.ndarray) -> float:
 
 
 def _above(name: str, upper: Steady, lower: Steady) -> tuple[float, str]:
-    """Least share, over both pairs, of the common phases at which `upper`'s quantity is the greater."""
+    """Minimum share, over both pairs, of the common phases at which `upper`'s quantity is the larger."""
     shares = []
     for pair in (1, 0):
         a, b = upper.data[name][:, pair], lower.data[name][:, pair]

@@ -1,4 +1,4 @@
-"""One row of a validation: a published number or claim beside ours."""
+"""One row of a validation: a published number or claim compared with ours."""
 
 import json
 from importlib.resources import files

@@ -48,7 +48,7 @@ class Table:
         return (self.cycloid[4] - self.cycloid[0])[[0, 2]]
 
     def apart(self) -> float:
-        """Greatest distance of cycloid and involute at the chosen circles."""
+        """Maximum distance of cycloid and involute at the chosen circles."""
         return float(np.max(np.abs(self.cycloid[:, 1] - self.involute)))
 
 
@@ -81,7 +81,7 @@ def _efficiencies(tables: dict[Law, Table]) -> dict[str, tuple[Any, str]]:
 
     def both(value: Callable[[Table], Any]) -> tuple[float, str]:
         a, b = float(value(literal)), float(value(other))
-        return a, f"reading A (as printed) {a:.4g}, reading B (greatest pressure, own speeds) {b:.4g}"
+        return a, f"reading A (as printed) {a:.4g}, reading B (maximum pressure, own speeds) {b:.4g}"
 
     exact = "; ".join(
         f"{name} {100 - table.cycloid[0, 1]:.3f} -> {100 - table.exact_speeds[1]:.3f}, "

@@ -1,4 +1,4 @@
-"""What is behind figures 1, 5, 6, 8, 9 and 10 of Veciana et al. (2024): arrays by name, units in brackets."""
+"""Data behind figures 1, 5, 6, 8, 9 and 10 of Veciana et al. (2024): arrays by name, units in brackets."""
 
 import math
 
@@ -59,7 +59,7 @@ def efficiencies(law: Law) -> Arrays:
 
 
 def heights() -> Arrays:
-    """Contact height of the pinion and greatest pressure angle against the generating circles."""
+    """Contact height of the pinion and maximum pressure angle against the generating circles."""
     study = Study(1.0, 2e-3, "EHL")
     half = math.pi / PINION_TEETH
     ends = np.array([-half, half]), np.array([0.5, 0.5])
@@ -109,6 +109,6 @@ def by_module() -> Arrays:
                 "cycloid": [study.cycloid(CHOSEN) for study in studies],
                 "cycloid, exact speeds": [study.cycloid(CHOSEN, exact_speeds=True) for study in studies],
             }
-            for name, found in values.items():
-                arrays[f"{law}, i = {ratio:g}, {name} [1]"] = np.array(found, dtype=float)
+            for name, efficiency in values.items():
+                arrays[f"{law}, i = {ratio:g}, {name} [1]"] = np.array(efficiency, dtype=float)
     return arrays

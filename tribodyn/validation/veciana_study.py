@@ -22,7 +22,7 @@ from tribodyn.tribology.law import Closure, LawInput
 from tribodyn.tribology.lubricant import LubricantData
 
 #: Readings of the friction laws. "A" is the mixed law as printed: Roelands at the mean pressure, sliding
-#: speed in the Péclet numbers; "B" has the greatest pressure and each surface's own speed.
+#: speed in the Péclet numbers; "B" has the maximum pressure and each surface's own speed.
 Law = Literal["EHL", "MEHL A", "MEHL B"]
 LAWS: tuple[Law, ...] = ("EHL", "MEHL A", "MEHL B")
 

@@ -1,4 +1,4 @@
-"""Faces in slices condensed to one spring and gap a pair: exact at the operating load, tangent beside it."""
+"""Faces in slices condensed to one spring and gap per pair: exact at the operating load, tangent near it."""
 
 import numpy as np
 import pytest

@@ -79,7 +79,7 @@ def test_corners_stay_at_the_tips_and_move_up_the_mates_flank():
 
 
 def gap_of_offset_flanks(roll, relief):
-    """Least distance along the gear's normal from the pinion's relieved flank to the gear's, m.
+    """Minimum distance along the gear's normal from the pinion's relieved flank to the gear's, m.
 
     Each point of the pinion's flank is moved back along its normal and turned with the pinion; the gear's
     involute is where a normal through the point says, which is a difference of angles times its base radius.

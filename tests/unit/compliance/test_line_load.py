@@ -78,6 +78,6 @@ def test_the_table_has_the_friction_film_and_pressure_of_the_slices(case, name):
     assert abs(lost(mean * flat(cycle.line_load_friction)[carrying])) < 0.012
     assert lost(mean) > 0.05
     heaviest = surface(mean * flat(cycle.line_load_peak)[carrying])
-    least = np.min(np.where(load > 0.0, each[2], np.inf), axis=-1)
-    assert np.min(heaviest[2]) == pytest.approx(np.min(least), rel=3e-3)
+    minimum = np.min(np.where(load > 0.0, each[2], np.inf), axis=-1)
+    assert np.min(heaviest[2]) == pytest.approx(np.min(minimum), rel=3e-3)
     assert np.max(heaviest[4]) == pytest.approx(np.max(each[4]), rel=3e-3)

@@ -119,7 +119,7 @@ def test_loads_converge_with_the_slices(pair):
         stress.append(found.root_tension[0].max())
     np.testing.assert_allclose(loads[:2], loads[1:], atol=3e-3)
     np.testing.assert_allclose(deflection[:2], deflection[1:], rtol=2e-4)
-    # the greatest is that of the last slice, at the end of the face
+    # the maximum is that of the last slice, at the end of the face
     assert abs(stress[1] - stress[2]) < 0.5 * abs(stress[0] - stress[1]) < 5e-3 * stress[2]
 
 

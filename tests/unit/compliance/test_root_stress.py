@@ -82,20 +82,20 @@ def solved(teeth, level, waves=(0.0,), **options):
     return lead_harmonics(tooth, teeth, body.bore_radius, POISSON, 0.25 * MODULE, level, np.array(waves))
 
 
-def greatest(stress):
-    """Greatest of a stress along the root, with a parabola through the largest three."""
+def maximum(stress):
+    """Maximum of a stress along the root, with a parabola through the largest three."""
     at = int(np.argmax(stress))
     before, most, after = stress[at - 1 : at + 2]
     return most + (after - before) ** 2 / (8 * (2 * most - before - after))
 
 
-def test_greatest_root_stress_converges():
+def test_maximum_root_stress_converges():
     # with the loads at the same places: every position of level 1 is one of the finer meshes'
     found = []
     for level in (1, 2, 3):
         own = solved(18, level, (0.0, 0.3 / MODULE)).root_stress[:, 2, :, :, 4 * level :: level]
         both = np.concatenate([own[:, 0], -own[:, 1]], axis=2)
-        found.append([[greatest(stress) for stress in wave.T] for wave in both])
+        found.append([[maximum(stress) for stress in wave.T] for wave in both])
     coarse, used, fine = np.array(found)
     assert np.max(np.abs(used / fine - 1)) < 5e-3
     assert np.mean(np.abs(coarse / fine - 1)) > 2.5 * np.mean(np.abs(used / fine - 1))
@@ -166,7 +166,7 @@ def test_tension_is_that_of_iso_6336_within_its_usual_scatter(teeth, shift, fill
     ratios = []
     for at in (10, 14, 18):
         radius = np.hypot(*mesh.nodes[:, mesh.flank[at]])
-        tension = greatest(lead.root_stress[0, 2, 0, :, at]) * MODULE
+        tension = maximum(lead.root_stress[0, 2, 0, :, at]) * MODULE
         ratios.append(tension / nominal_iso(teeth, shift, fillet, radius))
     assert np.all(np.abs(np.array(ratios) - 1) < 0.15)
 

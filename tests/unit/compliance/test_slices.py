@@ -118,7 +118,7 @@ def test_slices_hold_each_other_the_less_the_further_apart(pair):
 
 
 def elliptical_contact(radius, lead_radius, force):
-    """Half length and width, m, and greatest pressure, Pa, of Hertz's contact (Johnson 1985, section 4.2)."""
+    """Half length and width, m, and maximum pressure, Pa, of Hertz's contact (Johnson 1985, section 4.2)."""
     modulus = 207e9 / (2 * (1 - 0.3**2))
 
     def ratio(k):

@@ -109,7 +109,7 @@ def breaks_rule(drive, before):
 
 
 @pytest.mark.parametrize("teeth", [8, 11, 13])
-def test_least_profile_shift_against_undercut_is_the_textbook_one(teeth):
+def test_minimum_profile_shift_against_undercut_is_the_textbook_one(teeth):
     # x_min = h − z sin² α/2, where h is the height of the rack's straight flank below its reference line.
     alpha = math.radians(20)
     height = 1.25 - 0.25 * (1 - math.sin(alpha))

@@ -44,7 +44,7 @@ def evaluate(x):
 
 
 def off(found, exact):
-    """Greatest error in units of the last place of the exact value."""
+    """Maximum error in units of the last place of the exact value."""
     exact = np.asarray(exact)
     place = np.spacing(np.abs(exact.astype(float))).astype(np.longdouble)
     return float(np.max(np.abs(found.astype(np.longdouble) - exact) / place))
@@ -77,8 +77,8 @@ def test_functions_are_right_to_the_last_place_or_two(rng):
 
 
 def test_functions_at_the_ends_of_the_numbers():
-    huge, least, none = np.inf, 5e-324, np.nan
-    x = np.array([0.0, -0.0, least, 1e-310, 1e308, huge, -huge, none, -1.0, 750.0, -760.0, -708.5])
+    huge, tiny, none = np.inf, 5e-324, np.nan
+    x = np.array([0.0, -0.0, tiny, 1e-310, 1e308, huge, -huge, none, -1.0, 750.0, -760.0, -708.5])
     with np.errstate(all="ignore"):
         expected = {
             "exp": np.exp(x),

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 
-from tribodyn.kernels.native import compiler, kernel, laid_out, store
+from tribodyn.kernels.native import compiler, kernel, packed, store
 from tribodyn.numerics import elementary
 
 
@@ -77,12 +77,12 @@ def test_records_numbers_and_arrays_of_any_strides_go_in_and_numbers_come_out(ar
     assert (out == 2.0).all()
 
 
-def test_what_is_laid_out_once_stands_for_the_value(arguments):
+def test_what_is_packed_once_stands_for_the_value(arguments):
     out = arguments[-1]
     weigh(*arguments)
     expected = out.copy()
     out[:] = 0.0
-    weigh(*map(laid_out, arguments))
+    weigh(*map(packed, arguments))
     np.testing.assert_array_equal(out, expected)
 
 

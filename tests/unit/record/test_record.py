@@ -177,7 +177,7 @@ def test_a_folder_is_refused_as_file(tmp_path: Path):
 
 
 def test_an_unwritable_folder_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    # told by the operating system; the superuser, whom tests may run as, may write anywhere
+    # reported by the operating system; the superuser, whom tests may run as, may write anywhere
     monkeypatch.setattr(os, "access", lambda path, mode: Path(path) != tmp_path)
     with pytest.raises(InputError, match="cannot be written to"):
         writer(tmp_path / "run.h5")

@@ -64,7 +64,7 @@ REFUSED = {
         "parabolic-23-47",
         {"drive.shape.k1": 0.496},
         "shape.k1",
-        "lest the working flank of the gear be undercut",
+        "or the working flank of the gear is undercut",
         "use 0.3",
     ),
     "k negative": ("parabolic-23-47", {"drive.shape.k2": -0.1}, "shape.k2", "greater than 0", "use 0.3"),
@@ -80,7 +80,7 @@ REFUSED = {
         {"drive.shape.recess_diameter": "3 mm"},
         "shape.recess_diameter",
         "the path ends",
-        "use a greater one",
+        "use a larger one",
     ),
     "arc of no size": (
         "circular-arc-23-47",

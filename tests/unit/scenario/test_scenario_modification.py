@@ -130,7 +130,7 @@ def test_a_resolved_scenario_is_the_same_case(scenario: Path, tmp_path: Path):
 def test_errors_of_profile_and_pitch_from_csv_files(scenario: Path):
     scenario.with_name("profile.csv").write_text("roll_angle [deg],error [um]\n-25,0\n0,1\n25,4\n", "utf-8")
     rows = "\n".join(str(0.25 * tooth) for tooth in range(18))
-    scenario.with_name("pitch.csv").write_text(f"# one a tooth\nerror [um]\n{rows}\n", "utf-8")
+    scenario.with_name("pitch.csv").write_text(f"# one per tooth\nerror [um]\n{rows}\n", "utf-8")
     case = load_scenario(
         scenario, {PINION + "profile_error": "profile.csv", PINION + "pitch_errors": "pitch.csv"}
     )

@@ -28,9 +28,9 @@ def falling(contact, film, surfaces, parameters):
     return 0.03 + 0.05 * exp(-contact.entrainment / 2.0)
 
 
-def closure(least):
+def closure(minimum):
     def coefficient(contact, film, surfaces, parameters):
-        return least + 0.05 * exp(-contact.entrainment / 2.0)
+        return minimum + 0.05 * exp(-contact.entrainment / 2.0)
 
     return coefficient
 
@@ -142,11 +142,11 @@ def test_the_record_names_the_law_that_was_used(case, tmp_path):
     coulomb = load_scenario("crc-23-47", {**SHORT, **COULOMB})
     result = run(coulomb, tmp_path / "own.h5", friction=own)
     with open_record(result.path) as record:
-        text, told = str(record.attrs["scenario"]), record.scenario["friction"]
+        text, friction = str(record.attrs["scenario"]), record.scenario["friction"]
         assert record.attrs["scenario_sha256"] != coulomb.sha256
         assert record.summary["friction_law"] == "python:decay"
-    assert (told.pop("sliding"), told.pop("reversal_width")) == ("kinematic", "20 um")
-    assert told == {"law": "python:decay", "floor": 0.03, "reference_speed": "2.0 m/s"}
+    assert (friction.pop("sliding"), friction.pop("reversal_width")) == ("kinematic", "20 um")
+    assert friction == {"law": "python:decay", "floor": 0.03, "reference_speed": "2.0 m/s"}
     assert tomllib.loads(coulomb.toml)["friction"]["law"] == "coulomb"
     again = tmp_path / "again.toml"
     again.write_text(text, encoding="utf-8")

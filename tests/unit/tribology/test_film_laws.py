@@ -92,7 +92,7 @@ def test_moes_is_smooth_and_orders_its_regimes():
 @pytest.mark.parametrize("line_load", [1e5, 4e5])
 @pytest.mark.parametrize("speed", [0.2, 0.6])
 def test_the_formulas_meet_where_all_hold(line_load, speed):
-    """Heavily loaded steel in oil: Moes beside Grubin (1949) and Dowson & Toyoda (1979), central films.
+    """Heavily loaded steel in oil: Moes against Grubin (1949) and Dowson & Toyoda (1979), central films.
 
     The minimum is about three quarters of it; formulas of central films scatter by a fifth.
     """

@@ -11,7 +11,7 @@ from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_sev
 from tribodyn.dynamics.parameters import STATES, frictionless
 from tribodyn.errors import InputError
 from tribodyn.kernels.native import kernel, store
-from tribodyn.kernels.native.arguments import laid_out
+from tribodyn.kernels.native.arguments import packed
 from tribodyn.numerics.elementary import absolute, law
 from tribodyn.numerics.parameter import Parameter
 from tribodyn.record.reader import open_record
@@ -120,8 +120,8 @@ def test_laws_that_state_a_range_flag_it_and_the_others_say_so():
 def test_variants_share_their_machine_code():
     """They differ in numbers alone, which no kernel has compiled in."""
     one, other = under("masjedi-khonsari"), under("masjedi-khonsari-mean-pressure")
-    assert laid_out(one).layout == laid_out(other).layout
-    assert laid_out(one).words != laid_out(other).words
+    assert packed(one).layout == packed(other).layout
+    assert packed(one).words != packed(other).words
 
 
 def test_without_friction_a_model_has_none(prepared):
@@ -154,12 +154,12 @@ def test_kernels_take_functions_and_tell_them_apart():
 
 def test_machine_code_is_kept_for_functions_in_files_only(tmp_path, monkeypatch):
     monkeypatch.setenv("TRIBODYN_CACHE", str(tmp_path / "cache"))
-    layout = laid_out(_twice).layout
+    layout = packed(_twice).layout
     assert layout.kept
-    assert not laid_out(_closed(3.0)).layout.kept
-    whole = laid_out(Pair(_twice, 1.0)).layout
+    assert not packed(_closed(3.0)).layout.kept
+    whole = packed(Pair(_twice, 1.0)).layout
     assert store._file_of(_apply.function, whole) is not None
-    assert store._file_of(_apply.function, laid_out(Pair(_closed(3.0), 1.0)).layout) is None
+    assert store._file_of(_apply.function, packed(Pair(_closed(3.0), 1.0)).layout) is None
 
 
 class Pair(tuple):
@@ -189,7 +189,7 @@ def test_a_changed_source_or_number_is_another_function(tmp_path):
         _module(tmp_path, f"module{i}", text.format(factor, tail)).function
         for i, (factor, tail) in enumerate([("2.0", ""), ("3.0", ""), ("2.0", " + 1.0"), ("2.0", "")])
     ]
-    identities = [laid_out(one).layout.identity for one in made]
+    identities = [packed(one).layout.identity for one in made]
     assert len(set(identities)) == 3
     assert identities[0] == identities[3]
 

@@ -140,7 +140,7 @@ def test_laws_dispatch():
 
 
 def test_hertz_line_contact_closed_forms():
-    """Greatest pressure is 4/π of the mean, and the pressure integrates to the load."""
+    """Maximum pressure is 4/π of the mean, and the pressure integrates to the load."""
     a = hertz_half_width(3.85e5, 111.0, 2.26e11)
     p = hertz_pressure(3.85e5, 111.0, 2.26e11)
     assert p == pytest.approx(4 / math.pi * 3.85e5 / (2 * a), rel=1e-12)

@@ -1,4 +1,4 @@
-"""The families of paths of contact: one a file, and their registry."""
+"""The families of paths of contact: one per file, and their registry."""
 
 from tribodyn.geometry.family import Family
 from tribodyn.numerics.registry import Registry

@@ -119,7 +119,7 @@ def check(drive: Drive) -> None:
 def _advice(drive: Drive, half: int) -> tuple[str, Any, str]:
     name = "approach_diameter" if half < 0 else "recess_diameter"
     diameter = getattr(drive.shape, name)
-    remedy = "use a greater one or lower teeth" if diameter > 0 else "use a more negative one, or lower teeth"
+    remedy = "use a larger one or lower teeth" if diameter > 0 else "use a more negative one, or lower teeth"
     return f"shape.{name}", f"{1e3 * diameter:.4g} mm", remedy
 
 

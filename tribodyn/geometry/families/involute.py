@@ -105,9 +105,9 @@ def check(drive: Drive) -> None:
     alpha = drive.pressure_angle
     teeth = drive.pinion.teeth + drive.gear.teeth
     shift = drive.pinion.profile_shift + drive.gear.profile_shift
-    least = -(math.tan(alpha) - alpha) * teeth / (2 * math.tan(alpha))
-    if shift <= least:
-        needed = least - drive.gear.profile_shift
+    minimum = -(math.tan(alpha) - alpha) * teeth / (2 * math.tan(alpha))
+    if shift <= minimum:
+        needed = minimum - drive.gear.profile_shift
         raise InputError(
             "drive.pinion.profile_shift",
             drive.pinion.profile_shift,

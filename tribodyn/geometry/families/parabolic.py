@@ -81,22 +81,22 @@ def working_path(drive: Drive) -> ParabolaPath:
 
 
 def published_limits(teeth: float) -> tuple[float, float]:
-    """Least and greatest k without undercut by Jia's (42) and (44), from the teeth of the wheel it rolls in.
+    """Minimum and maximum k without undercut by Jia's (42) and (44), from the teeth of the wheel it rolls in.
 
     sin(π/(2z)) < (1 − 2k)/(2√(k(1 − k))) ≤ (1 − 2k)/(1 − k), the latter two being the sines of the paper's β
     and u_t at the critical point. Its β is read off as sin β = y/O₂M where the geometry gives x/O₂M, so that
-    the lower limit (always 1/5) is an artefact; `greatest_coefficient` has the actual one.
+    the lower limit (always 1/5) is an artefact; `maximum_coefficient` has the actual one.
     """
     # with s = sin(π/2z): (1 − 2k)² = 4 s² k (1 − k), a quadratic in k
     sine = math.sin(math.pi / (2 * teeth))
     return 0.2, (1 - sine / math.sqrt(1 + sine**2)) / 2
 
 
-def greatest_coefficient(drive: Drive, half: int) -> float:
-    """Greatest k at which the mate's actual tip still meets sound flank: k1 for half = +1, k2 for −1.
+def maximum_coefficient(drive: Drive, half: int) -> float:
+    """Maximum k at which the mate's actual tip still meets sound flank: k1 for half = +1, k2 for −1.
 
-    The tip circle R of the mate, on whose parabola contact ends, and the point of zero velocity of this
-    body's flank, y = r (1 − 2k)/… of Jia's (18), (15), coincide; found by bisection on the flank's speed.
+    There contact ends, on the mate's tip circle, at the point of zero velocity of this body's flank, which
+    stands at the height y = r − p = r (1 − 2k) on its parabola; found by bisection.
     """
     side: Side = "gear" if half > 0 else "pinion"
     mate: Side = "pinion" if half > 0 else "gear"
@@ -106,8 +106,8 @@ def greatest_coefficient(drive: Drive, half: int) -> float:
     def sound(k: float) -> bool:
         p = 2 * k * r
         y = -(p + mate_r) + math.sqrt((p + mate_r) ** 2 + tip**2 - mate_r**2)
-        # u of this body over its angular speed, along the flank: r sin α − ρ (1 + w) … in x, y of the path:
-        # zero velocity where (1 + i) x x' + … = 0 reduces to x x' + (y − r) y' = 0, and x x' = p y'.
+        # The contact's speed along the flank is zero where its distance from the body's axis (0, r) is
+        # stationary along the path, x x' + (y − r) y' = 0. On x² = 2 p y, x x' = p y', hence p + y − r = 0.
         return p + y - r < 0
 
     good, bad = 0.0, 0.5
@@ -121,14 +121,14 @@ def check(drive: Drive) -> None:
     """Refuse profile shift, and coefficients that are not positive or undercut the working flank."""
     refuse_shift(drive)
     for half, name in ((1, "k1"), (-1, "k2")):
-        k, most = getattr(drive.shape, name), greatest_coefficient(drive, half)
+        k, most = getattr(drive.shape, name), maximum_coefficient(drive, half)
         if not 0 < k < most:
             side = "gear" if half > 0 else "pinion"
             raise InputError(
                 f"drive.shape.{name}",
                 k,
-                f"must be greater than 0 and, lest the working flank of the {side} be undercut, "
-                f"less than {most:.4g}",
+                f"must be greater than 0 and less than {most:.4g}, or the working flank of the {side} "
+                "is undercut",
                 f"use {0.7 * most:.2g}",
             )
     reach = 50 * drive.module

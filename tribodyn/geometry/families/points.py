@@ -21,10 +21,10 @@ from tribodyn.numerics.shapes import Array, Float, Int
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 _NODES, _WEIGHTS = (1 + _NODES) / 2, _WEIGHTS / 2
-_LEAST_POINTS = 3
+_MINIMUM_POINTS = 3
 # As near to P (in modules) as the point that stands for it must be.
 _AT_PITCH_POINT = 1e-6
-# How far (rad) the pressure angle at P may be from the one that the other points ask for.
+# How far (rad) the pressure angle at P may be from the one that the other points imply.
 _ANGLE_TOLERANCE = np.radians(2.0)
 
 
@@ -53,8 +53,8 @@ class PointsPath(NamedTuple):
 
     def _interval(self, r: PerContact) -> Int[Array, "*contact"]:
         xp = namespace(self, r)
-        found = xp.searchsorted(self.knots, r, side="right") - 1
-        return xp.clip(found, 0, self.knots.shape[0] - 2)
+        interval = xp.searchsorted(self.knots, r, side="right") - 1
+        return xp.clip(interval, 0, self.knots.shape[0] - 2)
 
     def _cubic(self, r: PerContact, interval: Int[Array, "..."]) -> tuple[PerContact, PerContact]:
         """Angle and slope; held at the ends."""
@@ -176,8 +176,8 @@ def check(drive: Drive) -> None:
     if np.hypot(*points[at]) > _AT_PITCH_POINT * drive.module:
         refuse(at, "the path misses the pitch point: this is the nearest", "make the point 0,0 one of them")
     for count, name in ((at, "before"), (len(points) - 1 - at, "after")):
-        if count < _LEAST_POINTS:
-            rule = f"fewer than {_LEAST_POINTS} {name} the pitch point"
+        if count < _MINIMUM_POINTS:
+            rule = f"fewer than {_MINIMUM_POINTS} {name} the pitch point"
             raise InputError(key, f"{count} points", rule, "give more")
     r, angle = polar(points)
     for i in np.flatnonzero(np.arange(len(r)) != at):

@@ -9,8 +9,8 @@ line where cot α = dη/dξ, so that at the height |y| over the pitch line, h = 
 and the path of contact is r = y/sin α, where the pinion has turned by r_p φ = y cot α + m ξ. Contact is
 convex-concave at both ends and like an involute's at P, where the pressure angle acot(n a_P) is the smallest.
 The power law serves up to one module from the pitch line, as high as the teeth are; the rack goes on straight
-from there to its rounded tip. Soon above (at 1.02 modules for the usual a_P = 1.31, n = 1.9) r would be
-greatest and the path turn back.
+from there to its rounded tip. Soon above (at 1.02 modules for the usual a_P = 1.31, n = 1.9) r would
+reach its maximum and the path turn back.
 """
 
 from typing import Any, NamedTuple
@@ -104,7 +104,7 @@ class PowerRackPath(NamedTuple):
 
 
 def _step_to_height(y: PerContact, path: PowerRackPath, distance: PerContact) -> PerContact:
-    """Euler's step, to the parabola's root: Newton's would only halve the way where r is nearly greatest."""
+    """Euler's step, to the parabola's root: Newton's would only halve the way close to the maximum of r."""
     xp = namespace(y, path, distance)
     y = xp.minimum(y, path.module * (1 - 1e-15))
     left = path.form * path.module - y
@@ -145,7 +145,7 @@ def check(drive: Drive) -> None:
     y = drive.module * np.linspace(0.0, 1.0, 501)
     if not np.all(np.diff(y * np.hypot(1.0, path._cotangent(y)[0])) > 0):
         rule = "the path of contact turns back before the teeth's height of one module"
-        raise InputError("drive.shape.form_factor", a, rule, "use a greater one, such as 1.31 for n = 1.9")
+        raise InputError("drive.shape.form_factor", a, rule, "use a larger one, such as 1.31 for n = 1.9")
     for side in SIDES:
         height = (tip_radius(drive, side) - reference_radius(drive, side)) / drive.module
         if height > 1 + 1e-9:
@@ -156,7 +156,7 @@ def check(drive: Drive) -> None:
 
 
 def _advice(drive: Drive, half: int) -> tuple[str, Any, str]:
-    return "shape.form_factor", drive.shape.form_factor, "use a greater one, or lower teeth and racks"
+    return "shape.form_factor", drive.shape.form_factor, "use a larger one, or lower teeth and racks"
 
 
 FAMILY = Family(

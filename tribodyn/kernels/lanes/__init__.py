@@ -1,1 +1,1 @@
-"""Lanes: the laws compiled for vectors of cases, one case a lane."""
+"""Lanes: the laws compiled for vectors of cases, one case per lane."""

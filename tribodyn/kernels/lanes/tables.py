@@ -40,7 +40,7 @@ from tribodyn.kernels.lanes.vectors import (
     intrinsic,
     of_operator,
 )
-from tribodyn.kernels.native import Laid
+from tribodyn.kernels.native import PackedValue
 
 _FLOATS_AT = types.CPointer(types.float64)
 _INTEGERS_AT = types.CPointer(types.int64)
@@ -107,10 +107,10 @@ class LaneRecord(NamedTuple):
     addresses: np.ndarray
     lengths: np.ndarray
 
-    def laid_out(self) -> Laid:
+    def as_argument(self) -> PackedValue:
         """As kernels read it: the addresses of the three arrays; the caller keeps them alive."""
         addresses = (array.ctypes.data for array in (self.numbers, self.addresses, self.lengths))
-        return Laid(LaneLayout(self.fields), struct.pack("=3q", *addresses), self)
+        return PackedValue(LaneLayout(self.fields), struct.pack("=3q", *addresses), self)
 
 
 class LaneLayout(NamedTuple):
@@ -179,12 +179,12 @@ def _gather(context, builder, signature, values):
     if table.shared:
         place = builder.add(builder.extract_element(address, INT64(0)), offset)
         return builder.load(builder.inttoptr(place, DOUBLE.as_pointer()))
-    found = ir.Constant(FLOATS, ir.Undefined)
+    vector = ir.Constant(FLOATS, ir.Undefined)
     for lane in range(WIDTH):
         place = builder.add(builder.extract_element(address, INT64(lane)), offset)
         value = builder.load(builder.inttoptr(place, DOUBLE.as_pointer()))
-        found = builder.insert_element(found, value, INT64(lane))
-    return found
+        vector = builder.insert_element(vector, value, INT64(lane))
+    return vector
 
 
 @intrinsic

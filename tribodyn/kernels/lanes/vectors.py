@@ -1,4 +1,4 @@
-"""Vectors of numbers, one a case, as types that numba compiles to SIMD registers.
+"""Vectors of numbers, one per case, as types that numba compiles to SIMD registers.
 
 `LANES` holds floats, `INDICES` integers, `MASK` truths. They mix with plain numbers, which stand for the same
 number in every lane, so that a law written for one case compiles for `WIDTH` of them as it stands.

@@ -4,7 +4,7 @@ Importing this package imports neither numba nor llvmlite; the first call of a k
 machine code is on disk, and numba if it has to be compiled.
 """
 
-from tribodyn.kernels.native.arguments import Laid, laid_out
+from tribodyn.kernels.native.arguments import PackedValue, packed
 from tribodyn.kernels.native.kernel import Kernel, kernel
 
-__all__ = ["Kernel", "Laid", "kernel", "laid_out"]
+__all__ = ["Kernel", "PackedValue", "kernel", "packed"]

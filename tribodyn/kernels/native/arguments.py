@@ -49,17 +49,17 @@ class Record:
         return f"{self.name}({', '.join(f'{name}={layout!r}' for name, layout in self.fields)})"
 
 
-class Laid(NamedTuple):
+class PackedValue(NamedTuple):
     """A value as the kernels read it; stands for it among a kernel's arguments.
 
-    What many calls have in common is laid out once. Arrays inside are pointed at: the value keeps them alive.
+    What many calls have in common is packed once. Arrays inside are pointed at: the value keeps them alive.
 
     Attributes
     ----------
-    layout : Numeric, Array, Record, FunctionLayout, or that of an object with a method `laid_out` of its own
+    layout : Numeric, Array, Record, FunctionLayout, or that of an object with its own method `as_argument`
     words : bytes
     value : object
-        What was laid out.
+        What was packed.
     """
 
     layout: Any
@@ -78,28 +78,28 @@ def record(name: str, names: tuple[str, ...], layouts: tuple[Any, ...]) -> Recor
     return Record(name, tuple(zip(names, layouts, strict=True)))
 
 
-def laid_out(value: Any) -> Laid:
-    """Lay a value out.
+def packed(value: Any) -> PackedValue:
+    """Pack a value as kernels read it.
 
     Raises
     ------
     TypeError
         For what kernels do not take: an error of the program.
     """
-    if isinstance(value, Laid):
+    if isinstance(value, PackedValue):
         return value
     if isinstance(value, float):
-        return Laid(FLOAT, _float(value), value)
+        return PackedValue(FLOAT, _float(value), value)
     if isinstance(value, np.ndarray):
-        return _laid_array(value)
+        return _packed_array(value)
     if isinstance(value, (bool, np.bool_)):
-        return Laid(BOOL, _int(value), value)
+        return PackedValue(BOOL, _int(value), value)
     if isinstance(value, (int, np.integer)):
-        return Laid(INT, _int(value), value)
+        return PackedValue(INT, _int(value), value)
     if isinstance(value, FunctionType):
-        return Laid(function_layout(value), b"", value)
-    if hasattr(value, "laid_out"):
-        return value.laid_out()
+        return PackedValue(function_layout(value), b"", value)
+    if hasattr(value, "as_argument"):
+        return value.as_argument()
     if isinstance(value, tuple) and hasattr(value, "_fields"):
         return together(type(value).__qualname__, value._fields, value)  # pyright: ignore[reportAttributeAccessIssue]
     raise TypeError(
@@ -107,22 +107,22 @@ def laid_out(value: Any) -> Laid:
     )
 
 
-def _laid_array(array: np.ndarray) -> Laid:
+def _packed_array(array: np.ndarray) -> PackedValue:
     if array.ndim == 0:
-        return laid_out(array.item())
+        return packed(array.item())
     contiguous = array.flags.c_contiguous
     described = (array.ctypes.data, *array.shape)
     if not contiguous:
         described += array.strides
     layout = _array(array.dtype.str, array.ndim, "C" if contiguous else "A")
-    return Laid(layout, struct.pack(f"={len(described)}q", *described), array)
+    return PackedValue(layout, struct.pack(f"={len(described)}q", *described), array)
 
 
-def together(name: str, names: tuple[str, ...], values: tuple[Any, ...]) -> Laid:
-    """Lay several values out as the fields of one record."""
-    laid = [laid_out(value) for value in values]
-    layouts = tuple(one.layout for one in laid)
-    return Laid(record(name, names, layouts), b"".join(one.words for one in laid), values)
+def together(name: str, names: tuple[str, ...], values: tuple[Any, ...]) -> PackedValue:
+    """Pack several values as the fields of one record."""
+    items = [packed(value) for value in values]
+    layouts = tuple(one.layout for one in items)
+    return PackedValue(record(name, names, layouts), b"".join(one.words for one in items), values)
 
 
 def functions_in(layout: Any) -> Iterator[FunctionLayout]:

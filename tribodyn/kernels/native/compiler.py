@@ -35,13 +35,13 @@ class KernelLibrary(JITCodeLibrary):
     def needs(self) -> list[str]:
         """Names of the C functions that the code calls."""
         declared = (function.name for function in self._final_module.functions if function.is_declaration)
-        found = set()
+        names = set()
         for name in declared:
             if not name.startswith("llvm."):
-                found.add(name)
+                names.add(name)
             elif (family := name.split(".")[1]) in _C_FUNCTIONS:
-                found.add(family)
-        return sorted(found)
+                names.add(family)
+        return sorted(names)
 
 
 #: What LLVM calls by a name of its own and takes from the C library, unless the processor has it.

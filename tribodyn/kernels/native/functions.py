@@ -66,7 +66,7 @@ def _where(context, builder, sig, args):
     return builder.select(*args)
 
 
-def _least_by(comparison):
+def _extreme_by(comparison):
     def emit(context, builder, sig, args):
         a, b = args
         second = builder.or_(builder.fcmp_ordered(comparison, b, a), builder.fcmp_unordered("uno", b, b))
@@ -75,8 +75,8 @@ def _least_by(comparison):
     return emit
 
 
-_numeric(elementary.minimum, [types.Number, types.Number])(_least_by("<"))
-_numeric(elementary.maximum, [types.Number, types.Number])(_least_by(">"))
+_numeric(elementary.minimum, [types.Number, types.Number])(_extreme_by("<"))
+_numeric(elementary.maximum, [types.Number, types.Number])(_extreme_by(">"))
 
 
 def _instead(function, implementation, kind):

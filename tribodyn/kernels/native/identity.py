@@ -1,4 +1,4 @@
-"""What tells one function among a kernel's arguments from another, in this process and in the next.
+"""What distinguishes one function among a kernel's arguments from another, in this process and in the next.
 
 A function that is handed to a kernel is compiled into it, with all that it calls and with the numbers that
 its module holds. The machine code may be kept only if all that is in files.

@@ -52,13 +52,13 @@ class PartLibrary(JITCodeLibrary):
             self._shared_module = module
         return self._shared_module
 
-    def _below(self, found):
+    def _below(self, libraries):
         for library in self._linking_libraries:
-            if library not in found:
-                found[library] = None
+            if library not in libraries:
+                libraries[library] = None
                 if isinstance(library, PartLibrary):
-                    library._below(found)
-        return list(found)
+                    library._below(libraries)
+        return list(libraries)
 
 
 def _mergeable(module):

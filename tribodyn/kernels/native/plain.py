@@ -16,7 +16,7 @@ from numba import types
 from numba.extending import overload, typeof_impl
 
 from tribodyn.kernels.native import scalar_functions
-from tribodyn.kernels.native.arguments import Laid
+from tribodyn.kernels.native.arguments import PackedValue
 from tribodyn.kernels.native.code import KernelFunction
 from tribodyn.numerics import elementary
 
@@ -95,7 +95,7 @@ def plainly_compiled(kernel: KernelFunction) -> Callable[[bytes, tuple[Any, ...]
 
 def _given(value: Any) -> Any:
     """An argument as numba takes it: a number for an array without axes, a function as a compiled one."""
-    if isinstance(value, Laid):
+    if isinstance(value, PackedValue):
         value = value.value
     if isinstance(value, FunctionType):
         return _compiled(value)

@@ -73,18 +73,18 @@ def _read(context, builder, kind, block, word):
     if isinstance(kind, RecordType):
         return place
     if isinstance(kind, types.Array):
-        found = [
+        items = [
             _load(builder, place, _INT64, i) for i in range(1 + kind.ndim * (1 if kind.layout == "C" else 2))
         ]
         size = context.get_abi_sizeof(context.get_data_type(kind.dtype))
-        shape, strides = found[1 : 1 + kind.ndim], found[1 + kind.ndim :]
+        shape, strides = items[1 : 1 + kind.ndim], items[1 + kind.ndim :]
         if kind.layout == "C":
             strides = [_INT64(size)]
             for length in reversed(shape[1:]):
                 strides.insert(0, builder.mul(strides[0], length))
             strides = strides[: kind.ndim]
         array = context.make_array(kind)(context, builder)
-        data = builder.inttoptr(found[0], context.get_data_type(kind.dtype).as_pointer())
+        data = builder.inttoptr(items[0], context.get_data_type(kind.dtype).as_pointer())
         populate_array(array, data, shape, strides, size, None)
         return array._getvalue()
     if kind is types.boolean:
@@ -122,8 +122,8 @@ def fields_of(typingctx, record):
     whole = types.Tuple([kind for kind, _ in record.fields.values()])
 
     def emit(context, builder, signature, values):
-        found = [_read(context, builder, *_place(record, name, values[0])) for name in record.fields]
-        return context.make_tuple(builder, whole, found)
+        fields = [_read(context, builder, *_place(record, name, values[0])) for name in record.fields]
+        return context.make_tuple(builder, whole, fields)
 
     return whole(record), emit
 
@@ -140,9 +140,9 @@ def put(typingctx, results, value: Any):
             numbers = [(value, values[1])]
         for i, (kind, number) in enumerate(numbers):
             word = types.float64 if letter_of(kind) == "d" else types.int64
-            found = context.cast(builder, number, kind, word)
-            pointer = builder.bitcast(builder.gep(values[0], [_INT64(i)]), found.type.as_pointer())
-            builder.store(found, pointer, align=WORD)
+            converted = context.cast(builder, number, kind, word)
+            pointer = builder.bitcast(builder.gep(values[0], [_INT64(i)]), converted.type.as_pointer())
+            builder.store(converted, pointer, align=WORD)
         return context.get_dummy_value()
 
     return types.none(results, value), emit

@@ -19,7 +19,7 @@ NAME = "orders"
 WINDOW, HOP = 16, 4
 #: Orders of the mesh shown, and those followed in the lower panel.
 SHOWN, FOLLOWED = 8.0, 4
-#: Amplitudes below this part of the greatest are off the scale.
+#: Amplitudes below this part of the maximum are off the scale.
 FLOOR = 1e-3
 #: A speed that changes by more than this share is worth tracking.
 CHANGING = 0.05
@@ -95,15 +95,15 @@ def orders_figure(records: Sequence[Record], view: View) -> Figure:
     Over time too where the speed does not keep rising or falling.
     """
     record = records[0]
-    found = track(record)
-    steady = np.all(np.diff(found.speed) > 0) or np.all(np.diff(found.speed) < 0)
+    tracked = track(record)
+    steady = np.all(np.diff(tracked.speed) > 0) or np.all(np.diff(tracked.speed) < 0)
     over_time = view.against == "time" or not steady
-    x = found.time * 1e3 if over_time else found.speed * 30 / np.pi
+    x = tracked.time * 1e3 if over_time else tracked.speed * 30 / np.pi
     figure = new_figure(WIDTH, 2 * PANEL_HEIGHT + 0.6)
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
-    _draw_map(figure, above, x, found)
+    _draw_map(figure, above, x, tracked)
     for order in range(1, FOLLOWED + 1):
-        line = found.amplitudes[:, order * WINDOW] * 1e6
+        line = tracked.amplitudes[:, order * WINDOW] * 1e6
         below.plot(x, line, color=PALETTE[order - 1], label=f"order {order}")
     below.set_ylabel("Amplitude (µm)")
     below.set_ylim(bottom=0)
@@ -115,12 +115,12 @@ def orders_figure(records: Sequence[Record], view: View) -> Figure:
     return figure
 
 
-def _draw_map(figure: Figure, axes: Axes, x: np.ndarray, found: Track) -> None:
-    greatest = float(found.amplitudes.max()) * 1e6
-    norm = LogNorm(FLOOR * greatest, greatest) if greatest > 0 else None
-    shown = np.maximum(found.amplitudes.T * 1e6, FLOOR * greatest)
+def _draw_map(figure: Figure, axes: Axes, x: np.ndarray, tracked: Track) -> None:
+    maximum = float(tracked.amplitudes.max()) * 1e6
+    norm = LogNorm(FLOOR * maximum, maximum) if maximum > 0 else None
+    shown = np.maximum(tracked.amplitudes.T * 1e6, FLOOR * maximum)
     image = axes.pcolormesh(
-        x, found.orders, shown, norm=norm, cmap="viridis", shading="nearest", rasterized=True
+        x, tracked.orders, shown, norm=norm, cmap="viridis", shading="nearest", rasterized=True
     )
     axes.set_ylabel("Order of the mesh (–)")
     axes.grid(False)

@@ -48,7 +48,7 @@ def record_label(record: Record) -> str:
 
 
 def record_title(record: Record) -> str:
-    """Tell what a record is about: the scenario's title, and that it is unfinished where it is."""
+    """Return what a record is about: the scenario's title, and that it is unfinished where it is."""
     title = str(record.scenario.get("title", record_label(record)))
     return title if record.status == "complete" else f"{title} [{record.status}]"
 

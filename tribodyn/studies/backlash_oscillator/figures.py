@@ -73,16 +73,16 @@ def jumps(values: np.ndarray, periodic: np.ndarray) -> list[int]:
     step = np.abs(np.diff(values))
     both = periodic[:-1] & periodic[1:]
     spread = np.nanmax(values, initial=0.0) - np.nanmin(values, initial=np.inf)
-    found = []
+    places = []
     for i in np.flatnonzero(both & (np.nan_to_num(step) > 0.1 * spread)):
         beside = [step[j] for j in (i - 1, i + 1) if 0 <= j < len(step) and np.isfinite(step[j])]
         if len(step) > 2 and beside and step[i] > 10.0 * min(beside):
-            found.append(int(i))
-    return found
+            places.append(int(i))
+    return places
 
 
 def _multipliers(records: Sequence[Record]) -> Figure:
-    """Greatest modulus, and its angle, of the Floquet multipliers."""
+    """Largest modulus, and its angle, of the Floquet multipliers."""
     drawn = new_figure(WIDTH, 2 * PANEL_HEIGHT)
     upper, lower = drawn.subplots(2, 1, sharex=True)
     for number, record in enumerate(records):
@@ -93,7 +93,7 @@ def _multipliers(records: Sequence[Record]) -> Figure:
             upper.plot(record["frequency"], modulus, color=color, linestyle=LINES[direction])
             lower.plot(record["frequency"], angle, color=color, linestyle=LINES[direction])
     upper.axhline(1.0, color=INK, linewidth=0.7)
-    upper.set_ylabel("Greatest multiplier, modulus")
+    upper.set_ylabel("Largest multiplier, modulus")
     upper.set_ylim(bottom=0)
     lower.set_ylabel("its angle (°)")
     lower.set_yticks(range(0, 181, 45))

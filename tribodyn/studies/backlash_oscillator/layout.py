@@ -10,7 +10,7 @@ FREQUENCY = Variable(
     ("frequency",), "1", "frequency of the excitation over the natural frequency of the oscillator in contact"
 )
 DIRECTION = Variable(("direction",), "1", "sense in which the frequency was followed")
-MULTIPLIER = Variable(("multiplier",), "1", "number of the Floquet multiplier, greatest modulus first")
+MULTIPLIER = Variable(("multiplier",), "1", "number of the Floquet multiplier, largest modulus first")
 
 SAMPLES: dict[str, Variable] = {
     "rms_displacement": Variable(
@@ -34,9 +34,9 @@ SAMPLES: dict[str, Variable] = {
         "unstable periodic state beside it, NaN if none was found",
     ),
     "multiplier_angle": Variable(_MULTIPLIER, "rad", "angle of the Floquet multipliers"),
-    "residual": Variable(_POINT, "1", "greatest change of displacement and velocity over one period"),
+    "residual": Variable(_POINT, "1", "maximum change of displacement and velocity over one period"),
     "section_displacement": Variable(
-        _POINT, "1", "displacement at the greatest excitation, in half backlashes"
+        _POINT, "1", "displacement at the maximum excitation, in half backlashes"
     ),
     "section_velocity": Variable(_POINT, "1", "velocity there, in half backlashes times natural frequency"),
 }

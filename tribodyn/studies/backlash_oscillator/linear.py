@@ -17,7 +17,7 @@ def linear_figures(case: BacklashOscillatorCase) -> dict[str, float | None]:
     Returns
     -------
     dict
-        `frequencies`; `resonance`, the frequency of the greatest amplitude; `contact_loss_from`, the lowest
+        `frequencies`; `resonance`, the frequency of the largest amplitude; `contact_loss_from`, the lowest
         frequency at which the amplitude reaches the mean force, both None where there is none; and
         `tongue_half_width` of the instability at Ω = 2, √(ε²/4 − 4ζ²), None where damping closes it.
     """

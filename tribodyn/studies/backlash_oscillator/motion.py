@@ -19,19 +19,19 @@ from tribodyn.solve.period_map import Marched, Tangent
 #: Columns of a row of parameters: ζ, F_m, F_e, ε, Ω.
 DAMPING, MEAN_FORCE, ERROR_AMPLITUDE, STIFFNESS_VARIATION, FREQUENCY = range(5)
 #: Columns of a row of figures: integrals over time of x and x², time without contact and with contact on the
-#: back side (x < −1), greatest and least x.
-INTEGRAL, SQUARE, FREE, BACK, GREATEST, LEAST = range(6)
+#: back side (x < −1), maximum and minimum x.
+INTEGRAL, SQUARE, FREE, BACK, MAXIMUM, MINIMUM = range(6)
 FIGURES = 6
 
 #: Degree of the Taylor polynomials.
 DEGREE = 24
-#: Least share of a polynomial's size that its last two terms may have.
+#: Minimum share of a polynomial's size that its last two terms may have.
 ROUNDING = 1e-16
 #: Distance from a corner, in half backlashes, or time before it, within which it counts as reached.
 TOUCH = 1e-13
-#: What a step that starts on a corner goes at least, in units of the natural period over 2π. An excursion
-#: across the corner shorter than that, some 1e-14 deep, counts for none.
-LEAST_STEP = 1e-7
+#: Minimum length of a step that starts on a corner, in units of the natural period over 2π. An excursion
+#: across the corner shorter than that, some 1e-14 deep, is not counted.
+MINIMUM_STEP = 1e-7
 #: Displacement at which a motion counts as growing without bound, half backlashes.
 UNBOUNDED = 1e4
 
@@ -108,7 +108,7 @@ def _until_corner(a, step, corner, direction, on_corner):
         bound += k * (k - 1) * abs(a[k]) * power
         power *= step
     bound = max(bound, 1e-300)
-    t = min(LEAST_STEP, step) if on_corner else 0.0
+    t = min(MINIMUM_STEP, step) if on_corner else 0.0
     while t < step:
         distance = direction * (corner - _value(a, t))
         away = -direction * _slope(a, t)
@@ -156,8 +156,8 @@ def _record(a, step, side, figures):
                     high = place
         for at in (place, t):
             value = _value(a, at)
-            figures[GREATEST] = max(figures[GREATEST], value)
-            figures[LEAST] = min(figures[LEAST], value)
+            figures[MAXIMUM] = max(figures[MAXIMUM], value)
+            figures[MINIMUM] = min(figures[MINIMUM], value)
         before = after
 
 
@@ -278,7 +278,7 @@ class OscillatorMap:
         strobes = np.full((rows, periods, 2), np.nan)
         tangents = np.tile(np.eye(2), (rows, 1, 1))
         figures = np.zeros((rows, FIGURES))
-        figures[:, GREATEST], figures[:, LEAST] = -np.inf, np.inf
+        figures[:, MAXIMUM], figures[:, MINIMUM] = -np.inf, np.inf
         status = np.zeros(rows, dtype=np.int64)
         march_rows(
             np.ascontiguousarray(states, dtype=float),

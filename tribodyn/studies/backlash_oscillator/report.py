@@ -14,7 +14,7 @@ LINES: Lines = {
         Line("rms_max_frequency", "at the frequency"),
         Line("contact_loss_from", "Contact is lost from the frequency"),
         Line("contact_loss_to", "to the frequency"),
-        Line("contact_loss_fraction_max", "for at most, of the time", 100.0, "%", ".3g"),
+        Line("contact_loss_fraction_max", "for at most this share of the time", 100.0, "%", ".3g"),
         Line("back_contact_fraction_max", "Contact on the back side, at most", 100.0, "%", ".3g"),
         Line("bistable_from", "Up and down differ from the frequency"),
         Line("bistable_to", "to the frequency"),

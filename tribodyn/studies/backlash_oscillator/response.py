@@ -12,9 +12,9 @@ from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.motion import (
     BACK,
     FREE,
-    GREATEST,
     INTEGRAL,
-    LEAST,
+    MAXIMUM,
+    MINIMUM,
     SQUARE,
     OscillatorMap,
 )
@@ -61,7 +61,7 @@ class Response(NamedTuple):
     displacement, velocity : (F, 2)
         State where cos Ωτ = 1: on the steady orbit, or where marching ended.
     messages : list of (frequency, direction, text)
-        What is to be said of single points.
+        Remarks on single points.
     """
 
     frequency: np.ndarray
@@ -90,7 +90,7 @@ def frequency_response(
     frequency = np.array(case.frequencies)
     count = len(frequency)
     one = np.full((count, 2), np.nan)
-    found = Response(
+    response = Response(
         frequency,
         *(one.copy() for _ in range(5)),
         period=np.zeros((count, 2), dtype=int),
@@ -108,12 +108,12 @@ def frequency_response(
         oscillator = oscillator_at(case, frequency[places])
         orbits = find(oscillator, state, max_periods=case.max_periods)
         for direction, orbit in enumerate(orbits):
-            _put(found, int(places[direction]), direction, orbit, oscillator)
+            _put(response, int(places[direction]), direction, orbit, oscillator)
             failed = orbit.kind == "failed"
             state[direction] = rest if failed else orbit.last
         if progress:
             progress((step + 1) / count)
-    return found
+    return response
 
 
 def oscillator_at(case: BacklashOscillatorCase, frequency: np.ndarray) -> OscillatorMap:
@@ -127,25 +127,25 @@ def at_rest(mean_force: float) -> float:
     return float(mean_force + np.sign(mean_force))
 
 
-def _put(found: Response, place: int, direction: int, orbit: Orbit, oscillator: OscillatorMap) -> None:
+def _put(response: Response, place: int, direction: int, orbit: Orbit, oscillator: OscillatorMap) -> None:
     """Put one orbit, and what is measured on it, into its place."""
     at = place, direction
     if orbit.message:
-        found.messages.append((float(found.frequency[place]), direction, orbit.message))
+        response.messages.append((float(response.frequency[place]), direction, orbit.message))
     if orbit.kind == "failed":
         return
     state = orbit.state if orbit.stable else orbit.last
     periods = orbit.period if orbit.stable else WINDOW
     one = np.array([direction])
     figures = oscillator.figures(state[None], one, periods)[0]
-    duration = periods * 2.0 * np.pi / found.frequency[place]
+    duration = periods * 2.0 * np.pi / response.frequency[place]
     mean = figures[INTEGRAL] / duration
-    found.mean[at] = mean
-    found.rms[at] = np.sqrt(max(figures[SQUARE] / duration - mean * mean, 0.0))
-    found.peak_to_peak[at] = figures[GREATEST] - figures[LEAST]
-    found.free[at], found.back[at] = figures[FREE] / duration, figures[BACK] / duration
-    found.kind[at] = STABLE if orbit.stable else UNSTABLE if orbit.kind == "unstable" else NOT_PERIODIC
-    found.period[at] = orbit.period if orbit.stable else 0
-    found.residual[at] = orbit.residual
-    found.multiplier[at] = orbit.multipliers
-    found.displacement[at], found.velocity[at] = state
+    response.mean[at] = mean
+    response.rms[at] = np.sqrt(max(figures[SQUARE] / duration - mean * mean, 0.0))
+    response.peak_to_peak[at] = figures[MAXIMUM] - figures[MINIMUM]
+    response.free[at], response.back[at] = figures[FREE] / duration, figures[BACK] / duration
+    response.kind[at] = STABLE if orbit.stable else UNSTABLE if orbit.kind == "unstable" else NOT_PERIODIC
+    response.period[at] = orbit.period if orbit.stable else 0
+    response.residual[at] = orbit.residual
+    response.multiplier[at] = orbit.multipliers
+    response.displacement[at], response.velocity[at] = state

@@ -25,7 +25,7 @@ from tribodyn.studies.study import Progress, RunResult
 #: Relative difference of the RMS above which the ways up and down count as different branches: hundreds of
 #: times what the residuals leave.
 APART = 1e-3
-#: How many single points the summary says something of.
+#: Maximum number of single points that the summary remarks on.
 REMARKS = 3
 
 
@@ -84,37 +84,37 @@ def record_arrays(response: Response) -> dict[str, Any]:
 def response_figures(response: Response) -> dict[str, Any]:
     """Figures of the whole sweep."""
     frequency, rms, kind = response.frequency, response.rms, response.kind
-    found: dict[str, Any] = {
+    summary: dict[str, Any] = {
         "points": int(kind.size),
         "points_not_periodic": int(np.sum((kind == NOT_PERIODIC) | (kind == UNSTABLE))),
         "points_unstable_state": int(np.sum(kind == UNSTABLE)),
         "points_failed": int(np.sum(kind == FAILED)),
         "points_of_longer_period": int(np.sum(response.period > 1)),
-        "residual_max": _greatest(response.residual[kind == STABLE]),
+        "residual_max": _maximum(response.residual[kind == STABLE]),
     }
     if np.any(np.isfinite(rms)):
         place = np.unravel_index(np.nanargmax(rms), rms.shape)
-        found |= {"rms_max": float(rms[place]), "rms_max_frequency": float(frequency[place[0]])}
-        found["contact_loss_fraction_max"] = _greatest(response.free)
-        found["back_contact_fraction_max"] = _greatest(response.back)
+        summary |= {"rms_max": float(rms[place]), "rms_max_frequency": float(frequency[place[0]])}
+        summary["contact_loss_fraction_max"] = _maximum(response.free)
+        summary["back_contact_fraction_max"] = _maximum(response.back)
     losing = np.flatnonzero(np.any(np.nan_to_num(response.free) > 0.0, axis=1))
     if losing.size:
-        found |= {
+        summary |= {
             "contact_loss_from": float(frequency[losing[0]]),
             "contact_loss_to": float(frequency[losing[-1]]),
         }
     bistable = np.flatnonzero(branches_apart(response))
     if bistable.size:
-        found |= {
+        summary |= {
             "bistable_from": float(frequency[bistable[0]]),
             "bistable_to": float(frequency[bistable[-1]]),
         }
     said = response.messages
     for number, (at, direction, text) in enumerate(said[:REMARKS]):
-        found[f"remark_{number + 1}"] = f"frequency {at:g}, {'up' if direction == UP else 'down'}: {text}"
+        summary[f"remark_{number + 1}"] = f"frequency {at:g}, {'up' if direction == UP else 'down'}: {text}"
     if len(said) > REMARKS:
-        found["remarks_more"] = len(said) - REMARKS
-    return found
+        summary["remarks_more"] = len(said) - REMARKS
+    return summary
 
 
 def branches_apart(response: Response) -> np.ndarray:
@@ -125,6 +125,6 @@ def branches_apart(response: Response) -> np.ndarray:
     return apart & np.all(response.kind == STABLE, axis=1)
 
 
-def _greatest(values: np.ndarray) -> float | None:
+def _maximum(values: np.ndarray) -> float | None:
     finite = values[np.isfinite(values)]
     return float(np.max(finite)) if finite.size else None

@@ -9,7 +9,7 @@ from tribodyn.scenario.common import Name
 from tribodyn.scenario.quantity import NotNegative, Positive, Table, Text, broken, written
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 
-#: Greatest number of frequencies of one sweep.
+#: Maximum number of frequencies of one sweep.
 MOST_FREQUENCIES = 100_000
 
 _Range = create_model(
@@ -33,9 +33,9 @@ class FrequencyRange(_Range):
         if last <= first:
             raise broken(f"the range ends at {last:g} and starts at {first:g}", "let to be greater than from")
         if step > last - first:
-            raise broken(f"the step {step:g} is longer than the range", "take a lesser step")
+            raise broken(f"the step {step:g} is longer than the range", "use a smaller step")
         if (last - first) / step > MOST_FREQUENCIES:
-            raise broken(f"more than {MOST_FREQUENCIES} frequencies", "take a greater step")
+            raise broken(f"more than {MOST_FREQUENCIES} frequencies", "use a larger step")
 
     def values(self) -> tuple[float, ...]:
         """Return the frequencies; the last one is `to` itself."""

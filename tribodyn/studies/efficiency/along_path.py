@@ -111,13 +111,13 @@ def engage(mesh: Places, duty: Duty) -> Engagement:
     for _ in range(STEPS):
         load, deflection, uneven, peak = _loads(mesh, duty, side * mu)
         contact = contact_at(load / width * uneven)
-        found = contact.surface.friction_coefficient * mesh.carrying
-        if np.any(mesh.carrying * (mesh.normal_arm + side * found * mesh.friction_arm) < 0.0):
-            worst = float(np.max(found))
+        new_mu = contact.surface.friction_coefficient * mesh.carrying
+        if np.any(mesh.carrying * (mesh.normal_arm + side * new_mu * mesh.friction_arm) < 0.0):
+            worst = float(np.max(new_mu))
             raise SimulationError(
                 f"friction locks the mesh: a coefficient of {worst:.3g} turns a load's arm over"
             )
-        change, mu = float(np.max(np.abs(found - mu))), found
+        change, mu = float(np.max(np.abs(new_mu - mu))), new_mu
         if change < TOLERANCE:
             break
     else:
@@ -161,8 +161,8 @@ def _loads(mesh: Places, duty: Duty, signed_friction: Array) -> tuple[Array, Arr
         return mesh.carrying * shared.normal_load, shared.deflection, *ratios
     even = np.ones_like(mesh.roll)
     if duty.sharing == "elastic":
-        found = quasi_static(mesh.cycle, duty.gear_torque, signed_friction[:, None])
-        return found.normal_load[:, 0], found.deflection[:, 0], even, even
+        state = quasi_static(mesh.cycle, duty.gear_torque, signed_friction[:, None])
+        return state.normal_load[:, 0], state.deflection[:, 0], even, even
     arms = mesh.normal_arm[1] + signed_friction * mesh.friction_arm[1]
     load = mesh.carrying * duty.gear_torque / np.sum(mesh.carrying * arms, axis=-1, keepdims=True)
     return load, np.full(len(mesh.phase), np.nan), even, even

@@ -12,7 +12,7 @@ class DynamicEfficiency(NamedTuple):
     Attributes
     ----------
     cycles : number of mesh cycles
-    efficiency : 1 less friction work over work put in: what the summary of a run tells
+    efficiency : 1 less friction work over work put in: what the summary of a run reports
     overall : work put out over work put in; with the damping of mesh and bearings
     work_in, work_out, work_friction, work_damping : J
     stored : change of the stored energy, J; small where the run has settled

@@ -35,7 +35,7 @@ def piecewise(breaks: Array, pitch_points: Array, points: int) -> tuple[Array, A
     pitch_points : (m,)
         Those inside are breaks as well; a piece between two of them is split in its middle.
     points : int
-        Nodes a piece.
+        Nodes per piece.
     """
     start, end = breaks[0], breaks[-1]
     pitch = pitch_points[(pitch_points >= start) & (pitch_points <= end)]

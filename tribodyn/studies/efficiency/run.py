@@ -122,14 +122,14 @@ def efficiencies(
     What is `known` by its load sharing is not computed again. A load sharing that does not fit the teeth, and
     Höhn's formula where friction is not one mean coefficient, are left out.
     """
-    found = {}
+    results = {}
     for sharing in SHARINGS:
         duty = study.duty._replace(sharing=sharing)
         try:
             means = known.get(sharing) or cycle_efficiency(study.cycle, study.path, duty, flanks=study.flanks)
         except InputError:
             continue
-        found[f"efficiency_{sharing.replace('-', '_')}"] = means.efficiency
+        results[f"efficiency_{sharing.replace('-', '_')}"] = means.efficiency
     case, duty = study.case, study.duty
     ratio = float(study.cycle.gear_pitch_radius) / float(study.cycle.pinion_pitch_radius)
     single = torque_ratio(
@@ -139,8 +139,8 @@ def efficiencies(
         float(study.cycle.face_width),
         duty.closure,
     )
-    found["efficiency_torque_ratio"] = float(single.efficiency)
-    return found | _by_loss_factor(study)
+    results["efficiency_torque_ratio"] = float(single.efficiency)
+    return results | _by_loss_factor(study)
 
 
 def _by_loss_factor(study: Prepared) -> dict[str, float]:
@@ -151,10 +151,10 @@ def _by_loss_factor(study: Prepared) -> dict[str, float]:
     tips = tip_contact_ratios(family(case.family), case.drive)
     teeth, ratio = case.drive.pinion.teeth, case.drive.gear.teeth / case.drive.pinion.teeth
     factor = exact(*tips, teeth, ratio)
-    found = {"loss_factor": factor, "efficiency_loss_factor": 1.0 - coefficient * factor}
+    results = {"loss_factor": factor, "efficiency_loss_factor": 1.0 - coefficient * factor}
     if max(tips) <= 1.0 <= sum(tips):
-        found["efficiency_hoehn"] = 1.0 - coefficient * hoehn(*tips, teeth, ratio)
-    return found
+        results["efficiency_hoehn"] = 1.0 - coefficient * hoehn(*tips, teeth, ratio)
+    return results
 
 
 def _effective_contact_ratio(mesh: Places, state: Engagement, duty: Duty) -> dict[str, float]:
@@ -173,10 +173,10 @@ def _figures(study: Prepared, mesh: Places, state: Engagement) -> dict[str, Any]
     share = 1.0 / len(state.power_in[:-1])
     balance = means.power_in - means.power_out - means.power_friction
 
-    def greatest(values: np.ndarray) -> float:
+    def maximum(values: np.ndarray) -> float:
         return float(np.max(values[loaded]))
 
-    def least(values: np.ndarray) -> float:
+    def minimum(values: np.ndarray) -> float:
         return float(np.min(values[loaded]))
 
     return {
@@ -184,11 +184,11 @@ def _figures(study: Prepared, mesh: Places, state: Engagement) -> dict[str, Any]
         **_effective_contact_ratio(mesh, state, duty),
         "load_sharing": duty.sharing,
         "mesh_frequency": duty.pinion_speed / float(cycle.pitch_angle),
-        "normal_load_max": greatest(state.normal_load),
-        "film_min": least(state.central_film_thickness),
-        "film_parameter_min": least(state.central_film_thickness) / duty.closure.surfaces.roughness,
-        "hertz_pressure_max": greatest(state.hertz_pressure),
-        "flash_temperature_max": greatest(state.flash_temperature_rise),
+        "normal_load_max": maximum(state.normal_load),
+        "film_min": minimum(state.central_film_thickness),
+        "film_parameter_min": minimum(state.central_film_thickness) / duty.closure.surfaces.roughness,
+        "hertz_pressure_max": maximum(state.hertz_pressure),
+        "flash_temperature_max": maximum(state.flash_temperature_rise),
         "friction_coefficient_mean": means.friction_coefficient,
         "friction_force_mean": np.sum(np.abs(state.friction_force[:-1]), axis=0) * share,
         "compliance_remark": compliance_remark(study.assembly, study.case.mesh) or None,

@@ -225,7 +225,7 @@ def torque_ratio(
     mu, load, change = np.zeros_like(pair.pinion_normal_arm), input_torque / pair.pinion_normal_arm, np.inf
     for _ in range(STEPS):
         load = input_torque / (pair.pinion_normal_arm + side * mu * pair.pinion_friction_arm)
-        found = contact_friction(
+        new_mu = contact_friction(
             closure,
             load / face_width,
             1.0 / pair.curvature,
@@ -233,12 +233,12 @@ def torque_ratio(
             pair.pitch_point_length,
             pinion_speed * pair.pitch_point_rate,
         ).surface.friction_coefficient
-        if np.any(pair.pinion_normal_arm + side * found * pair.pinion_friction_arm <= 0.0):
-            worst = float(np.max(found))
+        if np.any(pair.pinion_normal_arm + side * new_mu * pair.pinion_friction_arm <= 0.0):
+            worst = float(np.max(new_mu))
             raise SimulationError(
                 f"friction locks the pair: a coefficient of {worst:.3g} turns the load's arm over"
             )
-        change, mu = np.max(np.abs(found - mu)), found
+        change, mu = np.max(np.abs(new_mu - mu)), new_mu
         if change < TOLERANCE:
             break
     else:

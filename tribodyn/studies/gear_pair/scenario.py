@@ -126,7 +126,7 @@ class Mesh(Table):
     backlash: Annotated[float, Quantity(units.not_negative(units.LENGTH))] | None = Field(
         None, description="normal backlash; default: back flanks never touch"
     )
-    points: Annotated[int, Field(strict=True, ge=5)] = Field(65, description="nodes a segment of the table")
+    points: Annotated[int, Field(strict=True, ge=5)] = Field(65, description="nodes per segment of the table")
     transmission_error: TransmissionError = written({})
     misalignment: MisalignmentTable = written({})
     slices: Slices | None = Field(

@@ -30,13 +30,13 @@ class RunningExtremes:
         for name, (key, reduce) in EXTREMES.items():
             if np.all(np.isnan(block[name])):
                 continue
-            found = float(reduce(block[name]))
-            old = self.values.get(key, found)
-            self.values[key] = max(old, found) if reduce is np.nanmax else min(old, found)
+            value = float(reduce(block[name]))
+            old = self.values.get(key, value)
+            self.values[key] = max(old, value) if reduce is np.nanmax else min(old, value)
 
 
 def energy_residual(first: np.ndarray, last: np.ndarray, stored: float) -> float:
-    """What the energy balance misses over a run, as a share of the work done by the drive.
+    """Residual of the energy balance over a run, as a share of the work done by the drive.
 
     W_in + W_parametric − W_out − W_friction − W_damping − ΔE from the first to the last state; `stored` is
     ΔE, J.

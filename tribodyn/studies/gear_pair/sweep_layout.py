@@ -15,7 +15,7 @@ def _figure(units: str, long_name: str) -> Variable:
     return Variable((), units, long_name)
 
 
-#: One number per case, out of its steady window.
+#: One number per case, from its steady window.
 FIGURES: dict[str, Variable] = {
     "mesh_frequency": _figure("Hz", "mean mesh frequency"),
     "transmission_error_rms": _figure(

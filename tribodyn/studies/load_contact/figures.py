@@ -83,7 +83,7 @@ def _load_sharing(records: Sequence[Record]) -> Figure:
 
 
 def draw_loads(axes: Axes, records: Sequence[Record]) -> None:
-    """Draw the normal load of each pair over the phase; colours tell records, or the only one's pairs."""
+    """Draw the normal load of each pair over the phase; colours tell records apart, or pairs of one."""
     for number, record in enumerate(records):
         for pair in reversed(record.pairs):
             phase, load = pair_over_phase(record, "normal_load", pair)
@@ -136,7 +136,7 @@ def _root_stress(records: Sequence[Record]) -> Figure:
 
 
 def draw_root_stress(axes: Axes, records: Sequence[Record], name: str, body: str, style: str = "-") -> None:
-    """Draw the greatest root stress over the face against the roll angle of a pair."""
+    """Draw the maximum root stress over the face against the roll angle of a pair."""
     for number, record in enumerate(records):
         stress = record[name][:, list(record["body"]).index(body)]
         worst = np.max(stress, axis=-1) if name == "root_tension" else np.min(stress, axis=-1)

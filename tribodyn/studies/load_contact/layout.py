@@ -35,13 +35,13 @@ SAMPLES: dict[str, Variable] = {
     ),
     "normal_load": Variable(_PAIR, "N", "normal load of the pair"),
     "line_load": Variable(_FACE, "N/m", "normal load per face width"),
-    "hertz_pressure": Variable(_FACE, "Pa", "greatest Hertz pressure"),
+    "hertz_pressure": Variable(_FACE, "Pa", "maximum Hertz pressure"),
     "half_width": Variable(_FACE, "m", "half width of the Hertz contact"),
     "face_load_factor": Variable(
-        _PAIR, "1", "greatest line load over the mean along the face; NaN where the pair carries none"
+        _PAIR, "1", "maximum line load over the mean along the face; NaN where the pair carries none"
     ),
-    "root_tension": Variable(_ROOT, "Pa", "greatest surface stress along the fillet on the loaded side"),
-    "root_compression": Variable(_ROOT, "Pa", "least surface stress along the fillet on the other side"),
+    "root_tension": Variable(_ROOT, "Pa", "maximum surface stress along the fillet on the loaded side"),
+    "root_compression": Variable(_ROOT, "Pa", "minimum surface stress along the fillet on the other side"),
     "mesh_stiffness": Variable(
         ("phase",), "N/m", "derivative of the load at the pitch radius by the loaded transmission error"
     ),

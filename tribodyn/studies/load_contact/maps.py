@@ -12,7 +12,7 @@ from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, n
 from tribodyn.record.reader import Record
 from tribodyn.studies.load_contact.rolled import at_pitch_point, face_edges, face_map
 
-# Spread over the face, of the greatest value, below which no place on it is marked.
+# Spread over the face, of the maximum value, below which no place on it is marked.
 _EVEN = 1e-6
 
 
@@ -31,11 +31,11 @@ PRESSURE = OverFace("hertz_pressure", 1e-9, "Hertz pressure (GPa)")
 def draw_map(axes: Axes, records: Sequence[Record], record: Record, quantity: OverFace) -> Any:
     """Draw a quantity of one pair over roll angle and face, coloured on a scale for all the records.
 
-    A cross marks the greatest value, unless it is the same all along the face.
+    A cross marks the maximum value, unless it is the same all along the face.
     """
     top = max(float(np.max(one[quantity.dataset])) for one in records) * quantity.factor
-    found = face_map(record, quantity.dataset)
-    roll, values = np.degrees(found.roll), found.values * quantity.factor
+    face_values = face_map(record, quantity.dataset)
+    roll, values = np.degrees(face_values.roll), face_values.values * quantity.factor
     middles = (roll[1:] + roll[:-1]) / 2
     edges = np.concatenate([[2 * roll[0] - middles[0]], middles, [2 * roll[-1] - middles[-1]]])
     mesh = axes.pcolormesh(
@@ -44,7 +44,7 @@ def draw_map(axes: Axes, records: Sequence[Record], record: Record, quantity: Ov
     at = np.unravel_index(np.argmax(values), values.shape)
     if np.ptp(values[at[0]]) > _EVEN * top:
         for color, width in (("white", 2.4), (INK, 1.0)):
-            place = roll[at[0]], found.face[at[1]] * 1e3
+            place = roll[at[0]], face_values.face[at[1]] * 1e3
             axes.plot(*place, "x", color=color, markersize=6, markeredgewidth=width)
     axes.axvline(0.0, color="white", linewidth=0.7, linestyle=":")
     axes.grid(visible=False)
@@ -100,7 +100,7 @@ def pressure_map(records: Sequence[Record]) -> Figure:
 
 
 def _maps(part: Any, records: Sequence[Record], quantity: OverFace) -> None:
-    """Fill a figure or a part of one with a map a record."""
+    """Fill a figure or a part of one with one map per record."""
     columns = _columns(len(records))
     rows = -(-len(records) // columns)
     grid = part.subplots(rows, columns, squeeze=False, sharey=True, sharex=True)

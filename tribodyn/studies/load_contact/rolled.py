@@ -67,7 +67,7 @@ def over_roll(
 ) -> tuple[Float[Array, " position"], Float[Array, "position ..."]]:
     """Give roll angle (rad, increasing) and values (…) of one pair through its life.
 
-    In a study of one cycle all pairs are alike, and each number tells another part of it. Where teeth differ
+    In a study of one cycle all pairs are alike, and each number covers another part of it. Where teeth differ
     and there are cycles enough, it is the first pair whose beginning is recorded.
 
     Parameters

@@ -8,7 +8,7 @@ from tribodyn.errors import InputError
 from tribodyn.studies.rolling.geometry import RollingDrive, centre_path_curvature
 
 #: With two elements both stand at their dead points at the same time and no torque can be carried.
-LEAST_ELEMENTS = 3
+MINIMUM_ELEMENTS = 3
 #: Angles at which the curvature is looked at; the limits are smooth and wide, the grid errs by 1e-7 of them.
 _ANGLES = 4001
 
@@ -32,12 +32,12 @@ def check(drive: RollingDrive) -> None:
     InputError
         With a key below ``drive`` and a remedy.
     """
-    if drive.elements < LEAST_ELEMENTS:
+    if drive.elements < MINIMUM_ELEMENTS:
         raise InputError(
             "drive.elements",
             drive.elements,
             "too few: all of them stand at dead points at the same time and carry no torque",
-            f"use {LEAST_ELEMENTS} or more",
+            f"use {MINIMUM_ELEMENTS} or more",
         )
     if drive.displacement <= 1.0:
         raise InputError(
@@ -47,8 +47,8 @@ def check(drive: RollingDrive) -> None:
             "use more than 1, such as 1.4",
         )
     limits = element_radius_limits(drive)
-    least = min(limits.values())
-    if drive.element_radius >= least:
+    smallest = min(limits.values())
+    if drive.element_radius >= smallest:
         broken = ", ".join(
             f"{what} (from {_millimetres(limit)})"
             for what, limit in limits.items()
@@ -58,7 +58,7 @@ def check(drive: RollingDrive) -> None:
             "drive.element_radius",
             f"{drive.element_radius * 1e3:g} mm",
             broken,
-            f"use less than {_millimetres(least)}, fewer elements or a larger pitch_radius",
+            f"use less than {_millimetres(smallest)}, fewer elements or a larger pitch_radius",
         )
 
 

@@ -229,7 +229,7 @@ def _overview(records: Sequence[Record], view: View) -> Figure:
 
 
 def _title(record: Record) -> str:
-    """Tell what the record is about and in which mode it was made."""
+    """Return what the record is about and in which mode it was made."""
     title, mode = record_title(record), str(record.scenario.get("mode", "corrected")).replace("_", " ")
     return title if mode in title else f"{title} ({mode})"
 

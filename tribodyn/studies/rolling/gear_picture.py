@@ -9,7 +9,7 @@ from tribodyn.record.reader import Record
 
 CAM_FILL, CROWN_FILL, ELEMENT_FILL = "#dcebf5", "#f6e6da", "#ffffff"
 MILLIMETRE = 1e-3
-#: Length of the arrow of the greatest load, in element radii.
+#: Length of the arrow of the maximum load, in element radii.
 LONGEST_ARROW = 6.0
 
 

@@ -22,7 +22,7 @@ from tribodyn.studies.rolling.geometry import Array, cam_outline, crown_outline
 from tribodyn.studies.rolling.layout import LAYOUT
 from tribodyn.studies.study import Progress, RunResult
 
-#: Share of the greatest load below which an element counts as unloaded.
+#: Share of the maximum load below which an element counts as unloaded.
 UNLOADED = 1e-9
 
 
@@ -148,11 +148,11 @@ def _refuse_locking(case: RollingCase, cycle: Engagement) -> None:
 
 
 class RunStatistics:
-    """Gathers what the summary tells, block by block."""
+    """Gathers what the summary reports, block by block."""
 
     def __init__(self) -> None:
         self.sums: dict[str, float] = {}
-        self.greatest: dict[str, float] = {}
+        self.maximum: dict[str, float] = {}
         self.count = 0
         self.loaded: set[int] = set()
         self.power_out: list[Array] = []
@@ -171,8 +171,8 @@ class RunStatistics:
         for name, values in over_time.items():
             self.sums[name] = self.sums.get(name, 0.0) + float(np.sum(values[part]))
         for name in ("normal_load", "slip_speed", "spin_speed"):
-            greatest = float(np.max(np.abs(getattr(state, name))))
-            self.greatest[name] = max(self.greatest.get(name, 0.0), greatest)
+            maximum = float(np.max(np.abs(getattr(state, name))))
+            self.maximum[name] = max(self.maximum.get(name, 0.0), maximum)
         loads = state.normal_load
         self.loaded |= {int(n) for n in np.sum(loads > UNLOADED * loads.max(), axis=-1)}
         self.count += len(state.power_in[part])
@@ -192,9 +192,9 @@ class RunStatistics:
             "mesh_frequency": 1.0 / pattern_period(case.drive, case.input_speed),
             "elements_loaded_min": min(self.loaded),
             "elements_loaded_max": max(self.loaded),
-            "normal_load_max": self.greatest["normal_load"],
-            "slip_speed_max": self.greatest["slip_speed"],
-            "spin_speed_max": self.greatest["spin_speed"],
+            "normal_load_max": self.maximum["normal_load"],
+            "slip_speed_max": self.maximum["slip_speed"],
+            "spin_speed_max": self.maximum["spin_speed"],
             "output_torque_mean": float(np.mean(torque)),
             "output_torque_peak_to_peak": float(np.ptp(torque)),
             "power_in_mean": mean["power_in"],

@@ -1,4 +1,4 @@
-"""The film laws: one a file, and their registry."""
+"""The film laws: one per file, and their registry."""
 
 from tribodyn.numerics.registry import Registry
 from tribodyn.tribology.law import FilmLaw

@@ -1,4 +1,4 @@
-"""The friction laws: one a file, and their registry."""
+"""The friction laws: one per file, and their registry."""
 
 from tribodyn.numerics.registry import Registry
 from tribodyn.tribology.law import FrictionLaw

@@ -152,7 +152,7 @@ def both_approaches(scenario: Scenario, shift: float, _: Path) -> Figure:
 
 
 def by_condition(scenario: Scenario, shift: float, _: Path) -> Figure:
-    """Figures 10, 15, 20: losses at every operating condition, without and with the greatest shift."""
+    """Figures 10, 15, 20: losses at every operating condition, without and with the largest shift."""
     figure = new_figure(height=3.1)
     panels = figure.subplots(1, 2, sharex=True, sharey=True)
     for letter, axes, x in zip("ab", panels, (0.0, shift), strict=True):

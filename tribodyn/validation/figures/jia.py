@@ -1,6 +1,6 @@
 """Figures 14, 16, 17 and 19 to 21 of Jia et al.: loads along the face, stresses over the pinion's angle.
 
-Where the paper draws contact stress these show the greatest line load along the face, which its figures
+Where the paper draws contact stress these show the maximum line load along the face, which its figures
 behave like (docs/validation.md); Hertz pressures have a figure of their own.
 """
 
@@ -23,7 +23,7 @@ FACE = "From the middle of the face (mm)"
 ROLL = "Pinion angle from the pitch point (°)"
 LINE_LOAD = "Line load (N/mm)"
 QUANTITIES = {
-    "line_load": ("Greatest line load (N/mm)", 1e-3),
+    "line_load": ("Maximum line load (N/mm)", 1e-3),
     "pressure": ("Hertz pressure (GPa)", 1e-9),
     "compression": ("Root compression (MPa)", 1e-6),
     "tension": ("Root tension (MPa)", 1e-6),

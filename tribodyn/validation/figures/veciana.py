@@ -1,6 +1,6 @@
 """Figures 1, 5, 6, 8, 9 and 10 of Veciana et al., Machines 12 (2024) 943.
 
-The mixed law is drawn in both readings: A as printed, B with Roelands' law at the greatest pressure and each
+The mixed law is drawn in both readings: A as printed, B with Roelands' law at the maximum pressure and each
 surface's own speed in the Péclet numbers. Dotted curves of cycloids have the motion of the contact along the
 path in the rolling speeds, which the paper leaves out.
 """
@@ -64,10 +64,10 @@ def surfaces(law: Law, arrays: Arrays) -> Figure:
     figure = new_figure(8.2, 5.0)
     panels = figure.subplots(2, 3, sharex=True, sharey=True)
     keys = [drive_key(*drive) for drive in DRIVES]
-    found = [100.0 * arrays[f"{key} [1]"] for key in keys]
-    steps = np.linspace(min(map(np.min, found)), max(map(np.max, found)), 15)
+    percentages = [100.0 * arrays[f"{key} [1]"] for key in keys]
+    steps = np.linspace(min(map(np.min, percentages)), max(map(np.max, percentages)), 15)
     filled: Any = None
-    for letter, axes, key, values in zip("abcdef", panels.flat, keys, found, strict=True):
+    for letter, axes, key, values in zip("abcdef", panels.flat, keys, percentages, strict=True):
         filled = axes.contourf(approach, recess, values, levels=steps, cmap="viridis")
         level = 100.0 * float(arrays[f"involute, {key} [1]"])
         axes.contour(approach, recess, values, levels=[level], colors=[PALETTE[1]], linewidths=2.0)
@@ -93,7 +93,7 @@ def figure_8(arrays: Arrays) -> Figure:
     other.grid(False)
     (height,) = axes.plot(circle, 1e3 * arrays["height [m]"], color=PALETTE[0], label="contact height")
     angles = np.degrees(arrays["angle [rad]"])
-    (angle,) = other.plot(circle, angles, color=PALETTE[1], label="greatest pressure angle")
+    (angle,) = other.plot(circle, angles, color=PALETTE[1], label="maximum pressure angle")
     involute = 1e3 * float(arrays["involute height [m]"])
     axes.axhline(involute, color=PALETTE[0], linestyle=":", linewidth=0.9)
     other.axhline(20.0, color=PALETTE[1], linestyle=":", linewidth=0.9)

@@ -197,7 +197,7 @@ def test_flanks_touch_where_the_contact_is(records: list[Record], phase: float):
         along = np.roll(outline, -1, axis=0) - outline
         share = np.clip(np.sum((contact - outline) * along, axis=1) / np.sum(along**2, axis=1), 0, 1)
         gap = np.linalg.norm(outline + share[:, None] * along - contact, axis=1).min()
-        assert gap < 15e-6  # chords of the outline, 12 points a flank
+        assert gap < 15e-6  # chords of the outline, 12 points per flank
 
 
 def test_the_path_is_drawn_with_both_teeth_and_tip_circles(records: list[Record]):

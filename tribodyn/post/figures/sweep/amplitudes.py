@@ -16,10 +16,10 @@ def spectra(branch: Branch) -> list[Spectrum | None]:
         If no case has one.
     """
     per_cycle = branch.record.samples_per_cycle
-    found = [_spectrum(window, per_cycle) for window in branch.values("transmission_error_rotational")]
-    if not any(found):
+    results = [_spectrum(window, per_cycle) for window in branch.values("transmission_error_rotational")]
+    if not any(results):
         raise InputError("record", str(branch.record.path), "no case is done", "wait, or sweep again")
-    return found
+    return results
 
 
 def _spectrum(window: np.ndarray, per_cycle: int) -> Spectrum | None:

@@ -16,7 +16,7 @@ from tribodyn.post.style import PALETTE, QUIET
 from tribodyn.record.sweep_reader import Parameter, SweepRecord
 from tribodyn.record.sweep_schema import DONE
 
-#: Branches that a figure tells apart; of more, so many are shown.
+#: Maximum number of branches in a figure; of more, this many are shown.
 MOST_BRANCHES = 6
 UP, DOWN = "-", (0, (3, 1.5))
 #: Shade of the range in which contact is lost.
@@ -42,7 +42,7 @@ class Branch(NamedTuple):
     style : str or tuple
         Line style: solid upwards and for single cases, dashed downwards.
     label : str
-        What tells it apart, but for the direction.
+        What distinguishes it, except the direction.
     direction : str
         "up", "down" or "".
     """
@@ -75,7 +75,7 @@ def branches(records: Sequence[SweepRecord]) -> list[Branch]:
         raise InputError(
             "record", str(records[1].path), f"other first parameters: {', '.join(sorted(keys))}", "draw apart"
         )
-    found = []
+    curves = []
     for record in records:
         first, *others = record.parameters
         if first.values.dtype.kind not in "fi":
@@ -87,11 +87,11 @@ def branches(records: Sequence[SweepRecord]) -> list[Branch]:
             label = ", ".join(_value(one, i) for one, i in zip(others, place, strict=True))
             if len(records) > 1:
                 label = f"{record.label}, {label}" if label else record.label
-            found.append((record, place, label))
-    keep = np.unique(np.linspace(0, len(found) - 1, min(len(found), MOST_BRANCHES)).round().astype(int))
+            curves.append((record, place, label))
+    keep = np.unique(np.linspace(0, len(curves) - 1, min(len(curves), MOST_BRANCHES)).round().astype(int))
     drawn = []
     for number, chosen in enumerate(keep):
-        record, place, label = found[chosen]
+        record, place, label = curves[chosen]
         for d, direction in enumerate(record.directions or ("",)):
             index = (slice(None), *place, *((d,) if direction else ()))
             style = DOWN if direction == "down" else UP
@@ -113,14 +113,14 @@ def _value(parameter: Parameter, index: int) -> str:
 
 
 def named(branch: Branch) -> str:
-    """What tells a branch apart, its direction included; empty where there is only one."""
+    """What distinguishes a branch, its direction included; empty where there is only one."""
     return ", ".join(word for word in (branch.label, branch.direction) if word)
 
 
 def draw_branch(axes: Axes, branch: Branch, values: np.ndarray) -> None:
-    """Draw a curve, broken where cases failed, with dots where they can be told apart: hollow downwards.
+    """Draw a curve, broken where cases failed, with dots where they can be distinguished: hollow downwards.
 
-    Where the motion does not repeat with the mesh there is a greater mark, by `MOTIONS`.
+    Where the motion does not repeat with the mesh there is a larger mark, by `MOTIONS`.
     """
     marker = "o" if len(branch.x) <= 80 else ""
     axes.plot(

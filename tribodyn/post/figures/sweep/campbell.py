@@ -13,8 +13,8 @@ from tribodyn.record.sweep_reader import SweepRecord
 
 #: Orders of the mesh that are drawn.
 ORDERS = 6
-#: Area of the greatest marker, square points.
-GREATEST = 160.0
+#: Area of the largest marker, square points.
+LARGEST_AREA = 160.0
 
 
 def campbell_figure(records: Sequence[SweepRecord]) -> Figure:
@@ -57,7 +57,7 @@ def _draw_modes(axes: Axes, branch: Branch) -> None:
 def _draw_orders(axes: Axes, branch: Branch) -> None:
     frequency = branch.values("mesh_frequency") * 1e-3
     amplitudes = order_amplitudes(branch, ORDERS)
-    greatest = float(np.nanmax(amplitudes)) or 1.0
+    maximum = float(np.nanmax(amplitudes)) or 1.0
     top = axes.get_ylim()[1]
     for order in range(1, ORDERS + 1):
         ray = order * frequency
@@ -66,7 +66,7 @@ def _draw_orders(axes: Axes, branch: Branch) -> None:
         axes.scatter(
             branch.x,
             np.where(ray <= top, ray, np.nan),
-            s=GREATEST * np.nan_to_num(amplitudes[:, order - 1]) / greatest,
+            s=LARGEST_AREA * np.nan_to_num(amplitudes[:, order - 1]) / maximum,
             facecolor=PALETTE[1],
             edgecolor="none",
             alpha=0.65,
@@ -84,7 +84,7 @@ def _draw_orders(axes: Axes, branch: Branch) -> None:
             )
     axes.margins(x=0.03)
     axes.annotate(
-        f"largest marker: {greatest * 1e6:.3g} µm",
+        f"largest marker: {maximum * 1e6:.3g} µm",
         (0, 1),
         xycoords="axes fraction",
         xytext=(0, 12),

@@ -54,12 +54,12 @@ def _highest(branch: Branch) -> float:
 
 
 def _draw(axes: Axes, branch: Branch, highest: float) -> None:
-    found = spectra(branch)
+    lines = spectra(branch)
     frequency = branch.values("mesh_frequency") * 1e-3
-    stride = -(-len(found) // MOST_SPECTRA)
-    spacing = stride * (branch.x.max() - branch.x.min()) / max(1, len(found) - 1) or 1.0
-    for i in range(0, len(found), stride):
-        one = found[i]
+    stride = -(-len(lines) // MOST_SPECTRA)
+    spacing = stride * (branch.x.max() - branch.x.min()) / max(1, len(lines) - 1) or 1.0
+    for i in range(0, len(lines), stride):
+        one = lines[i]
         if one is None:
             continue
         shown = (one.orders > 0) & (one.orders <= ORDERS + 0.5)

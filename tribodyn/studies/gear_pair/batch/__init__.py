@@ -24,7 +24,7 @@ TRANSIENT_WINDOW, TRANSIENT_POINTS = 16, 256
 CHUNK_BYTES = 32 * 2**20
 MOST_IN_CHUNK = 256
 #: A sweep is done in at least this many chunks, so that its progress shows; but in none of fewer cases.
-CHUNKS, LEAST_IN_CHUNK = 16, 32
+CHUNKS, MINIMUM_IN_CHUNK = 16, 32
 
 
 class GearPairs:
@@ -53,7 +53,7 @@ class GearPairs:
     def size_of_chunk(self, settings: Settings, total: int, width: int) -> int:
         """Cases to be evaluated together, by the room that their windows take."""
         by_room = max(1, min(MOST_IN_CHUNK, CHUNK_BYTES // (settings.window * settings.samples * STATES * 8)))
-        return max(width, min(by_room, max(LEAST_IN_CHUNK, total // CHUNKS)))
+        return max(width, min(by_room, max(MINIMUM_IN_CHUNK, total // CHUNKS)))
 
     def sharing(self, case: Case) -> Hashable:
         """What the table of the mesh depends on."""

@@ -1,4 +1,4 @@
-"""What becomes of a handful of cases: prepared, brought to their steady state or marched, summed up.
+"""Evaluation of a few cases: prepared, brought to their steady state or marched, summed up.
 
 A pure function of plain data, so that it runs in this process or in another one on another machine, and gives
 the same numbers in both. Nothing of a case depends on the others that it is evaluated with.
@@ -40,7 +40,7 @@ class Settings(NamedTuple):
     window : int
         Mesh cycles that the figures are taken from.
     points : int
-        Points of the Poincaré section, one a mesh cycle.
+        Points of the Poincaré section, one per mesh cycle.
     samples : int
         Samples in a mesh cycle.
     modes : int
@@ -65,7 +65,7 @@ def evaluate(chunk: Chunk, settings: Settings, workers: int | None = None) -> di
     chunk : Chunk
     settings : Settings
     workers : int, optional
-        Threads; by default one a core.
+        Threads; by default one per core.
     """
     rows = layout_of(settings).empty_rows(len(chunk.cases))
     ready: dict[int, tuple[Prepared, np.ndarray]] = {}
@@ -120,7 +120,7 @@ def _solve(
 def _fill(
     rows: dict[str, np.ndarray], i: int, prepared: Prepared, outcome: Outcome, settings: Settings
 ) -> None:
-    """Put what a case came to into its row."""
+    """Put the outcome of a case into its row."""
     for name in ("period", "stable", "multiplier_max", "residual", "cycles", "solution", "message"):
         rows[name][i] = getattr(outcome, name)
     if outcome.passage is None:
@@ -168,14 +168,14 @@ def _start(prepared: Prepared, settings: Settings) -> np.ndarray:
     speedless = model.mechanics._replace(nominal_speed=0.0)
     key = (id(model.table), model.options, *(np.asarray(value).tobytes() for value in speedless))
     with _lock:
-        found = _equilibria.get(key)
-    if found is None or found[0] is not model.table:
-        found = model.table, static_equilibrium(frictionless(model))
+        kept = _equilibria.get(key)
+    if kept is None or kept[0] is not model.table:
+        kept = model.table, static_equilibrium(frictionless(model))
         with _lock:
-            _equilibria[key] = found
+            _equilibria[key] = kept
             while len(_equilibria) > TABLES_KEPT:
                 _equilibria.popitem(last=False)
-    return found[1].copy()
+    return kept[1].copy()
 
 
 _equilibria: OrderedDict[Hashable, tuple[Any, np.ndarray]] = OrderedDict()

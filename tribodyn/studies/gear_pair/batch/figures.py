@@ -1,4 +1,4 @@
-"""The figures of one case, out of its way through the window."""
+"""The figures of one case, from its states in the window."""
 
 import numpy as np
 
@@ -11,17 +11,17 @@ from tribodyn.studies.gear_pair.sweep_layout import FIGURES
 
 
 def window_figures(prepared: Prepared, passage: Passage, samples: int) -> dict[str, float]:
-    """Return the figures of `sweep_layout.FIGURES` over a window with `samples` a mesh cycle, SI units."""
+    """Return the figures of `sweep_layout.FIGURES` over a window with `samples` per mesh cycle, SI units."""
     cycles = passage.first_cycle + np.arange(len(passage.window)) / samples
     block = outputs(cycles, passage.window, prepared.model)
     extremes = RunningExtremes()
     extremes.add(block)
     error = passage.window[:, XI]
-    found = steady_figures(block, passage.end - passage.start, prepared.cycle, samples)
+    figures = steady_figures(block, passage.end - passage.start, prepared.cycle, samples)
     # a run's summary means the newest pair's; over a sweep only the error of the whole mesh is continuous
-    found |= extremes.values | {
+    figures |= extremes.values | {
         "transmission_error_rms": float(np.std(error)),
         "transmission_error_peak_to_peak": float(np.ptp(error)),
         "transmission_error_mean": float(np.mean(error)),
     }
-    return {name: float("nan") if (value := found.get(name)) is None else value for name in FIGURES}
+    return {name: float("nan") if (value := figures.get(name)) is None else value for name in FIGURES}

@@ -39,9 +39,9 @@ def marched(
     led = march(
         models, states, cycles=before, window=max(0, min(points, cycles) - window), samples=1, **solver
     )
-    found: list[Outcome | None] = [None] * len(models)
+    outcomes: list[Outcome | None] = [None] * len(models)
     for i in map(int, np.flatnonzero(led.status != Status.DONE)):
-        found[i] = failed(led.state[i], led.reached[i], stopped(int(led.status[i]), led.reached[i]))
+        outcomes[i] = failed(led.state[i], led.reached[i], stopped(int(led.status[i]), led.reached[i]))
     good = [int(i) for i in np.flatnonzero(led.status == Status.DONE)]
     ran = march(
         [models[i] for i in good],
@@ -56,13 +56,13 @@ def marched(
     for row, i in enumerate(good):
         reached = before + float(ran.reached[row])
         if ran.status[row] != Status.DONE:
-            found[i] = failed(ran.state[row], reached, stopped(int(ran.status[row]), reached))
+            outcomes[i] = failed(ran.state[row], reached, stopped(int(ran.status[row]), reached))
             continue
         section = np.concatenate([led.samples[i], ran.samples[row, ::samples]])
         state = ran.state[row].copy()
         engage_next(state, models[i])
         passage = Passage(before, ran.samples[row], led.state[i], ran.state[row])
-        found[i] = Outcome(
+        outcomes[i] = Outcome(
             passage, continued(state), section.reshape(-1, STATES)[-points:], "transient", int(reached)
         )
-    return [one for one in found if one is not None]
+    return [one for one in outcomes if one is not None]

@@ -1,4 +1,4 @@
-"""What a case came to: its way through the window, its Poincaré section, the sort of motion."""
+"""Outcome of a case: its way through the window, its Poincaré section, the sort of motion."""
 
 from typing import NamedTuple
 
@@ -29,7 +29,7 @@ class Passage(NamedTuple):
 
 
 class Outcome(NamedTuple):
-    """What a case came to.
+    """Outcome of a case.
 
     Attributes
     ----------
@@ -44,7 +44,7 @@ class Outcome(NamedTuple):
     cycles : int
         Mesh cycles integrated.
     message : str
-        Why it failed, or what is to be said of it.
+        Why it failed, or a remark on its result.
     period, stable, multiplier_max, residual
         As `sweep_layout.CASES` has them.
     """

@@ -39,23 +39,28 @@ def steady(
     **solver
         rtol, method, max_steps and workers, as `ensemble.march` takes them.
     """
-    found: list[Outcome | None] = [None] * len(models)
+    outcomes: list[Outcome | None] = [None] * len(models)
     for i, model in enumerate(models):
         try:
             refuse_time_dependent(model)
         except InputError as error:
-            found[i] = failed(states[i], 0, str(error))
-    asked = [i for i, one in enumerate(found) if one is None]
+            outcomes[i] = failed(states[i], 0, str(error))
+    pending = [i for i, one in enumerate(outcomes) if one is None]
     method = solver.pop("method")
     answers = steady_states(
-        [models[i] for i in asked], states[asked], samples=samples, max_cycles=cycles, solver=method, **solver
+        [models[i] for i in pending],
+        states[pending],
+        samples=samples,
+        max_cycles=cycles,
+        solver=method,
+        **solver,
     )
     wandering = []
-    for i, answer in zip(asked, answers, strict=True):
+    for i, answer in zip(pending, answers, strict=True):
         if answer.kind == "failed":
-            found[i] = failed(answer.last, answer.cycles, answer.message)
+            outcomes[i] = failed(answer.last, answer.cycles, answer.message)
         elif answer.period and answer.stable:
-            found[i] = _periodic(answer, samples)
+            outcomes[i] = _periodic(answer, samples)
         else:
             wandering.append((i, answer))
     for part in range(0, len(wandering), AT_A_TIME):
@@ -71,8 +76,8 @@ def steady(
             **solver,
         )
         for (i, answer), stretch in zip(some, stretches, strict=True):
-            found[i] = _described(stretch, answer)
-    return [one for one in found if one is not None]
+            outcomes[i] = _described(stretch, answer)
+    return [one for one in outcomes if one is not None]
 
 
 def _periodic(answer: Steady, samples: int) -> Outcome:
