@@ -122,15 +122,19 @@ def test_a_torque_that_fails_keeps_what_was_before_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, fails_at: int
 ):
     """Of the recorded torque and three of a map."""
-    really, calls = simulate_load_contact.roll_through, []
+    calls = []
 
-    def roll_through(*arguments, **named):
-        calls.append(arguments)
-        if len(calls) == fails_at + 1:
-            raise SimulationError("the load contact model does not settle")
-        return really(*arguments, **named)
+    def failing(really):
+        def call(*arguments, **named):
+            calls.append(arguments)
+            if len(calls) == fails_at + 1:
+                raise SimulationError("the load contact model does not settle")
+            return really(*arguments, **named)
 
-    monkeypatch.setattr(simulate_load_contact, "roll_through", roll_through)
+        return call
+
+    for name in ("roll_through", "loaded_error"):
+        monkeypatch.setattr(simulate_load_contact, name, failing(getattr(simulate_load_contact, name)))
     torques = 'operating.gear_torques=["200 N*m", "318.3 N*m", "440 N*m"]'
     path = tmp_path / "study.h5"
     done = CliRunner().invoke(app, ["run", PLAIN, *SHORT, "--set", torques, "-o", str(path)])

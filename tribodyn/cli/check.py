@@ -31,3 +31,5 @@ def check(
     typer.echo(f"{loaded.path}: {loaded.case.title}: sound")
     for table in checked.tables:
         print_text_table(table)
+    for remark in checked.remarks:
+        typer.echo(remark)

@@ -16,13 +16,8 @@ import numpy as np
 
 from tribodyn.compliance.face_compliance import slice_compliance
 from tribodyn.compliance.line_load import friction_ratio, peak_ratio
-from tribodyn.compliance.load_sharing import (
-    PairFlexibility,
-    SharedLoad,
-    contact_deflection,
-    in_batches,
-    press_pairs,
-)
+from tribodyn.compliance.load_sharing import SharedLoad, contact_deflection, in_batches, press_pairs
+from tribodyn.compliance.pair_flexibility import PairFlexibility
 from tribodyn.geometry.corner_contact import PairGeometry, part_of
 from tribodyn.numerics.shapes import Array, Float
 

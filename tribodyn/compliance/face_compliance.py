@@ -1,21 +1,17 @@
 """What slices of the face give way under each other's loads: harmonics of the face, and its free ends."""
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from tribodyn.compliance.gear_compliance import NEIGHBOURS, FreeEnds, at_radii
 from tribodyn.compliance.lead_harmonics import spline_weights
+from tribodyn.compliance.pair_flexibility import PairFlexibility
 from tribodyn.compliance.slices import by_slices, face_positions, pair_harmonics
 from tribodyn.geometry.corner_contact import PairGeometry
 from tribodyn.numerics.shapes import Array, Float
 
-if TYPE_CHECKING:
-    from tribodyn.compliance.load_sharing import PairFlexibility
-
 
 def slice_compliance(
-    flexible: "PairFlexibility", geometry: PairGeometry, slices: int = 1, coupled: bool = True
+    flexible: PairFlexibility, geometry: PairGeometry, slices: int = 1, coupled: bool = True
 ) -> Float[Array, "position pair slice pair slice"]:
     """Λ (position, pair, slice, pair, slice), m/N, without the slices' own local deflection.
 
@@ -57,7 +53,7 @@ def end_modes(ends: FreeEnds, width: float, slices: int) -> Float[Array, "2 slic
 
 def _add_free_ends(
     matrix: Float[Array, "position pair slice pair slice"],
-    flexible: "PairFlexibility",
+    flexible: PairFlexibility,
     geometry: PairGeometry,
 ) -> None:
     pairs, slices = matrix.shape[1:3]

@@ -7,7 +7,7 @@ import numpy as np
 from tribodyn.compliance.face_compliance import end_modes
 from tribodyn.compliance.gear_compliance import NEIGHBOURS, FreeEnds, at_radii
 from tribodyn.compliance.lead_harmonics import at_wave_numbers
-from tribodyn.compliance.load_sharing import PairFlexibility
+from tribodyn.compliance.pair_flexibility import PairFlexibility
 from tribodyn.compliance.slices import modes, wave_numbers
 from tribodyn.geometry.corner_contact import PairGeometry
 from tribodyn.numerics.shapes import Array, Float

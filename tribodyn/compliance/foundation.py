@@ -27,8 +27,9 @@ _POLYNOMIALS = np.array(
         [-6.2042e-5, 9.0889e-3, -4.0964e-4, 7.8297e-3, -0.1472, 0.6904],  # Q*
     ]
 )
-RADIUS_RATIO_RANGE = (1.4, 7.0)  # fitted range of root radius/bore radius
-ROOT_HALF_ANGLE_RANGE = (0.01, 0.12)  # and of the half angle of the tooth's root, rad
+#: Ranges over which the polynomials were fitted: root radius over bore radius, half angle of the root, rad.
+RADIUS_RATIO_RANGE = (1.4, 7.0)
+ROOT_HALF_ANGLE_RANGE = (0.01, 0.12)
 HARMONICS = (
     256  # neighbours: error below 1e-3 of a tooth's own compliance for up to 150 teeth (test_foundation)
 )
@@ -62,6 +63,19 @@ def sainsot_velex(
     terms = (1.0 / angle**2, h**2, h / angle, 1.0 / angle, h, 1.0)
     values = [sum(c * term for c, term in zip(row, terms, strict=True)) for row in _POLYNOMIALS.tolist()]
     return values[0], values[1], values[2], values[3]
+
+
+def outside_fitted_range(radius_ratio: float, root_half_angle: float) -> list[str]:
+    """Say which arguments of `sainsot_velex` lie outside the range of the fit; none: it is inside."""
+    ranges = (
+        ("root radius over bore radius", radius_ratio, RADIUS_RATIO_RANGE, ""),
+        ("half angle of the root", root_half_angle, ROOT_HALF_ANGLE_RANGE, " rad"),
+    )
+    return [
+        f"{name} {value:.3g}{unit}, fitted from {low:g} to {high:g}"
+        for name, value, (low, high), unit in ranges
+        if not low <= value <= high
+    ]
 
 
 def foundation_compliance(

@@ -19,8 +19,8 @@ import numpy as np
 from tribodyn.compliance.active_set import press
 from tribodyn.compliance.face_compliance import slice_compliance
 from tribodyn.compliance.fem_cache import cached_gear_compliance
-from tribodyn.compliance.gear_compliance import GearCompliance
 from tribodyn.compliance.local import Elastic, hertz_half_width, weber_banaschek, weber_banaschek_slope
+from tribodyn.compliance.pair_flexibility import PairFlexibility
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.corner_contact import pair_geometry, part_of
 from tribodyn.geometry.drive import SIDES, body_of
@@ -34,24 +34,6 @@ LEVEL = 2
 
 # Entries of the systems solved at a time: 16 MB, and a few times that while they are solved.
 _ENTRIES = 2_000_000
-
-
-class PairFlexibility(NamedTuple):
-    """Elasticity of both gears of a drive; see `flexibility`.
-
-    Attributes
-    ----------
-    assembly : Assembly
-    materials : (Elastic, Elastic)
-    width : float
-        Common face width, m.
-    gears : (GearCompliance, GearCompliance)
-    """
-
-    assembly: Assembly
-    materials: tuple[Elastic, Elastic]
-    width: float
-    gears: tuple[GearCompliance, GearCompliance]
 
 
 class SharedLoad(NamedTuple):

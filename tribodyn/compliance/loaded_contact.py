@@ -11,8 +11,9 @@ import numpy as np
 
 from tribodyn.compliance.face_root_stress import root_stress
 from tribodyn.compliance.flank_gap import flank_gap, pitch_gap
-from tribodyn.compliance.load_sharing import PairFlexibility, SharedLoad, half_width, share_load
+from tribodyn.compliance.load_sharing import SharedLoad, half_width, share_load
 from tribodyn.compliance.loaded_rules import check_contact, check_resolved
+from tribodyn.compliance.pair_flexibility import PairFlexibility
 from tribodyn.compliance.slices import face_positions
 from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry, roll_at_gap
 from tribodyn.geometry.modification import Modifications

@@ -3,7 +3,8 @@
 from typing import NamedTuple
 
 from tribodyn.compliance.flank_gap import flank_gap
-from tribodyn.compliance.load_sharing import PairFlexibility, SharedLoad, share_load
+from tribodyn.compliance.load_sharing import SharedLoad, share_load
+from tribodyn.compliance.pair_flexibility import PairFlexibility
 from tribodyn.compliance.slices import face_positions
 from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.modification import UNMODIFIED, Modifications

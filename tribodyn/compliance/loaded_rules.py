@@ -3,7 +3,8 @@
 import numpy as np
 
 from tribodyn.compliance.flank_gap import check_modifications, maximum_along_lead
-from tribodyn.compliance.load_sharing import PairFlexibility, SharedLoad, half_width
+from tribodyn.compliance.load_sharing import SharedLoad, half_width
+from tribodyn.compliance.pair_flexibility import PairFlexibility
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.corner_contact import pair_geometry

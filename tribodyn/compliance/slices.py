@@ -18,19 +18,15 @@ surface is each slice's own (`local`), with its line load; λ holds what a load 
 makes less than that, down to wavelengths of the contact's width.
 """
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from scipy.interpolate import CubicSpline, RectBivariateSpline
 
 from tribodyn.compliance.gear_compliance import NEIGHBOURS, GearCompliance
 from tribodyn.compliance.lead_harmonics import at_wave_numbers
 from tribodyn.compliance.local import freed_of_depth
+from tribodyn.compliance.pair_flexibility import PairFlexibility
 from tribodyn.geometry.corner_contact import PairGeometry
 from tribodyn.numerics.shapes import Array, Float
-
-if TYPE_CHECKING:
-    from tribodyn.compliance.load_sharing import PairFlexibility
 
 
 def face_positions(width: float, slices: int) -> Float[Array, " slice"]:
@@ -56,7 +52,7 @@ def wave_numbers(width: float, slices: int, coupled: bool) -> Float[Array, " wav
 
 
 def pair_harmonics(
-    flexible: "PairFlexibility", geometry: PairGeometry, slices: int = 1, coupled: bool = True
+    flexible: PairFlexibility, geometry: PairGeometry, slices: int = 1, coupled: bool = True
 ) -> Float[Array, "mode position pair pair"]:
     """λ_jk(k_n)/b (n, position, pair, pair) of all modes of the face, or of the uniform one; m/N.
 

@@ -10,11 +10,6 @@ from tribodyn.mesh.quasi_static import quasi_static
 MODES, MODES_WITH_SHAFT = 5, 6
 
 
-def mode_count(model: Model) -> int:
-    """Number of modes: four translations, the mesh, and the drive shaft where it is compliant."""
-    return MODES_WITH_SHAFT if model.options.drive == DRIVE_SHAFT else MODES
-
-
 def natural_frequencies(model: Model, cycle: MeshCycle) -> np.ndarray:
     """Undamped natural frequencies, lowest first, Hz.
 

@@ -2,7 +2,10 @@
 
 from typing import TYPE_CHECKING
 
+from tribodyn.compliance.energy import loaded_tooth
+from tribodyn.compliance.foundation import outside_fitted_range
 from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.material import MaterialData
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.data import MeshData
@@ -55,3 +58,15 @@ def loaded_flanks_of(
     from tribodyn.mesh.tabulate_loaded import flanks_of
 
     return flanks_of(assembly, materials, mesh)
+
+
+def compliance_remark(assembly: Assembly, mesh: MeshData) -> str:
+    """Say where the compliance of the gear bodies is extrapolated; empty: it is not, or is not by a fit."""
+    if mesh.compliance != "energy":
+        return ""
+    said = []
+    for side in SIDES:
+        tooth = loaded_tooth(assembly, side)
+        ratio = float(tooth.tooth.root_radius) / float(tooth.body.bore_radius)
+        said += [f"{side} {one}" for one in outside_fitted_range(ratio, float(tooth.root_half_angle))]
+    return f"The bodies' compliance (Sainsot & Velex) is extrapolated: {'; '.join(said)}." if said else ""

@@ -14,10 +14,11 @@ import numpy as np
 from tribodyn.compliance.condensed import Condensed, condense
 from tribodyn.compliance.flank_gap import flank_gap, relief_rolls, same_every_pitch
 from tribodyn.compliance.gear_compliance import without_neighbours
-from tribodyn.compliance.load_sharing import PairFlexibility, contact_deflection, flexibility, share_load
+from tribodyn.compliance.load_sharing import contact_deflection, flexibility, share_load
 from tribodyn.compliance.loaded_contact import reach
 from tribodyn.compliance.loaded_flanks import LoadedFlanks
 from tribodyn.compliance.loaded_rules import check_contact, check_resolved, check_torque
+from tribodyn.compliance.pair_flexibility import PairFlexibility
 from tribodyn.compliance.slices import face_positions, pair_harmonics
 from tribodyn.compliance.table import check_cover, interpolate
 from tribodyn.geometry.assembly import Assembly

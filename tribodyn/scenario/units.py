@@ -172,7 +172,6 @@ def not_negative(kind: Kind) -> Kind:
 
 
 LENGTH = Kind("length", "m", "3 mm")
-ROUGHNESS = Kind("length", "m", "0.3 um")
 RELIEF = Kind("length", "m", "20 um")
 DEVIATION = Kind("length", "m", "4 um")
 SMALL_ANGLE = Kind(ANGLE, "rad", "2 arcmin")

@@ -41,7 +41,12 @@ WALL_TIME = Line("wall_time", "Wall time", 1.0, "s", ".3g")
 
 
 def checked(
-    assembly: Assembly, method: str, normal_load: float, stiffness: float, masses: Any = None
+    assembly: Assembly,
+    method: str,
+    normal_load: float,
+    stiffness: float,
+    masses: Any = None,
+    remark: str = "",
 ) -> Checked:
     """Say what gears a case describes and how stiff they are.
 
@@ -57,6 +62,8 @@ def checked(
         Of that pair at that load, N/m.
     masses : sequence of (mass kg, inertia kg m²), optional
         Of pinion and gear, where they are to stand in the sheet.
+    remark : str
+        What is to be said of the stiffness.
     """
     from tribodyn.compliance.iso6336 import single_pair_stiffness as iso6336
     from tribodyn.geometry.sheet import geometry_sheet
@@ -79,8 +86,8 @@ def checked(
             for name, value in by.items()
         ],
     )
-    data = {"geometry": sheet, "stiffness": {"line_load": line_load, "by": by}}
-    return Checked(data, (*sheet_tables(sheet), table))
+    data = {"geometry": sheet, "stiffness": {"line_load": line_load, "by": by, "remark": remark}}
+    return Checked(data, (*sheet_tables(sheet), table), (remark,) if remark else ())
 
 
 def sheet_tables(sheet: dict[str, Any]) -> Sequence[TextTable]:

@@ -69,10 +69,11 @@ class TextTable(NamedTuple):
 
 
 class Checked(NamedTuple):
-    """What `check` says of a sound case: data for programs, tables for people."""
+    """What `check` says of a sound case: data for programs, tables and remarks for people."""
 
     data: dict[str, Any]
     tables: Sequence[TextTable]
+    remarks: Sequence[str] = ()
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tribodyn.compliance.load_sharing import LEVEL, PairFlexibility, flexibility
+from tribodyn.compliance.load_sharing import LEVEL, flexibility
+from tribodyn.compliance.pair_flexibility import PairFlexibility
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.families.involute import FAMILY

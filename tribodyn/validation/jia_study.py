@@ -10,8 +10,9 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from tribodyn.compliance.load_sharing import PairFlexibility, flexibility
+from tribodyn.compliance.load_sharing import flexibility
 from tribodyn.compliance.loaded_contact import LoadedContact, roll_through
+from tribodyn.compliance.pair_flexibility import PairFlexibility
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
 from tribodyn.geometry.modification import FlankModification, LeadRelief, Misalignment, Modifications

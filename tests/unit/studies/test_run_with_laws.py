@@ -72,7 +72,9 @@ def sampled(result):
         return record["transmission_error_rotational"], record["friction_coefficient"]
 
 
-@pytest.mark.parametrize("place", PLACES)
+@pytest.mark.parametrize(
+    "place", ["module", *(pytest.param(one, marks=pytest.mark.slow) for one in ("closure", "notebook"))]
+)
 def test_a_law_works_wherever_it_is_defined(place, case, by_numpy, tmp_path):
     """The same formula in the native kernel as in NumPy, to what the integrators' tolerances leave."""
     found = sampled(run(case, tmp_path / "run.h5", friction=FrictionLaw(place, "", PLACES[place])))
@@ -81,6 +83,7 @@ def test_a_law_works_wherever_it_is_defined(place, case, by_numpy, tmp_path):
     np.testing.assert_allclose(found[1], by_numpy[1], rtol=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["dopri5", "rodas4"])
 def test_a_constant_law_is_coulombs(method, tmp_path):
     """A law that returns a plain number gives bit for bit what the shipped law gives."""
@@ -107,6 +110,7 @@ def test_the_lanes_take_a_law_that_is_a_closure(case):
     np.testing.assert_allclose(ends[0], ends[1], rtol=1e-9, atol=1e-18)
 
 
+@pytest.mark.slow
 def test_a_film_law_from_python(case, tmp_path):
     result = run(case, tmp_path / "film.h5", film=FilmLaw("thin", "", thin))
     with open_record(result.path) as record:
@@ -123,6 +127,7 @@ def test_an_efficiency_study_takes_a_law(tmp_path):
     assert own.summary["efficiency"] == run(case, tmp_path / "shipped.h5").summary["efficiency"]
 
 
+@pytest.mark.slow
 def test_the_record_names_the_law_that_was_used(case, tmp_path):
     """Its name and its keys with units; the old law's keys are gone, the table's other keys stay."""
     keys = (
@@ -226,6 +231,7 @@ def test_a_law_that_cannot_work_is_refused_before_anything_is_written(function, 
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 def test_a_law_may_call_functions_that_are_marked(case, tmp_path):
     result = run(case, tmp_path / "run.h5", friction=FrictionLaw("marked", "", marked))
     with open_record(result.path) as record:

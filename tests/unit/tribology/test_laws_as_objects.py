@@ -8,13 +8,14 @@ import pytest
 
 from tests.support.closures import LIU_NI, POINT, known, under
 from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
-from tribodyn.dynamics.parameters import frictionless
+from tribodyn.dynamics.parameters import STATES, frictionless
 from tribodyn.errors import InputError
 from tribodyn.kernels.native import kernel, store
 from tribodyn.kernels.native.arguments import packed
 from tribodyn.numerics.elementary import absolute, law
 from tribodyn.numerics.parameter import Parameter
 from tribodyn.record.reader import open_record
+from tribodyn.solve.right_hand_side import rhs, work_array
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.gear_pair.run import run
 from tribodyn.studies.load import load_scenario
@@ -204,6 +205,18 @@ def _calls_unmarked(x):
 def test_a_function_that_cannot_be_compiled_says_why():
     with pytest.raises(InputError, match=r"law = _calls_unmarked.*_unmarked.*marked with its `law`"):
         _apply(_calls_unmarked, 1.5)
+
+
+def _unfinished(contact, film, surfaces, parameters):
+    """Fine in Python, so that the trial of the law passes; but no kernel knows `_asdict`."""
+    return 0.1 + 0.0 * contact._asdict()["sliding"]
+
+
+def test_a_law_that_cannot_be_compiled_says_why():
+    case = with_laws(load_scenario("crc-23-47"), friction=FrictionLaw("unfinished", "", _unfinished))
+    model = prepare(case).model
+    with pytest.raises(InputError, match=r"law = _unfinished.*_asdict.*marked with its `law`"):
+        rhs(0.3, 0.0, 0, np.zeros(STATES), model, work_array(model), np.empty(STATES))
 
 
 def test_laws_are_plain_data():

@@ -100,7 +100,9 @@ def compiled(function: Callable[..., Any], layout: Record) -> Compiled:
 
 def explained(error: NumbaError, layout: Record) -> Exception:
     """Say of an error of numba's in a function from outside this package what its author can do about it."""
-    outside = [one for one in functions_in(layout) if not one.function.__module__.startswith("tribodyn.")]
+    outside = [
+        one for one in functions_in(layout) if not (one.function.__module__ or "").startswith("tribodyn.")
+    ]
     if not outside:
         return error
     lines = [line.strip() for line in str(error).splitlines() if line.strip()]

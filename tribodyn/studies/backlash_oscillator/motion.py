@@ -18,7 +18,6 @@ from tribodyn.solve.period_map import Marched, Tangent
 
 #: Columns of a row of parameters: ζ, F_m, F_e, ε, Ω.
 DAMPING, MEAN_FORCE, ERROR_AMPLITUDE, STIFFNESS_VARIATION, FREQUENCY = range(5)
-PARAMETERS = 5
 #: Columns of a row of figures: integrals over time of x and x², time without contact and with contact on the
 #: back side (x < −1), maximum and minimum x.
 INTEGRAL, SQUARE, FREE, BACK, MAXIMUM, MINIMUM = range(6)

@@ -1,5 +1,6 @@
 """What `check` says of an efficiency study."""
 
+from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.stiffness import single_pair
 from tribodyn.studies.efficiency.case import EfficiencyCase
 from tribodyn.studies.efficiency.run import prepare
@@ -12,4 +13,5 @@ def check(case: EfficiencyCase) -> Checked:
     study = prepare(case)
     pair = single_pair(study.cycle, case.operating.gear_torque)
     method = f'compliance = "{case.mesh.compliance}"'
-    return checked(study.assembly, method, pair.normal_load, pair.stiffness)
+    remark = compliance_remark(study.assembly, case.mesh)
+    return checked(study.assembly, method, *pair, remark=remark)

@@ -5,11 +5,14 @@ from typing import Any
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.quasi_static import cycle_integral, cycle_mean, quasi_static
 from tribodyn.numerics.elementary import namespace
+from tribodyn.numerics.shapes import Array, Float
 
-Array = Any
 
-
-def friction_loss(cycle: MeshCycle, normal_load: Array, friction_coefficient: Array) -> Any:
+def friction_loss(
+    cycle: MeshCycle,
+    normal_load: Float[Array, "segment node slot"],
+    friction_coefficient: Float[Array, "*#table"],
+) -> Any:
     """Mean friction power over a mesh cycle per pinion speed, N m: Σ μ F |v_s|/ω_p.
 
     Sliding changes sign at the pitch point; the integral is split there, exactly, so that it is smooth in
@@ -32,7 +35,7 @@ def friction_loss(cycle: MeshCycle, normal_load: Array, friction_coefficient: Ar
     return (cycle_mean(cycle, power) - 2.0 * cycle_integral(cycle, power, pitch_point[None, :])).sum()
 
 
-def mean_efficiency(cycle: MeshCycle, gear_torque: Any, friction_coefficient: Array) -> Any:
+def mean_efficiency(cycle: MeshCycle, gear_torque: Any, friction_coefficient: Float[Array, "*#table"]) -> Any:
     """Quasi-static efficiency over a mesh cycle, by energy, with a given friction coefficient.
 
     Loads are those of `quasi_static`, in which friction does not take part: the error is of the order of

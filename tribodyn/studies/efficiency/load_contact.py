@@ -3,24 +3,19 @@
 The proposed approach of A. Diez-Ibarbia et al., section 2.2: constant friction coefficient, slow rotation.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from tribodyn.compliance.flank_gap import flank_gap, same_every_pitch
-from tribodyn.compliance.load_sharing import (
-    PairFlexibility,
-    effective_contact_ratio,
-    extended_rolls,
-    share_load,
-)
+from tribodyn.compliance.load_sharing import effective_contact_ratio, extended_rolls, share_load
 from tribodyn.compliance.loaded_contact import reach
 from tribodyn.compliance.loaded_rules import check_contact
+from tribodyn.compliance.pair_flexibility import PairFlexibility
 from tribodyn.compliance.slices import face_positions
 from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.modification import UNMODIFIED, Modifications
-
-Array = Any
+from tribodyn.numerics.shapes import Array, Float
 
 #: Positions over one pitch: the efficiency is then known to 1e-6 (test_load_contact_efficiency).
 POSITIONS = 240
@@ -45,9 +40,9 @@ class LoadContact(NamedTuple):
 
     efficiency: float
     contact_ratio: float
-    roll: Array
-    normal_load: Array
-    loss: Array
+    roll: Float[Array, "position pair"]
+    normal_load: Float[Array, "position pair"]
+    loss: Float[Array, "position pair"]
 
 
 def load_contact(

@@ -16,6 +16,7 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.families import family
 from tribodyn.geometry.outlines import geometry_arrays
 from tribodyn.geometry.path import Path as PathOfContact
+from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.cycle import MeshCycle, as_arrays
 from tribodyn.studies.efficiency.along_path import CycleEfficiency, Duty, Engagement, cycle_efficiency, engage
 from tribodyn.studies.efficiency.case import EfficiencyCase
@@ -190,6 +191,7 @@ def _figures(study: Prepared, mesh: Places, state: Engagement) -> dict[str, Any]
         "flash_temperature_max": maximum(state.flash_temperature_rise),
         "friction_coefficient_mean": means.friction_coefficient,
         "friction_force_mean": np.sum(np.abs(state.friction_force[:-1]), axis=0) * share,
+        "compliance_remark": compliance_remark(study.assembly, study.case.mesh) or None,
         **law_figures(study.case),
         "closure_in_range_fraction": fraction_in_range(state.closure_in_range[loaded]),
         "friction_in_range_fraction": fraction_in_range(state.friction_in_range[loaded]),

@@ -1,5 +1,6 @@
 """What `check` says of a gear pair."""
 
+from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.stiffness import single_pair
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.prepare import prepare
@@ -12,4 +13,5 @@ def check(case: Case) -> Checked:
     prepared = prepare(case)
     pair = single_pair(prepared.cycle, case.operating.gear_torque)
     method = f'compliance = "{case.mesh.compliance}"'
-    return checked(prepared.assembly, method, pair.normal_load, pair.stiffness, prepared.masses)
+    remark = compliance_remark(prepared.assembly, case.mesh)
+    return checked(prepared.assembly, method, *pair, prepared.masses, remark)

@@ -10,6 +10,7 @@ from tribodyn.dynamics.outputs import outputs
 from tribodyn.dynamics.recorded import scales_of
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.outlines import geometry_arrays
+from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.cycle import as_arrays
 from tribodyn.mesh.stiffness import single_pair
 from tribodyn.solve.choice import choose
@@ -48,6 +49,7 @@ def run(
         "pinion_inertia": prepared.masses[0][1],
         "gear_inertia": prepared.masses[1][1],
         "pitch_point": AVERAGED if model.options.averaged else REGULAR,
+        "compliance_remark": compliance_remark(prepared.assembly, case.mesh) or None,
         **law_figures(case),
     }
     groups = {

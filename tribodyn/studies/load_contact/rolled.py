@@ -1,14 +1,13 @@
 """Load contact studies as curves: over the phase of the mesh, and over the roll angle of one pair."""
 
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from tribodyn.errors import InputError
+from tribodyn.numerics.shapes import Array, Float
 from tribodyn.record.reader import Record
-
-Array = Any
 
 
 class FaceMap(NamedTuple):
@@ -23,9 +22,9 @@ class FaceMap(NamedTuple):
     values : (positions, slices)
     """
 
-    roll: Array
-    face: Array
-    values: Array
+    roll: Float[Array, " position"]
+    face: Float[Array, " slice"]
+    values: Float[Array, "position slice"]
 
 
 def require_positions(record: Record) -> None:
@@ -34,7 +33,7 @@ def require_positions(record: Record) -> None:
         raise InputError("record", str(record.path), "holds no samples to draw", "run the scenario again")
 
 
-def over_phase(record: Record, name: str) -> tuple[Array, Array]:
+def over_phase(record: Record, name: str) -> tuple[Float[Array, " position"], Float[Array, "position ..."]]:
     """Give phase and a quantity over it; a study of a single mesh cycle is given twice, for it repeats."""
     phase, values = record["phase"], record[name]
     period = _cycles(record)
@@ -43,7 +42,9 @@ def over_phase(record: Record, name: str) -> tuple[Array, Array]:
     return x, np.concatenate([values] * copies + [values[:1]])
 
 
-def pair_over_phase(record: Record, name: str, pair: int) -> tuple[Array, Array]:
+def pair_over_phase(
+    record: Record, name: str, pair: int
+) -> tuple[Float[Array, " position"], Float[Array, " position"]]:
     """Give a pair's quantity over the phase as `over_phase` does, broken where the number passes on.
 
     At the end of a cycle the teeth that were pair 1 become pair 0: the last point of a piece is taken from
@@ -61,7 +62,9 @@ def pair_over_phase(record: Record, name: str, pair: int) -> tuple[Array, Array]
     return np.concatenate(pieces_x), np.concatenate(pieces_y)
 
 
-def over_roll(record: Record, values: Array) -> tuple[Array, Array]:
+def over_roll(
+    record: Record, values: Float[Array, "sample pair ..."]
+) -> tuple[Float[Array, " position"], Float[Array, "position ..."]]:
     """Give roll angle (rad, increasing) and values (…) of one pair through its life.
 
     In a study of one cycle all pairs are alike, and each number covers another part of it. Where teeth differ
@@ -89,13 +92,13 @@ def face_map(record: Record, name: str) -> FaceMap:
     return FaceMap(roll[part], record["slice"], values[part])
 
 
-def face_edges(record: Record) -> Array:
+def face_edges(record: Record) -> Float[Array, " edge"]:
     """Edges of the slices (slices + 1,), m from the middle of the face."""
     width = float(record.mesh_cycle["face_width"])
     return np.linspace(-width / 2, width / 2, len(record["slice"]) + 1)
 
 
-def at_pitch_point(record: Record, name: str) -> Array:
+def at_pitch_point(record: Record, name: str) -> Float[Array, " slice"]:
     """Give a quantity over the face (slices,) where a pair is nearest to the pitch point."""
     roll = np.abs(record["roll_angle"])
     position, pair = np.unravel_index(np.argmin(roll), roll.shape)

@@ -6,18 +6,18 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.compliance.load_sharing import PairFlexibility, flexibility, share_load
+from tribodyn.compliance.load_sharing import flexibility, share_load
 from tribodyn.compliance.loaded_contact import LoadedContact, loaded_error, roll_through
+from tribodyn.compliance.pair_flexibility import PairFlexibility
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.families import family
 from tribodyn.geometry.outlines import geometry_arrays
+from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.studies.load_contact.case import LoadContactCase
 from tribodyn.studies.load_contact.layout import BODIES, LAYOUT
 from tribodyn.studies.recording import target, writer
 from tribodyn.studies.study import Progress, RunResult
-
-Array = Any
 
 
 class Prepared(NamedTuple):
@@ -124,7 +124,7 @@ def figures(case: LoadContactCase) -> dict[str, Any]:
     return contact_ratio | loaded_figures(study, roll(study, case.gear_torque))
 
 
-def record_arrays(study: Prepared, loaded: LoadedContact) -> dict[str, Array]:
+def record_arrays(study: Prepared, loaded: LoadedContact) -> dict[str, Float[Array, "position ..."]]:
     """Datasets of the record, over the phase first."""
     carrying = loaded.normal_load > 0.0
     teeth = float(study.case.drive.pinion.teeth)
@@ -146,7 +146,7 @@ def record_arrays(study: Prepared, loaded: LoadedContact) -> dict[str, Array]:
     }
 
 
-def torque_residual(study: Prepared, loaded: LoadedContact) -> Array:
+def torque_residual(study: Prepared, loaded: LoadedContact) -> Float[Array, " position"]:
     """Torque of the pairs' loads, friction included, over the gear's torque, less 1, at every position."""
     motion = pair_geometry(study.flexible.assembly, loaded.roll).motion
     side = np.sign(motion.signed_distance)
@@ -205,15 +205,15 @@ def _numbers(study: Prepared) -> dict[str, float]:
     }
 
 
-def _scales(study: Prepared, loaded: LoadedContact | None) -> dict[str, Array]:
+def _scales(study: Prepared, loaded: LoadedContact | None) -> dict[str, np.ndarray]:
     pairs = np.zeros(0, dtype=int) if loaded is None else pair_numbers(study, loaded)
     places = np.zeros(0) if loaded is None else np.asarray(loaded.slice_position)
-    scales: dict[str, Array] = {"pair": pairs, "slice": places, "body": np.array(BODIES)}
+    scales: dict[str, np.ndarray] = {"pair": pairs, "slice": places, "body": np.array(BODIES)}
     torques = study.case.gear_torques
     return scales | ({"torque": np.array(torques)} if torques else {})
 
 
-def pair_numbers(study: Prepared, loaded: LoadedContact) -> Array:
+def pair_numbers(study: Prepared, loaded: LoadedContact) -> Int[Array, " pair"]:
     """Numbers of the pairs: 1 passed the beginning of the path last, 2 is the next to do so."""
     start, _ = study.flexible.assembly.roll_limits
     pitch = 2.0 * np.pi / float(study.case.drive.pinion.teeth)

@@ -24,7 +24,7 @@ FITTED_RANGE = {
 _W_LOW, _W_HIGH = FITTED_RANGE["W"]
 _U_LOW, _U_HIGH = FITTED_RANGE["U"]
 _G_LOW, _G_HIGH = FITTED_RANGE["G"]
-_S_LOW, _S_HIGH = FITTED_RANGE["roughness"]
+_S_HIGH = FITTED_RANGE["roughness"][1]  # from 0
 _V_LOW, _V_HIGH = FITTED_RANGE["V"]
 
 #: Half width of the C1 blend by which the asperity load ratio is held at 1.

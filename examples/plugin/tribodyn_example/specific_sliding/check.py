@@ -1,6 +1,5 @@
 """What `tribodyn check` says of a case."""
 
-from tribodyn.geometry.families import family
 from tribodyn.geometry.sheet import geometry_sheet
 from tribodyn.studies.gears import sheet_tables
 from tribodyn.studies.study import Checked
@@ -10,6 +9,5 @@ from tribodyn_example.specific_sliding.sliding import sliding_of
 
 def check(case: SlidingCase) -> Checked:
     """Check a case, and say what gears it describes."""
-    sliding_of(case)
-    sheet = geometry_sheet(family(case.family), case.drive)
+    sheet = geometry_sheet(sliding_of(case).assembly)
     return Checked({"geometry": sheet}, sheet_tables(sheet))

@@ -3,7 +3,6 @@
 from pathlib import Path
 from typing import Any
 
-from tribodyn.geometry.families import family
 from tribodyn.geometry.outlines import geometry_arrays
 from tribodyn.geometry.recorded import GEOMETRY
 from tribodyn.numerics.variable import Variable
@@ -35,7 +34,7 @@ def run(
     """Run a case and write its record; see `tribodyn.studies.study.Study.run`."""
     path = target(case, output, force)
     sliding = sliding_of(case)
-    groups = {"geometry": geometry_arrays(family(case.family), case.drive)}
+    groups = {"geometry": geometry_arrays(sliding.assembly)}
     with writer(case, path, LAYOUT, case.positions, groups=groups, force=force) as record:
         record.write(
             0,

@@ -4,7 +4,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.geometry.assembly import Assembly, assemble
+from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.checks import check
 from tribodyn.geometry.families import family
 from tribodyn.geometry.path import kinematics
@@ -31,9 +31,7 @@ class Sliding(NamedTuple):
 
 def sliding_of(case: SlidingCase) -> Sliding:
     """Work out the sliding of a case; InputError where its gears cannot be made or cannot run."""
-    teeth = family(case.family)
-    check(teeth, case.drive)
-    assembly = assemble(teeth, case.drive)
+    assembly = check(family(case.family), case.drive)
     r = np.linspace(assembly.r_start, assembly.r_end, case.positions)
     motion = kinematics(assembly.path, r)
     u_p, u_g = motion.pinion_speed, motion.gear_speed  # per rad/s of the pinion

@@ -4,6 +4,7 @@ from collections.abc import Hashable, Sequence
 
 import numpy as np
 
+from tribodyn.dynamics.modes import MODES, MODES_WITH_SHAFT
 from tribodyn.dynamics.parameters import STATES
 from tribodyn.record.sweep_schema import SweepLayout
 from tribodyn.solve.methods import Runs, runs
@@ -35,7 +36,8 @@ class GearPairs:
         """How the cases are brought to their windows."""
         base = cases[0]
         samples = base.output.samples_per_cycle
-        modes = 6 if any(case.operating.shaft_stiffness is not None for case in cases) else 5
+        shaft = any(case.operating.shaft_stiffness is not None for case in cases)
+        modes = MODES_WITH_SHAFT if shaft else MODES
         through_jax = engine == "jax" and runs(base.solver.method) is not Runs.JAX
         method = "tsit5" if through_jax else ""
         if transient is None:
