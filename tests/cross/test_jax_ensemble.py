@@ -88,7 +88,7 @@ def test_jax_and_lanes_agree_and_tell_the_same_failure(motors):
 
 
 def test_neither_numbers_nor_fewer_cases_compile_anything_again(motors, compiled):
-    """And a case has the same bits in any company."""
+    """And a case has the same bits whatever the other cases."""
     models, states = motors
     settings = {"cycles": 2, "window": 1, "rtol": 1e-6, "method": "tsit5"}
     whole = ensemble.march(models, states, samples=40, **settings)

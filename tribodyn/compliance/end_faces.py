@@ -13,7 +13,7 @@ and the potential is a minimum where the faces carry nothing,
 
 D the stiffness of the opening by itself, r_n the stress that a load q_n cos kz makes on the faces while they
 are held. Even and odd harmonics, displacements alike and opposite in both halves of the width, have a d each.
-The load's place then gives way by (c_m/b) r_mᵀ (Σ (c/b) S)⁻¹ r_n q_n more in every harmonic m of n's parity,
+The load's place then deflects by (c_m/b) r_mᵀ (Σ (c/b) S)⁻¹ r_n q_n more in every harmonic m of n's parity,
 and the work of a load is never less. In the middle of a long body, and for a uniform load where Poisson's
 ratio is 0, that is nothing. S_n falls like k⁻⁴ where the opening changes slowly against k along the section,
 so that the sum is short. (This is the method of displacement discontinuities, S. L. Crouch, Int. J. Numer.

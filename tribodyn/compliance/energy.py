@@ -3,10 +3,10 @@
 A tooth is a beam of varying depth from the root circle, over the generated fillet and the flank, to the
 point of contact, bent, sheared and pressed by the normal load (D. C. H. Yang, J. Y. Lin, J. Mech. Trans.
 Autom. Des. 109 (1987) 189-196; X. Tian, MSc thesis, Univ. of Alberta 2004, added the shear). Under it the
-body gives way (`foundation`), between the teeth the Hertz contact does. Plane stress, small deflections.
+body deflects (`foundation`), between the teeth the Hertz contact does. Plane stress, small deflections.
 
 Widths: the teeth and the contact carry over the common face width only, which leaves out the help of a
-tooth's free ends (on the soft side); each body gives way with its own face width.
+tooth's free ends (on the soft side); each body deflects with its own face width.
 """
 
 from typing import Any, NamedTuple
@@ -43,7 +43,7 @@ _INTEGRAL = np.polynomial.chebyshev.chebint(_EYE, lbnd=-1) @ _TO_SERIES
 
 
 class ToothCompliance(NamedTuple):
-    """What one tooth and its body give way along the load, per newton; arrays like r.
+    """Deflection of one tooth and its body along the load, per newton; arrays like r.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What slices of the face give way under each other's loads: harmonics of the face, and its free ends."""
+"""Deflection of slices of the face under each other's loads: harmonics of the face, and its free ends."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""What the free end faces of a gear make its flanks and roots give way more, as `end_faces` finds it.
+"""What free end faces add to the deflection of a gear's flanks and roots, by the method of `end_faces`.
 
 The openings of all teeth's end faces differ by a phase from tooth to tooth, like the loads
 (`cyclic_symmetry`); the face of a sector is two halves that meet on the tooth's axis. By reciprocity the

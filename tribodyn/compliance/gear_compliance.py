@@ -1,4 +1,4 @@
-"""What the flanks of one gear give way: the result of its finite elements, without them."""
+"""Compliance of the flanks of one gear: the result of its finite elements, without them."""
 
 from typing import NamedTuple
 
@@ -39,10 +39,10 @@ class LeadHarmonics(NamedTuple):
 
 
 class FreeEnds(NamedTuple):
-    """What a gear of one width gives way more because its end faces are free, for unit Young's modulus.
+    """What free end faces add to the deflection of a gear of one width, for unit Young's modulus.
 
     Amplitude of a deflection or stress cos k'z per line load cos kz, z from one end, over c'/b with c' = 2,
-    or 1 for k' = 0: at the K wave numbers that were solved, between which a spline goes on. k and k' are even
+    or 1 for k' = 0: at the K wave numbers solved, between which a spline interpolates. k and k' are even
     (0) or odd (1) numbers of half waves over the width b, both the same. M positions of the load, P along the
     root as in `LeadHarmonics`.
 

@@ -1,4 +1,4 @@
-"""What a flank gives way under a line load that runs like cos kz along the tooth, at any wave number k.
+"""Deflection of a flank under a line load that runs like cos kz along the tooth, at any wave number k.
 
 The finite elements answer at some wave numbers; between them a spline does, in asinh(k/k_0), in which they
 stand evenly. Responses are even in k. Next to the load the body is a half-space, whose displacement at the
@@ -6,7 +6,7 @@ depth d below a line load q cos kz follows from Boussinesq's point load,
 
     h_s(d; k) = (1 + ν)/(π E) [kd K_1(kd) + 2 (1 − ν) K_0(kd)] q cos kz,
 
-and with Weber-Banaschek's deflection down to the depth h its surface gives way by that and
+and with Weber-Banaschek's deflection down to the depth h its surface deflects by that and
 
     B(k) = (1 + ν)/(π E) {1 + 2 (1 − ν) [−ln(kh/2) − γ]},
 

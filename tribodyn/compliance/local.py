@@ -1,4 +1,4 @@
-"""What two flanks give way next to their contact: Weber and Banaschek's depth-limited Hertz deflection.
+"""Deflection of two flanks next to their contact: Weber and Banaschek's depth-limited Hertz deflection.
 
 The finite-element model knows the contact's load only as a point. Its displacement is therefore read below
 the surface, where that makes no difference, and what lies between there and the surface is put back by the

@@ -107,7 +107,7 @@ def _half_blocks(
     gap, profile = inner[: roots + 1], inner[roots:]
     towards_axis = _graded(across, _ACROSS_GRADING)
     corner = profile[0]
-    # over a thin rim it drops less, lest it meet the bore
+    # over a thin rim it drops less, so as not to meet the bore
     middle_of_rim = (bore_radius + np.hypot(*corner)) / 2.0
     seam_end = np.array([max(corner[0] - _SEAM_DROP * corner[1], middle_of_rim), 0.0])
     seam = corner + towards_axis[:, None] * (seam_end - corner)

@@ -9,7 +9,7 @@ from tribodyn.numerics.curve import Table
 
 @dataclass(frozen=True)
 class MeshData:
-    """How the teeth in contact give way, damp, separate and err.
+    """How the teeth in contact deflect, damp, separate and err.
 
     Parameters
     ----------

@@ -163,7 +163,7 @@ def scale(group: h5py.Group, name: str, variable: Variable, values: np.ndarray) 
 
 
 def attach(file: h5py.File, group: h5py.Group, dataset: Any, variable: Variable) -> None:
-    """Attach to every axis of a dataset its scale, out of the group or of the root."""
+    """Attach to every axis of a dataset its scale, from the group or the root."""
     for axis, dim in enumerate(variable.dims):
         dataset.dims[axis].attach_scale(group[dim] if dim in group else file[dim])
 

@@ -89,7 +89,7 @@ class _References(NamedTuple):
         return self.marks.get(tuple(map(str, key))) or self._of_family().get(key)
 
     def _of_family(self) -> dict[Key, Reference]:
-        """The points that a drive's family asks for."""
+        """The points that a drive's family needs."""
         name = _at(self.data, ("drive", "family"))
         if not isinstance(name, str) or name not in FAMILIES:
             return {}

@@ -2,7 +2,7 @@
 
 Every lane has its own phase, step and error control; the lanes meet only at the ends of segments, where they
 wait for the last. A lane that is done, or that failed, takes the queue's next case at the end of the cycle.
-No lane's arithmetic reads another lane, so a case's bits are the same in any company.
+No lane's arithmetic reads another lane, so a case's bits are the same whatever the other lanes hold.
 """
 
 from tribodyn.dynamics.equations import derivatives

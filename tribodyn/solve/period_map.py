@@ -1,7 +1,7 @@
 """What the search for steady states needs of a periodically driven system: its map over one period.
 
-The state of the map is what the motion depends on at the start of a period, sampled once per period
-(Poincaré's section by the phase of the excitation). A steady state of n periods is a fixed point of the n-fold map.
+The state of the map is what the motion depends on at the start of a period, sampled once per period (Poincaré
+section by the phase of the excitation). A steady state of n periods is a fixed point of the n-fold map.
 """
 
 from collections.abc import Callable

@@ -1,8 +1,8 @@
 """Steady states of periodically driven systems: march, recognise the period, shoot, judge the stability.
 
 Written over `period_map.PeriodMap`, so that the gear model and the backlash oscillator share it. A system is
-marched until its states once per period repeat, or until their contraction shows that Newton's method would
-get there sooner; a state that shooting found is taken only if it is stable and near what marching was heading
+marched until its states once per period repeat, or until the contraction shows that Newton's method would get
+there sooner; a state that shooting found is taken only if it is stable and near what marching was heading
 for, otherwise marching goes on. An unstable state that marching leaves is not returned as an average.
 """
 

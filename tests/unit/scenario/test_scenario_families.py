@@ -95,7 +95,7 @@ REFUSED = {
         {"drive.shape.form_factor": 1.1},
         "shape.form_factor",
         "turns back",
-        "greater",
+        "larger",
     ),
     "S too high": (
         "s-gear-23-47",

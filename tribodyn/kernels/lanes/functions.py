@@ -202,7 +202,7 @@ def _where(condition, a, b):
 
 @part_instead(elementary.skippable)
 def _skippable(condition):
-    # only where no lane needs it: what it leaves out has no weight, so that company changes no bits
+    # only where no lane needs it: what it leaves out has no weight, so that the other lanes change no bits
     return (lambda condition: not any_of(~condition)) if condition is MASK else None
 
 

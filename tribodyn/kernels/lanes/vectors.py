@@ -243,7 +243,7 @@ bit_and = _integer_operation("and_", "Bits that both have.")
 
 @intrinsic
 def to_indices(typingctx, x):
-    """Integer parts; 0 where x is not a number, so that no address is ever wild."""
+    """Integer parts; 0 where x is not a number, so that every address is valid."""
 
     def emit(context, builder, signature, values):
         (x,) = values

@@ -16,7 +16,7 @@ FUSE = {"contract"}
 
 
 class _NotLoaded:
-    """What numba asks to connect loaded code with Python: nothing is loaded."""
+    """What numba calls to connect loaded code with Python: nothing is loaded."""
 
     def set_env(self, name, environment):
         pass

@@ -118,7 +118,7 @@ def response_figures(response: Response) -> dict[str, Any]:
 
 
 def branches_apart(response: Response) -> np.ndarray:
-    """Where the ways up and down came to different periodic motions (F,)."""
+    """Where the sweeps up and down ended in different periodic motions (F,)."""
     up, down = response.rms[:, UP], response.rms[:, DOWN]
     with np.errstate(invalid="ignore"):
         apart = np.abs(up - down) > APART * np.maximum(up, down)

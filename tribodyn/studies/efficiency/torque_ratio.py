@@ -2,7 +2,7 @@
 
 J. M. Veciana et al., Machines 12 (2024) 943: no deflection, one pair at a time over half a pitch on either
 side of the pitch point, constant input torque, friction and load solved together at every point. The method
-asks nothing of the family but the lever arms, curvature and speeds of its path.
+needs nothing of the family but the lever arms, curvature and speeds of its path.
 """
 
 import math

@@ -57,7 +57,7 @@ def _operating(operating: Operating, back_flanks: bool) -> Iterator[InputError]:
                 yield InputError(
                     key + name,
                     f"{value:g} (SI)",
-                    'contradicts source = "speed": a prescribed rotation asks for no motor',
+                    'contradicts source = "speed": a prescribed rotation needs no motor',
                     f'leave {name} out, or write source = "torque"',
                 )
     elif operating.shaft_stiffness is None and operating.shaft_damping:

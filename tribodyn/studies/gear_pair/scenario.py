@@ -103,7 +103,7 @@ class TransmissionError(Table):
 
 
 class Mesh(Table):
-    """How the teeth in contact give way, damp, separate and err."""
+    """How the teeth in contact deflect, damp, separate and err."""
 
     damping_ratio: NotNegative
     compliance: Literal["energy", "fem", "constant", "table"] = "energy"

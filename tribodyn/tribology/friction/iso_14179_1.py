@@ -15,7 +15,7 @@ def iso_14179_1(conditions: NominalConditions) -> float:
 
     f_m = ν^−0.223 K^−0.40/(3.239 V^0.70) with the kinematic viscosity ν in mm²/s, the load intensity K in
     N/mm² and the pitch line speed V in m/s; for 2 < V ≤ 25 m/s and 1.4 < K ≤ 14 N/mm². The coefficient falls
-    with the load, against the other laws, and knows nothing of roughness.
+    with the load, against the other laws, and does not depend on roughness.
     """
     kinematic = 1e6 * conditions.viscosity / conditions.density
     intensity = 1e-6 * conditions.load_intensity
