@@ -53,7 +53,7 @@ def test_the_mesh_cycle_differentiates_by_the_shape():
     pairs = pair_slots(assemble(family, drive(shape)))
 
     def figure(values):
-        cycle = tabulate(family, drive(cycloidal.Shape(*values)), (STEEL, STEEL), mesh, pairs)
+        cycle = tabulate(assemble(family, drive(cycloidal.Shape(*values))), (STEEL, STEEL), mesh, pairs)
         xp = np if isinstance(values, tuple) else jnp
         return (
             1e9 * xp.mean(cycle.compliance * cycle.in_contact[:, None])
