@@ -13,8 +13,9 @@ import tribodyn
 from tribodyn.kernels.native import internals
 
 PACKAGE = Path(tribodyn.__file__).parent
-#: Documented: numba.pydata.org, "Extending Numba", "Types", "Compiling".
-DOCUMENTED = {"numba", "numba.extending", "numba.types"}
+#: Documented: numba.pydata.org, "Extending Numba" (its examples raise exceptions of `numba.core.errors`), "Types",
+#: "Compiling".
+DOCUMENTED = {"numba", "numba.core.errors", "numba.extending", "numba.types"}
 
 
 def imported() -> set[tuple[str, str]]:
