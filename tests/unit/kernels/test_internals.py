@@ -13,8 +13,8 @@ import tribodyn
 from tribodyn.kernels.native import internals
 
 PACKAGE = Path(tribodyn.__file__).parent
-#: Documented: numba.pydata.org, "Extending Numba" (its examples raise exceptions of `numba.core.errors`), "Types",
-#: "Compiling".
+#: Documented: numba.pydata.org, "Extending Numba" (its examples raise exceptions of `numba.core.errors`),
+#: "Types", "Compiling".
 DOCUMENTED = {"numba", "numba.core.errors", "numba.extending", "numba.types"}
 
 
