@@ -62,7 +62,7 @@ def test_the_sheet_for_people_names_what_an_engineer_looks_for():
         "base diameter",
         "tip thickness",
         "undercut margin",
-        "least specific sliding",
+        "minimum specific sliding",
         "moment of inertia",
     ):
         assert name in shown.stdout

@@ -275,7 +275,7 @@ def test_the_study_runs_draws_shows_and_compares(plugin, tmp_path):
         for body in ("pinion", "gear"):
             minimum = np.min(record[f"{body}_specific_sliding"])
             assert minimum == record.summary[f"{body}_specific_sliding_min"]
-            assert minimum == pytest.approx(sheet[body]["least specific sliding"][0], rel=1e-9)
+            assert minimum == pytest.approx(sheet[body]["minimum specific sliding"][0], rel=1e-9)
 
 
 def test_specific_sliding_of_an_involute(plugin, tmp_path):

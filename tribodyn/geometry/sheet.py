@@ -99,7 +99,7 @@ def _sliding(assembly: Assembly) -> dict[str, dict[str, Quantity]]:
     recess = kinematics(path, assembly.r_end * np.linspace(1.0, 0.0, _SAMPLES, endpoint=False))
     result: dict[str, dict[str, Quantity]] = {
         "pair": {
-            f"greatest sliding in {name}": (1e3 * float(np.abs(part.sliding).max()), "mm/rad")
+            f"maximum sliding in {name}": (1e3 * float(np.abs(part.sliding).max()), "mm/rad")
             for name, part in (("approach", approach), ("recess", recess))
         }
     }
@@ -108,8 +108,8 @@ def _sliding(assembly: Assembly) -> dict[str, dict[str, Quantity]]:
             [sign * part.sliding / getattr(part, f"{side}_speed") for part in (approach, recess)]
         )
         result[side] = {
-            "least specific sliding": (float(specific.min()), ""),
-            "greatest specific sliding": (float(specific.max()), ""),
+            "minimum specific sliding": (float(specific.min()), ""),
+            "maximum specific sliding": (float(specific.max()), ""),
         }
     return result
 

@@ -25,14 +25,14 @@ def test_specific_sliding_of_the_involute(drive):
         (outer[0], length - outer[0]),
     )
     pinion, gear = sheet["pinion"], sheet["gear"]
-    assert pinion["least specific sliding"][0] == pytest.approx(1 - start_gear / (ratio * start_pinion))
-    assert pinion["greatest specific sliding"][0] == pytest.approx(1 - end_gear / (ratio * end_pinion))
-    assert gear["least specific sliding"][0] == pytest.approx(1 - ratio * end_pinion / end_gear)
-    assert gear["greatest specific sliding"][0] == pytest.approx(1 - ratio * start_pinion / start_gear)
+    assert pinion["minimum specific sliding"][0] == pytest.approx(1 - start_gear / (ratio * start_pinion))
+    assert pinion["maximum specific sliding"][0] == pytest.approx(1 - end_gear / (ratio * end_pinion))
+    assert gear["minimum specific sliding"][0] == pytest.approx(1 - ratio * end_pinion / end_gear)
+    assert gear["maximum specific sliding"][0] == pytest.approx(1 - ratio * start_pinion / start_gear)
     # sliding over the pinion's speed: distance from the pitch point times 1 + 1/u
     for name, place in (("approach", "start"), ("recess", "end")):
         distance = abs(sheet[f"{place} of contact from pitch point"][0])
-        sliding = sheet[f"greatest sliding in {name}"]
+        sliding = sheet[f"maximum sliding in {name}"]
         assert sliding == (pytest.approx(distance * (1 + 1 / ratio)), "mm/rad")
 
 
