@@ -76,7 +76,7 @@ IN_TEXT = {
         "cycles = 2", "cycles = 2.5", "solver.cycles = 2.5", "not a whole number", "such as 20"
     ),
     "no cycles": Mistake(
-        "cycles = 2", "cycles = 0", "solver.cycles = 0", "must be greater than 0", "greater"
+        "cycles = 2", "cycles = 0", "solver.cycles = 0", "must be greater than 0", "larger"
     ),
     "rtol": Mistake("cycles = 2", "rtol = 0.5", "solver.rtol = 0.5", "must be at most 0.01", "or less"),
     "unknown choice": Mistake(
