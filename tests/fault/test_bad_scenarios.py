@@ -75,9 +75,7 @@ IN_TEXT = {
     "fraction of a cycle": Mistake(
         "cycles = 2", "cycles = 2.5", "solver.cycles = 2.5", "not a whole number", "such as 20"
     ),
-    "no cycles": Mistake(
-        "cycles = 2", "cycles = 0", "solver.cycles = 0", "must be greater than 0", "larger"
-    ),
+    "no cycles": Mistake("cycles = 2", "cycles = 0", "solver.cycles = 0", "must be greater than 0", "larger"),
     "rtol": Mistake("cycles = 2", "rtol = 0.5", "solver.rtol = 0.5", "must be at most 0.01", "or less"),
     "unknown choice": Mistake(
         '"energy"', '"enrgy"', 'mesh.compliance = "enrgy"', "not one of the choices", 'mean "energy"?'
