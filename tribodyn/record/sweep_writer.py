@@ -15,6 +15,7 @@ import h5py
 import numpy as np
 
 from tribodyn.errors import InputError
+from tribodyn.numerics.cache import replacing
 from tribodyn.numerics.variable import Variable
 from tribodyn.record import layout, sweep_schema
 from tribodyn.record.schema import COMPLETE, FAILED, FORMAT, PARTIAL, STATUS_NOTES, partial_path
@@ -116,15 +117,11 @@ class SweepWriter:
         if resume and not force and self.partial.exists():
             return _places_of(self.partial, head)
         refuse_existing(self.path, force)  # another may just have ended
-        scratch = self.path.with_name(f"{self.path.stem}.{os.getpid()}.tmp")
         try:
-            places = _create(scratch, head)
-            os.replace(scratch, self.partial)
+            with replacing(self.partial, self._scratch()) as scratch:
+                return _create(scratch, head)
         except OSError as error:
-            if scratch.exists():
-                scratch.unlink()
             raise unwritable(self.path, error) from error
-        return places
 
     def __enter__(self) -> Self:
         return self
@@ -172,17 +169,19 @@ class SweepWriter:
         failed = int(np.sum(self.status == sweep_schema.FAILED))
         none = failed == self.status.size
         message = f"{failed} of {self.status.size} cases failed" if failed else STATUS_NOTES[COMPLETE]
-        scratch = self.path.with_name(f"{self.path.stem}.{os.getpid()}.tmp")
-        shutil.copyfile(self.partial, scratch)
-        with h5py.File(scratch, "r+", libver=layout.LIBVER) as file:
-            layout.write_summary(file, summary)
-            file.attrs["status"] = FAILED if none else COMPLETE
-            file.attrs["message"] = message
         target = self.partial if none else self.path
-        os.replace(scratch, target)
+        with replacing(target, self._scratch()) as scratch:
+            shutil.copyfile(self.partial, scratch)
+            with h5py.File(scratch, "r+", libver=layout.LIBVER) as file:
+                layout.write_summary(file, summary)
+                file.attrs["status"] = FAILED if none else COMPLETE
+                file.attrs["message"] = message
         if not none:
             self.partial.unlink()
         return target
+
+    def _scratch(self) -> Path:
+        return self.path.with_name(f"{self.path.stem}.{os.getpid()}.tmp")
 
     def _put(self, offset: int, array: np.ndarray) -> None:
         self._file.seek(offset)

@@ -18,6 +18,7 @@ import h5py
 import numpy as np
 
 from tribodyn.errors import InputError
+from tribodyn.numerics.cache import replacing
 from tribodyn.record import layout as file_layout
 from tribodyn.record.schema import COMPLETE, FAILED, STATUS_NOTES, Layout, partial_path
 from tribodyn.record.writing_lock import WritingLock, refuse_if_written
@@ -124,17 +125,14 @@ class RecordWriter:
             kind, layout, scenario_toml, sha256, datetime.now(UTC), copied, dict(scales)
         )
         check_target(self.path, force)
-        scratch = self._scratch()
         self._lock: WritingLock | None = None
         try:
             self._lock = WritingLock(self.path)
             refuse_existing(self.path, force)  # another may just have ended
-            self._place = file_layout.create(scratch, self._head, samples)
-            os.replace(scratch, self.partial)
+            with replacing(self.partial, self._scratch()) as scratch:
+                self._place = file_layout.create(scratch, self._head, samples)
             self._file = self.partial.open("r+b", buffering=0)
         except BaseException as error:
-            if os.path.exists(scratch):
-                scratch.unlink()
             self._unlock()
             if not isinstance(error, OSError):
                 raise
@@ -210,10 +208,9 @@ class RecordWriter:
         if self.written != self.samples:
             raise ValueError(f"{self.written} of {self.samples} samples written")
         self._close()
-        scratch = self._scratch()
-        shutil.copyfile(self.partial, scratch)
-        self._conclude(scratch, COMPLETE, STATUS_NOTES[COMPLETE], summary)
-        os.replace(scratch, self.path)
+        with replacing(self.path, self._scratch()) as scratch:
+            shutil.copyfile(self.partial, scratch)
+            self._conclude(scratch, COMPLETE, STATUS_NOTES[COMPLETE], summary)
         self.partial.unlink()
         self._unlock()
         return self.path
@@ -229,17 +226,17 @@ class RecordWriter:
             What can be said of the part that was done.
         """
         self._close()
-        scratch = self._scratch()
-        file_layout.create(scratch, self._head, self.written)
         source: Any
         target: Any
-        with h5py.File(self.partial, "r") as source, h5py.File(scratch, "r+") as target:
-            for name in self._place:
-                if name != "samples_written":
-                    target[name][...] = source[name][tuple(slice(length) for length in target[name].shape)]
-            target["samples_written"][...] = self.written
-        self._conclude(scratch, FAILED, message, summary or {})
-        os.replace(scratch, self.partial)
+        with replacing(self.partial, self._scratch()) as scratch:
+            file_layout.create(scratch, self._head, self.written)
+            with h5py.File(self.partial, "r") as source, h5py.File(scratch, "r+") as target:
+                for name in self._place:
+                    if name != "samples_written":
+                        extent = tuple(slice(length) for length in target[name].shape)
+                        target[name][...] = source[name][extent]
+                target["samples_written"][...] = self.written
+            self._conclude(scratch, FAILED, message, summary or {})
         self._unlock()
         return self.partial
 
