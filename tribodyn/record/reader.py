@@ -94,12 +94,14 @@ class Record:
 
     def _dims(self, name: str) -> tuple[str, ...]:
         """Names of a dataset's dimensions; none of a group, or of a number."""
-        item = self._file[name]
-        if not isinstance(item, h5py.Dataset) or not item.shape:
-            return ()
-        if item.is_scale:
-            return (name,)
-        return tuple(str(dim[0].name).rpartition("/")[2] if len(dim) else "" for dim in item.dims)
+        if name not in self._known_dims:
+            self._known_dims[name] = _dims_in(self._file, name)
+        return self._known_dims[name]
+
+    @cached_property
+    def _known_dims(self) -> dict[str, tuple[str, ...]]:
+        """Dimensions by dataset: to read them takes longer than to read a short dataset."""
+        return {}
 
     def units(self, name: str) -> str:
         """Return the SI unit of a dataset."""
@@ -256,6 +258,15 @@ def open_file(path: Path) -> h5py.File:
         if h5py.is_hdf5(path):
             raise InputError("record", str(path), f"damaged: {error}", "run the scenario again") from error
         raise InputError("record", str(path), "not an HDF5 file", "name a file of tribodyn run") from error
+
+
+def _dims_in(file: h5py.File, name: str) -> tuple[str, ...]:
+    item = file[name]
+    if not isinstance(item, h5py.Dataset) or not item.shape:
+        return ()
+    if item.is_scale:
+        return (name,)
+    return tuple(str(dim[0].name).rpartition("/")[2] if len(dim) else "" for dim in item.dims)
 
 
 def attributes(item: Any) -> dict[str, Any]:

@@ -94,7 +94,6 @@ def test_without_an_internal_kernels_run_all_the_same_and_say_so_once(tmp_path, 
     """One that numba's own compiler does without once it is imported."""
     import numpy as np
 
-    monkeypatch.setenv("TRIBODYN_CACHE", str(tmp_path / "cache"))
     said = {}
     for how in ("with", "without"):
         if how == "without":  # nothing on disk that this numba could not have made
