@@ -1,11 +1,11 @@
-"""Types of fields that the tables of several kinds of study share."""
+"""Fields, and types of fields, that the scenarios of several kinds of study share."""
 
-from typing import Annotated
+from typing import Annotated, Any
 
 from pydantic import Field
 
 from tribodyn.scenario import units
-from tribodyn.scenario.quantity import Quantity
+from tribodyn.scenario.quantity import Quantity, Table, Text
 
 Torque = Annotated[float, Quantity(units.TORQUE)]
 Inertia = Annotated[float, Quantity(units.not_negative(units.INERTIA))]
@@ -15,3 +15,21 @@ SignedLength = Annotated[float, Quantity(units.LENGTH)]
 Slices = Annotated[int, Field(strict=True, ge=1, le=501)]
 Name = Annotated[str, Field(strict=True, pattern=r"^\w[\w .-]*$")]
 """A scenario's name, which also names its record."""
+
+
+class ScenarioHead(Table):
+    """The first keys of every scenario; each kind of study adds its `kind` and its tables."""
+
+    title: Text = Field(description="what it shows, in a line")
+    name: Name | None = Field(None, description="names the record; default: the file's own name")
+
+
+def head_of(scenario: Any, toml: str, sha256: str) -> dict[str, str]:
+    """Return the fields of `studies.study.CaseHead` for a scenario, a `ScenarioHead` with its `kind`."""
+    return {
+        "title": scenario.title,
+        "name": scenario.name or "scenario",
+        "kind": scenario.kind,
+        "toml": toml,
+        "sha256": sha256,
+    }

@@ -5,8 +5,8 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import AfterValidator, Discriminator, Field, Tag, create_model
 
-from tribodyn.scenario.common import Name
-from tribodyn.scenario.quantity import NotNegative, Positive, Table, Text, broken, written
+from tribodyn.scenario.common import ScenarioHead, head_of
+from tribodyn.scenario.quantity import NotNegative, Positive, Table, broken, written
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 
 #: Maximum number of frequencies of one sweep.
@@ -75,11 +75,9 @@ class OscillatorSolver(Table):
     )
 
 
-class BacklashOscillatorScenario(Table):
+class BacklashOscillatorScenario(ScenarioHead):
     """A scenario file of the oscillator with backlash; lengths in half backlashes, times in 1/ω_n."""
 
-    title: Text = Field(description="what it shows, in a line")
-    name: Name | None = Field(None, description="names the record; default: the file's own name")
     kind: Literal["backlash-oscillator"]
     damping: NotNegative = Field(description="ζ", examples=[0.05])
     mean_force: NotNegative = Field(description="F_m", examples=[0.1])
@@ -100,11 +98,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> BacklashOscillatorCas
     """Return the case of a scenario that has passed the schema."""
     given = scenario.frequency
     return BacklashOscillatorCase(
-        title=scenario.title,
-        name=scenario.name or "scenario",
-        kind=scenario.kind,
-        toml=toml,
-        sha256=sha256,
+        **head_of(scenario, toml, sha256),
         damping=scenario.damping,
         mean_force=scenario.mean_force,
         error_amplitude=scenario.error_amplitude,

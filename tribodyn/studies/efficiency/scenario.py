@@ -7,7 +7,7 @@ from pydantic import Field
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.mesh.data import MeshData
 from tribodyn.scenario import units
-from tribodyn.scenario.common import Name, Slices
+from tribodyn.scenario.common import ScenarioHead, Slices, head_of
 from tribodyn.scenario.drive_data import (
     drive_of,
     lubricant_of,
@@ -23,7 +23,6 @@ from tribodyn.scenario.quantity import (
     Quantity,
     Switch,
     Table,
-    Text,
     model_file,
     written,
 )
@@ -70,11 +69,9 @@ class EfficiencyOutput(Table):
     samples_per_cycle: Annotated[int, Field(strict=True, ge=8)] = 200
 
 
-class EfficiencyScenario(Table):
+class EfficiencyScenario(ScenarioHead):
     """A scenario file of an efficiency study."""
 
-    title: Text = Field(description="what it shows, in a line")
-    name: Name | None = Field(None, description="names the record; default: the file's own name")
     kind: Literal["efficiency"]
     drive: Annotated[DriveTable, model_file("drives")]
     lubricant: Annotated[Lubricant, model_file("lubricants")]
@@ -93,11 +90,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> EfficiencyCase:
     drive, mesh, operating = scenario.drive, scenario.mesh, scenario.operating
     modifications = modifications_of(drive, mesh.misalignment)
     return EfficiencyCase(
-        title=scenario.title,
-        name=scenario.name or "scenario",
-        kind=scenario.kind,
-        toml=toml,
-        sha256=sha256,
+        **head_of(scenario, toml, sha256),
         family=drive.family,
         drive=drive_of(drive),
         materials=materials_of(drive),

@@ -2,7 +2,7 @@
 
 Field names are the interface of the command line (`--set operating.gear_torque="600 N*m"`). Defaults stand
 as they would be written in TOML. Rules that tie fields together stand in `rules`; names of laws, families and
-solvers in the registries of `load`.
+solvers in their registries.
 """
 
 from typing import Annotated, Literal, cast
@@ -12,7 +12,16 @@ from pydantic import Field
 from tribodyn.dynamics.data import BearingData, OperatingData
 from tribodyn.mesh.data import MeshData
 from tribodyn.scenario import units
-from tribodyn.scenario.common import Angle, Inertia, Name, SignedLength, Slices, Torque, TorsionalDamping
+from tribodyn.scenario.common import (
+    Angle,
+    Inertia,
+    ScenarioHead,
+    SignedLength,
+    Slices,
+    Torque,
+    TorsionalDamping,
+    head_of,
+)
 from tribodyn.scenario.curves import ErrorCurve, StiffnessCurve, TorqueCurve
 from tribodyn.scenario.drive_data import (
     drive_of,
@@ -160,11 +169,9 @@ class Output(Table):
     samples_per_cycle: Annotated[int, Field(strict=True, ge=8)] = 200
 
 
-class GearPairScenario(Table):
+class GearPairScenario(ScenarioHead):
     """A scenario file."""
 
-    title: Text = Field(description="what it shows, in a line")
-    name: Name | None = Field(None, description="names the record; default: the file's own name")
     kind: Literal["gear-pair"] = "gear-pair"
     drive: Annotated[DriveTable, model_file("drives")]
     lubricant: Annotated[Lubricant, model_file("lubricants")]
@@ -184,11 +191,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> Case:
     """Return the case of a scenario that has passed schema and rules."""
     drive = scenario.drive
     return Case(
-        title=scenario.title,
-        name=scenario.name or "scenario",
-        kind=scenario.kind,
-        toml=toml,
-        sha256=sha256,
+        **head_of(scenario, toml, sha256),
         family=drive.family,
         drive=drive_of(drive),
         materials=materials_of(drive),

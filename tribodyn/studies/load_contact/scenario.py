@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from tribodyn.scenario import units
-from tribodyn.scenario.common import Name, Slices
+from tribodyn.scenario.common import ScenarioHead, Slices, head_of
 from tribodyn.scenario.drive_data import drive_of, materials_of, modifications_of, slices_of
 from tribodyn.scenario.model_files import DriveTable
 from tribodyn.scenario.modification import MisalignmentTable
@@ -15,7 +15,6 @@ from tribodyn.scenario.quantity import (
     Quantity,
     Switch,
     Table,
-    Text,
     model_file,
     written,
 )
@@ -49,11 +48,9 @@ class LoadContactOutput(Table):
     cycles: Count = Field(1, description="mesh cycles; more than one where teeth differ")
 
 
-class LoadContactScenario(Table):
+class LoadContactScenario(ScenarioHead):
     """A scenario file of a load contact study."""
 
-    title: Text = Field(description="what it shows, in a line")
-    name: Name | None = Field(None, description="names the record; default: the file's own name")
     kind: Literal["load-contact"]
     drive: Annotated[DriveTable, model_file("drives")]
     operating: LoadContactOperating
@@ -69,11 +66,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> LoadContactCase:
     drive, mesh = scenario.drive, scenario.mesh
     modifications = modifications_of(drive, mesh.misalignment)
     return LoadContactCase(
-        title=scenario.title,
-        name=scenario.name or "scenario",
-        kind=scenario.kind,
-        toml=toml,
-        sha256=sha256,
+        **head_of(scenario, toml, sha256),
         family=drive.family,
         drive=drive_of(drive),
         materials=materials_of(drive),

@@ -5,14 +5,13 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from tribodyn.scenario import units
-from tribodyn.scenario.common import Name
+from tribodyn.scenario.common import ScenarioHead, head_of
 from tribodyn.scenario.model_files import Described, Length
 from tribodyn.scenario.quantity import (
     NotNegative,
     Positive,
     Quantity,
     Table,
-    Text,
     model_file,
     written,
 )
@@ -58,11 +57,9 @@ class RollingOutput(Table):
     )
 
 
-class RollingScenario(Table):
+class RollingScenario(ScenarioHead):
     """A scenario file of a gear with rolling elements."""
 
-    title: Text = Field(description="what it shows, in a line")
-    name: Name | None = Field(None, description="names the record; default: the file's own name")
     kind: Literal["irefc"]
     mode: Literal["corrected", "as_published"] = Field(
         "corrected", description="motion in time, or the paper's position with its printed formulas"
@@ -80,11 +77,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> RollingCase:
     """Return the case of a scenario that has passed the schema."""
     drive = scenario.drive
     return RollingCase(
-        title=scenario.title,
-        name=scenario.name or "scenario",
-        kind=scenario.kind,
-        toml=toml,
-        sha256=sha256,
+        **head_of(scenario, toml, sha256),
         mode=scenario.mode,
         drive=RollingDrive(drive.pitch_radius, drive.elements, drive.displacement, drive.element_radius),
         input_power=scenario.operating.input_power,
