@@ -1,6 +1,7 @@
 # make demo   run the CRC drive of Liu & Ni (2022): record, summary and picture in ./demo
 # make test   lint, types and all tests, the slow ones and the speed ratios included
 # make quick  the shortest tests, under a minute (docs/development.md)
+# make soak   random drives, duties and options by the thousand, and other long checks (docs/soak.md)
 # make durations  measure the tests anew, on an idle machine: which are the quick ones, in which order all run
 PYTHON ?= python3
 # two test processes share the cores; a BLAS's own threads would only stand in their way
@@ -14,7 +15,7 @@ BIN := $(VENV)/bin
 # the constraints also hold for what builds the package
 INSTALL := PIP_CONSTRAINT=$(CURDIR)/constraints.txt $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
-.PHONY: demo test quick durations lint types tests wheel clean
+.PHONY: demo test quick soak durations lint types tests wheel clean
 
 demo: $(VENV)/.installed
 	@mkdir -p demo
@@ -35,6 +36,9 @@ tests: $(VENV)/.testing
 
 quick: $(VENV)/.testing
 	XLA_FLAGS="$(TESTS_XLA)" $(BIN)/python -m pytest $(IN_PARALLEL) --quick -m "not bench and not slow"
+
+soak: $(VENV)/.testing
+	XLA_FLAGS="$(TESTS_XLA)" nice $(BIN)/python -m pytest $(IN_PARALLEL) -m soak tests/soak
 
 # twice: where the first user of something expensive is not quick, the next one prepares it
 durations: $(VENV)/.testing

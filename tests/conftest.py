@@ -30,6 +30,14 @@ def pytest_configure(config: pytest.Config) -> None:
     config.pluginmanager.register(Durations(config), "durations-of-tests")
 
 
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leave out what is marked soak, unless `-m` names it."""
+    if "soak" in (config.getoption("markexpr") or ""):
+        return
+    config.hook.pytest_deselected(items=[item for item in items if item.get_closest_marker("soak")])
+    items[:] = [item for item in items if not item.get_closest_marker("soak")]
+
+
 @lru_cache(maxsize=32)
 def _prepared(name: str, overrides: str) -> Prepared:
     return prepare(load_scenario(name, json.loads(overrides)))
