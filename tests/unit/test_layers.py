@@ -175,6 +175,15 @@ def test_a_file_is_one_idea():
     assert {name: lines(path) for name, path in FILES.items() if lines(path) > LONGEST_FILE} == {}
 
 
+def test_no_function_takes_more_than_nine_positional_arguments():
+    long = []
+    for path in ROOT.rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text())):
+            if isinstance(node, ast.FunctionDef) and len(node.args.posonlyargs + node.args.args) > 9:
+                long.append(f"{path.relative_to(ROOT)}: {node.name}")
+    assert long == []
+
+
 def test_unit_tests_mirror_the_package():
     tested = [path.relative_to(TESTS / "unit") for path in (TESTS / "unit").rglob("*") if path.is_dir()]
     assert [str(path) for path in tested if path.name != "__pycache__" and not (ROOT / path).is_dir()] == []

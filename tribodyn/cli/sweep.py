@@ -44,6 +44,7 @@ class EngineName(StrEnum):
 
 def sweep(
     scenario: Annotated[str, typer.Argument(help="A scenario file, or the name of a shipped scenario.")],
+    *,
     vary: Annotated[
         list[str] | None,
         typer.Option(

@@ -49,6 +49,30 @@ class Pressed(NamedTuple):
     stiffness: Float[Array, " position"]
 
 
+class _Places(NamedTuple):
+    """What is asked at some positions, and the units of load and deflection in which it is solved."""
+
+    matrix: Float[Array, "row place place"]
+    arm: Float[Array, "row place"]
+    lever: Float[Array, "row place"]
+    gap: Float[Array, "row place"]
+    torque: Float[Array, " row"]
+    mean: Float[Array, " row"]
+    unit: Float[Array, " row"]
+
+    def at(self, rows: Int[Array, " some"]) -> "_Places":
+        """Return the part of it at some positions."""
+        return _Places(*(whole[rows] for whole in self))
+
+
+class _Local(NamedTuple):
+    """The places' own deflection about some loads: its value, m, and its slope, m/N."""
+
+    load: Float[Array, "row place"]
+    value: Float[Array, "row place"]
+    slope: Float[Array, "row place"]
+
+
 def press(
     matrix: Float[Array, "position place place"],
     local: Callable[
@@ -91,24 +115,25 @@ def press(
     active = gap <= (np.min(gap, axis=-1) + unit)[:, None]
     load = active * (mean / np.sum(active, axis=-1))[:, None]
     result = Pressed(np.zeros_like(gap), np.zeros(positions), np.zeros_like(gap), np.zeros(positions))
+    whole = _Places(matrix, arm, lever, gap, torque, mean, unit)
     rows = np.arange(positions)
     worst = np.inf
     for step in range(_FREE_STEPS + _CAREFUL_STEPS):
-        part = (matrix[rows], arm[rows], lever[rows], gap[rows], torque[rows], mean[rows], unit[rows])
-        at = np.maximum(load, (_MINIMUM_LOAD / places * mean[rows])[:, None])
-        value, slope = local(rows, at)
-        trial, deflection, overlap, stiffness = _newton_step(active, at, value, slope, *part)
+        part = whole.at(rows)
+        about = np.maximum(load, (_MINIMUM_LOAD / places * part.mean)[:, None])
+        new = _newton_step(active, _Local(about, *local(rows, about)), part)
+        trial, overlap = new.load, new.overlap
         touching = np.where(active, trial > 0.0, overlap > 0.0)
         if step >= _FREE_STEPS:
             touching = _worst_only(active, touching, trial, overlap)
         # a torque must be carried by something: where all let go, the closest place holds on
         none = ~np.any(touching, axis=-1)
-        touching[none] = gap[rows][none] <= np.min(gap[rows][none], axis=-1, keepdims=True)
-        change = np.max(np.abs(trial - load), axis=-1) / mean[rows]
+        touching[none] = part.gap[none] <= np.min(part.gap[none], axis=-1, keepdims=True)
+        change = np.max(np.abs(trial - load), axis=-1) / part.mean
         settled = (change < _SETTLED) & np.all(touching == active, axis=-1)
         load, active = np.maximum(trial, 0.0), touching
-        for whole, new in zip(result, (load, deflection, overlap, stiffness), strict=True):
-            whole[rows[settled]] = new[settled]
+        for field, found in zip(result, new._replace(load=load), strict=True):
+            field[rows[settled]] = found[settled]
         if np.all(settled):
             return result
         rows, load, active = rows[~settled], load[~settled], active[~settled]
@@ -118,31 +143,20 @@ def press(
     )
 
 
-def _newton_step(
-    active: Bool[Array, "row place"],
-    at: Float[Array, "row place"],
-    value: Float[Array, "row place"],
-    slope: Float[Array, "row place"],
-    matrix: Float[Array, "row place place"],
-    arm: Float[Array, "row place"],
-    lever: Float[Array, "row place"],
-    gap: Float[Array, "row place"],
-    torque: Float[Array, " row"],
-    mean: Float[Array, " row"],
-    unit: Float[Array, " row"],
-) -> tuple[Float[Array, "row place"], Float[Array, " row"], Float[Array, "row place"], Float[Array, " row"]]:
-    """Loads, ξ, overlaps and dT/dξ with the local deflection linearised at the loads `at`."""
+def _newton_step(active: Bool[Array, "row place"], local: _Local, part: _Places) -> Pressed:
+    """Loads, ξ, overlaps and dT/dξ with the local deflection linearised."""
+    matrix, arm, lever, gap = part.matrix, part.arm, part.lever, part.gap
     positions, places = gap.shape
-    mean, unit, torque = mean[:, None], unit[:, None], torque[:, None]
+    mean, unit, torque = part.mean[:, None], part.unit[:, None], part.torque[:, None]
     system = np.zeros((positions, places + 1, places + 1))
     right = np.zeros((positions, places + 1, 2))
     both = active[:, :, None] & active[:, None, :]
     system[:, :places, :places] = np.where(both, matrix * (mean / unit)[..., None], 0.0)
     diagonal = np.einsum("...ii->...i", system)[:, :places]
-    diagonal += np.where(active, slope * mean / unit, 1.0)
+    diagonal += np.where(active, local.slope * mean / unit, 1.0)
     system[:, :places, places] = np.where(active, -arm, 0.0)
     system[:, places, :places] = active * lever * mean / torque
-    right[:, :places, 0] = np.where(active, slope * at - gap - value, 0.0) / unit
+    right[:, :places, 0] = np.where(active, local.slope * local.load - gap - local.value, 0.0) / unit
     right[:, places] = 1.0  # the torque; alone in the second column
     solution = np.linalg.solve(system, right)
     load = active * solution[:, :places, 0] * mean
@@ -150,7 +164,7 @@ def _newton_step(
     stiffness = torque[:, 0] / (solution[:, places, 1] * unit[:, 0])
     overlap = deflection[:, None] * arm - gap - np.einsum("...ij,...j->...i", matrix, load)
     overlap += np.einsum("...ii->...i", matrix) * load
-    return load, deflection, overlap, stiffness
+    return Pressed(load, deflection, overlap, stiffness)
 
 
 def _worst_only(

@@ -15,7 +15,14 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry
 from tribodyn.geometry.drive import SIDES, Side, body_of, tip_radius
-from tribodyn.geometry.modification import FlankModification, LeadRelief, Misalignment, Modifications, Relief
+from tribodyn.geometry.modification import (
+    FlankModification,
+    LeadRelief,
+    Misalignment,
+    Modifications,
+    Relief,
+    broken_flank_rules,
+)
 from tribodyn.geometry.path import PerContact
 from tribodyn.geometry.tooth import thickness_half_angle
 from tribodyn.numerics.shapes import Array, Float, Int
@@ -152,27 +159,11 @@ def check_modifications(assembly: Assembly, modifications: Modifications) -> Non
     Raises
     ------
     InputError
-        If a relief is longer than the active path or deeper than a share of the tooth, or negative.
+        If a relief is longer than the active path or deeper than a share of the tooth, or negative; and for
+        the rules that hold for every shape of teeth (`broken_flank_rules`).
     """
     for side in SIDES:
         _check_flank(assembly, getattr(modifications, side), side)
-
-
-def same_every_pitch(modifications: Modifications) -> None:
-    """Refuse what differs from tooth to tooth, where a mesh cycle stands for all of them.
-
-    Raises
-    ------
-    InputError
-        If there are pitch errors.
-    """
-    for side in SIDES:
-        if len(getattr(modifications, side).pitch_error):
-            raise InputError(
-                f"drive.{side}.modification.pitch_errors",
-                rule="differ from tooth to tooth, but one mesh cycle stands for all teeth here",
-                remedy="use a load contact study, or leave them out",
-            )
 
 
 def _relieved(relief: Relief, distance: PerContact) -> PerContact:
@@ -193,7 +184,9 @@ def _along_face(lead: LeadRelief, width: float, position: Float[Array, " slice"]
 def _check_flank(assembly: Assembly, flank: FlankModification, side: Side) -> None:
     key = f"drive.{side}.modification."
     module = float(assembly.drive.module)
-    width = float(body_of(assembly.drive, side).face_width)
+    body = body_of(assembly.drive, side)
+    for broken in broken_flank_rules(side, flank, round(float(body.teeth)), float(body.face_width)):
+        raise broken
     tip = float(tip_radius(assembly.drive, side))
     thickness = 2.0 * tip * float(thickness_half_angle(assembly.tooth(side), tip))
     maximum = MAXIMUM_SHARE * module
@@ -205,20 +198,10 @@ def _check_flank(assembly: Assembly, flank: FlankModification, side: Side) -> No
             _require(key + name + "_length", relief.length, 0.0, path, "path of contact", above=True)
     for name, amount in lead_amounts(flank.lead).items():
         _require(key + name, amount, 0.0, maximum, "tenth of the module")
-    if flank.lead.start or flank.lead.end:
-        _require(key + "lead_unmodified", flank.lead.unmodified, 0.0, width * (1 - 1e-9), "face width")
     if flank.profile_error is not None:
         worst = float(np.max(np.abs(flank.profile_error[1])))
         _require(key + "profile_error", worst, 0.0, maximum, "tenth of the module")
     if len(flank.pitch_error):
-        teeth = round(float(body_of(assembly.drive, side).teeth))
-        if len(flank.pitch_error) != teeth:
-            raise InputError(
-                key + "pitch_errors",
-                len(flank.pitch_error),
-                f"must hold one error for each of the {teeth} teeth",
-                f"give {teeth} lengths",
-            )
         worst = float(np.max(np.abs(flank.pitch_error)))
         _require(key + "pitch_errors", worst, 0.0, maximum, "tenth of the module")
 

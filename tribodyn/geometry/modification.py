@@ -5,6 +5,7 @@ from the middle of the faces; `start` is at the most negative z, `end` at the mo
 `compliance.flank_gap` makes the gap between two flanks of it.
 """
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 from tribodyn.errors import InputError
@@ -119,3 +120,66 @@ def too_few_slices(slices: int, varies: bool) -> InputError | None:
         return None
     rule = "too few for what varies along the face" if varies else "neither one slice nor enough of them"
     return InputError("mesh.slices", slices, rule, f"use at least {MINIMUM_SLICES}, or leave it out for 21")
+
+
+def broken_flank_rules(
+    side: str, flank: FlankModification, teeth: int, face_width: float
+) -> Iterator[InputError]:
+    """Go through what contradicts in the modification of one gear, whatever the shape of its teeth.
+
+    Parameters
+    ----------
+    side : str
+        "pinion" or "gear".
+    flank : FlankModification
+    teeth : int
+    face_width : float
+        m.
+    """
+    key = f"drive.{side}.modification."
+    for name, relief in (("tip_relief", flank.tip), ("root_relief", flank.root)):
+        if relief.amount and not relief.length:
+            yield InputError(
+                key + name,
+                shown_length(relief.amount),
+                "nothing says how far it reaches",
+                f'add {name}_length = "3 mm", along the line of action',
+            )
+    lead, width = flank.lead, shown_length(face_width)
+    rule = None
+    if not 0.0 <= lead.unmodified <= face_width:
+        rule = f"longer than the face of {width}" if lead.unmodified > 0.0 else "negative"
+    elif lead.unmodified == face_width and (lead.start or lead.end):
+        rule = f"leaves nothing of the face of {width} to the relief"
+    if rule:
+        unmodified = shown_length(lead.unmodified)
+        yield InputError(key + "lead_unmodified", unmodified, rule, "use less than the face width")
+    if flank.pitch_error and len(flank.pitch_error) != teeth:
+        yield InputError(
+            key + "pitch_errors",
+            shown_count(len(flank.pitch_error)),
+            f"the gear has {teeth} teeth",
+            "give one value per tooth",
+        )
+
+
+def uneven_teeth(modifications: Modifications) -> Iterator[InputError]:
+    """Go through what differs from tooth to tooth, for a run in which one mesh cycle stands for all teeth."""
+    for side in ("pinion", "gear"):
+        if errors := getattr(modifications, side).pitch_error:
+            yield InputError(
+                f"drive.{side}.modification.pitch_errors",
+                shown_count(len(errors)),
+                "the run repeats one mesh cycle, in which all teeth are alike",
+                "leave it out, or use a load contact study",
+            )
+
+
+def shown_length(value: float) -> str:
+    """Write a length of `value` m with a unit that suits its size."""
+    return f"{value * 1e6:g} um" if value < 1e-3 else f"{value * 1e3:g} mm"
+
+
+def shown_count(count: int) -> str:
+    """Write a number of values."""
+    return f"{count} value{'s' if count != 1 else ''}"

@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from tribodyn.compliance.condensed import Condensed, condense
-from tribodyn.compliance.flank_gap import flank_gap, relief_rolls, same_every_pitch
+from tribodyn.compliance.flank_gap import flank_gap, relief_rolls
 from tribodyn.compliance.gear_compliance import without_neighbours
 from tribodyn.compliance.load_sharing import contact_deflection, flexibility, share_load
 from tribodyn.compliance.loaded_contact import reach
@@ -24,6 +24,7 @@ from tribodyn.compliance.table import check_cover, interpolate
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry, part_of
 from tribodyn.geometry.material import MaterialData
+from tribodyn.geometry.modification import uneven_teeth
 from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.data import MeshData
@@ -58,7 +59,8 @@ def tabulate_loaded(
     """
     check_bores(assembly.drive)
     check_torque(gear_torque)
-    same_every_pitch(mesh.modifications)
+    for broken in uneven_teeth(mesh.modifications):
+        raise broken
     check_backlash(mesh, back)
     flexible, modifications, *_ = flanks_of(assembly, materials, mesh)
     check_contact(flexible, modifications, gear_torque, mesh.slices)

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from tribodyn.errors import InputError, unknown_name
 from tribodyn.geometry.families import FAMILIES
 from tribodyn.scenario.model_files import DriveTable
-from tribodyn.scenario.modification_rules import broken_flank_rules
+from tribodyn.scenario.modification_rules import broken_modification_rules
 from tribodyn.scenario.shape import shape_errors
 
 
@@ -19,7 +19,7 @@ def broken_drive_rules(drive: DriveTable) -> Iterator[InputError]:
                 rule="missing",
                 remedy="give the name of a file in models/materials here, or drive.material for both gears",
             )
-    yield from broken_flank_rules(drive)
+    yield from broken_modification_rules(drive)
     if drive.family in FAMILIES:
         yield from shape_errors(drive, FAMILIES[drive.family])
     else:

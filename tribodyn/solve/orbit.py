@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.numerics.shapes import Array, Float
+from tribodyn.numerics.shapes import Array, Complex, Float
 
 
 class Orbit(NamedTuple):
@@ -34,11 +34,11 @@ class Orbit(NamedTuple):
     message : str
     """
 
-    state: np.ndarray
-    last: np.ndarray
+    state: Float[Array, " state"]
+    last: Float[Array, " state"]
     period: int
     residual: float
-    multipliers: np.ndarray
+    multipliers: Complex[Array, " state"]
     stable: bool
     kind: str
     method: str

@@ -9,6 +9,8 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
+from tribodyn.numerics.shapes import Array, Float, Int
+
 #: Step of a difference quotient, as a share of the state's scale: divides the noise of a map integrated to
 #: 1e-9 down to 1e-4 or less of the largest multiplier (measured on the CRC drive at 1 and 5 % damping, where
 #: truncation stays below that up to 3e-3), and is a third of the width over which contact sets in.
@@ -26,7 +28,7 @@ class Marched(NamedTuple):
         One per row, empty where all went well.
     """
 
-    states: np.ndarray
+    states: Float[Array, "row period state"]
     reasons: list[str]
 
 
@@ -42,8 +44,8 @@ class Tangent(NamedTuple):
     reasons : list of str
     """
 
-    image: np.ndarray
-    jacobian: np.ndarray
+    image: Float[Array, "row state"]
+    jacobian: Float[Array, "row state state"]
     reasons: list[str]
 
 
@@ -55,26 +57,28 @@ class PeriodMap(Protocol):
     """
 
     #: (cases, N): sizes by which states are measured.
-    scale: np.ndarray
+    scale: Float[Array, "case state"]
     #: Distance, over the scale, within which one derivative has another's multipliers: 0 where it is exact,
     #: the step of the difference quotient where it is not.
     blur: float
 
-    def march(self, states: np.ndarray, cases: np.ndarray, periods: int, fine: bool) -> Marched:
+    def march(
+        self, states: Float[Array, "row state"], cases: Int[Array, " row"], periods: int, fine: bool
+    ) -> Marched:
         """States (R, N) over some periods; `fine` asks for the accuracy that a fixed point needs."""
         ...
 
-    def tangent(self, states: np.ndarray, cases: np.ndarray, periods: int) -> Tangent:
+    def tangent(self, states: Float[Array, "row state"], cases: Int[Array, " row"], periods: int) -> Tangent:
         """Image after some periods, finely integrated, and its derivative."""
         ...
 
 
 def by_differences(
     march: Callable[[np.ndarray, np.ndarray, int, bool], Marched],
-    states: np.ndarray,
-    cases: np.ndarray,
+    states: Float[Array, "row state"],
+    cases: Int[Array, " row"],
     periods: int,
-    scale: np.ndarray,
+    scale: Float[Array, "case state"],
 ) -> Tangent:
     """The tangent of a map by one-sided differences: N companions per row, all marched in one batch."""
     rows, size = states.shape

@@ -10,10 +10,12 @@ is as exact as the map.
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
 from tribodyn.kernels.native import kernel
+from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.solve.period_map import Marched, Tangent
 
 #: Columns of a row of parameters: ζ, F_m, F_e, ε, Ω.
@@ -218,22 +220,37 @@ def _advance(state, parameters, periods, strobes, tangent, figures, with_tangent
     return DONE
 
 
-@kernel
-def march_rows(
-    states, parameters, periods, strobes, tangents, figures, with_tangent, with_figures, status, buffer
-):
-    """March rows (R, 2) with parameters (R, 5); fills strobes (R, periods, 2), tangents (R, 2, 2), figures.
+class Rows(NamedTuple):
+    """Where the results of rows are written.
 
-    `tangents` and `figures` must be set to the identity and to zeros (extremes ∓inf) before.
+    Attributes
+    ----------
+    strobes : (R, periods, 2)
+        States after every period.
+    tangents : (R, 2, 2)
+        The identity before, the derivative of the last state after.
+    figures : (R, FIGURES)
+        Zeros before, extremes ∓inf.
+    status : (R,) int
     """
+
+    strobes: Float[Array, "row period 2"]
+    tangents: Float[Array, "row 2 2"]
+    figures: Float[Array, "row figure"]
+    status: Int[Array, " row"]
+
+
+@kernel
+def march_rows(states, parameters, periods, into, with_tangent, with_figures, buffer):
+    """March rows (R, 2) with parameters (R, 5) over some periods; fills `into`, a `Rows`."""
     for row in range(states.shape[0]):
-        status[row] = _advance(
+        into.status[row] = _advance(
             states[row],
             parameters[row],
             periods,
-            strobes[row],
-            tangents[row],
-            figures[row],
+            into.strobes[row],
+            into.tangents[row],
+            into.figures[row],
             with_tangent,
             with_figures,
             buffer,
@@ -255,41 +272,46 @@ class OscillatorMap:
 
     blur = 0.0
 
-    def __init__(self, parameters: np.ndarray):
+    def __init__(self, parameters: Float[Array, "case 5"]):
         self.parameters = np.ascontiguousarray(parameters, dtype=float)
         self.scale = np.ones((len(self.parameters), 2))
 
-    def march(self, states: np.ndarray, cases: np.ndarray, periods: int, fine: bool = True) -> Marched:
+    def march(
+        self, states: Float[Array, "row 2"], cases: Int[Array, " row"], periods: int, fine: bool = True
+    ) -> Marched:
         """See `period_map.PeriodMap`; always as fine as rounding allows."""
         strobes, _, _, reasons = self._run(states, cases, periods, False, False)
         return Marched(strobes, reasons)
 
-    def tangent(self, states: np.ndarray, cases: np.ndarray, periods: int) -> Tangent:
+    def tangent(self, states: Float[Array, "row 2"], cases: Int[Array, " row"], periods: int) -> Tangent:
         """See `period_map.PeriodMap`; by the variational equation."""
         strobes, tangents, _, reasons = self._run(states, cases, periods, True, False)
         return Tangent(strobes[:, -1], tangents, reasons)
 
-    def figures(self, states: np.ndarray, cases: np.ndarray, periods: int) -> np.ndarray:
+    def figures(
+        self, states: Float[Array, "row 2"], cases: Int[Array, " row"], periods: int
+    ) -> Float[Array, "row figure"]:
         """Integrals and extremes (R, 6) over some periods, see INTEGRAL and the others."""
         return self._run(states, cases, periods, False, True)[2]
 
     def _run(self, states, cases, periods, with_tangent, with_figures):
         rows = len(states)
-        strobes = np.full((rows, periods, 2), np.nan)
-        tangents = np.tile(np.eye(2), (rows, 1, 1))
         figures = np.zeros((rows, FIGURES))
         figures[:, MAXIMUM], figures[:, MINIMUM] = -np.inf, np.inf
-        status = np.zeros(rows, dtype=np.int64)
+        into = Rows(
+            strobes=np.full((rows, periods, 2), np.nan),
+            tangents=np.tile(np.eye(2), (rows, 1, 1)),
+            figures=figures,
+            status=np.zeros(rows, dtype=np.int64),
+        )
         march_rows(
             np.ascontiguousarray(states, dtype=float),
             self.parameters[cases],
             periods,
-            strobes,
-            tangents,
-            figures,
+            into,
             with_tangent,
             with_figures,
-            status,
             np.zeros((4, DEGREE + 1)),
         )
-        return strobes, tangents, figures, [REASONS.get(int(code), "") for code in status]
+        reasons = [REASONS.get(int(code), "") for code in into.status]
+        return into.strobes, into.tangents, into.figures, reasons

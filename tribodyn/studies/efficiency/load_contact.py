@@ -7,14 +7,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.compliance.flank_gap import flank_gap, same_every_pitch
+from tribodyn.compliance.flank_gap import flank_gap
 from tribodyn.compliance.load_sharing import effective_contact_ratio, extended_rolls, share_load
 from tribodyn.compliance.loaded_contact import reach
 from tribodyn.compliance.loaded_rules import check_contact
 from tribodyn.compliance.pair_flexibility import PairFlexibility
 from tribodyn.compliance.slices import face_positions
 from tribodyn.geometry.corner_contact import pair_geometry
-from tribodyn.geometry.modification import UNMODIFIED, Modifications
+from tribodyn.geometry.modification import UNMODIFIED, Modifications, uneven_teeth
 from tribodyn.numerics.shapes import Array, Float
 
 #: Positions over one pitch: the efficiency is then known to 1e-6 (test_load_contact_efficiency).
@@ -75,7 +75,8 @@ def load_contact(
         If the torque drives nothing, or as `roll_through` does.
     """
     check_contact(flexible, modifications, gear_torque, slices)
-    same_every_pitch(modifications)
+    for broken in uneven_teeth(modifications):
+        raise broken
     assembly = flexible.assembly
     ratio = assembly.path.pinion_pitch_radius / assembly.path.gear_pitch_radius
     limits = reach(flexible, modifications, gear_torque, slices, coupled, _REACH)
