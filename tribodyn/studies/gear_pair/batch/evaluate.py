@@ -26,6 +26,8 @@ from tribodyn.studies.gear_pair.sweep_layout import layout_of
 
 #: Tables kept in a process; a table is about 100 kB.
 TABLES_KEPT = 32
+#: Speed of the pinion at which a static equilibrium is sought, rad/s: forces that go with speed vanish there.
+CREEP = 1e-3
 
 
 class Settings(NamedTuple):
@@ -160,17 +162,18 @@ _tables: OrderedDict[Hashable, Tabulated] = OrderedDict()
 def _start(prepared: Prepared, settings: Settings) -> np.ndarray:
     """Where a case begins: as its scenario says, or for a steady state at the equilibrium without friction.
 
-    The latter is the same at all speeds and therefore found once; a steady state does not remember it.
+    The latter is taken at `CREEP`, where it is the same at all speeds, and is therefore found once. At the
+    case's own speed damping of a moving error of transmission would make it another one.
     """
     if not settings.steady or prepared.case.solver.initial != "static":
         return initial_state(prepared.model, prepared.case.solver.initial)
     model = prepared.model
-    speedless = model.mechanics._replace(nominal_speed=0.0)
-    key = (id(model.table), model.options, *(np.asarray(value).tobytes() for value in speedless))
+    creeping = model.mechanics._replace(nominal_speed=CREEP)
+    key = (id(model.table), model.options, *(np.asarray(value).tobytes() for value in creeping))
     with _lock:
         kept = _equilibria.get(key)
     if kept is None or kept[0] is not model.table:
-        kept = model.table, static_equilibrium(frictionless(model))
+        kept = model.table, static_equilibrium(frictionless(model._replace(mechanics=creeping)))
         with _lock:
             _equilibria[key] = kept
             while len(_equilibria) > TABLES_KEPT:

@@ -1,0 +1,33 @@
+"""What a case of a sweep starts from does not depend on the cases done before it in the same process."""
+
+import importlib
+
+import numpy as np
+import pytest
+
+from tribodyn.studies.gear_pair.batch import GearPairs
+from tribodyn.studies.load import load_scenario
+
+evaluate = importlib.import_module("tribodyn.studies.gear_pair.batch.evaluate")
+
+MOVING_ERROR = {
+    "harmonics": [{"order": 1, "amplitude": "8 um", "phase": "90 deg"}],
+}
+
+
+@pytest.mark.parametrize("torque", ["100 N*m", "500 N*m"])
+def test_a_moving_error_does_not_carry_one_speed_over_to_another(torque: str, monkeypatch):
+    keys = {"mesh.transmission_error": MOVING_ERROR, "operating.gear_torque": torque}
+    cases = [
+        load_scenario("jump-involute-23-47", {**keys, "operating.pinion_speed": f"{speed} rad/s"})
+        for speed in (300, 500)
+    ]
+    settings = GearPairs().settings(cases, None, "native")
+
+    def starts(order: list[int]) -> dict[int, bytes]:
+        monkeypatch.setattr(evaluate, "_equilibria", type(evaluate._equilibria)())
+        ready = {i: evaluate.prepare(cases[i], evaluate.tabulated(cases[i])) for i in order}
+        return {i: evaluate._start(ready[i], settings).tobytes() for i in order}
+
+    assert starts([0, 1]) == starts([1, 0]) == {**starts([0]), **starts([1])}
+    assert np.all(np.isfinite(np.frombuffer(starts([1])[1])))
