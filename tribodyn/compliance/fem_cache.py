@@ -5,12 +5,12 @@ the mesh and the source of the method with all that it imports. A file that cann
 """
 
 import hashlib
+import io
+import struct
 import zipfile
 import zlib
 from collections.abc import Callable
-from contextlib import suppress
 from functools import lru_cache
-from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
@@ -18,12 +18,13 @@ import numpy as np
 from tribodyn.compliance.gear_compliance import NEIGHBOURS, FreeEnds, GearCompliance, LeadHarmonics
 from tribodyn.compliance.lead_harmonics import LARGEST_AT_ENDS, wave_numbers
 from tribodyn.geometry.tooth import Tooth, tooth_outline
-from tribodyn.numerics.cache import cache_folder, replacing
+from tribodyn.numerics.cache import keep, read_kept
 from tribodyn.numerics.sources import digest_of
 
 Kept = TypeVar("Kept", GearCompliance, LeadHarmonics, FreeEnds)
 
 _SECTORS = 2 * NEIGHBOURS + 1
+_FOLDER = "fem"
 #: What the stored arrays come from.
 _METHODS = ("tribodyn.compliance.fem", "tribodyn.compliance.free_ends")
 
@@ -90,7 +91,7 @@ def _ends(*arguments: Any) -> FreeEnds:
 
 def _kept(kind: type[Kept], fits: Callable[[Kept], bool], name: str, solve: Callable[[], Kept]) -> Kept:
     """Arrays of a file, or of `solve`, which are then kept in it."""
-    file = cache_folder() / "fem" / f"{name}.npz"
+    file = f"{name}.npz"
     stored = _read(kind, file)
     if stored is not None and fits(stored):
         return stored
@@ -139,11 +140,19 @@ def _source_digest() -> bytes:
     return digest_of(*_METHODS)
 
 
-def _read(kind: type[Kept], file: Path) -> Kept | None:
+def _read(kind: type[Kept], file: str) -> Kept | None:
+    content = read_kept(_FOLDER, file)
+    if content is None:
+        return None
     try:
-        with file.open("rb") as stream, np.load(stream, allow_pickle=False) as stored:
+        with zipfile.ZipFile(io.BytesIO(content)) as listed:
+            if any(one.compress_type != zipfile.ZIP_STORED for one in listed.infolist()):
+                return None  # not written here, and of unknown size
+        with np.load(io.BytesIO(content), allow_pickle=False) as stored:
             parts = {name: stored[name] for name in _arrays(kind)}
-    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, zlib.error):
+    except (OSError, ValueError, KeyError, EOFError, MemoryError, NotImplementedError, SyntaxError):
+        return None
+    except (zipfile.BadZipFile, zlib.error, RecursionError, OverflowError, struct.error):
         return None
     if not all(part.dtype == float and np.all(np.isfinite(part)) for part in parts.values()):
         return None
@@ -154,7 +163,7 @@ def _arrays(kind: Any) -> list[str]:
     return [name for name in kind._fields if name not in kind._field_defaults]
 
 
-def _write(file: Path, solved: GearCompliance | LeadHarmonics | FreeEnds) -> None:
-    """Keep it, or do without where the folder cannot be written: the cache is a convenience."""
-    with suppress(OSError), replacing(file) as scratch, scratch.open("wb") as stream:
-        np.savez(stream, **{part: getattr(solved, part) for part in _arrays(type(solved))})
+def _write(file: str, solved: GearCompliance | LeadHarmonics | FreeEnds) -> None:
+    content = io.BytesIO()
+    np.savez(content, **{part: getattr(solved, part) for part in _arrays(type(solved))})
+    keep(_FOLDER, file, content.getvalue())

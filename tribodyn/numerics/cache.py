@@ -1,19 +1,130 @@
-"""Where results that cost time are kept between processes, and how a file appears: whole or not at all."""
+"""Where results that cost time are kept between processes, and how a file appears: whole or not at all.
+
+Machine code is loaded from the cache, so that whoever can write there can run code as the user. Nothing is
+read from a folder or a file that somebody else owns or can write: the folder is then not used at all, and a
+warning says so once.
+"""
 
 import os
+import stat
 import threading
+import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from functools import cache
 from pathlib import Path
+
+#: Maximum size of a file of the cache, bytes; a file that is larger is none of ours. The largest are those
+#: of gears under loads along wide teeth, some 20 MB.
+MAXIMUM_SIZE = 2**29
+#: Permissions by which others could write.
+_OTHERS_WRITE = stat.S_IWGRP | stat.S_IWOTH
+#: Owner that the kernel shows for users it cannot name in a container.
+_UNNAMED = 65534
 
 
 def cache_folder() -> Path:
     """`TRIBODYN_CACHE`, or the user's cache folder: compiled kernels, XLA's code, solved gears."""
     if given := os.environ.get("TRIBODYN_CACHE"):
-        return Path(given)
+        return Path(given).absolute()
     from platformdirs import user_cache_path
 
     return user_cache_path("tribodyn")
+
+
+def trusted_folder(name: str) -> Path | None:
+    """A folder of the cache that the user alone can write; made where it is not there.
+
+    None where there is none: it cannot be made, or others can write it. That is reported once in a process.
+    """
+    return _trusted(cache_folder(), name)
+
+
+@cache
+def _trusted(whole: Path, name: str) -> Path | None:
+    folder = whole / name
+    reason = ""
+    try:
+        os.makedirs(whole.parent, exist_ok=True)
+        for part in (whole, folder):
+            with suppress(FileExistsError):
+                os.mkdir(part, 0o700)
+        reason = _why_not(whole, folder)
+    except OSError:  # where nothing can be kept, everything is computed anew
+        return None
+    if reason:
+        _warn(f"{reason}: nothing is kept there or read from there")
+        return None
+    return folder
+
+
+@cache
+def _warn(message: str) -> None:
+    warnings.warn(message, RuntimeWarning, stacklevel=2)
+
+
+def _why_not(whole: Path, folder: Path) -> str:
+    """Why a folder of the cache cannot be trusted; empty where it can."""
+    if os.name == "nt":  # the user's own folders are closed to others there
+        return ""
+    for part in (whole, folder):
+        found = part.stat()
+        if not stat.S_ISDIR(found.st_mode):
+            return f"the cache {part} is no folder"
+        if found.st_uid != os.geteuid():
+            return f"the cache {part} belongs to another user"
+        if found.st_mode & _OTHERS_WRITE:
+            return (
+                f"others can write to the cache {part} (remove it, or chmod -R go-w if its content is yours)"
+            )
+    for above in {*whole.parents, *whole.resolve().parents}:
+        found = above.stat()
+        foreign = found.st_uid not in (0, os.geteuid(), _UNNAMED)
+        shared = found.st_mode & stat.S_IWOTH and not found.st_mode & stat.S_ISVTX
+        if foreign or shared:
+            return f"others can replace the cache {whole}: {above} is theirs to write"
+    return ""
+
+
+def read_kept(folder: str, name: str) -> bytes | None:
+    """Content of a file of the cache; None where it is not there or not the user's own regular file."""
+    trusted = trusted_folder(folder)
+    if trusted is None:
+        return None
+    # no link is followed and no pipe waited for
+    flags = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
+    flags |= getattr(os, "O_BINARY", 0)
+    try:
+        number = os.open(trusted / name, flags)
+    except OSError:
+        return None
+    try:
+        found = os.fstat(number)
+        if not stat.S_ISREG(found.st_mode) or found.st_size > MAXIMUM_SIZE:
+            return None
+        if os.name != "nt" and (found.st_uid != os.geteuid() or found.st_mode & _OTHERS_WRITE):
+            return None
+        with open(number, "rb", closefd=False) as stream:
+            return stream.read(found.st_size)
+    except (OSError, MemoryError):
+        return None
+    finally:
+        os.close(number)
+
+
+def keep(folder: str, name: str, content: bytes) -> None:
+    """Keep a file in the cache, or do without where that is not possible: the cache is a convenience."""
+    trusted = trusted_folder(folder)
+    if trusted is None:
+        return
+    with suppress(OSError), replacing(trusted / name) as scratch:
+        with suppress(FileNotFoundError):
+            scratch.unlink()  # of a dead process that had the same number
+        flags = (
+            os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
+        )
+        with open(os.open(scratch, flags, 0o600), "wb") as stream:
+            stream.write(content)
 
 
 @contextmanager

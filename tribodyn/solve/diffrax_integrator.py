@@ -20,7 +20,7 @@ import numpy as np
 
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.parameters import DRIVE_SPEED, SLIP, STATES, Model, Options
-from tribodyn.numerics.cache import cache_folder
+from tribodyn.numerics.cache import trusted_folder
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.solve.diffrax_method import DiffraxMethod
 from tribodyn.solve.engagement import engaged
@@ -42,7 +42,10 @@ ROOM = 256
 @lru_cache(maxsize=1)
 def use_compilation_cache() -> None:
     """Keep XLA's compiled code between processes, beside the native kernel's."""
-    jax.config.update("jax_compilation_cache_dir", str(cache_folder() / "xla"))
+    folder = trusted_folder("xla")
+    if folder is None:
+        return
+    jax.config.update("jax_compilation_cache_dir", str(folder))
     jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.2)
 
 

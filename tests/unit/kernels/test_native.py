@@ -109,17 +109,20 @@ def test_code_from_disk_is_not_compiled_again_and_gives_the_same_bits(folder, ar
         lambda whole: whole[:-40] + bytes([whole[-40] ^ 1]) + whole[-39:],
         lambda whole: whole.replace(b'"returns": "d"', b'"returns": "q"'),
         lambda whole: b"[]" + whole[whole.index(b"\n") :],
+        lambda whole: b"[" * 200_000 + whole[whole.index(b"\n") :],
+        lambda whole: b"[" * 2_000_000 + whole[whole.index(b"\n") :],
     ],
-    ids=["empty", "foreign", "cut", "a bit turned", "head changed", "no head"],
+    ids=["empty", "foreign", "cut", "a bit turned", "head changed", "no head", "deep", "long"],
 )
 def test_a_damaged_file_is_compiled_anew(folder, damage):
     kernel(half.function)(1.0)
     file = kept(folder)
     whole = file.read_bytes()
     file.write_bytes(damage(whole))
-    assert store._read(file) is None
+    assert store._read(file.parent.name, file.name) is None
     assert kernel(half.function)(3.0) == 1.5
-    assert store._read(kept(folder)) is not None
+    file = kept(folder)
+    assert store._read(file.parent.name, file.name) is not None
 
 
 def test_code_that_calls_what_is_not_there_is_not_loaded():
@@ -140,13 +143,13 @@ def test_another_processor_or_compiler_has_files_of_its_own(folder, monkeypatch)
     for name in ("generic", "another"):
         monkeypatch.setattr(store.llvm, "get_host_cpu_name", lambda name=name: name)
         store._digest.cache_clear()
-        names.append(store._file_of(half.function, "layout"))
+        names.append(store._place_of(half.function, "layout"))
     monkeypatch.setenv("NUMBA_OPT", "0")
     store._digest.cache_clear()
-    names.append(store._file_of(half.function, "layout"))
+    names.append(store._place_of(half.function, "layout"))
     store._digest.cache_clear()
     assert len(set(names)) == 3
-    assert store._file_of(half.function, "layout") != store._file_of(half.function, "other")
+    assert store._place_of(half.function, "layout") != store._place_of(half.function, "other")
 
 
 def test_a_folder_that_cannot_be_written_keeps_nothing_and_hinders_nothing(tmp_path, monkeypatch):
@@ -183,4 +186,5 @@ def test_processes_that_start_at_once_leave_one_good_file(folder, tmp_path_facto
     )
     running = [subprocess.Popen([sys.executable, str(script)], cwd=Path.cwd()) for _ in range(2)]
     assert [process.wait() for process in running] == [0, 0]
-    assert store._read(kept(folder)) is not None
+    file = kept(folder)
+    assert store._read(file.parent.name, file.name) is not None

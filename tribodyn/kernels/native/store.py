@@ -11,7 +11,6 @@ import importlib.util
 import json
 import os
 from collections.abc import Callable
-from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -22,11 +21,13 @@ import llvmlite.binding as llvm
 from tribodyn.kernels.native.arguments import Record, is_kept
 from tribodyn.kernels.native.code import Code, Compiled
 from tribodyn.kernels.native.internals import report_missing
-from tribodyn.numerics.cache import cache_folder, replacing
+from tribodyn.numerics.cache import keep, read_kept
 from tribodyn.numerics.sources import digest_of
 
 #: What turns any kernel into machine code.
 _COMPILER = "tribodyn.kernels.native.compiler"
+#: Maximum length of the line of JSON, bytes; it is about 2 kB.
+_LONGEST_HEAD = 2**18
 
 
 def machine_code(function: Callable[..., Any], layout: Any) -> Code | None:
@@ -34,8 +35,8 @@ def machine_code(function: Callable[..., Any], layout: Any) -> Code | None:
 
     None where it is not on disk and this numba lacks what compiling takes, see `internals`.
     """
-    file = _file_of(function, layout)
-    kept = _read(file) if file else None
+    place = _place_of(function, layout)
+    kept = _read(*place) if place else None
     code = loaded(kept) if kept else None
     if code is None:
         if report_missing():
@@ -43,8 +44,8 @@ def machine_code(function: Callable[..., Any], layout: Any) -> Code | None:
         from tribodyn.kernels.native.compiler import compiled
 
         made = compiled(function, layout)
-        if file:
-            _write(file, made)
+        if place:
+            _write(*place, made)
         code = loaded(made)
         assert code is not None
     return code
@@ -64,15 +65,15 @@ def _digest(*modules: str) -> str:
     return digest.hexdigest()[:16]
 
 
-def _file_of(function: Callable[..., Any], layout: Any) -> Path | None:
-    """The file that the code is kept in; None if it cannot be kept, as what it depends on is not in files."""
+def _place_of(function: Callable[..., Any], layout: Any) -> tuple[str, str] | None:
+    """Folder of the cache and file; None where not all that the code depends on is in files."""
     source = Path(function.__code__.co_filename)
     if function.__closure__ or not source.is_file() or not is_kept(layout):
         return None
     digest = hashlib.sha256(repr(layout).encode() + source.read_bytes()).hexdigest()[:16]
     name = f"{function.__module__.removeprefix('tribodyn.')}.{function.__qualname__}-{digest}"
     modules = sorted({function.__module__, *_modules_in(layout)})
-    return cache_folder() / f"kernels-{_digest(*modules)}" / name
+    return f"kernels-{_digest(*modules)}", name
 
 
 def _modules_in(layout: Any) -> set[str]:
@@ -83,24 +84,25 @@ def _modules_in(layout: Any) -> set[str]:
     return {function.__module__} if function is not None else set()
 
 
-def _read(file: Path) -> Compiled | None:
+def _read(folder: str, name: str) -> Compiled | None:
     """Content of the file; None if it is not there or not as it was written."""
+    head, _, body = (read_kept(folder, name) or b"").partition(b"\n")
+    if len(head) > _LONGEST_HEAD:
+        return None
     try:
-        head, _, body = file.read_bytes().partition(b"\n")
         kept = json.loads(head)
         checked = kept.pop("sha256") == _checksum(kept, body)
         code = Compiled(**kept, body=body)
-    except (OSError, ValueError, TypeError, AttributeError, KeyError):
+    except (ValueError, TypeError, AttributeError, KeyError, RecursionError):
         return None
     return code if checked else None
 
 
-def _write(file: Path, code: Compiled) -> None:
+def _write(folder: str, name: str, code: Compiled) -> None:
     """Keep the code; where the folder cannot be written the next process compiles again."""
     head = {name: value for name, value in code._asdict().items() if name != "body"}
     head["sha256"] = _checksum(head, code.body)
-    with suppress(OSError), replacing(file) as scratch:
-        scratch.write_bytes(json.dumps(head).encode() + b"\n" + code.body)
+    keep(folder, name, json.dumps(head).encode() + b"\n" + code.body)
 
 
 def _checksum(head: dict[str, Any], body: bytes) -> str:

@@ -1,0 +1,114 @@
+"""The cache takes nothing that somebody else could have put there, and closes what it makes to others."""
+
+import os
+import stat
+import warnings
+from pathlib import Path
+
+import pytest
+
+from tribodyn.numerics import cache
+from tribodyn.numerics.cache import keep, read_kept, trusted_folder
+
+posix = pytest.mark.skipif(os.name == "nt", reason="permissions of POSIX")
+root = pytest.mark.skipif(os.name == "nt" or os.geteuid() != 0, reason="only root can give files away")
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("TRIBODYN_CACHE", str(tmp_path / "cache"))
+    cache._trusted.cache_clear()
+    cache._warn.cache_clear()
+    return tmp_path / "cache"
+
+
+def mode(path: Path) -> int:
+    return stat.S_IMODE(path.stat().st_mode)
+
+
+@posix
+def test_what_is_kept_is_closed_to_others_whatever_the_umask(folder: Path):
+    before = os.umask(0)
+    try:
+        keep("things", "one", b"content")
+    finally:
+        os.umask(before)
+    assert read_kept("things", "one") == b"content"
+    assert (mode(folder), mode(folder / "things"), mode(folder / "things" / "one")) == (0o700, 0o700, 0o600)
+    assert [path.name for path in (folder / "things").iterdir()] == ["one"]
+
+
+@posix
+@pytest.mark.parametrize("open_part", ["", "things"])
+def test_a_folder_that_others_can_write_is_not_used_and_that_is_said_once(folder: Path, open_part: str):
+    keep("things", "one", b"content")
+    (folder / open_part).chmod(0o770)
+    cache._trusted.cache_clear()
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        assert read_kept("things", "one") is None
+        keep("things", "two", b"more")
+        assert read_kept("things", "two") is None
+    (warning,) = said
+    assert "others can write to the cache" in str(warning.message)
+    assert not (folder / "things" / "two").exists()
+
+
+@posix
+def test_a_cache_in_a_folder_that_anybody_can_write_is_not_used(tmp_path: Path, monkeypatch):
+    shared = tmp_path / "shared"
+    shared.mkdir()
+    shared.chmod(0o777)
+    monkeypatch.setenv("TRIBODYN_CACHE", str(shared / "cache"))
+    with pytest.warns(RuntimeWarning, match="others can replace the cache"):
+        assert trusted_folder("things") is None
+    shared.chmod(0o1777)  # as /tmp: nobody can remove what others have there
+    cache._trusted.cache_clear()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert trusted_folder("things") == shared / "cache" / "things"
+
+
+@root
+@pytest.mark.parametrize("part", ["", "things", "things/one"])
+def test_what_belongs_to_somebody_else_is_not_read(folder: Path, part: str):
+    keep("things", "one", b"content")
+    os.chown(folder / part, 1234, 1234)
+    cache._trusted.cache_clear()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)
+        assert read_kept("things", "one") is None
+
+
+@posix
+@pytest.mark.parametrize(
+    "planted", ["pipe", "link to a device", "link to a file", "folder", "open file", "huge"]
+)
+def test_what_is_no_file_of_the_user_alone_is_not_read(folder: Path, planted: str):
+    keep("things", "other", b"content")
+    file = folder / "things" / "one"
+    if planted == "pipe":
+        os.mkfifo(file)
+    elif planted == "link to a device":
+        file.symlink_to("/dev/zero")
+    elif planted == "link to a file":
+        file.symlink_to(folder / "things" / "other")
+    elif planted == "folder":
+        file.mkdir()
+    else:
+        file.write_bytes(b"content")
+        file.chmod(0o666 if planted == "open file" else 0o600)
+        if planted == "huge":
+            os.truncate(file, cache.MAXIMUM_SIZE + 1)
+    assert read_kept("things", "one") is None
+
+
+@posix
+def test_a_link_where_a_file_is_to_be_written_is_not_followed(folder: Path, tmp_path: Path):
+    keep("things", "one", b"content")
+    target = tmp_path / "target"
+    target.write_bytes(b"untouched")
+    (folder / "things" / "two").symlink_to(target)
+    keep("things", "two", b"new")
+    assert target.read_bytes() == b"untouched"
+    assert read_kept("things", "two") == b"new"
