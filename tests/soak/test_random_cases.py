@@ -1,0 +1,36 @@
+"""Random drives and duties: complete and consistent, or refused with a true reason: docs/soak.md."""
+
+import pytest
+
+from tools.soak.kept import add, read, store
+from tools.soak.outcome import FAULTY, run_one
+
+#: The cases of `make soak`, in portions: what a stopped one has done is not done again.
+SEED, CASES, PORTION = 1, 2000, 50
+#: A few that run with all tests, on laws whose kernels others need too.
+SHORT_SEED, SHORT_CASES = 7, 24
+
+
+def said(one) -> str:
+    again = f"python -m tools.soak --seed {one.seed} --case {one.case}"
+    return "\n    ".join([again, *one.faults])
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("number", range(SHORT_CASES))
+def test_a_few_cases(number: int):
+    one = run_one(SHORT_SEED, number, short=True)
+    assert one.status != FAULTY, said(one)
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("first", range(0, CASES, PORTION))
+def test_two_thousand_cases(first: int):
+    path = store(SEED)
+    known = {one.case: one for one in read(path)}
+    for number in range(first, first + PORTION):
+        if number not in known:
+            known[number] = run_one(SEED, number)
+            add(path, known[number])
+    faulty = [known[number] for number in range(first, first + PORTION) if known[number].status == FAULTY]
+    assert not faulty, "\n".join(said(one) for one in faulty)

@@ -1,0 +1,74 @@
+"""The command line: python -m tools.soak; see the package."""
+
+import argparse
+import logging
+import sys
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from multiprocessing import get_context
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from tools.marked_block import put
+from tools.soak import kept
+from tools.soak.outcome import FAULTY, Outcome, outcome, run_one
+from tools.soak.table import table
+
+
+def main() -> None:
+    """Run cases that have no outcome yet; print what is wrong, and the table."""
+    parser = argparse.ArgumentParser(prog="python -m tools.soak", description=__doc__)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--case", type=int, help="this case alone, again")
+    parser.add_argument("--keep", type=Path, help="with --case: folder for its scenario and record")
+    parser.add_argument("--first", type=int, default=0, help="number of the first case")
+    parser.add_argument("--count", type=int, default=2000)
+    parser.add_argument("--jobs", type=int, default=1, help="processes")
+    parser.add_argument("--into", type=Path, help="page with the marked block for the table")
+    given = parser.parse_args()
+    if given.case is not None:
+        sys.exit(_again(given.seed, given.case, given.keep))
+    store = kept.store(given.seed)
+    wanted = range(given.first, given.first + given.count)
+    known = {one.case: one for one in kept.read(store)}
+    waiting = [number for number in wanted if number not in known]
+    print(
+        f"seed {given.seed}: {len(wanted) - len(waiting)} outcomes in {store}, {len(waiting)} to do",
+        flush=True,
+    )
+    with ProcessPoolExecutor(given.jobs, mp_context=get_context("spawn")) as pool:
+        futures = [pool.submit(run_one, given.seed, number) for number in waiting]
+        for done, future in enumerate(as_completed(futures), 1):
+            one = future.result()
+            kept.add(store, one)
+            known[one.case] = one
+            if one.status == FAULTY:
+                print(_said(one), flush=True)
+            if done % 50 == 0:
+                print(f"{done} of {len(waiting)}", flush=True)
+    outcomes = [known[number] for number in wanted]
+    text = table(outcomes)
+    print(text)
+    if given.into:
+        put(given.into, "soak", text)
+    sys.exit(any(one.status == FAULTY for one in outcomes))
+
+
+def _again(seed: int, number: int, keep: Path | None) -> int:
+    logging.basicConfig()
+    logging.getLogger("tools.soak").setLevel(logging.DEBUG)
+    with TemporaryDirectory() as scratch:
+        folder = keep or Path(scratch)
+        folder.mkdir(parents=True, exist_ok=True)
+        one = outcome(seed, number, folder)
+        print((folder / "case.toml").read_text(encoding="utf-8"))
+    print(_said(one))
+    return int(one.status == FAULTY)
+
+
+def _said(one: Outcome) -> str:
+    head = f"seed {one.seed} case {one.case}: {one.sort} {one.family} {one.status} {one.reason}".rstrip()
+    return "\n".join([f"{head} ({one.seconds:.2g} s)", *(f"    {fault}" for fault in one.faults)])
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,109 @@
+"""Cases: from a seed and a number to a scenario."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import tomli_w
+
+from tools.soak import duties, studies
+from tools.soak.draw import Draw
+from tools.soak.drives import drive
+from tribodyn.errors import InputError
+from tribodyn.geometry.checks import check
+from tribodyn.geometry.families import family
+from tribodyn.studies.load import load_scenario
+
+#: A drive that cannot be made is drawn again, so often at most; what was refused is looked into as well.
+MOST_DRAWS = 40
+#: What a case is, and its weight among all.
+SORTS = {
+    "gear-pair": 74,
+    "efficiency": 9,
+    "load-contact": 6,
+    "sweep, steady": 4,
+    "sweep, transient": 3,
+    "backlash-oscillator": 2,
+    "irefc": 2,
+}
+
+
+class Refused(NamedTuple):
+    """A scenario that was refused, and with what words."""
+
+    scenario: dict[str, Any]
+    error: InputError
+
+
+class SoakCase(NamedTuple):
+    """A case: what sort of one, its scenario, and the drives that were refused on the way to it."""
+
+    sort: str
+    scenario: dict[str, Any]
+    refused: tuple[Refused, ...]
+
+
+def case(seed: int, number: int, folder: Path, short: bool = False) -> SoakCase:
+    """Make a case.
+
+    Parameters
+    ----------
+    seed, number : int
+    folder : Path
+        For scenarios that are tried.
+    short : bool
+        Only dynamics, under laws whose kernels other tests compile: for tests that have seconds.
+    """
+    draw = Draw(seed, number)
+    sort = "gear-pair" if short else draw.one(tuple(SORTS), tuple(SORTS.values()))
+    if sort == "backlash-oscillator":
+        return SoakCase(sort, studies.oscillator(draw), ())
+    if sort == "irefc":
+        return SoakCase(sort, studies.rolling(draw), ())
+    make = _MAKERS.get(sort, lambda draw, table: duties.gear_pair(draw, table, short))
+    table, refused = _drive(draw, folder)
+    return SoakCase(sort, make(draw, table), refused)
+
+
+_MAKERS: dict[str, Callable[[Draw, dict[str, Any]], dict[str, Any]]] = {
+    "efficiency": studies.efficiency,
+    "load-contact": studies.load_contact,
+    "sweep, steady": lambda draw, table: studies.steady(duties.gear_pair(draw, table)),
+    "sweep, transient": lambda draw, table: studies.marched(duties.gear_pair(draw, table)),
+}
+
+
+def _drive(draw: Draw, folder: Path) -> tuple[dict[str, Any], tuple[Refused, ...]]:
+    """Return a drive that can be made; the last one drawn where none can."""
+    refused: list[Refused] = []
+    table = drive(draw)
+    while (error := geometry_error(table, folder)) and len(refused) < MOST_DRAWS:
+        refused.append(Refused(bare(table), error))
+        table = drive(draw)
+    return table, tuple(refused)
+
+
+def bare(table: dict[str, Any]) -> dict[str, Any]:
+    """Return a scenario that needs no more than a drive's geometry: a load contact study."""
+    return {
+        "title": "A random drive",
+        "kind": "load-contact",
+        "drive": table,
+        "operating": {"gear_torque": "1 N*m"},
+    }
+
+
+def geometry_error(table: dict[str, Any], folder: Path) -> InputError | None:
+    """Return what is wrong with a drive's table, if it is anything."""
+    try:
+        read = load_scenario(written(bare(table), folder / "drive.toml"))
+        check(family(read.family), read.drive)
+    except InputError as error:
+        return error
+    return None
+
+
+def written(scenario: dict[str, Any], path: Path) -> Path:
+    """Write a scenario; return its path."""
+    path.write_text(tomli_w.dumps(scenario), encoding="utf-8")
+    return path

@@ -1,0 +1,163 @@
+"""What must hold for the record of any gear pair, whatever the drive and the duty."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from tribodyn.record.reader import Record
+
+#: Numbers at every sample.
+ALWAYS = (
+    *("time", "pinion_angle", "displacement", "velocity", "transmission_error_rotational"),
+    *("normal_load", "friction_force", "mesh_stiffness", "drive_torque", "stored_energy"),
+    *("power_in", "power_out", "power_friction", "power_damping", "power_parametric"),
+    *("work_in", "work_out", "work_friction", "work_damping", "work_parametric"),
+)
+#: Numbers wherever a pair carries, and not elsewhere (the first four: on the whole path of contact).
+ON_PATH = ("transmission_error", "pressure_angle", "equivalent_radius", "entrainment_speed", "sliding_speed")
+LOADED = (
+    *("friction_coefficient", "asperity_load_ratio", "central_film_thickness", "film_parameter"),
+    *("hertz_pressure", "flash_temperature_rise"),
+)
+#: Never below zero.
+NOT_NEGATIVE = ("normal_load", "mesh_stiffness", *LOADED)
+#: Summary name, dataset, whether it is the maximum.
+EXTREMES = (
+    ("normal_load_max", "normal_load", True),
+    ("film_min", "central_film_thickness", False),
+    ("film_parameter_min", "film_parameter", False),
+    ("hertz_pressure_max", "hertz_pressure", True),
+    ("flash_temperature_max", "flash_temperature_rise", True),
+)
+#: Energy residual over the relative tolerance.
+RESIDUAL = 10.0
+
+
+def faults(record: Record, rtol: float) -> Iterator[str]:
+    """Say what is wrong with a complete or failed record of a gear pair's dynamics."""
+    if record.samples == 0:
+        return
+    data = {name: record[name] for name in record}
+    yield from _numbers(data)
+    yield from _friction(data)
+    yield from _damping(data, _metres(record.scenario["mesh"].get("contact_width", "0.1 um")))
+    yield from _summary(record, data)
+    yield from _energy(record, data, rtol)
+    if record.status == "complete":
+        yield from _means(record, data)
+
+
+def _numbers(data: dict[str, np.ndarray]) -> Iterator[str]:
+    for name in ALWAYS:
+        if name in data and not np.all(np.isfinite(data[name])):
+            yield f"{name} is not finite at {_first(~np.isfinite(data[name]))}"
+    load = data["normal_load"]
+    for name in (*ON_PATH, *LOADED):
+        if not np.all(np.isfinite(data[name][load > 0])):
+            yield f"{name} is not finite under load at {_first((load > 0) & ~np.isfinite(data[name]))}"
+    for name in LOADED:
+        if not np.all(np.isnan(data[name][load == 0])):
+            yield f"{name} is a number where nothing is loaded"
+    for name in NOT_NEGATIVE:
+        if name in data and np.nanmin(data[name], initial=0.0) < 0:
+            yield f"{name} falls to {np.nanmin(data[name]):.4g}"
+    ratio = data["asperity_load_ratio"][load > 0]
+    if np.any(ratio > 1):
+        yield f"asperities carry {np.max(ratio):.6g} of the load"
+    if np.any(data["central_film_thickness"][load > 0] <= 0):
+        yield "the film is not thicker than zero"
+    for name in ("time", "pinion_angle"):
+        if not np.all(np.diff(data[name]) > 0):
+            yield f"{name} does not increase at {_first(np.diff(data[name]) <= 0)}"
+
+
+def _friction(data: dict[str, np.ndarray]) -> Iterator[str]:
+    load, force = data["normal_load"], np.abs(data["friction_force"])
+    most = np.where(load > 0, np.nan_to_num(data["friction_coefficient"]) * load, 0.0)
+    if np.any(force > most * (1 + 1e-9) + 1e-12):
+        yield f"friction exceeds μ F_n at {_first(force > most * (1 + 1e-9) + 1e-12)}"
+
+
+def _damping(data: dict[str, np.ndarray], width: float) -> Iterator[str]:
+    """Damping takes energy; where a pair's deflection is below the width of contact, its onset gives some."""
+    load = data["normal_load"]
+    exact = np.all((load == 0) | (load > 2.0 * width * data["mesh_stiffness"]), axis=1)
+    power = data["power_damping"]
+    if np.any(power[exact] < -1e-12 * np.max(np.abs(data["power_in"]), initial=0.0)):
+        yield f"power_damping falls to {np.min(power[exact]):.4g}"
+
+
+def _metres(text: str) -> float:
+    number, unit = text.split()
+    return float(number) * {"um": 1e-6, "mm": 1e-3}[unit]
+
+
+def _summary(record: Record, data: dict[str, np.ndarray]) -> Iterator[str]:
+    summary = record.summary
+    for key, name, greatest in EXTREMES:
+        values = data[name][np.isfinite(data[name])]
+        if not values.size or key not in summary:
+            continue
+        sampled, said = float(values.max() if greatest else values.min()), float(summary[key])
+        beyond = said - sampled if greatest else sampled - said
+        if not beyond >= -1e-9 * abs(sampled):
+            yield f"summary {key} = {said:.9g}, a sample of {name} is {sampled:.9g}"
+    for key, value in _plain(summary):
+        if isinstance(value, str):
+            continue
+        if np.any(np.isinf(np.asarray(value, dtype=float))):
+            yield f"summary {key} is infinite"
+
+
+def _energy(record: Record, data: dict[str, np.ndarray], rtol: float) -> Iterator[str]:
+    summary = record.summary
+    residual = summary.get("energy_residual")
+    if residual is None:
+        if record.samples > 1 and record.status == "complete":
+            yield "the summary has no energy residual"
+        return
+    if not abs(residual) <= RESIDUAL * rtol:
+        yield f"energy residual {residual:.3g}, {abs(residual) / rtol:.3g} times rtol"
+
+
+def _means(record: Record, data: dict[str, np.ndarray]) -> Iterator[str]:
+    summary = record.summary
+    samples = record.scenario["output"]["samples_per_cycle"]
+    cycles = record.scenario["solver"]["cycles"]
+    if record.samples != samples * cycles + 1:
+        yield f"{record.samples} samples of {cycles} cycles"
+    window = slice(record.samples - 1 - samples * summary["averaging_cycles"], record.samples)
+    work = {name: float(np.diff(data[f"work_{name}"][[window.start, -1]])[0]) for name in ("in", "friction")}
+    time = float(np.diff(data["time"][[window.start, -1]])[0])
+    efficiency = summary.get("efficiency")
+    if efficiency is not None and np.isfinite(efficiency):
+        if not 0 <= efficiency <= 1:
+            yield f"efficiency {efficiency:.6g}"
+    for key, value in (
+        ("power_in_mean", work["in"] / time),
+        ("power_friction_mean", work["friction"] / time),
+    ):
+        if not np.isclose(summary[key], value, rtol=1e-6, atol=1e-9 * abs(work["in"] / time)):
+            yield f"summary {key} = {summary[key]:.9g}, the record's works give {value:.9g}"
+    error = data["transmission_error_rotational"][window.start : -1]
+    spread = summary["transmission_error_rotational_peak_to_peak"]
+    if not spread >= np.ptp(error) * (1 - 1e-9):
+        yield f"summary peak to peak {spread:.9g}, the samples' {np.ptp(error):.9g}"
+    touching = np.any(data["normal_load"][window.start : -1] > 0, axis=1)
+    lost = summary["contact_loss_fraction"]
+    if abs(lost - np.mean(~touching)) > 2.0 / samples:
+        yield f"summary contact_loss_fraction {lost:.6g}, the samples' {np.mean(~touching):.6g}"
+
+
+def _plain(summary: dict[str, Any]) -> Iterator[tuple[str, Any]]:
+    for key, value in summary.items():
+        if isinstance(value, dict):
+            yield from _plain(value)
+        elif value is not None:
+            yield key, value
+
+
+def _first(where: np.ndarray) -> str:
+    place = tuple(int(i) for i in np.argwhere(where)[0])
+    return f"sample {place[0]}" + (f", pair slot {place[1]}" if len(place) > 1 else "")

@@ -1,0 +1,141 @@
+"""What must hold for the records of the studies beside a gear pair's dynamics, and for sweeps."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from tribodyn.record.reader import Record
+from tribodyn.record.sweep_reader import SweepRecord
+from tribodyn.record.sweep_schema import DONE
+
+#: Largest share by which the torque of the loads may miss the gear's.
+TORQUE_RESIDUAL = 1e-6
+
+
+def efficiency_faults(record: Record) -> Iterator[str]:
+    """Say what is wrong with the record of an efficiency study."""
+    summary = record.summary
+    for key, value in summary.items():
+        if key.startswith("efficiency") and not 0 <= value <= 1:
+            yield f"summary {key} = {value:.6g}"
+    if not abs(summary["energy_residual"]) <= 1e-6:
+        yield f"energy residual {summary['energy_residual']:.3g}"
+    load = record["normal_load"]
+    if not np.all(load >= 0):
+        yield f"normal_load falls to {np.nanmin(load):.4g}"
+    for name in (
+        "central_film_thickness",
+        "hertz_pressure",
+        "friction_coefficient",
+        "flash_temperature_rise",
+    ):
+        values = record[name][load > 0]
+        if not np.all(np.isfinite(values)) or not np.all(values >= 0):
+            yield f"{name} is negative or no number under load"
+    for key, name, sign in (
+        ("normal_load_max", "normal_load", 1),
+        ("hertz_pressure_max", "hertz_pressure", 1),
+        ("film_min", "central_film_thickness", -1),
+    ):
+        sampled = np.nanmax(sign * record[name])
+        if not sign * summary[key] >= sampled - 1e-9 * abs(sampled):
+            yield f"summary {key} = {summary[key]:.9g}, a sample of {name} is {sign * sampled:.9g}"
+    power = record["power_in"] - record["power_out"] - record["power_friction"]
+    if not np.all(np.abs(power) <= 1e-6 * np.max(record["power_in"])):
+        yield f"power_in - power_out - power_friction up to {np.max(np.abs(power)):.4g} W"
+
+
+def load_contact_faults(record: Record) -> Iterator[str]:
+    """Say what is wrong with the record of a load contact study."""
+    for name in record:
+        values = record[name]
+        loaded = record["normal_load"] > 0
+        if name == "face_load_factor":
+            if not np.all(values[loaded] >= 1 - 1e-9):
+                yield f"face_load_factor falls to {np.min(values[loaded]):.6g}"
+        elif values.dtype.kind == "f" and not np.all(np.isfinite(values)):
+            yield f"{name} is not finite"
+    for name in ("normal_load", "line_load", "hertz_pressure", "half_width", "mesh_stiffness"):
+        if not np.all(record[name] >= 0):
+            yield f"{name} falls to {np.min(record[name]):.4g}"
+    if not np.all(np.any(record["normal_load"] > 0, axis=1)):
+        yield "there are positions at which no pair carries"
+    residual = np.max(np.abs(record["torque_residual"]))
+    if not residual <= TORQUE_RESIDUAL:
+        yield f"torque residual {residual:.3g}"
+    for key, name in (
+        ("normal_load_max", "normal_load"),
+        ("hertz_pressure_max", "hertz_pressure"),
+        ("line_load_max", "line_load"),
+    ):
+        if not np.isclose(record.summary[key], np.max(record[name]), rtol=1e-9):
+            yield f"summary {key} = {record.summary[key]:.9g}, the record has {np.max(record[name]):.9g}"
+    if np.min(record["root_tension"].max(axis=-1)) < -1e-9 * np.max(record["root_tension"]):
+        yield "the maximum stress along a fillet is compression"
+
+
+def any_faults(record: Record) -> Iterator[str]:
+    """Say what is wrong with the record of a study of which no more is known: numbers that are none."""
+    for name in record:
+        values = record[name]
+        if values.dtype.kind == "f" and np.any(np.isinf(values)):
+            yield f"{name} is infinite"
+    for key, value in record.summary.items():
+        if isinstance(value, float) and np.isinf(value):
+            yield f"summary {key} is infinite"
+
+
+def rolling_faults(record: Record) -> Iterator[str]:
+    """Say what is wrong with the record of a gear with rolling elements."""
+    yield from any_faults(record)
+    for name in record:
+        values = record[name]
+        if values.dtype.kind == "f" and name != "time" and not np.all(np.isfinite(values)):
+            yield f"{name} is not finite"
+    if not np.all(record["normal_load"] >= 0):
+        yield "normal_load is negative"
+    if not 0 <= record.summary["efficiency"] <= 1:
+        yield f"efficiency {record.summary['efficiency']:.6g}"
+
+
+def sweep_faults(record: SweepRecord) -> Iterator[str]:
+    """Say what is wrong with the record of a sweep of a gear pair's dynamics."""
+    done = record["status"] == DONE
+    for name in record.figures:
+        values = record[name][done] if name in record else np.zeros(0)
+        if values.dtype.kind == "f" and np.any(np.isinf(values)):
+            yield f"{name} is infinite"
+    efficiency = record["efficiency"][done]
+    out = efficiency[np.isfinite(efficiency) & ~((efficiency >= 0) & (efficiency <= 1))]
+    if out.size:
+        yield f"efficiency {out[0]:.6g}"
+    for name in ("normal_load_max", "film_min", "hertz_pressure_max", "transmission_error_peak_to_peak"):
+        if np.any(record[name][done] < 0):
+            yield f"{name} is negative"
+    error = record["transmission_error_rotational"][done]
+    if error.size:
+        with np.errstate(invalid="ignore"):
+            spread = np.nanmax(error, axis=-1) - np.nanmin(error, axis=-1)
+        said = record["transmission_error_peak_to_peak"][done]
+        if not np.all(said >= spread * (1 - 1e-9)):
+            yield "transmission_error_peak_to_peak is less than that of the samples"
+        if not np.all(np.isfinite(record["state"][done])):
+            yield "state is not finite"
+
+
+def sweep_against_run(record: SweepRecord, summary: dict[str, Any], rtol: float) -> Iterator[str]:
+    """Compare the first case of a sweep of transients with the same run by itself."""
+    place = (0,) * len(record.dims)
+    if record.case("status", place) != DONE:
+        yield "the run by itself is complete, the sweep's first case is not"
+        return
+    size = abs(summary["power_in_mean"])
+    for name, scale in (
+        ("mesh_frequency", summary["mesh_frequency"]),
+        ("power_in_mean", size),
+        ("power_friction_mean", size),
+    ):
+        one, other = float(record.case(name, place)), float(summary[name])
+        if not abs(one - other) <= 1e3 * rtol * scale:
+            yield f"{name}: {one:.9g} in the sweep, {other:.9g} in the run by itself"

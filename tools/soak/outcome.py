@@ -1,0 +1,218 @@
+"""Runs a case and says what became of it."""
+
+import logging
+import signal
+import traceback
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from io import StringIO
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from time import process_time
+from typing import Any, NamedTuple
+
+from rich.console import Console
+
+from tools.soak.cases import SoakCase, case, written
+from tools.soak.gear_records import faults as gear_faults
+from tools.soak.other_records import (
+    any_faults,
+    efficiency_faults,
+    load_contact_faults,
+    rolling_faults,
+    sweep_against_run,
+    sweep_faults,
+)
+from tools.soak.refusals import untrue
+from tribodyn.errors import InputError
+from tribodyn.record.reader import Record
+from tribodyn.record.sweep_reader import SweepRecord
+from tribodyn.studies.load import load_scenario
+from tribodyn.studies.pictures import summary_table, sweep_table
+from tribodyn.studies.run import run
+from tribodyn.sweep.engines import Local
+from tribodyn.sweep.grid import Grid
+from tribodyn.sweep.run import run as run_sweep
+from tribodyn.sweep.run import settings_of
+
+_log = logging.getLogger(__name__)
+
+#: Seconds after which a case counts as hanging.
+LONGEST = 300
+COMPLETE, REFUSED, STOPPED, FAULTY = "complete", "refused", "stopped", "faulty"
+
+
+class Outcome(NamedTuple):
+    """What became of a case.
+
+    Attributes
+    ----------
+    seed, case : int
+    sort : str
+        As in `cases.SORTS`.
+    family : str
+        Of its teeth; empty where it has none.
+    status : str
+        "complete", "refused" or "stopped", or "faulty" with what is wrong.
+    reason : str
+        Why it was refused or stopped.
+    faults : tuple of str
+        What must not be.
+    drives_refused : int
+        Drives drawn before one that can be made.
+    residual : float
+        Energy residual over the relative tolerance, of a complete run; else NaN.
+    seconds : float
+        Of processor time.
+    """
+
+    seed: int
+    case: int
+    sort: str
+    family: str
+    status: str
+    reason: str
+    faults: tuple[str, ...]
+    drives_refused: int
+    residual: float
+    seconds: float
+
+
+def outcome(seed: int, number: int, folder: Path, short: bool = False) -> Outcome:
+    """Make and run a case; its scenario and records stay in the folder."""
+    begun = process_time()
+    made = case(seed, number, folder, short)
+    said = [fault for one in made.refused for fault in untrue(one, folder)]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        status, reason, faults, residual = _tried(made, folder)
+    said += faults
+    family = made.scenario.get("drive", {}).get("family", "")
+    status = FAULTY if said else status
+    seconds = round(process_time() - begun, 3)
+    return Outcome(
+        seed, number, made.sort, family, status, reason, tuple(said), len(made.refused), residual, seconds
+    )
+
+
+def run_one(seed: int, number: int, short: bool = False) -> Outcome:
+    """Make and run a case in a folder of its own, which goes."""
+    with TemporaryDirectory() as folder:
+        return outcome(seed, number, Path(folder), short)
+
+
+def _tried(made: SoakCase, folder: Path) -> tuple[str, str, list[str], float]:
+    try:
+        with _limited():
+            return _run(made, folder)
+    except InputError as error:
+        return REFUSED, str(error), _unclear(error), float("nan")
+    except Exception:
+        _log.debug("the case ended in an error", exc_info=True)
+        last = traceback.format_exc().strip().splitlines()
+        place = next((line.strip() for line in reversed(last) if line.lstrip().startswith("File")), "")
+        return FAULTY, "", [f"{last[-1]} ({place})"], float("nan")
+
+
+def _run(made: SoakCase, folder: Path) -> tuple[str, str, list[str], float]:
+    path, record = written(made.scenario, folder / "case.toml"), folder / "case.h5"
+    if made.sort.startswith("sweep"):
+        return _swept(made, path, record)
+    result = run(load_scenario(path), record, force=True)
+    with Record(result.path) as written_record:
+        faults = list(_faults(made, written_record))
+        faults += _printed(summary_table(written_record))
+        samples = written_record.samples
+    if result.status == "complete":
+        residual = result.summary.get("energy_residual", float("nan"))
+        return COMPLETE, "", faults, abs(residual) / _rtol(made)
+    return (
+        STOPPED,
+        result.message,
+        faults + _doubtful(made, result.summary, result.message, samples),
+        float("nan"),
+    )
+
+
+def _faults(made: SoakCase, record: Record) -> Iterator[str]:
+    if made.sort == "gear-pair":
+        yield from gear_faults(record, _rtol(made))
+    elif record.status != "complete":
+        return
+    elif made.sort == "efficiency":
+        yield from efficiency_faults(record)
+    elif made.sort == "load-contact":
+        yield from load_contact_faults(record)
+    elif made.sort == "irefc":
+        yield from rolling_faults(record)
+    else:
+        yield from any_faults(record)
+
+
+def _swept(made: SoakCase, path: Path, target: Path) -> tuple[str, str, list[str], float]:
+    speed, unit = str(made.scenario["operating"]["pinion_speed"]).split()
+    values = ",".join(f"{float(speed) * factor:.6g}" for factor in (1.0, 1.1, 1.25))
+    grid = Grid(str(path), [f"operating.pinion_speed={values}{unit}"], {})
+    transient = 8 if made.sort == "sweep, transient" else None
+    directions = () if transient else ("up", "down")
+    settings = settings_of(grid, transient)
+    result = run_sweep(grid, settings, Local(1), target, directions=directions, force=True)
+    with SweepRecord(result.path) as record:
+        faults = list(sweep_faults(record)) + _printed(sweep_table(record))
+        reasons = sorted({why for _, why in record.failures()})
+        if transient:
+            alone = run(load_scenario(path), target.with_name("alone.h5"), force=True)
+            if alone.status == "complete":
+                faults += sweep_against_run(record, alone.summary, _rtol(made))
+    status = COMPLETE if result.status == "complete" else STOPPED
+    return status, "; ".join(reasons), faults, float("nan")
+
+
+def _rtol(made: SoakCase) -> float:
+    return float(made.scenario.get("solver", {}).get("rtol", 1e-6))
+
+
+def _printed(table: Any) -> list[str]:
+    """What is wrong with a summary as it is printed."""
+    page = StringIO()
+    Console(file=page, width=200).print(table)
+    words = page.getvalue().lower().split()
+    return [f'the summary prints "{word}"' for word in ("nan", "inf", "-inf", "none") if word in words]
+
+
+def _unclear(error: InputError) -> list[str]:
+    """What is wrong with a refusal as such: key, rule and remedy belong to it."""
+    parts = getattr(error, "errors", (error,))
+    return [
+        f"the refusal lacks {name}: {one}"
+        for one in parts
+        for name in ("key", "rule")
+        if not getattr(one, name)
+    ]
+
+
+def _doubtful(made: SoakCase, summary: dict[str, Any], message: str, samples: int) -> list[str]:
+    """What speaks against the reason that a run was stopped for."""
+    limit = made.scenario.get("solver", {}).get("max_steps")
+    if "limit of steps" in message and not summary["steps"] >= limit:
+        return [f"stopped at the limit of {limit} steps after {summary['steps']}"]
+    if "stopped being finite" in message or "solver gave up" in message or "step size fell" in message:
+        return [message]
+    return []
+
+
+@contextmanager
+def _limited() -> Iterator[None]:
+    """Raise TimeoutError where a case takes too long."""
+
+    def hangs(_number: int, _frame: Any) -> None:
+        raise TimeoutError(f"still running after {LONGEST} s")
+
+    before = signal.signal(signal.SIGALRM, hangs)
+    signal.alarm(LONGEST)
+    try:
+        yield
+    finally:
+        signal.alarm(0)
+        signal.signal(signal.SIGALRM, before)

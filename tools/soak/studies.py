@@ -1,0 +1,134 @@
+"""Random scenarios of the studies beside a gear pair's dynamics."""
+
+from typing import Any
+
+from tools.soak.draw import Draw, quantity
+from tools.soak.drives import size_of
+from tools.soak.duties import laws, lubricant, scale_of, torque
+
+
+def efficiency(draw: Draw, drive: dict[str, Any]) -> dict[str, Any]:
+    """Return the scenario of an efficiency study."""
+    speed = draw.decades(0.01, 3000.0)
+    mesh: dict[str, Any] = {"load_sharing": draw.one(("elastic", "uniform", "single-pair"))}
+    if draw.chance(0.1):
+        mesh["compliance"] = "fem"
+    elif draw.chance(0.3):
+        mesh["hertz"] = "load-dependent"
+    return {
+        "title": "A random efficiency study",
+        "kind": "efficiency",
+        "drive": drive,
+        "lubricant": lubricant(draw),
+        "operating": {
+            "pinion_speed": quantity(speed, "rad/s"),
+            "gear_torque": quantity(torque(draw, scale_of(drive, speed)), "N*m"),
+        },
+        "mesh": mesh,
+        **laws(draw),
+        "output": {"samples_per_cycle": draw.one((16, 100))},
+    }
+
+
+def load_contact(draw: Draw, drive: dict[str, Any]) -> dict[str, Any]:
+    """Return the scenario of a load contact study."""
+    module, *_, width = size_of(drive)
+    load = torque(draw, scale_of(drive, 1.0))
+    for name in ("pinion", "gear"):
+        if draw.chance(0.5):
+            drive = {
+                **drive,
+                name: {
+                    **drive[name],
+                    "modification": _modification(draw, drive[name]["teeth"], module, width),
+                },
+            }
+    mesh: dict[str, Any] = {"slices": draw.one((1, 3, 7, 15)), "slice_coupling": draw.chance(0.8)}
+    if draw.chance(0.3):
+        mesh["friction_coefficient"] = draw.between(0.0, 0.2)
+    if mesh["slices"] > 1 and draw.chance(0.5):
+        angles = (quantity(draw.between(-3.0, 3.0), "arcmin") for _ in range(2))
+        mesh["misalignment"] = dict(zip(("in_plane", "out_of_plane"), angles, strict=True))
+    operating: dict[str, Any] = {"gear_torque": quantity(load, "N*m")}
+    if draw.chance(0.2):
+        operating["gear_torques"] = [quantity(share * load, "N*m") for share in (0.2, 1.5)]
+    return {
+        "title": "A random load contact study",
+        "kind": "load-contact",
+        "drive": drive,
+        "operating": operating,
+        "mesh": mesh,
+        "output": {"positions_per_cycle": draw.one((8, 20)), "cycles": draw.one((1, 1, 2))},
+    }
+
+
+def _modification(draw: Draw, teeth: int, module: float, width: float) -> dict[str, Any]:
+    table: dict[str, Any] = {}
+    for end in ("tip", "root"):
+        if draw.chance(0.4):
+            table[f"{end}_relief"] = quantity(draw.decades(1.0, 60.0), "um")
+            table[f"{end}_relief_length"] = quantity(1e3 * module * draw.between(0.2, 1.5), "mm")
+            table[f"{end}_relief_shape"] = draw.one(("linear", "parabolic"))
+    if draw.chance(0.3):
+        table["crowning"] = quantity(draw.decades(0.5, 30.0), "um")
+    elif draw.chance(0.3):
+        table["lead_relief_start"] = quantity(draw.decades(0.5, 30.0), "um")
+        table["lead_unmodified"] = quantity(1e3 * width * draw.between(0.0, 0.7), "mm")
+    if draw.chance(0.2):
+        table["pitch_errors"] = [quantity(draw.between(-5.0, 5.0), "um") for _ in range(teeth)]
+    return table
+
+
+def oscillator(draw: Draw) -> dict[str, Any]:
+    """Return the scenario of an oscillator with backlash."""
+    low = draw.decades(0.2, 2.0)
+    return {
+        "title": "A random oscillator",
+        "kind": "backlash-oscillator",
+        "damping": draw.decades(0.01, 0.5),
+        "mean_force": draw.one((0.0, draw.decades(0.01, 3.0)), (1, 6)),
+        "error_amplitude": draw.one((0.0, draw.decades(0.01, 2.0)), (1, 3)),
+        "stiffness_variation": draw.one((0.0, draw.between(0.0, 1.0)), (1, 3)),
+        "frequency": {"from": low, "to": round(2.0 * low, 6), "step": round(low / draw.one((4, 10)), 6)},
+        "solver": {"max_periods": 200},
+    }
+
+
+def rolling(draw: Draw) -> dict[str, Any]:
+    """Return the scenario of a gear with rolling elements."""
+    radius, elements, displacement = draw.decades(2e-3, 1.0), draw.whole(3, 60), draw.between(1.02, 3.0)
+    arm = draw.one((0.0, draw.decades(1e-6, 1e-3)))
+    return {
+        "title": "A random gear with rolling elements",
+        "kind": "irefc",
+        "drive": {
+            "title": "A random gear",
+            "source": "random numbers",
+            "pitch_radius": quantity(1e3 * radius, "mm"),
+            "elements": elements,
+            "displacement": displacement,
+            "element_radius": quantity(1e3 * radius * displacement / elements * draw.between(0.2, 2.5), "mm"),
+        },
+        "operating": {
+            "input_power": quantity(draw.decades(0.1, 1e5), "W"),
+            "input_speed": quantity(draw.decades(0.1, 1e4), "rpm"),
+        },
+        "friction": {"rolling_arm": quantity(1e3 * arm, "mm"), "sliding_coefficient": draw.between(0.0, 0.3)},
+        "output": {"samples_per_cycle": draw.one((8, 24))},
+    }
+
+
+def steady(scenario: dict[str, Any]) -> dict[str, Any]:
+    """Return the duty of a gear pair without what a steady state cannot have: loads over time."""
+    operating = {
+        key: value
+        for key, value in scenario["operating"].items()
+        if key not in ("gear_torque_harmonics", "gear_torque_table")
+    }
+    return marched({**scenario, "operating": operating})
+
+
+def marched(scenario: dict[str, Any]) -> dict[str, Any]:
+    """Return the duty of a gear pair as a sweep runs it: by native methods, with few samples."""
+    solver = {**scenario["solver"], "method": "auto", "cycles": 8}
+    return {**scenario, "solver": solver, "output": {"samples_per_cycle": 16}}
