@@ -1,5 +1,6 @@
-"""The two ways a run can end badly: bad input, and a simulation that could not go on."""
+"""How a run can end badly: bad input, a simulation that could not go on, results that cannot be written."""
 
+import errno
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -67,6 +68,32 @@ class SimulationError(Exception):
 
     def __str__(self) -> str:
         return f"stopped at t = {self.time:.6g} s: {self.reason}"
+
+
+@dataclass
+class OutputError(Exception):
+    """Results that the system does not take, as on a full disk; the exit status is 3.
+
+    Parameters
+    ----------
+    file : str
+        What could not be written.
+    reason : str
+        Why, in the system's words.
+    kept : str
+        What there is of the results, and where.
+    """
+
+    file: str
+    reason: str
+    kept: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.file}: cannot be written: {self.reason}" + (f"; {self.kept}" if self.kept else "")
+
+
+#: What the system says where there is no room, or no device any more.
+NO_ROOM = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO})
 
 
 def near_name(name: str, known: Iterable[str]) -> str:

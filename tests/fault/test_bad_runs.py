@@ -131,9 +131,13 @@ main()
 """
 
 
-def test_an_interrupted_run_keeps_what_it_has(tmp_path: Path):
+LONG = ("--set", "solver.cycles=20000", "--set", "output.samples_per_cycle=20")
+
+
+@pytest.mark.parametrize(("asked", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_an_interrupted_run_keeps_what_it_has(asked: signal.Signals, status: int, tmp_path: Path):
     process = subprocess.Popen(
-        [sys.executable, "-c", HEEDING_INTERRUPTS, "run", "crc-23-47", "--set", "solver.cycles=100000"],
+        [sys.executable, "-c", HEEDING_INTERRUPTS, "run", "crc-23-47", *LONG],
         cwd=tmp_path,
         stderr=subprocess.PIPE,
         text=True,
@@ -145,13 +149,14 @@ def test_an_interrupted_run_keeps_what_it_has(tmp_path: Path):
         assert process.poll() is None
         assert time.monotonic() - started < 300
         time.sleep(0.1)
-    process.send_signal(signal.SIGINT)
+    process.send_signal(asked)
     _, said = process.communicate(timeout=60)
-    assert process.returncode == 130
-    assert said.startswith("interrupted")
+    assert process.returncode == status
+    assert said.startswith("interrupted" if asked is signal.SIGINT else "terminated")
     assert len(said.splitlines()) == 1
     with open_record(partial) as record:
-        assert record.status != "complete"
+        assert f"; the first {record.samples} of 400001 samples: crc-23-47.partial.h5" in said
+        assert record.status == "failed"
         assert record.samples > 0
         assert (record["normal_load"] >= 0).all()
 

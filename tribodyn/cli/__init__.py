@@ -14,6 +14,8 @@ def main() -> None:
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     import tribodyn
     from tribodyn.cli.app import app
+    from tribodyn.cli.outcome import end_when_asked
 
     tribodyn.OWN_PROCESS = True
+    end_when_asked()
     app(prog_name="tribodyn")

@@ -16,7 +16,8 @@ app = typer.Typer(
     "  tribodyn run crc-23-47       run a scenario: record, summary, picture\n"
     "  tribodyn init my-drive       write a scenario of your own to edit\n"
     "\b\nExit status: 0 done; 1 a bug in tribodyn; 2 bad input; 3 the simulation\n"
-    "failed, partial record kept; 4 a validation outside its tolerance;\n130 interrupted.",
+    "failed, partial record kept, or its results cannot be written; 4 a validation\n"
+    "outside its tolerance; 130 interrupted; 143 terminated.",
     no_args_is_help=True,
     add_completion=False,
     # plain help: half the start-up time, and it pipes well

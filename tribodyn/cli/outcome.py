@@ -2,13 +2,15 @@
 
 import functools
 import os
+import signal
 import sys
 from collections.abc import Callable
-from typing import ParamSpec
+from contextlib import suppress
+from typing import NoReturn, ParamSpec, TextIO
 
 import typer
 
-from tribodyn.errors import InputError, SimulationError
+from tribodyn.errors import NO_ROOM, InputError, OutputError, SimulationError
 
 DONE = 0
 BUG = 1
@@ -16,6 +18,22 @@ BAD_INPUT = 2
 SIMULATION_FAILED = 3
 OUTSIDE_TOLERANCE = 4
 INTERRUPTED = 130
+TERMINATED = 143
+
+
+class Terminated(KeyboardInterrupt):
+    """The system asks the process to end: treated as an interruption by the user, records are concluded."""
+
+
+def end_when_asked() -> None:
+    """Let SIGTERM end a verb as Ctrl-C does."""
+
+    def terminate(number: int, _frame: object) -> NoReturn:
+        signal.signal(number, signal.SIG_IGN)  # once is enough: what follows is the conclusion of the record
+        raise Terminated("terminated by a signal")
+
+    signal.signal(signal.SIGTERM, terminate)
+
 
 Arguments = ParamSpec("Arguments")
 
@@ -31,28 +49,44 @@ def verb(function: Callable[Arguments, None]) -> Callable[Arguments, None]:
         try:
             function(*args, **kwargs)
             sys.stdout.flush()
-        except (InputError, SimulationError) as error:
+        except (InputError, SimulationError, OutputError) as error:
             complain(str(error))
             raise typer.Exit(BAD_INPUT if isinstance(error, InputError) else SIMULATION_FAILED) from None
-        except KeyboardInterrupt:
-            complain("interrupted; what was recorded so far is kept in the .partial.h5 file")
-            raise typer.Exit(INTERRUPTED) from None
+        except KeyboardInterrupt as error:
+            terminated = isinstance(error, Terminated)
+            complain("; ".join([str(error) or "interrupted", *getattr(error, "__notes__", ())]))
+            raise typer.Exit(TERMINATED if terminated else INTERRUPTED) from None
         except BrokenPipeError:
-            # the reader of a pipe has gone; keep Python from complaining when it flushes at exit
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            # the reader of a pipe has gone
+            _silence(sys.stdout)
             raise typer.Exit(DONE) from None
         except (typer.Exit, typer.Abort):
             raise
+        except OSError as error:
+            if error.errno not in NO_ROOM:
+                _report_bug(error)
+            complain(f"{error.filename or 'the output'}: cannot be written: {error.strerror}")
+            _silence(sys.stdout)
+            raise typer.Exit(SIMULATION_FAILED) from None
         except Exception as error:
-            if os.environ.get("TRIBODYN_TRACEBACK"):
-                raise
-            what = " ".join(f"{type(error).__name__}: {error}".split())
-            complain(
-                f"a bug in tribodyn: {what}; set TRIBODYN_TRACEBACK=1 to see the traceback, and report it"
-            )
-            raise typer.Exit(BUG) from None
+            _report_bug(error)
 
     return guarded
+
+
+def _report_bug(error: Exception) -> NoReturn:
+    """Say that this should not have happened; with TRIBODYN_TRACEBACK=1, where."""
+    if os.environ.get("TRIBODYN_TRACEBACK"):
+        raise error
+    what = " ".join(f"{type(error).__name__}: {error}".split())
+    complain(f"a bug in tribodyn: {what}; set TRIBODYN_TRACEBACK=1 to see the traceback, and report it")
+    raise typer.Exit(BUG) from None
+
+
+def _silence(stream: TextIO) -> None:
+    """Keep Python from complaining when it flushes a stream at exit."""
+    with suppress(OSError, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 def complain(message: str) -> None:

@@ -3,7 +3,6 @@
 import importlib.metadata
 from collections.abc import Mapping
 from datetime import datetime
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import h5py
@@ -12,10 +11,8 @@ import numpy as np
 from tribodyn import __version__
 from tribodyn.numerics.variable import Variable
 from tribodyn.record import schema
+from tribodyn.record.disk import LIBVER, Blank, Layered
 from tribodyn.record.schema import Layout
-
-#: The oldest file format: every HDF5 reader knows it, and nothing in it says whether a writer has it open.
-LIBVER = ("earliest", "v108")
 
 #: Libraries whose versions are recorded, because results depend on them.
 LIBRARIES = ("numpy", "scipy", "numba", "jax", "diffrax", "h5py")
@@ -55,10 +52,29 @@ class Place(NamedTuple):
     row: tuple[int, ...]
 
 
-def create(path: Path, head: Head, samples: int) -> dict[str, Place]:
-    """Write the file at `path` with room for `samples` samples, and say where each dataset lies."""
+class LaidOut(NamedTuple):
+    """A file that is laid out and not yet written.
+
+    Attributes
+    ----------
+    content : Layered
+        All but what the datasets hold.
+    blanks : list of Blank
+        That.
+    places : dict
+        Where each dataset lies.
+    """
+
+    content: Layered
+    blanks: list[Blank]
+    places: dict[str, Place]
+
+
+def create(head: Head, samples: int) -> LaidOut:
+    """Lay out the file with room for `samples` samples."""
     layout, axis = head.layout, head.layout.axis_name
-    with h5py.File(path, "w", libver=LIBVER) as file:
+    content = Layered()
+    with h5py.File(content, "w", libver=LIBVER) as file:
         write_head(file, head.kind, head.scenario, head.sha256, head.created)
         size = {axis: samples, **{name: len(values) for name, values in head.scales.items()}}
         datasets = {axis: reserve(file, axis, layout.axis, (samples,))}
@@ -72,13 +88,14 @@ def create(path: Path, head: Head, samples: int) -> dict[str, Place]:
         file.attrs["axis"] = axis
         # words, not an array of texts: Octave stops reading at those
         file.attrs["datasets"] = " ".join(datasets)
-        written = reserve(file, "samples_written", schema.SAMPLES_WRITTEN, ())
+        datasets["samples_written"] = reserve(file, "samples_written", schema.SAMPLES_WRITTEN, ())
         for name, table in layout.groups.items():
             _write_arrays(file, file.create_group(name), table, head.groups.get(name, {}))
         file.create_group("summary")
         places = {name: place_of(dataset) for name, dataset in datasets.items()}
-        places["samples_written"] = place_of(written)
-    return places
+        variables = {**layout.along, **layout.others, "samples_written": schema.SAMPLES_WRITTEN}
+        blanks = [blank_of(dataset, variables[name]) for name, dataset in datasets.items()]
+    return LaidOut(content, blanks, places)
 
 
 def write_summary(file: h5py.File, summary: Mapping[str, Any], prefix: str = "") -> None:
@@ -115,13 +132,16 @@ def write_head(file: h5py.File, kind: str, scenario: str, sha256: str, created: 
 
 
 def reserve(file: h5py.File, name: str, variable: Variable, shape: tuple[int, ...]) -> h5py.Dataset:
-    """Create a dataset filled with what stands for "nothing written".
+    """Create a dataset for which there is nothing to write yet.
 
-    It is contiguous, and its bytes are in the file, at an address, from the start.
+    It is contiguous, and its bytes have an address in the file from the start. They are not written here: see
+    `blank_of`.
     """
     plan = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
     plan.set_alloc_time(h5py.h5d.ALLOC_TIME_EARLY)
-    plan.set_fill_value(np.array(variable.fill, dtype=variable.dtype))
+    plan.set_fill_time(h5py.h5d.FILL_TIME_NEVER)
+    if np.dtype(variable.dtype).kind != "S":  # h5py takes other memory for a text's; HDF5's own is empty
+        plan.set_fill_value(np.array(variable.fill, dtype=variable.dtype))
     space = h5py.h5s.create_simple(shape) if shape else h5py.h5s.create(h5py.h5s.SCALAR)
     kind = h5py.h5t.py_create(np.dtype(variable.dtype))
     # at the low level, because create_dataset drops the plan where the dataset is a scalar
@@ -133,6 +153,12 @@ def reserve(file: h5py.File, name: str, variable: Variable, shape: tuple[int, ..
         dataset.attrs["flag_values"] = np.arange(first, first + len(meanings), dtype=variable.dtype)
         dataset.attrs["flag_meanings"] = variable.flags
     return dataset
+
+
+def blank_of(dataset: h5py.Dataset, variable: Variable) -> Blank:
+    """The bytes of a dataset that holds nothing: what stands for "nothing written"."""
+    offset, value = place_of(dataset).offset, np.array(variable.fill, dtype=variable.dtype).tobytes()
+    return Blank(offset, dataset.dtype.itemsize * int(dataset.size or 0), value)
 
 
 def place_of(dataset: h5py.Dataset) -> Place:

@@ -196,7 +196,7 @@ class SweepRecord:
             values = np.asarray(self._file[name][part])
         except (OSError, RuntimeError) as error:
             raise self._damaged(error) from error
-        return np.char.decode(values, "utf-8") if values.dtype.kind == "S" else values
+        return np.char.decode(values, "utf-8", "replace") if values.dtype.kind == "S" else values
 
     def _damaged(self, error: Exception) -> InputError:
         reason = str(error).strip("'\"")

@@ -4,10 +4,9 @@ As with a run (`writer`), the whole file is laid out before the first case and c
 bytes put in their place, its `status` last. A sweep that was killed is taken up again by reading `status`.
 """
 
-import os
-import shutil
 from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple, Self
 
@@ -17,11 +16,11 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.numerics.cache import replacing
 from tribodyn.numerics.variable import Variable
-from tribodyn.record import layout, sweep_schema
+from tribodyn.record import disk, layout, sweep_schema
 from tribodyn.record.schema import COMPLETE, FAILED, FORMAT, PARTIAL, STATUS_NOTES, partial_path
 from tribodyn.record.sweep_schema import SWEEP, SweepLayout
-from tribodyn.record.writer import check_target, refuse_existing, unwritable
-from tribodyn.record.writing_lock import WritingLock
+from tribodyn.record.writer import check_target, conclude, refuse_existing, unwritable
+from tribodyn.record.writing_lock import WritingLock, remove_orphans, scratch_path
 
 #: What the root says of a sweep that is not complete.
 NOTE = "the sweep is going on, or was stopped: cases whose status is 0 are still to be done"
@@ -104,12 +103,15 @@ class SweepWriter:
         except OSError as error:
             raise unwritable(self.path, error) from error
         try:
+            remove_orphans(self.path)
             self._places = self._datasets(head, force, resume)
             with h5py.File(self.partial, "r") as file:
                 self.status: np.ndarray = file["status"][...].ravel()  # pyright: ignore
-            self._file = self.partial.open("r+b", buffering=0)
-        except BaseException:
+            self._file = disk.open_existing(self.partial)
+        except BaseException as error:
             self._lock.release()
+            if isinstance(error, OSError):
+                raise unwritable(self.path, error) from error
             raise
 
     def _datasets(self, head: SweepHead, force: bool, resume: bool) -> dict[str, layout.Place]:
@@ -117,16 +119,17 @@ class SweepWriter:
         if resume and not force and self.partial.exists():
             return _places_of(self.partial, head)
         refuse_existing(self.path, force)  # another may just have ended
-        try:
-            with replacing(self.partial, self._scratch()) as scratch:
-                return _create(scratch, head)
-        except OSError as error:
-            raise unwritable(self.path, error) from error
+        blank = _lay_out(head)
+        with replacing(self.partial, scratch_path(self.path)) as scratch:
+            disk.write_new(scratch, blank.content, blank.blanks)
+        return blank.places
 
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, *_: object) -> None:
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
+        if isinstance(error, KeyboardInterrupt) and self.partial.exists():
+            error.add_note(f"the cases done so far: {self.partial}, --resume goes on")
         self._file.close()
         self._lock.release()
 
@@ -147,8 +150,12 @@ class SweepWriter:
             values = _encoded(variable, block[name])
             if values.shape != (len(cases), *place.row):
                 raise ValueError(f"{name}: shape {values.shape}, not {(len(cases), *place.row)}")
-            for run in runs:
-                self._put(place.offset + int(cases[run[0]]) * place.stride, values[run])
+            try:
+                for run in runs:
+                    self._put(place.offset + int(cases[run[0]]) * place.stride, values[run])
+            except OSError as error:
+                kept = f"the cases before: {self.partial}, with more room --resume goes on"
+                raise unwritable(self.path, error, kept) from error
         self.status[cases] = block["status"]
 
     def read(self, name: str, cases: np.ndarray) -> np.ndarray:
@@ -170,18 +177,15 @@ class SweepWriter:
         none = failed == self.status.size
         message = f"{failed} of {self.status.size} cases failed" if failed else STATUS_NOTES[COMPLETE]
         target = self.partial if none else self.path
-        with replacing(target, self._scratch()) as scratch:
-            shutil.copyfile(self.partial, scratch)
-            with h5py.File(scratch, "r+", libver=layout.LIBVER) as file:
-                layout.write_summary(file, summary)
-                file.attrs["status"] = FAILED if none else COMPLETE
-                file.attrs["message"] = message
-        if not none:
-            self.partial.unlink()
+        try:
+            with replacing(target, scratch_path(self.path)) as scratch:
+                change = partial(conclude, FAILED if none else COMPLETE, message, summary)
+                disk.write_amended(self.partial, scratch, change)
+            if not none:
+                self.partial.unlink()
+        except OSError as error:
+            raise unwritable(target, error, f"all cases, without a summary: {self.partial}") from error
         return target
-
-    def _scratch(self) -> Path:
-        return self.path.with_name(f"{self.path.stem}.{os.getpid()}.tmp")
 
     def _put(self, offset: int, array: np.ndarray) -> None:
         self._file.seek(offset)
@@ -190,16 +194,17 @@ class SweepWriter:
             rest = rest[self._file.write(rest) :]
 
 
-def _create(path: Path, head: SweepHead) -> dict[str, layout.Place]:
+def _lay_out(head: SweepHead) -> layout.LaidOut:
     """Lay out the whole file, every case waiting."""
-    with h5py.File(path, "w", libver=layout.LIBVER) as file:
+    content = disk.Layered()
+    with h5py.File(content, "w", libver=disk.LIBVER) as file:
         layout.write_head(file, SWEEP, head.scenario, head.sha256, datetime.now(UTC))
         file.attrs["message"] = NOTE
         file.attrs["sweep"] = head.settings
         for name, value in head.layout.attributes.items():
             file.attrs[name] = value
         size = _write_scales(file, head)
-        places = {}
+        places, blanks = {}, []
         for name, variable in head.layout.variables.items():
             full = variable._replace(dims=(*head.dims, *variable.dims))
             dataset = layout.reserve(file, name, full, tuple(size[dim] for dim in full.dims))
@@ -207,9 +212,10 @@ def _create(path: Path, head: SweepHead) -> dict[str, layout.Place]:
             if _TEXT in variable.dtype:
                 dataset.attrs["_Encoding"] = "utf-8"
             places[name] = _case_place(dataset, len(head.dims))
+            blanks.append(layout.blank_of(dataset, full))
         file.attrs["datasets"] = " ".join(places)
         file.create_group("summary")
-    return places
+    return layout.LaidOut(content, blanks, places)
 
 
 def _write_scales(file: h5py.File, head: SweepHead) -> dict[str, int]:

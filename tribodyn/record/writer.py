@@ -7,21 +7,23 @@ last. What ends the run (summary, status) goes into a copy that replaces the rec
 """
 
 import os
-import shutil
 from collections.abc import Mapping
+from contextlib import suppress
 from datetime import UTC, datetime
+from functools import partial
 from pathlib import Path
 from types import MappingProxyType, TracebackType
-from typing import Any, Self
+from typing import Any, BinaryIO, Self
 
 import h5py
 import numpy as np
 
-from tribodyn.errors import InputError
+from tribodyn.errors import NO_ROOM, InputError, OutputError
 from tribodyn.numerics.cache import replacing
+from tribodyn.record import disk
 from tribodyn.record import layout as file_layout
-from tribodyn.record.schema import COMPLETE, FAILED, STATUS_NOTES, Layout, partial_path
-from tribodyn.record.writing_lock import WritingLock, refuse_if_written
+from tribodyn.record.schema import COMPLETE, FAILED, FORMAT, STATUS_NOTES, Layout, partial_path
+from tribodyn.record.writing_lock import WritingLock, refuse_if_written, remove_orphans, scratch_path
 
 
 def check_target(path: Path, force: bool = False) -> None:
@@ -47,15 +49,28 @@ def check_target(path: Path, force: bool = False) -> None:
     refuse_existing(path, force)
 
 
-def unwritable(path: Path, error: OSError) -> InputError:
+def unwritable(path: Path, error: OSError, kept: str = "") -> InputError | OutputError:
     """What is said of a record that the operating system refuses."""
     reason = error.strerror or str(error)
+    if kept or error.errno in NO_ROOM:
+        return OutputError(str(path), reason, kept)
     return InputError("output", str(path), f"cannot be written: {reason}", "choose another file")
 
 
 def refuse_existing(path: Path, force: bool) -> None:
-    """Raise InputError if the record or what an unfinished run left is there, and `force` is not given."""
+    """Raise InputError if the record or what an unfinished run left is there, and `force` is not given.
+
+    With `force` only what tribodyn wrote is replaced.
+    """
     if force:
+        for one in (path, partial_path(path)):
+            if os.path.lexists(one) and not _is_ours(one):
+                raise InputError(
+                    "output",
+                    str(one),
+                    "is not a record of tribodyn, or damaged: --force does not replace it",
+                    "remove it, or choose another name",
+                )
         return
     if os.path.exists(path):
         raise InputError(
@@ -68,6 +83,17 @@ def refuse_existing(path: Path, force: bool) -> None:
             f"{partial_path(path).name} holds what an unfinished run left",
             "move it away, or --force to replace it",
         )
+
+
+def _is_ours(path: Path) -> bool:
+    """Whether a file is a record; a link counts as what it leads to, one that leads nowhere as none."""
+    try:
+        if not path.is_file():  # h5py would wait for a pipe
+            return False
+        with h5py.File(path, "r") as file:
+            return file.attrs.get("format") == FORMAT
+    except (OSError, RuntimeError, ValueError, KeyError):
+        return False
 
 
 class RecordWriter:
@@ -128,10 +154,13 @@ class RecordWriter:
         self._lock: WritingLock | None = None
         try:
             self._lock = WritingLock(self.path)
+            remove_orphans(self.path)
             refuse_existing(self.path, force)  # another may just have ended
-            with replacing(self.partial, self._scratch()) as scratch:
-                self._place = file_layout.create(scratch, self._head, samples)
-            self._file = self.partial.open("r+b", buffering=0)
+            blank = file_layout.create(self._head, samples)
+            self._place = blank.places
+            with replacing(self.partial, scratch_path(self.path)) as scratch:
+                disk.write_new(scratch, blank.content, blank.blanks)
+            self._file = disk.open_existing(self.partial)
         except BaseException as error:
             self._unlock()
             if not isinstance(error, OSError):
@@ -147,7 +176,11 @@ class RecordWriter:
     ) -> None:
         try:
             if self._open and isinstance(error, KeyboardInterrupt):
-                self.fail("interrupted by the user")
+                error.add_note(self._so_far())
+                self.fail(str(error) or "interrupted by the user")
+            elif self._open and isinstance(error, OutputError):
+                with suppress(OutputError):  # there is no room for saying it in the file either
+                    self.fail(str(error))
             elif self._open:
                 self.fail(f"{kind.__name__}: {error}" if kind else "the run ended without a summary")
         finally:
@@ -182,20 +215,21 @@ class RecordWriter:
             if array.shape != (length, *place.row):
                 raise ValueError(f"{name}: shape {array.shape}, not {(length, *place.row)}")
             pieces.append((place.offset + start * place.stride, array))
-        for offset, array in pieces:
-            self._put(offset, array)
         # last, so that whatever moment the process dies at, the count covers only what is there
-        self._put(self._place["samples_written"].offset, np.array(start + length, dtype="<i8"))
+        pieces.append((self._place["samples_written"].offset, np.array(start + length, dtype="<i8")))
+        self._put_all(pieces)
         self.written = start + length
 
     def put(self, row: int, values: Mapping[str, Any]) -> None:
         """Put one row into datasets that lie along other axes (`schema.Layout.others`); raises as `write`."""
+        pieces = []
         for name, value in values.items():
             place = self._place[name]
             array = file_layout.encode(self._variables[name], value).reshape(np.shape(value))
             if array.shape != place.row:
                 raise ValueError(f"{name}: shape {array.shape}, not {place.row}")
-            self._put(place.offset + row * place.stride, array)
+            pieces.append((place.offset + row * place.stride, array))
+        self._put_all(pieces)
 
     def finish(self, summary: Mapping[str, Any]) -> Path:
         """Add the summary, mark the record complete and give it its final name, which is returned.
@@ -204,14 +238,19 @@ class RecordWriter:
         ------
         ValueError
             If samples are missing.
+        OutputError
+            If there is no room for the copy with the summary: the samples are kept under the temporary name.
         """
         if self.written != self.samples:
             raise ValueError(f"{self.written} of {self.samples} samples written")
         self._close()
-        with replacing(self.path, self._scratch()) as scratch:
-            shutil.copyfile(self.partial, scratch)
-            self._conclude(scratch, COMPLETE, STATUS_NOTES[COMPLETE], summary)
-        self.partial.unlink()
+        try:
+            with replacing(self.path, scratch_path(self.path)) as scratch:
+                change = partial(conclude, COMPLETE, STATUS_NOTES[COMPLETE], summary)
+                disk.write_amended(self.partial, scratch, change)
+            self.partial.unlink()
+        except OSError as error:
+            raise unwritable(self.path, error, f"all samples, without a summary: {self.partial}") from error
         self._unlock()
         return self.path
 
@@ -226,25 +265,28 @@ class RecordWriter:
             What can be said of the part that was done.
         """
         self._close()
-        source: Any
-        target: Any
-        with replacing(self.partial, self._scratch()) as scratch:
-            file_layout.create(scratch, self._head, self.written)
-            with h5py.File(self.partial, "r") as source, h5py.File(scratch, "r+") as target:
-                for name in self._place:
-                    if name != "samples_written":
-                        extent = tuple(slice(length) for length in target[name].shape)
-                        target[name][...] = source[name][extent]
-                target["samples_written"][...] = self.written
-            self._conclude(scratch, FAILED, message, summary or {})
+        trimmed = file_layout.create(self._head, self.written)
+        disk.amend(trimmed.content, partial(conclude, FAILED, message, summary or {}))
+        try:
+            with replacing(self.partial, scratch_path(self.path)) as scratch:
+                disk.write_new(scratch, trimmed.content, trimmed.blanks)
+                with self.partial.open("rb") as source, disk.open_existing(scratch) as target:
+                    for blank, (name, place) in zip(trimmed.blanks, trimmed.places.items(), strict=True):
+                        _copy(source, self._place[name].offset, target, place.offset, blank.size)
+        except OSError as error:
+            raise unwritable(self.partial, error, f"{self._so_far()}; {message}") from error
         self._unlock()
         return self.partial
 
-    def _conclude(self, path: Path, status: str, message: str, summary: Mapping[str, Any]) -> None:
-        with h5py.File(path, "r+", libver=file_layout.LIBVER) as file:
-            file_layout.write_summary(file, summary)
-            file.attrs["status"] = status
-            file.attrs["message"] = message
+    def _so_far(self) -> str:
+        return f"the first {self.written} of {self.samples} samples: {self.partial}"
+
+    def _put_all(self, pieces: list[tuple[int, np.ndarray]]) -> None:
+        try:
+            for offset, array in pieces:
+                self._put(offset, array)
+        except OSError as error:
+            raise unwritable(self.path, error, self._so_far()) from error
 
     def _put(self, offset: int, array: np.ndarray) -> None:
         self._file.seek(offset)
@@ -262,5 +304,22 @@ class RecordWriter:
         if self._lock:
             self._lock.release()
 
-    def _scratch(self) -> Path:
-        return self.path.with_name(f"{self.path.stem}.{os.getpid()}.tmp")
+
+def conclude(status: str, message: str, summary: Mapping[str, Any], file: h5py.File) -> None:
+    """Put into a record what ends it."""
+    file_layout.write_summary(file, summary)
+    file.attrs["status"] = status
+    file.attrs["message"] = message
+
+
+def _copy(source: BinaryIO, start: int, target: BinaryIO, offset: int, size: int) -> None:
+    """Copy bytes from one file's place to another's."""
+    source.seek(start)
+    target.seek(offset)
+    while size:
+        rest = memoryview(source.read(min(size, disk.BLOCK)))
+        if not rest:
+            raise OSError(f"{source.name} ends too early")
+        size -= len(rest)
+        while rest:
+            rest = rest[target.write(rest) :]

@@ -8,15 +8,22 @@ import contextlib
 import errno
 import importlib
 import os
+import re
+import stat
 from pathlib import Path
 from typing import Any
 
 from tribodyn.errors import InputError
+from tribodyn.record.disk import CAREFUL
 
 #: What a file system says that has no locks: then there is none, as there was none before.
 _NO_LOCKS = {errno.ENOLCK, errno.ENOSYS, errno.ENOTSUP, errno.EOPNOTSUPP}
 #: Windows locks bytes, and nobody may read them: one far behind the number of the process.
 _FAR = 1 << 20
+#: A pipe is not waited for.
+_AT_ONCE = getattr(os, "O_NONBLOCK", 0)
+#: Maximum length of what a lock holds: the number of a process.
+_DIGITS = 20
 
 
 def lock_path(path: Path) -> Path:
@@ -44,10 +51,11 @@ class WritingLock:
         self._path = lock_path(path)
         self._number: int | None = None
         while self._number is None:
-            number = os.open(self._path, os.O_RDWR | os.O_CREAT, 0o666)
+            number = _opened(self._path)
             try:
                 if not _taken(number):
                     raise _busy(path, number)
+                _refuse_other(self._path, number)
                 if _is(number, self._path):  # otherwise its last owner removed it just now
                     os.ftruncate(number, 0)
                     os.write(number, str(os.getpid()).encode())
@@ -72,14 +80,73 @@ class WritingLock:
 def refuse_if_written(path: Path) -> None:
     """Raise InputError if a process is writing the record of that name; touches nothing."""
     try:
-        number = os.open(lock_path(path), os.O_RDWR)
-    except OSError:
+        number = os.open(lock_path(path), os.O_RDWR | CAREFUL | _AT_ONCE)
+    except FileNotFoundError:
         return
+    except OSError as error:
+        raise _no_lock(lock_path(path)) from error
     try:
         if not _taken(number):
             raise _busy(path, number)
+        _refuse_other(lock_path(path), number)
     finally:
         os.close(number)
+
+
+def remove_orphans(path: Path) -> None:
+    """Remove what dead processes left half written of the record of that name; to be called with its lock."""
+    pattern = re.compile(re.escape(path.stem) + r"\.(\d+)\.tmp")
+    with contextlib.suppress(OSError):
+        for name in os.listdir(path.parent):
+            found = pattern.fullmatch(name)
+            if found and not _alive(int(found[1])):
+                path.with_name(name).unlink()
+
+
+def scratch_path(path: Path) -> Path:
+    """Where this process writes a record of that name before it is whole."""
+    return path.with_name(f"{path.stem}.{os.getpid()}.tmp")
+
+
+def _alive(process: int) -> bool:
+    """Whether there is a process of that number; where that cannot be asked, it is taken to live."""
+    if os.name == "nt":
+        return True
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except (OSError, OverflowError):
+        return True
+    return True
+
+
+def _opened(path: Path) -> int:
+    """Open the file of a lock, or make it; never through a link."""
+    while True:
+        with contextlib.suppress(FileExistsError):
+            return os.open(path, os.O_RDWR | os.O_CREAT | os.O_EXCL | CAREFUL, 0o666)
+        with contextlib.suppress(FileNotFoundError):  # its owner removed it just now
+            try:
+                return os.open(path, os.O_RDWR | CAREFUL | _AT_ONCE)
+            except OSError as error:
+                if error.errno in (errno.ELOOP, errno.ENXIO, errno.EISDIR):
+                    raise _no_lock(path) from error
+                raise
+
+
+def _refuse_other(path: Path, number: int) -> None:
+    """Raise InputError where a file under a lock's name is something else."""
+    if stat.S_ISREG(os.fstat(number).st_mode):
+        os.lseek(number, 0, os.SEEK_SET)
+        content = os.read(number, _DIGITS + 1)
+        if len(content) <= _DIGITS and (not content or content.isdigit()):
+            return
+    raise _no_lock(path)
+
+
+def _no_lock(path: Path) -> InputError:
+    return InputError("output", str(path), "stands where the lock of this record would", "move it away")
 
 
 def _taken(number: int) -> bool:

@@ -1,0 +1,218 @@
+"""A disk that is full at any byte: one message, whatever was computed can be read, nothing lies about."""
+
+import errno
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from tests.support.record_samples import block, gear_pair_writer, geometry
+from tribodyn.cli.app import app
+from tribodyn.errors import OutputError
+from tribodyn.numerics import cache
+from tribodyn.numerics.variable import Variable
+from tribodyn.record import disk
+from tribodyn.record.reader import open_record
+from tribodyn.record.sweep_reader import SweepRecord
+from tribodyn.record.sweep_schema import DONE, SweepLayout
+from tribodyn.record.sweep_writer import ParameterScale, SweepHead, SweepWriter
+
+SAMPLES = 30
+
+
+class Disk:
+    """Takes so many bytes in all, and no more."""
+
+    def __init__(self, room: int) -> None:
+        self.room = room
+        self.full = False
+
+    def opened(self, function):
+        def opened(path):
+            return Stream(function(path), self)
+
+        return opened
+
+
+class Stream:
+    """A file on such a disk."""
+
+    def __init__(self, stream, on: Disk) -> None:
+        self._stream, self._on = stream, on
+
+    def __getattr__(self, name: str):
+        return getattr(self._stream, name)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._stream.close()
+
+    def write(self, content) -> int:
+        taken = bytes(content)[: self._on.room]
+        self._stream.write(taken)
+        self._on.room -= len(taken)
+        if len(taken) < len(content):
+            self._on.full = True
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        return len(taken)
+
+
+def on_a_disk(room: int, monkeypatch: pytest.MonkeyPatch) -> Disk:
+    small = Disk(room)
+    for name in ("open_new", "open_existing"):
+        monkeypatch.setattr(disk, name, small.opened(getattr(disk, name)))
+    return small
+
+
+def record(path: Path) -> None:
+    with gear_pair_writer(
+        path, SAMPLES, outlines=geometry(), scenario_toml="title = 1\n", sha256="0"
+    ) as writer:
+        writer.write(0, block(0, 20))
+        writer.write(20, block(20, SAMPLES))
+        writer.finish({"efficiency": 0.98})
+
+
+def failed_record(path: Path) -> None:
+    with gear_pair_writer(
+        path, SAMPLES, outlines=geometry(), scenario_toml="title = 1\n", sha256="0"
+    ) as writer:
+        writer.write(0, block(0, 20))
+        writer.fail("stopped", {})
+
+
+def bytes_of(work, folder: Path, monkeypatch: pytest.MonkeyPatch) -> int:
+    """What a work writes in all."""
+    folder.mkdir()
+    with monkeypatch.context() as patch:
+        whole = on_a_disk(10**9, patch)
+        work(folder / "run.h5")
+    return 10**9 - whole.room
+
+
+@pytest.mark.parametrize("work", [record, failed_record])
+def test_a_run_keeps_what_it_has(work, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    total = bytes_of(work, tmp_path / "whole", monkeypatch)
+    for room in sorted({*range(0, total, total // 60), *range(total - 9, total)}):
+        folder = tmp_path / str(room)
+        folder.mkdir()
+        with monkeypatch.context() as patch:
+            on_a_disk(room, patch)
+            with pytest.raises(OutputError, match="No space left on device") as error:
+                work(folder / "run.h5")
+        assert {path.name for path in folder.iterdir()} <= {"run.partial.h5"}, room
+        if error.value.kept:
+            with open_record(folder / "run.partial.h5") as left:
+                count = left.samples
+                assert f"first {count} of {SAMPLES}" in error.value.kept or count == SAMPLES
+                np.testing.assert_array_equal(left["normal_load"], block(0, SAMPLES)["normal_load"][:count])
+        else:
+            assert not list(folder.iterdir())
+
+
+@pytest.mark.parametrize("number", [errno.ENOSPC, errno.EDQUOT, errno.EIO])
+def test_a_finished_record_that_cannot_get_its_name_is_kept(tmp_path: Path, monkeypatch, number: int):
+    original = os.replace
+
+    def replace(source, target):
+        if str(target).endswith("run.h5"):
+            raise OSError(number, os.strerror(number))
+        original(source, target)
+
+    monkeypatch.setattr(cache.os, "replace", replace)
+    with pytest.raises(OutputError, match=r"all samples, without a summary: .*run\.partial\.h5"):
+        record(tmp_path / "run.h5")
+    assert [path.name for path in tmp_path.iterdir()] == ["run.partial.h5"]
+    with open_record(tmp_path / "run.partial.h5") as left:
+        assert (left.status, left.samples) == ("partial", SAMPLES)
+
+
+HEAD = SweepHead(
+    "title = 1\n",
+    "0",
+    (ParameterScale("speed", "operating.pinion_speed", "rad/s", [1.0, 2.0, 3.0]),),
+    "x = 1\n",
+    (),
+    SweepLayout({"figure": Variable((), "1", "a figure")}),
+)
+
+
+def sweep(path: Path, resume: bool = False) -> None:
+    with SweepWriter(path, HEAD, resume=resume) as writer:
+        for case in np.flatnonzero(writer.status == 0):
+            rows = HEAD.layout.empty_rows(1)
+            rows["figure"][:], rows["status"][:], rows["message"][0] = case, DONE, "ä"
+            writer.write(np.array([case]), rows)
+        writer.finish({})
+
+
+def test_a_sweep_goes_on_when_there_is_room_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    total = bytes_of(sweep, tmp_path / "whole", monkeypatch)
+    whole = (tmp_path / "whole" / "run.h5").read_bytes()
+    for room in sorted({*range(0, total, total // 40), *range(total - 9, total)}):
+        folder = tmp_path / str(room)
+        folder.mkdir()
+        with monkeypatch.context() as patch:
+            on_a_disk(room, patch)
+            with pytest.raises(OutputError, match="No space left on device"):
+                sweep(folder / "run.h5")
+        left = [path.name for path in folder.iterdir()]
+        assert left in ([], ["run.partial.h5"])
+        if left:
+            with SweepRecord(folder / left[0]) as found:
+                assert sum(found.count()[name] for name in ("done", "waiting")) == 3
+                assert set(found["message"]) <= {"", "ä"}
+        sweep(folder / "run.h5", resume=True)
+        with h5py.File(folder / "run.h5") as one, h5py.File(tmp_path / "whole" / "run.h5") as other:
+            np.testing.assert_array_equal(one["figure"], other["figure"])  # pyright: ignore[reportArgumentType]
+    assert whole
+
+
+def test_what_waits_holds_no_foreign_memory(tmp_path: Path):
+    with SweepWriter(tmp_path / "run.h5", HEAD):
+        pass
+    with h5py.File(tmp_path / "run.partial.h5") as file:
+        assert set(file["message"][...]) == {b""}  # pyright: ignore[reportIndexIssue, reportArgumentType]
+        assert set(file["status"][...]) == {0}  # pyright: ignore[reportIndexIssue, reportArgumentType]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="limits of POSIX")
+@pytest.mark.parametrize("blocks", [1, 200])
+def test_the_command_ends_with_one_message_and_status_3(blocks: int, tmp_path: Path):
+    """A limit to the size of files, which the system reports like a full disk."""
+    command = f"ulimit -f {blocks}; exec {sys.executable} -m tribodyn run crc-23-47 --no-plot -o run.h5"
+    ended = subprocess.run(["sh", "-c", command], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert ended.returncode == 3, ended.stderr
+    assert len(ended.stderr.splitlines()) == 1
+    assert "run.h5: cannot be written: File too large" in ended.stderr
+    assert not list(tmp_path.glob("*.tmp"))
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="a device of Linux")
+def test_standard_output_on_a_full_disk_is_no_bug(tmp_path: Path):
+    with open("/dev/full", "w") as full:
+        command = [sys.executable, "-m", "tribodyn", "list", "--json"]
+        ended = subprocess.run(
+            command, cwd=tmp_path, stdout=full, stderr=subprocess.PIPE, text=True, check=False
+        )
+    assert (ended.returncode, ended.stderr) == (3, "the output: cannot be written: No space left on device\n")
+
+
+def test_the_verb_says_what_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(cache.os, "replace", _full)
+    words = ["run", "backlash-oscillator", "--no-plot", "-o", str(tmp_path / "run.h5")]
+    ended = CliRunner().invoke(app, words)
+    assert ended.exit_code == 3
+    assert ended.stderr == f"{tmp_path / 'run.h5'}: cannot be written: No space left on device\n"
+    assert not list(tmp_path.iterdir())
+
+
+def _full(*_: object) -> None:
+    raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
