@@ -102,4 +102,5 @@ def block(start: int, stop: int, pairs: int = 2) -> dict[str, np.ndarray]:
     for name, variable in SAMPLES.items():
         if variable.flags:
             values[name] = values[name].astype(int) % 2 == 0
+    values["efficiency"] = 1.0 / (1.0 + values["efficiency"])  # a share, which others are not
     return values

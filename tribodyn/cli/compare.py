@@ -119,11 +119,14 @@ def _run(loaded: "Loaded", folder: Path, force: bool) -> Path:
     """Run a scenario into a folder; return its record."""
     from tribodyn.cli.outcome import SIMULATION_FAILED, complain
     from tribodyn.cli.progress import progress_bar
+    from tribodyn.record.withheld import warnings
     from tribodyn.studies.run import run as run_case
 
     name = loaded.case.name
     with loaded.naming(), progress_bar(name) as progress:
         result = run_case(loaded.case, folder / f"{name}.h5", force=force, progress=progress)
+    for warning in warnings(result.summary):
+        complain(f"{loaded.path}: warning: {warning}")
     if result.status != "complete":
         complain(f"{loaded.path}: the simulation failed: {result.message}")
         raise typer.Exit(SIMULATION_FAILED)

@@ -34,6 +34,7 @@ def run(
     from tribodyn.cli.outcome import SIMULATION_FAILED, complain
     from tribodyn.cli.printing import print_json, quoted_path
     from tribodyn.cli.progress import progress_bar
+    from tribodyn.record.withheld import warnings
     from tribodyn.studies.load import load
     from tribodyn.studies.run import run as run_case
 
@@ -51,6 +52,8 @@ def run(
         typer.echo(f"record   {quoted_path(result.path)}")
         for picture in pictures:
             typer.echo(f"picture  {quoted_path(picture)}")
+    for warning in warnings(result.summary):
+        complain(f"{loaded.path}: warning: {warning}")
     if failed:
         complain(f"{loaded.path}: the simulation failed: {result.message}; partial record: {result.path}")
         raise typer.Exit(SIMULATION_FAILED)

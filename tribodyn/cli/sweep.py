@@ -128,8 +128,9 @@ def sweep(
 
 
 def _print(result: "SweepResult", json: bool) -> None:
+    from tribodyn.cli.outcome import complain
     from tribodyn.cli.printing import print_json, print_rich
-    from tribodyn.post.sweep_report import sweep_as_json
+    from tribodyn.post.sweep_report import sweep_as_json, sweep_warnings
     from tribodyn.record.sweep_reader import SweepRecord
     from tribodyn.studies.pictures import sweep_table
 
@@ -138,3 +139,5 @@ def _print(result: "SweepResult", json: bool) -> None:
             print_json(sweep_as_json(record))
         else:
             print_rich(sweep_table(record))
+        for warning in sweep_warnings(record):
+            complain(f"{result.path}: warning: {warning}")

@@ -13,6 +13,7 @@ from tribodyn.dynamics.contact_forces import (
     NORMAL_LOAD,
     RELATIVE_VELOCITY,
     SIN,
+    SLIDING,
     approach,
     contact_forces,
     elastic_loads,
@@ -37,6 +38,7 @@ from tribodyn.dynamics.parameters import (
     WORK_IN,
     WORK_OUT,
     WORK_PARAMETRIC,
+    WORK_SLIDING,
     X_G,
     X_P,
     XI,
@@ -111,6 +113,7 @@ def derivatives(phase, cycle, segment, y, model, work, dy):
     pinion_moment = 0.0  # resisting
     gear_moment = 0.0  # driving
     friction_power = 0.0
+    sliding_power = 0.0
     damping_power = 0.0
     for i in range(table.side.shape[0]):
         if out_of_reach(segment, i, model):
@@ -126,6 +129,7 @@ def derivatives(phase, cycle, segment, y, model, work, dy):
         )
         gear_moment = gear_moment + side * (normal * table.gear_pitch_radius * cosine + tangential * lever_g)
         friction_power = friction_power + tangential * work[RELATIVE_VELOCITY, i]
+        sliding_power = sliding_power + tangential * work[SLIDING, i]
         damping_power = damping_power + (normal - work[ELASTIC_LOAD, i]) * work[APPROACH_RATE, i]
 
     pinion_speed = mechanics.nominal_speed + y[SLIP]
@@ -199,6 +203,7 @@ def derivatives(phase, cycle, segment, y, model, work, dy):
     dy[WORK_FRICTION] = rate * friction_power
     dy[WORK_DAMPING] = rate * damping_power
     dy[WORK_PARAMETRIC] = rate * parametric_power
+    dy[WORK_SLIDING] = rate * sliding_power
     return power_in, power_out, friction_power, damping_power, parametric_power, drive_torque
 
 

@@ -83,8 +83,10 @@ def outputs(cycles: np.ndarray, states: np.ndarray, model: Model) -> dict[str, n
         np.broadcast_to(power, count) for power in powers
     )
 
-    # efficiency is defined by the nominal sliding; power_friction is the work on the vibrating bodies
-    sliding_loss = np.sum(per_pair(contact.FRICTION_FORCE) * per_pair(contact.SLIDING), axis=1)
+    # by the sliding that friction is given, against which it acts at every moment: with the nominal one
+    # power_friction, the work on the vibrating bodies, is another
+    sliding = per_pair(contact.RELATIVE_VELOCITY if dynamic else contact.SLIDING)
+    sliding_loss = np.sum(per_pair(contact.FRICTION_FORCE) * sliding, axis=1)
 
     def contacting(values: np.ndarray, mask: np.ndarray = touching) -> np.ndarray:
         return np.where(mask, values, np.nan)
@@ -94,7 +96,7 @@ def outputs(cycles: np.ndarray, states: np.ndarray, model: Model) -> dict[str, n
             load / table.face_width * _peak(phase, segment, model),
             1.0 / per_pair(contact.RADIUS),
             0.5 * (speed_p + speed_g),
-            per_pair(contact.RELATIVE_VELOCITY if dynamic else contact.SLIDING),
+            sliding,
             speed_p,
             speed_g,
         )

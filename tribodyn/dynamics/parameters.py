@@ -3,7 +3,7 @@
 The independent variable is the phase of the mesh in mesh cycles, i.e. the pinion's actual rotation over its
 pitch angle, so that engagement falls on exactly known values whatever the speed does. The state holds
 coordinates that stay small: the pinion's rotation is replaced by the time lag it takes, the gear's by the
-rotational transmission error. Five more states integrate the works of the energy audit.
+rotational transmission error. Six more states integrate the works of the energy audit.
 """
 
 from typing import Any, NamedTuple
@@ -31,13 +31,13 @@ XI_RATE = 12
 #: Motor speed less nominal speed, rad/s.
 MOTOR_SLIP = 13
 #: Works since the start, J: by the drive, on the load, lost to tooth friction, lost to damping, and done by
-#: the change of stiffness and geometry with phase.
-WORK_IN, WORK_OUT, WORK_FRICTION, WORK_DAMPING, WORK_PARAMETRIC = 14, 15, 16, 17, 18
-STATES = 19
+#: the change of stiffness and geometry with phase; and what friction would take of bodies that only rotate.
+WORK_IN, WORK_OUT, WORK_FRICTION, WORK_DAMPING, WORK_PARAMETRIC, WORK_SLIDING = 14, 15, 16, 17, 18, 19
+STATES = 20
 #: Coordinates of the free bodies, m, and their rates, in the same order.
 DISPLACEMENTS = (X_P, Y_P, X_G, Y_G, XI)
 VELOCITIES = (VX_P, VY_P, VX_G, VY_G, XI_RATE)
-WORKS = (WORK_IN, WORK_OUT, WORK_FRICTION, WORK_DAMPING, WORK_PARAMETRIC)
+WORKS = (WORK_IN, WORK_OUT, WORK_FRICTION, WORK_DAMPING, WORK_PARAMETRIC, WORK_SLIDING)
 #: States that the mechanics depend on; the rest are the audit's.
 MECHANICAL = 14
 
@@ -65,7 +65,7 @@ class Options(NamedTuple):
 
     film: FilmFunctions
     friction: FrictionFunctions
-    sliding: int = SLIDING_KINEMATIC
+    sliding: int = SLIDING_DYNAMIC
     formulation: int = CLASSICAL
     drive: int = DRIVE_SPEED
     hertz: int = HERTZ_IN_TABLE

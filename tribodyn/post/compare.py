@@ -12,6 +12,7 @@ from rich.text import Text
 from tribodyn.errors import InputError
 from tribodyn.post.report import Line, Lines, shown
 from tribodyn.record.reader import Record
+from tribodyn.record.withheld import reasons, warnings
 
 #: The share of the power that is lost, beside the efficiency whose difference it shows better.
 LOSS = Line("loss", "Loss, share of the power in", 100.0, "%", ".3f")
@@ -51,12 +52,18 @@ class Comparison(NamedTuple):
         Heading -> rows.
     conditions : dict
         Dotted key of the scenario -> what each record's says, for the keys in which they differ.
+    withheld : tuple of dict
+        Of every record: name of a figure that is withheld -> why.
+    warnings : tuple of tuple of str
+        What every record warns of.
     """
 
     labels: tuple[str, ...]
     titles: tuple[str, ...]
     groups: dict[str, tuple[Row, ...]]
     conditions: dict[str, tuple[str, ...]]
+    withheld: tuple[dict[str, str], ...] = ()
+    warnings: tuple[tuple[str, ...], ...] = ()
 
 
 def compare(records: Sequence[Record], lines: Lines) -> Comparison:
@@ -87,6 +94,8 @@ def compare(records: Sequence[Record], lines: Lines) -> Comparison:
         tuple(str(record.scenario.get("title", "")) for record in records),
         {heading: rows for heading, rows in groups.items() if rows},
         _differing([dict(_conditions(record.scenario)) for record in records]),
+        tuple(reasons(record.summary) for record in records),
+        tuple(tuple(warnings(record.summary)) for record in records),
     )
 
 
@@ -192,7 +201,12 @@ def comparison_table(comparison: Comparison) -> Group:
             for value, difference in zip(written[1:], _differences(row), strict=True):
                 cells += [value, difference]
             table.add_row(f"  {row.line.label}", *cells, row.line.unit)
-    parts += ["", table, "", *_conditions_text(comparison)]
+    warned = [
+        Text(f"Warning, {label}: {warning}", style="bold red")
+        for label, some in zip(comparison.labels, comparison.warnings, strict=True)
+        for warning in some
+    ]
+    parts += ["", table, "", *warned, *_conditions_text(comparison)]
     return Group(*parts)
 
 
@@ -237,6 +251,9 @@ def as_json(comparison: Comparison) -> dict[str, Any]:
             }
             for rows in comparison.groups.values()
             for row in rows
+        },
+        "withheld": {
+            label: why for label, why in zip(comparison.labels, comparison.withheld, strict=True) if why
         },
         "different_conditions": {key: list(values) for key, values in comparison.conditions.items()},
     }

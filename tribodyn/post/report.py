@@ -10,6 +10,7 @@ from rich.table import Table
 from rich.text import Text
 
 from tribodyn.record.reader import Record
+from tribodyn.record.withheld import reasons, warnings
 
 
 class Line(NamedTuple):
@@ -45,13 +46,19 @@ def summary_table(record: Record, lines: Lines, sentences: Sequence[str]) -> Gro
     table.add_column(no_wrap=True)
     table.add_column(justify="right")
     table.add_column(no_wrap=True)
+    withheld = reasons(record.summary)
     for group, all_lines in lines.items():
-        present = [line for line in all_lines if record.summary.get(line.name) is not None]
+        present = [
+            line for line in all_lines if record.summary.get(line.name) is not None or line.name in withheld
+        ]
         if not present:
             continue
         table.add_row(Text(group, style="bold cyan"), "", "")
         for line in present:
             label, unit = line.label, line.unit
+            if line.name in withheld:
+                table.add_row(f"  {label}", "withheld", "")
+                continue
             if np.ndim(record.summary[line.name]):
                 label += f", pairs {', '.join(str(pair) for pair in reversed(record.pairs))}"
             table.add_row(f"  {label}", shown(line, record.summary[line.name]), unit)
@@ -59,6 +66,7 @@ def summary_table(record: Record, lines: Lines, sentences: Sequence[str]) -> Gro
     parts.append(Text("How far to trust it", style="bold cyan"))
     unfinished = f"The run is {record.status}: {record.samples} samples were written."
     said = [*sentences, *([] if record.status == "complete" else [unfinished])]
+    parts += [Text(f"  Warning: {warning}.", style="bold red") for warning in warnings(record.summary)]
     parts += [Text(f"  {sentence}") for sentence in said or ["The record has no summary."]]
     return Group(*parts)
 

@@ -27,7 +27,9 @@ def sweep_table(record: SweepRecord, lines: Sequence[Line]) -> Group:
     lines : sequence of Line
         The figures shown, by name; none: all, as the record describes them.
     """
-    columns = lines or [described(record, name) for name in record.figures]
+    # a record of an older version lacks figures that have been added since
+    columns = [one for one in lines if one.name in record]
+    columns = columns or [described(record, name) for name in record.figures]
     parts: list[Any] = [Text(str(record.scenario.get("title", record.label)), style="bold")]
     if record.status != "complete":
         parts.append(Text(f"{record.status}: {record.message}", style="bold red"))
@@ -49,7 +51,14 @@ def sweep_table(record: SweepRecord, lines: Sequence[Line]) -> Group:
     parts += [Text(f"failed at {_place(record, at)}: {why}") for at, why in failures[:FAILURES_SHOWN]]
     if len(failures) > FAILURES_SHOWN:
         parts.append(Text(f"and {len(failures) - FAILURES_SHOWN} more, see message in the record"))
+    parts += [Text(f"Warning: {warning}", style="bold red") for warning in sweep_warnings(record)]
     return Group(*parts)
+
+
+def sweep_warnings(record: SweepRecord) -> list[str]:
+    """What the cases warn of, and how many they are."""
+    done = record.count()["done"]
+    return [f"{count} of {done} cases: {text}" for text, count in record.warnings().items()]
 
 
 def described(record: SweepRecord, name: str) -> Line:
@@ -102,5 +111,6 @@ def sweep_as_json(record: SweepRecord) -> dict[str, Any]:
         "settings": record.settings,
         "figures": {name: {"units": record.units(name), "values": record[name]} for name in names},
         "failures": [{"at": at, "message": why} for at, why in record.failures()],
+        "warnings": sweep_warnings(record),
         "summary": record.summary,
     }

@@ -13,6 +13,7 @@ from tribodyn.numerics.variable import Variable
 from tribodyn.record import schema
 from tribodyn.record.disk import LIBVER, Blank, Layered
 from tribodyn.record.schema import Layout
+from tribodyn.record.withheld import withheld
 
 #: Libraries whose versions are recorded, because results depend on them.
 LIBRARIES = ("numpy", "scipy", "numba", "jax", "diffrax", "h5py")
@@ -100,7 +101,7 @@ def create(head: Head, samples: int) -> LaidOut:
 
 def write_summary(file: h5py.File, summary: Mapping[str, Any], prefix: str = "") -> None:
     """Put a summary into the group's attributes, nested names joined by `/`, None left out."""
-    for name, value in summary.items():
+    for name, value in withheld(summary).items():
         if isinstance(value, Mapping):
             write_summary(file, value, f"{prefix}{name}/")
         elif value is not None:

@@ -14,6 +14,7 @@ from tribodyn.errors import InputError
 from tribodyn.record import schema
 from tribodyn.record.layout import counted
 from tribodyn.record.sweep_schema import SWEEP
+from tribodyn.record.withheld import samples_withheld, withheld
 
 
 class Record:
@@ -65,7 +66,7 @@ class Record:
             values = dataset[: self.samples] if name in self._along else dataset[...]
         except (OSError, RuntimeError) as error:
             raise self._damaged(error) from error
-        return values.astype(str) if values.dtype.kind == "S" else values
+        return values.astype(str) if values.dtype.kind == "S" else samples_withheld(name, values)
 
     def __contains__(self, name: object) -> bool:
         return name in self._file and isinstance(self._file[name], h5py.Dataset)
@@ -157,7 +158,10 @@ class Record:
 
     @cached_property
     def summary(self) -> dict[str, Any]:
-        """Results of the run; names that hold `/` become nested dictionaries."""
+        """Results of the run; names that hold `/` become nested dictionaries.
+
+        A figure that is withheld is None, see `record.withheld`.
+        """
         nested: dict[str, Any] = {}
         for name, value in attributes(self._file["summary"]).items():
             *parents, leaf = name.split("/")
@@ -165,7 +169,7 @@ class Record:
             for parent in parents:
                 place = place.setdefault(parent, {})
             place[leaf] = value
-        return nested
+        return withheld(nested)
 
     @cached_property
     def mesh_cycle(self) -> dict[str, Any]:

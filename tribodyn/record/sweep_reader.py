@@ -13,6 +13,7 @@ from tribodyn.errors import InputError
 from tribodyn.record import schema
 from tribodyn.record.reader import Record, attributes, open_file, open_record
 from tribodyn.record.sweep_schema import DONE, FAILED, SWEEP, WAITING
+from tribodyn.record.withheld import samples_withheld, warnings_in
 
 
 class Parameter(NamedTuple):
@@ -184,6 +185,10 @@ class SweepRecord:
         places = np.argwhere(self["status"] == FAILED)
         return [(self.at(tuple(place)), str(self.case("message", tuple(place)))) for place in places]
 
+    def warnings(self) -> dict[str, int]:
+        """What the cases' remarks warn of, and in how many cases."""
+        return warnings_in(self["message"][self["status"] == DONE].tolist())
+
     def at(self, place: tuple[int, ...]) -> dict[str, Any]:
         """Return the parameters, and the direction, of the case at a place."""
         scales = [*(one.values for one in self.parameters), np.array(self.directions)]
@@ -196,7 +201,11 @@ class SweepRecord:
             values = np.asarray(self._file[name][part])
         except (OSError, RuntimeError) as error:
             raise self._damaged(error) from error
-        return np.char.decode(values, "utf-8", "replace") if values.dtype.kind == "S" else values
+        return (
+            np.char.decode(values, "utf-8", "replace")
+            if values.dtype.kind == "S"
+            else samples_withheld(name, values)
+        )
 
     def _damaged(self, error: Exception) -> InputError:
         reason = str(error).strip("'\"")

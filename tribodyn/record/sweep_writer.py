@@ -19,6 +19,7 @@ from tribodyn.numerics.variable import Variable
 from tribodyn.record import disk, layout, sweep_schema
 from tribodyn.record.schema import COMPLETE, FAILED, FORMAT, PARTIAL, STATUS_NOTES, partial_path
 from tribodyn.record.sweep_schema import SWEEP, SweepLayout
+from tribodyn.record.withheld import cases_withheld
 from tribodyn.record.writer import check_target, conclude, refuse_existing, unwritable
 from tribodyn.record.writing_lock import WritingLock, remove_orphans, scratch_path
 
@@ -143,7 +144,7 @@ class SweepWriter:
         block : dict
             Arrays (n, …) for every dataset of the layout.
         """
-        cases = np.asarray(cases)
+        cases, block = np.asarray(cases), cases_withheld(block)
         runs = np.split(np.arange(len(cases)), np.flatnonzero(np.diff(cases) != 1) + 1)
         for name, variable in self._variables.items():  # status is the last of them
             place = self._places[name]

@@ -23,6 +23,7 @@ from tribodyn.numerics.cache import replacing
 from tribodyn.record import disk
 from tribodyn.record import layout as file_layout
 from tribodyn.record.schema import COMPLETE, FAILED, FORMAT, STATUS_NOTES, Layout, partial_path
+from tribodyn.record.withheld import samples_withheld
 from tribodyn.record.writing_lock import WritingLock, refuse_if_written, remove_orphans, scratch_path
 
 
@@ -211,7 +212,7 @@ class RecordWriter:
         pieces = []
         for name, values in block.items():
             place = self._place[name]
-            array = file_layout.encode(self._variables[name], values)
+            array = file_layout.encode(self._variables[name], samples_withheld(name, values))
             if array.shape != (length, *place.row):
                 raise ValueError(f"{name}: shape {array.shape}, not {(length, *place.row)}")
             pieces.append((place.offset + start * place.stride, array))
@@ -225,7 +226,9 @@ class RecordWriter:
         pieces = []
         for name, value in values.items():
             place = self._place[name]
-            array = file_layout.encode(self._variables[name], value).reshape(np.shape(value))
+            array = file_layout.encode(self._variables[name], samples_withheld(name, value)).reshape(
+                np.shape(value)
+            )
             if array.shape != place.row:
                 raise ValueError(f"{name}: shape {array.shape}, not {place.row}")
             pieces.append((place.offset + row * place.stride, array))

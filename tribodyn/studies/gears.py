@@ -35,6 +35,9 @@ TRIBOLOGY = (
 ENERGY = (
     Line("power_in_mean", "Power in, mean", 1.0, "W", ",.1f"),
     Line("power_friction_mean", "Friction loss, mean", 1.0, "W", ".3g"),
+    Line(
+        "friction_work_on_vibration", "Friction's work on the vibration, share of the loss", 100.0, "%", ".2g"
+    ),
     Line("efficiency", "Efficiency", 100.0, "%", ".2f"),
 )
 WALL_TIME = Line("wall_time", "Wall time", 1.0, "s", ".3g")

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from tribodyn.numerics.registry import cannot_be_loaded
+from tribodyn.record.withheld import withheld
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -180,23 +181,27 @@ class Study:
         -------
         RunResult
             `status` is "failed" where the simulation could not go on: the path then is the partial record's.
+            An efficiency in `summary` that cannot be is None, see `record.withheld`.
 
         Raises
         ------
         InputError
             Before anything is written.
         """
-        return self._part("run", "run")(case, output, force=force, progress=progress)
+        result = self._part("run", "run")(case, output, force=force, progress=progress)
+        return result._replace(summary=withheld(result.summary))
 
     def figures(self, case: Any) -> dict[str, Any]:
         """Work out the figures of a case without a record, those of `swept` among them.
+
+        An efficiency that cannot be is None, see `record.withheld`.
 
         Raises
         ------
         InputError, SimulationError
             Where the case cannot be worked out.
         """
-        return self._part("run", "figures")(case)
+        return withheld(self._part("run", "figures")(case))
 
     def drawings(self) -> "Mapping[str, Drawing]":
         """Its pictures by name, in the order `tribodyn plot` draws them."""

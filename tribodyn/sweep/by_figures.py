@@ -7,6 +7,7 @@ import numpy as np
 
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.record.sweep_schema import DONE, FAILED, SweepLayout
+from tribodyn.record.withheld import remarked, warned, warnings
 from tribodyn.studies.batch import Chunk
 from tribodyn.studies.study import Study
 
@@ -74,5 +75,6 @@ class ByFigures:
             for name in layout.figures:
                 if figures.get(name) is not None:
                     rows[name][i] = figures[name]
+            rows["message"][i] = remarked(*map(warned, warnings(figures)))
             rows["status"][i] = DONE
         return rows

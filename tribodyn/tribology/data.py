@@ -35,12 +35,12 @@ class FrictionData:
     values : mapping
         Values of the law's own keys, by name, in SI units.
     sliding : {"kinematic", "dynamic"}
-        Sliding speed from the nominal rotation, or from the vibrating bodies.
+        Sliding speed from the nominal rotation, or from the bodies as they move, vibration included.
     reversal_width : float
         Distance along the path of contact over which friction changes sign at the pitch point, m.
     """
 
     law: str | FrictionLaw
     values: Mapping[str, Any] = field(default_factory=dict)
-    sliding: Literal["kinematic", "dynamic"] = "kinematic"
+    sliding: Literal["kinematic", "dynamic"] = "dynamic"
     reversal_width: float = 2e-5

@@ -71,8 +71,8 @@ def test_a_failed_run_says_so(tmp_path: Path):
 
 
 def test_an_undefined_figure_is_a_dash(tmp_path: Path):
-    text = printed(failed(tmp_path / "run.h5", {"efficiency": float("nan")}))
-    assert "–" in next(row for row in text.splitlines() if "Efficiency" in row)
+    text = printed(failed(tmp_path / "run.h5", {"dynamic_factor": float("nan")}))
+    assert "–" in next(row for row in text.splitlines() if "Dynamic factor" in row)
 
 
 def test_json_holds_si_units_and_no_nan(record: Record, tmp_path: Path):

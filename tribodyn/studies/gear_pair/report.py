@@ -45,6 +45,7 @@ SWEEP_LINES = (
     Line("hertz_pressure_max", "Maximum Hertz pressure", 1e-9, "GPa", ".3g"),
     Line("film_min", "Minimum film thickness", 1e6, "µm", ".3g"),
     Line("efficiency", "Efficiency", 100.0, "%", ".3f"),
+    Line("friction_work_on_vibration", "Friction's work on the vibration", 100.0, "%", ".2g"),
     Line("contact_loss_fraction", "Time without contact", 100.0, "%", ".3g"),
 )
 

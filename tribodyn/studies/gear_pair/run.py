@@ -18,7 +18,7 @@ from tribodyn.solve.initial import initial_state
 from tribodyn.solve.transient import SampledStates, Stop, TransientSettings, transient
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.prepare import prepare
-from tribodyn.studies.gear_pair.summary import RunningExtremes, energy_residual, steady_figures
+from tribodyn.studies.gear_pair.summary import RunningExtremes, energy_residual, steady_figures, warning_of
 from tribodyn.studies.gears import LAYOUT
 from tribodyn.studies.recording import target, writer
 from tribodyn.studies.study import Progress, RunResult
@@ -90,6 +90,7 @@ def run(
             message = str(SimulationError(stop.reason, stop.time))
             return RunResult(record.fail(message, summary), "failed", message, summary)
         summary |= steady_figures(statistics.window(), statistics.window_work(), cycle, samples)
+        summary["warning"] = warning_of(summary["friction_work_on_vibration"], case.friction.sliding)
         return RunResult(record.finish(summary), "complete", "", summary)
 
 

@@ -148,7 +148,7 @@ class Friction(FrictionTable):
     """Which law acts between the flanks, and the law's own keys."""
 
     sliding: Literal["kinematic", "dynamic"] = Field(
-        "kinematic", description="sliding speed from nominal rotation or from the vibrating bodies"
+        "dynamic", description="sliding speed from nominal rotation or from the vibrating bodies"
     )
     reversal_width: Length = written("20 um", description="along the path, over which friction turns at P")
 

@@ -4,7 +4,14 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.dynamics.parameters import WORK_DAMPING, WORK_FRICTION, WORK_IN, WORK_OUT, WORK_PARAMETRIC
+from tribodyn.dynamics.parameters import (
+    WORK_DAMPING,
+    WORK_FRICTION,
+    WORK_IN,
+    WORK_OUT,
+    WORK_PARAMETRIC,
+    WORK_SLIDING,
+)
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.post.spectra import amplitude_spectrum
 from tribodyn.tribology.surface_state import fraction_in_range
@@ -16,6 +23,15 @@ EXTREMES = {
     "film_parameter": ("film_parameter_min", np.nanmin),
     "hertz_pressure": ("hertz_pressure_max", np.nanmax),
     "flash_temperature_rise": ("flash_temperature_max", np.nanmax),
+}
+
+
+#: Share of the loss that friction may give to the vibration before it is said.
+FEEDS = 0.01
+#: What that means, by `friction.sliding`.
+ABOUT_FEEDING = {
+    "kinematic": 'which kinematic sliding makes of nothing: use friction.sliding = "dynamic"',
+    "dynamic": "taken from the drive: a self-excited vibration",
 }
 
 
@@ -53,6 +69,38 @@ def energy_residual(first: np.ndarray, last: np.ndarray, stored: float) -> float
     return float(missing / max(abs(work[WORK_IN]), 1e-300))
 
 
+def friction_work_on_vibration(work: np.ndarray) -> float | None:
+    """Work of friction on the vibration, as a share of the loss that the rotation alone has; > 0: fed.
+
+    What friction takes of the moving bodies, Σ F_f v_rel, is what it would take of bodies that only rotate,
+    Σ F_f v_s, less what it gives to the vibration. None without friction.
+
+    Parameters
+    ----------
+    work : (STATES,)
+        Change of the state over whole mesh cycles.
+    """
+    nominal, taken = float(work[WORK_SLIDING]), float(work[WORK_FRICTION])
+    return (nominal - taken) / abs(nominal) if nominal != 0.0 else None
+
+
+def warning_of(share: float | None, sliding: str) -> str | None:
+    """Warn where friction feeds the vibration with more than `FEEDS` of its loss.
+
+    Parameters
+    ----------
+    share : float or None
+        See `friction_work_on_vibration`.
+    sliding : {"kinematic", "dynamic"}
+        `friction.sliding` of the case.
+    """
+    if share is None or not share > FEEDS:
+        return None
+    return (
+        f"friction feeds the vibration with more than {100 * FEEDS:g} % of its loss, {ABOUT_FEEDING[sliding]}"
+    )
+
+
 def steady_figures(
     window: dict[str, np.ndarray], work: np.ndarray, cycle: MeshCycle, samples: int
 ) -> dict[str, Any]:
@@ -86,6 +134,7 @@ def steady_figures(
     power_in, power_out, power_friction = work[[WORK_IN, WORK_OUT, WORK_FRICTION]] / duration
     load_torque = abs(power_out / np.mean(window["velocity"][:, -1]))
     static = float(load_torque / cycle.gear_pitch_radius)
+    share = friction_work_on_vibration(work)
     keep = orders <= 20.0 + 1e-9
     return {
         "averaging_cycles": len(error) // samples,
@@ -98,6 +147,7 @@ def steady_figures(
         "friction_coefficient_mean": float(slid / loaded) if loaded > 0 else float("nan"),
         "friction_force_mean": np.mean(friction, axis=0),
         "efficiency": float(1.0 - work[WORK_FRICTION] / work[WORK_IN]) if power_in > 0 else float("nan"),
+        "friction_work_on_vibration": share,
         "power_in_mean": float(power_in),
         "power_friction_mean": float(power_friction),
         "closure_in_range_fraction": fraction_in_range(window["closure_in_range"][touching]),

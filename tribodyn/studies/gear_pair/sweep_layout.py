@@ -33,6 +33,9 @@ FIGURES: dict[str, Variable] = {
     "efficiency": _figure("1", "efficiency over whole mesh cycles"),
     "power_in_mean": _figure("W", "mean power of the drive"),
     "power_friction_mean": _figure("W", "mean power lost to tooth friction"),
+    "friction_work_on_vibration": _figure(
+        "1", "work of friction on the vibration over the loss that the rotation alone has; > 0: fed"
+    ),
     "contact_loss_fraction": _figure("1", "share of the time without any contact"),
     "closure_in_range_fraction": _figure("1", "share of the contact in which the film law is in its range"),
     "friction_in_range_fraction": _figure(
@@ -74,7 +77,7 @@ STATE_VARIABLE = Variable(("state_variable",), "1", "state of the model, see tri
 STATE_NAMES = (
     *("x_p", "y_p", "x_g", "y_g", "lag", "xi", "twist"),
     *("vx_p", "vy_p", "vx_g", "vy_g", "slip", "xi_rate", "motor_slip"),
-    *("work_in", "work_out", "work_friction", "work_damping", "work_parametric"),
+    *("work_in", "work_out", "work_friction", "work_damping", "work_parametric", "work_sliding"),
 )
 
 

@@ -15,6 +15,7 @@ from tribodyn.dynamics.modes import natural_frequencies
 from tribodyn.dynamics.parameters import XI, XI_RATE, frictionless
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.record.sweep_schema import DONE, FAILED
+from tribodyn.record.withheld import remarked, warned
 from tribodyn.solve.initial import initial_state, static_equilibrium
 from tribodyn.studies.batch import Chunk
 from tribodyn.studies.gear_pair.batch.figures import window_figures
@@ -22,6 +23,7 @@ from tribodyn.studies.gear_pair.batch.marched import marched
 from tribodyn.studies.gear_pair.batch.outcome import Outcome
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.prepare import Prepared, Tabulated, prepare, table_key, tables
+from tribodyn.studies.gear_pair.summary import warning_of
 from tribodyn.studies.gear_pair.sweep_layout import layout_of
 
 #: Tables kept in a process; a table is about 100 kB.
@@ -128,8 +130,12 @@ def _fill(
     if outcome.passage is None:
         rows["status"][i] = FAILED
         return
-    for name, value in window_figures(prepared, outcome.passage, settings.samples).items():
+    figures = window_figures(prepared, outcome.passage, settings.samples)
+    for name, value in figures.items():
         rows[name][i] = value
+    warning = warning_of(figures["friction_work_on_vibration"], prepared.case.friction.sliding)
+    if warning:
+        rows["message"][i] = remarked(rows["message"][i], warned(warning))
     error = outcome.passage.window[:, XI]
     room = settings.window * settings.samples
     whole = room if outcome.period == 0 else room // error.size * error.size
