@@ -17,7 +17,7 @@ from tribodyn.dynamics.parameters import (
 from tribodyn.errors import InputError
 from tribodyn.solve.engagement import engage_next
 from tribodyn.solve.integrator import Status
-from tribodyn.solve.periodic import steady_states
+from tribodyn.solve.periodic import WANDERING, steady_states
 from tribodyn.solve.tolerances import Tolerances, absolute_tolerances
 from tribodyn.solve.transient import make_integrator
 
@@ -25,6 +25,13 @@ from tribodyn.solve.transient import make_integrator
 RESONANT = {
     **OVERRIDES,
     "mesh.backlash": "20 um",
+    "mesh.damping_ratio": 0.01,
+    "operating.gear_torque": "100 N*m",
+}
+
+#: The same resonance of the drive as it is shipped.
+INVOLUTE_AT_RESONANCE = {
+    "friction.law": "none",
     "mesh.damping_ratio": 0.01,
     "operating.gear_torque": "100 N*m",
 }
@@ -141,17 +148,39 @@ def test_period_doubling_in_the_parametric_resonance(resonance):
     assert np.min(double.samples[:, XI]) < 0.0 < np.max(double.samples[:, XI])  # the flanks come apart
 
 
-def test_an_unstable_state_is_found_and_said(resonance):
-    (_, _, case), (_, _, unstable) = resonance
+def test_what_is_returned_is_the_motion_and_not_the_unstable_state_beside_it(resonance):
+    (_, _, case), (_, _, wandering) = resonance
+    assert wandering.period == 0
+    assert wandering.kind in ("quasi-periodic", "chaotic", "longer period", "not periodic")
+    assert "unstable state of period" in wandering.message
+    assert len(wandering.samples) == 50 * WANDERING
+    # the samples go on where the state is: another solver comes by them
+    end = by_another_solver(case.model, wandering.state, 1)
+    assert scaled(case.model, end - wandering.samples[50]) < 1e-4
+
+
+def test_shooting_alone_finds_the_unstable_state(resonance):
+    (_, _, case), (_, _, wandering) = resonance
+    (unstable,) = steady_states([case.model], samples=50, method="shooting")
     assert unstable.kind == "unstable"
     assert not unstable.stable
     assert abs(unstable.multipliers[0]) > 1.0
-    assert "unstable state of period" in unstable.message
-    # it is a steady state none the less: another solver comes back to it after its period …
     end = by_another_solver(case.model, unstable.state, unstable.period)
     assert scaled(case.model, end - unstable.state) < 1e-5
-    # … and marching is somewhere else
-    assert scaled(case.model, unstable.last - unstable.state) > 1e-2
+    assert scaled(case.model, wandering.state - unstable.state) > 1e-2
+
+
+def test_a_motion_of_two_cycles_is_recognised_from_afar(prepared):
+    """From the neighbour's motion: Newton's method for one cycle would find an unstable state there."""
+    near, here = [
+        prepared("involute-23-47", **{**INVOLUTE_AT_RESONANCE, "operating.pinion_speed": f"{speed} rad/s"})
+        for speed in (1038, 1036)
+    ]
+    given = steady_states([near.model], samples=1)[0]
+    assert given.kind == "period-2"
+    (steady,) = steady_states([here.model], given.state[None], samples=20, max_cycles=400)
+    assert steady.kind == "period-2"
+    assert scaled(here.model, by_another_solver(here.model, steady.state, 2) - steady.state) < 1e-5
 
 
 def test_with_a_motor_the_speed_is_a_state(prepared):

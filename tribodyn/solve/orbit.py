@@ -6,6 +6,19 @@ import numpy as np
 
 from tribodyn.numerics.shapes import Array, Complex, Float
 
+#: Kinds of motion beside `periodic`: without a period that is sought, what only shooting finds, and none.
+LONGER_PERIOD = "longer period"
+QUASI_PERIODIC = "quasi-periodic"
+CHAOTIC = "chaotic"
+NOT_PERIODIC = "not periodic"
+UNSTABLE = "unstable"
+FAILED = "failed"
+
+
+def periodic(period: int) -> str:
+    """The kind of a stable motion that repeats after some periods of the excitation."""
+    return f"period-{period}"
+
 
 class Orbit(NamedTuple):
     """One system's steady state, or what can be said instead.
@@ -13,20 +26,22 @@ class Orbit(NamedTuple):
     Attributes
     ----------
     state : (N,)
-        At the start of a period, on the steady orbit; the last one marched where there is none.
+        On the motion that `kind` names, at the start of a period of the excitation.
     last : (N,)
-        Where marching ended: the start for a neighbouring system, on the orbit only if that was taken.
+        Where marching ended: the start for a neighbouring system.
     period : int
         Periods of the excitation in one of the motion; 0 where none was found.
     residual : float
         Scaled change of the state over one period of the motion; of a motion that is not periodic the
-        smallest over 1 … MAX_PERIOD periods.
+        smallest over 1 … `recurrence.MAX_PERIOD` periods.
     multipliers : (N,) complex
         Floquet multipliers over one period of the motion, largest first; NaN without a steady state.
     stable : bool
         No multiplier outside the unit circle.
     kind : str
-        "period-1" … "period-4", "unstable", "not periodic", "failed".
+        "period-1" … "period-8"; "longer period"; "quasi-periodic", "chaotic", or "not periodic" where it is
+        undecided which;
+        "failed"; "unstable" only where shooting alone was asked for.
     method : str
         "marching" or "shooting": what closed the orbit to the tolerance.
     marched : int
@@ -50,4 +65,4 @@ def failed_orbit(state: Float[Array, " state"], marched: int, reason: str) -> Or
     """No steady state, for a reason."""
     none = np.full(len(state), np.nan, dtype=complex)
     last = state.copy()
-    return Orbit(last, last, 0, np.inf, none, False, "failed", "marching", marched, reason)
+    return Orbit(last, last, 0, np.inf, none, False, FAILED, "marching", marched, reason)

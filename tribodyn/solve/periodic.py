@@ -14,7 +14,7 @@ from tribodyn.errors import InputError, SimulationError
 from tribodyn.solve.gear_map import GearMap, moving_states
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.integrator import MAX_STEPS
-from tribodyn.solve.orbit import Orbit
+from tribodyn.solve.orbit import FAILED, Orbit
 from tribodyn.solve.steady_orbit import Method, find
 
 #: The integration's relative tolerance for a fixed point, as a share of the residual required: a map that
@@ -24,35 +24,41 @@ FINE = 1e-2
 #: a few hundred times the tolerance where contact opens and closes. Such a case is marched once more,
 #: over so many mesh cycles at the fine tolerance, with fixed points at a hundredth of that.
 NOISE, ONCE_MORE = 1e-5, 120
+#: Mesh cycles of a motion without period that are sampled.
+WANDERING = 16
 
 
 class Steady(NamedTuple):
-    """The steady state of one gear pair, or what can be said instead.
+    """The steady motion of one gear pair: state, samples and end are of the motion that `kind` names.
 
     Attributes
     ----------
     state : (STATES,)
-        At phase 0 after engagement; lag and works zero. Where there is no periodic state, as `last`.
+        At phase 0 after engagement; lag and works zero.
     last : (STATES,)
         Where marching ended, likewise: the place to start a neighbouring case from.
     period : int
-        Mesh cycles in one period of the motion; 0 where there is none.
+        Mesh cycles in one period of the motion; 0 where it has none.
     residual : float
         Maximum change of the mechanical state over one period, each over its scale: displacements over the
         static deflection, velocities over that times the mesh's natural frequency.
     multipliers : (N,) complex
-        Floquet multipliers over one period of the motion, largest first, without the rigid rotation.
+        Floquet multipliers over one period of the motion, largest first, without the rigid rotation; NaN
+        where it has none.
     stable : bool
+        Whether the motion is periodic and stable.
     kind : str
-        "period-1" … "period-4", "unstable", "not periodic", "failed".
+        "period-1" … "period-8"; "longer period"; "quasi-periodic", "chaotic", or "not periodic" where it is
+        undecided which; "failed"; "unstable" only with `method="shooting"`.
     method : str
         "marching" or "shooting".
     cycles : int
         Mesh cycles marched before the state was found or given up.
-    samples : (period · samples, STATES)
-        Over one period of the motion, works counted from its start; empty without a periodic state.
+    samples : (cycles · samples, STATES)
+        Over one period of the motion, works counted from its start; over `WANDERING` mesh cycles of a motion
+        without period.
     end : (STATES,)
-        At the end of that period, before the next engagement: the works and the lag of a whole period.
+        At the end of the samples, before the next engagement: the works and the lag of whole mesh cycles.
     message : str
     """
 
@@ -146,7 +152,8 @@ def steady_states(
 
 def _once_more(before: "GearMap", orbits: list[Orbit], tolerance: float, settings: dict[str, Any]) -> None:
     """Seek from where marching ended, more finely, what all but repeated."""
-    noisy = [i for i, one in enumerate(orbits) if one.kind == "not periodic" and one.residual <= NOISE]
+    wandering = [i for i, one in enumerate(orbits) if not one.period and one.kind != FAILED]
+    noisy = [i for i in wandering if orbits[i].residual <= NOISE]
     if not noisy:
         return
     models, begin = [before.models[i] for i in noisy], np.array([orbits[i].last for i in noisy])
@@ -187,10 +194,11 @@ def refuse_time_dependent(model: Model) -> None:
 
 
 def _sampled(period_map: GearMap, orbits: list[Orbit], samples: int) -> list[Steady]:
-    """Each orbit with its samples, marched once more over its period."""
+    """Each orbit with its samples, marched once more over its period, or over some mesh cycles without."""
     sampled: dict[int, tuple[np.ndarray, np.ndarray, str]] = {}
-    for period in sorted({orbit.period for orbit in orbits} - {0}):
-        cases = np.array([case for case, orbit in enumerate(orbits) if orbit.period == period])
+    cycles = [0 if orbit.kind == FAILED else orbit.period or WANDERING for orbit in orbits]
+    for period in sorted({*cycles} - {0}):
+        cases = np.array([case for case, count in enumerate(cycles) if count == period])
         states = period_map.full(np.array([orbits[case].state for case in cases]))
         batch = period_map.integrate(states, cases, period, samples, True)
         sampled |= {int(case): row for case, row in zip(cases, zip(*batch, strict=True), strict=True)}
@@ -219,4 +227,4 @@ def _sampled(period_map: GearMap, orbits: list[Orbit], samples: int) -> list[Ste
 def _without_state(state: np.ndarray, reason: str) -> Steady:
     nothing = np.empty(0, dtype=complex)
     empty = np.empty((0, STATES))
-    return Steady(state, state, 0, np.inf, nothing, False, "failed", "marching", 0, empty, state, reason)
+    return Steady(state, state, 0, np.inf, nothing, False, FAILED, "marching", 0, empty, state, reason)

@@ -24,6 +24,8 @@ class Shot(NamedTuple):
     multipliers : (N,) complex
         Eigenvalues of the n-fold map's derivative, largest modulus first: Floquet's where the residual
         vanishes.
+    jacobian : (N, N)
+        That derivative.
     steps : int
         Newton steps taken.
     reason : str
@@ -33,6 +35,7 @@ class Shot(NamedTuple):
     state: np.ndarray
     residual: float
     multipliers: np.ndarray
+    jacobian: np.ndarray
     steps: int
     reason: str
 
@@ -83,6 +86,13 @@ def shoot(
     return [row.shot() for row in rows]
 
 
+def critical_direction(jacobian: np.ndarray, scale: np.ndarray) -> np.ndarray:
+    """Direction (N,), of scaled size 1, in which a state with this derivative is left, or comes near last."""
+    values, vectors = np.linalg.eig(jacobian)
+    direction = np.real(vectors[:, np.argmax(np.abs(values))])
+    return direction / np.max(np.abs(direction) / scale)
+
+
 class _Row:
     """One system on its way: state, image, residual, and the derivative with the place it was taken at."""
 
@@ -122,7 +132,8 @@ class _Row:
         self.done = True
 
     def shot(self) -> Shot:
-        return Shot(self.x, self.residual, _eigenvalues(self.last_jacobian), self.steps, self.reason)
+        multipliers = _eigenvalues(self.last_jacobian)
+        return Shot(self.x, self.residual, multipliers, self.last_jacobian, self.steps, self.reason)
 
 
 def _search(period_map: PeriodMap, rows: list[_Row], periods: int) -> None:

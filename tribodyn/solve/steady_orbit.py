@@ -2,8 +2,9 @@
 
 Written over `period_map.PeriodMap`, so that the gear model and the backlash oscillator share it. A system is
 marched until its states once per period repeat, or until the contraction shows that Newton's method would get
-there sooner; a state that shooting found is taken only if it is stable and near what marching was heading
-for, otherwise marching goes on. An unstable state that marching leaves is not returned as an average.
+there sooner, with the period that the states show; a state that shooting found is taken only if it is stable
+and near what marching was heading for, otherwise marching goes on. What is returned is the motion itself: an
+unstable state that marching leaves is named in the message only.
 """
 
 from collections.abc import Callable, Iterator
@@ -11,60 +12,28 @@ from typing import Literal
 
 import numpy as np
 
+from tribodyn.solve.judged import NEUTRAL, judge
 from tribodyn.solve.orbit import Orbit, failed_orbit
 from tribodyn.solve.period_map import PeriodMap
-from tribodyn.solve.shooting import Shot, shoot
+from tribodyn.solve.progress import BLOCK, Progress
+from tribodyn.solve.recurrence import Recurrence
+from tribodyn.solve.shooting import Shot, critical_direction, shoot
+from tribodyn.solve.wandering import wanderings
 
 Method = Literal["auto", "marching", "shooting"]
 
-#: Maximum number of excitation periods in one period of the motion.
-MAX_PERIOD = 4
-#: Periods marched between two looks at the states: at least twice MAX_PERIOD.
-BLOCK = 12
 #: Estimated distance from the steady state, over the scale, at which Newton's method takes over; it does so
 #: from afar too where marching on would take twice the maps of the derivatives that shooting should need.
 NEAR = 1e-3
 DERIVATIVES = 2
 #: Distance within which the result of shooting is that of marching, whatever the last periods did.
 THERE = 1e-5
-#: Changes of a motion that falls no further, over the scale, which may be the integration's own noise: where
-#: contact opens and closes marching at 1e-6 leaves up to a few 1e-4. It is marched finely from then on; and
-#: the blocks over which a change must halve not to count as stuck.
-NOISE = 1e-2
-STUCK = 2
+#: Share of the changes over fewer periods that the change over several has where these are sought from afar.
+DISTINCT = 0.25
 #: Newton steps allowed while marching may go on, and when it may not.
 STEPS, LAST_STEPS = 8, 20
-#: Distance of a multiplier's modulus from 1 within which a state counts as neutral.
-NEUTRAL = 1e-6
-
-
-class _Progress:
-    """What has been marched of every system."""
-
-    def __init__(self, states: np.ndarray):
-        self.current = states.copy()
-        self.marched = np.zeros(len(states), dtype=int)
-        self.next_shot = np.zeros(len(states), dtype=int)
-        self.changes = np.full((len(states), MAX_PERIOD), np.inf)
-        self.history: list[list[float]] = [[] for _ in states]
-        self.track: dict[int, np.ndarray] = {}
-        self.fallback: dict[int, Orbit] = {}
-        self.fine = np.zeros(len(states), dtype=bool)
-
-    def approaching(self, case: int) -> bool:
-        """Whether the change over a period fell over the second half of what was marched."""
-        blocks = self.history[case]
-        quarter = max(1, len(blocks) // 4)
-        return max(blocks[-quarter:]) < 0.5 * max(blocks[-2 * quarter : -quarter] or [0.0])
-
-    def refine_where_stuck(self, case: int) -> None:
-        """March finely, and shoot anew, where the change over a period is small and falls no further."""
-        blocks = self.history[case]
-        if self.fine[case] or len(blocks) < 2 * STUCK or max(blocks[-STUCK:]) > NOISE:
-            return
-        if max(blocks[-STUCK:]) >= 0.5 * max(blocks[-2 * STUCK : -STUCK]):
-            self.fine[case] = True
-            self.next_shot[case] = 0
+#: Periods within which a case that is pushed off an unstable state should have left it, and the largest push.
+LEAVING, LARGEST_PUSH = 100, 0.1
 
 
 def find(
@@ -97,7 +66,7 @@ def find(
     if method == "shooting":
         return _shoot_from(period_map, states, tolerance)
     done: list[Orbit | None] = [None] * count
-    so_far = _Progress(states)
+    so_far = Progress(states, period_map.scale)
     pending = np.arange(count)
     while pending.size:
         wanted: dict[int, list[int]] = {}
@@ -105,10 +74,7 @@ def find(
             if reason:
                 done[case] = failed_orbit(so_far.current[case], int(so_far.marched[case]), reason)
                 continue
-            track = np.concatenate([so_far.current[case][None], states_on])
-            so_far.current[case] = track[-1]
-            so_far.marched[case] += BLOCK
-            so_far.track[case] = track / period_map.scale[case]
+            so_far.take(case, states_on, period_map.scale[case])
             period = _candidate(so_far, case, tolerance, method)
             if period:
                 wanted.setdefault(period, []).append(case)
@@ -126,7 +92,7 @@ def find(
 
 
 def _block(
-    period_map: PeriodMap, so_far: _Progress, pending: np.ndarray, method: Method
+    period_map: PeriodMap, so_far: Progress, pending: np.ndarray, method: Method
 ) -> Iterator[tuple[int, np.ndarray, str]]:
     """March all pending systems over a block: number, states (BLOCK, N) and what stopped it."""
     fine = so_far.fine[pending] | (method == "marching")
@@ -137,62 +103,64 @@ def _block(
             yield from zip(map(int, cases), marched.states, marched.reasons, strict=True)
 
 
-def _candidate(so_far: _Progress, case: int, tolerance: float, method: Method) -> int:
+def _candidate(so_far: Progress, case: int, tolerance: float, method: Method) -> int:
     """Period for which to try shooting; 0 for none."""
-    half, track = BLOCK // 2, so_far.track[case]
-    for n in range(1, MAX_PERIOD + 1):
-        change = np.max(np.abs(track[n:] - track[:-n]), axis=1)
-        # the maximum over n periods: an oscillating approach passes zero now and then
-        last, middle = float(np.max(change[-n:])), float(np.max(change[-n - half : -half]))
-        so_far.changes[case, n - 1] = last
-        if n == 1:
-            so_far.history[case].append(float(np.max(change)))
-        within = any(n % d == 0 and so_far.changes[case, d - 1] <= 100.0 * tolerance for d in range(1, n))
-        if within:  # about to settle to a period that divides this one
+    size = so_far.current.shape[1]
+    smaller: list[Recurrence] = []
+    for one in so_far.seen[case]:
+        n, last, rate = one.period, one.change, one.rate
+        settling = any(n % other.period == 0 and other.change <= 100.0 * tolerance for other in smaller)
+        distinct = all(last <= DISTINCT * other.change for other in smaller)
+        smaller.append(one)
+        if settling:  # about to settle to a period that divides this one
             continue
         if last <= tolerance:
             return n
-        if method == "marching" or so_far.marched[case] < so_far.next_shot[case]:
+        if method == "marching" or so_far.marched[case] < so_far.next_shot.get((case, n), 0):
             continue
-        rate = (last / middle) ** (1.0 / half) if middle > 0.0 else 0.0
         if rate >= 1.0:
             if last <= THERE:  # so slow, or so near, that the contraction cannot be seen
                 return n
             continue
-        distance = last / (1.0 - rate**n)
         maps_left = np.log(tolerance / last) / np.log(rate) if rate > 0.0 else 0.0
-        if distance <= NEAR or maps_left > 2.0 * n * DERIVATIVES * (track.shape[1] + 2):
+        near = last / (1.0 - rate**n) <= NEAR
+        if near or (distinct and maps_left > 2.0 * n * DERIVATIVES * (size + 2)):
             return n
     return 0
 
 
-def _attempt(period_map, so_far: _Progress, these, period, tolerance, method) -> dict[int, Orbit]:
+def _attempt(period_map, so_far: Progress, these, period, tolerance, method) -> dict[int, Orbit]:
     """Shoot from where marching stands; returns the orbits that are taken."""
     cases = np.array(these)
     steps = 0 if method == "marching" else STEPS
     shots = shoot(period_map, so_far.current[cases], cases, period, tolerance, steps)
     taken = {}
     for case, shot in zip(these, shots, strict=True):
-        so_far.next_shot[case] = 2 * so_far.marched[case]
+        so_far.next_shot[case, period] = 2 * int(so_far.marched[case])
         if shot.reason:
             continue
-        orbit = _judge(period_map, shot, case, period, int(so_far.marched[case]), tolerance)
+        orbit = judge(period_map, shot, case, period, int(so_far.marched[case]), tolerance)
         neutral = abs(shot.multipliers[0]) >= 1.0 - NEUTRAL
         if orbit.stable and _heading(
             so_far.track[case], shot.state / period_map.scale[case], period, neutral
         ):
             taken[case] = orbit
             continue
-        if case not in so_far.fallback and not orbit.stable and method == "auto":
-            _push_off(so_far, case, shot.state, period_map.scale[case])
+        if not orbit.stable and method == "auto":
+            _push_off(so_far, case, shot, period, period_map.scale[case])
         so_far.fallback.setdefault(case, orbit)
     return taken
 
 
-def _push_off(so_far: _Progress, case: int, state: np.ndarray, scale: np.ndarray) -> None:
-    """Displace a case that sits on an unstable state, which it would take long to leave by itself."""
-    if np.max(np.abs(so_far.current[case] - state) / scale) <= NEAR:
-        so_far.current[case] = state + NEAR * scale
+def _push_off(so_far: Progress, case: int, shot: Shot, period: int, scale: np.ndarray) -> None:
+    """Displace a case that sits on an unstable state, which it would take long to leave by itself.
+
+    The more, the slower it would leave.
+    """
+    if so_far.away(case, shot.state, scale) <= NEAR:
+        growth = float(np.abs(shot.multipliers[0])) ** (LEAVING / period)
+        push = np.clip(1.0 / growth, NEAR, LARGEST_PUSH) * critical_direction(shot.jacobian, scale)
+        so_far.put(case, shot.state + push, scale)
 
 
 def _heading(track: np.ndarray, target: np.ndarray, period: int, neutral: bool) -> bool:
@@ -202,73 +170,57 @@ def _heading(track: np.ndarray, target: np.ndarray, period: int, neutral: bool) 
     return bool(away[-1] <= THERE or (not neutral and np.max(away[half:]) < np.max(away[:half])))
 
 
-def _judge(period_map, shot: Shot, case: int, period: int, marched: int, tolerance: float) -> Orbit:
-    """The orbit of a converged shot, with its shortest period and its stability."""
-    if period > 1:
-        one, scale = np.array([case]), period_map.scale[case]
-        track = period_map.march(shot.state[None], one, period, True).states[0]
-        for n in range(1, period):
-            close = np.max(np.abs(track[n - 1] - shot.state) / scale) <= 100.0 * tolerance
-            if period % n == 0 and close:
-                again = shoot(period_map, shot.state[None], one, n, tolerance)[0]
-                if not again.reason:
-                    shot, period = again._replace(steps=again.steps + shot.steps), n
-                    break
-    modulus = float(np.abs(shot.multipliers[0]))
-    stable = modulus <= 1.0 + NEUTRAL
-    message = "" if stable else f"an unstable state of period {period}: {_way_out(shot.multipliers[0])}"
-    if stable and modulus >= 1.0 - NEUTRAL:
-        message = "neutral: a multiplier of modulus 1, neighbouring states neither return nor leave"
-    return Orbit(
-        state=shot.state,
-        last=shot.state,
-        period=period,
-        residual=shot.residual,
-        multipliers=shot.multipliers,
-        stable=stable,
-        kind=f"period-{period}" if stable else "unstable",
-        method="shooting" if shot.steps else "marching",
-        marched=marched,
-        message=message,
-    )
-
-
-def _way_out(multiplier: complex) -> str:
-    """In words, how a state whose largest multiplier this is is left."""
-    modulus = f"largest multiplier {abs(multiplier):.4g}"
-    if abs(multiplier.imag) > 1e-6 * abs(multiplier):
-        return f"{modulus} at ±{np.degrees(abs(np.angle(multiplier))):.0f}°, left by a second frequency"
-    if multiplier.real < 0.0:
-        return f"{modulus}, negative: left towards twice the period"
-    return f"{modulus}, positive: left towards another state"
-
-
-def _last_resort(period_map, so_far: _Progress, late, tolerance, method) -> dict[int, Orbit]:
+def _last_resort(period_map, so_far: Progress, late, tolerance, method) -> dict[int, Orbit]:
     """What to say of systems that have marched all their periods."""
     said: dict[int, Orbit] = {}
-    shots: list[Shot | None] = [None] * len(late)
-    if method == "auto" and late:
-        cases = np.array(late)
-        shots = list(shoot(period_map, so_far.current[cases], cases, 1, tolerance, LAST_STEPS))
-    for case, shot in zip(late, shots, strict=True):
-        marched, last = int(so_far.marched[case]), so_far.current[case].copy()
-        orbit = so_far.fallback.get(case)
-        if shot is not None and not shot.reason:
-            orbit = _judge(period_map, shot, case, 1, marched, tolerance)
-        smallest = float(np.min(so_far.changes[case]))
-        wandering = f"marched {marched} periods without repeating, smallest change {smallest:.1e}"
-        if orbit is not None and orbit.stable and so_far.approaching(case):
-            said[case] = orbit._replace(message=f"obtained by shooting, still far away: {wandering}")
-        elif orbit is not None and not orbit.stable:
-            said[case] = orbit._replace(last=last, marched=marched, message=f"{orbit.message}; {wandering}")
-        else:
-            beside = "; shooting found a stable state that it does not reach" if orbit else ""
+    wandering = []
+    shown = {case: so_far.shown(case) for case in late}
+    for period in sorted(set(shown.values())):
+        cases = [case for case in late if shown[case] == period]
+        shots = _last_shots(period_map, so_far, cases, period, tolerance, method)
+        for case in cases:
+            orbit = shots.get(case)
+            away = np.inf if orbit is None else so_far.away(case, orbit.state, period_map.scale[case])
+            if orbit is not None and orbit.stable and (away <= NEAR or so_far.approaching(case)):
+                message = f"obtained by shooting, {away:.1e} away: {_marched(so_far, case)}"
+                said[case] = orbit._replace(message=message)
+            else:
+                wandering.append(case)
+                if orbit is not None:
+                    so_far.fallback[case] = orbit
+    if wandering:
+        cases = np.array(wandering)
+        told = wanderings(period_map, so_far.current[cases], cases)
+        for case, one in zip(wandering, told, strict=True):
+            beside = so_far.fallback.get(case)
+            remarks = [_marched(so_far, case), one.describe()]
+            if beside is not None:
+                stable = "shooting found a stable state that it does not reach"
+                remarks.append(stable if beside.stable else f"beside {beside.message}")
+            last, marched = so_far.current[case].copy(), int(so_far.marched[case])
             none = np.full(last.shape, np.nan, dtype=complex)
-            message = wandering + beside
+            smallest = float(so_far.smallest[case])
             said[case] = Orbit(
-                last, last, 0, smallest, none, False, "not periodic", "marching", marched, message
+                last, last, 0, smallest, none, False, one.kind, "marching", marched, "; ".join(remarks)
             )
     return said
+
+
+def _last_shots(period_map, so_far, cases, period, tolerance, method) -> dict[int, Orbit]:
+    """Orbits of the last attempt at systems that show a period."""
+    if method != "auto":
+        return {}
+    shots = shoot(period_map, so_far.current[np.array(cases)], np.array(cases), period, tolerance, LAST_STEPS)
+    return {
+        case: judge(period_map, shot, case, period, int(so_far.marched[case]), tolerance)
+        for case, shot in zip(cases, shots, strict=True)
+        if not shot.reason
+    }
+
+
+def _marched(so_far: Progress, case: int) -> str:
+    smallest = float(so_far.smallest[case])
+    return f"marched {so_far.marched[case]} periods without repeating, smallest change {smallest:.1e}"
 
 
 def _shoot_from(period_map, states, tolerance) -> list[Orbit]:
@@ -277,6 +229,6 @@ def _shoot_from(period_map, states, tolerance) -> list[Orbit]:
         orbits.append(
             failed_orbit(shot.state, 0, shot.reason)
             if shot.reason
-            else _judge(period_map, shot, case, 1, 0, tolerance)._replace(method="shooting")
+            else judge(period_map, shot, case, 1, 0, tolerance)._replace(method="shooting")
         )
     return orbits

@@ -5,6 +5,7 @@ import pytest
 
 from tribodyn.solve.period_map import Marched, by_differences
 from tribodyn.solve.steady_orbit import BLOCK, find
+from tribodyn.solve.wandering import wanderings
 
 TOLERANCE = 1e-9
 
@@ -46,8 +47,9 @@ def orbits(rates, **options):
 
 def test_period_doubling_of_the_logistic_map():
     """Fixed point 1 − 1/r with multiplier 2 − r; the two-cycle's multiplier is 4 + 2r − r²."""
-    one, two, four = orbits([2.8, 3.3, 3.5])
-    assert (one.kind, two.kind, four.kind) == ("period-1", "period-2", "period-4")
+    one, two, four, eight = orbits([2.8, 3.3, 3.5, 3.55])
+    kinds = (one.kind, two.kind, four.kind, eight.kind)
+    assert kinds == ("period-1", "period-2", "period-4", "period-8")
     assert one.state[0] == pytest.approx(1.0 - 1.0 / 2.8, abs=1e-9)
     assert one.multipliers[0] == pytest.approx(2.0 - 2.8, abs=1e-6)
     assert two.multipliers[0] == pytest.approx(4.0 + 2.0 * 3.3 - 3.3**2, abs=1e-6)
@@ -68,15 +70,58 @@ def test_period_three_of_the_logistic_map():
     assert three.multipliers[0].real == pytest.approx(np.prod(slopes), abs=1e-5)
 
 
-def test_chaos_is_not_periodic_and_its_unstable_state_is_named():
+def test_chaos_is_told_by_its_exponent_and_its_state_is_that_of_the_motion():
+    """The exponent is the mean of ln |r (1 − 2x)| along the motion."""
     (chaos,) = orbits([3.9], max_periods=200)
-    assert chaos.kind == "unstable"
-    assert chaos.period == 1
-    assert not chaos.stable
-    assert chaos.state[0] == pytest.approx(1.0 - 1.0 / 3.9, abs=1e-8)
-    assert chaos.multipliers[0] == pytest.approx(2.0 - 3.9, abs=1e-6)
-    assert abs(chaos.last[0] - chaos.state[0]) > 1e-3
+    assert chaos.kind == "chaotic"
+    assert chaos.period == 0
+    assert abs(chaos.state[0] - (1.0 - 1.0 / 3.9)) > 1e-3
+    assert np.all(np.isnan(chaos.multipliers))
     assert "left towards twice the period" in chaos.message
+    (told,) = wanderings(ClosedForm(logistic, [3.9], 1), np.array([[0.31]]), np.array([0]))
+    x = 0.31
+    slopes = []
+    for period in range(8 * 4 + 64 * 4):
+        if period >= 8 * 4:
+            slopes.append(np.log(abs(3.9 * (1.0 - 2.0 * x))))
+        x = 3.9 * x * (1.0 - x)
+    assert told.exponent == pytest.approx(np.mean(slopes), abs=0.02)
+
+
+def test_a_motion_of_sixteen_periods_is_no_chaos():
+    """The cascade of period doubling ends at r = 3.5699; period sixteen begins at 3.5644."""
+    (long,) = orbits([3.566], max_periods=1200)
+    assert long.kind == "longer period"
+    assert "exponent -" in long.message
+
+
+def test_a_case_on_an_unstable_state_goes_to_the_motion_beside_it():
+    """At r = 3.0004 the fixed point's multiplier is −1.0004: by itself it takes thousands of periods."""
+    rate = 3.0004
+    fixed = np.array([[1.0 - 1.0 / rate]])
+    (two,) = find(ClosedForm(logistic, [rate], 1), fixed, tolerance=1e-9, max_periods=600)
+    assert two.kind == "period-2"
+    cycle = np.roots([rate**2, -rate * (rate + 1.0), rate + 1.0]).real
+    assert np.min(np.abs(cycle - two.state[0])) < 1e-6
+
+
+def test_a_torus_is_quasi_periodic():
+    """A curve that attracts: radius 1, one radian a period, which never closes."""
+
+    def torus(x, modulus):
+        radius = np.linalg.norm(x, axis=1, keepdims=True)
+        c, s = np.cos(1.0), np.sin(1.0)
+        return (x @ np.array([[c, s], [-s, c]])) * (1.0 + 0.5 * (1.0 - radius**2) / radius * modulus[:, None])
+
+    (orbit,) = find(ClosedForm(torus, [0.5], 2), np.array([[0.9, 0.4]]), tolerance=1e-7, max_periods=60)
+    assert orbit.kind == "quasi-periodic"
+    assert np.linalg.norm(orbit.state) == pytest.approx(1.0, abs=1e-6)
+
+
+def test_a_drift_is_not_taken_for_a_torus():
+    drift = ClosedForm(lambda x, step: x + step[:, None], [0.01], 1)
+    (orbit,) = find(drift, np.zeros((1, 1)), tolerance=1e-9, max_periods=60)
+    assert orbit.kind == "not periodic"
 
 
 def test_shooting_finds_the_unstable_state_that_marching_leaves():
@@ -119,9 +164,9 @@ def test_a_slow_case_is_handed_over_to_shooting():
     assert orbit.marched <= 8 * BLOCK
 
 
-def test_a_rotation_that_never_settles_is_said_to_be_neutral():
+def test_a_rotation_that_never_settles_has_no_period():
     (orbit,) = find(ClosedForm(rotation, [1.0], 2), np.array([[0.9, 0.4]]), tolerance=1e-7, max_periods=60)
-    assert orbit.kind == "not periodic"
+    assert orbit.kind == "quasi-periodic"
     assert orbit.period == 0
     assert np.all(np.isnan(orbit.multipliers))
 

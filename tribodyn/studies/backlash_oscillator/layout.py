@@ -1,6 +1,6 @@
 """Datasets of a frequency sweep of the oscillator with backlash: everything over frequency and direction."""
 
-from tribodyn.numerics.variable import Variable
+from tribodyn.numerics.variable import Variable, flag
 from tribodyn.record.schema import Layout
 
 _POINT = ("frequency", "direction")
@@ -30,10 +30,16 @@ SAMPLES: dict[str, Variable] = {
     "multiplier_modulus": Variable(
         _MULTIPLIER,
         "1",
-        "modulus of the Floquet multipliers over one period of the motion; where it is not periodic, of an "
-        "unstable periodic state beside it, NaN if none was found",
+        "modulus of the Floquet multipliers over one period of the motion; NaN where it is not periodic",
     ),
     "multiplier_angle": Variable(_MULTIPLIER, "rad", "angle of the Floquet multipliers"),
+    "motion": flag(
+        _POINT,
+        "kind of motion: 0 grown without bound, 1 periodic, 2 not periodic, undecided which, "
+        "3 quasi-periodic, 4 chaotic, 5 of a longer period than is sought",
+        "unbounded periodic not_periodic quasi_periodic chaotic longer_period",
+        0,
+    ),
     "residual": Variable(_POINT, "1", "maximum change of displacement and velocity over one period"),
     "section_displacement": Variable(
         _POINT, "1", "displacement at the maximum excitation, in half backlashes"

@@ -9,6 +9,8 @@ LINES: Lines = {
         Line("points", "Points, up and down", form="d"),
         Line("points_of_longer_period", "with a longer period than the excitation's", form="d"),
         Line("points_not_periodic", "not periodic", form="d"),
+        Line("points_quasi_periodic", "of these quasi-periodic", form="d"),
+        Line("points_chaotic", "of these chaotic", form="d"),
         Line("points_failed", "grown without bound", form="d"),
         Line("rms_max", "Maximum RMS about the mean, in half backlashes"),
         Line("rms_max_frequency", "at the frequency"),

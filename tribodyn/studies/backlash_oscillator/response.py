@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tribodyn.solve import orbit
 from tribodyn.solve.orbit import Orbit
 from tribodyn.solve.steady_orbit import find
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
@@ -25,15 +26,24 @@ WINDOW = 100
 
 
 class MotionKind(IntEnum):
-    """The kind of motion, as the record has it."""
+    """The kind of motion, as the record has it; NOT_PERIODIC where it is undecided which of the others."""
 
-    NOT_PERIODIC = 0
+    FAILED = 0
     STABLE = 1
-    UNSTABLE = 2
-    FAILED = 3
+    NOT_PERIODIC = 2
+    QUASI_PERIODIC = 3
+    CHAOTIC = 4
+    LONGER_PERIOD = 5
 
 
-NOT_PERIODIC, STABLE, UNSTABLE, FAILED = MotionKind
+FAILED, STABLE, NOT_PERIODIC, QUASI_PERIODIC, CHAOTIC, LONGER_PERIOD = MotionKind
+#: Motions without period, by the search's name.
+WITHOUT_PERIOD = {
+    orbit.NOT_PERIODIC: NOT_PERIODIC,
+    orbit.QUASI_PERIODIC: QUASI_PERIODIC,
+    orbit.CHAOTIC: CHAOTIC,
+    orbit.LONGER_PERIOD: LONGER_PERIOD,
+}
 
 
 class Response(NamedTuple):
@@ -52,14 +62,13 @@ class Response(NamedTuple):
     period : (F, 2)
         Of the motion in periods of the excitation; 0 where it is not periodic.
     kind : (F, 2)
-        STABLE; NOT_PERIODIC; UNSTABLE: not periodic, beside an unstable periodic state, whose multipliers are
-        given; FAILED.
+        Of `MotionKind`; STABLE: periodic.
     residual : (F, 2)
         Change of the state over a period of the motion.
     multiplier : (F, 2, 2) complex
-        Floquet multipliers over a period of the periodic state found; NaN where there is none.
+        Floquet multipliers over a period of the motion; NaN where it has none.
     displacement, velocity : (F, 2)
-        State where cos Ωτ = 1: on the steady orbit, or where marching ended.
+        State where cos Ωτ = 1, at the start of the motion.
     messages : list of (frequency, direction, text)
         Remarks on single points.
     """
@@ -107,10 +116,9 @@ def frequency_response(
         places = np.array([step, count - 1 - step])
         oscillator = oscillator_at(case, frequency[places])
         orbits = find(oscillator, state, max_periods=case.max_periods)
-        for direction, orbit in enumerate(orbits):
-            _put(response, int(places[direction]), direction, orbit, oscillator)
-            failed = orbit.kind == "failed"
-            state[direction] = rest if failed else orbit.last
+        for direction, found in enumerate(orbits):
+            _put(response, int(places[direction]), direction, found, oscillator)
+            state[direction] = rest if found.kind == orbit.FAILED else found.last
         if progress:
             progress((step + 1) / count)
     return response
@@ -127,15 +135,14 @@ def at_rest(mean_force: float) -> float:
     return float(mean_force + np.sign(mean_force))
 
 
-def _put(response: Response, place: int, direction: int, orbit: Orbit, oscillator: OscillatorMap) -> None:
+def _put(response: Response, place: int, direction: int, found: Orbit, oscillator: OscillatorMap) -> None:
     """Put one orbit, and what is measured on it, into its place."""
     at = place, direction
-    if orbit.message:
-        response.messages.append((float(response.frequency[place]), direction, orbit.message))
-    if orbit.kind == "failed":
+    if found.message:
+        response.messages.append((float(response.frequency[place]), direction, found.message))
+    if found.kind == orbit.FAILED:
         return
-    state = orbit.state if orbit.stable else orbit.last
-    periods = orbit.period if orbit.stable else WINDOW
+    state, periods = found.state, found.period or WINDOW
     one = np.array([direction])
     figures = oscillator.figures(state[None], one, periods)[0]
     duration = periods * 2.0 * np.pi / response.frequency[place]
@@ -144,8 +151,8 @@ def _put(response: Response, place: int, direction: int, orbit: Orbit, oscillato
     response.rms[at] = np.sqrt(max(figures[SQUARE] / duration - mean * mean, 0.0))
     response.peak_to_peak[at] = figures[MAXIMUM] - figures[MINIMUM]
     response.free[at], response.back[at] = figures[FREE] / duration, figures[BACK] / duration
-    response.kind[at] = STABLE if orbit.stable else UNSTABLE if orbit.kind == "unstable" else NOT_PERIODIC
-    response.period[at] = orbit.period if orbit.stable else 0
-    response.residual[at] = orbit.residual
-    response.multiplier[at] = orbit.multipliers
+    response.kind[at] = WITHOUT_PERIOD.get(found.kind, STABLE)
+    response.period[at] = found.period
+    response.residual[at] = found.residual
+    response.multiplier[at] = found.multipliers
     response.displacement[at], response.velocity[at] = state

@@ -10,11 +10,11 @@ from tribodyn.errors import SimulationError
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.layout import LAYOUT
 from tribodyn.studies.backlash_oscillator.response import (
+    CHAOTIC,
     DOWN,
     FAILED,
-    NOT_PERIODIC,
+    QUASI_PERIODIC,
     STABLE,
-    UNSTABLE,
     UP,
     Response,
     frequency_response,
@@ -75,6 +75,7 @@ def record_arrays(response: Response) -> dict[str, Any]:
         "stable": np.where(response.kind == FAILED, np.nan, kind == STABLE),
         "multiplier_modulus": np.abs(response.multiplier),
         "multiplier_angle": np.angle(response.multiplier),
+        "motion": response.kind,
         "residual": response.residual,
         "section_displacement": response.displacement,
         "section_velocity": response.velocity,
@@ -86,8 +87,9 @@ def response_figures(response: Response) -> dict[str, Any]:
     frequency, rms, kind = response.frequency, response.rms, response.kind
     summary: dict[str, Any] = {
         "points": int(kind.size),
-        "points_not_periodic": int(np.sum((kind == NOT_PERIODIC) | (kind == UNSTABLE))),
-        "points_unstable_state": int(np.sum(kind == UNSTABLE)),
+        "points_not_periodic": int(np.sum((kind != STABLE) & (kind != FAILED))),
+        "points_quasi_periodic": int(np.sum(kind == QUASI_PERIODIC)),
+        "points_chaotic": int(np.sum(kind == CHAOTIC)),
         "points_failed": int(np.sum(kind == FAILED)),
         "points_of_longer_period": int(np.sum(response.period > 1)),
         "residual_max": _maximum(response.residual[kind == STABLE]),

@@ -46,8 +46,12 @@ FIGURES: dict[str, Variable] = {
 #: Everything a sweep records of a case.
 CASES: dict[str, Variable] = {
     **FIGURES,
-    "period": Variable((), "1", "mesh cycles in one period of the motion; 0: none found", "<i4", 0),
-    "stable": flag((), "whether the motion is stable: 1 yes, 0 no, -1 not known", "unknown unstable stable"),
+    "period": Variable((), "1", "mesh cycles in one period of the motion; 0: it has none", "<i4", 0),
+    "stable": flag(
+        (),
+        "whether the periodic motion is stable: 1 yes, 0 no, -1 not periodic, or not known",
+        "unknown unstable stable",
+    ),
     "multiplier_max": _figure("1", "maximum modulus of the Floquet multipliers"),
     "residual": _figure("1", "scaled change of the state over one period of the motion"),
     "cycles": Variable((), "1", "mesh cycles integrated", "<i8", 0),

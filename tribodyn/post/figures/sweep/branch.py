@@ -140,12 +140,11 @@ def draw_branch(axes: Axes, branch: Branch, values: np.ndarray) -> None:
 
 def motions(branch: Branch) -> Iterator[tuple[str, dict[str, Any], np.ndarray]]:
     """Label, marks and cases (n,) of every sort of motion that does not repeat with the mesh."""
-    if "stable" not in branch.record:
+    if "period" not in branch.record or not branch.record.settings.get("steady"):
         return
-    steady = branch.record["stable"][branch.place] >= 0  # below 0: not known
-    period, solution = (branch.record[name][branch.place] for name in ("period", "solution"))
-    wandering = steady & (solution == "not periodic")
-    for (label, style), chosen in zip(MOTIONS, (steady & (period > 1), wandering), strict=True):
+    period = branch.record["period"][branch.place]
+    wandering = (branch.record["status"][branch.place] == DONE) & (period == 0)
+    for (label, style), chosen in zip(MOTIONS, (period > 1, wandering), strict=True):
         if chosen.any():
             yield label, style, chosen
 

@@ -9,19 +9,20 @@ from tribodyn.dynamics.parameters import STATES
 from tribodyn.record.sweep_schema import SweepLayout
 from tribodyn.solve.methods import Runs, runs
 from tribodyn.solve.periodic import refuse_time_dependent
+from tribodyn.solve.recurrence import MAX_PERIOD
 from tribodyn.studies.batch import Batch, Chunk
 from tribodyn.studies.gear_pair.batch.evaluate import Settings, evaluate, tabulated
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.prepare import prepare, table_key
 from tribodyn.studies.gear_pair.sweep_layout import layout_of
 
-#: Mesh cycles that the search for a steady state may take, that its window has (whole periods, up to 4), and
-#: points of the section of a motion that has no period.
-MOST_CYCLES, STEADY_WINDOW, STEADY_POINTS = 2000, 4, 256
+#: Mesh cycles that the search for a steady state may take, that its window has (whole periods), and points of
+#: the section of a motion that has no period.
+MOST_CYCLES, STEADY_WINDOW, STEADY_POINTS = 2000, MAX_PERIOD, 256
 #: The same of a transient: a quarter of its cycles, at most this many; points of its section, half of them.
 TRANSIENT_WINDOW, TRANSIENT_POINTS = 16, 256
 #: Bytes of states that the cases of a chunk may fill: what bounds the memory of a sweep.
-CHUNK_BYTES = 32 * 2**20
+CHUNK_BYTES = 64 * 2**20
 MOST_IN_CHUNK = 256
 #: A sweep is done in at least this many chunks, so that its progress shows; but in none of fewer cases.
 CHUNKS, MINIMUM_IN_CHUNK = 16, 32

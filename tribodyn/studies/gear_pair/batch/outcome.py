@@ -40,7 +40,7 @@ class Outcome(NamedTuple):
     section : (points, STATES)
         States at the start of mesh cycles, the last ones.
     solution : str
-        Sort of motion: "period-1", …, "unstable", "not periodic", "transient", "failed".
+        Sort of motion, as `orbit.Orbit.kind`; or "transient".
     cycles : int
         Mesh cycles integrated.
     message : str

@@ -7,13 +7,13 @@ import numpy as np
 
 from tribodyn.dynamics.parameters import Model
 from tribodyn.errors import InputError
-from tribodyn.solve.periodic import Steady, refuse_time_dependent, steady_states
+from tribodyn.solve.orbit import FAILED
+from tribodyn.solve.periodic import WANDERING, Steady, refuse_time_dependent, steady_states
 from tribodyn.studies.gear_pair.batch.marched import marched
 from tribodyn.studies.gear_pair.batch.outcome import Outcome, Passage, continued, failed
+from tribodyn.studies.gear_pair.sweep_layout import UNKNOWN
 
-#: Mesh cycles of a motion without period that its figures are taken from, and its points of the section.
-WANDERING = 16
-#: Cases of that sort at a time, for the room that they take.
+#: Cases without period that are marched at a time, for the room that they take.
 AT_A_TIME = 16
 
 
@@ -57,9 +57,9 @@ def steady(
     )
     wandering = []
     for i, answer in zip(pending, answers, strict=True):
-        if answer.kind == "failed":
+        if answer.kind == FAILED:
             outcomes[i] = failed(answer.last, answer.cycles, answer.message)
-        elif answer.period and answer.stable:
+        elif answer.period:
             outcomes[i] = _periodic(answer, samples)
         else:
             wandering.append((i, answer))
@@ -90,13 +90,12 @@ def _periodic(answer: Steady, samples: int) -> Outcome:
 def _described(outcome: Outcome, answer: Steady) -> Outcome:
     if outcome.passage is None:
         return outcome
-    # beside an unstable state it is the motion that is recorded, not the state
     known = np.abs(answer.multipliers[np.isfinite(answer.multipliers)])
     return outcome._replace(
-        solution=answer.kind if answer.stable else "not periodic",
+        solution=answer.kind,
         cycles=outcome.cycles + answer.cycles,
         message=answer.message,
-        stable=int(answer.stable),
+        stable=int(answer.stable) if answer.period else UNKNOWN,
         multiplier_max=float(known.max()) if known.size else float("nan"),
         residual=float(answer.residual),
     )

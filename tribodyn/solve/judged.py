@@ -1,0 +1,69 @@
+"""The orbit that shooting closed: its shortest period, and its stability."""
+
+import numpy as np
+
+from tribodyn.numerics.shapes import Array, Complex, Float
+from tribodyn.solve.orbit import UNSTABLE, Orbit, periodic
+from tribodyn.solve.period_map import PeriodMap
+from tribodyn.solve.shooting import Shot, shoot
+
+#: Distance of a multiplier's modulus from 1 within which a state counts as neutral.
+NEUTRAL = 1e-6
+
+
+def judge(period_map: PeriodMap, shot: Shot, case: int, period: int, marched: int, tolerance: float) -> Orbit:
+    """The orbit of a converged shot over some periods: its shortest period and its stability.
+
+    Parameters
+    ----------
+    period_map : PeriodMap
+    shot : Shot
+    case, period : int
+        The system, and the periods of the excitation that the shot closes over.
+    marched : int
+        Periods marched before.
+    tolerance : float
+        Of the shot.
+    """
+    for n in range(1, period):
+        if period % n == 0 and closes(period_map, shot.state, case, n, tolerance):
+            again = shoot(period_map, shot.state[None], np.array([case]), n, tolerance)[0]
+            if not again.reason:
+                shot, period = again._replace(steps=again.steps + shot.steps), n
+                break
+    modulus = float(np.abs(shot.multipliers[0]))
+    stable = modulus <= 1.0 + NEUTRAL
+    message = "" if stable else f"an unstable state of period {period}: {way_out(shot.multipliers)}"
+    if stable and modulus >= 1.0 - NEUTRAL:
+        message = "neutral: a multiplier of modulus 1, neighbouring states neither return nor leave"
+    return Orbit(
+        state=shot.state,
+        last=shot.state,
+        period=period,
+        residual=shot.residual,
+        multipliers=shot.multipliers,
+        stable=stable,
+        kind=periodic(period) if stable else UNSTABLE,
+        method="shooting" if shot.steps else "marching",
+        marched=marched,
+        message=message,
+    )
+
+
+def closes(
+    period_map: PeriodMap, state: Float[Array, " state"], case: int, periods: int, tolerance: float
+) -> bool:
+    """Whether a state comes back after some periods, to a hundred times the tolerance."""
+    end = period_map.march(state[None], np.array([case]), periods, True).states[0, -1]
+    return bool(np.max(np.abs(end - state) / period_map.scale[case]) <= 100.0 * tolerance)
+
+
+def way_out(multipliers: Complex[Array, " state"]) -> str:
+    """In words, how a state with these multipliers, the largest first, is left."""
+    largest = multipliers[0]
+    modulus = f"largest multiplier {abs(largest):.4g}"
+    if abs(largest.imag) > 1e-6 * abs(largest):
+        return f"{modulus} at ±{np.degrees(abs(np.angle(largest))):.0f}°, left by a second frequency"
+    if largest.real < 0.0:
+        return f"{modulus}, negative: left towards twice the period"
+    return f"{modulus}, positive: left towards another state"
