@@ -14,7 +14,7 @@ from tribodyn.geometry.modification import MINIMUM_SLICES, Modifications, too_fe
 def check_torque(gear_torque: float) -> None:
     """Refuse a torque that presses no flanks together."""
     if gear_torque <= 0:
-        rule = "must be greater than zero: the load contact model is taken at this load"
+        rule = "presses no flanks together: the load contact model is taken at this load"
         raise InputError("operating.gear_torque", gear_torque, rule, 'write a torque such as "500 N*m"')
 
 

@@ -49,6 +49,8 @@ def natural_frequencies(model: Model, cycle: MeshCycle) -> np.ndarray:
 
 def _mean_stiffness(model: Model, cycle: MeshCycle) -> np.ndarray:
     """Mean over the mesh cycle of Σ_ij k_ij n_i n_jᵀ of the pairs that carry, n = (cos α, sin α); N/m."""
+    if model.mechanics.load_torque < 0.0:  # it presses the back flanks together, in the mirrored world
+        cycle = cycle._replace(side=-cycle.side)
     still = np.sin(cycle.pressure_angle) * np.where(cycle.side > 0, 1.0, 0.0)
     mechanics = model.mechanics
     # what a load on one pair moves the axes apart, it takes from the others: one more compliance they share

@@ -27,6 +27,7 @@ from tribodyn.dynamics.parameters import (
     Y_P,
     Model,
 )
+from tribodyn.mesh.power_flow import efficiency
 from tribodyn.tribology.contact import local_contact
 from tribodyn.tribology.surface_state import surface_state
 
@@ -136,7 +137,7 @@ def outputs(cycles: np.ndarray, states: np.ndarray, model: Model) -> dict[str, n
         "work_friction": y[WORK_FRICTION],
         "work_damping": y[WORK_DAMPING],
         "work_parametric": y[WORK_PARAMETRIC],
-        "efficiency": efficiency(power_in, sliding_loss),
+        "efficiency": efficiency(power_in, power_out, sliding_loss),
     }
     return result
 
@@ -147,9 +148,3 @@ def _peak(phase: np.ndarray, segment: np.ndarray, model: Model) -> np.ndarray:
     pairs = range(model.table.side.shape[0])
     c = model.table.channel
     return np.stack([contact.cubic(c, segment, cell, i, contact.PEAK, u) for i in pairs], axis=-1)
-
-
-def efficiency(power_in: np.ndarray, loss: np.ndarray) -> np.ndarray:
-    """Instantaneous 1 − Σ μ F_n |v_s|/(T_p ω_p); NaN where the drive delivers nothing."""
-    driven = power_in > 0.0
-    return np.where(driven, 1.0 - loss / np.where(driven, power_in, 1.0), np.nan)

@@ -5,6 +5,7 @@ from the middle of the faces; `start` is at the most negative z, `end` at the mo
 `compliance.flank_gap` makes the gap between two flanks of it.
 """
 
+import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -55,7 +56,7 @@ class LeadRelief(NamedTuple):
 
 
 class FlankModification(NamedTuple):
-    """How the driving flanks of one gear differ from the family's.
+    """How the flanks of one gear differ from the family's: the driving flanks, or both.
 
     Parameters
     ----------
@@ -65,6 +66,8 @@ class FlankModification(NamedTuple):
         Material missing along the normal over the pinion's roll angle from the pitch point (rad, m).
     pitch_error : tuple of float
         One per tooth in the order in which they enter, m along the normal, material missing > 0; empty: none.
+    both_flanks : bool
+        Whether the back flanks have the same reliefs and profile error; otherwise they are unmodified.
     """
 
     tip: Relief = Relief()
@@ -72,6 +75,7 @@ class FlankModification(NamedTuple):
     lead: LeadRelief = LeadRelief()
     profile_error: Table | None = None
     pitch_error: tuple[float, ...] = ()
+    both_flanks: bool = False
 
 
 class Misalignment(NamedTuple):
@@ -104,6 +108,29 @@ class Modifications(NamedTuple):
 
 
 UNMODIFIED = Modifications()
+
+
+def back_flanks(modifications: Modifications, pressure_angle: float) -> Modifications:
+    """Return the back flanks as driving ones of the world mirrored about the plane of the axes.
+
+    Pitch errors stay out: they place a tooth, and that of its back flank is another.
+
+    Parameters
+    ----------
+    modifications : Modifications
+    pressure_angle : float
+        α_w at the pitch point, rad. Inclined axes open the driving and the back flanks alike, skew axes open
+        the ones and close the others, so that `Misalignment` changes by the angle 2 α_w between the planes
+        of action.
+    """
+    within, across = modifications.misalignment
+    cosine, sine = math.cos(2.0 * pressure_angle), math.sin(2.0 * pressure_angle)
+    misalignment = Misalignment(across * sine - within * cosine, within * sine + across * cosine)
+    return Modifications(_back(modifications.pinion), _back(modifications.gear), misalignment)
+
+
+def _back(flank: FlankModification) -> FlankModification:
+    return flank._replace(pitch_error=()) if flank.both_flanks else FlankModification()
 
 
 def vary_along_lead(modifications: Modifications) -> bool:

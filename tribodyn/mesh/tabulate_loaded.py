@@ -4,7 +4,8 @@ What `tabulate` does with formulas, from finite elements and Hertz. A pair is ta
 contact, as far as corners can touch, with the gap between them. The contact's deflection is not proportional
 to the load; the table holds its secant at the load which the model finds in slow rotation without friction,
 so that the quasi-static mesh at the operating torque is the load contact model's. Faces in slices are
-condensed to one compliance and gap per pair (`compliance.condensed`).
+condensed to one compliance and gap per pair (`compliance.condensed`). Back flanks are driving flanks of the
+mirrored world, modified as `geometry.modification.back_flanks` says and tabulated at the same torque.
 """
 
 import math
@@ -14,17 +15,17 @@ import numpy as np
 from tribodyn.compliance.condensed import Condensed, condense
 from tribodyn.compliance.flank_gap import flank_gap, relief_rolls
 from tribodyn.compliance.gear_compliance import without_neighbours
-from tribodyn.compliance.load_sharing import contact_deflection, flexibility, share_load
+from tribodyn.compliance.load_sharing import flexibility, share_load
 from tribodyn.compliance.loaded_contact import reach
 from tribodyn.compliance.loaded_flanks import LoadedFlanks
 from tribodyn.compliance.loaded_rules import check_contact, check_resolved, check_torque
 from tribodyn.compliance.pair_flexibility import PairFlexibility
-from tribodyn.compliance.slices import face_positions, pair_harmonics
+from tribodyn.compliance.slices import face_positions
 from tribodyn.compliance.table import check_cover, interpolate
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry, part_of
+from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.material import MaterialData
-from tribodyn.geometry.modification import uneven_teeth
+from tribodyn.geometry.modification import Modifications, back_flanks, uneven_teeth
 from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.data import MeshData
@@ -50,7 +51,7 @@ def tabulate_loaded(
     assembly, materials, mesh, back
         As in `tabulate.tabulate`, of plain numbers.
     gear_torque : float
-        T_g > 0 at which the compliances are taken, N m.
+        T_g ≠ 0 at whose magnitude the compliances are taken, N m.
 
     Raises
     ------
@@ -58,19 +59,24 @@ def tabulate_loaded(
         If a body has no bore, or the torque drives nothing.
     """
     check_bores(assembly.drive)
-    check_torque(gear_torque)
+    torque = abs(gear_torque)
+    check_torque(torque)
     for broken in uneven_teeth(mesh.modifications):
         raise broken
     check_backlash(mesh, back)
     flexible, modifications, *_ = flanks_of(assembly, materials, mesh)
-    check_contact(flexible, modifications, gear_torque, mesh.slices)
+    behind = back_flanks(modifications, float(assembly.path.pressure_angle(0.0)))
+    flanks = (modifications, behind) if back else (modifications,)
+    for one in flanks:
+        check_contact(flexible, one, torque, mesh.slices)
     # where the mesh vibrates by more than this reach, contact begins too late in the model
-    limits = reach(flexible, modifications, gear_torque, mesh.slices, mesh.slice_coupling)
+    reaches = [reach(flexible, one, torque, mesh.slices, mesh.slice_coupling) for one in flanks]
+    limits = min(start for start, _ in reaches), max(end for _, end in reaches)
     pitch = assembly.pitch_angle
     span = (limits[1] - limits[0]) / pitch
     pairs = math.ceil(span)
     marks = [0.0, span, *((roll - limits[0]) / pitch for roll in assembly.roll_limits)]
-    marks += [(roll - limits[0]) / pitch for roll in relief_rolls(assembly, modifications)]
+    marks += [(roll - limits[0]) / pitch for one in flanks for roll in relief_rolls(assembly, one)]
     if assembly.family.corner:
         marks.append(-limits[0] / pitch)
     boundary, phase, position = _phases(marks, pairs, mesh.points, back, enter=0.5 - 2.0 * limits[0] / pitch)
@@ -79,29 +85,21 @@ def tabulate_loaded(
     roll = np.clip(limits[0] + pitch * position, *limits)
 
     slots = position.shape[-1]
-    front, behind = slice(0, pairs), slice(pairs, slots)
     geometry = pair_geometry(assembly, roll.reshape(-1, slots))
     error = _transmission_error(mesh, phase, roll, assembly.roll_limits, begin=marks[2])
-    full = gear_torque / pair_geometry(assembly, np.zeros(1)).motion.gear_normal_arm[0]
+    full = torque / pair_geometry(assembly, np.zeros(1)).motion.gear_normal_arm[0]
     compliance, gap = np.zeros_like(geometry.gap), np.zeros_like(geometry.gap)
     coupling = np.zeros((*gap.shape, slots))
     uneven, peak = np.ones_like(gap), np.ones_like(gap)
-    driving = _driving(
-        flexible,
-        mesh,
-        gear_torque,
-        _MINIMUM_SHARE * full,
-        roll[..., front].reshape(-1, pairs),
-        error[..., front].reshape(-1, pairs),
-    )
-    compliance[:, front], gap[:, front] = driving.compliance, driving.gap
-    coupling[:, front, front] = driving.coupling
-    uneven[:, front], peak[:, front] = driving.line_load_friction, driving.line_load_peak
-    if back:
-        mates = part_of(geometry, np.s_[..., behind])
-        compliance[:, behind], coupling[:, behind, behind] = _under_load(flexible, mates, full)
-        gap[:, behind] = mates.gap + mesh.backlash
     side = np.where(np.arange(slots) < pairs, 1.0, -1.0)
+    opening = np.where(side > 0, error, mesh.backlash or 0.0).reshape(-1, slots)
+    for number, one in enumerate(flanks):
+        own = slice(number * pairs, (number + 1) * pairs)
+        at = roll[..., own].reshape(-1, pairs)
+        pressed = _pressed(flexible, mesh, one, torque, _MINIMUM_SHARE * full, at, opening[:, own])
+        compliance[:, own], gap[:, own] = pressed.compliance, pressed.gap
+        coupling[:, own, own] = pressed.coupling
+        uneven[:, own], peak[:, own] = pressed.line_load_friction, pressed.line_load_peak
     motion, vanishing = geometry.motion, pitch_point(assembly.path)
     return MeshCycle(
         boundary=boundary,
@@ -143,34 +141,24 @@ def flanks_of(
     return LoadedFlanks(flexible, mesh.modifications, mesh.slices, mesh.slice_coupling)
 
 
-def _driving(
+def _pressed(
     flexible: PairFlexibility,
     mesh: MeshData,
+    modifications: Modifications,
     gear_torque: float,
     minimum_load: float,
     roll: Float[Array, "position pair"],
     error: Float[Array, "position pair"],
 ) -> Condensed:
-    """Driving pairs (position, pair) at the operating torque."""
+    """Pairs (position, pair) of one side, its flanks so modified, at the operating torque."""
     slices = mesh.slices
     geometry = pair_geometry(flexible.assembly, roll)
     face = face_positions(flexible.width, slices)
-    gap = error[..., None] + flank_gap(flexible.assembly, mesh.modifications, geometry, face)
+    gap = error[..., None] + flank_gap(flexible.assembly, modifications, geometry, face)
     shared = share_load(flexible, roll, gear_torque, 0.0, gap, slices, mesh.slice_coupling)
-    check_resolved(flexible.assembly, shared, mesh.modifications, gear_torque)
+    check_resolved(flexible.assembly, shared, modifications, gear_torque)
     whole = geometry.gap[..., None] + gap
     return condense(flexible, geometry, whole, shared, minimum_load, mesh.slice_coupling)
-
-
-def _under_load(
-    flexible: PairFlexibility, geometry: PairGeometry, load: float
-) -> tuple[Float[Array, "position pair"], Float[Array, "position pair pair"]]:
-    """Compliance of pairs under a load (N) each, deflection over load, and their coupling; m/N."""
-    curvature = geometry.motion.relative_curvature
-    deflection, _ = contact_deflection(flexible, curvature, load / flexible.width + 0.0 * curvature)
-    matrix = pair_harmonics(flexible, geometry)[0]
-    own = np.einsum("...ii->...i", matrix)
-    return own + deflection / load, matrix * ~np.eye(own.shape[-1], dtype=bool)
 
 
 def _phases(

@@ -7,7 +7,7 @@ from pydantic import Field
 from tribodyn.geometry.modification import FlankModification, LeadRelief, Misalignment, Relief
 from tribodyn.scenario import units
 from tribodyn.scenario.curves import ErrorCurve
-from tribodyn.scenario.quantity import Quantity, Table, csv_file, written
+from tribodyn.scenario.quantity import Quantity, Switch, Table, csv_file, written
 
 Amount = Annotated[float, Quantity(units.not_negative(units.RELIEF))]
 Extent = Annotated[float, Quantity(units.positive(units.LENGTH))]
@@ -17,7 +17,7 @@ _EXPONENT = {"linear": 1.0, "parabolic": 2.0}
 
 
 class Modification(Table):
-    """What is missing on the driving flanks of a gear, along their normal."""
+    """What is missing on the driving flanks of a gear, along their normal; on request on the back flanks too."""
 
     tip_relief: Amount = written("0 um", description="at the end of the active profile")
     tip_relief_length: Extent | None = Field(
@@ -47,6 +47,9 @@ class Modification(Table):
     pitch_errors: Annotated[
         tuple[Annotated[float, Quantity(units.DEVIATION)], ...], csv_file("error", as_list=True)
     ] = Field((), description="one per tooth, positive where material is missing")
+    both_flanks: Switch = Field(
+        False, description="whether reliefs, crowning and profile error are on the back flanks too"
+    )
 
 
 class MisalignmentTable(Table):
@@ -61,7 +64,7 @@ class MisalignmentTable(Table):
 
 
 def flank_of(table: Modification) -> FlankModification:
-    """Return the modification of a gear's driving flanks."""
+    """Return the modification of a gear's flanks."""
     return FlankModification(
         tip=_relief(table, "tip"),
         root=_relief(table, "root"),
@@ -70,6 +73,7 @@ def flank_of(table: Modification) -> FlankModification:
         ),
         profile_error=table.profile_error.in_si() if table.profile_error else None,
         pitch_error=table.pitch_errors,
+        both_flanks=table.both_flanks,
     )
 
 

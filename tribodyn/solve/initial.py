@@ -4,7 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.dynamics.equations import derivatives
+from tribodyn.dynamics.contact_forces import APPROACH, COS
+from tribodyn.dynamics.equations import derivatives, load_torque
 from tribodyn.dynamics.parameters import (
     DISPLACEMENTS,
     DRIVE_SHAFT,
@@ -14,6 +15,7 @@ from tribodyn.dynamics.parameters import (
     TWIST,
     VELOCITIES,
     XI,
+    XI_RATE,
     Model,
 )
 from tribodyn.errors import SimulationError
@@ -21,6 +23,8 @@ from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.numerics.shapes import Array, Float
 
 _COSINE, _COMPLIANCE, _GAP = (CHANNELS.index(name) for name in ("cosine", "compliance", "gap"))
+#: Share of all torques of a model below which what is left of them presses no flanks together.
+_NO_LOAD = 1e-12
 
 
 def accelerations(
@@ -52,27 +56,30 @@ def static_equilibrium(model: Model, phase: float = 0.0, segment: int = 0) -> Fl
     """State at which nothing accelerates relative to the pinion, at one phase of the mesh.
 
     Solved by damped Newton steps on the equations of motion themselves, friction included, for the
-    translations, ξ and (with a shaft) its twist; all relative velocities are zero.
+    translations, ξ and (with a shaft) its twist; all relative velocities are zero. The load and the drive
+    press the driving flanks together, or the back flanks where there are any. Where they press neither, every
+    position within the backlash is in equilibrium: returned is the one in which the driving flanks begin to
+    touch, the limit of a vanishing load.
 
     Raises
     ------
     SimulationError
         If there is none, e.g. because the load does not press the flanks together.
     """
-    torque = float(model.mechanics.load_torque)
-    if model.mechanics.load_times.shape[0]:
-        torque += float(model.mechanics.load_torques[0])
+    mechanics = model.mechanics
+    time = phase * float(model.table.pitch_angle) / float(mechanics.nominal_speed)
+    torque = float(load_torque(time, 0.0, mechanics))
     deflection = static_deflection(model, max(abs(torque), 1e-3))
     unknown: list[int] = list(DISPLACEMENTS)
     equation = list(VELOCITIES)
     shaft = model.options.drive == DRIVE_SHAFT
     scale = np.full(len(unknown), deflection)
     y = np.zeros(STATES)
-    y[XI] = 3.0 * deflection + _maximum_gap(model, segment)
+    y[XI] = _first_touch(model, phase, segment)
     if shaft:
         unknown.append(TWIST)
-        scale = np.append(scale, model.mechanics.drive_torque / model.mechanics.shaft_stiffness)
-        y[TWIST] = scale[-1]
+        torques = max(abs(float(mechanics.drive_torque)), abs(torque), 1e-3)
+        scale = np.append(scale, torques / mechanics.shaft_stiffness)
 
     def residual(values: Float[Array, "*trial unknown"]) -> Float[Array, "*trial unknown"]:
         states = np.broadcast_to(y, (*values.shape[:-1], STATES)).copy()
@@ -84,6 +91,17 @@ def static_equilibrium(model: Model, phase: float = 0.0, segment: int = 0) -> Fl
         return np.concatenate([rate[..., equation], twisting[..., None]], axis=-1)
 
     values = y[unknown]
+    if shaft:  # which the free bodies twist in proportion
+        free, twisted = (residual(values + twist)[-1] for twist in (0.0 * scale, _last(scale)))
+        values[-1] = scale[-1] * free / (free - twisted)
+    push = float(residual(values)[equation.index(XI_RATE)]) * float(mechanics.gear_inertia)
+    if abs(push) <= _NO_LOAD * _torques(model) * float(model.table.gear_pitch_radius):
+        y[unknown] = values
+        return y
+    side = 1.0 if push > 0.0 else -1.0
+    # beyond the width over which contact sets in, where the stiffness vanishes like the load
+    clear = 3.0 * deflection + float(mechanics.contact_width) + _maximum_gap(model, segment, side)
+    values[unknown.index(XI)] = side * clear
     value = residual(values)
     start = np.linalg.norm(value)
     steps = 1e-5 * np.diag(scale)
@@ -113,12 +131,35 @@ def static_equilibrium(model: Model, phase: float = 0.0, segment: int = 0) -> Fl
     return y
 
 
-def _maximum_gap(model: Model, segment: int) -> float:
-    """Largest distance that the static transmission error can put between the front flanks, as ξ; m."""
+def _maximum_gap(model: Model, segment: int, side: float) -> float:
+    """Largest distance between the flanks of a side (±1), as ξ, m: by static transmission error, backlash."""
     table = model.table
-    front = (np.asarray(table.side) > 0) & (np.asarray(table.in_contact)[segment] > 0)
-    channel = np.asarray(table.channel)[segment][:, front]
+    there = (np.asarray(table.side) * side > 0) & (np.asarray(table.in_contact)[segment] > 0)
+    if not there.any():
+        return 0.0
+    channel = np.asarray(table.channel)[segment][:, there]
     return float(max(0.0, np.max(channel[..., _GAP, 0])) / np.min(channel[..., _COSINE, 0]))
+
+
+def _first_touch(model: Model, phase: float, segment: int) -> float:
+    """ξ at which the first of the driving flanks touches while no bearing is loaded, m."""
+    work: dict[tuple[int, int], Any] = {}
+    derivatives(phase, 0.0, segment, np.zeros(STATES), model, work, {})
+    table = model.table
+    driving = np.flatnonzero((np.asarray(table.side) > 0) & (np.asarray(table.in_contact)[segment] > 0))
+    return min(float(-work[APPROACH, i] / work[COS, i]) for i in map(int, driving)) + 0.0  # not −0
+
+
+def _torques(model: Model) -> float:
+    """Sum of the magnitudes of all torques on the gears, N m."""
+    mechanics = model.mechanics
+    load = np.concatenate([mechanics.load_torques, mechanics.load_amplitudes, [mechanics.load_torque]])
+    return float(np.sum(np.abs(load)) + abs(mechanics.drive_torque))
+
+
+def _last(values: Float[Array, " value"]) -> Float[Array, " value"]:
+    """The last of the values, and zeros before it."""
+    return np.where(np.arange(len(values)) == len(values) - 1, values, 0.0)
 
 
 def initial_state(model: Model, kind: str) -> Float[Array, " state"]:

@@ -33,6 +33,7 @@ TRIBOLOGY = (
     Line("friction_force_mean", "Friction force, mean over the cycle", 1.0, "N", ".1f"),
 )
 ENERGY = (
+    Line("driving_gear", "Driving gear"),
     Line("power_in_mean", "Power in, mean", 1.0, "W", ",.1f"),
     Line("power_friction_mean", "Friction loss, mean", 1.0, "W", ".3g"),
     Line(

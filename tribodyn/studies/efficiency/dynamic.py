@@ -3,6 +3,7 @@
 from typing import NamedTuple
 
 from tribodyn.errors import InputError
+from tribodyn.mesh.power_flow import efficiency
 from tribodyn.record.reader import Record
 
 
@@ -14,7 +15,7 @@ class DynamicEfficiency(NamedTuple):
     cycles : number of mesh cycles
     efficiency : 1 less friction work over work put in: what the summary of a run reports
     overall : work put out over work put in; with the damping of mesh and bearings
-    work_in, work_out, work_friction, work_damping : J
+    work_in, work_out, work_friction, work_damping : J; from the pinion and to the gear, < 0 where that drives
     stored : change of the stored energy, J; small where the run has settled
     """
 
@@ -57,7 +58,16 @@ def dynamic_efficiency(record: Record, cycles: int | None = None) -> DynamicEffi
         values = record[name][part]
         return float(values[-1] - values[0])
 
-    put_in, out, lost, damped = (change(f"work_{name}") for name in ("in", "out", "friction", "damping"))
+    pinion, gear, lost, damped = (change(f"work_{name}") for name in ("in", "out", "friction", "damping"))
+    # what is lost between the two gears, whatever it is lost to
+    overall = float(efficiency(pinion, gear, pinion - gear))
     return DynamicEfficiency(
-        wanted, 1.0 - lost / put_in, out / put_in, put_in, out, lost, damped, change("stored_energy")
+        wanted,
+        float(efficiency(pinion, gear, lost)),
+        overall,
+        pinion,
+        gear,
+        lost,
+        damped,
+        change("stored_energy"),
     )

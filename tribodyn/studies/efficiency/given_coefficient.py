@@ -3,6 +3,7 @@
 from typing import Any
 
 from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.mesh.power_flow import efficiency
 from tribodyn.mesh.quasi_static import cycle_integral, cycle_mean, quasi_static
 from tribodyn.numerics.elementary import namespace
 from tribodyn.numerics.shapes import Array, Float
@@ -46,10 +47,11 @@ def mean_efficiency(cycle: MeshCycle, gear_torque: Any, friction_coefficient: Fl
     cycle : MeshCycle
         The table; may be traced, but for `side`.
     gear_torque : float
-        N m, > 0.
+        N m, ≠ 0; negative where the gear drives, on back flanks that are like the driving ones.
     friction_coefficient : array, () or (S, N, Q)
         μ ≥ 0.
     """
-    loads = quasi_static(cycle, gear_torque).normal_load
-    useful = gear_torque * cycle.pinion_pitch_radius / cycle.gear_pitch_radius
-    return useful / (useful + friction_loss(cycle, loads, friction_coefficient))
+    loads = quasi_static(cycle, namespace(gear_torque).abs(gear_torque)).normal_load
+    gear = gear_torque * cycle.pinion_pitch_radius / cycle.gear_pitch_radius
+    loss = friction_loss(cycle, loads, friction_coefficient)
+    return efficiency(gear + loss, gear, loss)

@@ -13,6 +13,7 @@ from tribodyn.dynamics.parameters import (
     WORK_SLIDING,
 )
 from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.mesh.power_flow import driving_gear, efficiency, power_put_in
 from tribodyn.post.spectra import amplitude_spectrum
 from tribodyn.tribology.surface_state import fraction_in_range
 
@@ -106,6 +107,8 @@ def steady_figures(
 ) -> dict[str, Any]:
     """Figures of the last whole mesh cycles of a run.
 
+    Those of loads and of single pairs are of the working flanks: the back flanks where the gear drives.
+
     Parameters
     ----------
     window : dict
@@ -117,24 +120,26 @@ def steady_figures(
     samples : int
         Samples per mesh cycle.
     """
-    front = cycle.front_pairs
     error = window["transmission_error_rotational"]
-    newest = window["transmission_error"][:, front - 1]
-    load = window["normal_load"][:, :front]
-    moment = np.sum(load * np.cos(np.nan_to_num(window["pressure_angle"][:, :front])), axis=1)
-    friction = np.abs(window["friction_force"][:, :front])
-    slid = np.sum(friction * np.abs(np.nan_to_num(window["sliding_speed"][:, :front])))
-    loaded = np.sum(load * np.abs(np.nan_to_num(window["sliding_speed"][:, :front])))
-    touching = window["normal_load"] > 0.0
+    load = window["normal_load"]
+    friction = np.abs(window["friction_force"])
+    sliding = np.abs(np.nan_to_num(window["sliding_speed"]))
+    slid, loaded = np.sum(friction * sliding), np.sum(load * sliding)
+    touching = load > 0.0
     # by the actual rotation: a driven pinion need not turn at its nominal speed
     steps_in_window = len(error)
     frequency = float((steps_in_window - 1) / samples / (window["time"][-1] - window["time"][0]))
     orders, amplitudes = amplitude_spectrum(error, samples)
     duration = steps_in_window / samples / frequency
     power_in, power_out, power_friction = work[[WORK_IN, WORK_OUT, WORK_FRICTION]] / duration
-    load_torque = abs(power_out / np.mean(window["velocity"][:, -1]))
-    static = float(load_torque / cycle.gear_pitch_radius)
     share = friction_work_on_vibration(work)
+    torque = power_out / np.mean(window["velocity"][:, -1])
+    static = float(abs(torque) / cycle.gear_pitch_radius)
+    working = np.flatnonzero(cycle.side * (1.0 if torque >= 0.0 else -1.0) > 0)
+    # the last slot of either side holds a pair that is on the path of contact all the time
+    newest = window["transmission_error"][:, working[-1]]
+    arm = np.cos(np.nan_to_num(window["pressure_angle"][:, working]))
+    moment = np.sum(load[:, working] * arm, axis=1)
     keep = orders <= 20.0 + 1e-9
     return {
         "averaging_cycles": len(error) // samples,
@@ -146,9 +151,10 @@ def steady_figures(
         "dynamic_factor": float(np.max(moment) / static) if static > 0 else float("nan"),
         "friction_coefficient_mean": float(slid / loaded) if loaded > 0 else float("nan"),
         "friction_force_mean": np.mean(friction, axis=0),
-        "efficiency": float(1.0 - work[WORK_FRICTION] / work[WORK_IN]) if power_in > 0 else float("nan"),
+        "efficiency": float(efficiency(power_in, power_out, power_friction)),
         "friction_work_on_vibration": share,
-        "power_in_mean": float(power_in),
+        "driving_gear": driving_gear(power_in, power_out),
+        "power_in_mean": float(power_put_in(power_in, power_out)),
         "power_friction_mean": float(power_friction),
         "closure_in_range_fraction": fraction_in_range(window["closure_in_range"][touching]),
         "friction_in_range_fraction": fraction_in_range(window["friction_in_range"][touching]),

@@ -31,7 +31,7 @@ FIGURES: dict[str, Variable] = {
     "flash_temperature_max": _figure("K", "maximum flash temperature rise"),
     "friction_coefficient_mean": _figure("1", "friction coefficient, mean by loss"),
     "efficiency": _figure("1", "efficiency over whole mesh cycles"),
-    "power_in_mean": _figure("W", "mean power of the drive"),
+    "power_in_mean": _figure("W", "mean power that the driving gear puts in"),
     "power_friction_mean": _figure("W", "mean power lost to tooth friction"),
     "friction_work_on_vibration": _figure(
         "1", "work of friction on the vibration over the loss that the rotation alone has; > 0: fed"
