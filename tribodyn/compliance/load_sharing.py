@@ -156,7 +156,7 @@ def share_load(
     gear_torque : float
         T_g > 0, N m.
     friction_coefficient : float or (position, pair)
-        μ of the pairs.
+        μ of the pairs; < 0 where the gear drives, for the flanks then slide the other way.
     gap : float, (position, pair) or (position, pair, slice)
         What is missing between the flanks beside the corners' gap, m: errors and modifications.
     slices : int

@@ -155,7 +155,7 @@ def nominal_conditions(case: Lubricated) -> NominalConditions:
 
     path = family(case.family).working_path(case.drive)
     angle = float(path.pressure_angle(0.0))
-    if angle < MINIMUM_ANGLE or case.operating.gear_torque <= 0.0:
+    if angle < MINIMUM_ANGLE or case.operating.gear_torque == 0.0:
         law = case.friction.law
         raise InputError(
             "friction.law",
@@ -165,7 +165,7 @@ def nominal_conditions(case: Lubricated) -> NominalConditions:
         )
     gear_radius = float(path.gear_pitch_radius)
     return NominalConditions(
-        case.operating.gear_torque / gear_radius,
+        abs(case.operating.gear_torque) / gear_radius,
         float(path.pinion_pitch_radius),
         gear_radius,
         angle,

@@ -1,7 +1,8 @@
 """Quasi-static loads, friction and efficiency along the path of contact, for any family and laws.
 
 No inertia: at each phase of the mesh the loads balance the torque, friction included, and the friction law
-and the loads are solved together.
+and the loads are solved together. Where the gear drives, the back flanks carry: driving flanks of the world
+mirrored about the plane of the axes, in which the gears turn backwards and slide the other way.
 """
 
 from typing import NamedTuple
@@ -13,6 +14,7 @@ from tribodyn.compliance.loaded_flanks import LoadedFlanks
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.path import Path
 from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.mesh.power_flow import efficiency
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.studies.efficiency.contact_friction import ContactFriction, contact_friction
 from tribodyn.studies.efficiency.places import Places, Sharing, places
@@ -32,8 +34,8 @@ class Engagement(NamedTuple):
     Attributes
     ----------
     normal_load, friction_coefficient : N, 1
-    friction_force : on the pinion along the tangent, positive in recess, N
-    entrainment, sliding : m/s
+    friction_force : on the pinion along the tangent, N; with the sign of the sliding
+    entrainment, sliding : m/s; positive in recess where the pinion drives, in the mirrored world < 0 there
     radius : equivalent radius, averaged over the contact where it vanishes at the pitch point, m
     asperity_load_ratio, central_film_thickness, flash_temperature_rise, hertz_pressure, closure_in_range,
     friction_in_range
@@ -41,9 +43,9 @@ class Engagement(NamedTuple):
     deflection : (K,)
         r_p θ_p − r_g θ_g, m; NaN where the load sharing knows no elasticity.
     pinion_torque, gear_torque : (K,)
-        N m.
+        N m; on the gear against its motion, on the pinion with it.
     power_in, power_out, power_friction : (K,)
-        W.
+        From the pinion, to the gear, and lost, W; the first two < 0 where the gear drives.
     """
 
     normal_load: Array
@@ -71,7 +73,7 @@ class Duty(NamedTuple):
 
     Attributes
     ----------
-    gear_torque : N m, > 0, constant
+    gear_torque : N m, ≠ 0, constant; against the gear's motion, < 0 where the gear drives
     pinion_speed : rad/s
     closure : Closure
     sharing : one of `places.SHARINGS`
@@ -82,6 +84,11 @@ class Duty(NamedTuple):
     closure: Closure
     sharing: Sharing = "elastic"
 
+    @property
+    def way(self) -> float:
+        """+1 where the pinion drives, −1 where the gear does: the way in which the flanks roll and slide."""
+        return 1.0 if self.gear_torque > 0.0 else -1.0
+
 
 def engage(mesh: Places, duty: Duty) -> Engagement:
     """Solve loads and friction together at every phase.
@@ -91,8 +98,8 @@ def engage(mesh: Places, duty: Duty) -> Engagement:
     SimulationError
         If they find no common value: friction locks the mesh, or a law's coefficient grows without bound.
     """
-    cycle, speed = mesh.cycle, duty.pinion_speed
-    side = np.sign(cycle.signed_distance[:, 0])
+    cycle, speed = mesh.cycle, duty.way * duty.pinion_speed
+    side = duty.way * np.sign(cycle.signed_distance[:, 0])
     rolling = speed * cycle.pinion_speed[:, 0], speed * cycle.gear_speed[:, 0]
     sliding = rolling[0] - rolling[1]
     width = cycle.face_width
@@ -126,7 +133,7 @@ def engage(mesh: Places, duty: Duty) -> Engagement:
         contact = contact_at(load / width * peak)
     surface = contact.surface
     arms = mesh.normal_arm + side * mu * mesh.friction_arm
-    pinion_torque, gear_torque = np.sum(load * arms, axis=-1)
+    pinion_torque, gear_torque = duty.way * np.sum(load * arms, axis=-1)
     ratio = cycle.pinion_pitch_radius / cycle.gear_pitch_radius
     return Engagement(
         normal_load=load,
@@ -141,30 +148,32 @@ def engage(mesh: Places, duty: Duty) -> Engagement:
         hertz_pressure=surface.hertz_pressure,
         closure_in_range=surface.closure_in_range,
         friction_in_range=surface.friction_in_range,
-        deflection=deflection,
+        deflection=duty.way * deflection,
         pinion_torque=pinion_torque,
         gear_torque=gear_torque,
-        power_in=pinion_torque * speed,
-        power_out=gear_torque * speed * ratio,
+        power_in=pinion_torque * duty.pinion_speed,
+        power_out=gear_torque * duty.pinion_speed * ratio,
         power_friction=np.sum(mu * load * np.abs(sliding), axis=-1),
     )
 
 
 def _loads(mesh: Places, duty: Duty, signed_friction: Array) -> tuple[Array, Array, Array, Array]:
-    """Loads (K, Q) that give the gear's torque with the friction of the last step, and deflection (K,).
+    """Loads (K, Q) that give the gear's torque with the friction of the last step, and deflection (K,) ≥ 0.
 
     With the ratios (K, Q) of `compliance.line_load`: 1 for an even load along the face.
     """
+    torque = abs(duty.gear_torque)
     if mesh.flanks is not None:
-        shared = mesh.flanks.share(mesh.roll, duty.gear_torque, np.abs(signed_friction))
+        friction = signed_friction * np.sign(mesh.cycle.signed_distance[:, 0])
+        shared = mesh.flanks.share(mesh.roll, torque, friction)
         ratios = friction_ratio(shared.slice_load), peak_ratio(shared.slice_load)
         return mesh.carrying * shared.normal_load, shared.deflection, *ratios
     even = np.ones_like(mesh.roll)
     if duty.sharing == "elastic":
-        state = quasi_static(mesh.cycle, duty.gear_torque, signed_friction[:, None])
+        state = quasi_static(mesh.cycle, torque, signed_friction[:, None])
         return state.normal_load[:, 0], state.deflection[:, 0], even, even
     arms = mesh.normal_arm[1] + signed_friction * mesh.friction_arm[1]
-    load = mesh.carrying * duty.gear_torque / np.sum(mesh.carrying * arms, axis=-1, keepdims=True)
+    load = mesh.carrying * torque / np.sum(mesh.carrying * arms, axis=-1, keepdims=True)
     return load, np.full(len(mesh.phase), np.nan), even, even
 
 
@@ -173,8 +182,8 @@ class CycleEfficiency(NamedTuple):
 
     Attributes
     ----------
-    efficiency : useful work over work put in
-    power_in, power_out, power_friction : W
+    efficiency : as `mesh.power_flow` defines it
+    power_in, power_out, power_friction : W, as in `Engagement`
     friction_coefficient : mean weighted with load and sliding
     """
 
@@ -217,4 +226,5 @@ def cycle_efficiency(
         float(weight @ power) for power in (state.power_in, state.power_out, state.power_friction)
     )
     loaded = float(weight @ np.sum(state.normal_load * np.abs(state.sliding), axis=-1))
-    return CycleEfficiency(power_out / power_in, power_in, power_out, lost, lost / loaded)
+    share = float(efficiency(power_in, power_out, lost))
+    return CycleEfficiency(share, power_in, power_out, lost, lost / loaded)

@@ -3,6 +3,7 @@
 The proposed approach of A. Diez-Ibarbia et al., section 2.2: constant friction coefficient, slow rotation.
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -14,7 +15,8 @@ from tribodyn.compliance.loaded_rules import check_contact
 from tribodyn.compliance.pair_flexibility import PairFlexibility
 from tribodyn.compliance.slices import face_positions
 from tribodyn.geometry.corner_contact import pair_geometry
-from tribodyn.geometry.modification import UNMODIFIED, Modifications, uneven_teeth
+from tribodyn.geometry.modification import UNMODIFIED, Modifications, back_flanks, uneven_teeth
+from tribodyn.mesh.power_flow import efficiency
 from tribodyn.numerics.shapes import Array, Float
 
 #: Positions over one pitch: the efficiency is then known to 1e-6 (test_load_contact_efficiency).
@@ -29,7 +31,7 @@ class LoadContact(NamedTuple):
     Attributes
     ----------
     efficiency : float
-        Work put out over work put in.
+        As `mesh.power_flow` defines it.
     contact_ratio : float
         Effective contact ratio: pinion angle over which a pair carries load, over the pitch.
     roll, normal_load : (position, pair)
@@ -61,7 +63,7 @@ def load_contact(
     flexible : PairFlexibility
         `load_sharing.flexibility` of the drive.
     gear_torque : float
-        T_g > 0, N m, constant.
+        T_g, N m, constant; < 0 where the gear drives, on back flanks.
     friction_coefficient : float
         μ, the same for all pairs.
     positions : int
@@ -74,21 +76,24 @@ def load_contact(
     InputError
         If the torque drives nothing, or as `roll_through` does.
     """
-    check_contact(flexible, modifications, gear_torque, slices)
     for broken in uneven_teeth(modifications):
         raise broken
     assembly = flexible.assembly
+    torque, way = abs(gear_torque), math.copysign(1.0, gear_torque)
+    if way < 0.0:
+        modifications = back_flanks(modifications, float(assembly.path.pressure_angle(0.0)))
+    check_contact(flexible, modifications, torque, slices)
     ratio = assembly.path.pinion_pitch_radius / assembly.path.gear_pitch_radius
-    limits = reach(flexible, modifications, gear_torque, slices, coupled, _REACH)
+    limits = reach(flexible, modifications, torque, slices, coupled, _REACH)
     roll = extended_rolls(assembly, limits, positions)
     geometry = pair_geometry(assembly, roll)
     gap = flank_gap(assembly, modifications, geometry, face_positions(flexible.width, slices))
-    shared = share_load(flexible, roll, gear_torque, friction_coefficient, gap, slices, coupled)
+    shared = share_load(flexible, roll, torque, way * friction_coefficient, gap, slices, coupled)
     sliding = np.abs(geometry.motion.sliding)
     loss = friction_coefficient * shared.normal_load * sliding
-    put_out = gear_torque * ratio
+    gear, lost = gear_torque * ratio, float(np.mean(np.sum(loss, axis=1)))
     return LoadContact(
-        efficiency=float(put_out / (put_out + np.mean(np.sum(loss, axis=1)))),
+        efficiency=float(efficiency(gear + lost, gear, lost)),
         contact_ratio=effective_contact_ratio(roll, shared, 2.0 * np.pi / assembly.drive.pinion.teeth),
         roll=roll,
         normal_load=shared.normal_load,

@@ -15,3 +15,10 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     face = Face(scenario.drive, mesh.misalignment, mesh.slices, mesh.slice_coupling)
     yield from broken_face_rules(face, mesh.compliance)
     yield from broken_hertz_rules(mesh.hertz, mesh.compliance)
+    if scenario.operating.gear_torque == 0:
+        yield InputError(
+            "operating.gear_torque",
+            "0 N*m",
+            "must not be zero: an unloaded mesh transmits nothing",
+            'write a torque such as "500 N*m", or "-500 N*m" where the gear drives',
+        )

@@ -1,6 +1,7 @@
 """From a case of the efficiency study to its record: one mesh cycle, quasi-static."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 from types import MappingProxyType
@@ -10,19 +11,22 @@ import numpy as np
 
 from tribodyn.compliance.load_sharing import effective_contact_ratio
 from tribodyn.compliance.loaded_flanks import LoadedFlanks
-from tribodyn.dynamics.recorded import scales_of
+from tribodyn.dynamics.recorded import SAMPLES, scales_of
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.families import family
+from tribodyn.geometry.modification import back_flanks
 from tribodyn.geometry.outlines import geometry_arrays
 from tribodyn.geometry.path import Path as PathOfContact
 from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.cycle import MeshCycle, as_arrays
+from tribodyn.mesh.power_flow import driving_gear, efficiency, power_put_in
 from tribodyn.studies.efficiency.along_path import CycleEfficiency, Duty, Engagement, cycle_efficiency, engage
 from tribodyn.studies.efficiency.case import EfficiencyCase
 from tribodyn.studies.efficiency.loss_factor import exact, hoehn, tip_contact_ratios
 from tribodyn.studies.efficiency.places import SHARINGS, Places, Sharing, places
 from tribodyn.studies.efficiency.quadrature import Array
+from tribodyn.studies.efficiency.sampled import Samples, samples
 from tribodyn.studies.efficiency.torque_ratio import path_contact, torque_ratio
 from tribodyn.studies.gears import LAYOUT
 from tribodyn.studies.recording import target, writer
@@ -62,8 +66,12 @@ def prepare(case: EfficiencyCase) -> Prepared:
     from tribodyn.mesh.by_compliance import loaded_flanks_of, mesh_cycle_of
 
     assembly = check(family(case.family), case.drive)
-    cycle = mesh_cycle_of(assembly, case.materials, case.mesh, case.operating.gear_torque)
-    flanks = loaded_flanks_of(assembly, case.materials, case.mesh)
+    mesh = case.mesh
+    if case.operating.gear_torque < 0.0:  # the gear drives: the back flanks carry
+        behind = back_flanks(mesh.modifications, float(assembly.path.pressure_angle(0.0)))
+        mesh = replace(mesh, modifications=behind)
+    cycle = mesh_cycle_of(assembly, case.materials, mesh, case.operating.gear_torque)
+    flanks = loaded_flanks_of(assembly, case.materials, mesh)
     duty = Duty(
         case.operating.gear_torque,
         case.operating.pinion_speed,
@@ -87,15 +95,15 @@ def run(
     path = target(case, output, force)
     begun = perf_counter()
     study = prepare(case)
-    mesh, state, samples = _sampled(study)
-    summary = _figures(study, mesh, state) | {"wall_time": perf_counter() - begun}
+    over, mesh, state = _sampled(study)
+    summary = _figures(study, over, mesh, state) | {"wall_time": perf_counter() - begun}
     groups = {
         "mesh_cycle": as_arrays(study.cycle),
         "geometry": geometry_arrays(study.assembly),
     }
     scales = scales_of(study.cycle.side)
-    with writer(case, path, LAYOUT, len(samples), groups=groups, scales=scales, force=force) as record:
-        record.write(0, _record_arrays(mesh, state, study.duty))
+    with writer(case, path, LAYOUT, len(over.turned), groups=groups, scales=scales, force=force) as record:
+        record.write(0, _record_arrays(over, mesh, state, study.duty))
         if progress:
             progress(1.0)
         return RunResult(record.finish(summary), "complete", "", summary)
@@ -104,14 +112,13 @@ def run(
 def figures(case: EfficiencyCase) -> dict[str, Any]:
     """Figures of a case without a record."""
     study = prepare(case)
-    mesh, state, _ = _sampled(study)
-    return _figures(study, mesh, state)
+    return _figures(study, *_sampled(study))
 
 
-def _sampled(study: Prepared) -> tuple[Places, Engagement, np.ndarray]:
-    phase = np.linspace(0.0, 1.0, study.case.samples_per_cycle + 1)
-    mesh = places(study.cycle, study.path, phase, study.duty.sharing, study.flanks)
-    return mesh, engage(mesh, study.duty), phase
+def _sampled(study: Prepared) -> tuple[Samples, Places, Engagement]:
+    over = samples(study.cycle, study.case.samples_per_cycle, study.duty.way)
+    mesh = places(study.cycle, study.path, over.phase, study.duty.sharing, study.flanks)
+    return over, mesh, engage(mesh, study.duty)
 
 
 def efficiencies(
@@ -134,10 +141,11 @@ def efficiencies(
     ratio = float(study.cycle.gear_pitch_radius) / float(study.cycle.pinion_pitch_radius)
     single = torque_ratio(
         path_contact(study.path, case.drive.pinion.teeth),
-        duty.gear_torque / ratio,
+        -duty.gear_torque if duty.way < 0.0 else duty.gear_torque / ratio,
         duty.pinion_speed,
         float(study.cycle.face_width),
         duty.closure,
+        gear_drives=duty.way < 0.0,
     )
     results["efficiency_torque_ratio"] = float(single.efficiency)
     return results | _by_loss_factor(study)
@@ -161,17 +169,18 @@ def _effective_contact_ratio(mesh: Places, state: Engagement, duty: Duty) -> dic
     """Contact ratio under load, where the load sharing knows corner contact."""
     if mesh.flanks is None:
         return {}
-    roll, friction = mesh.roll[:-1], state.friction_coefficient[:-1]
-    shared = mesh.flanks.share(roll, duty.gear_torque, friction)
+    roll, friction = mesh.roll[:-1], duty.way * state.friction_coefficient[:-1]
+    shared = mesh.flanks.share(roll, abs(duty.gear_torque), friction)
     return {"contact_ratio_effective": effective_contact_ratio(roll, shared, float(mesh.cycle.pitch_angle))}
 
 
-def _figures(study: Prepared, mesh: Places, state: Engagement) -> dict[str, Any]:
+def _figures(study: Prepared, over: Samples, mesh: Places, state: Engagement) -> dict[str, Any]:
     cycle, duty = study.cycle, study.duty
     means = cycle_efficiency(cycle, study.path, duty, flanks=study.flanks)
     loaded = state.normal_load > 0
     share = 1.0 / len(state.power_in[:-1])
     balance = means.power_in - means.power_out - means.power_friction
+    put_in = float(power_put_in(means.power_in, means.power_out))
 
     def maximum(values: np.ndarray) -> float:
         return float(np.max(values[loaded]))
@@ -190,25 +199,26 @@ def _figures(study: Prepared, mesh: Places, state: Engagement) -> dict[str, Any]
         "hertz_pressure_max": maximum(state.hertz_pressure),
         "flash_temperature_max": maximum(state.flash_temperature_rise),
         "friction_coefficient_mean": means.friction_coefficient,
-        "friction_force_mean": np.sum(np.abs(state.friction_force[:-1]), axis=0) * share,
+        "friction_force_mean": np.sum(np.abs(over.by_pair(state.friction_force)[:-1]), axis=0) * share,
         "compliance_remark": compliance_remark(study.assembly, study.case.mesh) or None,
         **law_figures(study.case),
         "closure_in_range_fraction": fraction_in_range(state.closure_in_range[loaded]),
         "friction_in_range_fraction": fraction_in_range(state.friction_in_range[loaded]),
-        "power_in_mean": means.power_in,
+        "driving_gear": driving_gear(means.power_in, means.power_out),
+        "power_in_mean": put_in,
         "power_friction_mean": means.power_friction,
         "efficiency": means.efficiency,
-        "energy_residual": balance / means.power_in,
+        "energy_residual": balance / put_in,
         "averaging_cycles": 1,
         **efficiencies(study, {duty.sharing: means}),
     }
 
 
-def _record_arrays(mesh: Places, state: Engagement, duty: Duty) -> dict[str, Any]:
+def _record_arrays(over: Samples, mesh: Places, state: Engagement, duty: Duty) -> dict[str, Any]:
     """Datasets of a record of one mesh cycle; what a quasi-static state has not stays out."""
     cycle = mesh.cycle
     touching = (mesh.carrying > 0) & (state.normal_load > 0)
-    angle = mesh.phase * cycle.pitch_angle
+    angle = over.turned * cycle.pitch_angle
     ratio = cycle.pinion_pitch_radius / cycle.gear_pitch_radius
     zero = np.zeros_like(angle)
 
@@ -217,14 +227,16 @@ def _record_arrays(mesh: Places, state: Engagement, duty: Duty) -> dict[str, Any
 
     gear_angle = ratio * angle - np.nan_to_num(state.deflection) / cycle.gear_pitch_radius
     one = np.ones_like(angle)
-    return {
+    arrays = {
         "time": angle / duty.pinion_speed,
         "pinion_angle": angle,
         "displacement": np.stack([zero, zero, zero, zero, angle, gear_angle], axis=-1),
         "velocity": np.stack(
             [zero, zero, zero, zero, one * duty.pinion_speed, one * duty.pinion_speed * ratio], -1
         ),
-        "transmission_error": contacting(state.deflection[:, None] * np.cos(cycle.pressure_angle[:, 0])),
+        "transmission_error": contacting(
+            duty.way * state.deflection[:, None] * np.cos(cycle.pressure_angle[:, 0])
+        ),
         "transmission_error_rotational": state.deflection,
         "normal_load": state.normal_load,
         "friction_force": state.friction_force,
@@ -247,5 +259,9 @@ def _record_arrays(mesh: Places, state: Engagement, duty: Duty) -> dict[str, Any
         "power_friction": state.power_friction,
         "power_damping": zero,
         "power_parametric": zero,
-        "efficiency": state.power_out / state.power_in,
+        "efficiency": efficiency(state.power_in, state.power_out, state.power_friction),
+    }
+    return {
+        name: over.by_pair(values) if SAMPLES[name].dims == ("time", "pair") else values
+        for name, values in arrays.items()
     }

@@ -7,7 +7,7 @@ from pydantic import Field
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.mesh.data import MeshData
 from tribodyn.scenario import units
-from tribodyn.scenario.common import ScenarioHead, Slices, head_of
+from tribodyn.scenario.common import ScenarioHead, Slices, Torque, head_of
 from tribodyn.scenario.drive_data import (
     drive_of,
     lubricant_of,
@@ -34,7 +34,7 @@ class EfficiencyOperating(Table):
     """Constant speed and torque."""
 
     pinion_speed: Annotated[float, Quantity(units.positive(units.ANGULAR_SPEED))]
-    gear_torque: Annotated[float, Quantity(units.positive(units.TORQUE))]
+    gear_torque: Torque = Field(description="against the gear's motion; negative where the gear drives")
 
 
 class EfficiencyMesh(Table):

@@ -51,19 +51,14 @@ class UnitContact(NamedTuple):
     pitch_point_length: Any = 0.0
     pitch_point_rate: Any = 0.0
 
-    @property
-    def ratio(self) -> Array:
-        """Gear ratio i = d_2/d_1, the ratio of the normal arms."""
-        return self.gear_normal_arm / self.pinion_normal_arm
-
 
 class TorqueRatio(NamedTuple):
     """What the pair does; arrays like the contact's, `efficiency` without the last axis.
 
     Attributes
     ----------
-    efficiency : mean of Γ_2/Γ_1 over the pitch, divided by the gear ratio
-    torque_ratio : Γ_2/Γ_1
+    efficiency : mean of Γ_2/Γ_1 over the pitch, divided by the gear ratio; where the gear drives of Γ_1/Γ_2
+    torque_ratio : Γ_2/Γ_1, or Γ_1/Γ_2
     normal_load : N
     friction_coefficient : 1
     """
@@ -205,35 +200,43 @@ def torque_ratio(
     pinion_speed: Any,
     face_width: Any,
     closure: Closure,
+    gear_drives: bool = False,
 ) -> TorqueRatio:
     """Solve load and friction together: N = Γ_1/(A_1 + s μ T_1), Γ_2 = N (A_2 + s μ T_2), s = sgn ψ.
+
+    Where the gear drives, the gears exchange their places and the flanks slide the other way, s = −sgn ψ.
 
     Parameters
     ----------
     pair : UnitContact
     input_torque, pinion_speed, face_width : float
-        Γ_1 N m, ω_1 rad/s, b m.
+        Γ_1 (of the gear, where that drives: Γ_2) N m, ω_1 rad/s, b m.
     closure : Closure
+    gear_drives : bool
 
     Raises
     ------
     SimulationError
         If load and friction find no common value: a law whose coefficient grows without bound.
     """
-    side = np.sign(pair.rotation)
-    speeds = pinion_speed * pair.pinion_speed, pinion_speed * pair.gear_speed
-    mu, load, change = np.zeros_like(pair.pinion_normal_arm), input_torque / pair.pinion_normal_arm, np.inf
+    pinion = pair.pinion_normal_arm, pair.pinion_friction_arm
+    gear = pair.gear_normal_arm, pair.gear_friction_arm
+    (arm, lever), (arm_out, lever_out) = (gear, pinion) if gear_drives else (pinion, gear)
+    way = -1.0 if gear_drives else 1.0
+    side, speed = way * np.sign(pair.rotation), way * pinion_speed
+    mu, load, change = np.zeros_like(arm), input_torque / arm, np.inf
     for _ in range(STEPS):
-        load = input_torque / (pair.pinion_normal_arm + side * mu * pair.pinion_friction_arm)
+        load = input_torque / (arm + side * mu * lever)
         new_mu = contact_friction(
             closure,
             load / face_width,
             1.0 / pair.curvature,
-            *speeds,
+            speed * pair.pinion_speed,
+            speed * pair.gear_speed,
             pair.pitch_point_length,
-            pinion_speed * pair.pitch_point_rate,
+            speed * pair.pitch_point_rate,
         ).surface.friction_coefficient
-        if np.any(pair.pinion_normal_arm + side * new_mu * pair.pinion_friction_arm <= 0.0):
+        if any(np.any(one + side * new_mu * other <= 0.0) for one, other in (pinion, gear)):
             worst = float(np.max(new_mu))
             raise SimulationError(
                 f"friction locks the pair: a coefficient of {worst:.3g} turns the load's arm over"
@@ -243,7 +246,5 @@ def torque_ratio(
             break
     else:
         raise SimulationError(f"load and friction coefficient do not settle: still moving by {change:.1e}")
-    ratio = (pair.gear_normal_arm + side * mu * pair.gear_friction_arm) / (
-        pair.pinion_normal_arm + side * mu * pair.pinion_friction_arm
-    )
-    return TorqueRatio(np.sum(pair.weight * ratio / pair.ratio, axis=-1), ratio, load, mu)
+    ratio = (arm_out + side * mu * lever_out) / (arm + side * mu * lever)
+    return TorqueRatio(np.sum(pair.weight * ratio * arm / arm_out, axis=-1), ratio, load, mu)

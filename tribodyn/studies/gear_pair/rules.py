@@ -18,6 +18,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     yield from _operating(scenario.operating, scenario.mesh.backlash is not None)
     yield from _mesh(scenario.mesh)
     yield from broken_face_rules(_face(scenario), scenario.mesh.compliance)
+    yield from _working_flanks(scenario.operating, scenario.mesh)
     if scenario.solver.method not in SOLVERS:
         yield unknown_name("solver.method", scenario.solver.method, SOLVERS, "solver")
 
@@ -80,6 +81,24 @@ def _operating(operating: Operating, back_flanks: bool) -> Iterator[InputError]:
             f"{operating.gear_torque:g} N*m",
             "must be greater than zero: without backlash only the driving flanks can carry load",
             'write a torque such as "500 N*m", or add mesh.backlash',
+        )
+
+
+def _working_flanks(operating: Operating, mesh: Mesh) -> Iterator[InputError]:
+    """Refuse what a load on the back flanks leaves without effect, and no load where the mesh needs one."""
+    for name in ("harmonics", "table"):
+        if operating.gear_torque < 0 and getattr(mesh.transmission_error, name):
+            yield InputError(
+                f"mesh.transmission_error.{name}",
+                rule="is that of the driving flanks, but under a negative gear_torque the back flanks carry",
+                remedy="leave it out, or reverse the load",
+            )
+    if operating.gear_torque == 0 and mesh.compliance == "fem":
+        yield InputError(
+            "operating.gear_torque",
+            "0 N*m",
+            'contradicts compliance = "fem", which is taken at this load',
+            'write a torque such as "500 N*m", or use compliance = "energy"',
         )
 
 
