@@ -37,7 +37,7 @@ class LoadedFlanks(NamedTuple):
         gear_torque: float,
         friction_coefficient: Float[Array, "position pair"] | float = 0.0,
     ) -> SharedLoad:
-        """Share the gear's torque > 0 among pairs at the roll angles (position, pair), as `share_load` does."""
+        """Share the gear's torque among pairs at the roll angles (position, pair), see `share_load`."""
         flexible = self.flexible
         geometry = pair_geometry(flexible.assembly, roll)
         face = face_positions(flexible.width, self.slices)

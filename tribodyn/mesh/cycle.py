@@ -48,7 +48,7 @@ class MeshCycle(NamedTuple):
         linear, the Hertz contact; m/N.
     gap : (S, N, Q)
         Static transmission error along the normal, positive where material is missing; for back flanks
-        the normal backlash; m.
+        the backlash along it; m.
     coupling : (S, N, Q, Q)
         Deflection of the pair in one slot per load on the pair in another, through the common gear
         bodies; zero diagonal, symmetric; m/N.

@@ -31,7 +31,7 @@ class MeshData:
     contact_width : float
         Width in deflection over which contact sets in smoothly, m.
     backlash : float or None
-        Normal backlash, m; None: back flanks never touch.
+        Normal backlash at the pitch point, m; None: back flanks never touch.
     points : int
         Nodes of the table per segment of the mesh cycle.
     error_harmonics : tuple of (int, float, float)

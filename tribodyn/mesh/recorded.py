@@ -34,7 +34,9 @@ MESH_CYCLE: dict[str, Variable] = {
     "compliance": Variable(
         ("phase", "pair"), "m/N", "deflection of one pair along its normal per normal load"
     ),
-    "gap": Variable(("phase", "pair"), "m", "static transmission error; for back flanks the normal backlash"),
+    "gap": Variable(
+        ("phase", "pair"), "m", "static transmission error; for back flanks the backlash along the normal"
+    ),
     "line_load_friction": Variable(
         ("phase", "pair"), "1", "line load at which friction acts as on the uneven face, over the mean"
     ),

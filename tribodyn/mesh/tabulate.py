@@ -23,7 +23,7 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, Drive
 from tribodyn.geometry.material import MaterialData
-from tribodyn.geometry.path import kinematics
+from tribodyn.geometry.path import Path, kinematics
 from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.data import MeshData
@@ -90,7 +90,7 @@ def tabulate(
     side = np.ones(pairs)
     if back:
         side = np.concatenate([side, -side])
-        gap = namespace(gap).where(side > 0, gap, mesh.backlash)
+        gap = namespace(gap).where(side > 0, gap, mesh.backlash * opening(path, motion.pressure_angle))
     linear = mesh.compliance != "energy" or mesh.hertz == "linear"
     return MeshCycle(
         boundary=boundary,
@@ -136,6 +136,14 @@ def _check_options(drive: Drive, mesh: MeshData, back: bool) -> None:
             "use 'linear', or compliance = 'energy'",
         )
     check_backlash(mesh, back)
+
+
+def opening(path: Path, pressure_angle: Float[Array, "..."]) -> Float[Array, "..."]:
+    """Normal distance of back flanks over that at the pitch point.
+
+    Conjugate flanks all touch after the same rotation: the distance along a normal goes like cos α.
+    """
+    return cos(pressure_angle) / cos(path.pressure_angle(0.0))
 
 
 def _phases(

@@ -30,6 +30,7 @@ from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.data import MeshData
 from tribodyn.mesh.rules import check_backlash, check_bores
+from tribodyn.mesh.tabulate import opening
 from tribodyn.numerics.shapes import Array, Float
 
 # Share of a single pair's load below which the secant no longer follows the load: the contact's compliance
@@ -92,11 +93,12 @@ def tabulate_loaded(
     coupling = np.zeros((*gap.shape, slots))
     uneven, peak = np.ones_like(gap), np.ones_like(gap)
     side = np.where(np.arange(slots) < pairs, 1.0, -1.0)
-    opening = np.where(side > 0, error, mesh.backlash or 0.0).reshape(-1, slots)
+    behind_by = (mesh.backlash or 0.0) * opening(assembly.path, geometry.motion.pressure_angle)
+    apart = np.where(side > 0, error.reshape(-1, slots), behind_by)
     for number, one in enumerate(flanks):
         own = slice(number * pairs, (number + 1) * pairs)
         at = roll[..., own].reshape(-1, pairs)
-        pressed = _pressed(flexible, mesh, one, torque, _MINIMUM_SHARE * full, at, opening[:, own])
+        pressed = _pressed(flexible, mesh, one, torque, _MINIMUM_SHARE * full, at, apart[:, own])
         compliance[:, own], gap[:, own] = pressed.compliance, pressed.gap
         coupling[:, own, own] = pressed.coupling
         uneven[:, own], peak[:, own] = pressed.line_load_friction, pressed.line_load_peak

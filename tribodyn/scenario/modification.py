@@ -17,7 +17,7 @@ _EXPONENT = {"linear": 1.0, "parabolic": 2.0}
 
 
 class Modification(Table):
-    """What is missing on the driving flanks of a gear, along their normal; on request on the back flanks too."""
+    """What is missing on the flanks of a gear, along their normal: the driving flanks, or both."""
 
     tip_relief: Amount = written("0 um", description="at the end of the active profile")
     tip_relief_length: Extent | None = Field(

@@ -10,8 +10,16 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.corner_contact import roll_at_gap
 from tribodyn.geometry.families import family
+from tribodyn.geometry.modification import (
+    FlankModification,
+    LeadRelief,
+    Misalignment,
+    Modifications,
+    Relief,
+    back_flanks,
+)
 from tribodyn.mesh.quasi_static import quasi_static
-from tribodyn.mesh.tabulate_loaded import tabulate_loaded
+from tribodyn.mesh.tabulate_loaded import flanks_of, tabulate_loaded
 from tribodyn.studies.load import load_scenario
 
 NAME = "involute-18-36-fem"
@@ -85,6 +93,29 @@ def test_back_flanks_mirror_the_front():
     assert cycle.gap[..., :2].max() == pytest.approx(front.gap.max(), rel=1e-6)
     still = quasi_static(cycle, case.operating.gear_torque)
     assert not np.any(still.normal_load[..., 2:])
+
+
+def test_back_flanks_carry_as_they_are_modified():
+    """Under a negative torque they are the load contact model's, on the axes as these stand for them."""
+    tip = {"amount": 2e-5, "length": 4e-3}
+    relieved = FlankModification(tip=Relief(**tip), both_flanks=True)
+    front_only = FlankModification(lead=LeadRelief(crowning=5e-6))
+    given = Modifications(relieved, front_only, Misalignment(3e-4, 1e-3))
+    case = load_scenario(NAME, {"mesh.points": 9})
+    assembly = assemble(family(case.family), case.drive)
+    mesh = dataclasses.replace(case.mesh, modifications=given, slices=3, backlash=5e-5)
+    cycle = tabulate_loaded(assembly, case.materials, mesh, -300.0, True)
+    assert np.array_equal(cycle.gap, tabulate_loaded(assembly, case.materials, mesh, 300.0, True).gap)
+    for side, modified in ((1, given), (-1, back_flanks(given, float(assembly.path.pressure_angle(0.0))))):
+        still = quasi_static(cycle._replace(side=side * cycle.side), 300.0)
+        own = cycle.side * side > 0
+        flanks = flanks_of(assembly, case.materials, dataclasses.replace(mesh, modifications=modified))
+        roll = assembly.path.rotation(cycle.signed_distance[..., own].reshape(-1, own.sum()))
+        shared = flanks.share(roll, 300.0)
+        loads = still.normal_load[..., own].reshape(shared.normal_load.shape)
+        np.testing.assert_allclose(loads, shared.normal_load, atol=0.003 * loads.max())
+        clear = 0.0 if side > 0 else mesh.backlash / np.cos(np.radians(20.0))
+        np.testing.assert_allclose(still.deflection.ravel() - clear, shared.deflection, rtol=3e-3)
 
 
 def test_errors_over_roll_angle_shift_the_load():

@@ -34,8 +34,8 @@ class Engagement(NamedTuple):
     Attributes
     ----------
     normal_load, friction_coefficient : N, 1
-    friction_force : on the pinion along the tangent, N; with the sign of the sliding
-    entrainment, sliding : m/s; positive in recess where the pinion drives, in the mirrored world < 0 there
+    friction_force : on the pinion along the tangent, positive in recess, N
+    entrainment, sliding : m/s; the sliding negative in approach, whichever gear drives
     radius : equivalent radius, averaged over the contact where it vanishes at the pitch point, m
     asperity_load_ratio, central_film_thickness, flash_temperature_rise, hertz_pressure, closure_in_range,
     friction_in_range

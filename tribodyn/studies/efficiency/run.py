@@ -261,7 +261,5 @@ def _record_arrays(over: Samples, mesh: Places, state: Engagement, duty: Duty) -
         "power_parametric": zero,
         "efficiency": efficiency(state.power_in, state.power_out, state.power_friction),
     }
-    return {
-        name: over.by_pair(values) if SAMPLES[name].dims == ("time", "pair") else values
-        for name, values in arrays.items()
-    }
+    of_pairs = {name for name, one in SAMPLES.items() if one.dims == ("time", "pair")}
+    return {name: over.by_pair(values) if name in of_pairs else values for name, values in arrays.items()}

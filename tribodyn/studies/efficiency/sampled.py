@@ -7,6 +7,9 @@ import numpy as np
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.studies.efficiency.quadrature import Array
 
+#: By how much of a pitch the first and the last sample stand off the end of the path.
+_INSIDE = 1e-9
+
 
 class Samples(NamedTuple):
     """Phases of the table in the order in which they are passed.
@@ -26,7 +29,7 @@ class Samples(NamedTuple):
 
     turned: Array
     phase: Array
-    later: Array
+    later: np.ndarray
     way: float
 
     def by_pair(self, values: Array) -> Array:
@@ -42,7 +45,8 @@ def samples(cycle: MeshCycle, count: int, way: float) -> Samples:
     if way > 0.0:
         return Samples(turned, turned, np.zeros(count + 1, dtype=bool), way)
     span = float((cycle.roll_end - cycle.roll_start) / cycle.pitch_angle)
-    # the pair in the first slot enters at its end of the path, where the table lets it leave
-    falling = span - (cycle.front_pairs - 1.0) - turned
+    # the pair in the first slot enters where the table lets it leave: just inside the path, and the next one
+    # is just outside when the cycle ends
+    falling = span - (cycle.front_pairs - 1.0) - turned - _INSIDE * (1.0 - 2.0 * turned)
     later = falling < 0.0
     return Samples(turned, np.where(later, falling + 1.0, falling), later, way)

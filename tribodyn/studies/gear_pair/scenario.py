@@ -133,7 +133,7 @@ class Mesh(Table):
     )
     contact_width: Length = written("0.1 um", description="deflection over which contact sets in")
     backlash: Annotated[float, Quantity(units.not_negative(units.LENGTH))] | None = Field(
-        None, description="normal backlash; default: back flanks never touch"
+        None, description="normal backlash at the pitch point; default: back flanks never touch"
     )
     points: Annotated[int, Field(strict=True, ge=5)] = Field(65, description="nodes per segment of the table")
     transmission_error: TransmissionError = written({})

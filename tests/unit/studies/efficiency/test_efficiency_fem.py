@@ -27,10 +27,12 @@ def coulomb(study, mu):
     return study.duty._replace(closure=of_case(study.case, "coulomb", coefficient=mu))
 
 
+@pytest.mark.parametrize("way", [1, -1], ids=["pinion drives", "gear drives"])
 @pytest.mark.parametrize("mu", [0.01, 0.0473, 0.1])
-def test_with_coulomb_friction_it_is_the_load_contact_models_efficiency(study, mu):
+def test_with_coulomb_friction_it_is_the_load_contact_models_efficiency(study, mu, way):
     """Two quadratures over one mesh cycle: crowded Gauss nodes here, equal steps there."""
     duty = coulomb(study, mu)
+    duty = duty._replace(gear_torque=way * duty.gear_torque)
     found = cycle_efficiency(study.cycle, study.path, duty, flanks=study.flanks).efficiency
     other = load_contact(study.flanks.flexible, duty.gear_torque, mu, positions=960).efficiency
     assert found == pytest.approx(other, abs=1e-6)

@@ -1,0 +1,84 @@
+"""Static equilibrium on either flank, and without load."""
+
+import numpy as np
+import pytest
+
+from tribodyn.dynamics.contact_forces import NORMAL_LOAD
+from tribodyn.dynamics.equations import derivatives
+from tribodyn.dynamics.parameters import STATES, TWIST, VELOCITIES, XI
+from tribodyn.errors import SimulationError
+from tribodyn.solve.initial import accelerations, static_equilibrium
+
+STILL = {"operating.gear_torque_harmonics": []}
+SHAFT = {"operating.shaft_stiffness": "1e4 N*m/rad", "operating.drive_inertia": "0.01 kg*m**2"}
+BACKLASH = 5e-5
+
+
+def started(prepared, torque, **more):
+    case = prepared("rattle", **STILL, **{"operating.gear_torque": torque}, **more)
+    state = static_equilibrium(case.model)
+    work = {}
+    derivatives(0.0, 0.0, 0, state, case.model, work, {})
+    slots = range(case.cycle.pairs)
+    loads = np.array([float(work.get((NORMAL_LOAD, i), 0.0)) for i in slots])
+    rates = accelerations(state, 0.0, 0, case.model)[list(VELOCITIES)]
+    return case, state, loads, rates
+
+
+@pytest.mark.parametrize("torque", [500.0, 1e-3, 1e-9, -1e-9, -1e-3, -500.0])
+@pytest.mark.parametrize("soft", [False, True])
+def test_the_load_presses_the_flanks_that_it_turns_together(prepared, torque, soft):
+    """Either sign, any size, bearings that give by more than the backlash; with friction."""
+    bearings = {f"bearings.{one}.stiffness_{axis}": "1e6 N/m" for one in ("pinion", "gear") for axis in "xy"}
+    law = {"friction.law": "coulomb", "friction.coefficient": 0.1}
+    case, state, loads, rates = started(prepared, f"{torque} N*m", **law, **(bearings if soft else {}))
+    assert np.max(np.abs(rates)) < 1e-9 * abs(torque)
+    assert np.any(loads > 0.0)
+    assert np.all(loads[case.cycle.side * torque < 0] == 0.0)
+    # the flanks have crossed the backlash only under the negative load
+    assert state[XI] > 0.0 if torque > 0 else state[XI] < -BACKLASH
+
+
+def test_without_load_the_driving_flanks_just_touch(prepared):
+    """The limit of a vanishing load; where the flanks have errors, the first of them touches."""
+    error = {"mesh.transmission_error.harmonics": [{"order": 1, "amplitude": "3 um"}]}
+    for more in ({}, error):
+        _, state, loads, rates = started(prepared, "0 N*m", **more)
+        _, lightly, _, _ = started(prepared, "1e-9 N*m", **more)
+        assert not np.any(loads)
+        assert not np.any(rates)
+        np.testing.assert_allclose(state, lightly, atol=1e-9)
+    assert state[XI] > 2e-6
+
+
+@pytest.mark.parametrize("shaft", [{}, SHAFT], ids=["rigid", "shaft"])
+@pytest.mark.parametrize("torques", [(0, 100), (0, -100), (100, -500), (-100, 500), (-100, None), (0, None)])
+def test_the_motor_presses_too(prepared, torques, shaft):
+    """Which flanks carry follows from both torques and inertias; the relative motion stands still."""
+    load, motor = torques
+    given = {} if motor is None else {"operating.pinion_torque": f"{motor} N*m"}
+    case, state, loads, rates = started(
+        prepared, f"{load} N*m", **{"operating.source": "torque"}, **given, **shaft
+    )
+    mechanics = case.model.mechanics
+    driving = 0.0 if motor is None else motor / (mechanics.pinion_inertia + (0.01 if shaft else 0.0))
+    if motor is None:
+        driving = load * 23 / 47 / (mechanics.pinion_inertia + (0.01 if shaft else 0.0))
+    push = driving * case.cycle.pinion_pitch_radius + load / mechanics.gear_inertia * (
+        case.cycle.gear_pitch_radius
+    )
+    assert np.max(np.abs(rates)) < 1e-9 * (abs(load) + abs(motor or 0) + 1e-300)
+    if push == 0.0:
+        assert not np.any(state)
+        return
+    assert np.any(loads[case.cycle.side * push > 0] > 0.0)
+    assert np.all(loads[case.cycle.side * push < 0] == 0.0)
+    assert np.sign(state[TWIST]) == (np.sign(motor or load) if shaft else 0.0)
+
+
+def test_without_back_flanks_nothing_holds_a_negative_load(prepared):
+    model = prepared("crc-23-47").model
+    model = model._replace(mechanics=model.mechanics._replace(load_torque=-100.0, drive_torque=-50.0))
+    with pytest.raises(SimulationError, match="no static equilibrium"):
+        static_equilibrium(model)
+    assert len(static_equilibrium(prepared("crc-23-47").model)) == STATES
