@@ -93,7 +93,7 @@ def _working_flanks(operating: Operating, mesh: Mesh) -> Iterator[InputError]:
                 rule="is that of the driving flanks, but under a negative gear_torque the back flanks carry",
                 remedy="leave it out, or reverse the load",
             )
-    if operating.gear_torque == 0 and mesh.compliance == "fem":
+    if operating.gear_torque == 0 and mesh.backlash is not None and mesh.compliance == "fem":
         yield InputError(
             "operating.gear_torque",
             "0 N*m",
