@@ -141,7 +141,7 @@ def roll_through(
         root_compression=compression,
         face_load_factor=factor,
         mesh_stiffness=shared.stiffness / flexible.assembly.path.gear_pitch_radius,
-        contact_ratio=_mean_pairs(np.max(shared.overlap, axis=-1), positions),
+        contact_ratio=mean_pairs(np.max(shared.overlap, axis=-1), positions),
     )
 
 
@@ -263,7 +263,7 @@ def _unloaded(geometry: PairGeometry, gap: Float[Array, "position pair slice"]) 
     return np.min(whole, axis=(1, 2))
 
 
-def _mean_pairs(overlap: Float[Array, "position pair"], positions: int) -> float:
+def mean_pairs(overlap: Float[Array, "position pair"], positions: int) -> float:
     """Mean number of pairs that carry, from overlaps (position, pair) linear in between."""
     history = [overlap[:-1], overlap[1:]]
     # a pair goes on in the slot before its own in the next cycle

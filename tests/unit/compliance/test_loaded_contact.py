@@ -5,7 +5,7 @@ import pytest
 
 from tribodyn.compliance.flank_gap import flank_gap
 from tribodyn.compliance.load_sharing import effective_contact_ratio, extended_rolls, flexibility, share_load
-from tribodyn.compliance.loaded_contact import loaded_error, reach, roll_through
+from tribodyn.compliance.loaded_contact import loaded_error, mean_pairs, reach, roll_through
 from tribodyn.compliance.slices import face_positions
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
@@ -189,6 +189,19 @@ def test_relief_of_the_tips_is_best_near_its_design_torque(pair):
     assert relieved[2] < 0.25 * plain[2]
     assert relieved[0] > 3 * relieved[2]
     assert relieved[4] > 3 * relieved[2]
+
+
+@pytest.mark.parametrize("positions", [8, 13, 50])
+@pytest.mark.parametrize("begin", [0.0, 0.31, 0.77, 0.93, 0.985])
+def test_contact_ratio_under_load_counts_across_the_seam_of_cycles(positions, begin):
+    """Overlaps linear in the roll angle between their ends: the count is exact however coarse the steps."""
+    ratio, cycles = 1.63, 2
+    middle, half = begin + ratio / 2.0, ratio / 2.0
+    phase = np.arange(positions * cycles) / positions
+    # slots from the pair that entered first, in the cycle each position is in
+    place = (phase % 1.0)[:, None] + np.arange(3, -2, -1)
+    overlap = half - np.abs(place - middle)
+    assert mean_pairs(overlap, positions) == pytest.approx(ratio, abs=1e-12)
 
 
 def test_relief_keeps_corners_from_touching(pair):

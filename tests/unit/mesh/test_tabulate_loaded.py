@@ -8,7 +8,7 @@ import pytest
 from tribodyn.compliance.load_sharing import effective_contact_ratio, extended_rolls, flexibility, share_load
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.corner_contact import roll_at_gap
+from tribodyn.geometry.corner_contact import pair_geometry, roll_at_gap
 from tribodyn.geometry.families import family
 from tribodyn.geometry.modification import (
     FlankModification,
@@ -93,6 +93,23 @@ def test_back_flanks_mirror_the_front():
     assert cycle.gap[..., :2].max() == pytest.approx(front.gap.max(), rel=1e-6)
     still = quasi_static(cycle, case.operating.gear_torque)
     assert not np.any(still.normal_load[..., 2:])
+
+
+@pytest.mark.parametrize("shift", [0.0, 0.35, -0.2])
+def test_back_flanks_stand_half_a_pitch_behind_their_front_flanks(shift):
+    """Every tooth's back flank, at every phase, whatever the reach of the corners and the shift."""
+    case = load_scenario(NAME, {"drive.pinion.profile_shift": shift, "mesh.points": 5})
+    cycle = table(case, backlash=5e-5)
+    assembly = assemble(family(case.family), case.drive)
+    back = cycle.side < 0
+    for segment in range(len(cycle.boundary) - 1):
+        for node in (1, 2, 3):
+            newest = cycle.roll_start + cycle.phase[segment, node] * cycle.pitch_angle
+            rolls = np.pi / 18 - (newest + cycle.pitch_angle * np.arange(-5, 6))
+            touching = rolls[(rolls > cycle.roll_start) & (rolls < cycle.roll_end)]
+            expected = pair_geometry(assembly, touching).motion.signed_distance
+            mine = cycle.signed_distance[segment, node, back][cycle.in_contact[segment, back] > 0]
+            np.testing.assert_allclose(np.sort(mine), np.sort(expected), atol=1e-9)
 
 
 def test_back_flanks_carry_as_they_are_modified():

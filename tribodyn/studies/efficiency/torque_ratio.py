@@ -95,14 +95,14 @@ def involute_contact(
         Default: `rotations`.
     """
     psi, weight = rotation or rotations(pinion_teeth)
-    base = pinion_radius * math.cos(pressure_angle)
+    base = pinion_radius * math.cos(pressure_angle) + np.zeros_like(psi)
     pinion = pinion_radius * math.sin(pressure_angle) + psi * base
     gear = ratio * pinion_radius * math.sin(pressure_angle) - psi * base
     return UnitContact(
         rotation=psi,
         weight=weight,
-        pinion_normal_arm=base + 0.0 * psi,
-        gear_normal_arm=ratio * base + 0.0 * psi,
+        pinion_normal_arm=base,
+        gear_normal_arm=ratio * base,
         pinion_friction_arm=pinion,
         gear_friction_arm=gear,
         curvature=1.0 / pinion + 1.0 / gear,

@@ -1,0 +1,50 @@
+"""How the march of a native method ends where it cannot go on."""
+
+import numpy as np
+import pytest
+
+from tribodyn.dynamics.parameters import SLIP
+from tribodyn.solve.initial import static_equilibrium
+from tribodyn.solve.integrator import Status
+from tribodyn.solve.methods import integrator_class, method_file
+from tribodyn.solve.step_control import MINIMUM_STEP, STANDSTILL
+from tribodyn.solve.tolerances import tolerances_from
+
+
+def ended(model, state, method, max_steps=1000, step=None):
+    integrator = integrator_class(method)(
+        method_file(method), model, 8, tolerances_from(model, state, 1e-6, max_steps)
+    )
+    if step is not None:
+        integrator.step = step
+    return integrator.integrate(state, 0, 1)
+
+
+@pytest.mark.parametrize("method", ["dopri5", "rodas4"])
+def test_steps_that_vanish_are_told_from_a_pinion_that_stops(prepared, method):
+    """The same step: at speed it is too small, near standstill it is the standstill that is said."""
+    model = prepared("crc-23-47", **{"operating.source": "torque"}).model
+    state = static_equilibrium(model)
+    tiny = 0.5 * MINIMUM_STEP
+    at_speed = ended(model, state, method, step=tiny)
+    assert at_speed.status == Status.STEP_TOO_SMALL
+    slow = state.copy()
+    slow[SLIP] = -(1.0 - 0.5 * STANDSTILL) * model.mechanics.nominal_speed
+    stopping = ended(model, slow, method, step=tiny)
+    assert stopping.status == Status.STALLED
+    for found in (at_speed, stopping):
+        assert found.steps == found.evaluations == 0
+        assert found.reached == 0.0
+    # the limit of steps is said first, whatever else is wrong
+    assert ended(model, slow, method, max_steps=0, step=tiny).status == Status.TOO_MANY_STEPS
+
+
+def test_a_pinion_that_turns_back_has_come_to_rest(prepared):
+    model = prepared("crc-23-47", **{"operating.source": "torque", "operating.pinion_torque": "20 N*m"}).model
+    state = np.zeros_like(static_equilibrium(prepared("crc-23-47").model))
+    found = ended(model, state, "dopri5", 100000)
+    assert found.status in (Status.STALLED, Status.DONE)
+    for _ in range(3):
+        if found.status == Status.DONE:
+            found = ended(model, found.state, "dopri5", 100000)
+    assert found.status == Status.STALLED
