@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from tribodyn.dynamics.outputs import outputs
+from tribodyn.dynamics.parameters import SLIP
 from tribodyn.errors import SimulationError
 from tribodyn.record.reader import open_record
 from tribodyn.solve.initial import static_equilibrium
@@ -53,6 +55,17 @@ def test_a_pinion_that_stalls(tmp_path, method):
     assert speed[-1] < speed[0]
     for name in ("pinion_angle", "transmission_error_rotational", "power_in"):
         assert np.all(np.isfinite(record[name]))
+
+
+def test_a_sample_at_rest_is_recorded(prepared):
+    """An engagement may stop the pinion: rates with respect to the phase have no limit, powers do."""
+    model = prepared("crc-23-47").model
+    state = static_equilibrium(model)
+    state[SLIP] = -model.mechanics.nominal_speed
+    block = outputs(np.array([0.3]), state[None], model)
+    assert block["power_in"][0] == 0.0
+    for name in ("velocity", "normal_load", "power_out", "power_friction", "power_damping", "stored_energy"):
+        assert np.all(np.isfinite(block[name])), name
 
 
 def test_no_equilibrium_at_the_start(prepared):

@@ -68,8 +68,8 @@ def case(seed: int, number: int, folder: Path, short: bool = False) -> SoakCase:
 _MAKERS: dict[str, Callable[[Draw, dict[str, Any]], dict[str, Any]]] = {
     "efficiency": studies.efficiency,
     "load-contact": studies.load_contact,
-    "sweep, steady": lambda draw, table: studies.steady(duties.gear_pair(draw, table)),
-    "sweep, transient": lambda draw, table: studies.marched(duties.gear_pair(draw, table)),
+    "sweep, steady": lambda draw, table: studies.steady(duties.gear_pair(draw, table, True)),
+    "sweep, transient": lambda draw, table: studies.marched(duties.gear_pair(draw, table, True)),
 }
 
 

@@ -31,6 +31,6 @@ def read(path: Path) -> Iterator[Outcome]:
 
 def add(path: Path, one: Outcome) -> None:
     """Add an outcome to a file, in one write."""
-    path.parent.mkdir(exist_ok=True)
+    path.parent.mkdir(parents=True, exist_ok=True)
     with path.open("a", encoding="utf-8") as file:
         file.write(json.dumps(one._asdict(), ensure_ascii=False) + "\n")

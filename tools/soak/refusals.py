@@ -11,6 +11,8 @@ from tribodyn.errors import InputError, InputErrors
 _ADVICE = re.compile(r"^use (at most|at least|less, such as|about)? ?\"?(-?[\d.]+(?:e-?\d+)?)( mm| deg)?\"?")
 #: The advised value need not be sharper than this share of the way to it.
 SHARP = 0.05
+#: Remedies are rounded to this.
+ROUNDED = 0.001
 
 
 def untrue(refused: Refused, folder: Path) -> list[str]:
@@ -35,7 +37,7 @@ def untrue(refused: Refused, folder: Path) -> list[str]:
     if again is not None and (again.key, _words(again.rule)) == (error.key, _words(error.rule)):
         said.append(f"the remedy is refused too: {error} -> {again}")
     if bound in ("at most", "at least"):
-        beyond = value + SHARP * (old - value)
+        beyond = value + max(SHARP, 1.5 * ROUNDED / abs(old - value)) * (old - value)
         if _with(refused, error.key, beyond, unit, folder) is None:
             said.append(f"{beyond:.6g} is accepted, beyond the limit of: {error}")
     return said

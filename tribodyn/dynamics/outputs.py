@@ -62,7 +62,8 @@ def outputs(cycles: np.ndarray, states: np.ndarray, model: Model) -> dict[str, n
     segment = segment_of(phase, np.asarray(table.boundary))
     work: dict[tuple[int, int], Any] = {}
     rates: dict[int, Any] = {}
-    with np.errstate(over="ignore", under="ignore"):
+    # rates with respect to the phase have no limit where the pinion comes to rest; they are not recorded
+    with np.errstate(over="ignore", under="ignore", divide="ignore", invalid="ignore"):
         powers = derivatives(phase, whole, segment, y, model, work, rates)
     count, pairs = len(cycles), table.side.shape[0]
 

@@ -13,6 +13,7 @@ from tribodyn.solve.engagement import engage
 from tribodyn.solve.integrator import IntegratedCycles, Status
 from tribodyn.solve.right_hand_side import rhs, work_array
 from tribodyn.solve.sampling import sample_phases
+from tribodyn.solve.step_control import STANDSTILL
 from tribodyn.solve.tolerances import Tolerances
 
 
@@ -99,7 +100,8 @@ class _Walk:
                     raise _Ended(Status.TOO_MANY_STEPS, solver.t)
                 message = solver.step()
                 if solver.status == "failed":
-                    raise _Ended(Status.GAVE_UP, solver.t, message)
+                    at_rest = nominal_speed + solver.y[SLIP] < STANDSTILL * nominal_speed
+                    raise _Ended(Status.STALLED if at_rest else Status.GAVE_UP, solver.t, message)
                 self.steps += 1
                 count = int(np.searchsorted(at, solver.t, side="right"))
                 if count:

@@ -10,8 +10,9 @@ FIRST_STEP, MINIMUM_STEP, TOUCHING = 1e-3, 1e-13, 1.0000001
 #: Error taken for that of the last step at the start, and the smallest that is remembered.
 MINIMUM_ERROR = 1e-4
 #: Share of the nominal speed below which steps that vanish mean that the pinion comes to rest: rates with
-#: respect to phase grow without bound there.
-STANDSTILL = 1e-3
+#: respect to phase grow without bound there. A light pinion at low nominal speed still turns at a hundredth
+#: of it when a step is the smallest one.
+STANDSTILL = 0.05
 #: Factor on a step that gives no finite numbers, and the step below which it is given up, mesh cycles.
 RETRY, MINIMUM_RETRY = 0.1, 1e-9
 INFINITE = float("inf")
@@ -26,7 +27,9 @@ def cut_at_stop(phase, step, stop):
 
 @law
 def refused(steps, max_steps, step, speed, nominal_speed):
-    """Whether no step can be taken: too many in this mesh cycle; too small; too small as the pinion stops.
+    """Whether no step can be taken: too many in this mesh cycle; too small; the pinion comes to rest.
+
+    It does where steps vanish as it stops, and at once where an engagement takes all its kinetic energy.
 
     Parameters
     ----------
@@ -38,7 +41,8 @@ def refused(steps, max_steps, step, speed, nominal_speed):
         Of the pinion, rad/s.
     """
     vanishing = step < MINIMUM_STEP
-    return steps >= max_steps, vanishing, vanishing & (speed < STANDSTILL * nominal_speed)
+    at_rest = (vanishing & (speed < STANDSTILL * nominal_speed)) | (speed <= 0.0)
+    return steps >= max_steps, vanishing, at_rest
 
 
 @law

@@ -1,0 +1,119 @@
+"""The soak itself: cases come back, outcomes are kept, and what is wrong is noticed."""
+
+import h5py
+import pytest
+
+from tools.soak.cases import Refused, bare, case, written
+from tools.soak.gear_records import faults
+from tools.soak.kept import add, read
+from tools.soak.outcome import COMPLETE, FAULTY, REFUSED, Outcome
+from tools.soak.refusals import untrue
+from tools.soak.table import table
+from tribodyn.errors import InputError
+from tribodyn.record.reader import Record
+from tribodyn.studies.load import load_scenario
+from tribodyn.studies.run import run
+
+ONE = Outcome(1, 17, "gear-pair", "crc", COMPLETE, "", (), 2, 0.5, 0.3)
+RTOL = 1e-6
+
+
+def drive(shift: float) -> dict:
+    """Return a pinion of few teeth, which its rack undercuts without a shift of 0.3."""
+    gear = {"face_width": "20 mm", "bore_radius": "6 mm"}
+    return {
+        "title": "Few teeth",
+        "source": "an example",
+        "family": "involute",
+        "module": "3 mm",
+        "pressure_angle": "20 deg",
+        "roughness": "0.3 um",
+        "material": "steel-liu-ni-2022",
+        "pinion": {"teeth": 12, "profile_shift": shift, **gear},
+        "gear": {"teeth": 47, **gear},
+    }
+
+
+@pytest.fixture(scope="module")
+def record(tmp_path_factory):
+    """The record of a short run."""
+    overrides = {"solver.cycles": 4, "output.samples_per_cycle": 20, "friction.law": "none"}
+    short = load_scenario("crc-23-47", {**overrides, "operating.pinion_speed": "300 rad/s"})
+    return run(short, tmp_path_factory.mktemp("soak") / "sound.h5").path
+
+
+def test_a_case_follows_from_seed_and_number(tmp_path):
+    first, again, other = (case(3, number, tmp_path) for number in (5, 5, 6))
+    assert first.scenario == again.scenario
+    assert first.scenario != other.scenario
+    for one in (first, other):
+        load_scenario(written(one.scenario, tmp_path / "case.toml"))
+
+
+@pytest.mark.parametrize(
+    ("remedy", "expected"),
+    [
+        ("use at least 0.5", "is accepted"),
+        ("use at least 0.01", "is refused too"),
+        ("use more teeth", None),
+    ],
+)
+def test_advice_is_tried(tmp_path, remedy, expected):
+    rule = "the rack undercuts the working part of the flank up to the radius 17 mm"
+    error = InputError("drive.pinion.profile_shift", 0.0, rule, remedy)
+    said = untrue(Refused(bare(drive(0.0)), error), tmp_path)
+    assert len(said) == (expected is not None)
+    assert not said or expected in said[0]
+
+
+def test_outcomes_are_kept(tmp_path):
+    path = tmp_path / "kept" / "outcomes.jsonl"
+    add(path, ONE)
+    add(path, ONE._replace(case=18, status=FAULTY, faults=("a", "b")))
+    with path.open("a", encoding="utf-8") as file:
+        file.write('{"seed": 1, "ca')
+    first, second = read(path)
+    assert first == ONE
+    assert second.faults == ("a", "b")
+
+
+def test_the_table_counts():
+    refused = ONE._replace(status=REFUSED, reason='/tmp/a/case.toml: drive.module = 3: a rule of 5; "use 4"')
+    text = table([ONE, ONE, refused])
+    assert "| gear-pair | 3 | 2 | 1 | 0 | 0 |" in text
+    assert "| drive.module: a rule of # | 1 |" in text
+    assert "0.5, 0.5, 0.5, 0.5" in text
+
+
+def test_a_sound_record_has_no_faults(record):
+    with Record(record) as sound:
+        assert list(faults(sound, RTOL)) == []
+
+
+@pytest.mark.parametrize(
+    ("name", "factor", "expected"),
+    [
+        ("normal_load", -1.0, "normal_load falls to"),
+        ("hertz_pressure", float("nan"), "hertz_pressure is not finite under load"),
+        ("central_film_thickness", 0.5, "summary film_min"),
+        ("transmission_error_rotational", 2.0, "summary peak to peak"),
+        ("work_in", 1.1, "summary power_in_mean"),
+    ],
+)
+def test_what_is_wrong_is_noticed(record, tmp_path, name, factor, expected):
+    damaged = tmp_path / "damaged.h5"
+    damaged.write_bytes(record.read_bytes())
+    with h5py.File(damaged, "r+") as file:
+        file[name][...] = factor * file[name][...]
+    with Record(damaged) as one:
+        assert any(fault.startswith(expected) for fault in faults(one, RTOL))
+
+
+@pytest.mark.parametrize(("name", "value"), [("efficiency", 1.01), ("energy_residual", 1e-4)])
+def test_impossible_figures_are_noticed(record, tmp_path, name, value):
+    damaged = tmp_path / "damaged.h5"
+    damaged.write_bytes(record.read_bytes())
+    with h5py.File(damaged, "r+") as file:
+        file["summary"].attrs[name] = value
+    with Record(damaged) as one:
+        assert any(name.replace("_", " ") in fault for fault in faults(one, RTOL))
