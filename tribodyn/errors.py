@@ -1,6 +1,7 @@
 """How a run can end badly: bad input, a simulation that could not go on, results that cannot be written."""
 
 import errno
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -128,6 +129,20 @@ def printable(text: str) -> str:
         character if character.isprintable() else character.encode("unicode_escape").decode()
         for character in text
     )
+
+
+def harmless(text: str) -> str:
+    """Return text with everything escaped that a terminal, a picture or a page would obey.
+
+    Control characters but line ends and tabs, halves of surrogate pairs, and marks that turn the direction of
+    writing.
+    """
+    if not _OBEYED.search(text):
+        return text
+    return _OBEYED.sub(lambda found: found[0].encode("unicode_escape").decode(), text)
+
+
+_OBEYED = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
 
 
 def unknown_name(key: str, name: str, known: Iterable[str], what: str) -> InputError:

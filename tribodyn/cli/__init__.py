@@ -5,6 +5,7 @@ def main() -> None:
     """Run the command line; the entry point of the `tribodyn` command."""
     import gc
     import os
+    import sys
 
     # start-up makes objects that stay: to look for cycles at every 700th would be a tenth of its time
     gc.set_threshold(50_000)
@@ -17,5 +18,10 @@ def main() -> None:
     from tribodyn.cli.outcome import end_when_asked
 
     tribodyn.OWN_PROCESS = True
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:  # closed by whoever started us
+            setattr(sys, name, open(os.devnull, "w"))
+        # a terminal that knows no µ gets a question mark
+        getattr(sys, name).reconfigure(errors="replace")
     end_when_asked()
     app(prog_name="tribodyn")

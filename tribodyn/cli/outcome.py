@@ -10,7 +10,7 @@ from typing import NoReturn, ParamSpec, TextIO
 
 import typer
 
-from tribodyn.errors import NO_ROOM, InputError, OutputError, SimulationError
+from tribodyn.errors import NO_ROOM, InputError, OutputError, SimulationError, harmless
 
 DONE = 0
 BUG = 1
@@ -90,5 +90,5 @@ def _silence(stream: TextIO) -> None:
 
 
 def complain(message: str) -> None:
-    """Write a message to stderr."""
-    sys.stderr.write(message + "\n")
+    """Write a message to stderr, without what a terminal would obey."""
+    sys.stderr.write(harmless(message) + "\n")

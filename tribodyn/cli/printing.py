@@ -2,10 +2,13 @@
 
 import json
 import math
+import os
 import shlex
 import sys
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
+
+from tribodyn.errors import harmless
 
 if TYPE_CHECKING:
     from tribodyn.studies.study import TextTable
@@ -15,7 +18,13 @@ WIDTH_OF_A_PIPE = 160
 
 def print_json(data: Any) -> None:
     """Write `data` to stdout as JSON; NumPy numbers and arrays become plain ones, NaN becomes null."""
-    sys.stdout.write(json.dumps(plain(data), indent=2, ensure_ascii=False, allow_nan=False) + "\n")
+    text = json.dumps(plain(data), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+    # JSON leaves some characters that a terminal obeys as they are
+    sys.stdout.write(text if harmless(text) == text else _escaped(text))
+
+
+def _escaped(text: str) -> str:
+    return "".join(one if one.isprintable() or one == "\n" else f"\\u{ord(one):04x}" for one in text)
 
 
 def plain(data: Any) -> Any:
@@ -65,4 +74,12 @@ def print_rich(renderable: Any) -> None:
 
 def quoted_path(path: Any) -> str:
     """Return a path as it may be pasted into a shell."""
-    return shlex.quote(str(path))
+    text = str(path)
+    if harmless(text) == text:
+        return shlex.quote(text)
+    escaped = "".join(one if harmless(one) == one else _bytes_of(one) for one in text.replace("\\", r"\\"))
+    return "$'" + escaped.replace("'", r"\'") + "'"
+
+
+def _bytes_of(character: str) -> str:
+    return "".join(f"\\x{byte:02x}" for byte in os.fsencode(character))

@@ -10,9 +10,10 @@ from typing import Any, Self
 import h5py
 import numpy as np
 
-from tribodyn.errors import InputError
+from tribodyn.errors import InputError, harmless
 from tribodyn.record import schema
 from tribodyn.record.layout import counted
+from tribodyn.record.soundness import UNREADABLE, check_sound
 from tribodyn.record.sweep_schema import SWEEP
 from tribodyn.record.withheld import samples_withheld, withheld
 
@@ -36,14 +37,14 @@ class Record:
     def __init__(self, path: str | Path) -> None:
         self.path = Path(path)
         #: What a legend calls the record: its file's name, unless somebody who has several gives another.
-        self.label = self.path.stem.removesuffix(".partial")
+        self.label = harmless(self.path.stem.removesuffix(".partial"))
         self._file: Any = open_file(self.path)  # h5py types no item of a file
         try:
             self._check()
         except InputError:
             self._file.close()
             raise
-        except (OSError, KeyError, RuntimeError, ValueError) as error:
+        except UNREADABLE as error:
             self._file.close()
             raise self._damaged(error) from error
 
@@ -66,7 +67,7 @@ class Record:
             values = dataset[: self.samples] if name in self._along else dataset[...]
         except (OSError, RuntimeError) as error:
             raise self._damaged(error) from error
-        return values.astype(str) if values.dtype.kind == "S" else samples_withheld(name, values)
+        return harmless_texts(values) if values.dtype.kind == "S" else samples_withheld(name, values)
 
     def __contains__(self, name: object) -> bool:
         return name in self._file and isinstance(self._file[name], h5py.Dataset)
@@ -106,11 +107,11 @@ class Record:
 
     def units(self, name: str) -> str:
         """Return the SI unit of a dataset."""
-        return str(self._dataset(name).attrs["units"])
+        return harmless(str(self._dataset(name).attrs["units"]))
 
     def long_name(self, name: str) -> str:
         """Return what a dataset means."""
-        return str(self._dataset(name).attrs["long_name"])
+        return harmless(str(self._dataset(name).attrs["long_name"]))
 
     @property
     def status(self) -> str:
@@ -152,8 +153,8 @@ class Record:
     def scenario(self) -> dict[str, Any]:
         """The resolved scenario; InputError where the file's text is no scenario."""
         try:
-            return tomllib.loads(str(self.attrs["scenario"]))
-        except (KeyError, tomllib.TOMLDecodeError) as error:
+            return harmless_data(tomllib.loads(str(self.attrs["scenario"])))
+        except (KeyError, tomllib.TOMLDecodeError, RecursionError) as error:
             raise self._damaged(error) from error
 
     @cached_property
@@ -230,6 +231,8 @@ class Record:
                 raise ValueError(f"{name} is no dataset")
             if "" in self._dims(name):
                 raise ValueError(f"{name} lacks the scale of an axis")
+        if self.samples < 0:
+            raise ValueError(f"{self.samples} samples")
         for name in self._along:
             if self._file[name].shape[0] < self.samples:
                 raise ValueError(f"{name} is too short")
@@ -255,6 +258,7 @@ def open_file(path: Path) -> h5py.File:
     if not path.is_file():
         raise InputError("record", str(path), "no such file", "name a file of tribodyn run")
     try:
+        check_sound(path)
         return h5py.File(path, "r")
     except PermissionError as error:
         raise InputError("record", str(path), "may not be read", "change its permissions") from error
@@ -274,7 +278,24 @@ def _dims_in(file: h5py.File, name: str) -> tuple[str, ...]:
 
 
 def attributes(item: Any) -> dict[str, Any]:
-    """Attributes as Python and NumPy values."""
-    return {
-        name: value.item() if isinstance(value, np.generic) else value for name, value in item.attrs.items()
-    }
+    """Attributes as Python and NumPy values; texts without what a terminal or a picture would obey."""
+    return {harmless(name): _plain(value) for name, value in item.attrs.items()}
+
+
+def _plain(value: Any) -> Any:
+    value = value.item() if isinstance(value, np.generic) else value
+    return harmless(value) if isinstance(value, str) else value
+
+
+def harmless_texts(values: np.ndarray) -> np.ndarray:
+    """Texts of a dataset, decoded."""
+    return np.vectorize(harmless, otypes=["U"])(np.char.decode(values, "utf-8", "replace"))
+
+
+def harmless_data(value: Any) -> Any:
+    """Nested data of a record with harmless texts."""
+    if isinstance(value, dict):
+        return {harmless(name): harmless_data(item) for name, item in value.items()}
+    if isinstance(value, list):
+        return [harmless_data(item) for item in value]
+    return harmless(value) if isinstance(value, str) else value

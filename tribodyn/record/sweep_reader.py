@@ -9,9 +9,17 @@ from typing import Any, NamedTuple, Self
 import h5py
 import numpy as np
 
-from tribodyn.errors import InputError
+from tribodyn.errors import InputError, harmless
 from tribodyn.record import schema
-from tribodyn.record.reader import Record, attributes, open_file, open_record
+from tribodyn.record.reader import (
+    Record,
+    attributes,
+    harmless_data,
+    harmless_texts,
+    open_file,
+    open_record,
+)
+from tribodyn.record.soundness import UNREADABLE
 from tribodyn.record.sweep_schema import DONE, FAILED, SWEEP, WAITING
 from tribodyn.record.withheld import samples_withheld, warnings_in
 
@@ -45,21 +53,35 @@ class SweepRecord:
     def __init__(self, path: str | Path) -> None:
         self.path = Path(path)
         #: What a legend calls the record.
-        self.label = self.path.stem.removesuffix(".partial")
+        self.label = harmless(self.path.stem.removesuffix(".partial"))
         self._file: Any = open_file(self.path)  # h5py types no item of a file
         try:
             if self._file.attrs.get("kind") != SWEEP:
                 raise InputError(
                     "record", str(path), "not the record of a sweep", "name a file of tribodyn sweep"
                 )
-            for name in (*self._of_cases, *self.dims, "summary"):
-                _ = self._file[name]
-        except (OSError, KeyError, RuntimeError) as error:
+            self._check()
+        except UNREADABLE as error:
             self.close()
             raise self._damaged(error) from error
         except InputError:
             self.close()
             raise
+
+    def _check(self) -> None:
+        shape = tuple(self._file[name].shape[0] for name in self.dims)
+        for name in (*self._of_cases, "status", "message"):
+            dataset = self._file[name]
+            if dataset.shape[: len(shape)] != shape:
+                raise ValueError(f"{name} does not lie along {', '.join(self.dims)}")
+            for dim, length in zip(dataset.dims, dataset.shape, strict=True):
+                if dim[0].shape != (length,):
+                    raise ValueError(f"{name} does not fit its scales")
+            _ = self.units(name), self.long_name(name)
+        if self.status not in (schema.PARTIAL, schema.COMPLETE, schema.FAILED):
+            raise ValueError(f"unknown status {self.status}")
+        _ = self.message, self.parameters, self.directions, self.settings, self.scenario, self.summary
+        _ = self.samples_per_cycle if "samples_per_cycle" in self.attrs else None
 
     def __enter__(self) -> Self:
         return self
@@ -114,11 +136,11 @@ class SweepRecord:
 
     def units(self, name: str) -> str:
         """Return the SI unit of a dataset."""
-        return str(self._file[name].attrs["units"])
+        return harmless(str(self._file[name].attrs["units"]))
 
     def long_name(self, name: str) -> str:
         """Return what a dataset means."""
-        return str(self._file[name].attrs["long_name"])
+        return harmless(str(self._file[name].attrs["long_name"]))
 
     @cached_property
     def attrs(self) -> dict[str, Any]:
@@ -144,7 +166,9 @@ class SweepRecord:
     def parameters(self) -> tuple[Parameter, ...]:
         """The varied parameters, in the order of the dimensions."""
         return tuple(
-            Parameter(name, str(self._file[name].attrs["key"]), self.units(name), self._read(name, ...))
+            Parameter(
+                name, harmless(str(self._file[name].attrs["key"])), self.units(name), self._read(name, ...)
+            )
             for name in self.dims
             if name != "direction"
         )
@@ -162,12 +186,12 @@ class SweepRecord:
     @cached_property
     def settings(self) -> dict[str, Any]:
         """How the cases were brought to their windows."""
-        return tomllib.loads(str(self.attrs["sweep"]))
+        return harmless_data(tomllib.loads(str(self.attrs["sweep"])))
 
     @cached_property
     def scenario(self) -> dict[str, Any]:
         """The resolved scenario of the first case."""
-        return tomllib.loads(str(self.attrs["scenario"]))
+        return harmless_data(tomllib.loads(str(self.attrs["scenario"])))
 
     @cached_property
     def summary(self) -> dict[str, Any]:
@@ -201,11 +225,7 @@ class SweepRecord:
             values = np.asarray(self._file[name][part])
         except (OSError, RuntimeError) as error:
             raise self._damaged(error) from error
-        return (
-            np.char.decode(values, "utf-8", "replace")
-            if values.dtype.kind == "S"
-            else samples_withheld(name, values)
-        )
+        return harmless_texts(values) if values.dtype.kind == "S" else samples_withheld(name, values)
 
     def _damaged(self, error: Exception) -> InputError:
         reason = str(error).strip("'\"")

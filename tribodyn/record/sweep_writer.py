@@ -18,6 +18,7 @@ from tribodyn.numerics.cache import replacing
 from tribodyn.numerics.variable import Variable
 from tribodyn.record import disk, layout, sweep_schema
 from tribodyn.record.schema import COMPLETE, FAILED, FORMAT, PARTIAL, STATUS_NOTES, partial_path
+from tribodyn.record.soundness import UNREADABLE, check_sound, remember_own
 from tribodyn.record.sweep_schema import SWEEP, SweepLayout
 from tribodyn.record.withheld import cases_withheld
 from tribodyn.record.writer import check_target, conclude, refuse_existing, unwritable
@@ -184,6 +185,7 @@ class SweepWriter:
                 disk.write_amended(self.partial, scratch, change)
             if not none:
                 self.partial.unlink()
+            remember_own(target)
         except OSError as error:
             raise unwritable(target, error, f"all cases, without a summary: {self.partial}") from error
         return target
@@ -259,6 +261,7 @@ def _places_of(path: Path, head: SweepHead) -> dict[str, layout.Place]:
     """
     other = "move it away, or --force to begin anew"
     try:
+        check_sound(path)
         with h5py.File(path, "r") as file:
             if file.attrs.get("format") != FORMAT or file.attrs.get("kind") != SWEEP:
                 raise InputError("--resume", str(path), "not what a sweep left", other)
@@ -268,9 +271,23 @@ def _places_of(path: Path, head: SweepHead) -> dict[str, layout.Place]:
                 raise InputError("--resume", str(path), "made from another scenario", other)
             if file.attrs["sweep"] != head.settings:
                 raise InputError("--resume", str(path), "made with other axes or settings", other)
-            return {name: _case_place(file[name], len(head.dims)) for name in head.layout.variables}  # pyright: ignore
-    except (OSError, KeyError) as error:
+            if np.max(file["status"][...], initial=0) > max(sweep_schema.CaseStatus):  # pyright: ignore
+                raise ValueError("a case has no known status")
+            return {name: _found(file[name], name, head) for name in head.layout.variables}
+    except UNREADABLE as error:
         raise InputError("--resume", str(path), f"damaged: {error}", other) from error
+
+
+def _found(dataset: Any, name: str, head: SweepHead) -> layout.Place:
+    """Where a dataset of an unfinished sweep lies; ValueError where it is not as this sweep would make it."""
+    variable = head.layout.variables[name]
+    inner = tuple(len(head.layout.scales[dim][1]) for dim in variable.dims)
+    kind = np.dtype(variable.dtype)
+    if dataset.shape != (*head.shape, *inner) or dataset.dtype != kind:
+        raise ValueError(f"{name} has another shape or type")
+    if dataset.id.get_create_plist().get_layout() != h5py.h5d.CONTIGUOUS or not dataset.id.get_offset():
+        raise ValueError(f"{name} has no place of its own")
+    return _case_place(dataset, len(head.dims))
 
 
 def _encoded(variable: Variable, values: Any) -> np.ndarray:

@@ -23,6 +23,7 @@ from tribodyn.numerics.cache import replacing
 from tribodyn.record import disk
 from tribodyn.record import layout as file_layout
 from tribodyn.record.schema import COMPLETE, FAILED, FORMAT, STATUS_NOTES, Layout, partial_path
+from tribodyn.record.soundness import check_sound, remember_own
 from tribodyn.record.withheld import samples_withheld
 from tribodyn.record.writing_lock import WritingLock, refuse_if_written, remove_orphans, scratch_path
 
@@ -91,9 +92,10 @@ def _is_ours(path: Path) -> bool:
     try:
         if not path.is_file():  # h5py would wait for a pipe
             return False
+        check_sound(path)
         with h5py.File(path, "r") as file:
             return file.attrs.get("format") == FORMAT
-    except (OSError, RuntimeError, ValueError, KeyError):
+    except (OSError, RuntimeError, ValueError, KeyError, InputError):
         return False
 
 
@@ -252,6 +254,7 @@ class RecordWriter:
                 change = partial(conclude, COMPLETE, STATUS_NOTES[COMPLETE], summary)
                 disk.write_amended(self.partial, scratch, change)
             self.partial.unlink()
+            remember_own(self.path)
         except OSError as error:
             raise unwritable(self.path, error, f"all samples, without a summary: {self.partial}") from error
         self._unlock()
@@ -276,6 +279,7 @@ class RecordWriter:
                 with self.partial.open("rb") as source, disk.open_existing(scratch) as target:
                     for blank, (name, place) in zip(trimmed.blanks, trimmed.places.items(), strict=True):
                         _copy(source, self._place[name].offset, target, place.offset, blank.size)
+            remember_own(self.partial)
         except OSError as error:
             raise unwritable(self.partial, error, f"{self._so_far()}; {message}") from error
         self._unlock()

@@ -20,6 +20,8 @@ from tribodyn.record.disk import CAREFUL
 _NO_LOCKS = {errno.ENOLCK, errno.ENOSYS, errno.ENOTSUP, errno.EOPNOTSUPP}
 #: Windows locks bytes, and nobody may read them: one far behind the number of the process.
 _FAR = 1 << 20
+#: What it says of a link, a pipe that nobody reads, a folder.
+_OTHERS = {errno.ELOOP, errno.ENXIO, errno.EISDIR}
 #: A pipe is not waited for.
 _AT_ONCE = getattr(os, "O_NONBLOCK", 0)
 #: Maximum length of what a lock holds: the number of a process.
@@ -81,10 +83,10 @@ def refuse_if_written(path: Path) -> None:
     """Raise InputError if a process is writing the record of that name; touches nothing."""
     try:
         number = os.open(lock_path(path), os.O_RDWR | CAREFUL | _AT_ONCE)
-    except FileNotFoundError:
-        return
     except OSError as error:
-        raise _no_lock(lock_path(path)) from error
+        if error.errno in _OTHERS:
+            raise _no_lock(lock_path(path)) from error
+        return
     try:
         if not _taken(number):
             raise _busy(path, number)
@@ -130,7 +132,7 @@ def _opened(path: Path) -> int:
             try:
                 return os.open(path, os.O_RDWR | CAREFUL | _AT_ONCE)
             except OSError as error:
-                if error.errno in (errno.ELOOP, errno.ENXIO, errno.EISDIR):
+                if error.errno in _OTHERS:
                     raise _no_lock(path) from error
                 raise
 

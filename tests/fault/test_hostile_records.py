@@ -1,0 +1,194 @@
+"""Records made by somebody who means harm: one message, no other file read, no end of memory or time."""
+
+import os
+import shutil
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from tests.support.record_samples import block, gear_pair_writer, geometry
+from tribodyn.cli.app import app
+from tribodyn.errors import InputError
+from tribodyn.record import soundness
+from tribodyn.record.reader import open_record
+from tribodyn.record.sweep_reader import open_any
+
+SECRET = np.arange(10.0)
+
+
+@pytest.fixture(scope="module")
+def good(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("good") / "run.h5"
+    with gear_pair_writer(
+        path, 10, outlines=geometry(), scenario_toml='kind = "gear-pair"\n', sha256="0"
+    ) as writer:
+        writer.write(0, block(0, 10))
+        return writer.finish({"efficiency": 0.9})
+
+
+@pytest.fixture
+def path(good: Path, tmp_path: Path) -> Path:
+    shutil.copyfile(good, tmp_path / "run.h5")
+    with h5py.File(tmp_path / "secret.h5", "w") as file:
+        file["normal_load"] = SECRET
+    (tmp_path / "secret.bin").write_bytes(SECRET.tobytes())
+    return tmp_path / "run.h5"
+
+
+def external_link(file: h5py.File) -> None:
+    del file["normal_load"]
+    file["normal_load"] = h5py.ExternalLink("secret.h5", "/normal_load")
+
+
+def external_storage(file: h5py.File) -> None:
+    del file["normal_load"]
+    file.create_dataset("normal_load", (10,), "f8", external=[("secret.bin", 0, 80)])
+
+
+def virtual(file: h5py.File) -> None:
+    del file["normal_load"]
+    layout = h5py.VirtualLayout((10,), "f8")
+    layout[:] = h5py.VirtualSource("secret.h5", "normal_load", (10,))
+    file.create_virtual_dataset("normal_load", layout)
+
+
+def soft_link(file: h5py.File) -> None:
+    del file["normal_load"]
+    file["normal_load"] = h5py.SoftLink("/normal_load")
+
+
+def enormous(file: h5py.File) -> None:
+    del file["normal_load"]
+    file.create_dataset("normal_load", (10**9, 10**9), "f8", chunks=(1, 1000))
+
+
+def enormous_in_one_piece(file: h5py.File) -> None:
+    del file["normal_load"]
+    file.create_dataset("normal_load", (10**6, 10**9), "f8")
+
+
+def bomb(file: h5py.File) -> None:
+    del file["normal_load"]
+    file.create_dataset("normal_load", (10**8,), "f8", chunks=(10**6,), compression="gzip", fillvalue=0.0)
+
+
+def group_in_itself(file: h5py.File) -> None:
+    file["geometry"]["again"] = file["geometry"]  # pyright: ignore[reportIndexIssue]
+
+
+def text_for_numbers(file: h5py.File) -> None:
+    shape = file["normal_load"].shape  # pyright: ignore[reportAttributeAccessIssue]
+    del file["normal_load"]
+    file["normal_load"] = np.full(shape, b"x")
+
+
+def objects(file: h5py.File) -> None:
+    del file["normal_load"]
+    file["normal_load"] = ["a", "text"]
+
+
+def negative_count(file: h5py.File) -> None:
+    file["samples_written"][...] = -1  # pyright: ignore[reportIndexIssue]
+
+
+def huge_count(file: h5py.File) -> None:
+    file["samples_written"][...] = 2**62  # pyright: ignore[reportIndexIssue]
+
+
+def status_of_numbers(file: h5py.File) -> None:
+    file.attrs["status"] = np.arange(3.0)
+
+
+def version_of_words(file: h5py.File) -> None:
+    file.attrs["format_version"] = "new"
+
+
+def datatype(file: h5py.File) -> None:
+    file["type"] = np.dtype("f8")
+
+
+DAMAGES: list[Callable[[h5py.File], None]] = [
+    external_link,
+    external_storage,
+    virtual,
+    soft_link,
+    enormous,
+    enormous_in_one_piece,
+    group_in_itself,
+    text_for_numbers,
+    objects,
+    negative_count,
+    huge_count,
+    status_of_numbers,
+    version_of_words,
+    datatype,
+]
+
+
+@pytest.mark.parametrize("damage", DAMAGES, ids=lambda damage: damage.__name__)
+def test_it_is_refused_in_python_and_on_the_command_line(damage, good: Path, path: Path):
+    with h5py.File(path, "r+") as file:
+        damage(file)
+    with pytest.raises(InputError, match="damaged"):
+        open_any(path)
+    for words in (["show"], ["show", "--json"], ["plot"], ["compare", str(good)]):
+        ended = CliRunner().invoke(app, [words[0], str(path), *words[1:]])
+        assert ended.exit_code == 2, ended.output
+        assert "damaged" in ended.stderr
+        assert len(ended.stderr.splitlines()) == 1
+
+
+def test_compressed_data_that_would_fill_the_memory_are_refused(path: Path):
+    with h5py.File(path, "r+") as file:
+        bomb(file)
+    with pytest.raises(InputError, match="larger than the file"):
+        open_any(path)
+
+
+@pytest.mark.parametrize("threads", [False, True])
+def test_a_structure_without_end_is_given_up(threads: bool, path: Path, monkeypatch):
+    """A stand-in for a file in which HDF5 goes around in circles; with threads in another process."""
+    if threads:
+        monkeypatch.setattr(soundness, "TIME_LIMIT", 0.02)  # importing h5py alone takes longer
+        monkeypatch.setattr(soundness, "_can_fork", lambda: False)
+    else:
+        monkeypatch.setattr(soundness, "TIME_LIMIT", 0.5)
+        monkeypatch.setattr(soundness, "unsound", lambda path: time.sleep(100))
+    with pytest.raises(InputError, match="did not end within"):
+        open_any(path)
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork")
+def test_a_crash_of_the_library_is_not_ours(path: Path, monkeypatch):
+    monkeypatch.setattr(soundness, "unsound", lambda path: os.kill(os.getpid(), 9))
+    with pytest.raises(InputError, match="HDF5 crashes on it"):
+        open_any(path)
+
+
+def test_a_good_record_is_looked_through_once(path: Path, monkeypatch):
+    looked = []
+    original = soundness._look_forked
+    monkeypatch.setattr(soundness, "_look_forked", lambda path: looked.append(path) or original(path))
+    monkeypatch.setattr(soundness, "_can_fork", lambda: True)
+    for _ in range(3):
+        with open_record(path) as record:
+            assert record.samples == 10
+    assert looked == [path]
+    with h5py.File(path, "r+") as file:
+        external_link(file)
+    with pytest.raises(InputError, match="damaged"):
+        open_record(path)
+
+
+def test_both_ways_of_looking_agree(path: Path):
+    assert soundness._look_apart(path) == soundness.unsound(path) == ""
+    with h5py.File(path, "r+") as file:
+        external_link(file)
+    assert (
+        soundness._look_apart(path) == soundness.unsound(path) == "'normal_load' is a link to somewhere else"
+    )

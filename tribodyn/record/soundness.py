@@ -1,0 +1,216 @@
+"""Whether an HDF5 file from anywhere can be read safely: looked through by a child process with a time limit.
+
+HDF5 follows what a file says: into other files, around in circles, to sizes that no memory has, and now and
+then it crashes. So a file that this process has not written is first looked through by a child, which may
+hang or die.
+"""
+
+import os
+import select
+import signal
+import subprocess
+import sys
+import threading
+import warnings
+from contextlib import suppress
+from pathlib import Path
+from typing import Any, NoReturn
+
+import h5py
+
+from tribodyn.errors import InputError
+
+#: What a damaged file makes h5py and those who read it raise.
+UNREADABLE = (
+    OSError,
+    KeyError,
+    RuntimeError,
+    ValueError,
+    TypeError,
+    AttributeError,
+    IndexError,
+    OverflowError,
+)
+#: Seconds that a look through a file may take; a record of 1 GB takes milliseconds, its data are not read.
+TIME_LIMIT = 20.0
+#: Maximum number of groups and datasets, depth of groups, axes of a dataset, and bytes of an attribute.
+MAXIMUM_ITEMS, MAXIMUM_DEPTH, MAXIMUM_AXES, MAXIMUM_ATTRIBUTE = 100_000, 4, 8, 2**26
+#: Maximum ratio of a compressed dataset's size to its bytes in the file, and bytes that need none.
+MAXIMUM_RATIO, SMALL = 1000, 2**20
+#: Attributes by which HDF5 connects datasets with their scales; they hold references.
+_REFERENCES = {"DIMENSION_LIST", "REFERENCE_LIST"}
+
+_own: set[tuple[int, ...]] = set()
+
+
+def remember_own(path: Path) -> None:
+    """Take note that this process has written a file: as long as it stays as it is, it needs no look."""
+    with suppress(OSError):
+        _own.add(_identity(path))
+
+
+def check_sound(path: Path) -> None:
+    """Look through a file that will be read.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read safely: links to other files, a structure without end, sizes that it lacks.
+    OSError
+        As from opening it.
+    """
+    if _identity(path) in _own:
+        return
+    reason = _look_forked(path) if _can_fork() else _look_apart(path)
+    if reason:
+        raise InputError("record", str(path), f"damaged: {reason}", "make it anew")
+    remember_own(path)
+
+
+def unsound(path: Path) -> str:
+    """Why a file cannot be read safely; empty where it can, or where opening it says so."""
+    try:
+        file = h5py.File(path, "r")
+    except (OSError, RuntimeError, ValueError):
+        return ""  # whoever opens it finds the same
+    with file:
+        try:
+            _Look(path.stat().st_size).group(file, 0)
+        except _Unsound as found:
+            return str(found)
+        except Exception as error:  # whatever a damaged file makes h5py raise
+            return " ".join(str(error).split()).strip("'\"") or type(error).__name__
+    return ""
+
+
+class _Unsound(Exception):
+    """What is wrong with a file."""
+
+
+class _Look:
+    """A walk through a file of some size."""
+
+    def __init__(self, size: int) -> None:
+        self._size = size
+        self._items = 0
+        self._groups: set[Any] = set()
+
+    def group(self, group: Any, depth: int) -> None:
+        """Look through a group and all below it."""
+        address = h5py.h5o.get_info(group.id).addr  # pyright: ignore[reportAttributeAccessIssue]
+        if address in self._groups or depth > MAXIMUM_DEPTH:
+            raise _Unsound("its groups have no end")
+        self._groups.add(address)
+        self._attributes(group)
+        for name in group:
+            self._items += 1
+            if self._items > MAXIMUM_ITEMS:
+                raise _Unsound("it holds too many items")
+            if not isinstance(group.get(name, getlink=True), h5py.HardLink):
+                raise _Unsound(f"{name!r} is a link to somewhere else")
+            item = group[name]
+            if isinstance(item, h5py.Group):
+                self.group(item, depth + 1)
+            elif isinstance(item, h5py.Dataset):
+                self._dataset(name, item)
+            else:
+                raise _Unsound(f"{name!r} is neither a group nor a dataset")
+
+    def _dataset(self, name: str, dataset: h5py.Dataset) -> None:
+        if dataset.shape is None or len(dataset.shape) > MAXIMUM_AXES or dataset.dtype.kind not in "fiuS":
+            raise _Unsound(f"{name!r} is of no type that records have")
+        if dataset.external or dataset.is_virtual:
+            raise _Unsound(f"the data of {name!r} lie in another file")
+        size = int(dataset.size or 0) * dataset.dtype.itemsize
+        layout = dataset.id.get_create_plist().get_layout()
+        if layout == h5py.h5d.CONTIGUOUS and (offset := dataset.id.get_offset()) is not None:
+            whole = offset + size <= self._size
+        else:
+            whole = size <= MAXIMUM_RATIO * dataset.id.get_storage_size() + SMALL
+            if whole and layout == h5py.h5d.CHUNKED:
+                dataset[...]  # the index of its parts is followed too
+        if not whole:
+            raise _Unsound(f"{name!r} is larger than the file")
+        self._attributes(dataset)
+        # what connects datasets with their scales, HDF5 takes on trust
+        _ = dataset.is_scale
+        for dim in dataset.dims:
+            if len(dim):
+                _ = dim[0].name, dim[0].shape
+
+    def _attributes(self, item: Any) -> None:
+        for name in item.attrs:
+            if name in _REFERENCES:
+                continue
+            found = item.attrs.get_id(name)
+            size = found.dtype.itemsize
+            for length in found.shape or ():
+                size *= length
+            if size > MAXIMUM_ATTRIBUTE or len(item.attrs) > MAXIMUM_ITEMS:
+                raise _Unsound(f"the attribute {name!r} is too large")
+            item.attrs[name]
+
+
+def _identity(path: Path) -> tuple[int, ...]:
+    found = path.stat()
+    return found.st_dev, found.st_ino, found.st_size, found.st_mtime_ns
+
+
+def _can_fork() -> bool:
+    """Whether a copy of this process is safe: no thread of Python's can hold a lock that it needs."""
+    return hasattr(os, "fork") and threading.active_count() == 1
+
+
+def _look_forked(path: Path) -> str:
+    """Look through a file in a copy of this process."""
+    reading, writing = os.pipe()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # that others' threads do not come along is known
+        child = os.fork()
+    if child == 0:
+        _answer(path, writing)
+    os.close(writing)
+    try:
+        ready, _, _ = select.select([reading], [], [], TIME_LIMIT)
+        said = _all_of(reading) if ready else b""
+        if not ready:
+            os.kill(child, signal.SIGKILL)
+    finally:
+        os.close(reading)
+        _, status = os.waitpid(child, 0)
+    if not ready:
+        return f"reading it did not end within {TIME_LIMIT:g} s"
+    return said.decode(errors="replace") if status == 0 else "HDF5 crashes on it"
+
+
+def _answer(path: Path, writing: int) -> NoReturn:
+    """Write what is wrong with the file and end, without what a process does at its end."""
+    status = 1
+    try:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # a crash is said by the parent
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+        os.write(writing, unsound(path).encode(errors="replace")[:4096])
+        status = 0
+    finally:
+        os._exit(status)
+
+
+def _all_of(reading: int) -> bytes:
+    parts = []
+    while part := os.read(reading, 4096):
+        parts.append(part)
+    return b"".join(parts)
+
+
+def _look_apart(path: Path) -> str:
+    """Look through a file in a process of its own."""
+    program = "import sys; from pathlib import Path; from tribodyn.record.soundness import unsound\n"
+    program += "sys.stdout.buffer.write(unsound(Path(sys.argv[1])).encode(errors='replace'))"
+    command = [sys.executable, "-c", program, str(path)]
+    try:
+        # a slow machine needs some time to import h5py
+        ended = subprocess.run(command, capture_output=True, timeout=3.0 * TIME_LIMIT, check=False)
+    except subprocess.TimeoutExpired:
+        return f"reading it did not end within {3.0 * TIME_LIMIT:g} s"
+    return ended.stdout.decode(errors="replace") if ended.returncode == 0 else "HDF5 crashes on it"
