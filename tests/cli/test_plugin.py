@@ -5,17 +5,17 @@ example alone, by pip, without a network.
 """
 
 import json
-import os
 import shutil
-import site
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 import pytest
 
+from tests.support.forked_verbs import ForkedVerbs
 from tribodyn.record.reader import open_record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE
@@ -47,17 +47,11 @@ class Environment(NamedTuple):
     packages: Path
     scenarios: Path
     cache: Path
+    verbs: ForkedVerbs
 
-    def __call__(self, *words: str, folder: Path, status: int = 0, cache: Path | None = None):
-        """Run `tribodyn` in a folder."""
-        ran = subprocess.run(
-            [str(self.python), "-P", "-m", "tribodyn", *words],
-            cwd=folder,
-            env=surroundings(cache or self.cache),
-            capture_output=True,
-            text=True,
-            check=False,
-        )
+    def __call__(self, *words: str, folder: Path, status: int = 0):
+        """Run a verb in a folder, in a process of its own."""
+        ran = self.verbs(*words, folder=folder)
         assert ran.returncode == status, f"{words}: {ran.returncode}\n{ran.stdout}\n{ran.stderr}"
         return ran
 
@@ -66,32 +60,31 @@ class Environment(NamedTuple):
         return str(self.scenarios / f"{name}.toml")
 
 
-def surroundings(cache: Path) -> dict[str, str]:
-    """Environment variables: this checkout, and a cache of compiled kernels that starts empty."""
-    more = {"PYTHONPATH": str(ROOT), "TRIBODYN_CACHE": str(cache), "OPENBLAS_NUM_THREADS": "1"}
-    return {**os.environ, **more}
-
-
 def fresh_environment(folder: Path, source: Path) -> Environment:
     """Make an environment and install a package into it."""
     subprocess.run([sys.executable, "-m", "venv", "--without-pip", str(folder)], check=True)
     python = folder / "bin" / "python"
     show = [str(python), "-c", "import sysconfig; print(sysconfig.get_path('purelib'))"]
     packages = Path(subprocess.run(show, check=True, capture_output=True, text=True).stdout.strip())
-    (packages / "running.pth").write_text("\n".join(site.getsitepackages()), encoding="utf-8")
+    seen = [one for one in sys.path if one.endswith("site-packages")]
+    (packages / "running.pth").write_text("\n".join(seen), encoding="utf-8")
     options = ("--quiet", "--no-deps", "--no-build-isolation", "--no-index", "--disable-pip-version-check")
     install = [str(python), "-m", "pip", "install", *options, str(source)]
     ran = subprocess.run(install, capture_output=True, text=True, check=False)
     assert ran.returncode == 0, ran.stderr
-    return Environment(python, packages, source / "scenarios", folder / "cache")
+    cache = folder / "cache"  # of compiled kernels, which starts empty
+    verbs = ForkedVerbs(folder, python, TRIBODYN_CACHE=str(cache))
+    return Environment(python, packages, source / "scenarios", cache, verbs)
 
 
 @pytest.fixture(scope="module")
-def plugin(tmp_path_factory) -> Environment:
+def plugin(tmp_path_factory) -> Iterator[Environment]:
     """The example as its users install it."""
     folder = tmp_path_factory.mktemp("plugin")
     shutil.copytree(ROOT / "examples" / "plugin", folder / "source")
-    return fresh_environment(folder / "environment", folder / "source")
+    made = fresh_environment(folder / "environment", folder / "source")
+    yield made
+    made.verbs.close()
 
 
 def settings(*given: str) -> list[str]:
@@ -197,12 +190,12 @@ def test_all_integrators_agree(plugin, tmp_path):
 
 def test_a_kernel_is_kept_until_the_source_changes(plugin, tmp_path):
     """A second process compiles nothing; an edit of the law compiles anew, and is what then runs."""
-    cache, steel = tmp_path / "cache", settings(*SHORT, "solver.method=dopri5")
+    cache, steel = plugin.cache, settings(*SHORT, "solver.method=dopri5")
     given = ("run", plugin.scenario(GEARS), "-o", "run.h5", "--no-plot", "--force", *steel)
-    plugin(*given, folder=tmp_path, cache=cache)
+    plugin(*given, folder=tmp_path)
     first, before = kernels(cache), arrays(tmp_path / "run.h5")
     assert first
-    plugin(*given, folder=tmp_path, cache=cache)
+    plugin(*given, folder=tmp_path)
     assert kernels(cache) == first
     source = plugin.packages / "tribodyn_example" / "stribeck.py"
     text = source.read_text(encoding="utf-8")
@@ -210,7 +203,7 @@ def test_a_kernel_is_kept_until_the_source_changes(plugin, tmp_path):
     assert text.count(formula) == 1
     try:
         source.write_text(text.replace(formula, "exp(-2.0 * contact.entrainment"), encoding="utf-8")
-        plugin(*given, folder=tmp_path, cache=cache)
+        plugin(*given, folder=tmp_path)
         after = arrays(tmp_path / "run.h5")
     finally:
         source.write_text(text, encoding="utf-8")

@@ -50,7 +50,8 @@ def test_it_runs(name: str, tmp_path: Path, forked: ForkedVerbs):
         assert record[load].max() > 0
 
 
-def test_the_story_of_a_newcomer(tmp_path: Path):
+def test_the_story_of_a_newcomer(tmp_path: Path, forked: ForkedVerbs):
+    """Every verb once as a user calls it; verbs again are forked."""
     tribodyn("init", "mine", folder=tmp_path)
     checked = json.loads(tribodyn("check", "mine.toml", "--json", folder=tmp_path))
     assert checked["geometry"]["contact ratio"][0] == pytest.approx(1.5233, abs=5e-4)
@@ -59,22 +60,23 @@ def test_the_story_of_a_newcomer(tmp_path: Path):
     assert "Contact ratio" in tribodyn("show", "mine.h5", folder=tmp_path)
     drawn = json.loads(tribodyn("plot", "mine.h5", "film", "-o", "pictures", "--json", folder=tmp_path))
     assert [Path(picture).name for picture in drawn["pictures"]] == ["mine-film.png"]
-    tribodyn(
-        "plot", "mine.h5", "film", "--format", "svg", "--cycles", "0", "--against", "time", folder=tmp_path
-    )
+    given = ("mine.h5", "film", "--format", "svg", "--cycles", "0", "--against", "time")
+    assert forked("plot", *given, folder=tmp_path).returncode == 0
     assert (tmp_path / "mine-film.svg").is_file()
-    shown = json.loads(tribodyn("show", "mine.h5", "--json", folder=tmp_path))
+    shown = json.loads(forked("show", "mine.h5", "--json", folder=tmp_path).stdout)
     assert shown["scenario"]["operating"]["gear_torque"] == "500 N*m"
 
 
-def test_the_resolved_scenario_of_a_record_runs_again_to_the_same_numbers(tmp_path: Path):
+def test_the_resolved_scenario_of_a_record_runs_again_to_the_same_numbers(
+    tmp_path: Path, forked: ForkedVerbs
+):
     short = ("--set", "solver.cycles=1", "--no-plot")
-    tribodyn("run", "crc-23-47-300", *short, "-o", "first.h5", folder=tmp_path)
+    assert forked("run", "crc-23-47-300", *short, "-o", "first.h5", folder=tmp_path).returncode == 0
     with open_record(tmp_path / "first.h5") as record:
         (tmp_path / "again.toml").write_text(record.attrs["scenario"], encoding="utf-8")
         first = record["normal_load"]
         digest = record.attrs["scenario_sha256"]
-    tribodyn("run", "again.toml", "--no-plot", "-o", "again.h5", folder=tmp_path)
+    assert forked("run", "again.toml", "--no-plot", "-o", "again.h5", folder=tmp_path).returncode == 0
     with open_record(tmp_path / "again.h5") as record:
         assert record.attrs["scenario_sha256"] == digest
         assert (record["normal_load"] == first).all()
@@ -89,8 +91,8 @@ def test_what_is_listed(tmp_path: Path):
     assert schema["title"] == "Scenario"
 
 
-def test_stiffness_is_printed_beside_iso_6336(tmp_path: Path):
-    checked = json.loads(tribodyn("check", "involute-18-36", "--json", folder=tmp_path))
+def test_stiffness_is_printed_beside_iso_6336(tmp_path: Path, forked: ForkedVerbs):
+    checked = json.loads(forked("check", "involute-18-36", "--json", folder=tmp_path).stdout)
     by = {name: value["per_width"] * 1e-9 for name, value in checked["stiffness"]["by"].items()}
     ours, single, theory = by.values()
     # ISO 6336-1 for 18/36 teeth without profile shift, N/(mm um)

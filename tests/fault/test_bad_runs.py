@@ -101,8 +101,8 @@ def test_a_folder_in_which_no_file_can_be_made(tmp_path: Path):
     assert "choose another" in line
 
 
-def test_a_simulation_that_gives_up_says_when_and_keeps_what_it_has(tmp_path: Path):
-    ended = tribodyn(
+def test_a_simulation_that_gives_up_says_when_and_keeps_what_it_has(tmp_path: Path, forked: ForkedVerbs):
+    ended = forked(
         "run",
         "crc-23-47",
         *SHORT,
@@ -117,7 +117,7 @@ def test_a_simulation_that_gives_up_says_when_and_keeps_what_it_has(tmp_path: Pa
     assert "the simulation failed: stopped at t = " in line
     assert "crc-23-47.partial.h5" in line
     assert set(contents(tmp_path)) == {"crc-23-47.partial.h5"}
-    shown = tribodyn("show", "crc-23-47.partial.h5", folder=tmp_path)
+    shown = forked("show", "crc-23-47.partial.h5", folder=tmp_path)
     assert shown.returncode == 0
     assert "failed" in shown.stdout
 

@@ -41,16 +41,19 @@ class ForkedVerbs:
     ----------
     scratch : Path
         A folder for what they print.
+    python : Path or str, optional
+        The interpreter, else the running one. It sees this checkout, whatever is installed for it.
     """
 
-    def __init__(self, scratch: Path):
+    def __init__(self, scratch: Path, python: Path | str = sys.executable, **environment: str):
         self.out, self.err = scratch / "out", scratch / "err"
+        own = {"PYTHONPATH": str(Path(__file__).parents[2]), "OPENBLAS_NUM_THREADS": "1"}
         self.server = subprocess.Popen(
-            [sys.executable, "-W", "error", "-c", SERVER],
+            [str(python), "-P", "-W", "error", "-c", SERVER],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,
-            env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2]), "OPENBLAS_NUM_THREADS": "1"},
+            env={**os.environ, **own, **environment},
         )
 
     def __call__(self, *words: str, folder: Path) -> CompletedProcess[str]:
