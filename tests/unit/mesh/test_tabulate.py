@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import PchipInterpolator
 
+from tests.support.compile_fast import ONE_CALL
 from tribodyn.compliance.table import interpolate
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
@@ -222,7 +223,9 @@ def test_gradients_agree_with_finite_differences(family):
         values = jnp.stack(figures(family, parameters))
         return values, values
 
-    jacobian, values = jax.jit(jax.jacfwd(traced, has_aux=True))(jnp.asarray(start))
+    jacobian, values = jax.jit(jax.jacfwd(traced, has_aux=True), compiler_options=ONE_CALL)(
+        jnp.asarray(start)
+    )
     np.testing.assert_allclose(values, figures(family, start), rtol=1e-12)
     steps = np.array([1e-5, 1e-5, 1e-5, 1e-7])
     for i, step in enumerate(steps):
@@ -238,7 +241,8 @@ def test_gradients_agree_with_finite_differences(family):
 def test_a_thousand_drives_in_one_batch(family):
     rng = np.random.default_rng(1)
     batch = START[family.name] * (1 + 0.01 * rng.uniform(-1, 1, size=(1000, 4)))
-    many = jax.jit(jax.vmap(lambda p: jnp.stack(figures(family, p, points=5))))(jnp.asarray(batch))
+    mapped = jax.vmap(lambda p: jnp.stack(figures(family, p, points=5)))
+    many = jax.jit(mapped, compiler_options=ONE_CALL)(jnp.asarray(batch))
     assert np.all(np.isfinite(many))
     for i in (0, 500, 999):
         np.testing.assert_allclose(many[i], figures(family, batch[i], points=5), rtol=1e-10)
