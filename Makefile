@@ -6,6 +6,8 @@
 PYTHON ?= python3
 # two test processes share the cores; a BLAS's own threads would only stand in their way
 export OPENBLAS_NUM_THREADS ?= 1
+# the tests start hundreds of processes, and each would compile what it imports
+unexport PYTHONDONTWRITEBYTECODE
 # the tests run XLA's programs once or twice: its older code generator makes them in a third to a half of the time
 TESTS_XLA := --xla_cpu_use_fusion_emitters=false
 # a file's tests share what it prepares; the longest files come first (tests/durations.json)
@@ -15,13 +17,18 @@ BIN := $(VENV)/bin
 # the constraints also hold for what builds the package
 INSTALL := PIP_CONSTRAINT=$(CURDIR)/constraints.txt $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
-.PHONY: demo test quick soak durations lint types tests wheel clean
+.PHONY: demo test quick soak durations lint types tests in-parallel ratios wheel clean
 
 demo: $(VENV)/.installed
 	@mkdir -p demo
 	$(BIN)/tribodyn run crc-23-47 --force --output demo/crc-23-47.h5
 
-test: lint types tests
+# the types are checked beside the tests and reported after them
+test: lint
+	@$(MAKE) --no-print-directory types > $(VENV)/types.txt 2>&1 & types=$$!; \
+	  $(MAKE) --no-print-directory in-parallel; tests=$$?; \
+	  wait $$types; types=$$?; cat $(VENV)/types.txt; [ $$tests$$types = 00 ]
+	@$(MAKE) --no-print-directory ratios
 
 lint: $(VENV)/.testing
 	$(BIN)/ruff check .
@@ -30,9 +37,14 @@ lint: $(VENV)/.testing
 types: $(VENV)/.testing
 	$(BIN)/basedpyright
 
-tests: $(VENV)/.testing
+tests: in-parallel ratios
+
+in-parallel: $(VENV)/.testing
 	XLA_FLAGS="$(TESTS_XLA)" $(BIN)/python -m pytest $(IN_PARALLEL) -m "not bench"
-	$(BIN)/python -m pytest -m bench
+
+# alone: never beside other tests
+ratios: $(VENV)/.testing
+	$(BIN)/python -m pytest -m bench tests/bench
 
 quick: $(VENV)/.testing
 	XLA_FLAGS="$(TESTS_XLA)" $(BIN)/python -m pytest $(IN_PARALLEL) --quick -m "not bench and not slow"
