@@ -5,6 +5,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
+from tests.support.compile_fast import ONE_CALL
 from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import Drive, GearBody
@@ -62,7 +63,7 @@ def test_the_mesh_cycle_differentiates_by_the_shape():
             + 10 * cycle.pitch_point_length
         )
 
-    slope = jax.jit(jax.grad(figure))(jnp.asarray(shape))
+    slope = jax.jit(jax.grad(figure), compiler_options=ONE_CALL)(jnp.asarray(shape))
     for i, value in enumerate(shape):
         step = 1e-5 * value
         ends = [figure(tuple(v + s * step * (k == i) for k, v in enumerate(shape))) for s in (1, -1)]

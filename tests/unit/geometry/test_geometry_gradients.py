@@ -6,6 +6,7 @@ import jax
 import numpy as np
 import pytest
 
+from tests.support.compile_fast import ONE_CALL
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.body import mass_and_inertia
 from tribodyn.geometry.drive import SIDES, Drive, GearBody, tip_radius
@@ -89,7 +90,7 @@ def compiled_derivatives(family):
         found = jax.numpy.stack([jax.numpy.asarray(x) for x in everything_of(family, drive)])
         return found, found
 
-    return jax.jit(jax.jacfwd(function, has_aux=True))
+    return jax.jit(jax.jacfwd(function, has_aux=True), compiler_options=ONE_CALL)
 
 
 @cache
@@ -99,7 +100,7 @@ def compiled_ratios(family):
     def function(values, teeth):
         return ratio_of(family, DRIVES[family.name](values, teeth))
 
-    return jax.jit(jax.vmap(jax.value_and_grad(function), in_axes=(0, None)))
+    return jax.jit(jax.vmap(jax.value_and_grad(function), in_axes=(0, None)), compiler_options=ONE_CALL)
 
 
 @pytest.mark.slow
