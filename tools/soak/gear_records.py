@@ -128,17 +128,17 @@ def _means(record: Record, data: dict[str, np.ndarray]) -> Iterator[str]:
     if record.samples != samples * cycles + 1:
         yield f"{record.samples} samples of {cycles} cycles"
     window = slice(record.samples - 1 - samples * summary["averaging_cycles"], record.samples)
-    work = {name: float(np.diff(data[f"work_{name}"][[window.start, -1]])[0]) for name in ("in", "friction")}
+    work = {
+        name: float(np.diff(data[f"work_{name}"][[window.start, -1]])[0])
+        for name in ("in", "out", "friction")
+    }
     time = float(np.diff(data["time"][[window.start, -1]])[0])
     efficiency = summary.get("efficiency")
-    if efficiency is not None and np.isfinite(efficiency):
-        if not 0 <= efficiency <= 1:
-            yield f"efficiency {efficiency:.6g}"
-    for key, value in (
-        ("power_in_mean", work["in"] / time),
-        ("power_friction_mean", work["friction"] / time),
-    ):
-        if not np.isclose(summary[key], value, rtol=1e-6, atol=1e-9 * abs(work["in"] / time)):
+    if efficiency is not None and np.isfinite(efficiency) and not 0 <= efficiency <= 1:
+        yield f"efficiency {efficiency:.6g}"
+    put_in = (max(work["in"], 0.0) + max(-work["out"], 0.0)) / time
+    for key, value in (("power_in_mean", put_in), ("power_friction_mean", work["friction"] / time)):
+        if not np.isclose(summary[key], value, rtol=1e-6, atol=1e-9 * put_in):
             yield f"summary {key} = {summary[key]:.9g}, the record's works give {value:.9g}"
     error = data["transmission_error_rotational"][window.start : -1]
     spread = summary["transmission_error_rotational_peak_to_peak"]

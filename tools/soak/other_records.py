@@ -17,7 +17,7 @@ def efficiency_faults(record: Record) -> Iterator[str]:
     """Say what is wrong with the record of an efficiency study."""
     summary = record.summary
     for key, value in summary.items():
-        if key.startswith("efficiency") and not 0 <= value <= 1:
+        if key.startswith("efficiency") and isinstance(value, float) and (value < 0 or value > 1):
             yield f"summary {key} = {value:.6g}"
     if not abs(summary["energy_residual"]) <= 1e-6:
         yield f"energy residual {summary['energy_residual']:.3g}"
@@ -42,7 +42,7 @@ def efficiency_faults(record: Record) -> Iterator[str]:
         if not sign * summary[key] >= sampled - 1e-9 * abs(sampled):
             yield f"summary {key} = {summary[key]:.9g}, a sample of {name} is {sign * sampled:.9g}"
     power = record["power_in"] - record["power_out"] - record["power_friction"]
-    if not np.all(np.abs(power) <= 1e-6 * np.max(record["power_in"])):
+    if not np.all(np.abs(power) <= 1e-6 * np.max(np.abs(record["power_in"]))):
         yield f"power_in - power_out - power_friction up to {np.max(np.abs(power)):.4g} W"
 
 

@@ -22,7 +22,7 @@ def efficiency(draw: Draw, drive: dict[str, Any]) -> dict[str, Any]:
         "lubricant": lubricant(draw),
         "operating": {
             "pinion_speed": quantity(speed, "rad/s"),
-            "gear_torque": quantity(torque(draw, scale_of(drive, speed)), "N*m"),
+            "gear_torque": quantity(draw.one((1, 1, -1)) * torque(draw, scale_of(drive, speed)), "N*m"),
         },
         "mesh": mesh,
         **laws(draw),

@@ -89,7 +89,9 @@ def run(
         if stop.reason:
             message = str(SimulationError(stop.reason, stop.time))
             return RunResult(record.fail(message, summary), "failed", message, summary)
-        summary |= steady_figures(statistics.window(), statistics.window_work(), cycle, samples)
+        summary |= steady_figures(
+            statistics.window(), statistics.window_work(), cycle, samples, case.operating.pinion_speed
+        )
         summary["warning"] = warning_of(summary["friction_work_on_vibration"], case.friction.sliding)
         return RunResult(record.finish(summary), "complete", "", summary)
 

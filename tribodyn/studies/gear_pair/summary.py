@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.dynamics.parameters import (
+    LAG,
     WORK_DAMPING,
     WORK_FRICTION,
     WORK_IN,
@@ -103,7 +104,7 @@ def warning_of(share: float | None, sliding: str) -> str | None:
 
 
 def steady_figures(
-    window: dict[str, np.ndarray], work: np.ndarray, cycle: MeshCycle, samples: int
+    window: dict[str, np.ndarray], work: np.ndarray, cycle: MeshCycle, samples: int, nominal_speed: float
 ) -> dict[str, Any]:
     """Figures of the last whole mesh cycles of a run.
 
@@ -119,6 +120,8 @@ def steady_figures(
     cycle : MeshCycle
     samples : int
         Samples per mesh cycle.
+    nominal_speed : float
+        Of the pinion, rad/s.
     """
     error = window["transmission_error_rotational"]
     load = window["normal_load"]
@@ -127,15 +130,17 @@ def steady_figures(
     slid, loaded = np.sum(friction * sliding), np.sum(load * sliding)
     touching = load > 0.0
     # by the actual rotation: a driven pinion need not turn at its nominal speed
-    steps_in_window = len(error)
-    frequency = float((steps_in_window - 1) / samples / (window["time"][-1] - window["time"][0]))
+    cycles = len(error) / samples
+    duration = float(cycles * cycle.pitch_angle / nominal_speed + work[LAG])
+    frequency = cycles / duration
     orders, amplitudes = amplitude_spectrum(error, samples)
-    duration = steps_in_window / samples / frequency
     power_in, power_out, power_friction = work[[WORK_IN, WORK_OUT, WORK_FRICTION]] / duration
     share = friction_work_on_vibration(work)
     torque = power_out / np.mean(window["velocity"][:, -1])
     static = float(abs(torque) / cycle.gear_pitch_radius)
-    working = np.flatnonzero(cycle.side * (1.0 if torque >= 0.0 else -1.0) > 0)
+    # a load that is reversed on the mean has driving flanks to work on where there is no backlash
+    reversed_flow = torque < 0.0 and np.any(cycle.side < 0)
+    working = np.flatnonzero(cycle.side < 0 if reversed_flow else cycle.side > 0)
     # the last slot of either side holds a pair that is on the path of contact all the time
     newest = window["transmission_error"][:, working[-1]]
     arm = np.cos(np.nan_to_num(window["pressure_angle"][:, working]))

@@ -17,7 +17,8 @@ def window_figures(prepared: Prepared, passage: Passage, samples: int) -> dict[s
     extremes = RunningExtremes()
     extremes.add(block)
     error = passage.window[:, XI]
-    figures = steady_figures(block, passage.end - passage.start, prepared.cycle, samples)
+    speed = prepared.case.operating.pinion_speed
+    figures = steady_figures(block, passage.end - passage.start, prepared.cycle, samples, speed)
     # a run's summary means the newest pair's; over a sweep only the error of the whole mesh is continuous
     figures |= extremes.values | {
         "transmission_error_rms": float(np.std(error)),

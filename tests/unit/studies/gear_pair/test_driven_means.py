@@ -1,0 +1,40 @@
+"""Means of a run under a motor's torque, by the time it takes, and under a reversed load."""
+
+import numpy as np
+import pytest
+
+from tribodyn.record.reader import Record
+from tribodyn.studies.load import load_scenario
+from tribodyn.studies.run import run
+
+DRIVEN = {
+    "operating.source": "torque",
+    "operating.pinion_speed": "100 rad/s",
+    "operating.speed_regulation": "0.5 N*m*s/rad",
+    "friction.law": "none",
+    "solver.cycles": 4,
+    "output.samples_per_cycle": 12,
+}
+
+
+def test_mean_powers_are_works_over_time(tmp_path):
+    """The window's last interval counts as much as the others, also while the speed changes."""
+    driven = {**DRIVEN, "operating.pinion_torque": "500 N*m"}
+    result = run(load_scenario("crc-23-47", driven), tmp_path / "driven.h5")
+    with Record(result.path) as record:
+        window = slice(-1 - 12, None, 12)
+        time, work = np.diff(record["time"][window])[0], np.diff(record["work_in"][window])[0]
+        assert np.ptp(record["velocity"][-13:, 4]) > 1e-3
+        assert result.summary["power_in_mean"] == pytest.approx(work / time, rel=1e-12)
+        assert result.summary["mesh_frequency"] == pytest.approx(1.0 / time, rel=1e-12)
+
+
+def test_a_load_reversed_without_back_flanks(tmp_path):
+    """Without backlash there are driving flanks only, whatever the load does."""
+    table = {"time": {"unit": "ms", "values": [0, 3]}, "torque": {"unit": "N*m", "values": [0, -900]}}
+    reversed_load = {**DRIVEN, "operating.source": "speed", "operating.gear_torque_table": table}
+    del reversed_load["operating.speed_regulation"]
+    result = run(load_scenario("crc-23-47", reversed_load), tmp_path / "reversed.h5")
+    assert result.status == "complete"
+    assert result.summary["contact_loss_fraction"] > 0
+    assert np.isfinite(result.summary["transmission_error_mean"])
