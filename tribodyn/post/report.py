@@ -134,7 +134,7 @@ def on_energy(summary: Mapping[str, Any]) -> list[str]:
     residual = summary.get("energy_residual")
     if residual is None or not math.isfinite(residual):
         return []
-    return [f"The energy balance closes within {abs(residual):.1e} of the work put in."]
+    return [f"The energy balance closes within {abs(residual):.1e} of the largest work in it."]
 
 
 def _percent(fraction: float) -> str:

@@ -54,21 +54,15 @@ class RunningExtremes:
 
 
 def energy_residual(first: np.ndarray, last: np.ndarray, stored: float) -> float:
-    """Residual of the energy balance over a run, as a share of the work done by the drive.
+    """Residual of the energy balance over a run, as a share of the largest of the works in it.
 
     W_in + W_parametric − W_out − W_friction − W_damping − ΔE from the first to the last state; `stored` is
-    ΔE, J.
+    ΔE, J. The largest is that of the driving gear where power flows through, and that of what takes or feeds
+    the energy of a mesh without load.
     """
-    work = last - first
-    missing = (
-        work[WORK_IN]
-        + work[WORK_PARAMETRIC]
-        - work[WORK_OUT]
-        - work[WORK_FRICTION]
-        - work[WORK_DAMPING]
-        - stored
-    )
-    return float(missing / max(abs(work[WORK_IN]), 1e-300))
+    works = (last - first)[[WORK_IN, WORK_PARAMETRIC, WORK_OUT, WORK_FRICTION, WORK_DAMPING]]
+    missing = works @ [1.0, 1.0, -1.0, -1.0, -1.0] - stored
+    return float(missing / max(np.max(np.abs(works)), 1e-300))
 
 
 def friction_work_on_vibration(work: np.ndarray) -> float | None:
