@@ -30,8 +30,9 @@ from tribodyn.numerics.shapes import Array, Float
 
 SHEAR_FACTOR = 1.2  # rectangular section (Timoshenko)
 
-# Outline pieces are sampled at Chebyshev points and integrated as Chebyshev series; the nearest singularity
-# of 1/y³ is where the flanks would meet beyond the tip: this degree leaves 1e-8 or less (test_energy).
+# Outline pieces are sampled at Chebyshev points and integrated as Chebyshev series. 1/y³ is singular where the
+# flanks would meet beyond the tip, so the points of the upper flank crowd towards there: this degree leaves
+# 1e-7 or less however thin the tip (test_energy).
 _DEGREE = 24
 _POINTS = -np.cos(np.pi * np.arange(_DEGREE + 1) / _DEGREE)
 _TO_SERIES = np.linalg.inv(np.polynomial.chebyshev.chebvander(_POINTS, _DEGREE))
@@ -40,6 +41,8 @@ _SLOPE = np.polynomial.chebyshev.chebvander(_POINTS, _DEGREE - 1) @ np.polynomia
     _TO_SERIES
 )
 _INTEGRAL = np.polynomial.chebyshev.chebint(_EYE, lbnd=-1) @ _TO_SERIES
+# The flanks' meeting point is taken to be no further beyond the tip than this many lengths of the upper flank.
+_FURTHEST_MEETING = 10.0
 
 
 class ToothCompliance(NamedTuple):
@@ -181,12 +184,12 @@ def tooth_compliance(
     lever = x - y * tan(load_angle) - root
     integrals = section_integrals(*fillet, root).sum(axis=0)
     # Two pieces of flank, for the paths of some families have a corner at the pitch point.
-    xp = namespace(first, last)
+    xp = namespace(own, first, last)
     middle = xp.clip(0.0, first + 0.01 * (last - first), last - 0.01 * (last - first))
-    for start, end in ((first, middle), (middle, last)):
-        flank = contact_in_tooth_frame(path, loaded.pitch_half_angle, start + unit * (end - start))
-        along = 2.0 * (namespace(own, start).clip(own, start, end) - start) / (end - start) - 1.0
-        integrals = integrals + chebyshev_basis(along, _DEGREE + 1) @ section_integrals(
+    lower = first + unit * (middle - first), 2.0 * (xp.clip(own, first, middle) - first) / (middle - first)
+    for at, along in (lower, _towards_tip(loaded, middle, last, own)):
+        flank = contact_in_tooth_frame(path, loaded.pitch_half_angle, at)
+        integrals = integrals + chebyshev_basis(along - 1.0, _DEGREE + 1) @ section_integrals(
             flank.x, flank.y, root
         )
     bending, shear, axial = beam_compliance(integrals, lever, load_angle, material.poisson_ratio)
@@ -203,6 +206,27 @@ def tooth_compliance(
     across = cos(load_angle)
     root_load = namespace(x, lever).stack([sin(load_angle), across, across * lever / root], axis=-1)
     return ToothCompliance(scale * bending, scale * shear, scale * axial, foundation, root_load)
+
+
+def _towards_tip(
+    loaded: LoadedTooth, start: Any, end: Any, own: PerContact
+) -> tuple[Float[Array, " point"], PerContact]:
+    """Distances r of the points of the upper flank, and where the contacts stand between them, 0 … 2.
+
+    The distance from where the flanks would meet, by the slope at the tip, falls exponentially, so that 1/y³
+    grows so: a series of low degree for a thin tip too.
+    """
+    xp = namespace(own, start, end)
+    length = end - start
+    step = 1e-3 * length
+    near = contact_in_tooth_frame(loaded.path, loaded.pitch_half_angle, xp.stack([end - step, end])).y
+    falling = (near[0] - near[1]) / step
+    beyond = near[1] / xp.maximum(falling, near[1] / (_FURTHEST_MEETING * length))
+    meeting = end + xp.maximum(beyond, 1e-9 * length)
+    decay = xp.log((meeting - start) / (meeting - end))
+    at = meeting - (meeting - start) * xp.exp(-decay * (0.5 + 0.5 * _POINTS))
+    inside = xp.clip(own, start, end)
+    return at, 2.0 * xp.log((meeting - start) / (meeting - inside)) / decay
 
 
 def neighbour_coupling(loaded: LoadedTooth, material: MaterialData, pitches: int) -> Float[Array, "3 3"]:
