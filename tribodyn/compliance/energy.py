@@ -13,7 +13,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.compliance.foundation import foundation_compliance, ring_compliance
+from tribodyn.compliance.foundation import (
+    Foundation,
+    foundation_compliance,
+    ring_compliance,
+    ring_foundation,
+)
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import GearBody, Side, body_of
 from tribodyn.geometry.material import MaterialData
@@ -30,9 +35,9 @@ from tribodyn.numerics.shapes import Array, Float
 
 SHEAR_FACTOR = 1.2  # rectangular section (Timoshenko)
 
-# Outline pieces are sampled at Chebyshev points and integrated as Chebyshev series. 1/y³ is singular where the
-# flanks would meet beyond the tip, so the points of the upper flank crowd towards there: this degree leaves
-# 1e-7 or less however thin the tip (test_energy).
+# Outline pieces are sampled at Chebyshev points and integrated as Chebyshev series. 1/y³ is singular where
+# the flanks would meet beyond the tip, so the points of the upper flank crowd towards there: this degree
+# leaves 1e-7 or less however thin the tip (test_energy).
 _DEGREE = 24
 _POINTS = -np.cos(np.pi * np.arange(_DEGREE + 1) / _DEGREE)
 _TO_SERIES = np.linalg.inv(np.polynomial.chebyshev.chebvander(_POINTS, _DEGREE))
@@ -41,7 +46,7 @@ _SLOPE = np.polynomial.chebyshev.chebvander(_POINTS, _DEGREE - 1) @ np.polynomia
     _TO_SERIES
 )
 _INTEGRAL = np.polynomial.chebyshev.chebint(_EYE, lbnd=-1) @ _TO_SERIES
-# The flanks' meeting point is taken to be no further beyond the tip than this many lengths of the upper flank.
+# The flanks meet no further beyond the tip, it is assumed, than this many lengths of the upper flank.
 _FURTHEST_MEETING = 10.0
 
 
@@ -159,7 +164,11 @@ def loaded_tooth(assembly: Assembly, side: Side) -> LoadedTooth:
 
 
 def tooth_compliance(
-    loaded: LoadedTooth, material: MaterialData, width: Any, r: PerContact
+    loaded: LoadedTooth,
+    material: MaterialData,
+    width: Any,
+    r: PerContact,
+    body: Foundation = "sainsot-velex",
 ) -> ToothCompliance:
     """Compliance of one tooth that is loaded at the signed distances r of the drive.
 
@@ -173,6 +182,8 @@ def tooth_compliance(
         Width over which the teeth touch, m.
     r : array
         Signed distance of the contact from the pitch point, m.
+    body : {"sainsot-velex", "ring"}
+        What the compliance of the body comes from.
     """
     tooth, path, root = loaded.tooth, loaded.path, loaded.tooth.root_radius
     unit = 0.5 + 0.5 * _POINTS
@@ -193,18 +204,14 @@ def tooth_compliance(
             flank.x, flank.y, root
         )
     bending, shear, axial = beam_compliance(integrals, lever, load_angle, material.poisson_ratio)
-    foundation = foundation_compliance(
-        load_angle,
-        lever,
-        root,
-        loaded.body.bore_radius,
-        loaded.root_half_angle,
-        material.youngs_modulus,
-        loaded.body.face_width,
-    )
-    scale = 1.0 / (material.youngs_modulus * width)
     across = cos(load_angle)
     root_load = namespace(x, lever).stack([sin(load_angle), across, across * lever / root], axis=-1)
+    ring = root, loaded.body.bore_radius, loaded.root_half_angle, material.youngs_modulus
+    if body == "ring":
+        foundation = ring_foundation(root_load, *ring, material.poisson_ratio, loaded.body.face_width)
+    else:
+        foundation = foundation_compliance(load_angle, lever, *ring, loaded.body.face_width)
+    scale = 1.0 / (material.youngs_modulus * width)
     return ToothCompliance(scale * bending, scale * shear, scale * axial, foundation, root_load)
 
 
@@ -227,6 +234,16 @@ def _towards_tip(
     at = meeting - (meeting - start) * xp.exp(-decay * (0.5 + 0.5 * _POINTS))
     inside = xp.clip(own, start, end)
     return at, 2.0 * xp.log((meeting - start) / (meeting - inside)) / decay
+
+
+def polynomials_over_ring(loaded: LoadedTooth, material: MaterialData) -> float:
+    """Body's compliance at the pitch point by Sainsot & Velex's polynomials over that by the exact ring."""
+    at = np.zeros(1)
+    fitted, ring = (
+        tooth_compliance(loaded, material, loaded.body.face_width, at, body).foundation[0]
+        for body in ("sainsot-velex", "ring")
+    )
+    return float(fitted / ring)
 
 
 def neighbour_coupling(loaded: LoadedTooth, material: MaterialData, pitches: int) -> Float[Array, "3 3"]:

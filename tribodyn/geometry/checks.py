@@ -142,14 +142,13 @@ def _check_rack_corners(assembly: Assembly, side: Side) -> None:
 
 def _check_undercut(assembly: Assembly, side: Side) -> None:
     """Refuse undercut that reaches the active flank; below the lowest contact it does no harm."""
+    if not _undercut(assembly, side):
+        return
     family, drive, body = assembly.family, assembly.drive, body_of(assembly.drive, side)
     tooth = assembly.tooth(side)
-    below = lowest_contact_speed(assembly, side) > 0
-    if not tooth.overrun > 0 or (below and lowest_contact_radius(assembly, side) >= tooth.form_radius):
-        return
 
-    def sound(shift: float) -> bool:
-        return bool(Assembly(family, replaced(drive, side, profile_shift=shift)).tooth(side).overrun <= 0)
+    def shifted(shift: float) -> Assembly:
+        return Assembly(family, replaced(drive, side, profile_shift=shift))
 
     rule = (
         f"the rack undercuts the working part of the flank up to the radius {_millimetres(tooth.form_radius)}"
@@ -158,10 +157,22 @@ def _check_undercut(assembly: Assembly, side: Side) -> None:
     if family.parameters:
         otherwise = "use more teeth, another shape of the path or a smaller dedendum"
     if family.shiftable:
-        minimum = boundary(sound, body.profile_shift, body.profile_shift + 2)
+        shift = body.profile_shift
+        minimum = boundary(lambda value: bool(shifted(value).tooth(side).overrun <= 0), shift, shift + 2)
+        if minimum is not None:  # less will do where the undercut stays below the lowest contact
+            minimum = boundary(lambda value: not _undercut(shifted(value), side), shift, minimum)
         remedy = _advice(minimum, "at least", otherwise)
         raise InputError(f"drive.{side}.profile_shift", body.profile_shift, rule, remedy)
     raise InputError(f"drive.{side}.dedendum", body.dedendum, rule, otherwise)
+
+
+def _undercut(assembly: Assembly, side: Side) -> bool:
+    """Whether undercut reaches the active flank."""
+    tooth = assembly.tooth(side)
+    below = lowest_contact_speed(assembly, side) > 0
+    return bool(tooth.overrun > 0) and not (
+        below and lowest_contact_radius(assembly, side) >= tooth.form_radius
+    )
 
 
 def _check_tip(assembly: Assembly, side: Side) -> None:

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from tribodyn.compliance.energy import loaded_tooth
+from tribodyn.compliance.energy import loaded_tooth, polynomials_over_ring
 from tribodyn.compliance.foundation import outside_fitted_range
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES
@@ -10,6 +10,9 @@ from tribodyn.geometry.material import MaterialData
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.data import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
+
+#: A body's compliance by the polynomials that differs by this share from the ring's is reported.
+REPORTED_DEVIATION = 0.1
 
 if TYPE_CHECKING:
     from tribodyn.compliance.loaded_flanks import LoadedFlanks
@@ -60,13 +63,25 @@ def loaded_flanks_of(
     return flanks_of(assembly, materials, mesh)
 
 
-def compliance_remark(assembly: Assembly, mesh: MeshData) -> str:
-    """Say where the compliance of the gear bodies is extrapolated; empty: it is not, or is not by a fit."""
-    if mesh.compliance != "energy":
+def compliance_remark(
+    assembly: Assembly, materials: tuple[MaterialData, MaterialData], mesh: MeshData
+) -> str:
+    """Say where the compliance of the gear bodies is extrapolated or off; empty: neither, or it is no fit."""
+    if mesh.compliance != "energy" or mesh.foundation != "sainsot-velex":
         return ""
-    said = []
-    for side in SIDES:
+    beyond, off = [], []
+    for side, material in zip(SIDES, materials, strict=True):
         tooth = loaded_tooth(assembly, side)
         ratio = float(tooth.tooth.root_radius) / float(tooth.body.bore_radius)
-        said += [f"{side} {one}" for one in outside_fitted_range(ratio, float(tooth.root_half_angle))]
-    return f"The bodies' compliance (Sainsot & Velex) is extrapolated: {'; '.join(said)}." if said else ""
+        beyond += [f"{side} {one}" for one in outside_fitted_range(ratio, float(tooth.root_half_angle))]
+        over = polynomials_over_ring(tooth, material)
+        if abs(over - 1.0) > REPORTED_DEVIATION:
+            off.append(f"the {side}'s is {over:.3g} times that of the elastic ring")
+    said = f"The bodies' compliance (Sainsot & Velex) is extrapolated: {'; '.join(beyond)}." if beyond else ""
+    if off:
+        said += (
+            f"{' ' if said else ''}Of the compliances of the bodies by the polynomials {' and '.join(off)} "
+            'that they are fitted to: mesh.foundation = "ring" uses the ring itself, '
+            'compliance = "fem" resolves the rim.'
+        )
+    return said

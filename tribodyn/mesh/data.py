@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import Literal
 
+from tribodyn.compliance.foundation import Foundation
 from tribodyn.geometry.modification import UNMODIFIED, Modifications
 from tribodyn.numerics.curve import Table
 
@@ -17,6 +18,8 @@ class MeshData:
         Where the single-pair stiffness comes from.
     hertz : {"linear", "load-dependent"}
         Contact part of the energy method's compliance.
+    foundation : {"sainsot-velex", "ring"}
+        Compliance of a gear body under its own tooth, with ``compliance = "energy"``.
     foundation_coupling : bool
         Whether two pairs on one body share its foundation.
     stiffness : float or None
@@ -49,6 +52,7 @@ class MeshData:
     compliance: Literal["energy", "fem", "constant", "table"]
     damping_ratio: float
     hertz: Literal["linear", "load-dependent"] = "linear"
+    foundation: Foundation = "sainsot-velex"
     foundation_coupling: bool = True
     stiffness: float | None = None
     table: Table | None = None

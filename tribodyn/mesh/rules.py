@@ -1,9 +1,12 @@
 """What every tabulation of a mesh cycle demands of its input."""
 
+import numpy as np
+
 from tribodyn.errors import InputError
-from tribodyn.geometry.drive import SIDES, Drive, body_of
+from tribodyn.geometry.drive import SIDES, Drive, Side, body_of
 from tribodyn.mesh.data import MeshData
 from tribodyn.numerics.elementary import is_jax
+from tribodyn.numerics.shapes import Array, Float
 
 
 def check_bores(drive: Drive) -> None:
@@ -25,6 +28,25 @@ def check_bores(drive: Drive) -> None:
                 "the elastic body is held at its bore",
                 "give the radius at which the shaft holds it",
             )
+
+
+def check_foundation(side: Side, compliance: Float[Array, "*contact"]) -> None:
+    """Refuse a body whose compliance by the fitted polynomials is not positive: far outside their range.
+
+    Traced values are not checked.
+
+    Raises
+    ------
+    InputError
+        Names the key that chooses another body.
+    """
+    if not is_jax(compliance) and not np.all(compliance > 0):
+        raise InputError(
+            "mesh.foundation",
+            '"sainsot-velex"',
+            f"far outside their range, the fitted polynomials give the {side}'s body no positive compliance",
+            'use "ring"',
+        )
 
 
 def check_backlash(mesh: MeshData, back: bool) -> None:

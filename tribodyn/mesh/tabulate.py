@@ -27,7 +27,7 @@ from tribodyn.geometry.path import Path, kinematics
 from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.data import MeshData
-from tribodyn.mesh.rules import check_backlash, check_bores
+from tribodyn.mesh.rules import check_backlash, check_bores, check_foundation
 from tribodyn.numerics.elementary import cos, namespace
 from tribodyn.numerics.iteration import chebyshev_basis
 from tribodyn.numerics.shapes import Array, Float
@@ -246,7 +246,11 @@ def _compliance(
 
     width = assembly.common_width
     teeth = [loaded_tooth(assembly, side) for side in SIDES]
-    parts = [tooth_compliance(t, m, width, r_nodes) for t, m in zip(teeth, materials, strict=True)]
+    parts = [
+        tooth_compliance(t, m, width, r_nodes, mesh.foundation) for t, m in zip(teeth, materials, strict=True)
+    ]
+    for side, part in zip(SIDES, parts, strict=True):
+        check_foundation(side, part.foundation)
     pair = parts[0].total + parts[1].total
     if mesh.hertz == "linear":
         pair = pair + hertz_linear(*materials, width)

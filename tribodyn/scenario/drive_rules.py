@@ -26,12 +26,19 @@ def broken_drive_rules(drive: DriveTable) -> Iterator[InputError]:
         yield unknown_name(FAMILIES.key, drive.family, FAMILIES, FAMILIES.what)
 
 
-def broken_hertz_rules(hertz: str, compliance: str) -> Iterator[InputError]:
-    """Go through what contradicts between the contact part of a compliance and the compliance itself."""
+def broken_part_rules(hertz: str, foundation: str, compliance: str) -> Iterator[InputError]:
+    """Go through what contradicts between the parts of a compliance, contact and body, and the compliance."""
     if hertz == "load-dependent" and compliance != "energy":
         yield InputError(
             "mesh.hertz",
             '"load-dependent"',
             f'contradicts compliance = "{compliance}", which contains the Hertz contact',
             'leave hertz out, or write compliance = "energy"',
+        )
+    if foundation == "ring" and compliance != "energy":
+        yield InputError(
+            "mesh.foundation",
+            '"ring"',
+            f'contradicts compliance = "{compliance}", which contains the gear bodies',
+            'leave foundation out, or write compliance = "energy"',
         )

@@ -108,14 +108,21 @@ def breaks_rule(drive, before):
     return False
 
 
-@pytest.mark.parametrize("teeth", [8, 11, 13])
-def test_minimum_profile_shift_against_undercut_is_the_textbook_one(teeth):
-    # x_min = h − z sin² α/2, where h is the height of the rack's straight flank below its reference line.
+@pytest.mark.parametrize(("teeth", "mate"), [(8, 47), (11, 47), (12, 47), (13, 47), (11, 17), (14, 200)])
+def test_profile_shift_advised_against_undercut_is_the_least_that_is_accepted(teeth, mate):
+    # x_min = h − z sin² α/2 leaves no undercut, h the height of the rack's straight flank below its
+    # reference line; less will do where the mate does not reach as deep as the undercut
     alpha = math.radians(20)
     height = 1.25 - 0.25 * (1 - math.sin(alpha))
-    error = refusal(involute.FAMILY, drive(body(float(teeth), bore_radius=0.0), body(47.0)))
+
+    def shifted(shift):
+        return drive(body(float(teeth), shift, bore_radius=0.0), body(float(mate)))
+
+    error = refusal(involute.FAMILY, shifted(0.0))
     named = float(error.remedy.split()[-1])
-    assert named == pytest.approx(height - teeth * math.sin(alpha) ** 2 / 2, abs=1e-3)
+    assert 0.0 < named < height - teeth * math.sin(alpha) ** 2 / 2
+    assert not breaks_rule(shifted(named), error)
+    assert breaks_rule(shifted(named - 2e-3), error)
 
 
 def test_message_reads_as_one_sentence():

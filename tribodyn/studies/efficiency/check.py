@@ -13,5 +13,5 @@ def check(case: EfficiencyCase) -> Checked:
     study = prepare(case)
     pair = single_pair(study.cycle, case.operating.gear_torque)
     method = f'compliance = "{case.mesh.compliance}"'
-    remark = compliance_remark(study.assembly, case.mesh)
+    remark = compliance_remark(study.assembly, case.materials, case.mesh)
     return checked(study.assembly, method, *pair, remark=remark)

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from tribodyn.errors import InputError
-from tribodyn.scenario.drive_rules import broken_drive_rules, broken_hertz_rules
+from tribodyn.scenario.drive_rules import broken_drive_rules, broken_part_rules
 from tribodyn.scenario.modification_rules import Face, broken_face_rules
 from tribodyn.studies.efficiency.scenario import Scenario
 
@@ -14,7 +14,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     yield from broken_drive_rules(scenario.drive)
     face = Face(scenario.drive, mesh.misalignment, mesh.slices, mesh.slice_coupling)
     yield from broken_face_rules(face, mesh.compliance)
-    yield from broken_hertz_rules(mesh.hertz, mesh.compliance)
+    yield from broken_part_rules(mesh.hertz, mesh.foundation, mesh.compliance)
     if scenario.operating.gear_torque == 0:
         yield InputError(
             "operating.gear_torque",

@@ -200,7 +200,7 @@ def _figures(study: Prepared, over: Samples, mesh: Places, state: Engagement) ->
         "flash_temperature_max": maximum(state.flash_temperature_rise),
         "friction_coefficient_mean": means.friction_coefficient,
         "friction_force_mean": np.sum(np.abs(over.by_pair(state.friction_force)[:-1]), axis=0) * share,
-        "compliance_remark": compliance_remark(study.assembly, study.case.mesh) or None,
+        "compliance_remark": compliance_remark(study.assembly, study.case.materials, study.case.mesh) or None,
         **law_figures(study.case),
         "closure_in_range_fraction": fraction_in_range(state.closure_in_range[loaded]),
         "friction_in_range_fraction": fraction_in_range(state.friction_in_range[loaded]),

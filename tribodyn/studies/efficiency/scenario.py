@@ -4,6 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from tribodyn.compliance.foundation import Foundation
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.mesh.data import MeshData
 from tribodyn.scenario import units
@@ -51,6 +52,9 @@ class EfficiencyMesh(Table):
         "Of the samples: the summary has all three",
     )
     hertz: Literal["linear", "load-dependent"] = Field("linear", description="contact part of the compliance")
+    foundation: Foundation = Field(
+        "sainsot-velex", description="compliance of a gear body: fitted polynomials, or the elastic ring"
+    )
     foundation_coupling: Switch = Field(True, description="pairs that share a body share its foundation")
     misalignment: MisalignmentTable = written({})
     slices: Slices | None = Field(
@@ -102,6 +106,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> EfficiencyCase:
             mesh.compliance,
             damping_ratio=0.0,
             hertz=mesh.hertz,
+            foundation=mesh.foundation,
             foundation_coupling=mesh.foundation_coupling,
             modifications=modifications,
             slices=slices_of(mesh.slices, modifications),

@@ -13,5 +13,5 @@ def check(case: Case) -> Checked:
     prepared = prepare(case)
     pair = single_pair(prepared.cycle, case.operating.gear_torque)
     method = f'compliance = "{case.mesh.compliance}"'
-    remark = compliance_remark(prepared.assembly, case.mesh)
+    remark = compliance_remark(prepared.assembly, case.materials, case.mesh)
     return checked(prepared.assembly, method, *pair, prepared.masses, remark)

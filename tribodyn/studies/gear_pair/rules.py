@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from tribodyn.errors import InputError, unknown_name
-from tribodyn.scenario.drive_rules import broken_drive_rules, broken_hertz_rules
+from tribodyn.scenario.drive_rules import broken_drive_rules, broken_part_rules
 from tribodyn.scenario.model_files import Bearing
 from tribodyn.scenario.modification_rules import Face, broken_face_rules
 from tribodyn.solve.methods import SOLVERS
@@ -122,7 +122,7 @@ def _mesh(mesh: Mesh) -> Iterator[InputError]:
                 rule=f'contradicts compliance = "{mesh.compliance}"',
                 remedy=f'leave {name} out, or write compliance = "{choice}"',
             )
-    yield from broken_hertz_rules(mesh.hertz, mesh.compliance)
+    yield from broken_part_rules(mesh.hertz, mesh.foundation, mesh.compliance)
     error = mesh.transmission_error
     if error.harmonics and error.table is not None:
         yield InputError(

@@ -49,7 +49,7 @@ def run(
         "pinion_inertia": prepared.masses[0][1],
         "gear_inertia": prepared.masses[1][1],
         "pitch_point": AVERAGED if model.options.averaged else REGULAR,
-        "compliance_remark": compliance_remark(prepared.assembly, case.mesh) or None,
+        "compliance_remark": compliance_remark(prepared.assembly, case.materials, case.mesh) or None,
         **law_figures(case),
     }
     groups = {

@@ -9,6 +9,7 @@ from typing import Annotated, Literal, cast
 
 from pydantic import Field
 
+from tribodyn.compliance.foundation import Foundation
 from tribodyn.dynamics.data import BearingData, OperatingData
 from tribodyn.mesh.data import MeshData
 from tribodyn.scenario import units
@@ -118,6 +119,9 @@ class Mesh(Table):
     compliance: Literal["energy", "fem", "constant", "table"] = "energy"
     hertz: Literal["linear", "load-dependent"] = Field(
         "linear", description="contact part of the energy method's compliance"
+    )
+    foundation: Foundation = Field(
+        "sainsot-velex", description="compliance of a gear body: fitted polynomials, or the elastic ring"
     )
     foundation_coupling: Switch = Field(True, description="pairs that share a body share its foundation")
     stiffness: Stiffness | None = Field(None, description='of a single pair, with compliance = "constant"')
