@@ -15,14 +15,15 @@ from marked_block import put
 
 from tribodyn.compliance.energy import (
     LoadedTooth,
-    ToothCompliance,
     hertz_coefficient,
     hertz_linear,
     loaded_tooth,
+    polynomials_over_ring,
     tooth_compliance,
 )
-from tribodyn.compliance.foundation import ring_compliance
-from tribodyn.compliance.iso6336 import single_pair_stiffness
+from tribodyn.compliance.foundation import Foundation
+from tribodyn.compliance.iso6336 import MEASURED_CORRECTION, theoretical_stiffness
+from tribodyn.compliance.load_sharing import flexibility, share_load
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import SIDES, Drive, GearBody
 from tribodyn.geometry.families import crc, involute
@@ -48,13 +49,6 @@ def drive(pressure_angle: float, teeth: tuple[int, int], bores: tuple[float, flo
     return Drive(0.003, math.radians(pressure_angle), pinion, gear)
 
 
-def ring_foundation(tooth: LoadedTooth, part: ToothCompliance) -> float:
-    """Foundation of a tooth by the exact ring in place of Sainsot & Velex's polynomials, times width."""
-    ratio = tooth.tooth.root_radius / tooth.body.bore_radius
-    ring = ring_compliance(0.0, tooth.root_half_angle, ratio, 0.3, harmonics=2000) / STEEL.youngs_modulus
-    return float(part.root_load[0] @ ring @ part.root_load[0])
-
-
 def weber_banaschek(tooth: LoadedTooth, relative_curvature: float) -> float:
     """Approach of the contact to the tooth's axis per line load, m²/N (secant at LINE_LOAD, plane strain)."""
     contact = contact_in_tooth_frame(tooth.path, tooth.pitch_half_angle, np.zeros(1))
@@ -71,12 +65,15 @@ def breakdown() -> str:
     assembly = assemble(involute.FAMILY, pair)
     path = assembly.path
     teeth = [loaded_tooth(assembly, side) for side in SIDES]
-    parts = [tooth_compliance(tooth, STEEL, WIDTH, np.zeros(1)) for tooth in teeth]
+    parts, on_ring = (
+        [tooth_compliance(tooth, STEEL, WIDTH, np.zeros(1), body) for tooth in teeth]
+        for body in ("sainsot-velex", "ring")
+    )
     rows = ["| part, nm per N/mm | pinion | gear | both |", "|---|---|---|---|"]
     for name in ("bending", "shear", "axial", "foundation"):
         both = [getattr(part, name)[0] * WIDTH * PICO for part in parts]
         rows.append(f"| {name} | {both[0]:.1f} | {both[1]:.1f} | {sum(both):.1f} |")
-    exact = [ring_foundation(*pairing) * PICO for pairing in zip(teeth, parts, strict=True)]
+    exact = [float(part.foundation[0]) * WIDTH * PICO for part in on_ring]
     rows.append(f"| *foundation by the exact ring* | {exact[0]:.1f} | {exact[1]:.1f} | {sum(exact):.1f} |")
     linear = hertz_linear(STEEL, STEEL, WIDTH) * WIDTH * PICO
     palmgren = hertz_coefficient(STEEL, STEEL, WIDTH) * (LINE_LOAD * WIDTH) ** -0.1 * WIDTH * PICO
@@ -90,7 +87,7 @@ def breakdown() -> str:
     beam = sum(float((p.bending + p.shear + p.axial)[0]) for p in parts) * WIDTH * PICO
     body = sum(float(p.foundation[0]) for p in parts) * WIDTH * PICO
     strain = 1 - STEEL.poisson_ratio**2
-    iso = single_pair_stiffness(18.0, 36.0)
+    iso = theoretical_stiffness((18.0, 36.0))
     stiffness = [
         ('energy method, linear Hertz (`hertz = "linear"`)', 1e3 / (beam + body + linear)),
         (
@@ -104,11 +101,58 @@ def breakdown() -> str:
             1e3 / (strain * (beam + sum(exact)) + weber),
         ),
         ("FE reference at 235 N/mm", FE_REFERENCE),
-        ("ISO 6336 c'_th, theory", float(iso.theoretical) / 1e9),
-        ("ISO 6336 c' = 0.8 c'_th, with the correction from measurements", float(iso.single_pair) / 1e9),
+        ("ISO 6336-1 c'_th, theory", iso / 1e9),
+        ("ISO 6336-1 c'_th times 0.8, the correction from measurements", MEASURED_CORRECTION * iso / 1e9),
     ]
     rows += ["", "| single-pair stiffness at the pitch point | N/(mm µm) |", "|---|---|"]
     rows += [f"| {name} | {value:.1f} |" for name, value in stiffness]
+    return "\n".join(rows)
+
+
+def equal_pair(teeth: int, ratio: float) -> Drive:
+    """Pair of equal gears whose root radius is `ratio` times their bore's."""
+    bore = 0.003 * (teeth / 2 - 1.25) / ratio
+    return drive(20.0, (teeth, teeth), (bore, bore), WIDTH)
+
+
+def rims() -> str:
+    contacts = ("linear", "load-dependent")
+    bodies: tuple[Foundation, ...] = ("sainsot-velex", "ring")
+    rows = [
+        "| teeth | root over bore radius | rim, modules | body, polynomials over ring "
+        "| finite elements, N/(mm µm) | "
+        + " | ".join(f"`{body}`, `{contact}`" for contact in contacts for body in bodies)
+        + " |",
+        "|---|" + "---|" * 8,
+    ]
+    for teeth in (20, 30, 50, 90):
+        for ratio in (1.06, 1.15, 1.4, 2.1, 5.0):
+            assembly = assemble(involute.FAMILY, equal_pair(teeth, ratio))
+            tooth = loaded_tooth(assembly, "pinion")
+            cosine = math.cos(float(assembly.path.pressure_angle(0.0)))
+            torque = LINE_LOAD * WIDTH * cosine * float(assembly.path.gear_pitch_radius)
+            loaded = share_load(flexibility(assembly, (STEEL, STEEL)), np.zeros((1, 1)), torque)
+            elements = LINE_LOAD / (float(loaded.deflection[0]) * cosine)
+            contact = {
+                "linear": hertz_linear(STEEL, STEEL, WIDTH),
+                "load-dependent": hertz_coefficient(STEEL, STEEL, WIDTH) * (LINE_LOAD * WIDTH) ** -0.1,
+            }
+            off = [
+                1
+                / (
+                    (2 * tooth_compliance(tooth, STEEL, WIDTH, np.zeros(1), body).total[0] + contact[name])
+                    * WIDTH
+                )
+                for name in contacts
+                for body in bodies
+            ]
+            rim = teeth / 2 - 1.25 - float(tooth.body.bore_radius) / 0.003
+            rows.append(
+                f"| {teeth} | {ratio} | {rim:.1f} | {polynomials_over_ring(tooth, STEEL):.2f} "
+                f"| {elements / 1e9:.1f} | "
+                + " | ".join(f"{100 * (value / elements - 1):+.0f} %" for value in off)
+                + " |"
+            )
     return "\n".join(rows)
 
 
@@ -143,7 +187,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="Mesh stiffness compared with its references.")
     parser.add_argument("--into", type=Path, help="page with the marked blocks")
     page = parser.parse_args().into
-    for name, text in (("breakdown", breakdown()), ("coupling", coupling())):
+    for name, text in (("breakdown", breakdown()), ("rims", rims()), ("coupling", coupling())):
         print(text, end="\n\n")
         if page:
             put(page, name, text)

@@ -95,8 +95,11 @@ def test_stiffness_is_printed_beside_iso_6336(tmp_path: Path, forked: ForkedVerb
     checked = json.loads(forked("check", "involute-18-36", "--json", folder=tmp_path).stdout)
     by = {name: value["per_width"] * 1e-9 for name, value in checked["stiffness"]["by"].items()}
     ours, single, theory = by.values()
-    # ISO 6336-1 for 18/36 teeth without profile shift, N/(mm um)
-    assert single == pytest.approx(12.7, abs=0.05)
+    # ISO 6336-1 for 18/36 teeth without profile shift, N/(mm um); dedendum 1.25, E 207 GPa
+    assert single == pytest.approx(15.86 * 0.8 * (1 - 0.5 * 0.05) * 207 / 206, abs=0.02)
     assert theory == pytest.approx(15.9, abs=0.05)
+    reference = checked["stiffness"]["iso_6336_1"]
+    assert reference["mesh"] * 1e-9 == pytest.approx(single * (0.75 * 1.6113 + 0.25), rel=1e-4)
+    assert reference["outside"] == []
     # finite elements of the same pair give 13.8
     assert ours == pytest.approx(13.8, rel=0.1)

@@ -193,17 +193,20 @@ def tooth_compliance(
     own = r if loaded.side == "pinion" else -r
     x, y, load_angle = contact_in_tooth_frame(path, loaded.pitch_half_angle, own)
     lever = x - y * tan(load_angle) - root
-    integrals = section_integrals(*fillet, root).sum(axis=0)
+    # s counts from the tip: a load near a thin one has a small arm there, where 1/y³ is large
+    origin = contact_in_tooth_frame(path, loaded.pitch_half_angle, last).x
+    integrals = section_integrals(*fillet, origin).sum(axis=0)
     # Two pieces of flank, for the paths of some families have a corner at the pitch point.
     xp = namespace(own, first, last)
     middle = xp.clip(0.0, first + 0.01 * (last - first), last - 0.01 * (last - first))
     lower = first + unit * (middle - first), 2.0 * (xp.clip(own, first, middle) - first) / (middle - first)
-    for at, along in (lower, _towards_tip(loaded, middle, last, own)):
+    for at, along in (lower, *_towards_tip(loaded, middle, last, own)):
         flank = contact_in_tooth_frame(path, loaded.pitch_half_angle, at)
         integrals = integrals + chebyshev_basis(along - 1.0, _DEGREE + 1) @ section_integrals(
-            flank.x, flank.y, root
+            flank.x, flank.y, origin
         )
-    bending, shear, axial = beam_compliance(integrals, lever, load_angle, material.poisson_ratio)
+    arm = lever + (root - origin)
+    bending, shear, axial = beam_compliance(integrals, arm, load_angle, material.poisson_ratio)
     across = cos(load_angle)
     root_load = namespace(x, lever).stack([sin(load_angle), across, across * lever / root], axis=-1)
     ring = root, loaded.body.bore_radius, loaded.root_half_angle, material.youngs_modulus
@@ -217,11 +220,12 @@ def tooth_compliance(
 
 def _towards_tip(
     loaded: LoadedTooth, start: Any, end: Any, own: PerContact
-) -> tuple[Float[Array, " point"], PerContact]:
+) -> list[tuple[Float[Array, " point"], PerContact]]:
     """Distances r of the points of the upper flank, and where the contacts stand between them, 0 … 2.
 
     The distance from where the flanks would meet, by the slope at the tip, falls exponentially, so that 1/y³
-    grows so: a series of low degree for a thin tip too.
+    grows so: a series of low degree for a thin tip too. In two pieces, because a series is exact to a share
+    of its maximum.
     """
     xp = namespace(own, start, end)
     length = end - start
@@ -230,10 +234,14 @@ def _towards_tip(
     falling = (near[0] - near[1]) / step
     beyond = near[1] / xp.maximum(falling, near[1] / (_FURTHEST_MEETING * length))
     meeting = end + xp.maximum(beyond, 1e-9 * length)
-    decay = xp.log((meeting - start) / (meeting - end))
-    at = meeting - (meeting - start) * xp.exp(-decay * (0.5 + 0.5 * _POINTS))
-    inside = xp.clip(own, start, end)
-    return at, 2.0 * xp.log((meeting - start) / (meeting - inside)) / decay
+    decay = 0.5 * xp.log((meeting - start) / (meeting - end))
+    fall = xp.exp(-decay * (0.5 + 0.5 * _POINTS))
+    passed = 2.0 * xp.log((meeting - start) / (meeting - xp.clip(own, start, end))) / decay
+    furthest = meeting - start
+    return [
+        (meeting - furthest * fall, xp.clip(passed, 0.0, 2.0)),
+        (meeting - furthest * fall[-1] * fall, xp.clip(passed - 2.0, 0.0, 2.0)),
+    ]
 
 
 def polynomials_over_ring(loaded: LoadedTooth, material: MaterialData) -> float:

@@ -5,6 +5,7 @@ from typing import Any
 
 from tribodyn.dynamics.recorded import DOF_SCALE, PAIR, SAMPLES
 from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.material import MaterialData
 from tribodyn.geometry.recorded import GEOMETRY
 from tribodyn.mesh.recorded import MESH_CYCLE
 from tribodyn.post.report import Line
@@ -46,6 +47,7 @@ WALL_TIME = Line("wall_time", "Wall time", 1.0, "s", ".3g")
 
 def checked(
     assembly: Assembly,
+    materials: tuple[MaterialData, MaterialData],
     method: str,
     normal_load: float,
     stiffness: float,
@@ -58,6 +60,8 @@ def checked(
     ----------
     assembly : Assembly
         Checked.
+    materials : (MaterialData, MaterialData)
+        Of pinion and gear.
     method : str
         How the stiffness was worked out.
     normal_load : float
@@ -69,16 +73,18 @@ def checked(
     remark : str
         What is to be said of the stiffness.
     """
-    from tribodyn.compliance.iso6336 import single_pair_stiffness as iso6336
     from tribodyn.geometry.sheet import geometry_sheet
 
     pinion, gear = assembly.drive.pinion, assembly.drive.gear
     width = float(min(pinion.face_width, gear.face_width))
     per_width = {method: stiffness / width}
+    reference, tables, remarks = None, [], [remark] if remark else []
     if assembly.family.involute:
-        iso = iso6336(pinion.teeth, gear.teeth, pinion.profile_shift, gear.profile_shift)
-        per_width["ISO 6336 c', which contains the measured correction 0.8"] = iso.single_pair
-        per_width["ISO 6336 c'_th, theory"] = iso.theoretical
+        reference, table, remark_on_reference = _reference(assembly, materials, normal_load)
+        per_width["ISO 6336-1 c', factors below"] = reference["single_pair"]
+        per_width["ISO 6336-1 c'_th, theory"] = reference["theoretical"]
+        tables.append(table)
+        remarks.append(remark_on_reference)
     by = {name: {"per_width": value, "stiffness": value * width} for name, value in per_width.items()}
     sheet = geometry_sheet(assembly, masses)
     line_load = normal_load / width
@@ -90,8 +96,39 @@ def checked(
             for name, value in by.items()
         ],
     )
-    data = {"geometry": sheet, "stiffness": {"line_load": line_load, "by": by, "remark": remark}}
-    return Checked(data, (*sheet_tables(sheet), table), (remark,) if remark else ())
+    about = {"line_load": line_load, "by": by, "remark": remark}
+    if reference is not None:
+        about["iso_6336_1"] = reference
+    data = {"geometry": sheet, "stiffness": about}
+    return Checked(data, (*sheet_tables(sheet), table, *tables), remarks)
+
+
+def _reference(
+    assembly: Assembly, materials: tuple[MaterialData, MaterialData], normal_load: float
+) -> tuple[dict[str, Any], TextTable, str]:
+    """Reference stiffness by ISO 6336-1: data in SI units, their table, and what is to be said of them."""
+    from tribodyn.compliance.iso6336 import bodies_outside, outside, pair_of, reference_stiffness
+
+    pair = pair_of(assembly, materials, normal_load)
+    stiffness = reference_stiffness(pair)
+    limits = [*outside(pair), *bodies_outside(assembly)]
+    per_width = "N/(mm um)"
+    rows = [
+        ("c'_th, one pair, theory for steel", f"{stiffness.theoretical * 1e-9:.2f}", per_width),
+        ("C_M, correction from measurements", f"{stiffness.correction:g}", ""),
+        ("C_R, bodies: solid discs", f"{stiffness.blank:g}", ""),
+        ("C_B, rack", f"{stiffness.rack:.4g}", ""),
+        ("E/E_St", f"{stiffness.material:.4g}", ""),
+        (f"reduction at F_t/b = {pair.line_load * 1e-3:.0f} N/mm", f"{stiffness.load:.4g}", ""),
+        ("c', one pair", f"{stiffness.single_pair * 1e-9:.2f}", per_width),
+        ("c_gamma alpha, mean of the mesh", f"{stiffness.mesh * 1e-9:.2f}", per_width),
+        ("c_gamma beta, for the face load factor", f"{stiffness.mesh_face * 1e-9:.2f}", per_width),
+    ]
+    remark = "ISO 6336-1, method B, with K_A = 1"
+    remark += ", reduced below 100 N/mm" if stiffness.load < 1.0 else ""
+    remark += f", is outside its limits: {'; '.join(limits)}." if limits else ": inside its limits."
+    data = {**stiffness._asdict(), "line_load": pair.line_load, "outside": limits}
+    return data, TextTable("Reference stiffness by ISO 6336-1", ("factor", "value", "unit"), rows), remark
 
 
 def sheet_tables(sheet: dict[str, Any]) -> Sequence[TextTable]:

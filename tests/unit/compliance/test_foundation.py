@@ -6,13 +6,24 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from tribodyn.compliance.energy import loaded_tooth, polynomials_over_ring, tooth_compliance
 from tribodyn.compliance.foundation import (
     HARMONICS,
+    SELF_HARMONICS,
     _ring_receptance,
     foundation_compliance,
     ring_compliance,
+    ring_foundation,
     sainsot_velex,
 )
+from tribodyn.compliance.load_sharing import flexibility, share_load
+from tribodyn.compliance.local import hertz_half_width, weber_banaschek
+from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.drive import Drive, GearBody
+from tribodyn.geometry.families import involute
+from tribodyn.geometry.material import MaterialData
+from tribodyn.geometry.path import kinematics
+from tribodyn.geometry.tooth import contact_in_tooth_frame
 
 NU = 0.3
 jax.config.update("jax_enable_x64", True)
@@ -96,6 +107,39 @@ def test_series_between_neighbours_is_long_enough(teeth, half_angle, ratio):
     load = np.array([0.4, 1.0, lever])
     own = load @ converged(0.0, half_angle, ratio) @ load
     assert np.abs(np.outer(load, load) * error).max() < 1e-3 * own
+
+
+@pytest.mark.parametrize("ratio", [1.05, 2.0, 7.0])
+@pytest.mark.parametrize(("half_angle", "error"), [(0.015, 3e-3), (0.05, 3e-4), (0.3, 1e-4)])
+def test_series_of_a_tooth_itself_is_long_enough(ratio, half_angle, error):
+    load = np.array([0.4, 1.0, 1.5 * half_angle])
+    shape = ring_foundation(load, 1.0, 1.0 / ratio, half_angle, 1.0, NU, 1.0)
+    ring = ring_compliance(0.0, half_angle, ratio, NU, harmonics=20 * SELF_HARMONICS)
+    assert shape == pytest.approx(load @ ring @ load, rel=error)
+
+
+@pytest.mark.parametrize("teeth", [20, 50])
+@pytest.mark.parametrize("ratio", [1.06, 1.15, 1.4, 3.0])
+def test_ring_follows_finite_elements_down_to_thin_rims(teeth, ratio):
+    # tooth and body at the pitch point in plane strain, Weber & Banaschek's contact taken from the elements'
+    # result; the elements have the fillets and gaps that beam and ring lack, which stiffens them
+    steel = MaterialData("steel", 207e9, NU, 7850.0, 46.0, 470.0, 6e9)
+    gear = GearBody(float(teeth), 0.0, 1.0, 1.25, 0.25, 0.02, 0.003 * (teeth / 2 - 1.25) / ratio)
+    assembly = assemble(involute.FAMILY, Drive(0.003, np.radians(20.0), gear, gear))
+    tooth, path = loaded_tooth(assembly, "pinion"), assembly.path
+    cosine, line_load = np.cos(path.pressure_angle(0.0)), 235e3
+    torque = line_load * 0.02 * cosine * path.gear_pitch_radius
+    loaded = share_load(flexibility(assembly, (steel, steel)), np.zeros((1, 1)), torque)
+    contact = contact_in_tooth_frame(tooth.path, tooth.pitch_half_angle, np.zeros(1))
+    depth = float(contact.y[0] / np.cos(contact.load_angle[0]))
+    curvature = kinematics(path, np.zeros(1)).relative_curvature
+    half_width = hertz_half_width(np.array([line_load]), curvature, steel, steel)
+    local = float(weber_banaschek(np.array([line_load]), half_width, depth, steel)[0]) / line_load
+    elements = (float(loaded.deflection[0] * cosine) / line_load / 2.0 - local) / (1.0 - NU**2)
+    ring = tooth_compliance(tooth, steel, 1.0, np.zeros(1), "ring")
+    own = float((ring.total - ring.foundation)[0]) + float(ring.foundation[0]) * 0.02
+    assert 1.0 < own / elements < 1.13
+    assert polynomials_over_ring(tooth, steel) > 1.2 or ratio > 1.2
 
 
 class TestSainsotVelex:

@@ -11,13 +11,15 @@ import pytest
 from scipy.interpolate import PchipInterpolator
 
 from tests.support.compile_fast import ONE_CALL
+from tribodyn.compliance.energy import hertz_linear, loaded_tooth, tooth_compliance
 from tribodyn.compliance.table import interpolate
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.drive import Drive, GearBody
+from tribodyn.geometry.drive import SIDES, Drive, GearBody
 from tribodyn.geometry.families import crc, involute
 from tribodyn.geometry.material import MaterialData
 from tribodyn.geometry.path import kinematics
+from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.data import MeshData
 from tribodyn.mesh.quasi_static import cycle_mean, quasi_static
 from tribodyn.mesh.tabulate import pair_slots, tabulate
@@ -278,3 +280,59 @@ class TestQuasiStatic:
         loss = sum(np.trapezoid(power[s], fine.phase[s]) for s in range(2))
         useful = 500.0 * 23 / 47
         assert mean_efficiency(cycle, 500.0, 0.05) == pytest.approx(useful / (useful + loss), abs=1e-9)
+
+
+class TestBodies:
+    def thin(self, bore=0.028):
+        return assemble(
+            involute.FAMILY,
+            DRIVE._replace(pressure_angle=math.radians(20.0), pinion=DRIVE.pinion._replace(bore_radius=bore)),
+        )
+
+    def test_ring_is_stiffer_than_the_polynomials_on_a_thin_rim_and_close_on_a_thick_one(self):
+        least = {
+            (bore, body): tabulate(self.thin(bore), (STEEL, STEEL), mesh(foundation=body), 2).compliance.min()
+            for bore in (0.015, 0.028)
+            for body in ("sainsot-velex", "ring")
+        }
+        assert least[0.028, "ring"] < 0.91 * least[0.028, "sainsot-velex"]
+        assert least[0.015, "ring"] == pytest.approx(least[0.015, "sainsot-velex"], rel=0.02)
+
+    def test_remark_on_a_rim_that_the_polynomials_are_off_for(self):
+        steel = (STEEL, STEEL)
+        said = compliance_remark(self.thin(), steel, ENERGY)
+        assert "the pinion's is 2.4" in said
+        assert "the gear's" not in said
+        assert 'mesh.foundation = "ring"' in said
+        assert "mesh.foundation" not in compliance_remark(self.thin(0.015), steel, ENERGY)
+        assert not compliance_remark(self.thin(), steel, mesh(foundation="ring"))
+
+    def test_polynomials_far_outside_their_range_are_refused(self):
+        wheel = DRIVE.gear._replace(teeth=560.0, bore_radius=0.7)
+        many = assemble(involute.FAMILY, DRIVE._replace(pressure_angle=math.radians(20.0), gear=wheel))
+        with pytest.raises(InputError, match=r"the gear's body no positive compliance.*ring") as caught:
+            tabulate(many, (STEEL, STEEL), ENERGY, 2)
+        assert caught.value.key == "mesh.foundation"
+        assert tabulate(many, (STEEL, STEEL), mesh(foundation="ring"), 2).compliance.min() > 0
+
+    def test_gradient_through_the_ring(self):
+        def most(bore):
+            pair = DRIVE._replace(pinion=DRIVE.pinion._replace(bore_radius=bore))
+            cycle = tabulate(assemble(crc.FAMILY, pair), (STEEL, STEEL), mesh(foundation="ring", points=5), 2)
+            return cycle.compliance[0, 2, 0] * 1e9
+
+        difference = (most(0.0201) - most(0.0199)) / 2e-4
+        assert jax.grad(most)(jnp.asarray(0.02)) == pytest.approx(difference, rel=1e-3)
+
+
+@pytest.mark.parametrize("shift", [0.5, 0.55, 0.56])
+def test_few_teeth_with_tips_close_to_an_edge(shift):
+    def few(teeth, shift):
+        return GearBody(float(teeth), shift, 1.0, 1.25, 0.25, 0.02, 0.004)
+
+    pair = assemble(involute.FAMILY, Drive(0.003, math.radians(20.0), few(8, shift), few(9, 0.5)))
+    cycle = tabulate(pair, (STEEL, STEEL), ENERGY, 2)
+    inside = (cycle.in_contact[:, None, :] > 0) & np.ones_like(cycle.compliance, dtype=bool)
+    r = np.asarray(cycle.signed_distance)[inside]
+    direct = sum(tooth_compliance(loaded_tooth(pair, side), STEEL, 0.02, r).total for side in SIDES)
+    np.testing.assert_allclose(cycle.compliance[inside], direct + hertz_linear(STEEL, STEEL, 0.02), rtol=0.01)

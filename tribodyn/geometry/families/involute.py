@@ -112,7 +112,7 @@ def check(drive: Drive) -> None:
             "drive.pinion.profile_shift",
             drive.pinion.profile_shift,
             "with this sum of profile shifts the gears would be closer than their base circles allow",
-            f"use more than {needed:.3g}",
+            f"use more than {math.ceil(1000.0 * needed) / 1000.0:g}",
         )
 
 

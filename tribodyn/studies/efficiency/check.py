@@ -14,4 +14,4 @@ def check(case: EfficiencyCase) -> Checked:
     pair = single_pair(study.cycle, case.operating.gear_torque)
     method = f'compliance = "{case.mesh.compliance}"'
     remark = compliance_remark(study.assembly, case.materials, case.mesh)
-    return checked(study.assembly, method, *pair, remark=remark)
+    return checked(study.assembly, case.materials, method, *pair, remark=remark)

@@ -14,4 +14,4 @@ def check(case: Case) -> Checked:
     pair = single_pair(prepared.cycle, case.operating.gear_torque)
     method = f'compliance = "{case.mesh.compliance}"'
     remark = compliance_remark(prepared.assembly, case.materials, case.mesh)
-    return checked(prepared.assembly, method, *pair, prepared.masses, remark)
+    return checked(prepared.assembly, case.materials, method, *pair, prepared.masses, remark)

@@ -13,4 +13,5 @@ def check(case: LoadContactCase) -> Checked:
     study = prepare(case)
     assembly = study.flexible.assembly
     arm = float(assembly.path.gear_pitch_radius) * math.cos(float(assembly.path.pressure_angle(0.0)))
-    return checked(assembly, "finite elements", case.gear_torque / arm, single_pair_stiffness(study))
+    load = case.gear_torque / arm
+    return checked(assembly, case.materials, "finite elements", load, single_pair_stiffness(study))
