@@ -150,6 +150,13 @@ IN_TEXT = {
         'contradicts compliance = "constant"',
         "leave hertz out",
     ),
+    "ring beside constant": Mistake(
+        ENERGY,
+        'compliance = "constant"\nstiffness = "2.8e8 N/m"\nfoundation = "ring"',
+        "mesh.foundation",
+        'contradicts compliance = "constant"',
+        "leave foundation out",
+    ),
     "Coulomb without coefficient": Mistake(
         '"none"', '"coulomb"', "friction.coefficient", "missing", "add coefficient = "
     ),

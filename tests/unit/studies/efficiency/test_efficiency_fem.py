@@ -143,6 +143,7 @@ def test_its_record_has_the_corners_and_reads_like_any_other(tmp_path):
     ("overrides", "said"),
     [
         ({"mesh.hertz": "load-dependent"}, r"mesh\.hertz.*contains the Hertz contact"),
+        ({"mesh.foundation": "ring"}, r"mesh\.foundation.*contains the gear bodies"),
         ({"mesh.compliance": "fame"}, r"mesh\.compliance"),
         ({"drive.gear.bore_radius": "0 mm"}, "bore_radius"),
     ],

@@ -30,6 +30,7 @@ INSIDE = {
     "mesh.points": 33,
     "mesh.backlash": "50 um",
     "mesh.hertz": "load-dependent",
+    "mesh.foundation": "ring",
     "mesh.transmission_error.harmonics": [{"order": 1, "amplitude": "2 um"}],
 }
 NAME = "involute-23-47"
