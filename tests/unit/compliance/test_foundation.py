@@ -118,6 +118,13 @@ def test_series_of_a_tooth_itself_is_long_enough(ratio, half_angle, error):
     assert shape == pytest.approx(load @ ring @ load, rel=error)
 
 
+def test_traced_ring_is_the_plain_one():
+    load = np.array([[0.4, 1.0, 0.1], [0.3, 0.9, 0.2]])
+    numbers = (0.03, 0.02, 0.1, 207e9, NU, 0.02)
+    traced = jax.jit(ring_foundation)(load, *map(jnp.asarray, numbers))
+    np.testing.assert_allclose(traced, ring_foundation(load, *numbers), rtol=1e-12)
+
+
 @pytest.mark.parametrize("teeth", [20, 50])
 @pytest.mark.parametrize("ratio", [1.06, 1.15, 1.4, 3.0])
 def test_ring_follows_finite_elements_down_to_thin_rims(teeth, ratio):
