@@ -1,0 +1,278 @@
+"""Change the physics at random, one operator or constant at a time, and see whether the quick tests notice.
+
+python -m tools.mutants --count 20 --seed 1                  # of this checkout
+python -m tools.mutants --count 100 --seed 2 --out done.jsonl  # keeps what is done, and goes on from there
+python -m tools.mutants --at solve/marching.py:136           # every change of a line
+python -m tools.mutants --again done.jsonl                   # the changes that survived an earlier run
+
+Each change is made in a copy of the tracked files. First run the test files that import the changed module or
+have its name, then all others that depend on it, each time up to the first failure. Machine code and finite
+elements are kept in a cache of the copy; their keys hold the sources, so that no change is hidden by them.
+The time limit is one of processor time: a busy machine makes no survivor.
+"""
+
+import argparse
+import ast
+import json
+import os
+import random
+import re
+import resource
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator, Sequence
+from functools import cache
+from pathlib import Path
+from typing import NamedTuple
+
+from tools.package_shape import imports, modules
+
+HERE = Path(__file__).parents[1]
+PACKAGE = "tribodyn"
+PHYSICS = ("geometry", "compliance", "mesh", "tribology", "dynamics", "solve", "studies")
+#: Files of the studies that hold no physics.
+WITHOUT = re.compile(r"(figures|pictures?|report|layout|scenario|rules|check)\.py$")
+#: Replacements of operators.
+BINARY = {ast.Add: "-", ast.Sub: "+", ast.Mult: "/", ast.Div: "*", ast.Pow: "*", ast.FloorDiv: "*"}
+COMPARED = {ast.Lt: ">=", ast.LtE: ">", ast.Gt: "<=", ast.GtE: "<", ast.Eq: "!=", ast.NotEq: "=="}
+SYMBOL = re.compile(rb"\*\*|//|<=|>=|==|!=|[-+*/<>]|\band\b|\bor\b")
+#: Factor on a constant; an integer grows by one, and zero becomes one.
+FACTOR = 1.1
+#: Processor time of the tests of one change, s.
+LIMIT = 600
+QUICK = [*"-q -x -p no:cacheprovider --benchmark-disable --quick -m".split(), "not bench and not slow"]
+
+
+class Change(NamedTuple):
+    """A replacement of bytes `start` … `end` of a file of the package, which begin in a line."""
+
+    file: str
+    line: int
+    start: int
+    end: int
+    new: str
+
+    def made(self, source: bytes) -> bytes:
+        """The changed source."""
+        return source[: self.start] + self.new.encode() + source[self.end :]
+
+    def shown(self, source: bytes) -> str:
+        """The changed line, before and after."""
+        lines = (text.split(b"\n")[self.line - 1].decode() for text in (source, self.made(source)))
+        return f"{self.file}:{self.line}\n" + "\n".join(map("".join, zip("-+", lines, strict=True)))
+
+
+def changes(package: Path, folders: Sequence[str] = PHYSICS) -> list[Change]:
+    """Every change that can be made in some folders of the package."""
+    files = [one for folder in folders for one in sorted((package / folder).rglob("*.py"))]
+    return [
+        change
+        for file in files
+        if not WITHOUT.search(file.name)
+        for change in _changes_of(file.relative_to(package).as_posix(), file.read_bytes())
+    ]
+
+
+def _changes_of(file: str, source: bytes) -> Iterator[Change]:
+    begins = [0]
+    for line in source.split(b"\n"):
+        begins.append(begins[-1] + len(line) + 1)
+
+    def place(node: ast.expr) -> tuple[int, int]:
+        end = begins[(node.end_lineno or 1) - 1] + (node.end_col_offset or 0)
+        return begins[node.lineno - 1] + node.col_offset, end
+
+    def between(before: ast.expr, after: ast.expr, new: str) -> Iterator[Change]:
+        low, high = place(before)[1], place(after)[0]
+        gap = re.sub(rb"#[^\n]*", lambda found: b" " * len(found[0]), source[low:high])
+        if found := SYMBOL.search(gap):
+            yield change(low + found.start(), low + found.end(), new)
+
+    def change(start: int, end: int, new: str) -> Change:
+        return Change(file, source.count(b"\n", 0, start) + 1, start, end, new)
+
+    for node in _expressions(ast.parse(source)):
+        if isinstance(node, ast.BinOp) and type(node.op) in BINARY:
+            yield from between(node.left, node.right, BINARY[type(node.op)])
+        elif isinstance(node, ast.Compare):
+            for before, operator, after in zip(
+                [node.left, *node.comparators], node.ops, node.comparators, strict=False
+            ):
+                if type(operator) in COMPARED:
+                    yield from between(before, after, COMPARED[type(operator)])
+        elif isinstance(node, ast.BoolOp):
+            other = "or" if isinstance(node.op, ast.And) else "and"
+            for before, after in zip(node.values, node.values[1:], strict=False):
+                yield from between(before, after, other)
+        elif isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub | ast.Not):
+            start = place(node)[0]
+            yield change(start, start + (1 if isinstance(node.op, ast.USub) else 3), "")
+        elif isinstance(node, ast.Constant) and type(node.value) in (int, float):
+            grown = node.value + 1 if type(node.value) is int else node.value * FACTOR or 1.0
+            yield change(*place(node), repr(grown))
+
+
+def _expressions(tree: ast.AST) -> Iterator[ast.expr]:
+    """All expressions but annotations, decorators and messages."""
+    for name, value in ast.iter_fields(tree):
+        if name in ("annotation", "returns", "decorator_list") or isinstance(tree, ast.Raise | ast.JoinedStr):
+            continue
+        for child in value if isinstance(value, list) else [value]:
+            if isinstance(child, ast.If) and "TYPE_CHECKING" in ast.unparse(child.test):
+                continue
+            if isinstance(child, ast.AST):
+                if isinstance(child, ast.expr):
+                    yield child
+                yield from _expressions(child)
+
+
+@cache
+def _reached(package: Path) -> dict[str, frozenset[str]]:
+    """Modules that each module of the package imports, directly or not, or looks up by a name."""
+    files = modules(package)
+    direct: dict[str, set[str]] = {name: set() for name in files}
+    for one in imports(package):
+        if not one.typing_only and one.imported in direct:
+            direct[one.importer].add(one.imported)
+    for name, file in files.items():
+        text = file.read_text(encoding="utf-8")
+        direct[name] |= set(re.findall(rf'"({PACKAGE}(?:\.\w+)+)', text)) & direct.keys()
+        if "import_module(" in text or "package=__name__" in text:  # of its own folder
+            direct[name] |= {other for other in files if other.startswith(f"{name}.")}
+    reached = {}
+    for name in direct:
+        found, waiting = {name}, [name]
+        while waiting:
+            new = direct[waiting.pop()] - found
+            found |= new
+            waiting += new
+        reached[name] = frozenset(found)
+    return reached
+
+
+def _imported(file: Path, tests: Path) -> set[str]:
+    """Modules that a test file imports itself, by what it takes from tests/support and conftest.py too."""
+    text = file.read_text(encoding="utf-8")
+    found = set(re.findall(rf"(?:from|import)\s+({PACKAGE}[\w.]*)", text))
+    found |= {f"{a}.{b}" for a, b in re.findall(rf"from ({PACKAGE}[\w.]*) import (\w+)$", text, re.MULTILINE)}
+    for name in re.findall(r"from tests\.support\.(\w+) import", text):
+        found |= _imported(tests / "support" / f"{name}.py", tests)
+    if re.search(r"\b(prepared|forked)\(", text) and file.name != "conftest.py":
+        found |= _imported(tests / "conftest.py", tests)
+    return found
+
+
+def tests_of(module: str, package: Path, tests: Path) -> tuple[list[str], list[str]]:
+    """Test files to run for a module: those that name it, and the others that depend on it."""
+    reached = _reached(package)
+    near, far = [], []
+    mirrored = tests / "unit" / Path(*module.split(".")[1:-1])
+    for file in sorted(tests.rglob("test_*.py")):
+        if file.relative_to(tests).parts[0] in ("bench", "soak", "tools"):
+            continue
+        own = _imported(file, tests)
+        named = file.is_relative_to(mirrored) and module.rpartition(".")[2] in file.stem
+        if named or module in own:
+            near.append(file)
+        elif any(module in reached.get(one, ()) for one in own):
+            far.append(file)
+    return [str(file) for file in near], [str(file) for file in far]
+
+
+def survives(root: Path, change: Change, limit: int) -> str:
+    """Make a change and run the tests; what noticed it, or nothing where none did."""
+    file = root / PACKAGE / change.file
+    source = file.read_bytes()
+    module = ".".join((PACKAGE, *Path(change.file).with_suffix("").parts)).removesuffix(".__init__")
+    file.write_bytes(change.made(source))
+    try:
+        for some in tests_of(module, root / PACKAGE, root / "tests"):
+            if some and (noticed := _failing(root, some, limit)):
+                return noticed
+    finally:
+        file.write_bytes(source)
+    return ""
+
+
+def _failing(root: Path, files: list[str], limit: int) -> str:
+    environment = os.environ | {
+        "PYTHONPATH": str(root),
+        "PYTHONDONTWRITEBYTECODE": "1",
+        "TRIBODYN_CACHE": str(root / ".cache"),
+        "OPENBLAS_NUM_THREADS": "1",
+    }
+    run = subprocess.run(
+        [sys.executable, "-m", "pytest", *QUICK, *files],
+        cwd=root,
+        env=environment,
+        capture_output=True,
+        text=True,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (limit, limit)),
+        check=False,
+    )
+    if run.returncode in (0, 5):  # all passed, or none was quick
+        return ""
+    failed = re.findall(r"^(?:FAILED|ERROR) (\S+)", run.stdout, re.MULTILINE)
+    return failed[0] if failed else f"exit status {run.returncode}"
+
+
+def copied(folder: Path) -> Path:
+    """Copy the tracked files, with what is kept of machine code and finite elements."""
+    listed = subprocess.run(["git", "ls-files"], cwd=HERE, capture_output=True, text=True, check=True)
+    for name in listed.stdout.splitlines():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        if (HERE / name).is_file():
+            shutil.copy2(HERE / name, folder / name)
+    kept = os.environ.get("TRIBODYN_CACHE")
+    if kept and Path(kept).is_dir():
+        shutil.copytree(kept, folder / ".cache")
+    return folder
+
+
+def _chosen(arguments: argparse.Namespace) -> list[Change]:
+    if arguments.again:
+        lines = Path(arguments.again).read_text(encoding="utf-8").splitlines()
+        return [Change(*row["change"]) for row in map(json.loads, lines) if not row["noticed"]]
+    known = changes(HERE / PACKAGE, arguments.folders)
+    if arguments.at:
+        file, _, line = arguments.at.partition(":")
+        return [one for one in known if one.file == file and one.line == int(line)]
+    return random.Random(arguments.seed).sample(known, min(arguments.count, len(known)))
+
+
+def main() -> None:
+    """Read the arguments, go through the changes, and print what survived."""
+    parser = argparse.ArgumentParser(description="see the head of the file")
+    parser.add_argument("--count", type=int, default=20, help="random changes")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--folders", nargs="+", default=PHYSICS)
+    parser.add_argument("--at", metavar="FILE:LINE", help="every change of this line of the package instead")
+    parser.add_argument("--again", metavar="FILE", help="the survivors in a file of results instead")
+    parser.add_argument("--out", metavar="FILE", help="file of results, a line each, to go on from")
+    parser.add_argument("--limit", type=int, default=LIMIT, help="processor time of one change, s")
+    arguments = parser.parse_args()
+    out = Path(arguments.out) if arguments.out else None
+    done = {}
+    if out and out.is_file():
+        rows = map(json.loads, out.read_text(encoding="utf-8").splitlines())
+        done = {Change(*row["change"]): row["noticed"] for row in rows}
+    chosen = _chosen(arguments)
+    with tempfile.TemporaryDirectory(prefix="mutants-") as folder:
+        root = copied(Path(folder))
+        for number, change in enumerate(chosen, 1):
+            if change not in done:
+                done[change] = survives(root, change, arguments.limit)
+                if out:
+                    with out.open("a", encoding="utf-8") as stream:
+                        stream.write(json.dumps({"change": change, "noticed": done[change]}) + "\n")
+            said = f"noticed by {done[change]}" if done[change] else "SURVIVED"
+            shown = change.shown((HERE / PACKAGE / change.file).read_bytes())
+            print(f"{number}/{len(chosen)} {said}\n{shown}", flush=True)
+    alive = [one for one in chosen if not done[one]]
+    print(f"{len(chosen) - len(alive)} of {len(chosen)} changes noticed")
+
+
+if __name__ == "__main__":
+    main()
