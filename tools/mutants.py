@@ -268,7 +268,7 @@ def main() -> None:
                     with out.open("a", encoding="utf-8") as stream:
                         stream.write(json.dumps({"change": change, "noticed": done[change]}) + "\n")
             said = f"noticed by {done[change]}" if done[change] else "SURVIVED"
-            shown = change.shown((HERE / PACKAGE / change.file).read_bytes())
+            shown = change.shown((root / PACKAGE / change.file).read_bytes())
             print(f"{number}/{len(chosen)} {said}\n{shown}", flush=True)
     alive = [one for one in chosen if not done[one]]
     print(f"{len(chosen) - len(alive)} of {len(chosen)} changes noticed")
