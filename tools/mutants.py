@@ -4,6 +4,7 @@ python -m tools.mutants --count 20 --seed 1                  # of this checkout
 python -m tools.mutants --count 100 --seed 2 --out done.jsonl  # keeps what is done, and goes on from there
 python -m tools.mutants --at solve/marching.py:136           # every change of a line
 python -m tools.mutants --again done.jsonl                   # the changes that survived an earlier run
+python -m tools.mutants --count 100 --near --part 0 2        # the nearest tests only; every second change
 
 Each change is made in a copy of the tracked files. First run the test files that import the changed module or
 have its name, then all others that depend on it, each time up to the first failure. Machine code and finite
@@ -181,14 +182,14 @@ def tests_of(module: str, package: Path, tests: Path) -> tuple[list[str], list[s
     return [str(file) for file in near], [str(file) for file in far]
 
 
-def survives(root: Path, change: Change, limit: int) -> str:
-    """Make a change and run the tests; what noticed it, or nothing where none did."""
+def survives(root: Path, change: Change, limit: int, near: bool = False) -> str:
+    """Make a change and run the tests, or the nearest; what noticed it, or nothing where none did."""
     file = root / PACKAGE / change.file
     source = file.read_bytes()
     module = ".".join((PACKAGE, *Path(change.file).with_suffix("").parts)).removesuffix(".__init__")
     file.write_bytes(change.made(source))
     try:
-        for some in tests_of(module, root / PACKAGE, root / "tests"):
+        for some in tests_of(module, root / PACKAGE, root / "tests")[: 1 if near else 2]:
             if some and (noticed := _failing(root, some, limit)):
                 return noticed
     finally:
@@ -250,6 +251,10 @@ def main() -> None:
     parser.add_argument("--folders", nargs="+", default=PHYSICS)
     parser.add_argument("--at", metavar="FILE:LINE", help="every change of this line of the package instead")
     parser.add_argument("--again", metavar="FILE", help="the survivors in a file of results instead")
+    parser.add_argument("--near", action="store_true", help="only tests of files that name the module")
+    parser.add_argument(
+        "--part", type=int, nargs=2, default=(0, 1), help="number and count of a share of them"
+    )
     parser.add_argument("--out", metavar="FILE", help="file of results, a line each, to go on from")
     parser.add_argument("--limit", type=int, default=LIMIT, help="processor time of one change, s")
     arguments = parser.parse_args()
@@ -258,12 +263,13 @@ def main() -> None:
     if out and out.is_file():
         rows = map(json.loads, out.read_text(encoding="utf-8").splitlines())
         done = {Change(*row["change"]): row["noticed"] for row in rows}
-    chosen = _chosen(arguments)
+    part, parts = arguments.part
+    chosen = _chosen(arguments)[part::parts]
     with tempfile.TemporaryDirectory(prefix="mutants-") as folder:
         root = copied(Path(folder))
         for number, change in enumerate(chosen, 1):
             if change not in done:
-                done[change] = survives(root, change, arguments.limit)
+                done[change] = survives(root, change, arguments.limit, arguments.near)
                 if out:
                     with out.open("a", encoding="utf-8") as stream:
                         stream.write(json.dumps({"change": change, "noticed": done[change]}) + "\n")

@@ -80,7 +80,9 @@ def tabulate_loaded(
     marks += [(roll - limits[0]) / pitch for one in flanks for roll in relief_rolls(assembly, one)]
     if assembly.family.corner:
         marks.append(-limits[0] / pitch)
-    boundary, phase, position = _phases(marks, pairs, mesh.points, back, enter=0.5 - 2.0 * limits[0] / pitch)
+    boundary, phase, position = phases_of_pairs(
+        marks, pairs, mesh.points, back, enter=0.5 - 2.0 * limits[0] / pitch
+    )
     middle = position[:, mesh.points // 2]
     in_contact = np.where((middle > 0.0) & (middle < span), 1.0, 0.0)
     roll = np.clip(limits[0] + pitch * position, *limits)
@@ -163,7 +165,7 @@ def _pressed(
     return condense(flexible, geometry, whole, shared, minimum_load, mesh.slice_coupling)
 
 
-def _phases(
+def phases_of_pairs(
     marks: list[float], pairs: int, points: int, back: bool, enter: float
 ) -> tuple[Float[Array, " boundary"], Float[Array, "segment node"], Float[Array, "segment node pair"]]:
     """Boundaries (S + 1,), phases (S, N) and positions (S, N, Q) of all slots, in pitches since entering.

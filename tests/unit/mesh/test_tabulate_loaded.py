@@ -1,6 +1,7 @@
 """The mesh cycle by the load contact model: quasi-static limit, corner contact, back flanks, bad input."""
 
 import dataclasses
+import math
 
 import numpy as np
 import pytest
@@ -8,7 +9,7 @@ import pytest
 from tribodyn.compliance.load_sharing import effective_contact_ratio, extended_rolls, flexibility, share_load
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.corner_contact import pair_geometry, roll_at_gap
+from tribodyn.geometry.corner_contact import roll_at_gap
 from tribodyn.geometry.families import family
 from tribodyn.geometry.modification import (
     FlankModification,
@@ -19,7 +20,7 @@ from tribodyn.geometry.modification import (
     back_flanks,
 )
 from tribodyn.mesh.quasi_static import quasi_static
-from tribodyn.mesh.tabulate_loaded import flanks_of, tabulate_loaded
+from tribodyn.mesh.tabulate_loaded import flanks_of, phases_of_pairs, tabulate_loaded
 from tribodyn.studies.load import load_scenario
 
 NAME = "involute-18-36-fem"
@@ -95,21 +96,22 @@ def test_back_flanks_mirror_the_front():
     assert not np.any(still.normal_load[..., 2:])
 
 
-@pytest.mark.parametrize("shift", [0.0, 0.35, -0.2])
-def test_back_flanks_stand_half_a_pitch_behind_their_front_flanks(shift):
-    """Every tooth's back flank, at every phase, whatever the reach of the corners and the shift."""
-    case = load_scenario(NAME, {"drive.pinion.profile_shift": shift, "mesh.points": 5})
-    cycle = table(case, backlash=5e-5)
-    assembly = assemble(family(case.family), case.drive)
-    back = cycle.side < 0
-    for segment in range(len(cycle.boundary) - 1):
+@pytest.mark.parametrize("start", [-0.61, -0.83, -0.27])
+@pytest.mark.parametrize("span", [1.37, 1.92, 2.08])
+def test_back_flanks_stand_half_a_pitch_behind_their_front_flanks(start, span):
+    """At every phase every tooth's back flank that is on the path, angles in pitches: ½ less its front's."""
+    pairs = math.ceil(span)
+    marks = [0.0, span, 0.11, -start]
+    boundary, phase, position = phases_of_pairs(marks, pairs, 5, True, enter=0.5 - 2.0 * start)
+    assert np.all(np.diff(boundary) > 0.0)
+    for segment in range(len(boundary) - 1):
         for node in (1, 2, 3):
-            newest = cycle.roll_start + cycle.phase[segment, node] * cycle.pitch_angle
-            rolls = np.pi / 18 - (newest + cycle.pitch_angle * np.arange(-5, 6))
-            touching = rolls[(rolls > cycle.roll_start) & (rolls < cycle.roll_end)]
-            expected = pair_geometry(assembly, touching).motion.signed_distance
-            mine = cycle.signed_distance[segment, node, back][cycle.in_contact[segment, back] > 0]
-            np.testing.assert_allclose(np.sort(mine), np.sort(expected), atol=1e-9)
+            front = start + phase[segment, node] + np.arange(-5, 6)
+            for rolls, slots in ((front, slice(0, pairs)), (0.5 - front, slice(pairs, None))):
+                expected = rolls[(rolls > start) & (rolls < start + span)]
+                found = start + position[segment, node, slots]
+                found = found[(found > start) & (found < start + span)]
+                np.testing.assert_allclose(np.sort(found), np.sort(expected), atol=1e-12)
 
 
 def test_back_flanks_carry_as_they_are_modified():
