@@ -195,7 +195,7 @@ def test_relief_of_the_tips_is_best_near_its_design_torque(pair):
 @pytest.mark.parametrize("begin", [0.0, 0.31, 0.77, 0.93, 0.985])
 def test_contact_ratio_under_load_counts_across_the_seam_of_cycles(positions, begin):
     """Overlaps linear in the roll angle between their ends: the count is exact however coarse the steps."""
-    ratio, cycles = 1.63, 2
+    ratio, cycles = 1.63, 3
     middle, half = begin + ratio / 2.0, ratio / 2.0
     phase = np.arange(positions * cycles) / positions
     # slots from the pair that entered first, in the cycle each position is in
