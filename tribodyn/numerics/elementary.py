@@ -129,6 +129,16 @@ def absolute(x: Any) -> Any:
     return abs(x)
 
 
+def plain(x: Any) -> Any:
+    """The number alone, where compiled code carries derivatives beside it."""
+    return x
+
+
+def largest_slope(x: Any) -> Any:
+    """The largest magnitude of the derivatives that compiled code carries beside a number; 0.0 without."""
+    return 0.0
+
+
 def truncate(x: Any) -> Any:
     """The integer part of x ≥ 0, as an index."""
     return int(x) if type(x) is float else namespace(x).asarray(x).astype(int)

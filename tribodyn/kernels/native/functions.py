@@ -61,6 +61,16 @@ def _skippable(context, builder, sig, args):
     return args[0]
 
 
+@_numeric(elementary.plain, [types.Number])
+def _plain(context, builder, sig, args):
+    return args[0]
+
+
+@_numeric(elementary.largest_slope, [types.Number])
+def _largest_slope(context, builder, sig, args):
+    return context.get_constant(types.float64, 0.0)
+
+
 @_numeric(elementary.where, [types.Boolean, types.Number, types.Number])
 def _where(context, builder, sig, args):
     return builder.select(*args)

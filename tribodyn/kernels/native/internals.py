@@ -23,6 +23,7 @@ TYPE_NAMES = (
     "Float",
     "Integer",
     "Number",
+    "SliceType",
     "Tuple",
     "Type",
     "UniTuple",

@@ -1,0 +1,1 @@
+"""Duals: the laws compiled for numbers that carry their derivatives."""

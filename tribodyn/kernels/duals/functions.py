@@ -1,0 +1,152 @@
+"""The elementary functions over dual numbers: each with its derivative."""
+
+import math
+import operator
+
+from numba.core import types
+
+from tribodyn.kernels.duals.numbers import DUAL, chained, largest_slope_of, select, value_of
+from tribodyn.kernels.native.parts import part, part_instead
+from tribodyn.numerics import elementary
+
+
+@part
+def sqrt_dual(x):
+    """Square root."""
+    root = math.sqrt(value_of(x))
+    return chained(x, root, 0.5 / root)
+
+
+@part
+def exp_dual(x):
+    """Exponential."""
+    value = math.exp(value_of(x))
+    return chained(x, value, value)
+
+
+@part
+def log_dual(x):
+    """Natural logarithm."""
+    return chained(x, math.log(value_of(x)), 1.0 / value_of(x))
+
+
+@part
+def log1p_dual(x):
+    """log(1 + x)."""
+    return chained(x, elementary.log1p(value_of(x)), 1.0 / (1.0 + value_of(x)))
+
+
+@part
+def expm1_dual(x):
+    """exp(x) − 1."""
+    value = elementary.expm1(value_of(x))
+    return chained(x, value, 1.0 + value)
+
+
+@part
+def sin_dual(x):
+    """Sine."""
+    return chained(x, math.sin(value_of(x)), math.cos(value_of(x)))
+
+
+@part
+def cos_dual(x):
+    """Cosine."""
+    return chained(x, math.cos(value_of(x)), -math.sin(value_of(x)))
+
+
+@part
+def tan_dual(x):
+    """Tangent."""
+    value = math.tan(value_of(x))
+    return chained(x, value, 1.0 + value * value)
+
+
+@part
+def absolute_dual(x):
+    """Absolute value; its derivative at 0 is taken as 0, the mean of both sides."""
+    value = value_of(x)
+    return chained(x, abs(value), 1.0 if value > 0.0 else -1.0 if value < 0.0 else 0.0)
+
+
+@part
+def power_dual(x, exponent):
+    """Power with a plain exponent."""
+    value = value_of(x)
+    return chained(x, value**exponent, exponent * value ** (exponent - 1.0))
+
+
+@part
+def power_of_dual_exponent(x, exponent):
+    """Power of a positive base."""
+    return elementary.exp(exponent * elementary.log(x))
+
+
+def _for_duals(function, implementation):
+    @part_instead(function)
+    def _(x):
+        return implementation if x is DUAL else None
+
+
+for _function, _dual in (
+    (elementary.sqrt, sqrt_dual),
+    (elementary.exp, exp_dual),
+    (elementary.log, log_dual),
+    (elementary.log1p, log1p_dual),
+    (elementary.expm1, expm1_dual),
+    (elementary.sin, sin_dual),
+    (elementary.cos, cos_dual),
+    (elementary.tan, tan_dual),
+    (elementary.absolute, absolute_dual),
+    (abs, absolute_dual),
+):
+    _for_duals(_function, _dual)
+_for_duals(elementary.truncate, lambda x: int(value_of(x)))
+_for_duals(elementary.plain, lambda x: value_of(x))
+_for_duals(elementary.largest_slope, lambda x: largest_slope_of(x))
+
+
+@part_instead(elementary.arctan2)
+def _arctan2(y, x):
+    return arctan2_dual if DUAL in (y, x) else None
+
+
+@part
+def arctan2_dual(y, x):
+    """Angle of the point (x, y)."""
+    b, a = elementary.plain(y), elementary.plain(x)
+    # (a dy − b dx)/(a² + b²): slopes of a sum that is zero itself
+    turn = ((y - b) * a - (x - a) * b) / (a * a + b * b)
+    return turn + math.atan2(b, a)
+
+
+@part_instead(operator.pow)
+def _pow(x, exponent):
+    if x is DUAL and isinstance(exponent, types.Float):
+        return power_dual
+    if x is DUAL and isinstance(exponent, types.Integer):
+        return lambda x, exponent: power_dual(x, float(exponent))
+    if exponent is DUAL and (x is DUAL or isinstance(x, (types.Float, types.Integer))):
+        return power_of_dual_exponent
+    return None
+
+
+@part_instead(elementary.where)
+def _where(condition, a, b):
+    if DUAL in (a, b) and isinstance(condition, types.Boolean):
+        return lambda condition, a, b: select(condition, a, b)
+    return None
+
+
+@part_instead(elementary.minimum)
+def _minimum(a, b):
+    if DUAL not in (a, b):
+        return None
+    return lambda a, b: select((b < a) | (b != b), b, a)
+
+
+@part_instead(elementary.maximum)
+def _maximum(a, b):
+    if DUAL not in (a, b):
+        return None
+    return lambda a, b: select((b > a) | (b != b), b, a)
