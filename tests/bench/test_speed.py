@@ -4,7 +4,7 @@ The case is the CRC drive at 300 rad/s over 20 mesh cycles at rtol 1e-6, kernel 
 files are outside.
 """
 
-from time import perf_counter
+from time import perf_counter, process_time
 
 import numpy as np
 import pytest
@@ -13,7 +13,9 @@ from scipy.integrate import solve_ivp
 from tools.peers import steady
 from tribodyn.dynamics.equations import derivatives, engagement
 from tribodyn.dynamics.parameters import MECHANICAL, SLIP, STATES, WORK_IN, WORK_PARAMETRIC, XI, XI_RATE
+from tribodyn.solve.gear_map import GearMap, moving_states
 from tribodyn.solve.initial import static_equilibrium
+from tribodyn.solve.period_map import by_differences
 from tribodyn.solve.tolerances import Tolerances, absolute_tolerances
 from tribodyn.solve.transient import make_integrator
 
@@ -149,3 +151,32 @@ def test_native_kernel(case, benchmark):
     """For comparison over time with pytest-benchmark; asserts nothing about the clock."""
     samples = benchmark(native, *case, 20)
     assert samples.shape == (20 * SAMPLES, STATES)
+
+
+@pytest.mark.parametrize("law", ["none", "masjedi-khonsari"])
+def test_a_derivative_costs_less_than_the_marches_of_its_differences(prepared, capsys, law):
+    """Of one case, whose differences fill two vectors of lanes; processor time."""
+    model = prepared("crc-23-47", **{"operating.pinion_speed": "400 rad/s", "friction.law": law}).model
+    row, start = np.zeros(1, dtype=int), static_equilibrium(model)[None]
+    settings = {"solver": "dopri5", "rtol": 1e-6, "fine_rtol": 1e-9, "max_steps": 10**6, "workers": 1}
+    period_map = GearMap([model], start, moving_states(model), **settings)
+    state = start[:, period_map.moving]
+
+    def exact():
+        return period_map.tangent(state, row, 4)
+
+    def differences():
+        return by_differences(period_map.march, state, row, 4, period_map.scale)
+
+    difference = np.abs(exact().jacobian - differences().jacobian)
+    assert np.max(difference * period_map.scale[:, None] / period_map.scale[:, :, None]) < 1e-2
+    times = {function: [] for function in (exact, differences)}
+    for _ in range(7):
+        for function, found in times.items():
+            before = process_time()
+            function()
+            found.append(process_time() - before)
+    ratio = min(times[exact]) / min(times[differences])
+    with capsys.disabled():
+        print(f"\na derivative takes {ratio:.2f} of the time of {1 + state.shape[1]} marches ({law})")
+    assert ratio < 1.0

@@ -87,7 +87,7 @@ def test_a_linear_mesh_has_the_exact_steady_state_and_multipliers(linear, method
         # a residual of 1e-7 leaves the state as far off as the slowest mode takes to carry it away
         assert scaled(case.model, difference) <= 2e-7 / (1.0 - np.max(np.abs(multipliers)))
         for one in multipliers:
-            assert np.min(np.abs(steady.multipliers - one)) < 2e-6
+            assert np.min(np.abs(steady.multipliers - one)) < 5e-9
 
 
 def test_their_product_is_what_damping_takes_from_phase_space(linear):
@@ -98,8 +98,8 @@ def test_their_product_is_what_damping_takes_from_phase_space(linear):
             np.trace(generator(case, pairs)) * (boundary[segment + 1] - boundary[segment])
             for segment, pairs in SEGMENTS
         )
-        if trace > -20.0:  # otherwise the smallest multipliers are below the difference quotient's noise
-            assert np.prod(steady.multipliers).real == pytest.approx(np.exp(trace), rel=1e-3)
+        if trace > -20.0:  # otherwise the smallest multipliers are below what the integration tolerates
+            assert np.prod(steady.multipliers).real == pytest.approx(np.exp(trace), rel=1e-6)
 
 
 def test_marching_and_shooting_come_to_the_same_state(film):
@@ -120,7 +120,7 @@ def test_another_solver_comes_back_to_the_state(film):
         assert steady.samples.shape[0] == 50
         whole = steady.end.copy()
         engage_next(whole, case.model)
-        work_in, work_out, friction, damping, parametric = whole[list(WORKS)]
+        work_in, work_out, friction, damping, parametric, _ = whole[list(WORKS)]
         # over a whole period nothing is stored: what goes in, the varying stiffness included, comes out
         assert work_in + parametric - work_out - friction - damping == pytest.approx(0.0, abs=1e-6 * work_in)
         assert friction > 0.0

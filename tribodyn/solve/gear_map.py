@@ -24,12 +24,14 @@ from tribodyn.dynamics.parameters import (
     XI,
     Model,
 )
+from tribodyn.kernels.native.internals import report_missing
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.solve.choice import choose
 from tribodyn.solve.engagement import engage_next
-from tribodyn.solve.ensemble import march
+from tribodyn.solve.ensemble import march, usable_cores
 from tribodyn.solve.initial import static_deflection
-from tribodyn.solve.integrator import REASONS, Status
+from tribodyn.solve.integrator import MAX_STEPS, REASONS, Status
+from tribodyn.solve.methods import Runs, runs
 from tribodyn.solve.period_map import DIFFERENCE, Marched, Tangent, by_differences
 from tribodyn.solve.tolerances import MINIMUM_DEFLECTION, absolute_tolerances
 
@@ -56,9 +58,11 @@ class GearMap:
         See `moving_states`.
     solver, rtol, fine_rtol, max_steps, workers
         Method, tolerances of marching and of fixed points, steps allowed per cycle, threads.
-    """
 
-    blur = DIFFERENCE
+    Notes
+    -----
+    Tangents are exact with native methods (`variational`); with others they are difference quotients.
+    """
 
     def __init__(
         self,
@@ -77,12 +81,18 @@ class GearMap:
         self.rtol = {False: rtol, True: min(rtol, fine_rtol)}
         self.settings: dict[str, Any] = {"max_steps": max_steps, "workers": workers}
         self.solvers = [choose(solver, m, y).method for m, y in zip(models, starts, strict=True)]
+        self.blur = 0.0 if self.exact else DIFFERENCE
         self.scale = np.array(
             [
                 absolute_tolerances(model, 1.0, _deflection(model, start))[self.moving]
                 for model, start in zip(models, starts, strict=True)
             ]
         )
+
+    @property
+    def exact(self) -> bool:
+        """Whether tangents come from the variational equations, as native methods integrate them."""
+        return all(runs(solver) is Runs.NATIVE for solver in self.solvers) and not report_missing()
 
     def full(self, states: Float[Array, "row moving"]) -> Float[Array, "row state"]:
         """States of the model from states of the map."""
@@ -103,8 +113,31 @@ class GearMap:
         return Marched(after, reasons)
 
     def tangent(self, states: Float[Array, "row moving"], cases: Int[Array, " row"], periods: int) -> Tangent:
-        """See `period_map.PeriodMap`; by differences."""
-        return by_differences(self.march, states, cases, periods, self.scale)
+        """See `period_map.PeriodMap`; by the variational equations where `exact`, else by differences."""
+        if not self.exact:
+            return by_differences(self.march, states, cases, periods, self.scale)
+        from tribodyn.solve.variational import march_with_derivative
+
+        scale = self.scale[cases]
+        directions = np.zeros((len(cases), STATES, len(self.moving)))
+        directions[:, self.moving] = scale[:, :, None] * np.eye(len(self.moving))
+        derived = march_with_derivative(
+            [self.models[case] for case in cases],
+            self.full(states),
+            directions,
+            cycles=periods,
+            rtol=self.rtol[True],
+            # the derivatives may need more than the motion, for which the limit is
+            max_steps=max(MAX_STEPS, self.settings["max_steps"]),
+            methods=[self.solvers[case] for case in cases],
+            workers=self.settings["workers"] or usable_cores(),
+        )
+        reasons = [
+            _reason(status, reached) for status, reached in zip(derived.status, derived.reached, strict=True)
+        ]
+        image, jacobian = derived.state[:, self.moving], derived.slopes[:, self.moving] / scale[:, None, :]
+        image[derived.status != Status.DONE] = np.nan
+        return Tangent(image, jacobian, reasons)
 
     def integrate(
         self,
@@ -134,9 +167,12 @@ class GearMap:
             )
             sampled[rows], end[rows] = batch.samples, batch.state
             for row, status, reached in zip(rows, batch.status, batch.reached, strict=True):
-                if status != Status.DONE:
-                    reasons[row] = f"{REASONS[Status(status)]} (after {reached:.2f} mesh cycles)"
+                reasons[row] = _reason(status, reached)
         return sampled, end, reasons
+
+
+def _reason(status: int, reached: float) -> str:
+    return "" if status == Status.DONE else f"{REASONS[Status(status)]} (after {reached:.2f} mesh cycles)"
 
 
 def _deflection(model: Model, start: np.ndarray) -> float:

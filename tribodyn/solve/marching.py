@@ -8,9 +8,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics.parameters import SLIP, STATES
+from tribodyn.dynamics.parameters import MECHANICAL, SLIP, STATES
 from tribodyn.kernels.native import kernel
-from tribodyn.numerics.elementary import maximum
+from tribodyn.numerics.elementary import largest_slope, maximum, plain
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.engagement import engage
 from tribodyn.solve.integrator import Status
@@ -74,12 +74,15 @@ class Control(NamedTuple):
         Sizes of the states.
     stops : (segments, stops)
         Phases that steps end on, see `reversal.stops`.
+    slope_tolerance : float
+        Of derivatives with respect to the start, where numbers carry them, over the scale of the states.
     """
 
     step: float
     atol: Float[Array, " state"]
     scale: Float[Array, " state"]
     stops: Float[Array, "segment stop"]
+    slope_tolerance: float = 1.0
 
 
 @kernel
@@ -144,7 +147,20 @@ def march_with(method, march, control, model, y, out, work, buffer):
                 worst, total = 0.0, 0.0
                 for i in range(STATES):
                     weighed = weighed_error(
-                        buffer[ERROR, i], y[i], buffer[STATE, i], control.atol[i], march.rtol
+                        plain(buffer[ERROR, i]),
+                        plain(y[i]),
+                        plain(buffer[STATE, i]),
+                        control.atol[i],
+                        march.rtol,
+                    )
+                    worst, total = collected(worst, total, weighed)
+                for i in range(MECHANICAL):  # of the derivatives, where numbers carry them
+                    weighed = weighed_error(
+                        largest_slope(buffer[ERROR, i]),
+                        largest_slope(y[i]),
+                        largest_slope(buffer[STATE, i]),
+                        control.slope_tolerance * control.scale[i],
+                        control.slope_tolerance,
                     )
                     worst, total = collected(worst, total, weighed)
                 error = step_error(worst, total)

@@ -6,6 +6,7 @@ states a 7 by 7 matrix is factorised. The works depend on the mechanics only and
 
 from tribodyn.dynamics.parameters import MECHANICAL, STATES
 from tribodyn.kernels.native import kernel
+from tribodyn.numerics.elementary import absolute, truncate
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.jacobian import Differences, differentiate
 from tribodyn.solve.marching import ERROR, SCRATCH, STATE, Method, march_with, scratch_buffer
@@ -46,7 +47,7 @@ def factorise(shift, jacobian, matrix, order):
     for j in range(HALF):
         best = j
         for i in range(j + 1, HALF):
-            if abs(matrix[i, j]) > abs(matrix[best, j]):
+            if absolute(matrix[i, j]) > absolute(matrix[best, j]):
                 best = i
         order[j] = best
         for m in range(HALF):
@@ -66,7 +67,7 @@ def resolve(shift, jacobian, matrix, order, right, solution):
             total += jacobian[HALF + i, m] * right[m] / shift
         solution[HALF + i] = total
     for j in range(HALF):
-        best = int(order[j])
+        best = truncate(order[j])
         solution[HALF + j], solution[HALF + best] = solution[HALF + best], solution[HALF + j]
     for i in range(HALF):
         for m in range(i):
