@@ -1,0 +1,49 @@
+"""Changes of the physics at random: what is changed, what is not, and which tests are run for it."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+from tools import mutants
+from tools.mutants import HERE, PACKAGE, changes
+
+SOURCE = '''"""Text with 1 + 1 and äöü."""
+
+def law(x: float = 2.0, y: "int" = 3) -> "Float[Array, 4]":
+    """Half of 0.5 is not changed."""
+    if not (x < y) and y != 0:  # a comment with a - b
+        raise ValueError(f"{x + 1} of {len(str(x)) - 2}")
+    return -(x) ** 2 * (y - 1) / 0.0  # ψ − φ
+'''
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    (tmp_path / "geometry").mkdir()
+    (tmp_path / "geometry" / "law.py").write_text(SOURCE, encoding="utf-8")
+    return tmp_path
+
+
+def test_every_change_is_one_other_program(package):
+    found = changes(package, ["geometry"])
+    made = [one.made(SOURCE.encode()) for one in found]
+    trees = [ast.dump(ast.parse(text)) for text in made]
+    assert len(set(trees)) == len(trees)
+    assert ast.dump(ast.parse(SOURCE)) not in trees
+    # 2.0, 3; not, <, and, !=, 0; −, **, 2, *, −, 1, /, 0.0: nothing of annotations, text and messages
+    assert len(found) == 15
+    assert {one.line for one in found} == {3, 5, 7}
+    lines = {one.made(SOURCE.encode()).decode().split("\n")[one.line - 1].strip() for one in found}
+    assert "if not (x >= y) and y != 0:  # a comment with a - b" in lines
+    assert "if  (x < y) and y != 0:  # a comment with a - b" in lines
+    assert "return -(x) ** 2 * (y - 1) / 1.0  # ψ − φ" in lines
+    assert "return (x) ** 2 * (y - 1) / 0.0  # ψ − φ" in lines
+
+
+def test_tests_are_those_that_name_a_module_and_those_that_depend_on_it():
+    near, far = mutants.tests_of("tribodyn.mesh.power_flow", HERE / PACKAGE, HERE / "tests")
+    assert [Path(one).name for one in near] == ["test_power_flow.py"]
+    names = {Path(one).name for one in far}
+    assert {"test_efficiency_along_path.py", "test_equations.py"} <= names
+    assert "test_geometry_rack.py" not in names
