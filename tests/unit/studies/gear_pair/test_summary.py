@@ -1,0 +1,110 @@
+"""Figures of a window whose answers are known beforehand; extremes of blocks."""
+
+from types import SimpleNamespace
+from typing import Any, cast
+
+import numpy as np
+import pytest
+
+from tribodyn.dynamics.parameters import LAG, STATES, WORK_FRICTION, WORK_IN, WORK_OUT, WORK_SLIDING
+from tribodyn.studies.gear_pair.summary import EXTREMES, RunningExtremes, steady_figures
+
+SAMPLES, CYCLES, SPEED, PITCH, RADIUS = 50, 4, 100.0, 0.27, 0.07
+#: Pinion speed of the window on the average, rad/s, and time of it, s.
+MEAN_SPEED = 80.0
+TIME = CYCLES * PITCH / MEAN_SPEED
+CYCLE = cast(Any, SimpleNamespace(side=np.array([1, 1, -1, -1]), gear_pitch_radius=RADIUS, pitch_angle=PITCH))
+
+
+def window(way: int, torque: float) -> tuple[dict[str, np.ndarray], np.ndarray]:
+    """Two pairs of one side share a load whose sum has a ripple; the gear turns at 40 rad/s."""
+    count = SAMPLES * CYCLES
+    phase = np.arange(count) / SAMPLES
+    zero = np.zeros((count, 4))
+    own = slice(0, 2) if way > 0 else slice(2, 4)
+    load, angle, sliding, error = zero.copy(), zero + 0.4, zero.copy(), zero * np.nan
+    whole = torque / RADIUS / np.cos(0.4) * (1.0 + 0.25 * np.cos(2.0 * np.pi * phase))
+    load[:, own] = whole[:, None] * np.array([0.3, 0.7])
+    sliding[:, own] = np.array([2.0, -1.0])
+    error[:, own] = 2e-5 + 3e-6 * np.cos(2.0 * np.pi * phase)[:, None]
+    error[:, own.stop - 1] += 1e-6
+    work = np.zeros(STATES)
+    work[LAG] = TIME - CYCLES * PITCH / SPEED
+    gear = way * torque * 40.0 * TIME
+    work[WORK_OUT], work[WORK_FRICTION], work[WORK_SLIDING] = gear, 0.02 * torque, 0.025 * torque
+    work[WORK_IN] = gear + work[WORK_FRICTION]
+    return {
+        "transmission_error_rotational": 1e-5 + 4e-6 * np.cos(6.0 * np.pi * phase),
+        "transmission_error": error,
+        "normal_load": load,
+        "pressure_angle": angle,
+        "friction_force": np.sign(sliding) * load * np.array([0.1, 0.04, 0.1, 0.04]),
+        "sliding_speed": sliding,
+        "velocity": np.tile([0.0, 0.0, 0.0, 0.0, MEAN_SPEED, 40.0], (count, 1)),
+        "closure_in_range": np.ones((count, 4)),
+        "friction_in_range": np.where(np.arange(4) % 2, 1.0, 0.0) * np.ones((count, 1)),
+    }, work
+
+
+@pytest.mark.parametrize("way", [1, -1], ids=["pinion", "gear"])
+def test_figures_of_a_known_window(way):
+    torque = 300.0
+    found = steady_figures(*window(way, torque), CYCLE, SAMPLES, SPEED)
+    assert found["averaging_cycles"] == CYCLES
+    assert found["mesh_frequency"] == pytest.approx(MEAN_SPEED / PITCH, rel=1e-12)
+    assert found["dynamic_factor"] == pytest.approx(1.25, rel=1e-12)
+    assert found["transmission_error_mean"] == pytest.approx(2.1e-5, rel=1e-12)
+    assert found["transmission_error_peak_to_peak"] == pytest.approx(6e-6, rel=1e-9)
+    assert found["transmission_error_rotational_mean"] == pytest.approx(1e-5, rel=1e-12)
+    # by loss: (0.1 · 0.3 · 2 + 0.04 · 0.7 · 1)/(0.3 · 2 + 0.7 · 1)
+    assert found["friction_coefficient_mean"] == pytest.approx(0.088 / 1.3, rel=1e-12)
+    static = torque / RADIUS / np.cos(0.4)
+    mean = np.array([0.03, 0.028]) * static
+    expected = [*mean, 0.0, 0.0] if way > 0 else [0.0, 0.0, *mean]
+    np.testing.assert_allclose(found["friction_force_mean"], expected, rtol=1e-12)
+    put_in = torque * 40.0 * TIME + (0.02 * torque if way > 0 else 0.0)
+    assert found["driving_gear"] == ("pinion" if way > 0 else "gear")
+    assert found["power_in_mean"] == pytest.approx(put_in / TIME, rel=1e-12)
+    assert found["power_friction_mean"] == pytest.approx(0.02 * torque / TIME, rel=1e-12)
+    assert found["efficiency"] == pytest.approx(1.0 - 0.02 * torque / put_in, rel=1e-12)
+    assert found["friction_work_on_vibration"] == pytest.approx(0.2, rel=1e-12)
+    assert found["closure_in_range_fraction"] == 1.0
+    assert found["friction_in_range_fraction"] == pytest.approx(0.5)
+    assert found["contact_loss_fraction"] == 0.0
+    frequencies, amplitudes = found["spectrum_frequencies"], found["spectrum_amplitudes"]
+    assert frequencies.max() == pytest.approx(20.0 * found["mesh_frequency"], rel=1e-9)
+    largest = np.argmax(amplitudes[1:]) + 1
+    assert frequencies[largest] == pytest.approx(3.0 * found["mesh_frequency"], rel=1e-9)
+    assert amplitudes[largest] == pytest.approx(4e-6, rel=1e-9)
+
+
+def test_time_without_contact_and_without_load():
+    block, work = window(1, 300.0)
+    block["normal_load"][: SAMPLES // 2] = 0.0
+    found = steady_figures(block, work, CYCLE, SAMPLES, SPEED)
+    assert found["contact_loss_fraction"] == pytest.approx(0.5 / CYCLES, rel=1e-12)
+    block["normal_load"][:] = 0.0
+    found = steady_figures(block, 0.0 * work, CYCLE, SAMPLES, SPEED)
+    assert np.isnan(found["dynamic_factor"])
+    assert np.isnan(found["friction_coefficient_mean"])
+    assert np.isnan(found["efficiency"])
+    assert found["friction_work_on_vibration"] is None
+    assert found["driving_gear"] == "neither"
+
+
+def test_extremes_of_blocks_are_those_of_the_whole(rng):
+    names = (
+        "normal_load",
+        "central_film_thickness",
+        "film_parameter",
+        "hertz_pressure",
+        "flash_temperature_rise",
+    )
+    values = {name: rng.normal(size=(30, 2)) for name in names}
+    values["film_parameter"][:10] = np.nan
+    extremes = RunningExtremes()
+    for start in (0, 10, 20):
+        extremes.add({name: one[start : start + 10] for name, one in values.items()})
+    assert extremes.values["normal_load_max"] == values["normal_load"].max()
+    assert extremes.values["film_min"] == values["central_film_thickness"].min()
+    assert extremes.values["film_parameter_min"] == np.nanmin(values["film_parameter"])
