@@ -91,7 +91,12 @@ def test_jacobian_is_the_derivative_of_the_right_hand_side(prepared, rng, overri
         y = random_state(rng)
         y[still] = 0.0
         phase, segment = random_place(rng, model.table.boundary)
-        f, trial, slope, jacobian = np.empty(STATES), np.empty(STATES), np.empty(STATES), np.empty((STATES, STATES))
+        f, trial, slope, jacobian = (
+            np.empty(STATES),
+            np.empty(STATES),
+            np.empty(STATES),
+            np.empty((STATES, STATES)),
+        )
         rhs(phase, 0.0, segment, y, model, work, f)
         before = y.copy()
         place = Place(phase, 0.0, segment, 1.0)

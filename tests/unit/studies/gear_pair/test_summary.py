@@ -93,14 +93,7 @@ def test_time_without_contact_and_without_load():
 
 
 def test_extremes_of_blocks_are_those_of_the_whole(rng):
-    names = (
-        "normal_load",
-        "central_film_thickness",
-        "film_parameter",
-        "hertz_pressure",
-        "flash_temperature_rise",
-    )
-    values = {name: rng.normal(size=(30, 2)) for name in names}
+    values = {name: rng.normal(size=(30, 2)) for name in EXTREMES}
     values["film_parameter"][:10] = np.nan
     extremes = RunningExtremes()
     for start in (0, 10, 20):
