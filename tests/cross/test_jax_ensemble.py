@@ -3,11 +3,11 @@
 from pathlib import Path
 
 import h5py
-import jax
 import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+from tests.support.compilations import compilations
 from tribodyn.cli.app import app
 from tribodyn.dynamics.parameters import XI
 from tribodyn.record.sweep_reader import SweepRecord
@@ -38,14 +38,7 @@ def narrow(monkeypatch):
 @pytest.fixture(scope="module")
 def compiled():
     """Names of what XLA compiled so far, which grows."""
-    found: list[str] = []
-
-    def note(event: str, seconds: float, **_):
-        if event.endswith("backend_compile_duration"):
-            found.append(event)
-
-    jax.monitoring.register_event_duration_secs_listener(note)
-    return found
+    return compilations()
 
 
 @pytest.fixture

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from tests.support.compilations import compilations
 from tribodyn.solve import jax_ensemble
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.initial import static_equilibrium
@@ -51,7 +52,11 @@ def test_a_cycle_may_take_so_many_steps(case, method):
 @pytest.mark.slow
 @pytest.mark.parametrize("method", JAX)
 def test_a_cycle_may_take_so_many_steps_through_jax(case, method):
+    """One program for every cycle and limit: what the first cycle takes compiles nothing for the others."""
+    integrated(case, method, MANY, 1)
+    before = len(compilations())
     assert_limit_is_per_cycle(case, method)
+    assert len(compilations()) == before
 
 
 def assert_batch_limit_is_per_cycle(case, method):
@@ -74,4 +79,8 @@ def test_a_cycle_may_take_so_many_steps_in_lanes(case):
 @pytest.mark.slow
 def test_a_cycle_may_take_so_many_steps_in_a_batch_of_jax(case, monkeypatch):
     monkeypatch.setattr(jax_ensemble, "WIDTH_ON_CPU", 2)
+    model, state = case
+    march([model] * 2, np.array([state] * 2), cycles=1, window=0, samples=SAMPLES, rtol=RTOL, method="tsit5")
+    before = len(compilations())
     assert_batch_limit_is_per_cycle(case, "tsit5")
+    assert len(compilations()) == before

@@ -7,7 +7,7 @@ that no number of the scenario is compiled in. Steps end where friction reverses
 
 import os
 from collections.abc import Sequence
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any, NamedTuple
 
 # the error branch of equinox cannot be cached between processes; NaNs are checked for below instead
@@ -192,10 +192,14 @@ over_one_cycle = jax.jit(over_cycle, static_argnames=("method", "options"))
 
 
 def beginning(state: Float[Array, "*case state"]) -> Carried:
-    """What is handed to the first segment; leading axes are those of the state."""
+    """What is handed to the first segment; leading axes are those of the state.
+
+    Of the types that a mesh cycle hands on: a plain number's weak one would compile everything once more.
+    """
     shape = state.shape[:-1]
     none = jnp.zeros(shape, dtype=int)
-    return Carried(jnp.asarray(state, dtype=float), jnp.full(shape, FIRST_STEP), none, none + Status.DONE)
+    step = jnp.full(shape, FIRST_STEP, dtype=float)
+    return Carried(jnp.asarray(state, dtype=float), step, none, none + Status.DONE)
 
 
 def padded_phases(boundary: Float[Array, " boundary"], samples: int) -> tuple[np.ndarray, list[int]]:
@@ -233,22 +237,22 @@ class DiffraxIntegrator:
         use_compilation_cache()
         self.method: DiffraxMethod = method.METHOD
         self.options: Options = model.options
-        self.numbers = jax.tree.map(jnp.asarray, model.numbers)
+        self.numbers = jax.tree.map(partial(jnp.asarray, dtype=float), model.numbers)
         self.boundary = np.asarray(model.table.boundary)
         at, self.counts = padded_phases(self.boundary, samples)
         self.control = SegmentControl(
             jnp.asarray(at),
             jnp.asarray(steps_end_on([model])[0]),
-            jnp.asarray(tolerances.rtol),
-            jnp.asarray(tolerances.atol),
-            jnp.asarray(tolerances.max_steps),
+            jnp.asarray(tolerances.rtol, dtype=float),
+            jnp.asarray(tolerances.atol, dtype=float),
+            jnp.asarray(tolerances.max_steps, dtype=int),
         )
         self.step = FIRST_STEP
         self.started = False
 
     def integrate(self, state: Float[Array, " state"], first_cycle: int, cycles: int) -> IntegratedCycles:
         """See `integrator.Integrator`."""
-        carried = beginning(state)._replace(step=jnp.asarray(self.step))
+        carried = beginning(state)._replace(step=jnp.asarray(self.step, dtype=float))
         samples, reached, steps, evaluations = [np.empty((0, STATES))], 0.0, 0, 0
         for cycle in range(first_cycle, first_cycle + cycles):
             carried, segments = over_one_cycle(

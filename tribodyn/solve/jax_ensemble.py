@@ -121,7 +121,7 @@ def _cycles(part: Part, models: Sequence[Model], march: March, result: Ensemble)
     mine = [models[case] for case in rows]
     tables = [model.table for model in mine]
     numbers = (
-        jax.tree.map(jnp.asarray, tables[0]) if part.one_table else stacked(tables),
+        jax.tree.map(partial(jnp.asarray, dtype=float), tables[0]) if part.one_table else stacked(tables),
         stacked([model.mechanics for model in mine]),
         *(stacked([getattr(model, name) for model in mine]) for name in ("surfaces", "film", "friction")),
     )
@@ -129,11 +129,11 @@ def _cycles(part: Part, models: Sequence[Model], march: March, result: Ensemble)
     grids = [padded_phases(row, march.samples) for row in boundary]
     dense = np.array([at for at, _ in grids])
     control = SegmentControl(
-        jnp.full(dense.shape, np.nan),
+        jnp.full(dense.shape, np.nan, dtype=float),
         jnp.asarray(steps_end_on(mine)),
-        jnp.full(part.width, march.rtol),
+        jnp.full(part.width, march.rtol, dtype=float),
         jnp.asarray(tolerances_of_many(mine, result.state[rows], march.rtol)),
-        jnp.full(part.width, march.max_steps),
+        jnp.full(part.width, march.max_steps, dtype=int),
     )
     carried = beginning(result.state[rows])
     for done in range(march.cycles):
