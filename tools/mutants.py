@@ -165,8 +165,11 @@ def _imported(file: Path, tests: Path) -> set[str]:
     return found
 
 
-def tests_of(module: str, package: Path, tests: Path) -> tuple[list[str], list[str]]:
-    """Test files to run for a module: those that name it, and the others that depend on it."""
+def tests_of(module: str, package: Path, tests: Path) -> list[list[str]]:
+    """Test files to run for a module: those that name it, and the others that depend on it.
+
+    Of either the unit tests come first, which compile less.
+    """
     reached = _reached(package)
     near, far = [], []
     mirrored = tests / "unit" / Path(*module.split(".")[1:-1])
@@ -179,7 +182,12 @@ def tests_of(module: str, package: Path, tests: Path) -> tuple[list[str], list[s
             near.append(file)
         elif any(module in reached.get(one, ()) for one in own):
             far.append(file)
-    return [str(file) for file in near], [str(file) for file in far]
+    stages = [
+        [str(file) for file in some if (file.relative_to(tests).parts[0] == "unit") is unit]
+        for some in (near, far)
+        for unit in (True, False)
+    ]
+    return stages
 
 
 class Tests:
@@ -203,8 +211,8 @@ class Tests:
         file = self.root / PACKAGE / change.file
         source = file.read_bytes()
         module = ".".join((PACKAGE, *Path(change.file).with_suffix("").parts)).removesuffix(".__init__")
-        both = tests_of(module, self.root / PACKAGE, self.root / "tests")
-        waiting = [some for some in both[: 1 if near else 2] if some]
+        stages = tests_of(module, self.root / PACKAGE, self.root / "tests")
+        waiting = [some for some in stages[: 2 if near else 4] if some]
         while waiting:
             try:
                 file.write_bytes(change.made(source))
