@@ -105,7 +105,7 @@ def _half_blocks(
     # every second node is the middle of an edge
     across, depth, roots = 2 * _ACROSS * level, 2 * _DEPTH * level, 2 * _ROOT * level
     gap, profile = inner[: roots + 1], inner[roots:]
-    towards_axis = _graded(across, _ACROSS_GRADING)
+    towards_axis = graded(across, _ACROSS_GRADING)
     corner = profile[0]
     # over a thin rim it drops less, so as not to meet the bore
     middle_of_rim = (bore_radius + np.hypot(*corner)) / 2.0
@@ -119,7 +119,7 @@ def _half_blocks(
 
     foot = np.pi / teeth * across / (across + roots)
     pitches = (tooth.root_radius - bore_radius) / (2.0 * np.pi / teeth * tooth.root_radius)
-    inwards = _graded(depth, max(_DEPTH_GRADING, _DEPTH_GRADING_PER_PITCH * pitches))
+    inwards = graded(depth, max(_DEPTH_GRADING, _DEPTH_GRADING_PER_PITCH * pitches))
     edge = gap[0] + inwards[:, None] * (bore_radius * _unit(np.pi / teeth) - gap[0])
     middle = corner + inwards[:, None] * (bore_radius * _unit(foot) - corner)
     centre = seam_end + inwards[:, None] * (np.array([bore_radius, 0.0]) - seam_end)
@@ -220,8 +220,8 @@ def _spread(curve: Float[Array, "point 2"], at: Float[Array, " at"]) -> Float[Ar
     return np.stack([np.interp(at * length[-1], length, curve[:, k]) for k in range(2)], axis=-1)
 
 
-def _graded(cells: int, ratio: float) -> Float[Array, " point"]:
-    """Fractions 0 … 1 of cells whose widths grow evenly, the first `ratio` … of them relative to the last."""
+def graded(cells: int, ratio: float) -> Float[Array, " point"]:
+    """Fractions 0 … 1 of cells whose widths grow evenly, by `ratio` or its inverse from end to end, what is > 1."""
     middle = (np.arange(cells) + 0.5) / cells
     first, last = (ratio, 1.0) if ratio < 1 else (1.0, ratio)
     width = first * (last / first) ** middle

@@ -7,7 +7,7 @@ from scipy.sparse.linalg import spsolve
 from tests.support.twelve_teeth import POISSON, TOOTH, whole_ring
 from tribodyn.compliance.fem import gear_compliance
 from tribodyn.compliance.gear_compliance import NEIGHBOURS
-from tribodyn.compliance.ring_mesh import sector_mesh
+from tribodyn.compliance.ring_mesh import graded, sector_mesh
 from tribodyn.compliance.strips import curved_basis, plane_stiffness
 from tribodyn.errors import InputError
 from tribodyn.geometry.body import section_area_and_inertia
@@ -168,3 +168,13 @@ def test_compliances_are_reciprocal_and_fall_with_distance():
     near = gear.between[NEIGHBOURS:, middle, middle]
     assert near[0] > near[1] > near[2] > 0
     assert np.all(gear.inside[0] > gear.inside[1])  # the nearer to the load, the more it gives way
+
+
+@pytest.mark.parametrize("ratio", [0.2, 1.0, 3.0])
+def test_cells_grow_evenly_from_one_end_to_the_other(ratio):
+    places = graded(6, ratio)
+    widths = np.diff(places)
+    assert (places[0], places[-1]) == (0.0, pytest.approx(1.0, abs=1e-14))
+    # the given ratio is that of both ends of the row, half a cell beyond the middles of the outer cells
+    grown = max(ratio, 1.0 / ratio) ** (1.0 / 6.0)
+    np.testing.assert_allclose(widths[1:] / widths[:-1], grown, rtol=1e-12)
