@@ -221,7 +221,7 @@ def _spread(curve: Float[Array, "point 2"], at: Float[Array, " at"]) -> Float[Ar
 
 
 def graded(cells: int, ratio: float) -> Float[Array, " point"]:
-    """Fractions 0 … 1 of cells whose widths grow evenly, by `ratio` or its inverse from end to end, what is > 1."""
+    """Fractions 0 … 1 of cells that grow evenly: from end to end by `ratio` or its inverse, the larger."""
     middle = (np.arange(cells) + 0.5) / cells
     first, last = (ratio, 1.0) if ratio < 1 else (1.0, ratio)
     width = first * (last / first) ** middle
