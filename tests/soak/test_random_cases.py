@@ -11,8 +11,8 @@ SEED, CASES, PORTION = 1, 2000, 50
 SHORT_SEED, SHORT_CASES = 7, 24
 
 
-def said(one) -> str:
-    again = f"python -m tools.soak --seed {one.seed} --case {one.case}"
+def said(one, options: str = "") -> str:
+    again = f"python -m tools.soak --seed {one.seed} --case {one.case}{options}"
     return "\n    ".join([again, *one.faults])
 
 
@@ -20,7 +20,7 @@ def said(one) -> str:
 @pytest.mark.parametrize("number", range(SHORT_CASES))
 def test_a_few_cases(number: int):
     one = run_one(SHORT_SEED, number, short=True)
-    assert one.status != FAULTY, said(one)
+    assert one.status != FAULTY, said(one, " --short")
 
 
 @pytest.mark.soak

@@ -23,11 +23,14 @@ def main() -> None:
     parser.add_argument("--first", type=int, default=0, help="number of the first case")
     parser.add_argument("--count", type=int, default=2000)
     parser.add_argument("--jobs", type=int, default=1, help="processes")
+    parser.add_argument(
+        "--short", action="store_true", help="only dynamics, few laws: quick on a new version"
+    )
     parser.add_argument("--into", type=Path, help="page with the marked block for the table")
     given = parser.parse_args()
     if given.case is not None:
-        sys.exit(_again(given.seed, given.case, given.keep))
-    store = kept.store(given.seed)
+        sys.exit(_again(given.seed, given.case, given.keep, given.short))
+    store = kept.store(given.seed, given.short)
     wanted = range(given.first, given.first + given.count)
     known = {one.case: one for one in kept.read(store)}
     waiting = [number for number in wanted if number not in known]
@@ -36,7 +39,7 @@ def main() -> None:
         flush=True,
     )
     with ProcessPoolExecutor(given.jobs, mp_context=get_context("spawn")) as pool:
-        futures = [pool.submit(run_one, given.seed, number) for number in waiting]
+        futures = [pool.submit(run_one, given.seed, number, given.short) for number in waiting]
         for done, future in enumerate(as_completed(futures), 1):
             one = future.result()
             kept.add(store, one)
@@ -53,13 +56,13 @@ def main() -> None:
     sys.exit(any(one.status == FAULTY for one in outcomes))
 
 
-def _again(seed: int, number: int, keep: Path | None) -> int:
+def _again(seed: int, number: int, keep: Path | None, short: bool) -> int:
     logging.basicConfig()
     logging.getLogger("tools.soak").setLevel(logging.DEBUG)
     with TemporaryDirectory() as scratch:
         folder = keep or Path(scratch)
         folder.mkdir(parents=True, exist_ok=True)
-        one = outcome(seed, number, folder)
+        one = outcome(seed, number, folder, short)
         print((folder / "case.toml").read_text(encoding="utf-8"))
     print(_said(one))
     return int(one.status == FAULTY)

@@ -11,10 +11,10 @@ from tribodyn.numerics.sources import digest_of
 FOLDER = Path(__file__).parents[2] / ".soak"
 
 
-def store(seed: int) -> Path:
+def store(seed: int, short: bool = False) -> Path:
     """The file of a seed's outcomes: another one as soon as a line of the package or of this tool changes."""
     modules = ("tools.soak.outcome", "tribodyn.cli.app", "tribodyn.studies.gear_pair.run")
-    return FOLDER / f"{digest_of(*modules).hex()[:12]}-{seed}.jsonl"
+    return FOLDER / f"{digest_of(*modules).hex()[:12]}-{seed}{'-short' if short else ''}.jsonl"
 
 
 def read(path: Path) -> Iterator[Outcome]:

@@ -38,8 +38,8 @@ from tribodyn.sweep.run import settings_of
 
 _log = logging.getLogger(__name__)
 
-#: Seconds after which a case counts as hanging.
-LONGEST = 300
+#: Seconds of processor time after which a case counts as hanging; machine code may have to be compiled first.
+LONGEST = 120
 COMPLETE, REFUSED, STOPPED, FAULTY = "complete", "refused", "stopped", "faulty"
 
 
@@ -209,10 +209,10 @@ def _limited() -> Iterator[None]:
     def hangs(_number: int, _frame: Any) -> None:
         raise TimeoutError(f"still running after {LONGEST} s")
 
-    before = signal.signal(signal.SIGALRM, hangs)
-    signal.alarm(LONGEST)
+    before = signal.signal(signal.SIGPROF, hangs)
+    signal.setitimer(signal.ITIMER_PROF, LONGEST)
     try:
         yield
     finally:
-        signal.alarm(0)
-        signal.signal(signal.SIGALRM, before)
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, before)
