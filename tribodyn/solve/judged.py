@@ -2,13 +2,15 @@
 
 import numpy as np
 
-from tribodyn.numerics.shapes import Array, Complex, Float
+from tribodyn.numerics.shapes import Array, Complex
 from tribodyn.solve.orbit import UNSTABLE, Orbit, periodic
 from tribodyn.solve.period_map import PeriodMap
 from tribodyn.solve.shooting import Shot, shoot
 
 #: Distance of a multiplier's modulus from 1 within which a state counts as neutral.
 NEUTRAL = 1e-6
+#: Distance over the scale, about the third root of the smallest tolerance, at which motions may have merged.
+MERGED = 1e-3
 
 
 def judge(period_map: PeriodMap, shot: Shot, case: int, period: int, marched: int, tolerance: float) -> Orbit:
@@ -26,9 +28,9 @@ def judge(period_map: PeriodMap, shot: Shot, case: int, period: int, marched: in
         Of the shot.
     """
     for n in range(1, period):
-        if period % n == 0 and closes(period_map, shot.state, case, n, tolerance):
-            again = shoot(period_map, shot.state[None], np.array([case]), n, tolerance)[0]
-            if not again.reason:
+        if period % n == 0:
+            again = _over_fewer(period_map, shot, case, n, tolerance)
+            if again is not None:
                 shot, period = again._replace(steps=again.steps + shot.steps), n
                 break
     modulus = float(np.abs(shot.multipliers[0]))
@@ -50,12 +52,24 @@ def judge(period_map: PeriodMap, shot: Shot, case: int, period: int, marched: in
     )
 
 
-def closes(
-    period_map: PeriodMap, state: Float[Array, " state"], case: int, periods: int, tolerance: float
-) -> bool:
-    """Whether a state comes back after some periods, to a hundred times the tolerance."""
-    end = period_map.march(state[None], np.array([case]), periods, True).states[0, -1]
-    return bool(np.max(np.abs(end - state) / period_map.scale[case]) <= 100.0 * tolerance)
+def _over_fewer(period_map: PeriodMap, shot: Shot, case: int, periods: int, tolerance: float) -> Shot | None:
+    """The shot over fewer periods, where the motion has no more.
+
+    It has no more where it comes back to within a hundred times the tolerance; and where it nearly does and
+    the motion of fewer periods is there and stable: where two merge, the residual falls with the third power
+    of the distance and tells them apart no better, but then only one of them is stable.
+    """
+    scale = period_map.scale[case]
+    end = period_map.march(shot.state[None], np.array([case]), periods, True).states[0, -1]
+    off = np.max(np.abs(end - shot.state) / scale)
+    if not off <= MERGED:
+        return None
+    again = shoot(period_map, shot.state[None], np.array([case]), periods, tolerance)[0]
+    away = np.max(np.abs(again.state - shot.state) / scale)
+    if again.reason or away > MERGED:
+        return None
+    stable = np.abs(again.multipliers[0]) <= 1.0 + NEUTRAL
+    return again if stable or off <= 100.0 * tolerance else None
 
 
 def way_out(multipliers: Complex[Array, " state"]) -> str:

@@ -1,0 +1,60 @@
+"""Where a branch of steady motions ends, and how."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from tribodyn.numerics.shapes import Array, Complex
+
+#: Kinds of ends.
+FOLD = "fold"
+PERIOD_DOUBLING = "period doubling"
+NEIMARK_SACKER = "neimark-sacker"
+#: A motion of several periods comes to one of fewer: that one's period doubling, met from the other side.
+MERGING = "merging"
+#: The branch ends with no multiplier near the unit circle: where contact just opens or closes the map has a
+#: corner, at which multipliers jump.
+CORNER = "corner"
+KINDS = (FOLD, PERIOD_DOUBLING, NEIMARK_SACKER, MERGING, CORNER)
+
+#: Distance from +1 of the multiplier at the last point before an end behind which no motion is found, within
+#: which that is a fold: it falls with the root of the distance from the fold.
+NEAR_ONE = 0.1
+
+
+class BranchEnd(NamedTuple):
+    """Where a branch that was followed is left.
+
+    Attributes
+    ----------
+    kind : str
+        One of `KINDS`.
+    value : float
+        Of the parameter.
+    within : float
+        The branch was found on one side of it and not on the other, no farther apart than this.
+    period : int
+        Of the motion that ends.
+    multiplier : complex
+        Largest by modulus, at the last point found on the branch.
+    """
+
+    kind: str
+    value: float
+    within: float
+    period: int
+    multiplier: complex
+
+
+def kind_of_end(
+    before: Complex[Array, " state"], beyond: Complex[Array, " state"] | None, merged: bool
+) -> str:
+    """How a branch ends, from the multipliers at its last point, and beyond it where it goes on unstably."""
+    if merged:
+        return MERGING
+    if beyond is None:
+        return FOLD if np.min(np.abs(before - 1.0)) <= NEAR_ONE else CORNER
+    largest = beyond[0]
+    if abs(largest.imag) > 1e-6 * abs(largest):
+        return NEIMARK_SACKER
+    return PERIOD_DOUBLING if largest.real < 0.0 else FOLD

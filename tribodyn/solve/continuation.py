@@ -1,0 +1,275 @@
+"""Steady motions followed along a parameter, with the period that they have, as far as their branch goes.
+
+A leg leads from one value of the parameter to another, from the motion at the first. A periodic motion is
+followed by Newton's method in steps that control themselves, between the values asked for too: a branch is
+left only where it ends, whatever these are. There the end is located, the system is marched from the last
+state at a fixed relative distance beyond it, and the motion that it comes to is followed in turn. A motion
+without period is marched along values that do not depend on those asked for either. A leg depends on nothing
+but the state and the period at its start, so that a sweep can be taken up from any of its values.
+
+Legs are generators that ask for what they need; what all legs ask for at a time is computed in one batch.
+"""
+
+from collections.abc import Generator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from tribodyn.numerics.shapes import Array, Float
+from tribodyn.solve.branch_end import BranchEnd, kind_of_end
+from tribodyn.solve.continued_family import Answer, Carry, Close, Family, Request, Settle, answered
+from tribodyn.solve.orbit import FAILED, Orbit
+
+#: Steps of the parameter, over its magnitude (`Leg.size`): the first of a leg, the largest, the largest where
+#: two complex multipliers are about to meet on the real axis, where an unstable range may be narrow, and that
+#: to which an end is located.
+FIRST, LARGEST, NARROW, LOCATED = 5e-3, 1e-2, 2.5e-3, 2e-5
+#: Distance beyond an end, over the parameter's magnitude, at which the system is marched on.
+NUDGE = 1e-3
+#: Change of the state over a step, of its size and at least of the scale, above which the step is halved; and
+#: movement of the multipliers.
+MOVED, TURNED = 0.15, 0.3
+#: Moduli of multipliers that matter for the step, and the distance of complex ones from the real axis where
+#: they are about to meet.
+MATTERS, MEETING = 0.8, 0.2
+#: Ends in one leg after which it is marched.
+MOST_ENDS = 8
+#: Values in a factor of two of the parameter along which a motion without period is marched, and periods at
+#: each of them.
+VALUES, CARRIED = 256, 96
+
+
+class Leg(NamedTuple):
+    """A way to go: from the motion at one value of the parameter to another value.
+
+    Attributes
+    ----------
+    line : int
+        Which of the family's lines.
+    start, target : float
+        Values of the parameter; equal where nothing was found before.
+    state : (N,)
+        At the start.
+    period : int
+        Of the motion there; 0: it has none, or is not known.
+    finest : float
+        Minimum step where steps are expensive; 0: as small as it takes; inf: there is nothing in between.
+    reach : float
+        Largest magnitude that the parameter takes: near zero, steps are measured by a quarter of it.
+    """
+
+    line: int
+    start: float
+    target: float
+    state: np.ndarray
+    period: int
+    finest: float = 0.0
+    reach: float = 0.0
+
+    def size(self, value: float) -> float:
+        """Magnitude of the parameter, by which steps are measured."""
+        return max(abs(value), 0.25 * self.reach)
+
+
+class Arrival(NamedTuple):
+    """How a leg ended.
+
+    Attributes
+    ----------
+    orbit : Orbit
+        At the target.
+    carried : (N,)
+        State from which the next leg begins; of a motion without period the last one marched in between.
+    ends : tuple of BranchEnd
+        Of the branches that were left on the way.
+    """
+
+    orbit: Orbit
+    carried: np.ndarray
+    ends: tuple[BranchEnd, ...]
+
+
+_Asking = Generator[Request, Answer, Arrival]
+
+
+def follow(
+    family: Family, legs: Sequence[Leg], *, tolerance: float = 1e-7, max_periods: int = 2000
+) -> list[Arrival]:
+    """Go all legs, side by side.
+
+    Parameters
+    ----------
+    family : Family
+    legs : sequence of Leg
+    tolerance, max_periods
+        As `steady_orbit.find` has them.
+    """
+    arrivals: dict[int, Arrival] = {}
+    going: dict[int, _Asking] = {number: _go(leg) for number, leg in enumerate(legs)}
+    asked = {number: next(one) for number, one in going.items()}
+    while going:
+        lines = {number: legs[number].line for number in going}
+        answers = answered(family, lines, asked, tolerance, max_periods)
+        for number, answer in answers.items():
+            try:
+                asked[number] = going[number].send(answer)
+            except StopIteration as stop:
+                arrivals[number] = stop.value
+                del going[number], asked[number]
+    return [arrivals[number] for number in range(len(legs))]
+
+
+class _Place(NamedTuple):
+    """A motion at a value of the parameter; without an orbit only its state and period are known."""
+
+    value: float
+    state: np.ndarray
+    period: int
+    orbit: Orbit | None = None
+
+
+class _Left(NamedTuple):
+    """The last place of a branch, the end behind it, and the state to march from."""
+
+    place: _Place
+    end: BranchEnd
+    state: np.ndarray
+
+
+def _go(leg: Leg) -> _Asking:
+    """One leg."""
+    here = _Place(leg.start, leg.state, leg.period)
+    ends: list[BranchEnd] = []
+    way = np.sign(leg.target - leg.start)
+    while here.period and here.value != leg.target and len(ends) < MOST_ENDS and np.isfinite(leg.finest):
+        outcome = yield from _along(here, leg)
+        if isinstance(outcome, _Place):
+            here = outcome
+            break
+        if np.sign(leg.target - here.value) != way:  # back from beyond an end: the branch begins behind it
+            here = here._replace(period=0)
+            break
+        ends.append(outcome.end)
+        if leg.finest:
+            here = here._replace(state=outcome.state, period=0)
+            break
+        value = outcome.end.value + way * NUDGE * leg.size(outcome.end.value)
+        orbit, _ = yield Settle(value, outcome.state)
+        here = _Place(value, orbit.last, orbit.period, orbit)
+        if orbit.kind == FAILED:
+            here = _Place(outcome.end.value, outcome.state, 0)
+    if here.orbit is not None and here.value == leg.target:
+        return Arrival(here.orbit, here.orbit.state, tuple(ends))
+    carried = here.state
+    if not here.period and not leg.finest:
+        carried = yield from _carried(carried, here.value, leg.target)
+    orbit, _ = yield Settle(leg.target, carried)
+    return Arrival(orbit, orbit.state if orbit.period else carried, tuple(ends))
+
+
+def _carried(state: np.ndarray, start: float, target: float) -> Generator[Request, Answer, np.ndarray]:
+    """The state of a motion without period, marched along the values between two."""
+    for value in between(start, target):
+        orbit, _ = yield Carry(value, state, CARRIED)
+        if orbit.kind == FAILED:
+            break
+        state = orbit.last
+    return state
+
+
+def between(start: float, target: float) -> list[float]:
+    """Values between two, the same whatever these are: `VALUES` in every factor of two, in order of going."""
+    if start == target or start * target <= 0.0:
+        return []
+    size = min(abs(start), abs(target))
+    values: list[float] = []
+    low, high = sorted((start, target))
+    exponent = int(np.floor(np.log2(size)))
+    while 2.0**exponent <= max(abs(start), abs(target)):
+        part = np.sign(start) * 2.0**exponent * (1.0 + np.arange(VALUES) / VALUES)
+        values += [float(one) for one in part if low < one < high]
+        exponent += 1
+    return sorted(values, reverse=bool(target < start))
+
+
+def _along(here: _Place, leg: Leg) -> Generator[Request, Answer, "_Place | _Left"]:
+    """Follow a branch to the target, or to its end."""
+    target, finest = leg.target, leg.finest
+    way = float(np.sign(target - here.value))
+    before: _Place | None = None
+    beyond: tuple[float, Orbit] | None = None
+    step = max(FIRST * leg.size(here.value), finest)
+    good = 0
+    while here.value != target:
+        size = leg.size(here.value)
+        least = max(LOCATED * size, finest)
+        room = abs(target - here.value)
+        if beyond is not None:
+            room = abs(beyond[0] - here.value)
+            if room <= least:
+                break
+            step = room / 2.0
+        trial = target if beyond is None and step >= 0.99 * room else here.value + way * min(step, room)
+        orbit, scale = yield Close(trial, _guess(before, here, trial), here.period)
+        if orbit.period and not _comparable(here, orbit, scale, abs(trial - here.value) / size):
+            orbit = orbit._replace(kind=FAILED, period=0)
+        if orbit.period == here.period and orbit.stable:
+            before, here = here, _Place(trial, orbit.state, orbit.period, orbit)
+            good += 1
+            step *= 2.0 if good > 1 else 1.0
+            step = min(step, max(LARGEST * size, finest))
+            continue
+        good = 0
+        if orbit.period or beyond is not None:
+            beyond = trial, orbit if orbit.period or beyond is None else beyond[1]
+            continue
+        if abs(trial - here.value) <= 1.001 * least:
+            break
+        step = max(abs(trial - here.value) / 2.0, least)
+    if here.value == target:
+        return here
+    known = here.orbit
+    if known is None:  # the branch ends at once
+        known, _ = yield Close(here.value, here.state, here.period)
+    behind = beyond[0] if beyond else here.value + way * max(LOCATED * leg.size(here.value), finest)
+    merged = beyond is not None and beyond[1].period < here.period
+    multipliers = None if beyond is None or merged else beyond[1].multipliers
+    end = BranchEnd(
+        kind_of_end(known.multipliers, multipliers, merged),
+        0.5 * (here.value + behind),
+        abs(behind - here.value),
+        here.period,
+        complex(known.multipliers[0]),
+    )
+    return _Left(here, end, here.state if beyond is None else beyond[1].state)
+
+
+def _guess(before: _Place | None, here: _Place, value: float) -> Float[Array, " state"]:
+    """The state at a value, by a straight line through the last two places."""
+    if before is None:
+        return here.state
+    share = (value - here.value) / (here.value - before.value)
+    return here.state + min(share, 2.0) * (here.state - before.state)
+
+
+def _comparable(here: _Place, orbit: Orbit, scale: np.ndarray, step: float) -> bool:
+    """Whether a motion a step farther, over the parameter's magnitude, is surely of the same branch.
+
+    It is near, and no multiplier may have left the unit circle and come back in between.
+    """
+    if orbit.period < here.period and not orbit.stable:
+        return False  # the guess was nearer to the motion whose period doubled
+    extent = max(1.0, float(np.max(np.abs(here.state) / scale)))
+    if float(np.max(np.abs(orbit.state - here.state) / scale)) > MOVED * extent:
+        return False
+    if step > NARROW and _meeting(orbit.multipliers):
+        return False
+    if here.orbit is None or step <= LOCATED or orbit.period != here.period:
+        return True
+    mattering = [one for one in here.orbit.multipliers if abs(one) > MATTERS]
+    return all(np.min(np.abs(orbit.multipliers - one)) <= TURNED for one in mattering)
+
+
+def _meeting(multipliers: np.ndarray) -> bool:
+    near = (np.abs(multipliers) > MATTERS) & (np.imag(multipliers) != 0.0)
+    return bool(np.any(near & (np.abs(np.imag(multipliers)) < MEETING)))

@@ -1,0 +1,124 @@
+"""Systems along a parameter, and what is asked of them while they are followed."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+
+from tribodyn.solve.judged import judge
+from tribodyn.solve.orbit import NOT_PERIODIC, Orbit, failed_orbit
+from tribodyn.solve.period_map import PeriodMap
+from tribodyn.solve.shooting import shoot
+from tribodyn.solve.steady_orbit import find
+
+#: Newton steps that a step along a branch may take: one that needs more is too long.
+STEPS = 6
+
+
+class Family(Protocol):
+    """Systems along a parameter, on one or several lines that differ in what else there is."""
+
+    def at(self, lines: Sequence[int], values: Sequence[float]) -> tuple[PeriodMap, list[str]]:
+        """Systems on lines at values of the parameter, and why there is none; empty where there is.
+
+        Only those that there are count as cases of the map.
+        """
+        ...
+
+
+class Close(NamedTuple):
+    """Close a motion of a period at a value, from a guess of its state."""
+
+    value: float
+    state: np.ndarray
+    period: int
+
+
+class Settle(NamedTuple):
+    """Find the motion that a state comes to at a value."""
+
+    value: float
+    state: np.ndarray
+
+
+class Carry(NamedTuple):
+    """March a state over some periods at a value."""
+
+    value: float
+    state: np.ndarray
+    periods: int
+
+
+Request = Close | Settle | Carry
+
+
+class Answer(NamedTuple):
+    """What was found, and the sizes by which its states are measured."""
+
+    orbit: Orbit
+    scale: np.ndarray
+
+
+def answered(
+    family: Family,
+    lines: Mapping[int, int],
+    asked: Mapping[int, Request],
+    tolerance: float,
+    max_periods: int,
+) -> dict[int, Answer]:
+    """Answer requests by number, those of a sort and a period side by side.
+
+    Parameters
+    ----------
+    family : Family
+    lines : mapping
+        Line of each number.
+    asked : mapping
+        Request of each number.
+    tolerance, max_periods
+        As `steady_orbit.find` has them.
+    """
+    alike: dict[tuple[Any, ...], list[int]] = {}
+    for number, request in asked.items():
+        extra = request[2:]  # periods
+        alike.setdefault((type(request), *extra), []).append(number)
+    answers: dict[int, Answer] = {}
+    for (sort, *extra), numbers in alike.items():
+        values = [asked[number].value for number in numbers]
+        period_map, refusals = family.at([lines[number] for number in numbers], values)
+        for number, why in zip(numbers, refusals, strict=True):
+            if why:
+                state = asked[number].state
+                answers[number] = Answer(failed_orbit(state, 0, why), np.ones_like(state))
+        there = [number for number in numbers if number not in answers]
+        if not there:
+            continue
+        states = np.array([asked[number].state for number in there])
+        if sort is Settle:
+            orbits = find(period_map, states, tolerance=tolerance, max_periods=max_periods)
+        elif sort is Close:
+            orbits = _closed(period_map, states, extra[0], tolerance)
+        else:
+            orbits = _marched(period_map, states, extra[0])
+        answers |= dict(zip(there, map(Answer, orbits, period_map.scale), strict=True))
+    return answers
+
+
+def _closed(period_map: PeriodMap, states: np.ndarray, period: int, tolerance: float) -> list[Orbit]:
+    shots = shoot(period_map, states, np.arange(len(states)), period, tolerance, STEPS)
+    return [
+        failed_orbit(shot.state, 0, shot.reason)
+        if shot.reason
+        else judge(period_map, shot, case, period, 0, tolerance)
+        for case, shot in enumerate(shots)
+    ]
+
+
+def _marched(period_map: PeriodMap, states: np.ndarray, periods: int) -> list[Orbit]:
+    marched = period_map.march(states, np.arange(len(states)), periods, False)
+    return [
+        failed_orbit(state, 0, reason)
+        if reason
+        else failed_orbit(track[-1], periods, "")._replace(kind=NOT_PERIODIC)
+        for state, track, reason in zip(states, marched.states, marched.reasons, strict=True)
+    ]
