@@ -24,6 +24,9 @@ DIRECTIONS = ("up", "down")
 #: Bytes kept of a message and of a word.
 MESSAGE, WORD = 240, 24
 
+#: Stands for the units of the first varied parameter.
+FIRST_PARAMETER = "first parameter"
+
 #: What every sweep records of a case. `status` is written last: what it calls done is there.
 OF_EVERY_SWEEP: dict[str, Variable] = {
     "message": Variable((), "1", "why a case failed, or a remark on its result", f"S{MESSAGE}", b""),

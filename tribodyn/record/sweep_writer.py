@@ -210,6 +210,8 @@ def _lay_out(head: SweepHead) -> layout.LaidOut:
         places, blanks = {}, []
         for name, variable in head.layout.variables.items():
             full = variable._replace(dims=(*head.dims, *variable.dims))
+            if full.units == sweep_schema.FIRST_PARAMETER:
+                full = full._replace(units=head.parameters[0].units or "1")
             dataset = layout.reserve(file, name, full, tuple(size[dim] for dim in full.dims))
             layout.attach(file, file, dataset, full)
             if _TEXT in variable.dtype:

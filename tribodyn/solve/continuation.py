@@ -198,7 +198,7 @@ def _along(here: _Place, leg: Leg) -> Generator[Request, Answer, "_Place | _Left
     way = float(np.sign(target - here.value))
     before: _Place | None = None
     beyond: tuple[float, Orbit] | None = None
-    step = max(FIRST * leg.size(here.value), finest)
+    step = abs(target - here.value) if finest else FIRST * leg.size(here.value)
     good = 0
     while here.value != target:
         size = leg.size(here.value)

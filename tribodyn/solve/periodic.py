@@ -145,7 +145,7 @@ def steady_states(
         orbits = find(period_map, begin[:, list(moving)], progress=progress, **limits)
         if method == "auto":
             _once_more(period_map, orbits, tolerance, settings)
-        for case, steady in zip(cases, _sampled(period_map, orbits, samples), strict=True):
+        for case, steady in zip(cases, sampled(period_map, orbits, samples), strict=True):
             steadies[case] = steady
     return [steady for steady in steadies if steady is not None]
 
@@ -193,7 +193,7 @@ def refuse_time_dependent(model: Model) -> None:
             )
 
 
-def _sampled(period_map: GearMap, orbits: list[Orbit], samples: int) -> list[Steady]:
+def sampled(period_map: GearMap, orbits: list[Orbit], samples: int) -> list[Steady]:
     """Each orbit with its samples, marched once more over its period, or over some mesh cycles without."""
     sampled: dict[int, tuple[np.ndarray, np.ndarray, str]] = {}
     cycles = [0 if orbit.kind == FAILED else orbit.period or WANDERING for orbit in orbits]

@@ -8,6 +8,27 @@ import numpy as np
 from tribodyn.record.sweep_schema import SweepLayout
 
 
+class Way(NamedTuple):
+    """The way to a case along the first varied parameter, from the neighbour whose motion it goes on from.
+
+    Attributes
+    ----------
+    neighbour : case
+    start, target : float
+        Values of the parameter, SI units.
+    period : int
+        Of the neighbour's motion; 0: it has none.
+    reach : float
+        Largest magnitude of the parameter in the sweep.
+    """
+
+    neighbour: Any
+    start: float
+    target: float
+    period: int
+    reach: float
+
+
 class Chunk(NamedTuple):
     """Cases to be evaluated together.
 
@@ -19,11 +40,14 @@ class Chunk(NamedTuple):
         A text where the case could not even be made: why.
     states : (n, states) or None
         Where to start from; NaN, or None for all, where a case begins by itself.
+    ways : tuple of n Ways or None
+        How each got there; None, also for all, where a case begins by itself.
     """
 
     numbers: np.ndarray
     cases: tuple[Any, ...]
     states: np.ndarray | None = None
+    ways: tuple[Way | None, ...] | None = None
 
 
 class Batch(Protocol):
@@ -54,6 +78,10 @@ class Batch(Protocol):
         InputError
             For what such a study does not know.
         """
+        ...
+
+    def followed(self, settings: Any) -> Any:
+        """The settings of a sweep whose cases go on from each other."""
         ...
 
     def layout(self, settings: Any) -> SweepLayout:

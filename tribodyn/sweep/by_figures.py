@@ -43,6 +43,10 @@ class ByFigures:
             raise InputError("--engine", "jax", f"{self.study.about}: JAX integrates motions only", "omit it")
         return Settings()
 
+    def followed(self, settings: Settings) -> Settings:
+        """The same: such cases do not go on from each other."""
+        return settings
+
     def layout(self, settings: Settings) -> SweepLayout:
         """The figures that the study names."""
         return SweepLayout(self.study.swept())

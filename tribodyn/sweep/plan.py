@@ -7,11 +7,11 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.record.sweep_schema import DONE
-from tribodyn.studies.batch import Chunk
+from tribodyn.studies.batch import Chunk, Way
 from tribodyn.sweep.grid import Grid
 
-#: Gives what was recorded of cases: (numbers) -> statuses (n,), states (n, …).
-Recorded = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
+#: Gives what was recorded of cases: (numbers) -> statuses (n,), states (n, …), periods of the motion (n,).
+Recorded = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray, np.ndarray]]
 
 
 def single_steps(grid: Grid, waiting: np.ndarray, size: int) -> Iterator[list[Chunk]]:
@@ -43,6 +43,7 @@ def chained_steps(
     shape = (*grid.shape, len(directions))
     lanes = [(place, d) for place in np.ndindex(*grid.shape[1:]) for d in range(len(directions))]
     states = np.full((len(lanes), grid.batch.states), np.nan)
+    behind: list[tuple[tuple[int, ...], int] | None] = [None] * len(lanes)  # last place done, and its period
     count = grid.shape[0]
     for step in range(count):
         places = [(step if directions[d] == "up" else count - 1 - step, *place) for place, d in lanes]
@@ -55,11 +56,23 @@ def chained_steps(
             chosen = open_lanes[part : part + size]
             chosen = chosen[np.argsort(numbers[chosen])]
             cases = tuple(case_or_reason(grid, grid.flat(places[i])) for i in chosen)
-            chunks.append(Chunk(numbers[chosen], cases, states[chosen]))
+            ways = tuple(_way(grid, behind[i], places[i]) for i in chosen)
+            chunks.append(Chunk(numbers[chosen], cases, states[chosen], ways))
         yield chunks
-        status, final = recorded(numbers)
+        status, final, period = recorded(numbers)
         good = status == DONE
         states[good] = final[good]
+        for lane in np.flatnonzero(good):
+            behind[lane] = places[lane], int(period[lane])
+
+
+def _way(grid: Grid, behind: tuple[tuple[int, ...], int] | None, place: tuple[int, ...]) -> Way | None:
+    """The way along the first parameter from the last place that was done."""
+    if behind is None:
+        return None
+    last, period = behind
+    values = [float(value) for value in grid.axes[0].values]
+    return Way(grid.case(last), values[last[0]], values[place[0]], period, max(map(abs, values)))
 
 
 def case_or_reason(grid: Grid, number: int) -> Any:

@@ -78,6 +78,8 @@ def run(
     if directions and not grid.axes[0].numeric:
         axis = grid.axes[0].key
         raise InputError("--direction", axis, "has no order to go up or down", "vary a number first")
+    if directions:
+        settings = grid.batch.followed(settings)
     head = _head(grid, settings, directions)
     if not resume:
         check_target(Path(output), force)
@@ -88,8 +90,8 @@ def run(
         total, done = int(waiting.sum()), 0
         size = grid.batch.size_of_chunk(settings, total, engine.width)
 
-        def recorded(numbers: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-            return record.status[numbers], record.read("state", numbers)
+        def recorded(numbers: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+            return record.status[numbers], record.read("state", numbers), record.read("period", numbers)
 
         if directions:
             steps = chained_steps(grid, waiting, size, directions, recorded)

@@ -6,6 +6,7 @@ import numpy as np
 
 from tribodyn.numerics.variable import Variable, flag
 from tribodyn.record.sweep_schema import WORD, SweepLayout
+from tribodyn.studies import ends
 
 #: `stable`, where the linearised motion was not looked at.
 UNKNOWN = -1
@@ -94,4 +95,8 @@ def layout_of(settings: Any) -> SweepLayout:
         "mode": (MODE, np.arange(1, settings.modes + 1)),
         "state_variable": (STATE_VARIABLE, STATE_NAMES),
     }
-    return SweepLayout(CASES, scales, {"samples_per_cycle": settings.samples})
+    variables = CASES
+    if settings.followed:
+        variables = {**CASES, **ends.VARIABLES}
+        scales["end"] = ends.END, np.arange(1, ends.ENDS + 1)
+    return SweepLayout(variables, scales, {"samples_per_cycle": settings.samples})

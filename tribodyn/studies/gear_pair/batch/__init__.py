@@ -47,6 +47,10 @@ class GearPairs:
         points = max(window, min(TRANSIENT_POINTS, transient // 2))
         return Settings(False, transient, window, points, samples, modes, method)
 
+    def followed(self, settings: Settings) -> Settings:
+        """Steady motions are followed to the ends of their branches."""
+        return settings._replace(followed=settings.steady)
+
     def layout(self, settings: Settings) -> SweepLayout:
         """Figures, the window of the transmission error, Poincaré section, modes, and the state."""
         return layout_of(settings)

@@ -6,7 +6,7 @@ the same numbers in both. Nothing of a case depends on the others that it is eva
 
 import threading
 from collections import OrderedDict
-from collections.abc import Hashable
+from collections.abc import Hashable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,7 +17,8 @@ from tribodyn.errors import InputError, SimulationError
 from tribodyn.record.sweep_schema import DONE, FAILED
 from tribodyn.record.withheld import remarked, warned
 from tribodyn.solve.initial import initial_state, static_equilibrium
-from tribodyn.studies.batch import Chunk
+from tribodyn.studies.batch import Chunk, Way
+from tribodyn.studies.ends import fill_ends
 from tribodyn.studies.gear_pair.batch.figures import window_figures
 from tribodyn.studies.gear_pair.batch.marched import marched
 from tribodyn.studies.gear_pair.batch.outcome import Outcome
@@ -50,6 +51,8 @@ class Settings(NamedTuple):
     modes : int
     method : str
         Integration method instead of the scenario's; empty for the scenario's own.
+    followed : bool
+        Whether steady motions are followed from case to case, to the ends of their branches.
     """
 
     steady: bool
@@ -59,6 +62,7 @@ class Settings(NamedTuple):
     samples: int
     modes: int
     method: str = ""
+    followed: bool = False
 
 
 def evaluate(chunk: Chunk, settings: Settings, workers: int | None = None) -> dict[str, np.ndarray]:
@@ -86,7 +90,8 @@ def evaluate(chunk: Chunk, settings: Settings, workers: int | None = None) -> di
         except (InputError, SimulationError) as error:
             _fail(rows, i, str(error))
     for numbers in _alike({i: prepared.case for i, (prepared, _) in ready.items()}):
-        outcomes = _solve([ready[i] for i in numbers], settings, workers)
+        ways = [chunk.ways[i] if chunk.ways else None for i in numbers]
+        outcomes = _solve([ready[i] for i in numbers], ways, settings, workers)
         for i, outcome in zip(numbers, outcomes, strict=True):
             _fill(rows, i, ready[i][0], outcome, settings)
     return rows
@@ -101,7 +106,10 @@ def _alike(cases: dict[int, Case]) -> list[list[int]]:
 
 
 def _solve(
-    cases: list[tuple[Prepared, np.ndarray]], settings: Settings, workers: int | None
+    cases: list[tuple[Prepared, np.ndarray]],
+    ways: Sequence[Way | None],
+    settings: Settings,
+    workers: int | None,
 ) -> list[Outcome]:
     solver = cases[0][0].case.solver
     common: dict[str, Any] = {
@@ -116,7 +124,11 @@ def _solve(
     models, states = [one.model for one, _ in cases], np.array([state for _, state in cases])
     if settings.steady:
         from tribodyn.studies.gear_pair.batch.steady import steady
+        from tribodyn.studies.gear_pair.batch.ways import legs_of, models_between
 
+        if settings.followed:
+            common["legs"] = legs_of(cases, ways)
+            common["model_at"] = models_between([one for one, _ in cases], ways, tabulated)
         return steady(models, states, **common)
     return marched(models, states, window=settings.window, **common)
 
@@ -143,6 +155,8 @@ def _fill(
     rows["poincare_error"][i, : len(outcome.section)] = outcome.section[:, XI]
     rows["poincare_rate"][i, : len(outcome.section)] = outcome.section[:, XI_RATE]
     rows["state"][i] = outcome.state
+    if settings.followed:
+        fill_ends(rows, i, outcome.ends)
     rows["status"][i] = DONE
 
 

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.dynamics.parameters import LAG, WORKS
+from tribodyn.solve.branch_end import BranchEnd
 from tribodyn.solve.integrator import REASONS, Status
 from tribodyn.studies.gear_pair.sweep_layout import UNKNOWN
 
@@ -47,6 +48,8 @@ class Outcome(NamedTuple):
         Why it failed, or a remark on its result.
     period, stable, multiplier_max, residual
         As `sweep_layout.CASES` has them.
+    ends : tuple of BranchEnd
+        Of the branches that were left on the way from the neighbour.
     """
 
     passage: Passage | None
@@ -59,6 +62,7 @@ class Outcome(NamedTuple):
     stable: int = UNKNOWN
     multiplier_max: float = float("nan")
     residual: float = float("nan")
+    ends: tuple[BranchEnd, ...] = ()
 
 
 def failed(state: np.ndarray, cycles: float, reason: str) -> Outcome:

@@ -1,0 +1,53 @@
+"""The ways between neighbouring cases of a followed sweep, as legs of a continuation."""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from tribodyn.dynamics.parameters import Model
+from tribodyn.solve.continuation import Leg
+from tribodyn.solve.followed import ModelAt
+from tribodyn.studies.batch import Way
+from tribodyn.studies.between import NothingBetween, case_between
+from tribodyn.studies.gear_pair.case import Case
+from tribodyn.studies.gear_pair.prepare import Prepared, Tabulated, prepare, table_key
+
+#: Parts of a way at most, where every place on it needs a table of its own.
+PARTS = 4
+
+
+def legs_of(cases: Sequence[tuple[Prepared, np.ndarray]], ways: Sequence[Way | None]) -> list[Leg]:
+    """The leg to each case, with the state that it begins from."""
+    legs = []
+    for line, ((prepared, state), way) in enumerate(zip(cases, ways, strict=True)):
+        if way is None:
+            legs.append(Leg(line, 0.0, 0.0, state, 0))
+        else:
+            finest = _finest(way, prepared.case)
+            legs.append(Leg(line, way.start, way.target, state, way.period, finest, way.reach))
+    return legs
+
+
+def models_between(
+    cases: Sequence[Prepared], ways: Sequence[Way | None], tabulated: Callable[[Case], Tabulated]
+) -> ModelAt:
+    """Gives the model at a place on the way to a case, or beyond it."""
+
+    def model_at(line: int, value: float) -> Model:
+        way = ways[line]
+        if way is None or value == way.target:
+            return cases[line].model
+        share = (value - way.start) / (way.target - way.start)
+        case = case_between(way.neighbour, cases[line].case, share)
+        return prepare(case, tabulated(case)).model
+
+    return model_at
+
+
+def _finest(way: Way, case: Case) -> float:
+    try:
+        case_between(way.neighbour, case, 0.5)
+    except NothingBetween:
+        return np.inf
+    dear = table_key(way.neighbour) != table_key(case)
+    return abs(way.target - way.start) / PARTS if dear else 0.0
