@@ -233,3 +233,53 @@ def test_two_motions_at_one_speed(tmp_path: Path):
         # the resonance is at the mode that the linearised model has there
         mode = record["mode_frequency"][0, 0, 0]
         assert record["mesh_frequency"][:, 0].min() < mode < record["mesh_frequency"][:, 0].max()
+
+
+@pytest.fixture(scope="module")
+def followed(tmp_path_factory) -> dict[int, Path]:
+    """Down the motion of two mesh cycles of a lightly damped drive, in coarse and in fine steps."""
+    settings = {
+        "friction.law": "none",
+        "mesh.damping_ratio": "0.01",
+        "operating.gear_torque": "100 N*m",
+        "mesh.compliance": "constant",
+        "mesh.stiffness": "2.8e8 N/m",
+        "output.samples_per_cycle": "40",
+    }
+    given = [word for key, value in settings.items() for word in ("--set", f"{key}={value}")]
+    paths = {}
+    for step in (20, 60):
+        paths[step] = tmp_path_factory.mktemp("followed") / f"{step}.h5"
+        vary = f"operating.pinion_speed=884:1004:{step}rad/s"
+        tribodyn("sweep", "crc-23-47", *given, "--vary", vary, "--direction", "down", "-o", paths[step])
+    return paths
+
+
+def test_a_motion_is_followed_whatever_the_step(followed):
+    """The branch of two mesh cycles; marching from a neighbour 4 rad/s away gives 11.46 µm at 884 rad/s."""
+    with SweepRecord(followed[20]) as fine, SweepRecord(followed[60]) as coarse:
+        assert np.all(fine["period"] == 2)
+        assert fine["transmission_error_rms"][0, 0] * 1e6 == pytest.approx(11.46, abs=0.02)
+        np.testing.assert_allclose(
+            coarse["transmission_error_rms"], fine["transmission_error_rms"][::3], rtol=1e-5
+        )
+        assert np.all(fine["end_kind"] == 0)
+        assert fine.units("end_value") == "rad/s"
+
+
+def test_ends_of_branches_are_recorded_and_shown(tmp_path: Path):
+    path = tmp_path / "tongue.h5"
+    words = ["sweep", "involute-23-47", "--vary", "operating.pinion_speed=1006:1014:8rad/s"]
+    for one in ("friction.law=none", "mesh.damping_ratio=0.01", "operating.gear_torque=100 N*m"):
+        words += ["--set", one]
+    tribodyn(*words, "--set", "output.samples_per_cycle=40", "--direction", "up", "-o", path)
+    with SweepRecord(path) as record:
+        assert record["period"][:, 0].tolist() == [1, 2]
+        assert record.meanings("end_kind")[record["end_kind"][1, 0, 0]] == "period_doubling"
+        assert record["end_multiplier_modulus"][1, 0, 0] == pytest.approx(1.0, abs=1e-3)
+        assert 1006.0 < record["end_value"][1, 0, 0] < 1014.0
+        assert record["end_within"][1, 0, 0] <= 1e-4 * 1014.0
+    assert "a branch of period 1 ends at" in tribodyn("show", path)
+    said = json.loads(tribodyn("show", path, "--json"))
+    assert [end["kind"] for end in said["ends"]] == ["period doubling"]
+    tribodyn("plot", path, "response", "bifurcation", "--output", tmp_path / "tongue.png")

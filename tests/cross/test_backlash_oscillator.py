@@ -5,6 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from tests.support.harmonic_balance import HarmonicBalance, restoring, turning_points
+from tribodyn.solve.branch_end import FOLD, PERIOD_DOUBLING
 from tribodyn.solve.steady_orbit import find
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.motion import OscillatorMap
@@ -311,3 +312,37 @@ def test_figures_are_those_of_the_motion():
     assert response.free[0, DOWN] == pytest.approx(np.mean(np.abs(x) <= 1.0), abs=1e-4)
     assert response.free[0, DOWN] > 0.1
     assert response.back[0, DOWN] == 0.0
+
+
+@pytest.mark.parametrize("step", [0.04, 0.1])
+def test_the_doubled_period_is_followed_to_its_end_whatever_the_step(step):
+    """Down the branch of two periods; an independent march with DOP853 gives RMS 0.1215 and 0.1854."""
+    values = np.unique(np.round(np.concatenate([np.arange(1.2, 2.2, step), [1.24, 1.6, 1.88]]), 6))
+    response = frequency_response(oscillator(values, error=0.0, variation=0.3))
+    for frequency, rms in ((1.88, 0.1215), (1.6, 0.1854)):
+        place = int(np.argmin(np.abs(values - frequency)))
+        assert response.period[place, DOWN] == 2
+        assert response.rms[place, DOWN] == pytest.approx(rms, abs=1e-4)
+        state = np.array([response.displacement[place, DOWN], response.velocity[place, DOWN]])
+        parameters = (0.05, 0.1, 0.0, 0.3, frequency)
+        np.testing.assert_allclose(by_scipy(parameters, state, 2)[1], state, atol=1e-6)
+    down = [end for direction, end in response.ends if direction == DOWN]
+    doubling, fold = down[:2]
+    assert (doubling.kind, doubling.period) == (PERIOD_DOUBLING, 1)
+    # in contact the equation is linear: Floquet's multiplier is −1 there
+    multipliers = np.linalg.eigvals(fundamental(0.05, 0.3, doubling.value))
+    assert np.min(multipliers.real) == pytest.approx(-1.0, abs=2e-3)
+    assert (fold.kind, fold.period) == (FOLD, 2)
+    assert response.period[int(np.argmin(np.abs(values - 1.24))), DOWN] == 2
+    if step < 0.1:
+        return
+    # two thousandths farther the motion of two periods is left by DOP853 too
+    here = np.array([response.displacement, response.velocity])[
+        :, int(np.argmin(np.abs(values - 1.24))), DOWN
+    ]
+    before, beyond = (
+        by_scipy((0.05, 0.1, 0.0, 0.3, frequency), here, 70)
+        for frequency in (fold.value * 1.002, fold.value * 0.998)
+    )
+    assert np.max(np.abs(before[-1] - before[-2])) > 0.1
+    assert np.max(np.abs(beyond[-1] - beyond[-2])) < 0.5 * np.max(np.abs(before[-1] - before[-2]))

@@ -16,6 +16,8 @@ from tribodyn.record.sweep_schema import DONE
 
 #: Failed cases that are named; the record has them all.
 FAILURES_SHOWN = 5
+#: Ends of branches that are named; the record has them all.
+ENDS_SHOWN = 12
 
 
 def sweep_table(record: SweepRecord, lines: Sequence[Line]) -> Group:
@@ -47,12 +49,42 @@ def sweep_table(record: SweepRecord, lines: Sequence[Line]) -> Group:
         if np.isfinite(values).any():
             table.add_row(*_row(record, column, values))
     parts.append(table)
+    ends = branch_ends(record)
+    parts += [Text(_end_line(record, end)) for end in ends[:ENDS_SHOWN]]
+    if len(ends) > ENDS_SHOWN:
+        parts.append(Text(f"and {len(ends) - ENDS_SHOWN} more ends of branches, see end_value in the record"))
     failures = record.failures()
     parts += [Text(f"failed at {_place(record, at)}: {why}") for at, why in failures[:FAILURES_SHOWN]]
     if len(failures) > FAILURES_SHOWN:
         parts.append(Text(f"and {len(failures) - FAILURES_SHOWN} more, see message in the record"))
     parts += [Text(f"Warning: {warning}", style="bold red") for warning in sweep_warnings(record)]
     return Group(*parts)
+
+
+def branch_ends(record: SweepRecord) -> list[dict[str, Any]]:
+    """Ends of the branches that a followed sweep left, in the order of the cases."""
+    if "end_kind" not in record:
+        return []
+    kinds = record.meanings("end_kind")
+    number = record["end_kind"]
+    ends = []
+    for place in map(tuple, np.argwhere(number > 0)):
+        first = record.parameters[0].name
+        ends.append(
+            {
+                "kind": kinds[number[place]].replace("_", " "),
+                "at": record.at(place[:-1]) | {first: float(record["end_value"][place])},
+                "within": float(record["end_within"][place]),
+                "period": int(record["end_period"][place]),
+                "multiplier_modulus": float(record["end_multiplier_modulus"][place]),
+                "multiplier_angle": float(record["end_multiplier_angle"][place]),
+            }
+        )
+    return ends
+
+
+def _end_line(record: SweepRecord, end: dict[str, Any]) -> str:
+    return f"a branch of period {end['period']} ends at {_place(record, end['at'])}: {end['kind']}"
 
 
 def sweep_warnings(record: SweepRecord) -> list[str]:
@@ -110,6 +142,7 @@ def sweep_as_json(record: SweepRecord) -> dict[str, Any]:
         "directions": list(record.directions),
         "settings": record.settings,
         "figures": {name: {"units": record.units(name), "values": record[name]} for name in names},
+        "ends": branch_ends(record),
         "failures": [{"at": at, "message": why} for at, why in record.failures()],
         "warnings": sweep_warnings(record),
         "summary": record.summary,

@@ -142,6 +142,12 @@ class SweepRecord:
         """Return what a dataset means."""
         return harmless(str(self._file[name].attrs["long_name"]))
 
+    def meanings(self, name: str) -> dict[int, str]:
+        """Words that the whole numbers of a dataset stand for."""
+        attrs = self._file[name].attrs
+        values, words = attrs["flag_values"], str(attrs["flag_meanings"]).split()
+        return {int(value): word for value, word in zip(values, words, strict=True)}
+
     @cached_property
     def attrs(self) -> dict[str, Any]:
         """Attributes of the file's root."""

@@ -13,14 +13,17 @@ from tribodyn.solve.branch_end import KINDS, BranchEnd
 ENDS = 4
 
 END = Variable(("end",), "1", "number of the end, in the order in which they were met")
+
+
+def kind_variable(dims: tuple[str, ...], long_name: str) -> Variable:
+    """A dataset of the kinds of ends, by number."""
+    numbers = ", ".join(f"{number} {name}" for number, name in enumerate(KINDS, 1))
+    meanings = " ".join(["none", *(name.replace(" ", "_") for name in KINDS)])
+    return flag(dims, f"{long_name}: 0 none, {numbers}", meanings, 0)
+
+
 VARIABLES: dict[str, Variable] = {
-    "end_kind": flag(
-        ("end",),
-        "how a branch ends between the neighbouring case and this one: 0 none, "
-        + ", ".join(f"{number} {name}" for number, name in enumerate(KINDS, 1)),
-        " ".join(["none", *(name.replace(" ", "_") for name in KINDS)]),
-        0,
-    ),
+    "end_kind": kind_variable(("end",), "how a branch ends between the neighbouring case and this one"),
     "end_value": Variable(("end",), FIRST_PARAMETER, "first parameter at the end of the branch"),
     "end_within": Variable(("end",), FIRST_PARAMETER, "distance between the places that locate the end"),
     "end_period": Variable(

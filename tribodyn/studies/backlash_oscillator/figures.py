@@ -17,6 +17,8 @@ from tribodyn.record.reader import Record
 ABSCISSA = "Frequency of the excitation / natural frequency"
 UP, DOWN = 0, 1
 LINES: dict[int, Any] = {UP: "-", DOWN: (0, (4, 1.6))}
+#: Mark of an end of a branch.
+END: dict[str, Any] = {"markersize": 5, "markerfacecolor": "none", "markeredgewidth": 0.8}
 WORDS = {UP: "up", DOWN: "down"}
 
 
@@ -28,6 +30,7 @@ def _response(records: Sequence[Record]) -> Figure:
         for direction in (UP, DOWN):
             color = _color(records, number, direction)
             _branch(upper, record, direction, color)
+            _ends(upper, record, direction, color)
             free = 100.0 * record["contact_loss_fraction"][:, direction]
             lower.plot(record["frequency"], free, color=color, linestyle=LINES[direction])
             back = 100.0 * record["back_contact_fraction"][:, direction]
@@ -66,6 +69,13 @@ def _branch(axes: Axes, record: Record, direction: int, color: str) -> None:
             xytext=(x[start], y[start]),
             arrowprops={"arrowstyle": "-|>", "color": color, "linewidth": 0.9, "shrinkA": 0, "shrinkB": 0},
         )
+
+
+def _ends(axes: Axes, record: Record, direction: int, color: str) -> None:
+    """Mark where branches end, at the lower edge."""
+    if "end_frequency" in record:
+        at = record["end_frequency"][record["end_direction"] == direction]
+        axes.plot(at, np.full(len(at), 0.02), "^", color=color, transform=axes.get_xaxis_transform(), **END)
 
 
 def jumps(values: np.ndarray, periodic: np.ndarray) -> list[int]:
@@ -119,6 +129,9 @@ def _finish(drawn: Figure, panels: Sequence[Axes], records: Sequence[Record], lo
     if losing:
         handles.append(Line2D([], [], color=QUIET, linewidth=4.5, alpha=0.4))
         labels.append("contact lost for part of the period")
+        if any("end_frequency" in record for record in records):
+            handles.append(Line2D([], [], color=QUIET, linestyle="", marker="^", **END))
+            labels.append("a branch ends (a)")
         if any(np.any(record["stable"] == 0.0) for record in records):
             handles.append(Line2D([], [], color=QUIET, linestyle="", marker="^", markersize=3.5))
             labels.append("not periodic")

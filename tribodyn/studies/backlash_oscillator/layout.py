@@ -2,6 +2,7 @@
 
 from tribodyn.numerics.variable import Variable, flag
 from tribodyn.record.schema import Layout
+from tribodyn.studies import ends
 
 _POINT = ("frequency", "direction")
 _MULTIPLIER = ("frequency", "direction", "multiplier")
@@ -47,9 +48,23 @@ SAMPLES: dict[str, Variable] = {
     "section_velocity": Variable(_POINT, "1", "velocity there, in half backlashes times natural frequency"),
 }
 
+_END = ("end",)
+ENDS: dict[str, Variable] = {
+    "end_kind": ends.kind_variable(_END, "how the branch ends that is left there"),
+    "end_frequency": Variable(_END, "1", "frequency at which a branch ends"),
+    "end_within": Variable(_END, "1", "distance between the frequencies that locate the end"),
+    "end_direction": flag(_END, "sense in which the frequency was followed: 0 up, 1 down", "up down", 0),
+    "end_period": Variable(_END, "1", "periods of the excitation in one of the motion that ends", "<i4", 0),
+    "end_multiplier_modulus": Variable(
+        _END, "1", "maximum modulus of the multipliers at the last place found on the branch"
+    ),
+    "end_multiplier_angle": Variable(_END, "rad", "angle of that multiplier"),
+}
+
 LAYOUT = Layout(
     FREQUENCY,
     SAMPLES,
-    {"direction": DIRECTION, "multiplier": MULTIPLIER},
+    {"direction": DIRECTION, "multiplier": MULTIPLIER, "end": ends.END},
+    ENDS,
     groups={"mesh_cycle": {}, "geometry": {}},
 )

@@ -1,14 +1,15 @@
 """Frequency response of the oscillator with backlash: steady states followed up and down."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
 
 from tribodyn.solve import orbit
+from tribodyn.solve.branch_end import BranchEnd
+from tribodyn.solve.continuation import Leg, follow
 from tribodyn.solve.orbit import Orbit
-from tribodyn.solve.steady_orbit import find
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.motion import (
     BACK,
@@ -71,6 +72,8 @@ class Response(NamedTuple):
         State where cos Ωτ = 1, at the start of the motion.
     messages : list of (frequency, direction, text)
         Remarks on single points.
+    ends : list of (direction, BranchEnd)
+        Where branches were left, in the order in which they were met.
     """
 
     frequency: np.ndarray
@@ -86,15 +89,16 @@ class Response(NamedTuple):
     displacement: np.ndarray
     velocity: np.ndarray
     messages: list[tuple[float, int, str]]
+    ends: list[tuple[int, BranchEnd]]
 
 
 def frequency_response(
     case: BacklashOscillatorCase, progress: Callable[[float], None] | None = None
 ) -> Response:
-    """Follow the steady states over the frequencies, up and down side by side.
+    """Follow the steady motions over the frequencies, up and down side by side.
 
-    Each frequency starts from the state of the one before it in its own direction; the first, and the one
-    after a failure, from rest under the mean force.
+    Each frequency is reached from the motion at the one before it in its own direction, by continuation along
+    the branch; the first, and the one after a failure, begins at rest under the mean force.
     """
     frequency = np.array(case.frequencies)
     count = len(frequency)
@@ -109,19 +113,40 @@ def frequency_response(
         displacement=one.copy(),
         velocity=one.copy(),
         messages=[],
+        ends=[],
     )
     rest = np.array([at_rest(case.mean_force), 0.0])
-    state = np.array([rest, rest])
+    family = _Oscillators(case)
+    reach = float(frequency[-1])
+    at: list[tuple[float, np.ndarray, int] | None] = [None, None]
     for step in range(count):
-        places = np.array([step, count - 1 - step])
+        places = [step, count - 1 - step]
+        legs = []
+        for direction, place in enumerate(places):
+            target = float(frequency[place])
+            start, state, period = at[direction] or (target, rest, 0)
+            legs.append(Leg(direction, start, target, state, period, reach=reach))
+        arrivals = follow(family, legs, max_periods=case.max_periods)
         oscillator = oscillator_at(case, frequency[places])
-        orbits = find(oscillator, state, max_periods=case.max_periods)
-        for direction, found in enumerate(orbits):
-            _put(response, int(places[direction]), direction, found, oscillator)
-            state[direction] = rest if found.kind == orbit.FAILED else found.last
+        for direction, arrival in enumerate(arrivals):
+            found = arrival.orbit
+            _put(response, places[direction], direction, found, oscillator)
+            response.ends.extend((direction, end) for end in arrival.ends)
+            failed = found.kind == orbit.FAILED
+            at[direction] = None if failed else (legs[direction].target, arrival.carried, found.period)
         if progress:
             progress((step + 1) / count)
     return response
+
+
+class _Oscillators:
+    """The oscillator over its frequency, as `continued_family.Family`."""
+
+    def __init__(self, case: BacklashOscillatorCase):
+        self.case = case
+
+    def at(self, lines: Sequence[int], values: Sequence[float]) -> tuple[OscillatorMap, list[str]]:
+        return oscillator_at(self.case, np.array(values)), [""] * len(values)
 
 
 def oscillator_at(case: BacklashOscillatorCase, frequency: np.ndarray) -> OscillatorMap:

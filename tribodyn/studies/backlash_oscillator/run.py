@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.errors import SimulationError
+from tribodyn.solve.branch_end import KINDS, BranchEnd
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.layout import LAYOUT
 from tribodyn.studies.backlash_oscillator.response import (
@@ -45,8 +46,12 @@ def run(
     response = frequency_response(case, progress)
     summary = response_figures(response) | {"wall_time": perf_counter() - begun}
     scales = {"direction": np.array(["up", "down"]), "multiplier": np.array([1, 2])}
+    if response.ends:
+        scales["end"] = np.arange(1, len(response.ends) + 1)
     with writer(case, path, LAYOUT, len(response.frequency), scales=scales, force=force) as record:
         record.write(0, record_arrays(response))
+        for row, (direction, end) in enumerate(response.ends):
+            record.put(row, end_row(direction, end))
         if np.all(response.kind == FAILED):
             message = response.messages[0][2]
             return RunResult(record.fail(message, summary), "failed", message, summary)
@@ -82,6 +87,19 @@ def record_arrays(response: Response) -> dict[str, Any]:
     }
 
 
+def end_row(direction: int, end: BranchEnd) -> dict[str, Any]:
+    """What the record holds of the end of a branch."""
+    return {
+        "end_kind": 1 + KINDS.index(end.kind),
+        "end_frequency": end.value,
+        "end_within": end.within,
+        "end_direction": direction,
+        "end_period": end.period,
+        "end_multiplier_modulus": abs(end.multiplier),
+        "end_multiplier_angle": np.angle(end.multiplier),
+    }
+
+
 def response_figures(response: Response) -> dict[str, Any]:
     """Figures of the whole sweep."""
     frequency, rms, kind = response.frequency, response.rms, response.kind
@@ -111,6 +129,9 @@ def response_figures(response: Response) -> dict[str, Any]:
             "bistable_from": float(frequency[bistable[0]]),
             "bistable_to": float(frequency[bistable[-1]]),
         }
+    for number, (direction, end) in enumerate(response.ends, 1):
+        way = "up" if direction == UP else "down"
+        summary[f"end_{number}"] = f"{end.kind} of period {end.period} at {end.value:.6g}, {way}"
     said = response.messages
     for number, (at, direction, text) in enumerate(said[:REMARKS]):
         summary[f"remark_{number + 1}"] = f"frequency {at:g}, {'up' if direction == UP else 'down'}: {text}"

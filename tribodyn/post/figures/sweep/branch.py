@@ -26,6 +26,14 @@ MOTIONS: tuple[tuple[str, dict[str, Any]], ...] = (
     ("repeats after several mesh cycles", {"marker": "D", "markersize": 4, "markerfacecolor": "none"}),
     ("does not repeat", {"marker": "x", "markersize": 5}),
 )
+#: Mark of an end of a branch.
+ENDS: dict[str, Any] = {
+    "linestyle": "none",
+    "marker": "^",
+    "markersize": 4,
+    "markerfacecolor": "none",
+    "markeredgewidth": 0.8,
+}
 
 
 class Branch(NamedTuple):
@@ -149,6 +157,15 @@ def motions(branch: Branch) -> Iterator[tuple[str, dict[str, Any], np.ndarray]]:
             yield label, style, chosen
 
 
+def mark_ends(axes: Axes, drawn: Sequence[Branch]) -> None:
+    """Mark, at the lower edge, where branches that were followed end."""
+    for branch in drawn:
+        if "end_value" in branch.record:
+            at = branch.values("end_value").ravel() * shown_unit(branch.record.parameters[0].units)[1]
+            height = np.full(len(at), 0.03)
+            axes.plot(at, height, color=branch.color, transform=axes.get_xaxis_transform(), **ENDS)
+
+
 def shade_contact_loss(axes: Axes, drawn: Sequence[Branch]) -> None:
     """Shade where contact is lost at times, on any of the branches."""
     for branch in drawn:
@@ -169,6 +186,9 @@ def regime_handles(drawn: Sequence[Branch]) -> list[Artist]:
     handles: list[Artist] = [
         Line2D([], [], color=QUIET, linestyle="none", label=label, **style) for label, style in marks.items()
     ]
+    ending = [branch for branch in drawn if "end_value" in branch.record]
+    if any(np.isfinite(branch.values("end_value")).any() for branch in ending):
+        handles.append(Line2D([], [], color=QUIET, label="a branch ends", **ENDS))
     known = [branch for branch in drawn if "contact_loss_fraction" in branch.record]
     if any(np.nanmax(branch.values("contact_loss_fraction"), initial=0.0) > 0.0 for branch in known):
         handles.append(Patch(color=LOST, label="a curve loses contact"))

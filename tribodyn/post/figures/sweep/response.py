@@ -12,6 +12,7 @@ from tribodyn.post.figures.sweep.branch import (
     branch_legend,
     branches,
     draw_branch,
+    mark_ends,
     regime_handles,
     shade_contact_loss,
     sweep_title,
@@ -92,6 +93,7 @@ def response_figure(records: Sequence[SweepRecord], panels: Sequence[Panel]) -> 
             # a constant: no scale of rounding errors
             axes.set_ylim(0.98 * axes.dataLim.y1, 1.004 * axes.dataLim.y1)
         shade_contact_loss(axes, drawn)
+        mark_ends(axes, drawn)
         mark_panel(axes, letter)
     for axes in rows.flat[max(0, len(panels) - columns) : len(panels)]:
         axes.tick_params(labelbottom=True)

@@ -6,7 +6,13 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from tribodyn.errors import InputError
-from tribodyn.post.figures.sweep.branch import axis_label, branch_legend, branches, sweep_title
+from tribodyn.post.figures.sweep.branch import (
+    axis_label,
+    branch_legend,
+    branches,
+    mark_ends,
+    sweep_title,
+)
 from tribodyn.post.shown_units import shown
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, WIDTH, new_figure
 from tribodyn.record.sweep_reader import SweepRecord
@@ -35,6 +41,7 @@ def bifurcation_figure(records: Sequence[SweepRecord]) -> Figure:
     axes.set_xlabel(axis_label(records[0].parameters[0]))
     axes.set_ylabel("Error at phase 0 (µm)")
     axes.margins(x=0.02)
+    mark_ends(axes, drawn)
     branch_legend(figure, drawn, lines=False)
     both = "; up filled, down hollow" if any(branch.direction for branch in drawn) else ""
     figure.suptitle(sweep_title(records) + both, x=0.01, ha="left", fontsize=9)
