@@ -72,7 +72,7 @@ def branch_ends(record: SweepRecord) -> list[dict[str, Any]]:
         first = record.parameters[0].name
         ends.append(
             {
-                "kind": kinds[number[place]].replace("_", " "),
+                "kind": kinds[int(number[place])].replace("_", " "),
                 "at": record.at(place[:-1]) | {first: float(record["end_value"][place])},
                 "within": float(record["end_within"][place]),
                 "period": int(record["end_period"][place]),
