@@ -6,9 +6,9 @@ import numpy as np
 
 from tribodyn.dynamics import contact_forces as contact
 from tribodyn.dynamics.equations import derivatives, locate, stored_energy
+from tribodyn.dynamics.extremes import LOWEST, Extremes, highest_loaded
 from tribodyn.dynamics.parameters import (
     LAG,
-    SLIDING_DYNAMIC,
     SLIP,
     VX_G,
     VX_P,
@@ -28,7 +28,7 @@ from tribodyn.dynamics.parameters import (
     Model,
 )
 from tribodyn.mesh.power_flow import efficiency
-from tribodyn.tribology.contact import local_contact
+from tribodyn.tribology.contact import LocalContact
 from tribodyn.tribology.surface_state import surface_state
 
 
@@ -37,7 +37,9 @@ def segment_of(phase: np.ndarray, boundary: np.ndarray) -> np.ndarray:
     return np.clip(np.searchsorted(boundary, phase, side="right") - 1, 0, len(boundary) - 2)
 
 
-def outputs(cycles: np.ndarray, states: np.ndarray, model: Model) -> dict[str, np.ndarray]:
+def outputs(
+    cycles: np.ndarray, states: np.ndarray, model: Model, segment: np.ndarray | None = None
+) -> dict[str, np.ndarray]:
     """All datasets of a record at the given samples.
 
     Parameters
@@ -47,6 +49,8 @@ def outputs(cycles: np.ndarray, states: np.ndarray, model: Model) -> dict[str, n
     states : (n, STATES)
     model : Model
         With NumPy arrays.
+    segment : (n,) int, optional
+        Segment of each sample: on a boundary it says on which side. By default the one that begins there.
 
     Returns
     -------
@@ -59,7 +63,12 @@ def outputs(cycles: np.ndarray, states: np.ndarray, model: Model) -> dict[str, n
     whole = np.floor(cycles + 1e-12)
     phase = np.maximum(cycles - whole, 0.0)
     y = np.ascontiguousarray(states.T)
-    segment = segment_of(phase, np.asarray(table.boundary))
+    boundary = np.asarray(table.boundary)
+    if segment is None:
+        segment = segment_of(phase, boundary)
+    else:  # a phase before its segment ends a mesh cycle
+        before = phase < boundary[segment] - 1e-9
+        whole, phase = whole - before, phase + before
     work: dict[tuple[int, int], Any] = {}
     rates: dict[int, Any] = {}
     # rates with respect to the phase have no limit where the pinion comes to rest; they are not recorded
@@ -79,30 +88,20 @@ def outputs(cycles: np.ndarray, states: np.ndarray, model: Model) -> dict[str, n
     pinion_angle = cycles * table.pitch_angle
     gear_angle = (table.pinion_pitch_radius * pinion_angle - y[XI]) / table.gear_pitch_radius
     gear_speed = ratio * pinion_speed - y[XI_RATE] / table.gear_pitch_radius
-    dynamic = model.options.sliding == SLIDING_DYNAMIC
     speed_p, speed_g = per_pair(contact.PINION_SPEED), per_pair(contact.GEAR_SPEED)
     power_in, power_out, power_friction, power_damping, power_parametric, drive_torque = (
         np.broadcast_to(power, count) for power in powers
     )
 
-    # by the sliding that friction is given, against which it acts at every moment: with the nominal one
-    # power_friction, the work on the vibrating bodies, is another
-    sliding = per_pair(contact.RELATIVE_VELOCITY if dynamic else contact.SLIDING)
-    sliding_loss = np.sum(per_pair(contact.FRICTION_FORCE) * sliding, axis=1)
-
     def contacting(values: np.ndarray, mask: np.ndarray = touching) -> np.ndarray:
         return np.where(mask, values, np.nan)
 
     with np.errstate(over="ignore", under="ignore"):
-        state = local_contact(
-            load / table.face_width * _peak(phase, segment, model),
-            1.0 / per_pair(contact.RADIUS),
-            0.5 * (speed_p + speed_g),
-            sliding,
-            speed_p,
-            speed_g,
-        )
-        surface = surface_state(state, model.closure)
+        contacts = _contacts(phase, segment, model, work, count)
+        surface = surface_state(contacts, model.closure)
+    # by the sliding that friction is given, against which it acts at every moment: with the nominal one
+    # power_friction, the work on the vibrating bodies, is another
+    sliding_loss = np.sum(per_pair(contact.FRICTION_FORCE) * contacts.sliding, axis=1)
     result = {name: contacting(values) for name, values in surface._asdict().items()}
     result |= {
         # of the whole face; the others of the surface are where the line load is highest
@@ -143,9 +142,32 @@ def outputs(cycles: np.ndarray, states: np.ndarray, model: Model) -> dict[str, n
     return result
 
 
-def _peak(phase: np.ndarray, segment: np.ndarray, model: Model) -> np.ndarray:
-    """Maximum over mean line load along the face of each pair (n, pairs)."""
+def outputs_with_extremes(
+    cycles: np.ndarray, states: np.ndarray, extremes: Extremes | None, model: Model
+) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray], np.ndarray]:
+    """`outputs` at samples and where a motion is extreme, and the mesh cycles (n,) of the latter."""
+    if extremes is None:
+        return outputs(cycles, states, model), {}, np.empty(0)
+    there = extremes.measure > LOWEST
+    phase = np.maximum(cycles - np.floor(cycles + 1e-12), 0.0)
+    segment = segment_of(phase, np.asarray(model.table.boundary))
+    block = outputs(
+        np.concatenate([cycles, extremes.cycles[there]]),
+        np.concatenate([states, extremes.state[there]]),
+        model,
+        np.concatenate([segment, extremes.segment[there].astype(int)]),
+    )
+    count = len(cycles)
+    sampled, extreme = (
+        {name: values[part] for name, values in block.items()} for part in (slice(count), slice(count, None))
+    )
+    return sampled, extreme, extremes.cycles[there]
+
+
+def _contacts(phase: np.ndarray, segment: np.ndarray, model: Model, work: Any, count: int) -> LocalContact:
+    """Contacts of all pairs (n, pairs), where their line loads are highest."""
     cell, u, _ = locate(phase, segment, model.table)
     pairs = range(model.table.side.shape[0])
-    c = model.table.channel
-    return np.stack([contact.cubic(c, segment, cell, i, contact.PEAK, u) for i in pairs], axis=-1)
+    contacts = [highest_loaded(i, segment, cell, u, model, work) for i in pairs]
+    fields = ([np.broadcast_to(value, count) for value in values] for values in zip(*contacts, strict=True))
+    return LocalContact(*(np.stack(values, axis=-1) for values in fields))

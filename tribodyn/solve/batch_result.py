@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tribodyn.dynamics.extremes import Extremes, no_extremes, put_extremes
 from tribodyn.dynamics.parameters import STATES
 from tribodyn.numerics.shapes import Array, Float, Int
 
@@ -23,6 +24,8 @@ class Ensemble(NamedTuple):
         Mesh cycles done by this call.
     steps, evaluations : (C,) int
         Accepted steps, and evaluations of the right-hand side.
+    extremes : Extremes
+        Of the motion over the window; of no cases where they were not sought.
     """
 
     state: Float[Array, "case state"]
@@ -31,10 +34,19 @@ class Ensemble(NamedTuple):
     reached: Float[Array, " case"]
     steps: Int[Array, " case"]
     evaluations: Int[Array, " case"]
+    extremes: Extremes
 
 
-def nothing_yet(states: Float[Array, "case state"], kept: int) -> Ensemble:
-    """Results before anything is integrated, with room for `kept` samples per case."""
+def put(result: Ensemble, places: Int[Array, " some"], part: Ensemble) -> None:
+    """Put the results of some cases into those of all."""
+    for all_of_it, some in zip(result[:-1], part[:-1], strict=True):
+        all_of_it[places] = some
+    if len(part.extremes.measure):
+        put_extremes(result.extremes, places, part.extremes)
+
+
+def nothing_yet(states: Float[Array, "case state"], kept: int, extremes: bool = False) -> Ensemble:
+    """Results before anything is integrated, with room for `kept` samples per case, and maybe extremes."""
     count = len(states)
     return Ensemble(
         states.copy(),
@@ -43,4 +55,5 @@ def nothing_yet(states: Float[Array, "case state"], kept: int) -> Ensemble:
         np.zeros(count),
         np.zeros(count, dtype=int),
         np.zeros(count, dtype=int),
+        no_extremes(count if extremes else 0),
     )

@@ -11,10 +11,11 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 
 import numpy as np
 
+from tribodyn.dynamics.extremes import extremes_of, put_extremes, take_in
 from tribodyn.dynamics.parameters import STATES, Model
 from tribodyn.kernels.native.internals import report_missing
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.solve.batch_result import Ensemble, nothing_yet
+from tribodyn.solve.batch_result import Ensemble, nothing_yet, put
 from tribodyn.solve.choice import choose
 from tribodyn.solve.integrator import MAX_STEPS, March, Status
 from tribodyn.solve.methods import AUTO, EXPLICIT, Runs, runs
@@ -46,6 +47,7 @@ def march(
     started: bool = False,
     first_cycle: int = 0,
     method: str = "auto",
+    extremes: bool = False,
     workers: int | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> Ensemble:
@@ -72,6 +74,8 @@ def march(
     method : str
         "auto": explicit, and where that takes too many steps what `choice.choose` gives; or a method's name,
         see `methods`; those of diffrax are mapped over the cases, see `jax_ensemble`.
+    extremes : bool
+        Whether to seek the extremes of the motion over the window, between its samples too.
     workers : int, optional
         Threads; by default as many as cores that this process may use.
     progress : callable, optional
@@ -85,13 +89,16 @@ def march(
         raise ValueError(f"a window of {window} cycles does not fit into {cycles}")
     if cycles == 0 or cases == 0:
         # no kernel is made for it: they all do a cycle before they look
-        return nothing_yet(states, window * samples)
+        return nothing_yet(states, window * samples, extremes)
     count = workers or usable_cores()
-    march = March(first_cycle, cycles, window, samples, started, float(rtol), max_steps)
+    march = March(first_cycle, cycles, window, samples, started, float(rtol), max_steps, extremes)
     if runs(method) is Runs.JAX:
         from tribodyn.solve.jax_ensemble import through_jax
 
-        return through_jax(models, states, method, march, count, progress)
+        result = through_jax(models, states, method, march, count, progress)
+        if extremes:
+            seek_again(models, result, march, count)
+        return result
     if method not in (AUTO, EXPLICIT) or report_missing():
         return one_by_one(models, states, method, march, count, progress)
     limit = max_steps if method == EXPLICIT else min(max_steps, HANDED_OVER)
@@ -101,9 +108,33 @@ def march(
         again = one_by_one(
             [models[case] for case in expensive], states[expensive], method, march, count, progress
         )
-        for whole, part in zip(result, again, strict=True):
-            whole[expensive] = part
+        put(result, np.array(expensive), again)
     return result
+
+
+def seek_again(models: Sequence[Model], result: Ensemble, march_: March, workers: int) -> None:
+    """Seek extremes by marching every mesh cycle of the window again, natively, from its own start.
+
+    For methods whose steps are not ours. As each cycle starts where theirs did, no difference adds up.
+    """
+    for cycle in range(march_.window):
+        starts = result.samples[:, cycle * march_.samples]
+        there = np.flatnonzero(np.all(np.isfinite(starts), axis=1))
+        again = march(
+            [models[case] for case in there.tolist()],
+            starts[there],
+            cycles=1,
+            window=1,
+            samples=0,
+            rtol=march_.rtol,
+            max_steps=march_.max_steps,
+            first_cycle=march_.first_cycle + march_.cycles - march_.window + cycle,
+            extremes=True,
+            workers=workers,
+        )
+        found = extremes_of(result.extremes, there)
+        take_in(found, again.extremes)
+        put_extremes(result.extremes, there, found)
 
 
 def in_lanes(
@@ -116,12 +147,11 @@ def in_lanes(
     """Integrate with the explicit method, many cases side by side in the lanes of vectors."""
     from tribodyn.solve.lane_batch import batches, run_threads
 
-    result = nothing_yet(states, march.window * march.samples)
+    result = nothing_yet(states, march.window * march.samples, march.extremes)
     batches_ = batches(models, states, march)
     run_threads(batches_, march, workers, progress)
     for batch in batches_:
-        for name in Ensemble._fields:
-            getattr(result, name)[batch.places] = getattr(batch.queue, name)
+        put(result, batch.places, batch.queue.results())
     return result
 
 
@@ -134,7 +164,7 @@ def one_by_one(
     progress: Callable[[float], None] | None = None,
 ) -> Ensemble:
     """Integrate each case with an integrator of its own, as a single run does, one case per thread."""
-    result = nothing_yet(states, march.window * march.samples)
+    result = nothing_yet(states, march.window * march.samples, march.extremes)
     cancelled = threading.Event()
     opening = march.cycles - march.window
 
@@ -150,10 +180,13 @@ def one_by_one(
             # calls end where the window begins, so that nothing before it is kept for long
             end = opening if done < opening else march.cycles
             cycles = min(size, end - done)
+            integrator.extremes = march.extremes and done >= opening
             part = integrator.integrate(result.state[case], march.first_cycle + done, cycles)
             if done >= opening:
                 first = (done - opening) * march.samples
                 result.samples[case, first : first + len(part.samples)] = part.samples
+            if part.extremes:
+                take_in(extremes_of(result.extremes, case), part.extremes)
             result.state[case] = part.state
             result.reached[case] += part.reached
             result.steps[case] += part.steps

@@ -6,6 +6,7 @@ from tribodyn.kernels.native import kernel
 from tribodyn.numerics.elementary import absolute, largest_slope, maximum, plain
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.dormand_prince_8 import E3, E5, SECOND, STAGES, A, C, confidence, growth, shrinkage
+from tribodyn.solve.extreme_search import ignore_segment, ignore_step
 from tribodyn.solve.marching import ERROR, SCRATCH, STATE, Method, scratch_buffer
 
 
@@ -62,4 +63,9 @@ def adapted(step, error, last_error):
     return step * (growth(error) if error <= 1.0 else shrinkage(error))
 
 
-METHOD = Method(attempt, sample, accept, adapted)
+@kernel
+def contacts(phase, segment, model, work, buffer):
+    """See `marching.Method`: nobody asks."""
+
+
+METHOD = Method(attempt, sample, accept, adapted, contacts, ignore_segment, ignore_step)

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.dynamics.extremes import Extremes, no_extremes, put_extremes
 from tribodyn.dynamics.parameters import (
     DISPLACEMENTS,
     DRIVE_SHAFT,
@@ -104,7 +105,7 @@ class GearMap:
         self, states: Float[Array, "row moving"], cases: Int[Array, " row"], periods: int, fine: bool
     ) -> Marched:
         """See `period_map.PeriodMap`."""
-        samples, end, reasons = self.integrate(self.full(states), cases, periods, 1, fine)
+        samples, end, reasons, _ = self.integrate(self.full(states), cases, periods, 1, fine)
         for row, case in enumerate(cases):
             if self.models[case].options.formulation == ENERGY_CONSISTENT and not reasons[row]:
                 engage_next(end[row], self.models[case])
@@ -146,11 +147,13 @@ class GearMap:
         periods: int,
         samples: int,
         fine: bool,
-    ) -> tuple[Float[Array, "row sample state"], Float[Array, "row state"], list[str]]:
-        """Samples (R, periods · samples, STATES), states at the end before engagement, and reasons."""
+        extremes: bool = False,
+    ) -> tuple[Float[Array, "row sample state"], Float[Array, "row state"], list[str], Extremes]:
+        """Samples (R, periods · samples, STATES), states at the end before engagement, reasons, extremes."""
         sampled = np.full((len(states), periods * samples, STATES), np.nan)
         end = states.copy()
         reasons = [""] * len(states)
+        found = no_extremes(len(states) if extremes else 0)
         for solver in sorted(set(self.solvers)):
             rows = [row for row, case in enumerate(cases) if self.solvers[case] == solver]
             if not rows:
@@ -163,12 +166,15 @@ class GearMap:
                 samples=samples,
                 rtol=self.rtol[fine],
                 method=solver,
+                extremes=extremes,
                 **self.settings,
             )
             sampled[rows], end[rows] = batch.samples, batch.state
+            if extremes:
+                put_extremes(found, np.array(rows), batch.extremes)
             for row, status, reached in zip(rows, batch.status, batch.reached, strict=True):
                 reasons[row] = _reason(status, reached)
-        return sampled, end, reasons
+        return sampled, end, reasons, found
 
 
 def _reason(status: int, reached: float) -> str:

@@ -3,6 +3,7 @@
 from enum import IntEnum
 from typing import NamedTuple, Protocol
 
+from tribodyn.dynamics.extremes import Extremes
 from tribodyn.numerics.shapes import Array, Float
 
 
@@ -50,6 +51,8 @@ class March(NamedTuple):
     max_steps : int
         Steps, accepted ones, that one mesh cycle may take; a case that needs more fails. This is what
         `solver.max_steps` means whatever the method.
+    extremes : bool
+        Whether extremes are sought, over the window.
     """
 
     first_cycle: int
@@ -59,6 +62,7 @@ class March(NamedTuple):
     started: bool
     rtol: float
     max_steps: int
+    extremes: bool = False
 
 
 class IntegratedCycles(NamedTuple):
@@ -77,6 +81,8 @@ class IntegratedCycles(NamedTuple):
         Accepted steps, and evaluations of the right-hand side.
     message : str
         The solver's own words, if any.
+    extremes : Extremes or None
+        Of the dense motion; None where they were not sought.
     """
 
     samples: Float[Array, "sample state"]
@@ -86,15 +92,18 @@ class IntegratedCycles(NamedTuple):
     steps: int
     evaluations: int
     message: str = ""
+    extremes: Extremes | None = None
 
 
 class Integrator(Protocol):
     """Integrates whole mesh cycles, call after call.
 
-    `started` says whether the next call opens with the engagement at phase 0: not at the start of a run.
+    `started` says whether the next call opens with the engagement at phase 0: not at the start of a run;
+    `extremes` whether extremes are sought.
     """
 
     started: bool
+    extremes: bool
 
     def integrate(self, state: Float[Array, " state"], first_cycle: int, cycles: int) -> IntegratedCycles:
         """Integrate `cycles` cycles; `state` stands before the engagement that opens the first."""

@@ -80,7 +80,7 @@ def through_jax(
     not, and every `diffrax_integrator.ROOM` samples per cycle; for no number, and not for fewer cases.
     """
     use_compilation_cache()
-    result = nothing_yet(states, march.window * march.samples)
+    result = nothing_yet(states, march.window * march.samples, march.extremes)
     parts = _parts(models, method_file(method).METHOD, width_here())
     threads = workers if jax.default_backend() == "cpu" else 1
     cancelled = threading.Event()

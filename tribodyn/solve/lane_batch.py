@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tribodyn.dynamics.extremes import no_extremes
 from tribodyn.dynamics.parameters import STATES, Model
 from tribodyn.kernels.lanes.vectors import WIDTH
 from tribodyn.numerics.shapes import Array, Float, Int
@@ -42,6 +43,7 @@ def _batch(models: Sequence[Model], states: np.ndarray, march: March, places: np
     mine = [models[case] for case in places]
     packed = pack(mine)
     count = len(places)
+    extremes = no_extremes(count if march.extremes else 0)
     queue = Queue(
         numbers=packed.numbers,
         addresses=packed.addresses,
@@ -53,6 +55,10 @@ def _batch(models: Sequence[Model], states: np.ndarray, march: March, places: np
         reached=np.zeros(count),
         steps=np.zeros(count, dtype=np.int64),
         evaluations=np.zeros(count, dtype=np.int64),
+        measure=extremes.measure,
+        at=extremes.cycles,
+        segment=extremes.segment,
+        extreme_state=extremes.state,
         taken=np.zeros(1, dtype=np.int64),
         done=np.zeros(1, dtype=np.int64),
         stop=np.zeros(1, dtype=np.int64),

@@ -24,6 +24,7 @@ from tribodyn.solve.dormand_prince import (
 )
 from tribodyn.solve.engagement import engage
 from tribodyn.solve.integrator import Status
+from tribodyn.solve.lane_extremes import open_lanes, search_lanes, seeking
 from tribodyn.solve.lane_queue import (
     CASE,
     CUT,
@@ -113,6 +114,10 @@ def open_segment(segment, model, block, queue, march):
     due = has_case & (rows[DUE] <= start)
     if any_of(due):
         keep_sample(due, block.y, block, queue, march)
+    if march.extremes:
+        lanes = seeking(has_case, block, march)
+        if any_of(lanes):
+            open_lanes(start, segment, lanes, model, block, march)
 
 
 @part
@@ -167,6 +172,10 @@ def judge(evaluations, segment, model, block, queue, march):
         running = running & ~(stalled | lost)
     reached = where(cut, rows[LIMIT], phase + step)
     keep_dense(phase, step, reached, accepted, block, queue, march)
+    if march.extremes:
+        lanes = seeking(accepted, block, march)
+        if any_of(lanes):
+            search_lanes(lanes, phase, step, reached, segment, model, block, march)
     grown = next_step(step * growth(error, rows[LAST_ERROR]), cut, rows[UNCUT_STEP])
     rejected = step * where(undefined, RETRY, shrinkage(error))
     rows[STEP] = where(running, where(accepted, grown, rejected), step)

@@ -9,12 +9,14 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.dynamics.contact_forces import QUANTITIES
+from tribodyn.dynamics.extremes import EXTREMES, LOWEST, Extremes, measures_of
 from tribodyn.dynamics.parameters import STATES
 from tribodyn.kernels.lanes.arrays import rows_of
 from tribodyn.kernels.lanes.vectors import WIDTH, count
 from tribodyn.kernels.native.parts import part
 from tribodyn.numerics.elementary import where
 from tribodyn.numerics.shapes import Array, Float, Int
+from tribodyn.solve.batch_result import Ensemble
 from tribodyn.solve.dormand_prince import STAGES
 from tribodyn.solve.integrator import Status
 from tribodyn.solve.lane_packing import Packed
@@ -47,6 +49,8 @@ class LaneBlock(NamedTuple):
     y, new, sample, atol : (STATES, WIDTH)
     k : (STAGES, STATES, WIDTH)
     work : (quantities, pairs, WIDTH)
+    measures, extreme, cycles, segments, states
+        As in `extreme_search.Search`, each (…, WIDTH).
     """
 
     numbers: Float[Array, "number lane"]
@@ -58,6 +62,11 @@ class LaneBlock(NamedTuple):
     atol: Float[Array, "state lane"]
     k: Float[Array, "stage state lane"]
     work: Float[Array, "quantity pair lane"]
+    measures: Float[Array, "row measure lane"]
+    extreme: Float[Array, "extreme lane"]
+    cycles: Float[Array, "extreme lane"]
+    segments: Float[Array, "extreme lane"]
+    states: Float[Array, "extreme state lane"]
 
 
 class Queue(NamedTuple):
@@ -73,6 +82,8 @@ class Queue(NamedTuple):
     state : (C, STATES), samples : (C, kept, STATES), status : (C,) int64, reached : (C,)
     steps, evaluations : (C,) int64
         Results; `state` holds the start before.
+    measure, at, segment : (C, EXTREMES), extreme_state : (C, EXTREMES, STATES)
+        Results: the `Extremes`, where they are sought.
     taken, done, stop : (1,) int64
         Cases begun; mesh cycles done; not 0 to stop all threads.
     """
@@ -87,9 +98,20 @@ class Queue(NamedTuple):
     reached: Float[Array, " case"]
     steps: Int[Array, " case"]
     evaluations: Int[Array, " case"]
+    measure: Float[Array, "case extreme"]
+    at: Float[Array, "case extreme"]
+    segment: Float[Array, "case extreme"]
+    extreme_state: Float[Array, "case extreme state"]
     taken: Int[Array, "1"]
     done: Int[Array, "1"]
     stop: Int[Array, "1"]
+
+    def results(self) -> Ensemble:
+        """Results of the cases, in the order of the queue."""
+        extremes = Extremes(self.measure, self.at, self.segment, self.extreme_state)
+        return Ensemble(
+            self.state, self.samples, self.status, self.reached, self.steps, self.evaluations, extremes
+        )
 
 
 def empty_lanes(
@@ -110,6 +132,11 @@ def empty_lanes(
                 (STATES,),
                 (STAGES, STATES),
                 (QUANTITIES + pairs, pairs),
+                (5, measures_of(pairs)),
+                (EXTREMES,),
+                (EXTREMES,),
+                (EXTREMES,),
+                (EXTREMES, STATES),
             )
         ),
     )
@@ -140,6 +167,8 @@ def take_cases(block, queue, march):
                 for row in range(ROWS):
                     rows[row, lane] = 0.0
                 rows[CASE, lane] = case
+                for i in range(EXTREMES):
+                    block.extreme[i, lane] = LOWEST
                 rows[STEP, lane] = FIRST_STEP
                 rows[LAST_ERROR, lane] = MINIMUM_ERROR
                 rows[FRESH, lane] = 0.0 if march.started else 1.0
@@ -177,6 +206,12 @@ def let_go(lane, status, block, queue):
     queue.reached[case] = rows[CYCLE, lane] + rows[PHASE, lane]
     queue.steps[case] = int(rows[STEPS, lane])
     queue.evaluations[case] = int(rows[EVALUATIONS, lane])
+    if queue.measure.shape[0] > 0:
+        copy(block.extreme[:, lane], queue.measure[case])
+        copy(block.cycles[:, lane], queue.at[case])
+        copy(block.segments[:, lane], queue.segment[case])
+        for i in range(EXTREMES):
+            copy(block.states[i, :, lane], queue.extreme_state[case, i])
     rows[CASE, lane] = -1.0
     rows[PHASE, lane] = rows[END, lane]
 

@@ -1,6 +1,6 @@
 """The march of the native methods through mesh cycles: segments, steps and samples, the same for all.
 
-A method is four functions, see `Method`, and a buffer whose first two rows are the new state and its error.
+A method is seven functions, see `Method`, and a buffer whose first two rows are the new state and its error.
 """
 
 from collections.abc import Callable
@@ -31,7 +31,7 @@ STATE, ERROR, SCRATCH = 0, 1, 2
 
 
 class Method(NamedTuple):
-    """What a method adds to the march: four kernels.
+    """What a method adds to the march: seven kernels.
 
     Attributes
     ----------
@@ -44,12 +44,20 @@ class Method(NamedTuple):
         Keeps what the next step can use of an accepted one; returns whether that one begins fresh.
     adapted : (step, error, last_error) -> float
         The next step to try.
+    contacts : (phase, segment, model, work, buffer)
+        Fills `work` with the contacts at the end of the step last attempted, if it is not so yet.
+    opened, stepped
+        What seeks extremes at the start of a segment and over an accepted step, see `extreme_search`: its
+        `open_segment` and `search_step`, or `ignore_segment` and `ignore_step`.
     """
 
     attempt: Callable[..., Any]
     sample: Callable[..., Any]
     accept: Callable[..., Any]
     adapted: Callable[..., Any]
+    contacts: Callable[..., Any]
+    opened: Callable[..., Any]
+    stepped: Callable[..., Any]
 
 
 class Place(NamedTuple):
@@ -86,7 +94,7 @@ class Control(NamedTuple):
 
 
 @kernel
-def march_with(method, march, control, model, y, out, work, buffer):
+def march_with(method, march, control, model, y, out, work, buffer, search):
     """Integrate mesh cycles from the state `y` at the end of the one before.
 
     Parameters
@@ -101,6 +109,8 @@ def march_with(method, march, control, model, y, out, work, buffer):
         Receives the states at the samples.
     work, buffer : arrays
         Scratch, from `right_hand_side.work_array` and the method's `buffer`.
+    search : extreme_search.Search
+        What is known of the extremes; used where `march.extremes` says that they are sought.
 
     Returns
     -------
@@ -126,6 +136,8 @@ def march_with(method, march, control, model, y, out, work, buffer):
                 for i in range(STATES):
                     out[written, i] = y[i]
                 written += 1
+            if march.extremes:
+                method.opened(Place(phase, whole, segment, end), y, model, work, search)
             fresh = True
             stop = 0
             while phase < end:
@@ -182,6 +194,9 @@ def march_with(method, march, control, model, y, out, work, buffer):
                         break
                     method.sample((at - phase) / step, step, y, buffer, out[written])
                     written += 1
+                if march.extremes:
+                    place = Place(phase, whole, segment, next_phase)
+                    method.stepped(method, place, step, y, model, work, buffer, search)
                 phase = next_phase
                 for i in range(STATES):
                     y[i] = buffer[STATE, i]

@@ -7,6 +7,7 @@ import numpy as np
 from tribodyn.dynamics.parameters import STATES, Model
 from tribodyn.kernels.native import packed
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.solve.extreme_search import Search
 from tribodyn.solve.integrator import IntegratedCycles, March, Status
 from tribodyn.solve.marching import Control
 from tribodyn.solve.reversal import stops
@@ -36,6 +37,8 @@ class NativeIntegrator:
         self._stops = stops(model)
         self.samples = samples
         self.tolerances = tolerances
+        self.extremes = False
+        self._pairs = int(model.table.side.shape[0])
         self.step = FIRST_STEP
         self.started = False
 
@@ -44,10 +47,12 @@ class NativeIntegrator:
         y = state.copy()
         out = np.empty((cycles * self.samples, STATES))
         rtol, atol, max_steps = self.tolerances
-        march = March(first_cycle, cycles, cycles, self.samples, self.started, rtol, max_steps)
+        march = March(first_cycle, cycles, cycles, self.samples, self.started, rtol, max_steps, self.extremes)
+        search = Search.begun(self._pairs)
         control = Control(self.step, atol, atol / rtol, self._stops)
         status, reached, self.step, steps, evaluations, written = self._integrate(
-            march, control, self._model, y, out, self._work, self._buffer
+            march, control, self._model, y, out, self._work, self._buffer, search
         )
         self.started = True
-        return IntegratedCycles(out[:written], y, Status(status), reached, steps, evaluations)
+        found = search.found() if self.extremes else None
+        return IntegratedCycles(out[:written], y, Status(status), reached, steps, evaluations, "", found)

@@ -5,6 +5,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.dynamics.extremes import Extremes, extremes_of
 from tribodyn.dynamics.parameters import (
     DRIVE_SPEED,
     STATES,
@@ -59,6 +60,8 @@ class Steady(NamedTuple):
         without period.
     end : (STATES,)
         At the end of the samples, before the next engagement: the works and the lag of whole mesh cycles.
+    extremes : Extremes or None
+        Of the dense motion over those cycles; None where it failed.
     message : str
     """
 
@@ -73,6 +76,7 @@ class Steady(NamedTuple):
     cycles: int
     samples: np.ndarray
     end: np.ndarray
+    extremes: Extremes | None
     message: str
 
 
@@ -195,17 +199,18 @@ def refuse_time_dependent(model: Model) -> None:
 
 def sampled(period_map: GearMap, orbits: list[Orbit], samples: int) -> list[Steady]:
     """Each orbit with its samples, marched once more over its period, or over some mesh cycles without."""
-    sampled: dict[int, tuple[np.ndarray, np.ndarray, str]] = {}
+    sampled: dict[int, tuple[np.ndarray, np.ndarray, str, Extremes | None]] = {}
     cycles = [0 if orbit.kind == FAILED else orbit.period or WANDERING for orbit in orbits]
     for period in sorted({*cycles} - {0}):
         cases = np.array([case for case, count in enumerate(cycles) if count == period])
         states = period_map.full(np.array([orbits[case].state for case in cases]))
-        batch = period_map.integrate(states, cases, period, samples, True)
-        sampled |= {int(case): row for case, row in zip(cases, zip(*batch, strict=True), strict=True)}
+        *batch, extremes = period_map.integrate(states, cases, period, samples, True, extremes=True)
+        rows = zip(*batch, (extremes_of(extremes, row) for row in range(len(cases))), strict=True)
+        sampled |= {int(case): row for case, row in zip(cases, rows, strict=True)}
     steadies = []
     for case, orbit in enumerate(orbits):
         state, last = period_map.full(np.array([orbit.state, orbit.last]))
-        window, end, reason = sampled.get(case, (np.empty((0, STATES)), state, ""))
+        window, end, reason, extremes = sampled.get(case, (np.empty((0, STATES)), state, "", None))
         steady = Steady(
             state,
             last,
@@ -218,6 +223,7 @@ def sampled(period_map: GearMap, orbits: list[Orbit], samples: int) -> list[Stea
             orbit.marched,
             window,
             end,
+            extremes,
             orbit.message,
         )
         steadies.append(_without_state(state, reason) if reason else steady)
@@ -227,4 +233,4 @@ def sampled(period_map: GearMap, orbits: list[Orbit], samples: int) -> list[Stea
 def _without_state(state: np.ndarray, reason: str) -> Steady:
     nothing = np.empty(0, dtype=complex)
     empty = np.empty((0, STATES))
-    return Steady(state, state, 0, np.inf, nothing, False, FAILED, "marching", 0, empty, state, reason)
+    return Steady(state, state, 0, np.inf, nothing, False, FAILED, "marching", 0, empty, state, None, reason)

@@ -5,10 +5,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tribodyn.dynamics.extremes import Extremes
 from tribodyn.dynamics.parameters import LAG, Model
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.engagement import engage_next
 from tribodyn.solve.integrator import REASONS, Integrator, Status
+from tribodyn.solve.marched_again import MarchedAgain
 from tribodyn.solve.methods import Runs, integrator_class, method_file, runs
 from tribodyn.solve.tolerances import Tolerances, tolerances_from
 
@@ -30,6 +32,10 @@ class TransientSettings(NamedTuple):
         Steps allowed in one mesh cycle.
     samples : int
         Samples per mesh cycle.
+    window : int
+        Last mesh cycles that writes must not straddle the start of; 0: they may.
+    extremes : bool
+        Whether extremes are sought.
     """
 
     method: str
@@ -37,15 +43,18 @@ class TransientSettings(NamedTuple):
     cycles: int
     max_steps: int
     samples: int
+    window: int = 0
+    extremes: bool = False
 
 
 class SampledStates(NamedTuple):
-    """Samples as they come: phases in mesh cycles since the start, states, and what they cost."""
+    """Samples as they come: phases in mesh cycles since the start, states, what they cost, and extremes."""
 
     cycles: Float[Array, " sample"]
     states: Float[Array, "sample state"]
     evaluations: int
     steps: int
+    extremes: Extremes | None = None
 
 
 class Stop(NamedTuple):
@@ -59,9 +68,15 @@ class Stop(NamedTuple):
     time: float
 
 
-def make_integrator(method: str, model: Model, samples: int, tolerances: Tolerances) -> Integrator:
-    """Return the integrator that a method's name stands for."""
-    return integrator_class(method)(method_file(method), model, samples, tolerances)
+def make_integrator(
+    method: str, model: Model, samples: int, tolerances: Tolerances, extremes: bool = False
+) -> Integrator:
+    """Return the integrator that a method's name stands for; `extremes` says whether they are sought."""
+    made = integrator_class(method)(method_file(method), model, samples, tolerances)
+    if runs(method) is not Runs.NATIVE:
+        made = MarchedAgain(made, model, samples, tolerances)
+    made.extremes = extremes
+    return made
 
 
 def cycles_at_once(method: str, cycles: int) -> int:
@@ -87,19 +102,21 @@ def transient(
     its engagement. A run that stops early yields what it has and says why in `Stop.reason`.
     """
     tolerances = tolerances_from(model, state, settings.rtol, settings.max_steps)
-    integrator = make_integrator(settings.method, model, settings.samples, tolerances)
+    integrator = make_integrator(settings.method, model, settings.samples, tolerances, settings.extremes)
     size = cycles_at_once(settings.method, settings.cycles)
     cycle_time = float(model.table.pitch_angle) / model.mechanics.nominal_speed
+    opening = settings.cycles - settings.window
     steps = evaluations = done = 0
     while done < settings.cycles:
-        count = min(size, settings.cycles - done)
+        end = settings.cycles if done >= opening else opening
+        count = min(size, end - done)
         part = integrator.integrate(state, done, count)
         steps += part.steps
         evaluations += part.evaluations
         at = done + np.arange(len(part.samples)) / settings.samples
         finite = np.all(np.isfinite(part.samples), axis=1)
         kept = len(finite) if finite.all() else int(np.argmin(finite))
-        yield SampledStates(at[:kept], part.samples[:kept], part.evaluations, part.steps)
+        yield SampledStates(at[:kept], part.samples[:kept], part.evaluations, part.steps, part.extremes)
         if part.status != Status.DONE or kept < len(finite):
             reached = done + part.reached
             reason = REASONS[Status.NOT_FINITE if part.status == Status.DONE else part.status]

@@ -26,6 +26,7 @@ from tribodyn.kernels.native import PackedValue, kernel, packed
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.solve import explicit_8
 from tribodyn.solve.engagement import engage
+from tribodyn.solve.extreme_search import ignore_segment, ignore_step
 from tribodyn.solve.integrator import March, Status
 from tribodyn.solve.marching import Control, march_with
 from tribodyn.solve.methods import rodas4
@@ -37,14 +38,15 @@ from tribodyn.solve.tolerances import tolerances_of_many
 #: Floats to a cache line, on which dual numbers begin: half the time of a march that lets them cross it.
 CACHE_LINE = 8
 
-EXPLICIT, STIFF = explicit_8.METHOD, rodas4.METHOD
+EXPLICIT = explicit_8.METHOD
+STIFF = rodas4.METHOD._replace(opened=ignore_segment, stepped=ignore_step)
 
 
 @kernel
 def explicit(march, control, model, y, out, work, buffer):
     """`explicit_8` with derivatives; see `marching.march_with`."""
     return march_with(
-        EXPLICIT, march, control, model, duals_of(y), duals_of(out), duals_of(work), duals_of(buffer)
+        EXPLICIT, march, control, model, duals_of(y), duals_of(out), duals_of(work), duals_of(buffer), out
     )
 
 
@@ -52,7 +54,7 @@ def explicit(march, control, model, y, out, work, buffer):
 def stiff(march, control, model, y, out, work, buffer):
     """`methods.rodas4` with derivatives; see `marching.march_with`."""
     return march_with(
-        STIFF, march, control, model, duals_of(y), duals_of(out), duals_of(work), duals_of(buffer)
+        STIFF, march, control, model, duals_of(y), duals_of(out), duals_of(work), duals_of(buffer), out
     )
 
 

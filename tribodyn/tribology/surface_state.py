@@ -4,7 +4,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.numerics.elementary import exp
+from tribodyn.numerics.elementary import exp, law
 from tribodyn.tribology.contact import MAXIMUM_OVER_MEAN, LocalContact, hertz_half_width
 from tribodyn.tribology.law import ActiveFilm, Closure, FilmFunctions, film_range_not_stated
 
@@ -32,31 +32,52 @@ class SurfaceState(NamedTuple):
     friction_in_range: Any
 
 
-def _evaluated(contact: Any, surfaces: Any, parameters: Any) -> Any:
-    return parameters
+@law
+def film_given(contact, surfaces, evaluated):
+    """What the film law gave, as parameters of a law that evaluates nothing."""
+    return evaluated
 
 
-_EVALUATED = FilmFunctions(_evaluated, film_range_not_stated)
+@law
+def _film_and_heat(contact, surfaces, film, friction):
+    """Evaluate the laws in use once: the film law's results, friction coefficient, flash temperature rise."""
+    evaluated = film.functions.film(contact, surfaces, film.parameters)
+    # so that no friction law evaluates the film again
+    known = ActiveFilm(FilmFunctions(film_given, film_range_not_stated), evaluated)
+    coefficient = friction.functions.coefficient(contact, known, surfaces, friction.parameters)
+    temperature = friction.functions.flash_temperature(
+        contact, known, surfaces, friction.parameters, coefficient
+    )
+    return evaluated, known, coefficient, temperature
+
+
+@law
+def _pressure(contact, surfaces):
+    """Maximum Hertz pressure, Pa."""
+    half_width = hertz_half_width(contact.line_load, contact.curvature, surfaces.effective_modulus)
+    return MAXIMUM_OVER_MEAN * (contact.line_load / (2.0 * half_width))
+
+
+@law
+def surface_extremes(contact, surfaces, film, friction):
+    """Film thickness (m), maximum Hertz pressure (Pa) and flash temperature rise (K), as `surface_state`."""
+    evaluated, _, _, temperature = _film_and_heat(contact, surfaces, film, friction)
+    log_smooth, rough, _ = evaluated
+    return exp(log_smooth) * rough, _pressure(contact, surfaces), temperature
 
 
 def surface_state(contact: LocalContact, closure: Closure) -> SurfaceState:
     """Evaluate the laws in use; arrays broadcast."""
     surfaces, film, friction = closure
-    evaluated = film.functions.film(contact, surfaces, film.parameters)
+    evaluated, known, coefficient, temperature = _film_and_heat(contact, surfaces, film, friction)
     log_smooth, rough, share = evaluated
-    known = ActiveFilm(_EVALUATED, evaluated)  # so that no friction law evaluates the film again
-    coefficient = friction.functions.coefficient(contact, known, surfaces, friction.parameters)
-    temperature = friction.functions.flash_temperature(
-        contact, known, surfaces, friction.parameters, coefficient
-    )
-    half_width = hertz_half_width(contact.line_load, contact.curvature, surfaces.effective_modulus)
     zero = 0.0 * log_smooth
     return SurfaceState(
         zero + coefficient,
         zero + share,
         exp(log_smooth) * rough,
         zero + temperature,
-        zero + MAXIMUM_OVER_MEAN * (contact.line_load / (2.0 * half_width)),
+        zero + _pressure(contact, surfaces),
         film.functions.in_range(contact, surfaces, film.parameters),
         friction.functions.in_range(contact, known, surfaces, friction.parameters),
     )

@@ -16,6 +16,7 @@ from tribodyn.solve.dormand_prince import (
     shrinkage,
     stage_state,
 )
+from tribodyn.solve.extreme_search import open_segment, search_step
 from tribodyn.solve.marching import ERROR, SCRATCH, STATE, Method, march_with, scratch_buffer
 
 
@@ -61,10 +62,15 @@ def adapted(step, error, last_error):
     return step * (growth(error, last_error) if error <= 1.0 else shrinkage(error))
 
 
-METHOD = Method(attempt, sample, accept, adapted)
+@kernel
+def contacts(phase, segment, model, work, buffer):
+    """See `marching.Method`: the last stage stood there."""
+
+
+METHOD = Method(attempt, sample, accept, adapted, contacts, open_segment, search_step)
 
 
 @kernel
-def integrate(march, control, model, y, out, work, buffer):
+def integrate(march, control, model, y, out, work, buffer, search):
     """Integrate mesh cycles, see `marching.march_with`."""
-    return march_with(METHOD, march, control, model, y, out, work, buffer)
+    return march_with(METHOD, march, control, model, y, out, work, buffer, search)

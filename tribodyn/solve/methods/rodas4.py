@@ -8,6 +8,7 @@ from tribodyn.dynamics.parameters import MECHANICAL, STATES
 from tribodyn.kernels.native import kernel
 from tribodyn.numerics.elementary import absolute, truncate
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.solve.extreme_search import contacts_at, open_segment, search_step
 from tribodyn.solve.jacobian import Differences, differentiate
 from tribodyn.solve.marching import ERROR, SCRATCH, STATE, Method, march_with, scratch_buffer
 from tribodyn.solve.right_hand_side import rhs
@@ -150,10 +151,16 @@ def adapted(step, error, last_error):
     return min(step * growth(error, last_error), LONGEST_STEP)
 
 
-METHOD = Method(attempt, sample, accept, adapted)
+@kernel
+def contacts(phase, segment, model, work, buffer):
+    """See `marching.Method`."""
+    contacts_at(phase, segment, buffer[STATE], model, work)
+
+
+METHOD = Method(attempt, sample, accept, adapted, contacts, open_segment, search_step)
 
 
 @kernel
-def integrate(march, control, model, y, out, work, buffer):
+def integrate(march, control, model, y, out, work, buffer, search):
     """Integrate mesh cycles, see `marching.march_with`; evaluations include those for the Jacobian."""
-    return march_with(METHOD, march, control, model, y, out, work, buffer)
+    return march_with(METHOD, march, control, model, y, out, work, buffer, search)

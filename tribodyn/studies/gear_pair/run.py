@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.dynamics.outputs import outputs
+from tribodyn.dynamics.outputs import outputs_with_extremes
 from tribodyn.dynamics.recorded import scales_of
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.outlines import geometry_arrays
 from tribodyn.mesh.by_compliance import compliance_remark
-from tribodyn.mesh.cycle import as_arrays
+from tribodyn.mesh.cycle import MeshCycle, as_arrays
 from tribodyn.mesh.stiffness import single_pair
 from tribodyn.solve.choice import choose
 from tribodyn.solve.initial import initial_state
@@ -67,16 +67,19 @@ def run(
             return RunResult(record.fail(str(error), summary), "failed", str(error), summary)
         choice = choose(case.solver.method, model, state)
         summary |= {"solver": choice.method, "solver_reason": choice.reason}
-        settings = TransientSettings(choice.method, case.solver.rtol, cycles, case.solver.max_steps, samples)
-        statistics = RunStatistics(max(1, cycles // 4), cycles)
+        window = max(1, cycles // 4)
+        settings = TransientSettings(
+            choice.method, case.solver.rtol, cycles, case.solver.max_steps, samples, window, extremes=True
+        )
+        statistics = RunStatistics(window, cycles, cycle)
         stop = Stop(state, 0.0, 0, 0, "", 0.0)
         for part in transient(model, state, settings):
             if isinstance(part, Stop):
                 stop = part
             elif len(part.cycles):
-                block = outputs(part.cycles, part.states, model)
+                block, extreme, at = outputs_with_extremes(part.cycles, part.states, part.extremes, model)
                 record.write(statistics.written, block)
-                statistics.add(part, block)
+                statistics.add(part, block, extreme, at)
                 if progress:
                     progress(min(1.0, statistics.written / (cycles * samples)))
         summary |= statistics.figures() | {
@@ -90,7 +93,12 @@ def run(
             message = str(SimulationError(stop.reason, stop.time))
             return RunResult(record.fail(message, summary), "failed", message, summary)
         summary |= steady_figures(
-            statistics.window(), statistics.window_work(), cycle, samples, case.operating.pinion_speed
+            statistics.window(),
+            statistics.window_work(),
+            cycle,
+            samples,
+            case.operating.pinion_speed,
+            statistics.in_window,
         )
         summary["warning"] = warning_of(summary["friction_work_on_vibration"], case.friction.sliding)
         return RunResult(record.finish(summary), "complete", "", summary)
@@ -99,19 +107,26 @@ def run(
 class RunStatistics:
     """What the summary needs of a run that arrives in blocks: extremes, both ends, the last cycles."""
 
-    def __init__(self, cycles: int, total: int):
+    def __init__(self, cycles: int, total: int, cycle: MeshCycle):
         self.start = total - cycles
         self.stop = total
         self.written = 0
-        self.extremes = RunningExtremes()
+        self.extremes, self.in_window = RunningExtremes(cycle), RunningExtremes(cycle)
         self.blocks: list[dict[str, np.ndarray]] = []
         self.ends: list[tuple[np.ndarray, float]] = []
         self.window_start = np.empty(0)
 
-    def add(self, part: SampledStates, block: dict[str, np.ndarray]) -> None:
-        """Take in a block: its states, and what is recorded of them."""
+    def add(
+        self,
+        part: SampledStates,
+        block: dict[str, np.ndarray],
+        extreme: dict[str, np.ndarray],
+        at: np.ndarray,
+    ) -> None:
+        """Take in a part: what is recorded of its states, and at other mesh cycles where it is extreme."""
         self.written += len(part.cycles)
-        self.extremes.add(block)
+        self.extremes.add(part.cycles, block)
+        self.extremes.add(at, extreme)
         if not self.ends:
             self.ends.append((part.states[0], block["stored_energy"][0]))
         self.ends[1:] = [(part.states[-1], block["stored_energy"][-1])]
@@ -120,14 +135,17 @@ class RunStatistics:
             if not self.blocks:
                 self.window_start = part.states[inside][0]
             self.blocks.append({name: values[inside] for name, values in block.items()})
+            self.in_window.add(part.cycles[inside], self.blocks[-1])
+            self.in_window.add(at, extreme)
 
-    def figures(self) -> dict[str, float]:
+    def figures(self) -> dict[str, Any]:
         """Extremes, and the residual of the energy balance."""
         if not self.ends:
             return {}
         (first, stored_first), (last, stored_last) = self.ends
-        return self.extremes.values | {
-            "energy_residual": energy_residual(first, last, stored_last - stored_first)
+        return self.extremes.values() | {
+            "extremes": {"run": self.extremes.described(), "last_cycles": self.in_window.described()},
+            "energy_residual": energy_residual(first, last, stored_last - stored_first),
         }
 
     def window_work(self) -> np.ndarray:

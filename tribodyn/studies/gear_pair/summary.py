@@ -1,6 +1,9 @@
-"""Figures of one run: means, extremes, spectrum and the energy balance, from the recorded samples."""
+"""Figures of one run: means, extremes, spectrum and the energy balance.
 
-from typing import Any
+Means are of the recorded samples and of integrated works; extremes of the dense motion, samples included.
+"""
+
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -12,19 +15,21 @@ from tribodyn.dynamics.parameters import (
     WORK_OUT,
     WORK_PARAMETRIC,
     WORK_SLIDING,
+    XI,
 )
+from tribodyn.dynamics.recorded import pair_numbers
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.power_flow import driving_gear, efficiency, power_put_in
 from tribodyn.post.spectra import amplitude_spectrum
 from tribodyn.tribology.surface_state import fraction_in_range
 
-#: Record name -> (summary name, reduction), over the whole run.
-EXTREMES = {
-    "normal_load": ("normal_load_max", np.nanmax),
-    "central_film_thickness": ("film_min", np.nanmin),
-    "film_parameter": ("film_parameter_min", np.nanmin),
-    "hertz_pressure": ("hertz_pressure_max", np.nanmax),
-    "flash_temperature_rise": ("flash_temperature_max", np.nanmax),
+#: Summary name -> record name and sign of what is largest there, over the whole run and over its last cycles.
+RECORDED = {
+    "normal_load_max": ("normal_load", 1),
+    "film_min": ("central_film_thickness", -1),
+    "film_parameter_min": ("film_parameter", -1),
+    "hertz_pressure_max": ("hertz_pressure", 1),
+    "flash_temperature_max": ("flash_temperature_rise", 1),
 }
 
 
@@ -37,20 +42,84 @@ ABOUT_FEEDING = {
 }
 
 
+#: Prefix of the names of extremes of the driving flanks (1) and of the back flanks (−1).
+WORKING = {1.0: "", -1.0: "back_"}
+
+
+class Extreme(NamedTuple):
+    """An extreme of a run: its value, and where it is.
+
+    Attributes
+    ----------
+    value : float
+    time : float
+        s.
+    mesh_cycle : float
+        Mesh cycles since the start, whole and fraction.
+    pair : int or None
+        Number of the pair; None where it is the whole mesh's.
+    """
+
+    value: float
+    time: float
+    mesh_cycle: float
+    pair: int | None
+
+
 class RunningExtremes:
-    """Extremes of a run that arrives in blocks."""
+    """Extremes of a run that arrives in blocks of states: samples, and where its dense motion is extreme."""
 
-    def __init__(self) -> None:
-        self.values: dict[str, float] = {}
+    def __init__(self, cycle: MeshCycle) -> None:
+        self.by_name: dict[str, Extreme] = {}
+        sides = np.asarray(cycle.side)
+        self._slots = {sign: np.flatnonzero(sides * sign > 0) for sign in WORKING}
+        self._pairs = pair_numbers(cycle.front_pairs, np.size(cycle.side))
 
-    def add(self, block: dict[str, np.ndarray]) -> None:
-        """Take a block of samples into account."""
-        for name, (key, reduce) in EXTREMES.items():
-            if np.all(np.isnan(block[name])):
-                continue
-            value = float(reduce(block[name]))
-            old = self.values.get(key, value)
-            self.values[key] = max(old, value) if reduce is np.nanmax else min(old, value)
+    def add(self, cycles: np.ndarray, block: dict[str, np.ndarray]) -> None:
+        """Take a block into account: mesh cycles since the start, and what is recorded there."""
+        if not len(cycles):
+            return
+        error = block["transmission_error_rotational"]
+        for name, (recorded, sign) in RECORDED.items():
+            self._add(name, sign, block[recorded], cycles, block["time"])
+        for name, sign in (("max", 1), ("min", -1)):
+            self._add(f"transmission_error_rotational_{name}", sign, error, cycles, block["time"])
+        for side, slots in self._slots.items():
+            if slots.size:
+                flanks, newest = WORKING[side], block["transmission_error"][:, slots[-1]]
+                for name, sign in (("max", 1), ("min", -1)):
+                    self._add(f"{flanks}transmission_error_{name}", sign, newest, cycles, block["time"])
+                self._add(f"{flanks}mesh_force_max", 1, mesh_force(block, slots), cycles, block["time"])
+
+    def _add(self, name: str, sign: int, values: np.ndarray, cycles: np.ndarray, time: np.ndarray) -> None:
+        if np.all(np.isnan(values)):
+            return
+        row, *pair = np.unravel_index(int(np.nanargmax(sign * values)), values.shape)
+        value = float(values[(row, *pair)])
+        old = self.by_name.get(name)
+        if old is None or sign * value > sign * old.value:
+            number = self._pairs[int(pair[0])] if pair else None
+            self.by_name[name] = Extreme(value, float(time[row]), float(cycles[row]), number)
+
+    def values(self) -> dict[str, float]:
+        """Values of `RECORDED`."""
+        return {name: self.by_name[name].value for name in RECORDED if name in self.by_name}
+
+    def described(self) -> dict[str, dict[str, Any]]:
+        """All extremes by name, for a summary."""
+        return {name: one._asdict() for name, one in self.by_name.items()}
+
+    def spread(self, name: str) -> float:
+        """Maximum less minimum of an error."""
+        if f"{name}_max" not in self.by_name:
+            return float("nan")
+        return self.by_name[f"{name}_max"].value - self.by_name[f"{name}_min"].value
+
+
+def mesh_force(block: dict[str, np.ndarray], slots: np.ndarray) -> np.ndarray:
+    """Force of a side's flanks along the pitch tangent (n,), N: the mesh moment over the pitch radius."""
+    angle = np.nan_to_num(block["pressure_angle"][:, slots])
+    return np.sum(block["normal_load"][:, slots] * np.cos(angle), axis=1)
 
 
 def energy_residual(first: np.ndarray, last: np.ndarray, stored: float) -> float:
@@ -98,7 +167,12 @@ def warning_of(share: float | None, sliding: str) -> str | None:
 
 
 def steady_figures(
-    window: dict[str, np.ndarray], work: np.ndarray, cycle: MeshCycle, samples: int, nominal_speed: float
+    window: dict[str, np.ndarray],
+    work: np.ndarray,
+    cycle: MeshCycle,
+    samples: int,
+    nominal_speed: float,
+    extremes: RunningExtremes,
 ) -> dict[str, Any]:
     """Figures of the last whole mesh cycles of a run.
 
@@ -116,6 +190,8 @@ def steady_figures(
         Samples per mesh cycle.
     nominal_speed : float
         Of the pinion, rad/s.
+    extremes : RunningExtremes
+        Over the same mesh cycles.
     """
     error = window["transmission_error_rotational"]
     load = window["normal_load"]
@@ -130,24 +206,25 @@ def steady_figures(
     orders, amplitudes = amplitude_spectrum(error, samples)
     power_in, power_out, power_friction = work[[WORK_IN, WORK_OUT, WORK_FRICTION]] / duration
     share = friction_work_on_vibration(work)
-    torque = power_out / np.mean(window["velocity"][:, -1])
-    static = float(abs(torque) / cycle.gear_pitch_radius)
+    # the mean load by its work over the gear's rotation: neither depends on the sampling
+    turned = cycle.pinion_pitch_radius * cycle.pitch_angle * cycles - work[XI]
+    force = float(work[WORK_OUT] / turned)
     # a load that is reversed on the mean has driving flanks to work on where there is no backlash
-    reversed_flow = torque < 0.0 and np.any(cycle.side < 0)
-    working = np.flatnonzero(cycle.side < 0 if reversed_flow else cycle.side > 0)
+    sign = -1.0 if force < 0.0 and np.any(cycle.side < 0) else 1.0
     # the last slot of either side holds a pair that is on the path of contact all the time
-    newest = window["transmission_error"][:, working[-1]]
-    arm = np.cos(np.nan_to_num(window["pressure_angle"][:, working]))
-    moment = np.sum(load[:, working] * arm, axis=1)
+    newest = window["transmission_error"][:, np.flatnonzero(cycle.side * sign > 0)[-1]]
+    flanks = WORKING[sign]
     keep = orders <= 20.0 + 1e-9
     return {
         "averaging_cycles": len(error) // samples,
         "mesh_frequency": frequency,
         "transmission_error_mean": float(np.nanmean(newest)),
-        "transmission_error_peak_to_peak": float(np.nanmax(newest) - np.nanmin(newest)),
+        "transmission_error_peak_to_peak": extremes.spread(f"{flanks}transmission_error"),
         "transmission_error_rotational_mean": float(np.mean(error)),
-        "transmission_error_rotational_peak_to_peak": float(np.ptp(error)),
-        "dynamic_factor": float(np.max(moment) / static) if static > 0 else float("nan"),
+        "transmission_error_rotational_peak_to_peak": extremes.spread("transmission_error_rotational"),
+        "dynamic_factor": extremes.by_name[f"{flanks}mesh_force_max"].value / abs(force)
+        if force != 0.0
+        else float("nan"),
         "friction_coefficient_mean": float(slid / loaded) if loaded > 0 else float("nan"),
         "friction_force_mean": np.mean(friction, axis=0),
         "efficiency": float(efficiency(power_in, power_out, power_friction)),

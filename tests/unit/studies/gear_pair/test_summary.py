@@ -7,13 +7,22 @@ import numpy as np
 import pytest
 
 from tribodyn.dynamics.parameters import LAG, STATES, WORK_FRICTION, WORK_IN, WORK_OUT, WORK_SLIDING
-from tribodyn.studies.gear_pair.summary import EXTREMES, RunningExtremes, steady_figures
+from tribodyn.studies.gear_pair.summary import RECORDED, RunningExtremes, steady_figures
 
 SAMPLES, CYCLES, SPEED, PITCH, RADIUS = 50, 4, 100.0, 0.27, 0.07
 #: Pinion speed of the window on the average, rad/s, and time of it, s.
 MEAN_SPEED = 80.0
 TIME = CYCLES * PITCH / MEAN_SPEED
-CYCLE = cast(Any, SimpleNamespace(side=np.array([1, 1, -1, -1]), gear_pitch_radius=RADIUS, pitch_angle=PITCH))
+CYCLE = cast(
+    Any,
+    SimpleNamespace(
+        side=np.array([1, 1, -1, -1]),
+        front_pairs=2,
+        gear_pitch_radius=RADIUS,
+        pinion_pitch_radius=0.035,
+        pitch_angle=PITCH,
+    ),
+)
 
 
 def window(way: int, torque: float) -> tuple[dict[str, np.ndarray], np.ndarray]:
@@ -46,10 +55,20 @@ def window(way: int, torque: float) -> tuple[dict[str, np.ndarray], np.ndarray]:
     }, work
 
 
+def figures(block, work):
+    """Of a window whose extremes its samples meet."""
+    cycles = np.arange(SAMPLES * CYCLES) / SAMPLES
+    count = (len(cycles), 4)
+    none = {name: np.full(count, np.nan) for name, _ in RECORDED.values() if name not in block}
+    extremes = RunningExtremes(CYCLE)
+    extremes.add(cycles, {**block, **none, "time": cycles})
+    return steady_figures(block, work, CYCLE, SAMPLES, SPEED, extremes)
+
+
 @pytest.mark.parametrize("way", [1, -1], ids=["pinion", "gear"])
 def test_figures_of_a_known_window(way):
     torque = 300.0
-    found = steady_figures(*window(way, torque), CYCLE, SAMPLES, SPEED)
+    found = figures(*window(way, torque))
     assert found["averaging_cycles"] == CYCLES
     assert found["mesh_frequency"] == pytest.approx(MEAN_SPEED / PITCH, rel=1e-12)
     assert found["dynamic_factor"] == pytest.approx(1.25, rel=1e-12)
@@ -81,10 +100,10 @@ def test_figures_of_a_known_window(way):
 def test_time_without_contact_and_without_load():
     block, work = window(1, 300.0)
     block["normal_load"][: SAMPLES // 2] = 0.0
-    found = steady_figures(block, work, CYCLE, SAMPLES, SPEED)
+    found = figures(block, work)
     assert found["contact_loss_fraction"] == pytest.approx(0.5 / CYCLES, rel=1e-12)
     block["normal_load"][:] = 0.0
-    found = steady_figures(block, 0.0 * work, CYCLE, SAMPLES, SPEED)
+    found = figures(block, 0.0 * work)
     assert np.isnan(found["dynamic_factor"])
     assert np.isnan(found["friction_coefficient_mean"])
     assert np.isnan(found["efficiency"])
@@ -93,11 +112,21 @@ def test_time_without_contact_and_without_load():
 
 
 def test_extremes_of_blocks_are_those_of_the_whole(rng):
-    values = {name: rng.normal(size=(30, 2)) for name in EXTREMES}
+    values = {name: rng.normal(size=(30, 4)) for name, _ in RECORDED.values()}
+    values |= {name: rng.normal(size=(30, 4)) for name in ("transmission_error", "pressure_angle")}
+    values |= {name: rng.normal(size=30) for name in ("transmission_error_rotational", "time")}
     values["film_parameter"][:10] = np.nan
-    extremes = RunningExtremes()
+    extremes = RunningExtremes(CYCLE)
+    cycles = np.arange(30) / 10
     for start in (0, 10, 20):
-        extremes.add({name: one[start : start + 10] for name, one in values.items()})
-    assert extremes.values["normal_load_max"] == values["normal_load"].max()
-    assert extremes.values["film_min"] == values["central_film_thickness"].min()
-    assert extremes.values["film_parameter_min"] == np.nanmin(values["film_parameter"])
+        part = slice(start, start + 10)
+        extremes.add(cycles[part], {name: one[part] for name, one in values.items()})
+    found = extremes.values()
+    assert found["normal_load_max"] == values["normal_load"].max()
+    assert found["film_min"] == values["central_film_thickness"].min()
+    assert found["film_parameter_min"] == np.nanmin(values["film_parameter"])
+    where = extremes.by_name["normal_load_max"]
+    row, slot = np.argwhere(values["normal_load"] == where.value)[0]
+    assert (where.mesh_cycle, where.time, where.pair) == (cycles[row], values["time"][row], slot)
+    assert extremes.spread("transmission_error_rotational") == np.ptp(values["transmission_error_rotational"])
+    assert extremes.spread("back_transmission_error") == np.ptp(values["transmission_error"][:, 3])

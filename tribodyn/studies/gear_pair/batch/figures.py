@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tribodyn.dynamics.outputs import outputs
+from tribodyn.dynamics.outputs import outputs_with_extremes
 from tribodyn.dynamics.parameters import XI
 from tribodyn.studies.gear_pair.batch.outcome import Passage
 from tribodyn.studies.gear_pair.prepare import Prepared
@@ -13,16 +13,18 @@ from tribodyn.studies.gear_pair.sweep_layout import FIGURES
 def window_figures(prepared: Prepared, passage: Passage, samples: int) -> dict[str, float]:
     """Return the figures of `sweep_layout.FIGURES` over a window with `samples` per mesh cycle, SI units."""
     cycles = passage.first_cycle + np.arange(len(passage.window)) / samples
-    block = outputs(cycles, passage.window, prepared.model)
-    extremes = RunningExtremes()
-    extremes.add(block)
+    block, extreme, at = outputs_with_extremes(cycles, passage.window, passage.extremes, prepared.model)
+    extremes = RunningExtremes(prepared.cycle)
+    extremes.add(cycles, block)
+    extremes.add(at, extreme)
     error = passage.window[:, XI]
     speed = prepared.case.operating.pinion_speed
-    figures = steady_figures(block, passage.end - passage.start, prepared.cycle, samples, speed)
+    work = passage.end - passage.start
+    figures = steady_figures(block, work, prepared.cycle, samples, speed, extremes)
     # a run's summary means the newest pair's; over a sweep only the error of the whole mesh is continuous
-    figures |= extremes.values | {
+    figures |= extremes.values() | {
         "transmission_error_rms": float(np.std(error)),
-        "transmission_error_peak_to_peak": float(np.ptp(error)),
+        "transmission_error_peak_to_peak": figures["transmission_error_rotational_peak_to_peak"],
         "transmission_error_mean": float(np.mean(error)),
     }
     return {name: float("nan") if (value := figures.get(name)) is None else value for name in FIGURES}

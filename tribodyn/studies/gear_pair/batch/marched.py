@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.dynamics.extremes import extremes_of
 from tribodyn.dynamics.parameters import STATES, Model
 from tribodyn.solve.engagement import engage_next
 from tribodyn.solve.ensemble import march
@@ -51,6 +52,7 @@ def marched(
         samples=samples,
         started=before > 0,
         first_cycle=before,
+        extremes=True,
         **solver,
     )
     for row, i in enumerate(good):
@@ -61,7 +63,9 @@ def marched(
         section = np.concatenate([led.samples[i], ran.samples[row, ::samples]])
         state = ran.state[row].copy()
         engage_next(state, models[i])
-        passage = Passage(before, ran.samples[row], led.state[i], ran.state[row])
+        passage = Passage(
+            before, ran.samples[row], led.state[i], ran.state[row], extremes_of(ran.extremes, row)
+        )
         outcomes[i] = Outcome(
             passage, continued(state), section.reshape(-1, STATES)[-points:], "transient", int(reached)
         )

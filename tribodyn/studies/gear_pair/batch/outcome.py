@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tribodyn.dynamics.extremes import Extremes
 from tribodyn.dynamics.parameters import LAG, WORKS
 from tribodyn.solve.branch_end import BranchEnd
 from tribodyn.solve.integrator import REASONS, Status
@@ -21,12 +22,15 @@ class Passage(NamedTuple):
         States over whole mesh cycles, the sample that closes the last not included.
     start, end : (STATES,)
         States at both ends; the difference of their works is the window's.
+    extremes : Extremes or None
+        Of the motion between the samples.
     """
 
     first_cycle: int
     window: np.ndarray
     start: np.ndarray
     end: np.ndarray
+    extremes: Extremes | None = None
 
 
 class Outcome(NamedTuple):

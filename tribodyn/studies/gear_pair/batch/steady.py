@@ -89,7 +89,7 @@ def steady(
 
 
 def _periodic(answer: Steady, samples: int) -> Outcome:
-    passage = Passage(0, answer.samples, answer.state, answer.end)
+    passage = Passage(0, answer.samples, answer.state, answer.end, answer.extremes)
     section = answer.samples[::samples]
     outcome = Outcome(passage, continued(answer.state), section, answer.kind, answer.period)
     return _described(outcome, answer)._replace(period=answer.period)

@@ -1,0 +1,167 @@
+"""Extremes of a motion between its samples, sought step by step while it is integrated.
+
+Every accepted step is measured at its end (`dynamics.extremes.measure`), where the method knows the contacts
+already. Where a measure is so near its extreme so far that it may pass it inside the step, it is measured in
+the middle too, and where the parabola through the three values is highest, on the method's dense output.
+Both sides of every boundary between segments are measured.
+"""
+
+from typing import NamedTuple, Self
+
+import numpy as np
+
+from tribodyn.dynamics.contact_forces import contact_forces
+from tribodyn.dynamics.equations import locate
+from tribodyn.dynamics.extremes import (
+    EXTREMES,
+    LOWEST,
+    Extremes,
+    extreme_of,
+    measure,
+    measures_of,
+    vertex,
+)
+from tribodyn.dynamics.parameters import STATES
+from tribodyn.kernels.native import kernel
+from tribodyn.numerics.elementary import absolute, law, maximum
+from tribodyn.numerics.shapes import Array, Float
+
+#: Rows of measures: at the start, in the middle and at the end of a step, at another place in it, and the
+#: rate of change over the step before, per mesh cycle.
+START, MIDDLE, END, TRIAL, RATE = range(5)
+#: Rise over an extreme, as a share of it, that is not worth another evaluation.
+WORTH = 1e-7
+
+
+class Search(NamedTuple):
+    """What a search knows.
+
+    Attributes
+    ----------
+    measures : (5, measures)
+    state : (STATES,)
+        Scratch: a state inside a step.
+    extreme, cycles, segments : (EXTREMES,)
+        The most extreme measures so far, and where; as in `Extremes`.
+    states : (EXTREMES, STATES)
+    """
+
+    measures: Float[Array, "5 measure"]
+    state: Float[Array, " state"]
+    extreme: Float[Array, " extreme"]
+    cycles: Float[Array, " extreme"]
+    segments: Float[Array, " extreme"]
+    states: Float[Array, "extreme state"]
+
+    @classmethod
+    def begun(cls, pairs: int) -> Self:
+        """A search that knows nothing, with so many pair slots."""
+        return cls(
+            np.zeros((5, measures_of(pairs))),
+            np.zeros(STATES),
+            np.full(EXTREMES, LOWEST),
+            np.zeros(EXTREMES),
+            np.zeros(EXTREMES),
+            np.zeros((EXTREMES, STATES)),
+        )
+
+    def found(self) -> Extremes:
+        """What was found."""
+        return Extremes(self.extreme, self.cycles, self.segments, self.states)
+
+
+@law
+def promising(start, end, change_before, extreme):
+    """Whether a measure may pass its extreme inside a step.
+
+    A smooth one rises above both ends of a step by less than it changes over that step or would by its rate
+    over the step before; a parabola rises by no more than an eighth of the sum.
+    """
+    change = maximum(absolute(end - start), change_before)
+    return worthwhile(maximum(start, end) + change, extreme) & (end > LOWEST)
+
+
+@law
+def worthwhile(value, extreme):
+    """Whether a value is so far above an extreme that it is worth an evaluation."""
+    return value > extreme + WORTH * absolute(extreme)
+
+
+@kernel
+def contacts_at(phase, segment, y, model, work):
+    """Fill `work` with the contacts of a state."""
+    cell, u, cells_per_radian = locate(phase, segment, model.table)
+    contact_forces(segment, cell, u, cells_per_radian, y, model, work)
+
+
+@kernel
+def keep(row, cycles, segment, y, search):
+    """Replace the extremes that a row of measures, those of a state, surpasses."""
+    for i in range(search.measures.shape[1]):
+        value = search.measures[row, i]
+        which = extreme_of(i)
+        if value > search.extreme[which]:
+            search.extreme[which] = value
+            search.cycles[which] = cycles
+            search.segments[which] = segment
+            for j in range(STATES):
+                search.states[which, j] = y[j]
+
+
+@kernel
+def open_segment(place, y, model, work, search):
+    """Measure the state at the start of a segment."""
+    for i in range(search.measures.shape[1]):
+        for row in range(RATE):
+            search.measures[row, i] = LOWEST
+        search.measures[RATE, i] = np.inf
+    contacts_at(place.phase, place.segment, y, model, work)
+    measure(place.phase, place.segment, y, model, work, search.measures[START])
+    keep(START, place.cycle + place.phase, place.segment, y, search)
+
+
+@kernel
+def search_step(method, place, step, y, model, work, buffer, search):
+    """Seek extremes over an accepted step from the state `y`, which ends at `place.end`."""
+    measures = search.measures
+    method.contacts(place.end, place.segment, model, work, buffer)
+    measure(place.end, place.segment, buffer[0], model, work, measures[END])
+    keep(END, place.cycle + place.end, place.segment, buffer[0], search)
+    inside = False
+    for i in range(measures.shape[1]):
+        start, end = measures[START, i], measures[END, i]
+        inside |= promising(start, end, measures[RATE, i] * step, search.extreme[extreme_of(i)])
+    if inside:
+        look_inside(method, place, step, y, model, work, buffer, search)
+    for i in range(measures.shape[1]):
+        measures[RATE, i] = absolute(measures[END, i] - measures[START, i]) / step
+        measures[START, i] = measures[END, i]
+
+
+@kernel
+def ignore_segment(place, y, model, work, search):
+    """Take the place of `open_segment` where no extremes are sought."""
+
+
+@kernel
+def ignore_step(method, place, step, y, model, work, buffer, search):
+    """Take the place of `search_step` where no extremes are sought."""
+
+
+@kernel
+def look_inside(method, place, step, y, model, work, buffer, search):
+    """Measure the middle of a step, and the place where that says that a measure is highest."""
+    measures = search.measures
+    row, share = MIDDLE, 0.5
+    for i in range(-1, measures.shape[1]):
+        if i >= 0:
+            which = extreme_of(i)
+            share, value = vertex(measures[START, i], measures[MIDDLE, i], measures[END, i])
+            if not (share > 0.0 and worthwhile(value, search.extreme[which])):
+                continue
+            row = TRIAL
+        phase = place.phase + share * step
+        method.sample(share, step, y, buffer, search.state)
+        contacts_at(phase, place.segment, search.state, model, work)
+        measure(phase, place.segment, search.state, model, work, measures[row])
+        keep(row, place.cycle + phase, place.segment, search.state, search)
