@@ -1,6 +1,9 @@
 """Lines and sentences of the summary of a gear pair's dynamics."""
 
-from tribodyn.post.report import Line, Lines, on_closures, on_energy, on_methods
+from collections.abc import Mapping
+from typing import Any
+
+from tribodyn.post.report import Line, Lines, on_closures, on_energy, on_methods, shown
 from tribodyn.record.reader import Record
 from tribodyn.studies.gear_pair.sweep_layout import FIGURES
 from tribodyn.studies.gears import (
@@ -50,7 +53,30 @@ SWEEP_LINES = (
 )
 
 
+#: Difference between the extremes of the run and those of its last cycles that is said.
+DIFFERENT = 0.005
+
+
+def on_extremes(summary: Mapping[str, Any]) -> list[str]:
+    """Say which extremes of the whole run are not those of its last mesh cycles, and what the latter are."""
+    described = summary.get("extremes")
+    if not described:  # a record of 0.1.0, or of a run that stopped at once
+        return []
+    run, last = described.get("run", {}), described.get("last_cycles", {})
+    parts = []
+    for line in (NORMAL_LOAD, *TRIBOLOGY):
+        if line.name not in run or line.name not in last:
+            continue
+        value = last[line.name]["value"]
+        if abs(run[line.name]["value"] - value) > DIFFERENT * abs(value):
+            name = line.label[0].lower() + line.label[1:]
+            parts.append(f"{name} {shown(line, value)} {line.unit}".rstrip())
+    if not parts:
+        return []
+    return [f"Extremes are over the whole run. Over the cycles of the means: {', '.join(parts)}."]
+
+
 def sentences(record: Record) -> list[str]:
     """Say how well the run satisfies what can be checked: range of the film law, balance of energy."""
     summary = record.summary
-    return [*on_methods(summary), *on_closures(summary), *on_energy(summary)]
+    return [*on_methods(summary), *on_extremes(summary), *on_closures(summary), *on_energy(summary)]
