@@ -13,10 +13,11 @@ from scipy.integrate import solve_ivp
 from tools.peers import steady
 from tribodyn.dynamics.equations import derivatives, engagement
 from tribodyn.dynamics.parameters import MECHANICAL, SLIP, STATES, WORK_IN, WORK_PARAMETRIC, XI, XI_RATE
+from tribodyn.solve.choice import choose
 from tribodyn.solve.gear_map import GearMap, moving_states
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.period_map import by_differences
-from tribodyn.solve.tolerances import Tolerances, absolute_tolerances
+from tribodyn.solve.tolerances import Tolerances, absolute_tolerances, tolerances_from
 from tribodyn.solve.transient import make_integrator
 
 pytestmark = pytest.mark.bench
@@ -180,3 +181,26 @@ def test_a_derivative_costs_less_than_the_marches_of_its_differences(prepared, c
     with capsys.disabled():
         print(f"\na derivative takes {ratio:.2f} of the time of {1 + state.shape[1]} marches ({law})")
     assert ratio < 1.0
+
+
+@pytest.mark.parametrize(("speed", "maximum"), [("10 rad/s", 2.0), ("100 rad/s", 1.2), ("300 rad/s", 1.2)])
+def test_dynamic_sliding_costs_little_more_than_kinematic(prepared, speed, maximum):
+    runs = {}
+    for sliding in ("kinematic", "dynamic"):
+        model = prepared("crc-23-47", **{"operating.pinion_speed": speed, "friction.sliding": sliding}).model
+        state = static_equilibrium(model)
+        tolerances = tolerances_from(model, state, RTOL, 10**6)
+        runs[sliding] = (
+            make_integrator(choose("auto", model, state).method, model, SAMPLES, tolerances),
+            state,
+        )
+    best = dict.fromkeys(runs, float("inf"))
+    for _ in range(8):  # in turn, so that other load on the machine meets both
+        for sliding, (integrator, state) in runs.items():
+            integrator.started = False
+            begun = perf_counter()
+            integrator.integrate(state, 0, 20)
+            best[sliding] = min(best[sliding], perf_counter() - begun)
+    ratio = best["dynamic"] / best["kinematic"]
+    print(f"dynamic over kinematic sliding at {speed}: {ratio:.2f}")
+    assert ratio < maximum

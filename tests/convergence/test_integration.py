@@ -5,6 +5,7 @@ import pytest
 
 from tribodyn.dynamics.outputs import outputs
 from tribodyn.dynamics.parameters import XI
+from tribodyn.solve.choice import choose
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.reversal import SHARES, stops
 from tribodyn.solve.transient import SampledStates, TransientSettings, transient
@@ -92,6 +93,68 @@ def test_energy_balance_closes_within_ten_tolerances(prepared, formulation, over
 def test_energy_balance_closes_at_the_published_speed(prepared, formulation):
     case = prepared("crc-23-47", **{"mesh.formulation": formulation})
     assert _closes(case, 1e-6) < 1e-5
+
+
+BEARINGS = [f"bearings.{gear}.stiffness_{axis}" for gear in ("pinion", "gear") for axis in "xy"]
+
+
+@pytest.mark.parametrize(
+    ("sliding", "speed", "torque", "method"),
+    [
+        ("dynamic", "10 rad/s", "500 N*m", "switching"),
+        ("dynamic", "300 rad/s", "2500 N*m", "dopri5"),
+        ("dynamic", "3000 rad/s", "2500 N*m", "dopri5"),
+        ("kinematic", "300 rad/s", "2500 N*m", "rodas4"),
+        ("dynamic", "300 rad/s", "500 N*m", "dop853"),
+    ],
+)
+def test_energy_balance_closes_on_soft_bearings(prepared, sliding, speed, torque, method):
+    """They move by a hundred times the deflection of the mesh, which alone makes the forces."""
+    overrides = {key: "1e6 N/m" for key in BEARINGS} | {"friction.sliding": sliding}
+    overrides |= {"operating.pinion_speed": speed, "operating.gear_torque": torque}
+    assert _closes(prepared("crc-23-47", **overrides), 1e-6, method=method) < 1e-5
+
+
+def test_steps_find_where_friction_turns(prepared):
+    """With dynamic sliding; steps across the reversal cost five times this."""
+    model = prepared("crc-23-47-300").model
+    _, reference = solve(model, 1e-11)
+    assert error(solve(model, 1e-6)[1], reference) < 4e-6
+    assert error(solve(model, 1e-6, method="rodas4")[1], reference) < 4e-6
+
+
+def test_switching_gives_the_same_motion_at_less_cost(prepared):
+    """Flanks stick for a tenth of the cycle at 10 rad/s; nothing else is stiff."""
+    model = prepared("crc-23-47", **{"friction.sliding": "dynamic"}).model
+    state = initial_state(model, "static")
+    assert choose("auto", model, state).method == "switching"
+    _, reference = solve(model, 1e-9, method="rodas4", cycles=3)
+    cost = {}
+    for method in ("switching", "dopri5", "rodas4"):
+        parts = list(transient(model, state, TransientSettings(method, 1e-6, 3, 200000, SAMPLES)))
+        states = np.concatenate([part.states for part in parts if isinstance(part, SampledStates)])
+        assert error(states, reference) < 3e-5
+        cost[method] = parts[-1].evaluations
+    assert cost["switching"] < 0.5 * cost["dopri5"]
+    assert cost["switching"] < 0.7 * cost["rodas4"]
+
+
+def test_stick_converges_as_the_width_shrinks(prepared):
+    """At 10 rad/s, where flanks stick: creep within the width is no part of the answer."""
+    overrides = {"friction.sliding": "dynamic"}
+    widths = ("40 um", "20 um", "10 um", "5 um")
+    found = [
+        solve(
+            prepared("crc-23-47", **overrides, **{"friction.reversal_width": width}).model,
+            1e-7,
+            2,
+            "switching",
+        )[1]
+        for width in widths
+    ]
+    changes = [error(a, found[-1]) for a in found[:-1]]
+    assert changes[0] > changes[1] > changes[2]
+    assert changes[1] < 5e-3
 
 
 def test_parametric_work_is_there_only_in_the_classical_formulation(prepared):

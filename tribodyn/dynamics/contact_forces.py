@@ -47,8 +47,11 @@ FRICTION_COEFFICIENT = 16
 COS = 17  # of the pressure angle
 SIN = 18
 TRANSMISSION_ERROR = 19  # along the pair's normal, gap not subtracted, m
-COUPLING = 20  # deflection per load on slot 0, and on from here per load on the other slots, m/N
-QUANTITIES = 20  # and one more for every slot
+TURNED = 20  # sliding velocity over that at which friction has reversed
+TURNED_BEFORE = 21  # the same at the start of a step, see `solve.turning`
+TURNING_RATE = 22  # its rate in the last step, per mesh cycle
+COUPLING = 23  # deflection per load on slot 0, and on from here per load on the other slots, m/N
+QUANTITIES = 23  # and one more for every slot
 
 # Channels of mesh.cycle.Polynomials.channel.
 _COSINE, _SINE = CHANNELS.index("cosine"), CHANNELS.index("sine")
@@ -179,6 +182,13 @@ def elastic_loads(segment, cell, u, model, work):
 
 
 @law
+def reversals_per_velocity(model):
+    """One over the sliding velocity at which friction has reversed, that of the width of reversal; s/m."""
+    ratio = model.table.pinion_pitch_radius / model.table.gear_pitch_radius
+    return 1.0 / ((1.0 + ratio) * model.mechanics.reversal_width * model.mechanics.nominal_speed)
+
+
+@law
 def contact_forces(segment, cell, u, cells_per_radian, y, model, work):
     """Fill `work` with everything about every contact.
 
@@ -200,8 +210,7 @@ def contact_forces(segment, cell, u, cells_per_radian, y, model, work):
     elastic_loads(segment, cell, u, model, work)
     mechanics = model.mechanics
     table = model.table
-    ratio = table.pinion_pitch_radius / table.gear_pitch_radius
-    reversals = 1.0 / ((1.0 + ratio) * mechanics.reversal_width * mechanics.nominal_speed)
+    reversals = reversals_per_velocity(model)
     for i in range(table.side.shape[0]):
         if out_of_reach(segment, i, model):
             work[NORMAL_LOAD, i] = 0.0
@@ -244,7 +253,8 @@ def contact_forces(segment, cell, u, cells_per_radian, y, model, work):
         coefficient = model.options.friction.coefficient(state, film, model.surfaces, model.friction)
         work[NORMAL_LOAD, i] = load
         work[FRICTION_COEFFICIENT, i] = coefficient
-        work[FRICTION_FORCE, i] = coefficient * load * sign(sliding * reversals)
+        work[TURNED, i] = sliding * reversals
+        work[FRICTION_FORCE, i] = coefficient * load * sign(work[TURNED, i])
 
 
 @law

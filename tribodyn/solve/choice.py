@@ -4,19 +4,20 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics.parameters import MECHANICAL, SLIDING_DYNAMIC, SLIDING_KINEMATIC, STATES, XI, Model
+from tribodyn.dynamics.parameters import MECHANICAL, SLIDING_DYNAMIC, SLIDING_KINEMATIC, STATES, Model
 from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.solve.initial import accelerations
-from tribodyn.solve.methods import AUTO, EXPLICIT, STIFF
-from tribodyn.solve.tolerances import MINIMUM_DEFLECTION, absolute_tolerances
+from tribodyn.solve.methods import AUTO, EXPLICIT, STIFF, SWITCHING
+from tribodyn.solve.tolerances import absolute_tolerances, mesh_deflection
 
 _DISTANCE = CHANNELS.index("signed_distance")
 #: Explicit steps per mesh cycle, by stability alone, above which the stiff solver is the cheaper one, with
-#: the nominal sliding velocity and with the vibration's. Measured on the CRC drive at rtol 1e-6: the native
-#: solvers cost the same at 1 rad/s (estimate 4100) and between 10 (700) and 30 rad/s (150). With the
-#: vibration's sliding the estimate is too low: flanks stick for longer than the state at the start can tell.
-STIFF_ABOVE = {SLIDING_KINEMATIC: 5000, SLIDING_DYNAMIC: 500}
+#: the nominal sliding velocity and with the vibration's; measured on the CRC drive at rtol 1e-6.
+STIFF_ABOVE = {SLIDING_KINEMATIC: 5000, SLIDING_DYNAMIC: 10000}
+#: The same for switching between both within the mesh cycle: with the vibration's sliding flanks stick, for
+#: longer than the state at the start can tell, so that the estimate is too low.
+SWITCHING_ABOVE = {SLIDING_KINEMATIC: float("inf"), SLIDING_DYNAMIC: 100}
 #: Stability limit of Dormand-Prince 5(4) on the negative real axis.
 REAL_STABILITY = 3.3
 #: Phases in each segment at which the Jacobian is evaluated.
@@ -41,7 +42,7 @@ def stability_steps(model: Model, state: Float[Array, " state"]) -> float:
     over the phase; it is sampled finely where a pair's friction reverses, a short and possibly stiff stretch.
     """
     phases, segments = _places(model)
-    scale = absolute_tolerances(model, 1.0, max(abs(state[XI]), MINIMUM_DEFLECTION))[:MECHANICAL]
+    scale = absolute_tolerances(model, 1.0, mesh_deflection(model, state))[:MECHANICAL]
     shift = np.zeros((MECHANICAL, STATES))
     shift[:, :MECHANICAL] = SHARE * np.diag(scale)
     shape = (len(phases), MECHANICAL, STATES)
@@ -84,9 +85,11 @@ def choose(method: str, model: Model, state: Float[Array, " state"]) -> Choice:
     """Return the method to use: the user's, or explicit unless stability makes that too expensive."""
     if method != AUTO:
         return Choice(method, "chosen in the scenario")
-    steps, maximum = stability_steps(model, state), STIFF_ABOVE[model.options.sliding]
-    if steps > maximum:
-        reason = f"stiff: explicit stability would need {steps:.0f} steps per mesh cycle, above {maximum}"
-        return Choice(STIFF, reason)
-    reason = f"not stiff: explicit stability needs {steps:.0f} steps per mesh cycle, below {maximum}"
-    return Choice(EXPLICIT, reason)
+    steps, sliding = stability_steps(model, state), model.options.sliding
+    needed = f"explicit stability needs {steps:.0f} steps per mesh cycle"
+    stiff, switching = STIFF_ABOVE[sliding], SWITCHING_ABOVE[sliding]
+    if steps > stiff:
+        return Choice(STIFF, f"stiff: {needed}, above {stiff}")
+    if steps > switching:
+        return Choice(SWITCHING, f"stiff where flanks stick: {needed}, above {switching}")
+    return Choice(EXPLICIT, f"not stiff: {needed}, below {min(stiff, switching)}")

@@ -19,7 +19,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from tribodyn.dynamics.equations import derivatives
-from tribodyn.dynamics.parameters import DRIVE_SPEED, SLIP, STATES, Model, Options
+from tribodyn.dynamics.parameters import DRIVE_SPEED, SLIDING_DYNAMIC, SLIP, STATES, XI_RATE, Model, Options
 from tribodyn.numerics.cache import trusted_folder
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.solve.diffrax_method import DiffraxMethod
@@ -28,8 +28,10 @@ from tribodyn.solve.integrator import IntegratedCycles, Status
 from tribodyn.solve.limited_steps import LimitedSteps
 from tribodyn.solve.reversal import SHARES, filled_up, stops_of_many
 from tribodyn.solve.sampling import sample_phases
-from tribodyn.solve.step_control import FIRST_STEP, MINIMUM_STEP
+from tribodyn.solve.step_control import FIRST_STEP, MINIMUM_STEP, RELATIVE
 from tribodyn.solve.tolerances import Tolerances
+from tribodyn.solve.turning import resolves_turns
+from tribodyn.solve.turning_steps import TurningSteps
 
 jax.config.update("jax_enable_x64", True)
 
@@ -125,14 +127,16 @@ def over_cycle(
     model = Model(*numbers, options=options)
     table, mechanics = model.table, model.mechanics
     segments = table.in_contact.shape[0]
-    pid = diffrax.PIDController(
-        control.rtol,
+    pid: Any = diffrax.PIDController(
+        control.rtol * RELATIVE,
         control.atol,
         pcoeff=method.proportional,
         icoeff=method.integral,
         dtmin=MINIMUM_STEP,
         force_dtmin=False,
     )
+    if options.sliding == SLIDING_DYNAMIC:
+        pid = TurningSteps(pid, resolves_turns(control.atol[XI_RATE], model))
     stall = None
     if options.drive != DRIVE_SPEED:
         stall = diffrax.Event(lambda t, y, args, **kwargs: mechanics.nominal_speed + y[SLIP] <= 0.0)

@@ -58,7 +58,7 @@ def accept(buffer):
 
 
 @kernel
-def adapted(step, error, last_error):
+def adapted(step, error, last_error, buffer):
     """See `marching.Method`."""
     return step * (growth(error) if error <= 1.0 else shrinkage(error))
 

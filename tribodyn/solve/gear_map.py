@@ -22,7 +22,6 @@ from tribodyn.dynamics.parameters import (
     STATES,
     TWIST,
     VELOCITIES,
-    XI,
     Model,
 )
 from tribodyn.kernels.native.internals import report_missing
@@ -30,11 +29,10 @@ from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.solve.choice import choose
 from tribodyn.solve.engagement import engage_next
 from tribodyn.solve.ensemble import march, usable_cores
-from tribodyn.solve.initial import static_deflection
 from tribodyn.solve.integrator import MAX_STEPS, REASONS, Status
 from tribodyn.solve.methods import Runs, runs
 from tribodyn.solve.period_map import DIFFERENCE, Marched, Tangent, by_differences
-from tribodyn.solve.tolerances import MINIMUM_DEFLECTION, absolute_tolerances
+from tribodyn.solve.tolerances import absolute_tolerances, mesh_deflection
 
 
 def moving_states(model: Model) -> tuple[int, ...]:
@@ -85,7 +83,7 @@ class GearMap:
         self.blur = 0.0 if self.exact else DIFFERENCE
         self.scale = np.array(
             [
-                absolute_tolerances(model, 1.0, _deflection(model, start))[self.moving]
+                absolute_tolerances(model, 1.0, mesh_deflection(model, start))[self.moving]
                 for model, start in zip(models, starts, strict=True)
             ]
         )
@@ -179,11 +177,3 @@ class GearMap:
 
 def _reason(status: int, reached: float) -> str:
     return "" if status == Status.DONE else f"{REASONS[Status(status)]} (after {reached:.2f} mesh cycles)"
-
-
-def _deflection(model: Model, start: np.ndarray) -> float:
-    return max(
-        abs(float(start[XI])),
-        static_deflection(model, float(model.mechanics.load_torque)),
-        MINIMUM_DEFLECTION,
-    )

@@ -6,13 +6,13 @@ No lane's arithmetic reads another lane, so a case's bits are the same whatever 
 """
 
 from tribodyn.dynamics.equations import derivatives
-from tribodyn.dynamics.parameters import SLIP, STATES
+from tribodyn.dynamics.parameters import SLIDING_DYNAMIC, SLIP, STATES, XI_RATE
 from tribodyn.kernels.lanes import functions  # noqa: F401  (its import gives the laws their functions over lanes)
 from tribodyn.kernels.lanes.arrays import rows_of
 from tribodyn.kernels.lanes.vectors import WIDTH, any_of
 from tribodyn.kernels.native import kernel
 from tribodyn.kernels.native.parts import part
-from tribodyn.numerics.elementary import maximum, where
+from tribodyn.numerics.elementary import maximum, minimum, where
 from tribodyn.solve.dormand_prince import (
     STAGES,
     C,
@@ -41,6 +41,7 @@ from tribodyn.solve.lane_queue import (
     STEPS,
     STEPS_BEFORE,
     STOP,
+    TRIES,
     UNCUT_STEP,
     close_cycle,
     fail,
@@ -49,6 +50,7 @@ from tribodyn.solve.lane_queue import (
 )
 from tribodyn.solve.step_control import (
     MINIMUM_ERROR,
+    RELATIVE,
     RETRY,
     collected,
     cut_at_stop,
@@ -57,6 +59,14 @@ from tribodyn.solve.step_control import (
     refused,
     step_error,
     weighed_error,
+)
+from tribodyn.solve.turning import (
+    MOST_TRIES,
+    begin_turning,
+    keep_turned,
+    longest_step,
+    resolves_turns,
+    turn_of,
 )
 
 
@@ -107,6 +117,8 @@ def open_segment(segment, model, block, queue, march):
     rows[END] = end
     engage(segment, has_case & (rows[FRESH] == 0.0), y, model, rows_of(block.work), y)
     rows[FRESH] = where(has_case, 0.0, rows[FRESH])
+    if model.options.sliding == SLIDING_DYNAMIC:
+        begin_turning(rows[PHASE], segment, y, model, rows_of(block.work))
     for lane in range(WIDTH):
         block.rows[STOP, lane] = 0.0
         if block.rows[CASE, lane] >= 0.0:
@@ -160,7 +172,8 @@ def judge(evaluations, segment, model, block, queue, march):
     rows[EVALUATIONS] = rows[EVALUATIONS] + where(running, 1.0 * evaluations, 0.0)
     worst, total = 0.0 * step, 0.0 * step
     for i in range(STATES):
-        weighed = weighed_error(step * embedded_difference(k, i), y[i], new[i], atol[i], march.rtol)
+        rtol = march.rtol * RELATIVE[i]
+        weighed = weighed_error(step * embedded_difference(k, i), y[i], new[i], atol[i], rtol)
         worst, total = collected(worst, total, weighed)
     error = step_error(worst, total)
     accepted, undefined, lost, stalled = judged(error, step, model.mechanics.nominal_speed + new[SLIP])
@@ -170,6 +183,14 @@ def judge(evaluations, segment, model, block, queue, march):
         failure = where(stalled, Status.STALLED.value, where(lost, Status.NOT_FINITE.value, 0.0))
         fail(failure, block, queue, march)
         running = running & ~(stalled | lost)
+    turned, shorter = accepted & ~accepted, step
+    if model.options.sliding == SLIDING_DYNAMIC:
+        too_far, shorter = turn_of(step, segment, model, rows_of(block.work))
+        fine = resolves_turns(atol[XI_RATE], model)
+        turned = accepted & too_far & fine & (rows[TRIES] < MOST_TRIES)
+        accepted = accepted & ~turned
+        rows[TRIES] = where(turned, rows[TRIES] + 1.0, where(accepted, 0.0, rows[TRIES]))
+        keep_turned(accepted, step, segment, model, rows_of(block.work))
     reached = where(cut, rows[LIMIT], phase + step)
     keep_dense(phase, step, reached, accepted, block, queue, march)
     if march.extremes:
@@ -177,7 +198,10 @@ def judge(evaluations, segment, model, block, queue, march):
         if any_of(lanes):
             search_lanes(lanes, phase, step, reached, segment, model, block, march)
     grown = next_step(step * growth(error, rows[LAST_ERROR]), cut, rows[UNCUT_STEP])
-    rejected = step * where(undefined, RETRY, shrinkage(error))
+    if model.options.sliding == SLIDING_DYNAMIC:
+        longest = longest_step(segment, model, rows_of(block.work))
+        grown = where(resolves_turns(atol[XI_RATE], model), minimum(grown, longest), grown)
+    rejected = where(turned, shorter, step * where(undefined, RETRY, shrinkage(error)))
     rows[STEP] = where(running, where(accepted, grown, rejected), step)
     rows[LAST_ERROR] = where(accepted, maximum(error, MINIMUM_ERROR), rows[LAST_ERROR])
     rows[PHASE] = where(accepted, reached, rows[PHASE])

@@ -31,10 +31,12 @@ CYCLE, STEPS, STEPS_BEFORE, EVALUATIONS, STOP = range(6, 11)
 #: Rows of the case and its samples: number of the case, −1 for none; number of the next sample in the cycle
 #: and its phase, above 1 if none is left.
 CASE, SAMPLE, DUE = range(11, 14)
+#: Row of a counter: how often the step was tried again because friction turned too far.
+TRIES = 17
 #: Rows of flags, 0 or 1: no engagement opens the first cycle; the step was cut; the lane is selected (where
 #: it fails, with its status).
 FRESH, CUT, SELECTED = range(14, 17)
-ROWS = 17
+ROWS = 18
 #: A phase that never comes.
 NEVER = 2.0
 

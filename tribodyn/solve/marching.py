@@ -8,14 +8,15 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics.parameters import MECHANICAL, SLIP, STATES
+from tribodyn.dynamics.parameters import MECHANICAL, SLIDING_DYNAMIC, SLIP, STATES, XI_RATE
 from tribodyn.kernels.native import kernel
-from tribodyn.numerics.elementary import largest_slope, maximum, plain
+from tribodyn.numerics.elementary import largest_slope, maximum, minimum, plain
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.engagement import engage
 from tribodyn.solve.integrator import Status
 from tribodyn.solve.step_control import (
     MINIMUM_ERROR,
+    RELATIVE,
     RETRY,
     collected,
     cut_at_stop,
@@ -24,6 +25,14 @@ from tribodyn.solve.step_control import (
     refused,
     step_error,
     weighed_error,
+)
+from tribodyn.solve.turning import (
+    MOST_TRIES,
+    begin_turning,
+    keep_turned,
+    longest_step,
+    resolves_turns,
+    turn_of,
 )
 
 #: Rows of a method's buffer: the new state and its error; the method's own rows follow.
@@ -37,12 +46,12 @@ class Method(NamedTuple):
     ----------
     attempt : (fresh, step, place, y, control, model, work, buffer) -> int
         Fills the first two rows of the buffer and returns how many right-hand sides that took; `fresh` says
-        that nothing is known yet at the place and `y`.
+        that nothing is known yet at the place and `y`. It leaves `work` as it is at the end of the step.
     sample : (theta, step, y, buffer, out)
         Writes the state at the share `theta` of the step last attempted.
     accept : (buffer) -> bool
         Keeps what the next step can use of an accepted one; returns whether that one begins fresh.
-    adapted : (step, error, last_error) -> float
+    adapted : (step, error, last_error, buffer) -> float
         The next step to try.
     contacts : (phase, segment, model, work, buffer)
         Fills `work` with the contacts at the end of the step last attempted, if it is not so yet.
@@ -124,6 +133,7 @@ def march_with(method, march, control, model, y, out, work, buffer, search):
     evaluations = 0
     written = 0
     last_error = MINIMUM_ERROR
+    turning = model.options.sliding == SLIDING_DYNAMIC and resolves_turns(control.atol[XI_RATE], model)
     for cycle in range(march.cycles):
         whole = float(march.first_cycle + cycle)
         steps_before = steps
@@ -138,8 +148,10 @@ def march_with(method, march, control, model, y, out, work, buffer, search):
                 written += 1
             if march.extremes:
                 method.opened(Place(phase, whole, segment, end), y, model, work, search)
+            if turning:
+                begin_turning(phase, segment, y, model, work)
             fresh = True
-            stop = 0
+            stop, tries = 0, 0.0
             while phase < end:
                 limit = control.stops[segment, stop]
                 uncut_step = step
@@ -163,7 +175,7 @@ def march_with(method, march, control, model, y, out, work, buffer, search):
                         plain(y[i]),
                         plain(buffer[STATE, i]),
                         control.atol[i],
-                        march.rtol,
+                        march.rtol * RELATIVE[i],
                     )
                     worst, total = collected(worst, total, weighed)
                 for i in range(MECHANICAL):  # of the derivatives, where numbers carry them
@@ -185,8 +197,15 @@ def march_with(method, march, control, model, y, out, work, buffer, search):
                     step *= RETRY
                     continue
                 if not accepted:
-                    step = method.adapted(step, error, last_error)
+                    step = method.adapted(step, error, last_error, buffer)
                     continue
+                if turning:
+                    too_far, shorter = turn_of(step, segment, model, work)
+                    if too_far and tries < MOST_TRIES:
+                        step, tries = shorter, tries + 1.0
+                        continue
+                    tries = 0.0
+                    keep_turned(True, step, segment, model, work)
                 next_phase = limit if cut else phase + step
                 while written < (cycle + 1) * samples:
                     at = (written - cycle * samples) / samples
@@ -204,7 +223,9 @@ def march_with(method, march, control, model, y, out, work, buffer, search):
                 steps += 1
                 if cut:
                     stop += 1
-                step = next_step(method.adapted(step, error, last_error), cut, uncut_step)
+                step = next_step(method.adapted(step, error, last_error, buffer), cut, uncut_step)
+                if turning:
+                    step = minimum(step, longest_step(segment, model, work))
                 last_error = maximum(error, MINIMUM_ERROR)
     return Status.DONE.value, float(march.cycles), step, steps, evaluations, written
 

@@ -2,6 +2,7 @@
 
 The friction of a pair changes sign about its pitch point, over less than a step of the vibration.
 With the nominal sliding velocity the place is known beforehand, as engagement is; there the force is C1 only.
+With the sliding of the bodies as they move it is found on the way, see `turning`, and steps end nowhere else.
 A step across it evaluates the reversal in some of its stages or in none, and its error estimate misses
 it: on the CRC drive that made the error of the transmission error 30 times what it is without friction.
 """
@@ -11,7 +12,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from tribodyn.dynamics.parameters import Model
+from tribodyn.dynamics.parameters import SLIDING_DYNAMIC, Model
 from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.numerics.shapes import Array, Float
 
@@ -44,13 +45,14 @@ def passages(model: Model, segment: int, distance: float) -> list[float]:
 def stops(model: Model) -> Float[Array, "segment stop"]:
     """Phases that steps end on, ascending, each segment's end last and repeated to fill up.
 
-    For every pair: the places of `SHARES`.
+    For every pair: the places of `SHARES`, with the nominal sliding velocity.
     """
+    shares = () if model.options.sliding == SLIDING_DYNAMIC else SHARES
     boundary = np.asarray(model.table.boundary)
     width = float(model.mechanics.reversal_width)
     rows = []
     for segment, (start, end) in enumerate(pairwise(boundary)):
-        inside = [phase for share in SHARES for phase in passages(model, segment, share * width)]
+        inside = [phase for share in shares for phase in passages(model, segment, share * width)]
         near = 1e-9 * (end - start)
         rows.append(sorted(phase for phase in inside if start + near < phase < end - near))
     count = 1 + max(len(row) for row in rows)
@@ -59,11 +61,11 @@ def stops(model: Model) -> Float[Array, "segment stop"]:
 
 def stops_of_many(models: Sequence[Model]) -> Float[Array, "case segment stop"]:
     """`stops` of many cases; computed once for all that have them in common."""
-    numbers: dict[tuple[int, float], int] = {}
+    numbers: dict[tuple[int, float, int], int] = {}
     different: list[np.ndarray] = []
     rows = []
     for model in models:
-        key = (id(model.table), float(model.mechanics.reversal_width))
+        key = (id(model.table), float(model.mechanics.reversal_width), model.options.sliding)
         if key not in numbers:
             numbers[key] = len(different)
             different.append(stops(model))

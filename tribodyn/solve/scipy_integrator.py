@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.dynamics.parameters import SLIP, STATES, Model
+from tribodyn.dynamics.parameters import DISPLACEMENTS, SLIP, STATES, Model
 from tribodyn.kernels.native import packed
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.engagement import engage
@@ -15,6 +15,20 @@ from tribodyn.solve.right_hand_side import rhs, work_array
 from tribodyn.solve.sampling import sample_phases
 from tribodyn.solve.step_control import STANDSTILL
 from tribodyn.solve.tolerances import Tolerances
+
+#: Smallest relative tolerance that SciPy's solvers take without a word.
+SMALLEST_RTOL = 3e-14
+
+
+def rtol_of_all(rtol: float, atol: Float[Array, " state"], y: Float[Array, " state"]) -> float:
+    """One relative tolerance for all states, under which displacements keep to their absolute ones.
+
+    SciPy's implicit solvers take no other; see `step_control.RELATIVE`.
+    """
+    places = list(DISPLACEMENTS)
+    return max(
+        min(rtol, float(np.min(atol[places])) / max(float(np.max(np.abs(y[places]))), 1e-300)), SMALLEST_RTOL
+    )
 
 
 class _Ended(Exception):
@@ -93,6 +107,7 @@ class _Walk:
             return self._rates.copy()
 
         at = self.integrator.phases[segment]
+        rtol = rtol_of_all(rtol, atol, self.y)
         solver = self.integrator.method(slope, start, self.y, end, rtol=rtol, atol=atol)
         try:
             while solver.status == "running":

@@ -3,12 +3,18 @@
 Written as laws, so that the march of one case and that of many cases side by side apply the same rules.
 """
 
+import numpy as np
+
+from tribodyn.dynamics.parameters import DISPLACEMENTS, STATES, WORKS
 from tribodyn.numerics.elementary import absolute, law, maximum, where
 
 #: First step to try and the smallest one, mesh cycles; a step is the last if it ends this close to the end.
 FIRST_STEP, MINIMUM_STEP, TOUCHING = 1e-3, 1e-13, 1.0000001
 #: Error taken for that of the last step at the start, and the smallest that is remembered.
 MINIMUM_ERROR = 1e-4
+#: Factor on the relative tolerance of every state. Displacements have none: on soft bearings they are many
+#: times the deflection of the mesh, on which all forces depend. Nor have works, which grow with the run.
+RELATIVE = np.array([0.0 if state in (*DISPLACEMENTS, *WORKS) else 1.0 for state in range(STATES)])
 #: Share of the nominal speed below which steps that vanish mean that the pinion comes to rest: rates with
 #: respect to phase grow without bound there. A light pinion at low nominal speed still turns at a hundredth
 #: of it when a step is the smallest one.

@@ -14,7 +14,11 @@ from tribodyn.dynamics.parameters import (
     TWIST,
     VELOCITIES,
     WORKS,
+    X_G,
+    X_P,
     XI,
+    Y_G,
+    Y_P,
     Model,
 )
 from tribodyn.mesh.cycle import CHANNELS
@@ -22,8 +26,12 @@ from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.initial import static_deflection
 
 _COMPLIANCE = CHANNELS.index("compliance")
+_COSINE, _SINE = CHANNELS.index("cosine"), CHANNELS.index("sine")
 #: Smallest deflection that tolerances are scaled by, m.
 MINIMUM_DEFLECTION = 1e-9
+#: Scale of the works over the energy transmitted in a mesh cycle: errors of steps add up over the cycle. With
+#: stiff bearings it costs no step.
+SHARE_OF_WORKS = 1.0 / 30.0
 
 
 class Tolerances(NamedTuple):
@@ -45,7 +53,8 @@ def absolute_tolerances(
     """Rtol times the scale of every state, from the static deflection of the mesh (m).
 
     Displacements scale with the deflection, velocities with the deflection times the mesh's natural
-    frequency, works with the energy transmitted in one mesh cycle. `stiffness` is `mean_stiffness`, if known.
+    frequency, works with a share of the energy transmitted in one mesh cycle. `stiffness` is that of
+    `mean_stiffness`, if known.
     """
     mechanics, table = model.mechanics, model.table
     pinion_radius, gear_radius = float(table.pinion_pitch_radius), float(table.gear_pitch_radius)
@@ -60,8 +69,24 @@ def absolute_tolerances(
     scale[TWIST] = deflection / pinion_radius
     scale[LAG] = deflection / pinion_radius / mechanics.nominal_speed
     energy = stiffness * deflection * pinion_radius * float(table.pitch_angle)
-    scale[list(WORKS)] = energy
+    scale[list(WORKS)] = SHARE_OF_WORKS * energy
     return rtol * scale
+
+
+def mesh_deflection(model: Model, state: Float[Array, " state"], per_torque: float | None = None) -> float:
+    """Deflection that the mesh has in a state or would have under its load, without the bearings; m.
+
+    The load is the largest that constant part, harmonics and table can add up to. At least the width over
+    which contact sets in. `per_torque` is `static_deflection(model, 1.0)`, if known.
+    """
+    mechanics = model.mechanics
+    torque = abs(float(mechanics.load_torque)) + float(np.sum(np.abs(mechanics.load_amplitudes)))
+    torque += float(np.max(np.abs(mechanics.load_torques), initial=0.0))
+    per_torque = static_deflection(model, 1.0) if per_torque is None else per_torque
+    pair = np.asarray(model.table.channel)[0, 0, -1, :, 0]
+    along = state[XI] + state[X_P] - state[X_G]
+    pressed = abs(float(along * pair[_COSINE] + (state[Y_P] - state[Y_G]) * pair[_SINE]))
+    return max(pressed, per_torque * torque, float(mechanics.contact_width), MINIMUM_DEFLECTION)
 
 
 def tolerances_from(model: Model, state: Float[Array, " state"], rtol: float, max_steps: int) -> Tolerances:
@@ -79,7 +104,8 @@ def tolerances_of_many(
         if id(model.table) not in known:
             known[id(model.table)] = mean_stiffness(model), static_deflection(model, 1.0)
         stiffness, per_torque = known[id(model.table)]
-        static = per_torque * abs(float(model.mechanics.load_torque))
-        deflection = max(abs(float(states[case, XI])), static, MINIMUM_DEFLECTION)
+        deflection = mesh_deflection(model, states[case], per_torque)
         tolerances[case] = absolute_tolerances(model, rtol, deflection, stiffness)
+    # no relative part, see `step_control.RELATIVE`: in its place that of the deflection
+    tolerances[:, list(DISPLACEMENTS)] *= 2.0
     return tolerances

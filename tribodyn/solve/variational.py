@@ -89,6 +89,7 @@ class DualMethod(NamedTuple):
 METHODS = {
     "dopri5": DualMethod(explicit, explicit_8.buffer, 1e-10),
     "rodas4": DualMethod(stiff, rodas4.buffer, 1e-8),
+    "switching": DualMethod(stiff, rodas4.buffer, 1e-8),
 }
 
 

@@ -206,6 +206,11 @@ def _skippable(condition):
     return (lambda condition: not any_of(~condition)) if condition is MASK else None
 
 
+@part_instead(elementary.plain)
+def _plain(x):
+    return (lambda x: x) if x is LANES else None
+
+
 @part_instead(elementary.minimum)
 def _minimum(a, b):
     if LANES not in (a, b):

@@ -27,6 +27,7 @@ class Entry(NamedTuple):
 
 METHODS = {
     "dopri5": Entry("Dormand-Prince 5(4), native kernel", Runs.NATIVE),
+    "switching": Entry("dopri5, and rodas4 where the mesh cycle is stiff, native", Runs.NATIVE),
     "tsit5": Entry("Tsitouras 5(4), diffrax", Runs.JAX),
     "dopri8": Entry("Dormand-Prince 8(7), diffrax", Runs.JAX),
     "kvaerno5": Entry("Kvaerno 5(4), implicit, diffrax", Runs.JAX),
@@ -37,8 +38,8 @@ METHODS = {
     "dop853": Entry("Dormand-Prince 8(5,3), SciPy", Runs.SCIPY),
 }
 AUTO = "auto"
-#: Between these "auto" chooses, see `choice`; batches in lanes run the explicit one.
-EXPLICIT, STIFF = "dopri5", "rodas4"
+#: Among these "auto" chooses, see `choice`; batches in lanes run the explicit one.
+EXPLICIT, STIFF, SWITCHING = "dopri5", "rodas4", "switching"
 #: What a scenario may say, with a line on each.
 SOLVERS = {
     AUTO: "explicit or stiff by an estimate; the record says which and why",

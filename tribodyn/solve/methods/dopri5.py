@@ -57,7 +57,7 @@ def accept(buffer):
 
 
 @kernel
-def adapted(step, error, last_error):
+def adapted(step, error, last_error, buffer):
     """See `marching.Method`."""
     return step * (growth(error, last_error) if error <= 1.0 else shrinkage(error))
 

@@ -91,6 +91,22 @@ def resolve(shift, jacobian, matrix, order, right, solution):
 
 
 @kernel
+def stiffness(step, buffer):
+    """Step over the time constant, at the start of the step last attempted.
+
+    From the sums of all rates of decay and of all squared frequencies: an upper bound, close where one
+    motion is much stiffer than the others.
+    """
+    jacobian = buffer[_JACOBIAN:_MATRIX]
+    decay, squared = 0.0, 0.0
+    for i in range(HALF, MECHANICAL):
+        decay -= jacobian[i, i]
+        for j in range(HALF):
+            squared -= jacobian[i, j] * jacobian[j, i]
+    return step * max(abs(decay), abs(squared) ** 0.5)
+
+
+@kernel
 def attempt(fresh, step, place, y, control, model, work, buffer):
     """See `marching.Method`; the Jacobian is of the step's start, and kept while the step is tried again."""
     stage, error = buffer[STATE], buffer[ERROR]
@@ -144,7 +160,7 @@ def accept(buffer):
 
 
 @kernel
-def adapted(step, error, last_error):
+def adapted(step, error, last_error, buffer):
     """See `marching.Method`."""
     if error > 1.0:
         return step * shrinkage(error)

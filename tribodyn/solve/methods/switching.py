@@ -1,0 +1,109 @@
+"""Native method that switches within the mesh cycle: dopri5, and rodas4 where stability limits its steps.
+
+Flanks that stick about the pitch point make the equations stiff for a part of the mesh cycle only. Both
+methods say with every step how stiff it is: the explicit one after Hairer & Wanner, Solving Ordinary
+Differential Equations II (2nd ed., 1996), IV.2, the other from the Jacobian that it has anyway.
+"""
+
+from tribodyn.dynamics.parameters import MECHANICAL
+from tribodyn.kernels.native import kernel
+from tribodyn.numerics.shapes import Array, Float
+from tribodyn.solve.dormand_prince import A
+from tribodyn.solve.extreme_search import open_segment, search_step
+from tribodyn.solve.marching import SCRATCH, Method, march_with, scratch_buffer
+from tribodyn.solve.methods import dopri5, rodas4
+
+#: First velocity among the mechanical states.
+HALF = MECHANICAL // 2
+#: State at the last stage less that at the one before, over the step, by the stages' rates.
+APART = A[6] - A[5]
+#: Step over the time constant of the stiffest motion: above the first stability limits the explicit method;
+#: below the second, the first times the cost of a stiff step over that of an explicit one, it is the cheaper.
+STIFF, NOT_STIFF = 3.0, 12.0
+#: Accepted steps in a row after which the explicit or the stiff method gives way to the other.
+EXPLICIT_STEPS, STIFF_STEPS = 12, 3
+#: The last row of the buffer: which method (0 explicit), the step over the time constant, steps in a row.
+MODE = len(rodas4.buffer())
+WHICH, STIFFNESS, COUNT = range(3)
+EXPLICIT_METHOD, STIFF_METHOD = 0.0, 1.0
+
+
+def buffer() -> Float[Array, "row state"]:
+    """Scratch for the kernel: that of both methods, one at a time, and a row of the choice between them."""
+    return scratch_buffer(MODE + 1 - SCRATCH)
+
+
+@kernel
+def explicit_stiffness(k):
+    """Step over the time constant, squared, from the last two stages, which stand at the same phase."""
+    rates, states = 0.0, 0.0
+    for i in range(HALF, MECHANICAL):
+        moved = APART[0] * k[0, i] + APART[1] * k[1, i] + APART[2] * k[2, i]
+        moved += APART[3] * k[3, i] + APART[4] * k[4, i] + APART[5] * k[5, i]
+        rate = k[6, i] - k[5, i]
+        states += moved * moved
+        rates += rate * rate
+    return rates / states if states > 0.0 else 0.0
+
+
+@kernel
+def attempt(fresh, step, place, y, control, model, work, buffer):
+    """See `marching.Method`."""
+    if buffer[MODE, WHICH] == EXPLICIT_METHOD:
+        evaluations = dopri5.attempt(fresh, step, place, y, control, model, work, buffer)
+        buffer[MODE, STIFFNESS] = explicit_stiffness(buffer[SCRATCH:])
+        return evaluations
+    evaluations = rodas4.attempt(fresh, step, place, y, control, model, work, buffer)
+    buffer[MODE, STIFFNESS] = rodas4.stiffness(step, buffer)
+    return evaluations
+
+
+@kernel
+def sample(theta, step, y, buffer, out):
+    """See `marching.Method`."""
+    if buffer[MODE, WHICH] == EXPLICIT_METHOD:
+        dopri5.sample(theta, step, y, buffer, out)
+    else:
+        rodas4.sample(theta, step, y, buffer, out)
+
+
+@kernel
+def accept(buffer):
+    """See `marching.Method`: a step after the methods have changed begins fresh."""
+    mode = buffer[MODE]
+    if mode[WHICH] == EXPLICIT_METHOD:
+        mode[COUNT] = mode[COUNT] + 1.0 if mode[STIFFNESS] > STIFF * STIFF else 0.0
+        if mode[COUNT] >= EXPLICIT_STEPS:
+            mode[WHICH], mode[COUNT] = STIFF_METHOD, 0.0
+            return True
+        return dopri5.accept(buffer)
+    mode[COUNT] = mode[COUNT] + 1.0 if mode[STIFFNESS] < NOT_STIFF else 0.0
+    if mode[COUNT] >= STIFF_STEPS:
+        mode[WHICH], mode[COUNT] = EXPLICIT_METHOD, 0.0
+    return True
+
+
+@kernel
+def adapted(step, error, last_error, buffer):
+    """See `marching.Method`."""
+    if buffer[MODE, WHICH] == EXPLICIT_METHOD:
+        return dopri5.adapted(step, error, last_error, buffer)
+    return rodas4.adapted(step, error, last_error, buffer)
+
+
+@kernel
+def contacts(phase, segment, model, work, buffer):
+    """See `marching.Method`."""
+    if buffer[MODE, WHICH] == EXPLICIT_METHOD:
+        dopri5.contacts(phase, segment, model, work, buffer)
+    else:
+        rodas4.contacts(phase, segment, model, work, buffer)
+
+
+METHOD = Method(attempt, sample, accept, adapted, contacts, open_segment, search_step)
+
+
+@kernel
+def integrate(march, control, model, y, out, work, buffer, search):
+    """Integrate mesh cycles, see `marching.march_with`."""
+    return march_with(METHOD, march, control, model, y, out, work, buffer, search)
