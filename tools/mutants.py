@@ -110,8 +110,10 @@ def _changes_of(file: str, source: bytes) -> Iterator[Change]:
         elif isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub | ast.Not):
             start = place(node)[0]
             yield change(start, start + (1 if isinstance(node.op, ast.USub) else 3), "")
-        elif isinstance(node, ast.Constant) and type(node.value) in (int, float):
-            grown = node.value + 1 if type(node.value) is int else node.value * FACTOR or 1.0
+        elif isinstance(node, ast.Constant) and isinstance(number := node.value, int | float):
+            if isinstance(number, bool):
+                continue
+            grown = number + 1 if isinstance(number, int) else number * FACTOR or 1.0
             yield change(*place(node), repr(grown))
 
 
