@@ -24,8 +24,6 @@ MISALIGNED = [
     for minutes in (1, 2, 3)
 ]
 RELIEVED = [f"jia/crown-{relief}-{relief}-{y3}" for y3 in (0, 8) for relief in (4, 8, 12)]
-# What misses its tolerance of 5 %, by less than a hundredth: docs/validation.md has what is known of it.
-MISSED = {"jia/crown-8-8-0", "jia/crown-12-12-8"}
 
 
 @pytest.fixture(scope="module")
@@ -36,8 +34,7 @@ def rows():
 @pytest.mark.slow
 def test_every_row_is_there_and_is_judged(rows):
     assert set(rows) == set(published("jia-2022"))
-    assert {row.id for row in rows.values() if row.verdict == "fail"} == MISSED
-    assert [row.id for row in rows.values() if row.verdict == "reported"] == []
+    assert {row.verdict for row in rows.values()} == {"pass"}
 
 
 @pytest.mark.slow

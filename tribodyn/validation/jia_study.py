@@ -23,8 +23,9 @@ Name = Literal["involute", "parabolic"]
 
 PINION_TORQUE = 134.0  # N m
 ARC_MINUTE = math.radians(1.0 / 60.0)
-#: Positions over a mesh cycle of 360/17 degrees, steps of a degree; slices of 1 mm.
-POSITIONS, SLICES = 21, 25
+#: Positions over a mesh cycle of 360/17 degrees, steps of a degree; slices of 0.6 mm. With 51 slices ratios
+#: of aligned gears change by less than 0.1 %, those of misaligned ones by less than 1 %.
+POSITIONS, SLICES = 21, 41
 
 
 class State(NamedTuple):
