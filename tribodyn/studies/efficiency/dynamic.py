@@ -5,6 +5,7 @@ from typing import NamedTuple
 from tribodyn.errors import InputError
 from tribodyn.mesh.power_flow import efficiency
 from tribodyn.record.reader import Record
+from tribodyn.record.withheld import EFFICIENCY, samples_withheld
 
 
 class DynamicEfficiency(NamedTuple):
@@ -14,7 +15,7 @@ class DynamicEfficiency(NamedTuple):
     ----------
     cycles : number of mesh cycles
     efficiency : 1 less friction work over work put in: what the summary of a run reports
-    overall : work put out over work put in; with the damping of mesh and bearings
+    overall : work put out over work put in; with the damping of mesh and bearings. Both are NaN outside 0 … 1
     work_in, work_out, work_friction, work_damping : J; from the pinion and to the gear, < 0 where that drives
     stored : change of the stored energy, J; small where the run has settled
     """
@@ -60,11 +61,11 @@ def dynamic_efficiency(record: Record, cycles: int | None = None) -> DynamicEffi
 
     pinion, gear, lost, damped = (change(f"work_{name}") for name in ("in", "out", "friction", "damping"))
     # what is lost between the two gears, whatever it is lost to
-    overall = float(efficiency(pinion, gear, pinion - gear))
+    overall = efficiency(pinion, gear, pinion - gear)
     return DynamicEfficiency(
         wanted,
-        float(efficiency(pinion, gear, lost)),
-        overall,
+        float(samples_withheld(EFFICIENCY, efficiency(pinion, gear, lost))),
+        float(samples_withheld(EFFICIENCY, overall)),
         pinion,
         gear,
         lost,
