@@ -109,11 +109,10 @@ def test_what_is_wrong_is_noticed(record, tmp_path, name, factor, expected):
         assert any(fault.startswith(expected) for fault in faults(one, RTOL))
 
 
-@pytest.mark.parametrize(("name", "value"), [("efficiency", 1.01), ("energy_residual", 1e-4)])
-def test_impossible_figures_are_noticed(record, tmp_path, name, value):
+def test_energy_that_is_not_kept_is_noticed(record, tmp_path):
     damaged = tmp_path / "damaged.h5"
     damaged.write_bytes(record.read_bytes())
     with h5py.File(damaged, "r+") as file:
-        file["summary"].attrs[name] = value
+        file["summary"].attrs["energy_residual"] = 1e-4
     with Record(damaged) as one:
-        assert any(name.replace("_", " ") in fault for fault in faults(one, RTOL))
+        assert list(faults(one, RTOL)) == ["energy residual 0.0001, 100 times rtol"]
