@@ -95,7 +95,7 @@ def test_an_extreme_is_where_it_is_said_to_be(prepared):
 
 
 def test_lanes_find_what_a_single_run_finds(prepared):
-    """To rounding, in windows of several cycles, and whoever runs beside."""
+    """Within the tolerance of the integration, in windows of several cycles, and whoever runs beside."""
     speeds = [f"{speed} rad/s" for speed in (10, 60, 200, 333, 500, 700, 900, 1000, 1500)]
     models = [prepared("crc-23-47", **{"operating.pinion_speed": speed}).model for speed in speeds]
     states = np.array([static_equilibrium(model) for model in models])
@@ -107,7 +107,7 @@ def test_lanes_find_what_a_single_run_finds(prepared):
         alone = integrator.integrate(states[case], 0, 3).extremes
         assert alone is not None
         for ours, theirs in zip(batch.extremes, alone, strict=True):
-            np.testing.assert_allclose(ours[case], theirs, rtol=1e-7, atol=1e-12)
+            np.testing.assert_allclose(ours[case], theirs, rtol=1e-6, atol=1e-12)
     fewer = march(models[2:4], states[2:4], **marching)
     for ours, theirs in zip(fewer.extremes, batch.extremes, strict=True):
         np.testing.assert_array_equal(ours, theirs[2:4])

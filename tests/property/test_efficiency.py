@@ -52,7 +52,7 @@ def test_friction_takes_a_part_and_no_more(contact, law):
     lost = (
         found.friction_coefficient * found.normal_load * np.abs(pair.pinion_speed - pair.gear_speed) * speed
     )
-    out = found.torque_ratio / pair.ratio * torque * speed
+    out = found.torque_ratio / (pair.gear_normal_arm / pair.pinion_normal_arm) * torque * speed
     np.testing.assert_allclose(out + lost, torque * speed, rtol=1e-9)
 
 

@@ -9,8 +9,9 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
 from tests.support.record_samples import block, gear_pair_writer, geometry, mesh_cycle
+from tribodyn.errors import harmless
 from tribodyn.mesh.cycle import as_arrays, from_arrays
-from tribodyn.record.reader import open_record
+from tribodyn.record.reader import harmless_data, open_record
 
 NUMBERS = st.floats(allow_nan=True, allow_infinity=True)
 SCALARS = st.one_of(
@@ -51,8 +52,8 @@ def test_summary_and_scenario_come_back(summary: dict, scenario: str):
             record.write(0, block(0, 1))
             path = record.finish(summary)
         with open_record(path) as record:
-            assert record.summary == summary
-            assert record.attrs["scenario"] == scenario
+            assert record.summary == harmless_data(summary)
+            assert record.attrs["scenario"] == harmless(scenario)
 
 
 def test_the_mesh_cycle_comes_back_as_it_was():

@@ -9,6 +9,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tribodyn.errors import harmless
 from tribodyn.studies.load import load_scenario
 
 POSITIVE = st.floats(1e-3, 1e3)
@@ -52,7 +53,7 @@ HARMONIC = st.fixed_dictionaries(
 OVERRIDES = st.fixed_dictionaries(
     {},
     optional={
-        "title": st.text(st.characters(codec="utf-8")).map("a title ".__add__),
+        "title": st.text(st.characters(codec="utf-8")).map(harmless).map("a title ".__add__),
         "drive": st.sampled_from(["liu-ni-involute-23-47", "diez-ibarbia-18-36"]),
         "drive.module": quantities(LENGTHS),
         "drive.pinion.teeth": st.integers(5, 200),

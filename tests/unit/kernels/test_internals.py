@@ -103,7 +103,7 @@ def test_without_an_internal_kernels_run_all_the_same_and_say_so_once(tmp_path, 
     assert "RuntimeWarning" not in said["with"]
     assert said["without"].count("RuntimeWarning: numba") == 1
     assert "lacks numba.core.codegen.JITCodeLibrary" in said["without"]
-    assert "kernels" not in {path.name.split("-")[0] for path in (tmp_path / "empty").glob("*")}
+    assert not any(path.is_file() for path in (tmp_path / "empty").rglob("*"))
     usual, plain = (np.load(tmp_path / f"{how}.npz") for how in ("with", "without"))
     for name in ("dopri5", "rodas4"):
         scale = np.abs(usual[name]).max(axis=0) + 1e-300

@@ -54,7 +54,7 @@ def test_figures_are_in_engineers_units(record: Record, line: list[str]):
 def test_it_says_how_far_to_trust_it(record: Record):
     text = printed(record)
     assert "inside its fitted range in 93.0 % of the contact" in text
-    assert "closes within 3.0e-08 of the work" in text
+    assert "closes within 3.0e-08 of the largest work" in text
     assert "Solved by dopri5 (not stiff" in text
 
 

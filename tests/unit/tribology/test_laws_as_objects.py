@@ -158,8 +158,8 @@ def test_machine_code_is_kept_for_functions_in_files_only(tmp_path, monkeypatch)
     assert layout.kept
     assert not packed(_closed(3.0)).layout.kept
     whole = packed(Pair(_twice, 1.0)).layout
-    assert store._file_of(_apply.function, whole) is not None
-    assert store._file_of(_apply.function, packed(Pair(_closed(3.0), 1.0)).layout) is None
+    assert store._place_of(_apply.function, whole) is not None
+    assert store._place_of(_apply.function, packed(Pair(_closed(3.0), 1.0)).layout) is None
 
 
 class Pair(tuple):
