@@ -43,7 +43,6 @@ def trusted_folder(name: str) -> Path | None:
 @cache
 def _trusted(whole: Path, name: str) -> Path | None:
     folder = whole / name
-    reason = ""
     try:
         os.makedirs(whole.parent, exist_ok=True)
         for part in (whole, folder):

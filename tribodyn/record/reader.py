@@ -279,12 +279,10 @@ def _dims_in(file: h5py.File, name: str) -> tuple[str, ...]:
 
 def attributes(item: Any) -> dict[str, Any]:
     """Attributes as Python and NumPy values; texts without what a terminal or a picture would obey."""
-    return {harmless(name): _plain(value) for name, value in item.attrs.items()}
-
-
-def _plain(value: Any) -> Any:
-    value = value.item() if isinstance(value, np.generic) else value
-    return harmless(value) if isinstance(value, str) else value
+    return {
+        harmless(name): harmless_data(value.item() if isinstance(value, np.generic) else value)
+        for name, value in item.attrs.items()
+    }
 
 
 def harmless_texts(values: np.ndarray) -> np.ndarray:

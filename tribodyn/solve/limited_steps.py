@@ -5,11 +5,10 @@ from typing import Any
 import diffrax
 import jax.numpy as jnp
 
-#: Untyped, as diffrax declares tolerances as variables where wrappers have properties.
-_Controller: Any = diffrax.AbstractAdaptiveStepSizeController
+from tribodyn.solve.wrapped_steps import WrappedSteps
 
 
-class LimitedSteps(_Controller):
+class LimitedSteps(WrappedSteps):
     """Wraps a controller; the result is `max_steps_reached` where it would accept one step more than allowed.
 
     diffrax's own limit counts rejected steps too, and is compiled in.
@@ -21,20 +20,7 @@ class LimitedSteps(_Controller):
         Accepted steps.
     """
 
-    controller: diffrax.AbstractAdaptiveStepSizeController
     allowed: Any
-
-    @property
-    def rtol(self) -> Any:  # noqa: D102  (diffrax's)
-        return self.controller.rtol
-
-    @property
-    def atol(self) -> Any:  # noqa: D102  (diffrax's)
-        return self.controller.atol
-
-    @property
-    def norm(self) -> Any:  # noqa: D102  (diffrax's)
-        return self.controller.norm
 
     def wrap(self, direction: Any) -> "LimitedSteps":
         """Return the controller for times that run in a direction."""

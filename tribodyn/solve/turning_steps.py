@@ -2,7 +2,6 @@
 
 from typing import Any
 
-import diffrax
 import jax.numpy as jnp
 
 from tribodyn.dynamics.contact_forces import (
@@ -15,12 +14,10 @@ from tribodyn.dynamics.contact_forces import (
 from tribodyn.dynamics.equations import locate
 from tribodyn.dynamics.parameters import Model
 from tribodyn.solve.turning import MOST_TRIES, begin_turning, keep_turned, longest_step, turn_of
-
-#: Untyped, as diffrax declares tolerances as variables where wrappers have properties.
-_Controller: Any = diffrax.AbstractAdaptiveStepSizeController
+from tribodyn.solve.wrapped_steps import WrappedSteps
 
 
-class TurningSteps(_Controller):
+class TurningSteps(WrappedSteps):
     """Wraps a controller; a step that turns friction too far is tried again, shorter.
 
     Parameters
@@ -30,20 +27,7 @@ class TurningSteps(_Controller):
         Whether the tolerance sees friction turn, see `turning.resolves_turns`.
     """
 
-    controller: diffrax.AbstractAdaptiveStepSizeController
     applies: Any
-
-    @property
-    def rtol(self) -> Any:  # noqa: D102  (diffrax's)
-        return self.controller.rtol
-
-    @property
-    def atol(self) -> Any:  # noqa: D102  (diffrax's)
-        return self.controller.atol
-
-    @property
-    def norm(self) -> Any:  # noqa: D102  (diffrax's)
-        return self.controller.norm
 
     def wrap(self, direction: Any) -> "TurningSteps":
         """Return the controller for times that run in a direction."""
