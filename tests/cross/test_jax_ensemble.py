@@ -106,6 +106,21 @@ def test_neither_numbers_nor_fewer_cases_compile_anything_again(motors, compiled
     assert len(compiled) == before
 
 
+def test_a_motion_that_grows_without_bound_ends_alone(motors):
+    """Of a bearing that feeds whatever moves in it, in JAX as in lanes."""
+    models, states = motors
+    fed = models[0]._replace(mechanics=models[0].mechanics._replace(gear_damping_y=-2e5))
+    settings = {"cycles": 5, "window": 1, "samples": 12, "rtol": 1e-6}
+    ended = {
+        method: ensemble.march([fed, models[1]], states[:2], method=method, **settings)
+        for method in ("auto", "tsit5")
+    }
+    for found in ended.values():
+        assert found.status.tolist() == [Status.UNBOUNDED, Status.DONE]
+        assert np.max(np.abs(found.state[0, :4])) < 1.0
+    assert 0 <= ended["auto"].reached[0] - ended["tsit5"].reached[0] < 1
+
+
 def swept(engine: str, path: Path, *words: str) -> Path:
     options = [word for key, value in MOTOR.items() for word in ("--set", f"{key}={value}")]
     ended = CliRunner().invoke(

@@ -25,7 +25,7 @@ from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.solve.diffrax_method import DiffraxMethod
 from tribodyn.solve.engagement import engaged
 from tribodyn.solve.integrator import IntegratedCycles, Status
-from tribodyn.solve.limited_steps import LimitedSteps
+from tribodyn.solve.limited_steps import GROWN, LimitedSteps
 from tribodyn.solve.reversal import SHARES, filled_up, stops_of_many
 from tribodyn.solve.sampling import sample_phases
 from tribodyn.solve.step_control import FIRST_STEP, MINIMUM_STEP, RELATIVE
@@ -173,6 +173,7 @@ def over_cycle(
             (diffrax.RESULTS.dt_min_reached, Status.STEP_TOO_SMALL),
             (diffrax.RESULTS.event_occurred, Status.STALLED),
             (diffrax.RESULTS.max_steps_reached, Status.TOO_MANY_STEPS),
+            (GROWN, Status.UNBOUNDED),
         )
         status = jnp.where(solution.result == diffrax.RESULTS.successful, status, Status.NOT_FINITE)
         for result, meaning in failures:

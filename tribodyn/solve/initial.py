@@ -1,5 +1,7 @@
 """Where a run starts: the static equilibrium under load, or the unloaded position."""
 
+from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -21,10 +23,32 @@ from tribodyn.dynamics.parameters import (
 from tribodyn.errors import SimulationError
 from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.solve.step_control import largest_displacement, unbounded
 
 _COSINE, _COMPLIANCE, _GAP = (CHANNELS.index(name) for name in ("cosine", "compliance", "gap"))
 #: Share of all torques of a model below which what is left of them presses no flanks together.
 _NO_LOAD = 1e-12
+#: Shares of the damping, from none to all of it, over which an equilibrium is followed that is not found at
+#: once.
+DAMPING_STEPS = 33
+APART = (
+    "there is no static equilibrium under the load at the start, which turns the flanks apart; check the "
+    "sign of operating.gear_torque, give mesh.backlash for the back flanks to carry, or start with "
+    'solver.initial = "unloaded"'
+)
+NOT_FOUND = (
+    "no static equilibrium was found under the load at the start, although it presses the flanks together; "
+    'use less friction or stiffer bearings, or start with solver.initial = "unloaded"'
+)
+DAMPED_AWAY = (
+    "there is a static equilibrium under the load at the start, but the damping of the moving transmission "
+    "error takes it away; use a lower mesh.damping_ratio, error or speed, or start with "
+    'solver.initial = "unloaded"'
+)
+TOO_SOFT = (
+    "under the load the gears would move by {:.3g} m, more than the centre distance; use stiffer bearings or "
+    "a smaller torque"
+)
 
 
 def accelerations(
@@ -80,17 +104,8 @@ def static_equilibrium(model: Model, phase: float = 0.0, segment: int = 0) -> Fl
         unknown.append(TWIST)
         torques = max(abs(float(mechanics.drive_torque)), abs(torque), 1e-3)
         scale = np.append(scale, torques / mechanics.shaft_stiffness)
-
-    def residual(values: Float[Array, "*trial unknown"]) -> Float[Array, "*trial unknown"]:
-        states = np.broadcast_to(y, (*values.shape[:-1], STATES)).copy()
-        states[..., unknown] = values
-        rate = accelerations(states, phase, segment, model)
-        if not shaft:
-            return rate[..., equation]
-        twisting = rate[..., MOTOR_SLIP] - rate[..., SLIP]
-        return np.concatenate([rate[..., equation], twisting[..., None]], axis=-1)
-
     values = y[unknown]
+    residual = partial(_residual, model, phase, segment, y, unknown, equation)
     if shaft:  # which the free bodies twist in proportion
         free, twisted = (residual(values + twist)[-1] for twist in (0.0 * scale, _last(scale)))
         values[-1] = scale[-1] * free / (free - twisted)
@@ -102,8 +117,51 @@ def static_equilibrium(model: Model, phase: float = 0.0, segment: int = 0) -> Fl
     # beyond the width over which contact sets in, where the stiffness vanishes like the load
     clear = 3.0 * deflection + float(mechanics.contact_width) + _maximum_gap(model, segment, side)
     values[unknown.index(XI)] = side * clear
+    tolerance = 1e-6 * float(np.linalg.norm(residual(values))) + 1e-30
+    found = _root(residual, values, scale, tolerance)
+    if found is None:  # damping of a moving error holds the flanks all but apart, or deep in each other
+        shares = np.linspace(0.0, 1.0, DAMPING_STEPS)
+        for damping in shares * float(mechanics.mesh_damping):
+            softer = model._replace(mechanics=mechanics._replace(mesh_damping=damping))
+            residual = partial(_residual, softer, phase, segment, y, unknown, equation)
+            found = _root(residual, values, scale, tolerance)
+            if found is None:
+                pressed = bool(np.any(np.asarray(model.table.side) * side > 0))
+                raise SimulationError(DAMPED_AWAY if damping else NOT_FOUND if pressed else APART)
+            values = found
+    y[unknown] = found
+    if unbounded(y, model.table):
+        raise SimulationError(TOO_SOFT.format(float(largest_displacement(y))))
+    return y
+
+
+def _residual(
+    model: Model,
+    phase: float,
+    segment: int,
+    y: Float[Array, " state"],
+    unknown: Sequence[int],
+    equation: Sequence[int],
+    values: Float[Array, "*trial unknown"],
+) -> Float[Array, "*trial unknown"]:
+    """What is left of the accelerations at values of the unknown states, the others as in `y`."""
+    states = np.broadcast_to(y, (*values.shape[:-1], STATES)).copy()
+    states[..., unknown] = values
+    rate = accelerations(states, phase, segment, model)
+    if model.options.drive != DRIVE_SHAFT:
+        return rate[..., equation]
+    twisting = rate[..., MOTOR_SLIP] - rate[..., SLIP]
+    return np.concatenate([rate[..., equation], twisting[..., None]], axis=-1)
+
+
+def _root(
+    residual: Callable[[Float[Array, "*trial unknown"]], Float[Array, "*trial unknown"]],
+    values: Float[Array, " unknown"],
+    scale: Float[Array, " unknown"],
+    tolerance: float,
+) -> Float[Array, " unknown"] | None:
+    """Where the residual is below a tolerance, by damped Newton steps; None where they do not get there."""
     value = residual(values)
-    start = np.linalg.norm(value)
     steps = 1e-5 * np.diag(scale)
     for _ in range(60):
         size = np.linalg.norm(value)
@@ -122,13 +180,7 @@ def static_equilibrium(model: Model, phase: float = 0.0, segment: int = 0) -> Fl
         values, value = values + factor * change, trial
         if np.linalg.norm(factor * change / scale) < 1e-12:
             break
-    if not np.linalg.norm(value) <= 1e-6 * start + 1e-30:
-        raise SimulationError(
-            "there is no static equilibrium under the load at the start; check the sign of "
-            'operating.gear_torque or start with solver.initial = "unloaded"'
-        )
-    y[unknown] = values
-    return y
+    return values if np.linalg.norm(value) <= tolerance else None
 
 
 def _maximum_gap(model: Model, segment: int, side: float) -> float:

@@ -16,6 +16,7 @@ class Status(IntEnum):
     NOT_FINITE = 3
     STALLED = 4
     GAVE_UP = 5
+    UNBOUNDED = 6
 
 
 REASONS = {
@@ -25,6 +26,9 @@ REASONS = {
     Status.NOT_FINITE: "the solution stopped being finite",
     Status.STALLED: "the pinion came to rest; integration in mesh phase needs it to turn forwards",
     Status.GAVE_UP: "the solver gave up",
+    Status.UNBOUNDED: "the motion grew without bound: a gear, or the flanks against each other, moved by "
+    'more than the centre distance; use less friction, friction.sliding = "dynamic", more damping of mesh '
+    "and bearings or stiffer bearings, and mesh.backlash where the load turns over",
 }
 
 #: Steps allowed in one mesh cycle, as a scenario's `solver.max_steps` has it by default.

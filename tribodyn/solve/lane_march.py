@@ -58,6 +58,7 @@ from tribodyn.solve.step_control import (
     next_step,
     refused,
     step_error,
+    unbounded,
     weighed_error,
 )
 from tribodyn.solve.turning import (
@@ -179,10 +180,13 @@ def judge(evaluations, segment, model, block, queue, march):
     accepted, undefined, lost, stalled = judged(error, step, model.mechanics.nominal_speed + new[SLIP])
     stalled, lost = running & stalled, running & lost
     accepted = running & accepted & ~stalled
-    if any_of(stalled | lost):
-        failure = where(stalled, Status.STALLED.value, where(lost, Status.NOT_FINITE.value, 0.0))
-        fail(failure, block, queue, march)
-        running = running & ~(stalled | lost)
+    runaway = accepted & unbounded(new, model.table)
+    accepted = accepted & ~runaway
+    ended = stalled | lost | runaway
+    if any_of(ended):
+        failure = where(lost, Status.NOT_FINITE.value, where(runaway, Status.UNBOUNDED.value, 0.0))
+        fail(where(stalled, Status.STALLED.value, failure), block, queue, march)
+        running = running & ~ended
     turned, shorter = accepted & ~accepted, step
     if model.options.sliding == SLIDING_DYNAMIC:
         too_far, shorter = turn_of(step, segment, model, rows_of(block.work))

@@ -24,6 +24,7 @@ from tribodyn.solve.step_control import (
     next_step,
     refused,
     step_error,
+    unbounded,
     weighed_error,
 )
 from tribodyn.solve.turning import (
@@ -193,6 +194,8 @@ def march_with(method, march, control, model, y, out, work, buffer, search):
                     return Status.NOT_FINITE.value, cycle + phase, step, steps, evaluations, written
                 if stalled:
                     return Status.STALLED.value, cycle + phase, step, steps, evaluations, written
+                if accepted and unbounded(buffer[STATE], table):
+                    return Status.UNBOUNDED.value, cycle + phase, step, steps, evaluations, written
                 if undefined:
                     step *= RETRY
                     continue

@@ -13,7 +13,7 @@ from tribodyn.solve.engagement import engage
 from tribodyn.solve.integrator import IntegratedCycles, Status
 from tribodyn.solve.right_hand_side import rhs, work_array
 from tribodyn.solve.sampling import sample_phases
-from tribodyn.solve.step_control import STANDSTILL
+from tribodyn.solve.step_control import STANDSTILL, unbounded
 from tribodyn.solve.tolerances import Tolerances
 
 #: Smallest relative tolerance that SciPy's solvers take without a word.
@@ -117,6 +117,8 @@ class _Walk:
                 if solver.status == "failed":
                     at_rest = nominal_speed + solver.y[SLIP] < STANDSTILL * nominal_speed
                     raise _Ended(Status.STALLED if at_rest else Status.GAVE_UP, solver.t, message)
+                if unbounded(solver.y, self.integrator.model.table):
+                    raise _Ended(Status.UNBOUNDED, solver.t)
                 self.steps += 1
                 count = int(np.searchsorted(at, solver.t, side="right"))
                 if count:

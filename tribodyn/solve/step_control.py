@@ -5,8 +5,8 @@ Written as laws, so that the march of one case and that of many cases side by si
 
 import numpy as np
 
-from tribodyn.dynamics.parameters import DISPLACEMENTS, STATES, WORKS
-from tribodyn.numerics.elementary import absolute, law, maximum, where
+from tribodyn.dynamics.parameters import DISPLACEMENTS, STATES, WORKS, X_G, X_P, XI, Y_G, Y_P
+from tribodyn.numerics.elementary import absolute, law, maximum, plain, where
 
 #: First step to try and the smallest one, mesh cycles; a step is the last if it ends this close to the end.
 FIRST_STEP, MINIMUM_STEP, TOUCHING = 1e-3, 1e-13, 1.0000001
@@ -81,6 +81,24 @@ def judged(error, step, speed_after):
     accepted = error <= 1.0
     undefined = (error != error) | (error >= INFINITE)
     return accepted, undefined, undefined & (step < MINIMUM_RETRY), accepted & (speed_after <= 0.0)
+
+
+@law
+def largest_displacement(state):
+    """Largest magnitude of the displacements of the bodies and of the transmission error, m."""
+    pinion = maximum(absolute(plain(state[X_P])), absolute(plain(state[Y_P])))
+    gear = maximum(absolute(plain(state[X_G])), absolute(plain(state[Y_G])))
+    return maximum(maximum(pinion, gear), absolute(plain(state[XI])))
+
+
+@law
+def unbounded(state, table):
+    """Whether a motion has grown without bound: something moved by more than the centre distance.
+
+    No gears are left then of which the table of the mesh says anything. An unstable motion grows
+    exponentially, so that it matters little where the bound is.
+    """
+    return largest_displacement(state) > table.pinion_pitch_radius + table.gear_pitch_radius
 
 
 @law

@@ -8,6 +8,7 @@ from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.parameters import STATES, TWIST, VELOCITIES, XI
 from tribodyn.errors import SimulationError
 from tribodyn.solve.initial import accelerations, static_equilibrium
+from tribodyn.solve.step_control import unbounded
 
 STILL = {"operating.gear_torque_harmonics": []}
 SHAFT = {"operating.shaft_stiffness": "1e4 N*m/rad", "operating.drive_inertia": "0.01 kg*m**2"}
@@ -79,6 +80,38 @@ def test_the_motor_presses_too(prepared, torques, shaft):
 def test_without_back_flanks_nothing_holds_a_negative_load(prepared):
     model = prepared("crc-23-47").model
     model = model._replace(mechanics=model.mechanics._replace(load_torque=-100.0, drive_torque=-50.0))
-    with pytest.raises(SimulationError, match="no static equilibrium"):
+    with pytest.raises(SimulationError, match="turns the flanks apart"):
         static_equilibrium(model)
     assert len(static_equilibrium(prepared("crc-23-47").model)) == STATES
+
+
+def moving(prepared, amplitude, damping):
+    """A model whose flanks come together fast at the start, by an error of transmission."""
+    error = [{"order": 1, "amplitude": amplitude, "phase": "90 deg"}]
+    given = {"mesh.transmission_error.harmonics": error, "mesh.damping_ratio": damping}
+    return prepared("jump-involute-23-47", **given, **{"operating.pinion_speed": "600 rad/s"}).model
+
+
+def test_damping_of_a_moving_error_does_not_hide_the_equilibrium(prepared):
+    """Its force alone is above the load, so that flanks barely touch; all the same nothing accelerates."""
+    model = moving(prepared, "30 um", 0.5)
+    state = static_equilibrium(model)
+    gentle = static_equilibrium(moving(prepared, "30 um", 0.0))
+    assert 0.0 < state[XI] < 0.5 * gentle[XI]
+    rates, still = (accelerations(y, 0.0, 0, model)[list(VELOCITIES)] for y in (state, gentle))
+    assert np.max(np.abs(rates)) < 1e-6 * np.max(np.abs(still))
+
+
+def test_damping_that_leaves_no_equilibrium_is_named(prepared):
+    with pytest.raises(SimulationError, match="damping of the moving transmission error") as caught:
+        static_equilibrium(moving(prepared, "200 um", 0.5))
+    assert "gear_torque" not in str(caught.value)
+    assert "mesh.damping_ratio" in str(caught.value)
+
+
+def test_bearings_that_give_by_more_than_the_centre_distance(prepared):
+    soft = {f"bearings.{one}.stiffness_{axis}": "1e4 N/m" for one in ("pinion", "gear") for axis in "xy"}
+    with pytest.raises(SimulationError, match="stiffer bearings"):
+        static_equilibrium(prepared("crc-23-47", **soft).model)
+    model = prepared("crc-23-47", **soft, **{"operating.gear_torque": "1 N*m"}).model
+    assert not unbounded(static_equilibrium(model), model.table)

@@ -1,8 +1,12 @@
-"""When no step is possible any more, and why."""
+"""When no step is possible any more, and why; and when a motion has grown without bound."""
 
+from types import SimpleNamespace
+
+import numpy as np
 import pytest
 
-from tribodyn.solve.step_control import MINIMUM_STEP, refused
+from tribodyn.dynamics.parameters import DISPLACEMENTS, STATES
+from tribodyn.solve.step_control import MINIMUM_STEP, refused, unbounded
 
 SMALL, USUAL, LIMIT = MINIMUM_STEP / 2, 1e-3, 10
 
@@ -23,3 +27,13 @@ SMALL, USUAL, LIMIT = MINIMUM_STEP / 2, 1e-3, 10
 def test_reasons(steps, step, speed, reasons):
     """Too many steps, steps too small, the pinion at rest; speeds over a nominal 1 rad/s."""
     assert refused(steps, LIMIT, step, speed, 1.0) == reasons
+
+
+@pytest.mark.parametrize("place", range(STATES))
+def test_only_displacements_beyond_the_centre_distance_are_unbounded(place):
+    """Of either sign; speeds, the lag of time and the works have no bound."""
+    table = SimpleNamespace(pinion_pitch_radius=0.05, gear_pitch_radius=0.1)
+    for value in (0.149, -0.149, 0.151, -0.151, 1e20):
+        state = np.zeros(STATES)
+        state[place] = value
+        assert unbounded(state, table) == (place in DISPLACEMENTS and abs(value) > 0.15)
