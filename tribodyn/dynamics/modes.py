@@ -5,12 +5,13 @@ import numpy as np
 from tribodyn.dynamics.parameters import DRIVE_SHAFT, DRIVE_SPEED, Model
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.quasi_static import quasi_static
+from tribodyn.numerics.shapes import Array, Float
 
 #: Modes without a compliant shaft, and with one.
 MODES, MODES_WITH_SHAFT = 5, 6
 
 
-def natural_frequencies(model: Model, cycle: MeshCycle) -> np.ndarray:
+def natural_frequencies(model: Model, cycle: MeshCycle) -> Float[Array, " mode"]:
     """Undamped natural frequencies, lowest first, Hz.
 
     The coordinates are x_p, y_p, x_g, y_g, ξ and, with a compliant shaft, its twist; the rigid rotation is
@@ -47,7 +48,7 @@ def natural_frequencies(model: Model, cycle: MeshCycle) -> np.ndarray:
     return np.sqrt(np.sort(np.maximum(squared, 0.0))) / (2 * np.pi)
 
 
-def _mean_stiffness(model: Model, cycle: MeshCycle) -> np.ndarray:
+def _mean_stiffness(model: Model, cycle: MeshCycle) -> Float[Array, "2 2"]:
     """Mean over the mesh cycle of Σ_ij k_ij n_i n_jᵀ of the pairs that carry, n = (cos α, sin α); N/m."""
     if model.mechanics.load_torque < 0.0:  # it presses the back flanks together, in the mirrored world
         cycle = cycle._replace(side=-cycle.side)

@@ -28,17 +28,21 @@ from tribodyn.dynamics.parameters import (
     Model,
 )
 from tribodyn.mesh.power_flow import efficiency
+from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.tribology.contact import LocalContact
 from tribodyn.tribology.surface_state import surface_state
 
 
-def segment_of(phase: np.ndarray, boundary: np.ndarray) -> np.ndarray:
+def segment_of(phase: Float[Array, "*sample"], boundary: Float[Array, " boundary"]) -> Int[Array, "*sample"]:
     """Segment of each phase in [0, 1); a phase on a boundary belongs to the segment that begins there."""
     return np.clip(np.searchsorted(boundary, phase, side="right") - 1, 0, len(boundary) - 2)
 
 
 def outputs(
-    cycles: np.ndarray, states: np.ndarray, model: Model, segment: np.ndarray | None = None
+    cycles: Float[Array, " sample"],
+    states: Float[Array, "sample state"],
+    model: Model,
+    segment: Int[Array, " sample"] | None = None,
 ) -> dict[str, np.ndarray]:
     """All datasets of a record at the given samples.
 
@@ -143,7 +147,10 @@ def outputs(
 
 
 def outputs_with_extremes(
-    cycles: np.ndarray, states: np.ndarray, extremes: Extremes | None, model: Model
+    cycles: Float[Array, " sample"],
+    states: Float[Array, "sample state"],
+    extremes: Extremes | None,
+    model: Model,
 ) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray], np.ndarray]:
     """`outputs` at samples and where a motion is extreme, and the mesh cycles (n,) of the latter."""
     if extremes is None:
@@ -164,7 +171,9 @@ def outputs_with_extremes(
     return sampled, extreme, extremes.cycles[there]
 
 
-def _contacts(phase: np.ndarray, segment: np.ndarray, model: Model, work: Any, count: int) -> LocalContact:
+def _contacts(
+    phase: Float[Array, " sample"], segment: Int[Array, " sample"], model: Model, work: Any, count: int
+) -> LocalContact:
     """Contacts of all pairs (n, pairs), where their line loads are highest."""
     cell, u, _ = locate(phase, segment, model.table)
     pairs = range(model.table.side.shape[0])

@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.numerics.elementary import namespace
+from tribodyn.numerics.shapes import Array, Float
 
 
 class MeshCycle(NamedTuple):
@@ -155,7 +156,7 @@ class Polynomials(NamedTuple):
 
 
 @lru_cache(maxsize=8)
-def derivative_matrix(nodes: int) -> np.ndarray:
+def derivative_matrix(nodes: int) -> Float[Array, "node node"]:
     """Matrix that takes values at uniform nodes on [0, 1] to the derivatives of their not-a-knot spline."""
     spacing = 1.0 / (nodes - 1)
     left = np.zeros((nodes, nodes))

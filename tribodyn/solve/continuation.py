@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.numerics.shapes import Array, Float
+from tribodyn.numerics.shapes import Array, Complex, Float
 from tribodyn.solve.branch_end import BranchEnd, kind_of_end
 from tribodyn.solve.continued_family import Answer, Carry, Close, Family, Request, Settle, answered
 from tribodyn.solve.orbit import FAILED, Orbit
@@ -61,7 +61,7 @@ class Leg(NamedTuple):
     line: int
     start: float
     target: float
-    state: np.ndarray
+    state: Float[Array, " state"]
     period: int
     finest: float = 0.0
     reach: float = 0.0
@@ -85,7 +85,7 @@ class Arrival(NamedTuple):
     """
 
     orbit: Orbit
-    carried: np.ndarray
+    carried: Float[Array, " state"]
     ends: tuple[BranchEnd, ...]
 
 
@@ -123,7 +123,7 @@ class _Place(NamedTuple):
     """A motion at a value of the parameter; without an orbit only its state and period are known."""
 
     value: float
-    state: np.ndarray
+    state: Float[Array, " state"]
     period: int
     orbit: Orbit | None = None
 
@@ -133,7 +133,7 @@ class _Left(NamedTuple):
 
     place: _Place
     end: BranchEnd
-    state: np.ndarray
+    state: Float[Array, " state"]
 
 
 def _go(leg: Leg) -> _Asking:
@@ -167,7 +167,9 @@ def _go(leg: Leg) -> _Asking:
     return Arrival(orbit, orbit.state if orbit.period else carried, tuple(ends))
 
 
-def _carried(state: np.ndarray, start: float, target: float) -> Generator[Request, Answer, np.ndarray]:
+def _carried(
+    state: Float[Array, " state"], start: float, target: float
+) -> Generator[Request, Answer, Float[Array, " state"]]:
     """The state of a motion without period, marched along the values between two."""
     for value in between(start, target):
         orbit, _ = yield Carry(value, state, CARRIED)
@@ -252,7 +254,7 @@ def _guess(before: _Place | None, here: _Place, value: float) -> Float[Array, " 
     return here.state + min(share, 2.0) * (here.state - before.state)
 
 
-def _comparable(here: _Place, orbit: Orbit, scale: np.ndarray, step: float) -> bool:
+def _comparable(here: _Place, orbit: Orbit, scale: Float[Array, " state"], step: float) -> bool:
     """Whether a motion a step farther, over the parameter's magnitude, is surely of the same branch.
 
     It is near, and no multiplier may have left the unit circle and come back in between.
@@ -270,6 +272,6 @@ def _comparable(here: _Place, orbit: Orbit, scale: np.ndarray, step: float) -> b
     return all(np.min(np.abs(orbit.multipliers - one)) <= TURNED for one in mattering)
 
 
-def _meeting(multipliers: np.ndarray) -> bool:
+def _meeting(multipliers: Complex[Array, " state"]) -> bool:
     near = (np.abs(multipliers) > MATTERS) & (np.imag(multipliers) != 0.0)
     return bool(np.any(near & (np.abs(np.imag(multipliers)) < MEETING)))

@@ -5,6 +5,7 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
+from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.judged import judge
 from tribodyn.solve.orbit import NOT_PERIODIC, Orbit, failed_orbit
 from tribodyn.solve.period_map import PeriodMap
@@ -30,7 +31,7 @@ class Close(NamedTuple):
     """Close a motion of a period at a value, from a guess of its state."""
 
     value: float
-    state: np.ndarray
+    state: Float[Array, " state"]
     period: int
 
 
@@ -38,14 +39,14 @@ class Settle(NamedTuple):
     """Find the motion that a state comes to at a value."""
 
     value: float
-    state: np.ndarray
+    state: Float[Array, " state"]
 
 
 class Carry(NamedTuple):
     """March a state over some periods at a value."""
 
     value: float
-    state: np.ndarray
+    state: Float[Array, " state"]
     periods: int
 
 
@@ -56,7 +57,7 @@ class Answer(NamedTuple):
     """What was found, and the sizes by which its states are measured."""
 
     orbit: Orbit
-    scale: np.ndarray
+    scale: Float[Array, " state"]
 
 
 def answered(
@@ -104,7 +105,9 @@ def answered(
     return answers
 
 
-def _closed(period_map: PeriodMap, states: np.ndarray, period: int, tolerance: float) -> list[Orbit]:
+def _closed(
+    period_map: PeriodMap, states: Float[Array, "case state"], period: int, tolerance: float
+) -> list[Orbit]:
     shots = shoot(period_map, states, np.arange(len(states)), period, tolerance, STEPS)
     return [
         failed_orbit(shot.state, 0, shot.reason)
@@ -114,7 +117,7 @@ def _closed(period_map: PeriodMap, states: np.ndarray, period: int, tolerance: f
     ]
 
 
-def _marched(period_map: PeriodMap, states: np.ndarray, periods: int) -> list[Orbit]:
+def _marched(period_map: PeriodMap, states: Float[Array, "case state"], periods: int) -> list[Orbit]:
     marched = period_map.march(states, np.arange(len(states)), periods, False)
     return [
         failed_orbit(state, 0, reason)

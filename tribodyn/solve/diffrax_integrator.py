@@ -207,7 +207,9 @@ def beginning(state: Float[Array, "*case state"]) -> Carried:
     return Carried(jnp.asarray(state, dtype=float), step, none, none + Status.DONE)
 
 
-def padded_phases(boundary: Float[Array, " boundary"], samples: int) -> tuple[np.ndarray, list[int]]:
+def padded_phases(
+    boundary: Float[Array, " boundary"], samples: int
+) -> tuple[Float[Array, "segment room"], list[int]]:
     """Phases of the samples in every segment (S, room), filled up with `NEVER`, and how many are samples.
 
     The room is a multiple of `ROOM`, so that neither another contact ratio nor another number of samples

@@ -7,6 +7,7 @@ import numpy as np
 
 from tribodyn.dynamics.parameters import Model
 from tribodyn.errors import InputError, SimulationError
+from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.choice import choose
 from tribodyn.solve.continuation import Arrival, Leg, follow
 from tribodyn.solve.gear_map import GearMap, moving_states
@@ -32,7 +33,11 @@ class GearLines:
     """
 
     def __init__(
-        self, model_at: ModelAt, starts: dict[int, np.ndarray], moving: tuple[int, ...], **settings: Any
+        self,
+        model_at: ModelAt,
+        starts: dict[int, Float[Array, " state"]],
+        moving: tuple[int, ...],
+        **settings: Any,
     ):
         self.model_at, self.starts = model_at, starts
         self.moving, self.settings = moving, settings

@@ -15,6 +15,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from tribodyn.dynamics.parameters import Model, Options
+from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.solve.batch_result import Ensemble, nothing_yet
 from tribodyn.solve.diffrax_integrator import (
     Carried,
@@ -58,12 +59,12 @@ class Part(NamedTuple):
     method: DiffraxMethod
     width: int
     one_table: bool
-    places: np.ndarray
+    places: Int[Array, " case"]
 
 
 def through_jax(
     models: Sequence[Model],
-    states: np.ndarray,
+    states: Float[Array, "case state"],
     method: str,
     march: March,
     workers: int,

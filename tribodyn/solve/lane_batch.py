@@ -37,7 +37,9 @@ def batches(models: Sequence[Model], states: Float[Array, "case state"], march: 
     return [_batch(models, states, march, places) for places in by_shape(models)]
 
 
-def _batch(models: Sequence[Model], states: np.ndarray, march: March, places: np.ndarray) -> Batch:
+def _batch(
+    models: Sequence[Model], states: Float[Array, "case state"], march: March, places: Int[Array, " case"]
+) -> Batch:
     speeds = [float(models[case].mechanics.nominal_speed) for case in places]
     places = places[np.argsort(speeds, kind="stable")]
     mine = [models[case] for case in places]

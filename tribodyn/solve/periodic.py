@@ -12,6 +12,7 @@ from tribodyn.dynamics.parameters import (
     Model,
 )
 from tribodyn.errors import InputError, SimulationError
+from tribodyn.numerics.shapes import Array, Complex, Float
 from tribodyn.solve.gear_map import GearMap, moving_states
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.integrator import MAX_STEPS
@@ -65,24 +66,24 @@ class Steady(NamedTuple):
     message : str
     """
 
-    state: np.ndarray
-    last: np.ndarray
+    state: Float[Array, " state"]
+    last: Float[Array, " state"]
     period: int
     residual: float
-    multipliers: np.ndarray
+    multipliers: Complex[Array, " multiplier"]
     stable: bool
     kind: str
     method: str
     cycles: int
-    samples: np.ndarray
-    end: np.ndarray
+    samples: Float[Array, "sample state"]
+    end: Float[Array, " state"]
     extremes: Extremes | None
     message: str
 
 
 def steady_states(
     models: Sequence[Model],
-    states: np.ndarray | None = None,
+    states: Float[Array, "case state"] | None = None,
     *,
     samples: int = 200,
     rtol: float = 1e-6,
@@ -130,7 +131,7 @@ def steady_states(
     steadies: list[Steady | None] = [None] * len(models)
     for model in models:
         refuse_time_dependent(model)
-    starts: dict[int, np.ndarray] = {}
+    starts: dict[int, Float[Array, " state"]] = {}
     for case, model in enumerate(models):
         try:
             given = static_equilibrium(model) if states is None else states[case]
@@ -199,7 +200,7 @@ def refuse_time_dependent(model: Model) -> None:
 
 def sampled(period_map: GearMap, orbits: list[Orbit], samples: int) -> list[Steady]:
     """Each orbit with its samples, marched once more over its period, or over some mesh cycles without."""
-    sampled: dict[int, tuple[np.ndarray, np.ndarray, str, Extremes | None]] = {}
+    sampled: dict[int, tuple[Float[Array, "sample state"], Float[Array, " state"], str, Extremes | None]] = {}
     cycles = [0 if orbit.kind == FAILED else orbit.period or WANDERING for orbit in orbits]
     for period in sorted({*cycles} - {0}):
         cases = np.array([case for case, count in enumerate(cycles) if count == period])
@@ -230,7 +231,7 @@ def sampled(period_map: GearMap, orbits: list[Orbit], samples: int) -> list[Stea
     return steadies
 
 
-def _without_state(state: np.ndarray, reason: str) -> Steady:
+def _without_state(state: Float[Array, " state"], reason: str) -> Steady:
     nothing = np.empty(0, dtype=complex)
     empty = np.empty((0, STATES))
     return Steady(state, state, 0, np.inf, nothing, False, FAILED, "marching", 0, empty, state, None, reason)

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.orbit import Orbit
 from tribodyn.solve.recurrence import MAX_PERIOD, Recurrence, recognised, recurrences
 
@@ -24,18 +25,18 @@ class Progress:
         Where each starts, and sizes by which states are measured.
     """
 
-    def __init__(self, states: np.ndarray, scale: np.ndarray):
+    def __init__(self, states: Float[Array, "case state"], scale: Float[Array, "case state"]):
         self.current = states.copy()
         self.marched = np.zeros(len(states), dtype=int)
         self.next_shot: dict[tuple[int, int], int] = {}
         self.seen: dict[int, list[Recurrence]] = {}
         self.smallest = np.full(len(states), np.inf)
         self.history: list[list[float]] = [[] for _ in states]
-        self.track: dict[int, np.ndarray] = dict(enumerate((states / scale)[:, None]))
+        self.track: dict[int, Float[Array, "period state"]] = dict(enumerate((states / scale)[:, None]))
         self.fallback: dict[int, Orbit] = {}
         self.fine = np.zeros(len(states), dtype=bool)
 
-    def take(self, case: int, states: np.ndarray, scale: np.ndarray) -> None:
+    def take(self, case: int, states: Float[Array, "period state"], scale: Float[Array, " state"]) -> None:
         """Take in a block that was marched, and look at the last states."""
         self.current[case] = states[-1]
         self.marched[case] += BLOCK
@@ -50,12 +51,12 @@ class Progress:
         nearest = min(self.seen[case], key=lambda one: one.change)
         return nearest.period if nearest.change <= NOISE else 1
 
-    def put(self, case: int, state: np.ndarray, scale: np.ndarray) -> None:
+    def put(self, case: int, state: Float[Array, " state"], scale: Float[Array, " state"]) -> None:
         """Go on from another state, which what was marched before says nothing of."""
         self.current[case] = state
         self.track[case] = state[None] / scale
 
-    def away(self, case: int, state: np.ndarray, scale: np.ndarray) -> float:
+    def away(self, case: int, state: Float[Array, " state"], scale: Float[Array, " state"]) -> float:
         """Scaled distance from a state."""
         return float(np.max(np.abs(self.current[case] - state) / scale))
 

@@ -86,7 +86,7 @@ class _Walk:
         self.integrator = integrator
         self.y = state.copy()
         self.work = work_array(integrator.model)
-        self.samples: list[np.ndarray] = []
+        self.samples: list[Float[Array, "sample state"]] = []
         self.steps = self.steps_before = self.evaluations = 0
         self._place, self._rates = np.empty(STATES), np.empty(STATES)
         self._arguments = [packed(one) for one in (self._place, integrator.model, self.work, self._rates)]

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tribodyn.numerics.shapes import Array, Complex, Float, Int
 from tribodyn.solve.period_map import PeriodMap
 
 #: Halvings of a Newton step before shooting gives up, and the smallest relative decrease that it must bring.
@@ -32,18 +33,18 @@ class Shot(NamedTuple):
         Why there is no solution; empty where the residual is within the tolerance.
     """
 
-    state: np.ndarray
+    state: Float[Array, " state"]
     residual: float
-    multipliers: np.ndarray
-    jacobian: np.ndarray
+    multipliers: Complex[Array, " state"]
+    jacobian: Float[Array, "state state"]
     steps: int
     reason: str
 
 
 def shoot(
     period_map: PeriodMap,
-    states: np.ndarray,
-    cases: np.ndarray,
+    states: Float[Array, "row state"],
+    cases: Int[Array, " row"],
     periods: int,
     tolerance: float,
     max_steps: int = 20,
@@ -86,7 +87,9 @@ def shoot(
     return [row.shot() for row in rows]
 
 
-def critical_direction(jacobian: np.ndarray, scale: np.ndarray) -> np.ndarray:
+def critical_direction(
+    jacobian: Float[Array, "state state"], scale: Float[Array, " state"]
+) -> Float[Array, " state"]:
     """Direction (N,), of scaled size 1, in which a state with this derivative is left, or comes near last."""
     values, vectors = np.linalg.eig(jacobian)
     direction = np.real(vectors[:, np.argmax(np.abs(values))])
@@ -96,24 +99,30 @@ def critical_direction(jacobian: np.ndarray, scale: np.ndarray) -> np.ndarray:
 class _Row:
     """One system on its way: state, image, residual, and the derivative with the place it was taken at."""
 
-    def __init__(self, x: np.ndarray, case: int):
+    def __init__(self, x: Float[Array, " state"], case: int):
         self.x, self.case = x, case
         self.residual = np.inf
         self.steps = 0
         self.reason = ""
         self.done = False
         self.image = self.base = x
-        self.jacobian: np.ndarray | None = None
+        self.jacobian: Float[Array, "state state"] | None = None
         self.last_jacobian = np.full((len(x), len(x)), np.nan)
-        self.direction: np.ndarray | None = None
+        self.direction: Float[Array, " state"] | None = None
 
-    def take(self, image: np.ndarray, jacobian: np.ndarray, reason: str, scale: np.ndarray) -> None:
+    def take(
+        self,
+        image: Float[Array, " state"],
+        jacobian: Float[Array, "state state"],
+        reason: str,
+        scale: Float[Array, " state"],
+    ) -> None:
         """Take a derivative in, and the image that came with it."""
         self.image, self.base, self.reason = image, self.x, reason
         self.jacobian = self.last_jacobian = jacobian
         self.residual = _size(image - self.x, scale)
 
-    def decide(self, tolerance: float, max_steps: int, scale: np.ndarray, blur: float) -> None:
+    def decide(self, tolerance: float, max_steps: int, scale: Float[Array, " state"], blur: float) -> None:
         """Be done, ask for another derivative, or set out in a direction."""
         self.direction = None
         if not self.reason and self.residual > tolerance:
@@ -164,11 +173,13 @@ def _search(period_map: PeriodMap, rows: list[_Row], periods: int) -> None:
         row.jacobian = None  # it was taken elsewhere: try with that of the place
 
 
-def _size(off: np.ndarray, scale: np.ndarray) -> float:
+def _size(off: Float[Array, " state"], scale: Float[Array, " state"]) -> float:
     return float(np.max(np.abs(off) / scale)) if np.all(np.isfinite(off)) else np.inf
 
 
-def _newton_direction(off: np.ndarray, jacobian: np.ndarray, scale: np.ndarray) -> np.ndarray | None:
+def _newton_direction(
+    off: Float[Array, " state"], jacobian: Float[Array, "state state"], scale: Float[Array, " state"]
+) -> Float[Array, " state"] | None:
     """Newton step (N,) from the map's defect; None where the equations are singular."""
     # in units of the scale, so that the singular values can be compared
     matrix = jacobian * scale / scale[:, None]
@@ -180,7 +191,7 @@ def _newton_direction(off: np.ndarray, jacobian: np.ndarray, scale: np.ndarray) 
     return scale * (right.T @ ((left.T @ (off / scale)) / values))
 
 
-def _eigenvalues(jacobian: np.ndarray) -> np.ndarray:
+def _eigenvalues(jacobian: Float[Array, "state state"]) -> Complex[Array, " state"]:
     if not np.all(np.isfinite(jacobian)):
         return np.full(len(jacobian), np.nan, dtype=complex)
     values = np.asarray(np.linalg.eigvals(jacobian), dtype=complex)

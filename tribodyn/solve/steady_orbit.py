@@ -12,6 +12,7 @@ from typing import Literal
 
 import numpy as np
 
+from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.solve.judged import NEUTRAL, judge
 from tribodyn.solve.orbit import Orbit, failed_orbit
 from tribodyn.solve.period_map import PeriodMap
@@ -38,7 +39,7 @@ LEAVING, LARGEST_PUSH = 100, 0.1
 
 def find(
     period_map: PeriodMap,
-    states: np.ndarray,
+    states: Float[Array, "case state"],
     *,
     tolerance: float = 1e-7,
     max_periods: int = 2000,
@@ -92,8 +93,8 @@ def find(
 
 
 def _block(
-    period_map: PeriodMap, so_far: Progress, pending: np.ndarray, method: Method
-) -> Iterator[tuple[int, np.ndarray, str]]:
+    period_map: PeriodMap, so_far: Progress, pending: Int[Array, " case"], method: Method
+) -> Iterator[tuple[int, Float[Array, "period state"], str]]:
     """March all pending systems over a block: number, states (BLOCK, N) and what stopped it."""
     fine = so_far.fine[pending] | (method == "marching")
     for exactly in (False, True):
@@ -152,7 +153,7 @@ def _attempt(period_map, so_far: Progress, these, period, tolerance, method) -> 
     return taken
 
 
-def _push_off(so_far: Progress, case: int, shot: Shot, period: int, scale: np.ndarray) -> None:
+def _push_off(so_far: Progress, case: int, shot: Shot, period: int, scale: Float[Array, " state"]) -> None:
     """Displace a case that sits on an unstable state, which it would take long to leave by itself.
 
     The more, the slower it would leave.
@@ -163,7 +164,9 @@ def _push_off(so_far: Progress, case: int, shot: Shot, period: int, scale: np.nd
         so_far.put(case, shot.state + push, scale)
 
 
-def _heading(track: np.ndarray, target: np.ndarray, period: int, neutral: bool) -> bool:
+def _heading(
+    track: Float[Array, "period state"], target: Float[Array, " state"], period: int, neutral: bool
+) -> bool:
     """Whether the last periods came nearer to a state, or had come to it: a neutral one attracts nothing."""
     away = np.max(np.abs(track[::-period] - target), axis=1)[::-1]
     half = len(away) // 2

@@ -83,7 +83,7 @@ def wanderings(
     return [_told(float(measured[:, row].mean()), float(errors[row]), track[:, row]) for row in range(rows)]
 
 
-def _told(exponent: float, error: float, track: np.ndarray) -> Wandering:
+def _told(exponent: float, error: float, track: Float[Array, "period state"]) -> Wandering:
     extent = np.ptp(track, axis=0)
     halves = [float(np.max(np.ptp(half, axis=0))) for half in np.split(track, 2)]
     if not np.isfinite(exponent) or max(halves) > SETTLED * min(halves):
