@@ -23,6 +23,12 @@ CHECKED = (
     "tribodyn.compliance",
     "tribodyn.mesh",
     "tribodyn.drawing",
+    "tribodyn.solve.continuation",
+    "tribodyn.solve.continued_family",
+    "tribodyn.solve.progress",
+    "tribodyn.solve.shooting",
+    "tribodyn.solve.steady_orbit",
+    "tribodyn.solve.wandering",
 )
 
 

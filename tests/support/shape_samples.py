@@ -20,6 +20,8 @@ from tribodyn.mesh.cycle import polynomials
 from tribodyn.mesh.quasi_static import cycle_mean, quasi_static
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 from tribodyn.numerics.iteration import chebyshev_basis
+from tribodyn.solve.shooting import shoot
+from tribodyn.studies.backlash_oscillator.response import frequency_response, oscillator_at
 from tribodyn.studies.load import load_scenario
 
 jax.config.update("jax_enable_x64", True)
@@ -54,7 +56,12 @@ def main() -> None:
     jax.make_jaxpr(traced)(case.drive.module)
     chebyshev_basis(jnp.zeros((2, 3)), 4)
 
+    oscillator = load_scenario("backlash-oscillator", {"frequency": {"from": 0.7, "to": 0.9, "step": 0.1}})
+    frequency_response(oscillator)
+    period_map = oscillator_at(oscillator, np.ones(2))
+
     wrong = {
+        "one state for several": lambda: shoot(period_map, np.zeros(2), np.arange(2), 1, 1e-7),
         "a vector for a scalar": lambda: contact_ratio(assembly.path, np.zeros(2), 1.0, 23.0),
         "whole numbers for floats": lambda: distance_at_radius(assembly.path, np.arange(3)),
         "a missing axis": lambda: cycle_mean(cycle, np.zeros(5)),
