@@ -2,7 +2,7 @@
 # make test   lint, types and all tests, the slow ones and the speed ratios included
 # make quick  the shortest tests, under a minute (docs/development.md)
 # make soak   random drives, duties and options by the thousand, and other long checks (docs/soak.md)
-# make durations  measure the tests anew, on an idle machine: which are the quick ones, in which order all run
+# make durations  measure the tests anew: which are the quick ones, in which order all run
 PYTHON ?= python3
 # two test processes share the cores; a BLAS's own threads would only stand in their way
 export OPENBLAS_NUM_THREADS ?= 1

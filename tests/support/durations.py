@@ -1,12 +1,14 @@
 """How long tests take: measured into tests/durations.json, which orders files and chooses the quick tests.
 
-`make durations` measures. Only ratios matter: on another or a busy machine all seconds are longer or shorter.
+`make durations` measures, in seconds of processor time, so that the machine may be busy; only ratios matter.
 Files and tests that were never measured run first, and belong to the quick ones.
 """
 
 import json
+import os
+import time
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Generator, Iterable, Mapping
 from pathlib import Path
 
 import pytest
@@ -39,6 +41,7 @@ class Durations:
     def __init__(self, config: pytest.Config) -> None:
         self.config = config
         self.seconds: Counter[str] = Counter()
+        self.before = 0.0
         known = json.loads(MEASURED.read_text(encoding="utf-8")) if MEASURED.is_file() else {}
         self.limit: float = known.get("quick limit", float("inf"))
         self.files: dict[str, float] = known.get("files", {})
@@ -52,6 +55,19 @@ class Durations:
             left_out = [item for item, stays in zip(items, quick, strict=True) if not stays]
             self.config.hook.pytest_deselected(items=left_out)
             items[:] = [item for item, stays in zip(items, quick, strict=True) if stays]
+
+    def pytest_runtest_logstart(self) -> None:
+        """Note where a test begins."""
+        self.before = processor_time()
+
+    @pytest.hookimpl(wrapper=True)
+    def pytest_runtest_makereport(self) -> Generator[None, pytest.TestReport, pytest.TestReport]:
+        """Report processor time in place of the clock's, where it is measured."""
+        report = yield
+        if self.config.getoption("--measure-durations"):
+            now = processor_time()
+            report.duration, self.before = now - self.before, now
+        return report
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
         """Add up setup, call and teardown; what a fixture prepares for many counts for the first of them."""
@@ -75,6 +91,19 @@ class Durations:
         listed = {name: seconds for name, seconds in tests.items() if round(seconds, 2) >= LISTED}
         written = {"quick limit": limit, "files": _longest_first(files), "tests": _longest_first(listed)}
         MEASURED.write_text(json.dumps(written, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+
+
+def processor_time(process: str = "self") -> float:
+    """Processor time that a process and all processes below it have taken, s; the clock's without /proc."""
+    try:
+        fields = Path(f"/proc/{process}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()
+        below = [
+            file.read_text(encoding="utf-8") for file in Path(f"/proc/{process}/task").glob("*/children")
+        ]
+    except FileNotFoundError:
+        return time.monotonic() if process == "self" else 0.0
+    own = sum(map(int, fields[11:15])) / os.sysconf("SC_CLK_TCK")  # with children that have ended
+    return own + sum(processor_time(child) for child in " ".join(below).split())
 
 
 def _name(nodeid: str) -> str:

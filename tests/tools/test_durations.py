@@ -1,13 +1,15 @@
 """The order of the test files and the choice of the quick tests."""
 
 import json
+import subprocess
+import sys
 from types import SimpleNamespace
 from typing import Any, cast
 
 import pytest
 
 from tests.support import durations
-from tests.support.durations import QUICK_SHARE, Durations
+from tests.support.durations import QUICK_SHARE, Durations, processor_time
 
 NAMES = (
     "unit/test_a.py::test_1",
@@ -70,3 +72,19 @@ def test_who_prepares_in_the_place_of_the_first_is_no_longer_quick(measured):
     run({NAMES[1]: limit + 10.0, NAMES[2]: 0.1}, "--quick")
     assert collected("--quick") == [NAMES[3], NAMES[2]]
     assert json.loads(measured.read_text())["quick limit"] == limit
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="needs /proc")
+def test_processor_time_counts_processes_below_and_no_waiting():
+    before = processor_time()
+    work = "import sys, time; end = time.process_time() + 0.2\nwhile time.process_time() < end: pass"
+    waits = f"{work}\nprint(); sys.stdin.read()"
+    command = [sys.executable, "-c", waits]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as running:
+        assert running.stdout is not None
+        running.stdout.readline()
+        while_running = processor_time() - before
+        running.communicate()
+    subprocess.run([sys.executable, "-c", "import time; time.sleep(0.3)"], check=True)
+    assert while_running > 0.18
+    assert processor_time() - before == pytest.approx(while_running, abs=0.15)
