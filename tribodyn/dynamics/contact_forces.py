@@ -20,7 +20,14 @@ from tribodyn.dynamics.parameters import (
     Y_G,
     Y_P,
 )
-from tribodyn.dynamics.smooth import positive_part, positive_part_integral, power_law_force, ramp, sign
+from tribodyn.dynamics.smooth import (
+    load_with_damping,
+    positive_part,
+    positive_part_integral,
+    power_law_force,
+    ramp,
+    sign,
+)
 from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.numerics.elementary import last_axis_of_four, law, maximum, skippable, sqrt, where
 from tribodyn.tribology.contact import averaged_radius, local_contact
@@ -219,8 +226,8 @@ def contact_forces(segment, cell, u, cells_per_radian, y, model, work):
         stiffness = work[STIFFNESS, i]
         engaged = ramp(work[EFFECTIVE_APPROACH, i], mechanics.contact_width)
         damping = mechanics.mesh_damping * sqrt(stiffness) * work[APPROACH_RATE, i]
-        load = work[ELASTIC_LOAD, i] + table.in_contact[segment, i] * engaged * damping
-        load = positive_part(load, mechanics.contact_width * stiffness)
+        damping = table.in_contact[segment, i] * engaged * damping
+        load = load_with_damping(work[ELASTIC_LOAD, i], damping, mechanics.contact_width * stiffness)
         if model.options.sliding == SLIDING_DYNAMIC:
             sliding = work[RELATIVE_VELOCITY, i]
         else:

@@ -2,14 +2,17 @@
 
 from tribodyn.numerics.elementary import exp, law, log, maximum, minimum, skippable, where
 
+#: Share of a width below which none falls, so that nothing is divided by zero.
+SMALLEST_SHARE = 1e-30
+
 
 @law
 def positive_part(x, width):
     """max(x, 0) made C1 without offset: x²(2w − x)/w² for 0 < x < w, exact outside."""
     if skippable(x >= width):
         return x
-    inner = minimum(maximum(x, 0.0), width)
-    return where(x >= width, x, inner * inner * (2.0 * width - inner) / (width * width))
+    share = minimum(maximum(x, 0.0), width) / width
+    return where(x >= width, x, width * share * share * (2.0 - share))
 
 
 @law
@@ -21,6 +24,17 @@ def positive_part_integral(x, width):
     inner = minimum(maximum(x, 0.0), width)
     ramp = inner * inner * inner * (2.0 * width / 3.0 - inner / 4.0) / (width * width)
     return where(x >= width, whole, ramp)
+
+
+@law
+def load_with_damping(elastic, damping, width):
+    """Sum of an elastic load and a damping force, never below zero; all in N.
+
+    C1, by `positive_part` over the width E W/(E + W) of the elastic load E and the given width W: without
+    damping exactly E, and never above the sum, so that damping takes energy under any load.
+    """
+    own = maximum(elastic * width / (elastic + width), SMALLEST_SHARE * width)
+    return positive_part(elastic + damping, own)
 
 
 @law

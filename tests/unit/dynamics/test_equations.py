@@ -139,6 +139,19 @@ def test_friction_never_gives_energy(model, rng):
             assert work[contact.FRICTION_FORCE, i] * work[row, i] >= 0.0
 
 
+def test_mesh_damping_never_gives_energy(model, rng):
+    """Nor where a pair barely touches."""
+    light = 0
+    for _ in range(300):
+        y = 1e-3 * random_state(rng)
+        work, _, _ = evaluate(model, y, *random_place(rng, model.table.boundary))
+        for i in range(model.table.side.shape[0]):
+            elastic, load = work[contact.ELASTIC_LOAD, i], work[contact.NORMAL_LOAD, i]
+            assert (load - elastic) * work[contact.APPROACH_RATE, i] >= 0.0
+            light += 0.0 < elastic < model.mechanics.contact_width * work[contact.STIFFNESS, i]
+    assert light > 20
+
+
 def test_load_is_never_tensile_and_zero_when_apart(model, rng):
     apart = loaded = 0
     for _ in range(200):

@@ -1,7 +1,14 @@
 import numpy as np
 import pytest
 
-from tribodyn.dynamics.smooth import positive_part, positive_part_integral, power_law_force, ramp, sign
+from tribodyn.dynamics.smooth import (
+    load_with_damping,
+    positive_part,
+    positive_part_integral,
+    power_law_force,
+    ramp,
+    sign,
+)
 from tribodyn.tribology.film.masjedi_khonsari import CAP_WIDTH, asperity_load_ratio
 
 X = np.linspace(-3.0, 3.0, 60001)
@@ -34,6 +41,28 @@ def test_positive_part_integral_is_the_integral():
         [[0.0], np.cumsum(0.5 * np.diff(X) * (positive_part(X, 0.5)[1:] + positive_part(X, 0.5)[:-1]))]
     )
     np.testing.assert_allclose(positive_part_integral(X, 0.5), integral, atol=1e-7)
+
+
+def test_damping_adds_to_an_elastic_load_and_never_gives_energy():
+    """At any load, also far below the width: nothing of it without damping, no pull, force and rate agree."""
+    elastic, damping = (one.ravel() for one in np.meshgrid(np.geomspace(1e-9, 1e4, 60), X[::300]))
+    load = load_with_damping(elastic, damping * elastic, 0.5)
+    assert np.all(load >= 0.0)
+    assert np.all((load - elastic) * damping >= 0.0)
+    np.testing.assert_array_equal(load_with_damping(elastic, 0.0, 0.5), elastic)
+    np.testing.assert_allclose(load[damping > 0], (elastic * (1.0 + damping))[damping > 0], rtol=1e-14)
+    heavy = (elastic > 0.5) & (elastic * (1.0 + damping) > 0.5)
+    np.testing.assert_allclose(load[heavy], (elastic * (1.0 + damping))[heavy], rtol=1e-14)
+    assert load_with_damping(0.0, -1.0, 0.5) == load_with_damping(0.0, 0.0, 0.5) == 0.0
+
+
+@pytest.mark.parametrize("elastic", [1e-6, 0.2, 2.0])
+def test_load_with_damping_is_c1_in_both(elastic):
+    for load in (
+        load_with_damping(elastic, elastic * X, 0.5) / elastic,
+        load_with_damping(elastic * (3.0 + X), -elastic, 0.5) / elastic,
+    ):
+        assert np.max(np.abs(np.diff(np.gradient(load, X)))) < 5e-3
 
 
 def test_power_law_force_inverts_the_deflection():
