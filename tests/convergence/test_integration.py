@@ -115,6 +115,19 @@ def test_energy_balance_closes_on_soft_bearings(prepared, sliding, speed, torque
     assert _closes(prepared("crc-23-47", **overrides), 1e-6, method=method) < 1e-5
 
 
+@pytest.mark.parametrize("method", ["dopri5", "rodas4"])
+def test_energy_balance_closes_without_load(prepared, method):
+    """Flanks that a transmission error rattles: the works are a millionth of those of a loaded mesh."""
+    overrides = {
+        "operating.gear_torque": "0 N*m",
+        "operating.pinion_speed": "40 rad/s",
+        "mesh.backlash": "40 um",
+        "mesh.transmission_error.harmonics": [{"order": 5, "amplitude": "15 um", "phase": "86 deg"}],
+        "friction.law": "none",
+    }
+    assert _closes(prepared("crc-23-47", **overrides), 1e-7, method=method) < 1e-6
+
+
 def test_steps_find_where_friction_turns(prepared):
     """With dynamic sliding; steps across the reversal cost five times this."""
     model = prepared("crc-23-47-300").model
