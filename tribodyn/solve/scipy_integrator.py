@@ -79,6 +79,15 @@ class ScipyIntegrator:
         return walk.result(Status.DONE, float(cycles))
 
 
+def _stepped(solver: Any) -> str:
+    """Let a solver take a step; returns its words where it fails, also over a Jacobian that is not finite."""
+    try:
+        return solver.step() or ""
+    except (ValueError, np.linalg.LinAlgError) as error:
+        solver.status = "failed"
+        return str(error)
+
+
 class _Walk:
     """A walk through segments: state, samples and counts so far."""
 
@@ -97,28 +106,35 @@ class _Walk:
         nominal_speed = self.integrator.model.mechanics.nominal_speed
 
         def slope(phase: float, y: Float[Array, " state"]) -> Float[Array, " state"]:
+            """No numbers where the pinion does not turn: a stage on trial may go there, no accepted step."""
             self.evaluations += 1
             if nominal_speed + y[SLIP] <= 0.0:
-                raise _Ended(Status.STALLED, phase)
+                return np.full(STATES, np.nan)
             self._place[:] = y
             rhs(phase, cycle, segment, *self._arguments)
-            if not np.all(np.isfinite(self._rates)):
-                raise _Ended(Status.NOT_FINITE, phase)
             return self._rates.copy()
 
+        def end_where_nothing_goes_on(phase: float, y: Float[Array, " state"], failed: bool) -> None:
+            speed = nominal_speed + y[SLIP]
+            if speed <= 0.0 or (failed and speed < STANDSTILL * nominal_speed):
+                raise _Ended(Status.STALLED, phase)
+            if unbounded(y, self.integrator.model.table):
+                raise _Ended(Status.UNBOUNDED, phase)
+
         at = self.integrator.phases[segment]
+        end_where_nothing_goes_on(start, self.y, False)
+        if not np.all(np.isfinite(slope(start, self.y))):
+            raise _Ended(Status.NOT_FINITE, start)
         rtol = rtol_of_all(rtol, atol, self.y)
         solver = self.integrator.method(slope, start, self.y, end, rtol=rtol, atol=atol)
         try:
             while solver.status == "running":
                 if self.steps - self.steps_before >= max_steps:
                     raise _Ended(Status.TOO_MANY_STEPS, solver.t)
-                message = solver.step()
+                message = _stepped(solver)
+                end_where_nothing_goes_on(solver.t, solver.y, solver.status == "failed")
                 if solver.status == "failed":
-                    at_rest = nominal_speed + solver.y[SLIP] < STANDSTILL * nominal_speed
-                    raise _Ended(Status.STALLED if at_rest else Status.GAVE_UP, solver.t, message)
-                if unbounded(solver.y, self.integrator.model.table):
-                    raise _Ended(Status.UNBOUNDED, solver.t)
+                    raise _Ended(Status.GAVE_UP, solver.t, message)
                 self.steps += 1
                 count = int(np.searchsorted(at, solver.t, side="right"))
                 if count:

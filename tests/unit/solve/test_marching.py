@@ -48,3 +48,16 @@ def test_a_pinion_that_turns_back_has_come_to_rest(prepared):
         if found.status == Status.DONE:
             found = ended(model, found.state, "dopri5", 100000)
     assert found.status == Status.STALLED
+
+
+def test_a_stage_that_turns_the_pinion_back_is_no_standstill(prepared):
+    """Started slowly by a strong motor: a first stage of DOP853 goes back, no accepted step does."""
+    overrides = {"operating.source": "torque", "operating.pinion_torque": "500 N*m", "friction.law": "none"}
+    model = prepared("crc-23-47", **overrides).model
+    state = static_equilibrium(model)
+    state[SLIP] = -0.97 * model.mechanics.nominal_speed
+    found = {method: ended(model, state, method, 100000) for method in ("dopri5", "dop853")}
+    for one in found.values():
+        assert one.status == Status.DONE
+    speeds = [one.state[SLIP] for one in found.values()]
+    assert speeds[0] == pytest.approx(speeds[1], rel=1e-4)
