@@ -50,7 +50,7 @@ quick: $(VENV)/.testing
 	XLA_FLAGS="$(TESTS_XLA)" $(BIN)/python -m pytest $(IN_PARALLEL) --quick -m "not bench and not slow"
 
 soak: $(VENV)/.testing
-	XLA_FLAGS="$(TESTS_XLA)" nice $(BIN)/python -m pytest $(IN_PARALLEL) -m soak
+	XLA_FLAGS="$(TESTS_XLA)" nice $(BIN)/python -m pytest $(IN_PARALLEL) -m soak tests/soak
 
 # twice: where the first user of something expensive is not quick, the next one prepares it
 durations: $(VENV)/.testing

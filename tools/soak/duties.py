@@ -6,6 +6,7 @@ import numpy as np
 
 from tools.soak.draw import Draw, quantity
 from tools.soak.drives import size_of
+from tribodyn.solve.methods import AUTO, Runs, runs
 
 #: Nominal stress F_t/(b m) that is taken for the rated load, Pa.
 RATED = 1e8
@@ -28,8 +29,9 @@ KNOWN_LAWS = FRICTION_LAWS[:3]
 FRICTION_WEIGHTS = (4, 4, 2, 1, 1, 1, 1, 1, 1, 1, 1)
 METHODS = ("auto", "dopri5", "rodas4", "dop853", "lsoda", "bdf", "radau", "tsit5", "dopri8", "kvaerno5")
 METHOD_WEIGHTS = (63, 12, 14, 3, 3, 2, 2, 0.5, 0.25, 0.25)
-#: Steps in a mesh cycle after which a run is stopped.
-MOST_STEPS = 50_000
+#: Steps in a mesh cycle after which a run is stopped: by native methods, and by those of SciPy and JAX, whose
+#: steps take a millisecond.
+MOST_STEPS, MOST_SLOW_STEPS = 50_000, 2_000
 #: Pinion speed below which explicit methods are slow, rad/s, and those methods.
 SLOW, EXPLICIT = 30.0, ("dopri5", "dop853", "tsit5", "dopri8")
 COMPLIANCES = ("energy", "constant", "table", "fem")
@@ -226,11 +228,12 @@ def _solver(draw: Draw, speed: float, known_laws: bool) -> dict[str, Any]:
     method = draw.one(METHODS[:3]) if known_laws else draw.one(METHODS, METHOD_WEIGHTS)
     if speed < SLOW and method in EXPLICIT and draw.chance(0.9):
         method = "auto"
+    native = method == AUTO or runs(method) is Runs.NATIVE
     return {
         "method": method,
         "rtol": draw.one((1e-6, draw.decades(1e-8, 1e-4))),
         "cycles": draw.one((1, 2, 4)),
-        "max_steps": MOST_STEPS,
+        "max_steps": MOST_STEPS if native else MOST_SLOW_STEPS,
         "initial": draw.one(("static", "unloaded"), (4, 1)),
     }
 

@@ -11,13 +11,15 @@ from tribodyn.record.sweep_schema import DONE
 
 #: Largest share by which the torque of the loads may miss the gear's.
 TORQUE_RESIDUAL = 1e-6
+#: By which an efficiency without losses may miss 1.
+ROUNDING = 1e-12
 
 
 def efficiency_faults(record: Record) -> Iterator[str]:
     """Say what is wrong with the record of an efficiency study."""
     summary = record.summary
     for key, value in summary.items():
-        if key.startswith("efficiency") and isinstance(value, float) and (value < 0 or value > 1):
+        if key.startswith("efficiency") and isinstance(value, float) and (value < 0 or value > 1 + ROUNDING):
             yield f"summary {key} = {value:.6g}"
     if not abs(summary["energy_residual"]) <= 1e-6:
         yield f"energy residual {summary['energy_residual']:.3g}"
