@@ -1,0 +1,137 @@
+"""Followed sweeps of random drives, up and down, against marching from neighbour to neighbour by SciPy."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.support.foreign_marching import Compared, Reported, compared, gear_march, oscillator_march
+from tribodyn.record.sweep_reader import SweepRecord
+from tribodyn.record.sweep_schema import DIRECTIONS, DONE
+from tribodyn.solve.gear_map import moving_states
+from tribodyn.solve.tolerances import absolute_tolerances, mesh_deflection
+from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
+from tribodyn.studies.backlash_oscillator.response import FAILED, frequency_response
+from tribodyn.studies.gear_pair.prepare import prepare, tables
+from tribodyn.studies.load import load_scenario
+from tribodyn.sweep.engines import Local
+from tribodyn.sweep.grid import Grid
+from tribodyn.sweep.run import run, settings_of
+
+SEED, OSCILLATORS, GEARS, POINTS = 11, 12, 10, 14
+#: Change over a period, over the size, that the foreign integrator may see in a motion with a period. Where
+#: contact opens and closes the package's own integration is a few hundred times its 1e-9 off.
+CLOSES = 1e-5
+
+ROWS: dict[str, list[Compared]] = {}
+
+
+def drawn(rng: np.random.Generator, count: int) -> list[tuple[int, int]]:
+    """Places along the sweep and directions, no place without a neighbour behind it."""
+    every = [(place, way) for place in range(count) for way in (0, 1) if 0 <= place - 1 + 2 * way < count]
+    return [every[i] for i in rng.choice(len(every), POINTS, replace=False)]
+
+
+def said(name: str, rows: list[Compared]) -> str:
+    """A line of the table."""
+    words = ("same", "no period", "behind an end", "differs")
+    counts = "  ".join(f"{sum(one.verdict == word for one in rows):3d} {word}" for word in words)
+    same = [one for one in rows if one.verdict == "same"]
+    closes, away = (max((getattr(one, key) for one in same), default=0.0) for key in ("closes", "away"))
+    return f"{name:34s} {len(rows):3d} points: {counts}  closes {closes:.1e}  away {away:.1e}"
+
+
+def judged(name: str, rows: list[Compared]) -> None:
+    ROWS[name] = rows
+    print(said(name, rows), flush=True)
+    assert all(one.verdict != "differs" for one in rows), rows
+    assert max((one.closes for one in rows if one.verdict == "same"), default=0.0) <= CLOSES
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("number", range(OSCILLATORS))
+def test_an_oscillator(number: int):
+    rng = np.random.default_rng([SEED, number])
+    damping, mean = rng.uniform(0.03, 0.08), rng.uniform(0.05, 0.3)
+    error, variation = rng.uniform(0.0, 0.08), rng.uniform(0.0, 0.4)
+    frequencies = tuple(map(float, np.round(np.arange(0.5, 2.2, 0.05), 6)))
+    given = damping, mean, error, variation
+    response = frequency_response(BacklashOscillatorCase("", "", "", "", "", *given, frequencies))
+
+    def march(value: float, state: np.ndarray, periods: int) -> np.ndarray:
+        return oscillator_march((*given, value), state, periods, rtol=1e-10, max_step=0.2)
+
+    def reported(place: int, way: int) -> Reported:
+        state = np.array([response.displacement[place, way], response.velocity[place, way]])
+        return Reported(frequencies[place], state, int(response.period[place, way]))
+
+    rows = []
+    for place, way in drawn(rng, len(frequencies)):
+        behind = place - 1 + 2 * way
+        if FAILED in (response.kind[place, way], response.kind[behind, way]):
+            continue
+        ends = [end.value for direction, end in response.ends if direction == way]
+        rows.append(compared(march, reported(behind, way), reported(place, way), ends))
+        if rows[-1].verdict == "differs":
+            print(frequencies[place], DIRECTIONS[way], response.period[place, way], rows[-1], ends)
+    judged(f"oscillator ζ {damping:.3f} F {mean:.2f} {error:.3f} ε {variation:.2f}", rows)
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("number", range(GEARS))
+def test_a_gear_pair(number: int, tmp_path: Path):
+    rng = np.random.default_rng([SEED, 1000 + number])
+    name = str(rng.choice(["crc-23-47", "involute-23-47"]))
+    overrides = {
+        "mesh.damping_ratio": round(float(rng.uniform(0.01, 0.05)), 4),
+        "operating.gear_torque": f"{rng.uniform(50.0, 300.0):.0f} N*m",
+        "output.samples_per_cycle": 20,
+    }
+    overrides |= {"friction.law": "none"} if rng.random() < 0.7 else {}
+    stiffness = f"{rng.uniform(2.4e8, 3.2e8):.3g} N/m"
+    overrides |= {"mesh.compliance": "constant", "mesh.stiffness": stiffness} if rng.random() < 0.5 else {}
+    first = float(np.round(rng.uniform(350.0, 1000.0)))
+    grid = Grid(name, [f"operating.pinion_speed={first}:{1.12 * first}/9rad/s"], overrides)
+    result = run(grid, settings_of(grid), Local(2), tmp_path / "sweep.h5", directions=DIRECTIONS)
+    speeds = list(grid.axes[0].values)
+    mesh = tables(load_scenario(name, {**overrides, "operating.pinion_speed": f"{first} rad/s"}))
+
+    def model_at(value: float):
+        case = load_scenario(name, {**overrides, "operating.pinion_speed": f"{value!r} rad/s"})
+        return prepare(case, mesh).model
+
+    with SweepRecord(result.path) as record:
+        states, period, status = record["state"], record["period"], record["status"]
+        located = [record["end_value"][:, way].ravel() for way in (0, 1)]
+    model = model_at(first)
+    moving = moving_states(model)
+    scale = absolute_tolerances(model, 1.0, mesh_deflection(model, states[0, 0]))
+
+    def march(value: float, state: np.ndarray, cycles: int) -> np.ndarray:
+        full = np.zeros(len(scale))
+        full[list(moving)] = state * scale[list(moving)]
+        return (gear_march(model_at(value), full, cycles, 1e-9 * scale) / scale)[:, list(moving)]
+
+    def reported(place: int, way: int) -> Reported:
+        state = (states[place, way] / scale)[list(moving)]
+        return Reported(float(speeds[place]), state, int(period[place, way]))
+
+    rows = []
+    for place, way in drawn(rng, len(speeds)):
+        behind = place - 1 + 2 * way
+        if status[place, way] != DONE or status[behind, way] != DONE:
+            continue
+        ends = [float(value) for value in located[way] if np.isfinite(value)]
+        rows.append(compared(march, reported(behind, way), reported(place, way), ends))
+        if rows[-1].verdict == "differs":
+            print(speeds[place], DIRECTIONS[way], period[place, way], rows[-1], ends)
+    friction = "dry" if "friction.law" in overrides else "film"
+    judged(f"{name} {first:.0f} rad/s {overrides['operating.gear_torque']} {friction}", rows)
+
+
+@pytest.mark.soak
+def test_they_are_many():
+    rows = [one for some in ROWS.values() for one in some]
+    print(said(f"all {len(ROWS)}", rows))
+    assert len(ROWS) >= 10
+    assert len(rows) >= 200
