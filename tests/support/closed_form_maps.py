@@ -34,3 +34,25 @@ class ClosedForm:
 
 def logistic(x, r):
     return r[:, None] * x * (1.0 - x)
+
+
+def cubic(x, a):
+    """x' = x + (a + x − x³)/4: a cusp's folds at a = ±2/√27."""
+    return x + 0.25 * (a[:, None] + x - x**3)
+
+
+def delayed(x, a):
+    """The delayed logistic map x' = a x (1 − y), y' = x: multipliers on the unit circle at ±60° for a = 2."""
+    return np.stack([a * x[:, 0] * (1.0 - x[:, 1]), x[:, 0]], axis=1)
+
+
+class Lines:
+    """A map with one parameter, the same on every line."""
+
+    def __init__(self, step, size):
+        self.step, self.size = step, size
+        self.asked: list[float] = []
+
+    def at(self, lines, values):
+        self.asked += list(values)
+        return ClosedForm(self.step, values, self.size), [""] * len(values)

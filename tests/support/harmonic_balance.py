@@ -33,11 +33,16 @@ class HarmonicBalance:
 
     def branch(self, start, amplitudes):
         """Frequencies at which the first harmonic has the amplitudes, from linear motion at `start` on."""
+        return self.branch_with_states(start, amplitudes)[0]
+
+    def branch_with_states(self, start, amplitudes):
+        """These frequencies, and the states (x, dx/dτ) where the excitation is at its maximum."""
         linear = self.error_amplitude * start**2 / (1.0 - start**2)
         guess = np.zeros(2 * self.harmonics + 1)
         guess[0], guess[1] = 1.0 + self.mean_force, linear
         unknown = np.append(guess, start)
-        frequencies = []
+        frequencies, states = [], []
+        orders = np.arange(1, self.harmonics + 1)
         for amplitude in amplitudes:
 
             def equations(u, amplitude=amplitude):
@@ -48,7 +53,9 @@ class HarmonicBalance:
             assert solution.success, (amplitude, solution.message)
             unknown = solution.x
             frequencies.append(unknown[-1])
-        return np.array(frequencies)
+            cosines, sines = unknown[1 : self.harmonics + 1], unknown[self.harmonics + 1 : -1]
+            states.append([unknown[0] + np.sum(cosines), unknown[-1] * np.sum(orders * sines)])
+        return np.array(frequencies), np.array(states)
 
 
 def turning_points(amplitudes, frequencies):

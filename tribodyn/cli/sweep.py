@@ -68,6 +68,12 @@ def sweep(
             help="Follow the first key up, down or both, each case from its neighbour's state: shows jumps."
         ),
     ] = None,
+    unstable: Annotated[
+        bool,
+        typer.Option(
+            "--unstable", help="With --direction: continue branches beyond their ends, unstable, round folds."
+        ),
+    ] = False,
     resume: Annotated[bool, typer.Option("--resume", help="Continue a stopped sweep of that name.")] = False,
     engine: Annotated[
         EngineName,
@@ -115,6 +121,7 @@ def sweep(
             evaluator,
             record,
             directions=chosen,
+            unstable=unstable,
             force=force,
             resume=resume,
             follow=lambda done, total: progress(done / total),

@@ -79,12 +79,45 @@ def branch_ends(record: SweepRecord) -> list[dict[str, Any]]:
                 "multiplier_modulus": float(record["end_multiplier_modulus"][place]),
                 "multiplier_angle": float(record["end_multiplier_angle"][place]),
             }
+            | _beyond(record, place)
         )
     return ends
 
 
+def _beyond(record: SweepRecord, place: tuple[int, ...]) -> dict[str, Any]:
+    """What is unstable beyond an end, where the sweep continued its branch."""
+    if "unstable_value" not in record:
+        return {}
+    values = record["unstable_value"][place]
+    values = values[np.isfinite(values)]
+    if not values.size:
+        return {"unstable": None}
+    finish = record.meanings("unstable_finish")[int(record["unstable_finish"][place])]
+    return {
+        "unstable": {
+            "period": int(record["unstable_period"][place]),
+            "motions": int(values.size),
+            "from": float(np.min(values)),
+            "to": float(np.max(values)),
+            "multiplier_modulus_max": float(np.nanmax(record["unstable_multiplier_modulus"][place])),
+            "finish": finish.replace("_", " "),
+            "finish_value": float(record["unstable_finish_value"][place]),
+        }
+    }
+
+
 def _end_line(record: SweepRecord, end: dict[str, Any]) -> str:
-    return f"a branch of period {end['period']} ends at {_place(record, end['at'])}: {end['kind']}"
+    said = f"a branch of period {end['period']} ends at {_place(record, end['at'])}: {end['kind']}"
+    beyond = end.get("unstable")
+    if beyond is None:
+        return said
+    units = record.parameters[0].units
+    low, high, finish = (shown(beyond[name], units) for name in ("from", "to", "finish_value"))
+    goes = f"{beyond['finish']} at {finish}" if np.isfinite(beyond["finish_value"]) else "no end in the range"
+    return (
+        f"{said}\n  beyond, period {beyond['period']} unstable between {low} and {high}, "
+        f"multiplier at most {beyond['multiplier_modulus_max']:.4g}: {goes}"
+    )
 
 
 def sweep_warnings(record: SweepRecord) -> list[str]:

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.numerics.shapes import Array, Complex
+from tribodyn.numerics.shapes import Array, Complex, Float
 
 #: Kinds of ends.
 FOLD = "fold"
@@ -20,6 +20,9 @@ KINDS = (FOLD, PERIOD_DOUBLING, NEIMARK_SACKER, MERGING, CORNER)
 #: Distance from +1 of the multiplier at the last point before an end behind which no motion is found, within
 #: which that is a fold: it falls with the root of the distance from the fold.
 NEAR_ONE = 0.1
+
+#: Share of the largest magnitude of the parameter by which steps are measured near zero.
+NEAR_ZERO = 0.25
 
 
 class BranchEnd(NamedTuple):
@@ -44,6 +47,27 @@ class BranchEnd(NamedTuple):
     within: float
     period: int
     multiplier: complex
+
+
+class Seed(NamedTuple):
+    """A place near the end of a stable branch, from which the branch goes on unstably.
+
+    Attributes
+    ----------
+    value : float
+        Of the parameter.
+    state : (N,)
+        Of a stable motion there.
+    period : int
+        Of that: of fewer periods than the branch has had where it ends by merging.
+    way : float
+        Sense of the parameter, ±1, in which the end is from there.
+    """
+
+    value: float
+    state: Float[Array, " state"]
+    period: int
+    way: float
 
 
 def kind_of_end(

@@ -16,8 +16,10 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.numerics.shapes import Array, Complex, Float
-from tribodyn.solve.branch_end import BranchEnd, kind_of_end
-from tribodyn.solve.continued_family import Answer, Carry, Close, Family, Request, Settle, answered
+from tribodyn.solve.branch_end import CORNER, FOLD, NEAR_ZERO, BranchEnd, Seed, kind_of_end
+from tribodyn.solve.carried import carried
+from tribodyn.solve.continued_family import Answer, Close, Request, Round, Settle, answered
+from tribodyn.solve.family import Family
 from tribodyn.solve.orbit import FAILED, Orbit
 
 #: Steps of the parameter, over its magnitude (`Leg.size`): the first of a leg, the largest, the largest where
@@ -32,11 +34,11 @@ MOVED, TURNED = 0.15, 0.3
 #: Moduli of multipliers that matter for the step, and the distance of complex ones from the real axis where
 #: they are about to meet.
 MATTERS, MEETING = 0.8, 0.2
+#: Shares of the way from a stable to an unstable place of a branch at which a place is sought, until one is
+#: found: Newton's method may fail in between too.
+SHARES = (0.5, 0.35, 0.65, 0.2, 0.8)
 #: Ends in one leg after which it is marched.
 MOST_ENDS = 8
-#: Values in a factor of two of the parameter along which a motion without period is marched, and periods at
-#: each of them.
-VALUES, CARRIED = 256, 96
 
 
 class Leg(NamedTuple):
@@ -68,7 +70,7 @@ class Leg(NamedTuple):
 
     def size(self, value: float) -> float:
         """Magnitude of the parameter, by which steps are measured."""
-        return max(abs(value), 0.25 * self.reach)
+        return max(abs(value), NEAR_ZERO * self.reach)
 
 
 class Arrival(NamedTuple):
@@ -82,11 +84,14 @@ class Arrival(NamedTuple):
         State from which the next leg begins; of a motion without period the last one marched in between.
     ends : tuple of BranchEnd
         Of the branches that were left on the way.
+    seeds : tuple of Seed
+        From where these go on, one for each end.
     """
 
     orbit: Orbit
     carried: Float[Array, " state"]
     ends: tuple[BranchEnd, ...]
+    seeds: tuple[Seed, ...] = ()
 
 
 _Asking = Generator[Request, Answer, Arrival]
@@ -129,10 +134,11 @@ class _Place(NamedTuple):
 
 
 class _Left(NamedTuple):
-    """The last place of a branch, the end behind it, and the state to march from."""
+    """The last place of a branch, the end behind it, from where it goes on, and the state to march from."""
 
     place: _Place
     end: BranchEnd
+    seed: Seed
     state: Float[Array, " state"]
 
 
@@ -140,6 +146,7 @@ def _go(leg: Leg) -> _Asking:
     """One leg."""
     here = _Place(leg.start, leg.state, leg.period)
     ends: list[BranchEnd] = []
+    seeds: list[Seed] = []
     way = np.sign(leg.target - leg.start)
     while here.period and here.value != leg.target and len(ends) < MOST_ENDS and np.isfinite(leg.finest):
         outcome = yield from _along(here, leg)
@@ -150,48 +157,22 @@ def _go(leg: Leg) -> _Asking:
             here = here._replace(period=0)
             break
         ends.append(outcome.end)
+        seeds.append(outcome.seed)
         if leg.finest:
             here = here._replace(state=outcome.state, period=0)
             break
         value = outcome.end.value + way * NUDGE * leg.size(outcome.end.value)
-        orbit, _ = yield Settle(value, outcome.state)
+        orbit, *_ = yield Settle(value, outcome.state)
         here = _Place(value, orbit.last, orbit.period, orbit)
         if orbit.kind == FAILED:
             here = _Place(outcome.end.value, outcome.state, 0)
     if here.orbit is not None and here.value == leg.target:
-        return Arrival(here.orbit, here.orbit.state, tuple(ends))
-    carried = here.state
+        return Arrival(here.orbit, here.orbit.state, tuple(ends), tuple(seeds))
+    state = here.state
     if not here.period and not leg.finest:
-        carried = yield from _carried(carried, here.value, leg.target)
-    orbit, _ = yield Settle(leg.target, carried)
-    return Arrival(orbit, orbit.state if orbit.period else carried, tuple(ends))
-
-
-def _carried(
-    state: Float[Array, " state"], start: float, target: float
-) -> Generator[Request, Answer, Float[Array, " state"]]:
-    """The state of a motion without period, marched along the values between two."""
-    for value in between(start, target):
-        orbit, _ = yield Carry(value, state, CARRIED)
-        if orbit.kind == FAILED:
-            break
-        state = orbit.last
-    return state
-
-
-def between(start: float, target: float) -> list[float]:
-    """Values between two, the same whatever these are: `VALUES` in every factor of two, in order of going."""
-    if start == target or start * target <= 0.0:
-        return []
-    size = min(abs(start), abs(target))
-    values: list[float] = []
-    low, high = sorted((start, target))
-    exponent = int(np.floor(np.log2(size)))
-    while 2.0**exponent <= max(abs(start), abs(target)):
-        part = np.sign(start) * 2.0**exponent * (1.0 + np.arange(VALUES) / VALUES)
-        values += [float(one) for one in part if low < one < high]
-        exponent += 1
-    return sorted(values, reverse=bool(target < start))
+        state = yield from carried(state, here.value, leg.target)
+    orbit, *_ = yield Settle(leg.target, state)
+    return Arrival(orbit, orbit.state if orbit.period else state, tuple(ends), tuple(seeds))
 
 
 def _along(here: _Place, leg: Leg) -> Generator[Request, Answer, "_Place | _Left"]:
@@ -201,57 +182,98 @@ def _along(here: _Place, leg: Leg) -> Generator[Request, Answer, "_Place | _Left
     before: _Place | None = None
     beyond: tuple[float, Orbit] | None = None
     step = abs(target - here.value) if finest else FIRST * leg.size(here.value)
-    good = 0
+    good = missed = 0
     while here.value != target:
         size = leg.size(here.value)
         least = max(LOCATED * size, finest)
         room = abs(target - here.value)
         if beyond is not None:
             room = abs(beyond[0] - here.value)
-            if room <= least:
+            if room <= least or missed == len(SHARES):
                 break
-            step = room / 2.0
+            step = room * SHARES[missed]
         trial = target if beyond is None and step >= 0.99 * room else here.value + way * min(step, room)
-        orbit, scale = yield Close(trial, _guess(before, here, trial), here.period)
+        other = before if beyond is None or beyond[1].period < here.period else _place(*beyond)
+        orbit, scale, _ = yield Close(trial, _guess(other, here, trial), here.period)
         if orbit.period and not _comparable(here, orbit, scale, abs(trial - here.value) / size):
             orbit = orbit._replace(kind=FAILED, period=0)
         if orbit.period == here.period and orbit.stable:
             before, here = here, _Place(trial, orbit.state, orbit.period, orbit)
-            good += 1
+            good, missed = good + 1, 0
             step *= 2.0 if good > 1 else 1.0
             step = min(step, max(LARGEST * size, finest))
             continue
         good = 0
-        if orbit.period or beyond is not None:
-            beyond = trial, orbit if orbit.period or beyond is None else beyond[1]
+        if orbit.period:
+            beyond, missed = (trial, orbit), 0
             continue
-        if abs(trial - here.value) <= 1.001 * least:
+        if beyond is not None:
+            missed += 1
+            continue
+        if abs(trial - here.value) > 1.001 * least:
+            step = max(abs(trial - here.value) / 2.0, least)
+            continue
+        on = yield from _gone_on(here, leg)
+        if on is None or on.orbit is None:
             break
-        step = max(abs(trial - here.value) / 2.0, least)
+        if on.orbit.stable:
+            before, here, step = here, on, FIRST * size
+        else:
+            beyond = on.value, on.orbit
     if here.value == target:
         return here
+    return (yield from _left(here, beyond, leg))
+
+
+def _round(here: _Place, leg: Leg) -> Request:
+    """Ask how a branch goes on behind a place by its arclength."""
+    way = float(np.sign(leg.target - here.value))
+    return Round(here.value, here.state, here.period, way, leg.size(here.value))
+
+
+def _gone_on(here: _Place, leg: Leg) -> Generator[Request, Answer, _Place | None]:
+    """A place behind one behind which nothing was found; None where the branch ends."""
+    if leg.finest:
+        return None
+    turn = (yield _round(here, leg)).rounded
+    if turn is None or turn.folded or np.sign(leg.target - turn.value) != np.sign(leg.target - here.value):
+        return None
+    orbit, *_ = yield Close(turn.value, turn.state, here.period)
+    return _place(turn.value, orbit) if orbit.period == here.period else None
+
+
+def _left(here: _Place, beyond: tuple[float, Orbit] | None, leg: Leg) -> Generator[Request, Answer, _Left]:
+    """The end behind the last place of a branch, and what was found beyond it."""
+    way = float(np.sign(leg.target - here.value))
     known = here.orbit
     if known is None:  # the branch ends at once
-        known, _ = yield Close(here.value, here.state, here.period)
-    behind = beyond[0] if beyond else here.value + way * max(LOCATED * leg.size(here.value), finest)
+        known, *_ = yield Close(here.value, here.state, here.period)
+    behind = beyond[0] if beyond else here.value + way * max(LOCATED * leg.size(here.value), leg.finest)
     merged = beyond is not None and beyond[1].period < here.period
     multipliers = None if beyond is None or merged else beyond[1].multipliers
-    end = BranchEnd(
-        kind_of_end(known.multipliers, multipliers, merged),
-        0.5 * (here.value + behind),
-        abs(behind - here.value),
-        here.period,
-        complex(known.multipliers[0]),
-    )
-    return _Left(here, end, here.state if beyond is None else beyond[1].state)
+    kind = kind_of_end(known.multipliers, multipliers, merged)
+    value, within = 0.5 * (here.value + behind), abs(behind - here.value)
+    if kind in (FOLD, CORNER) and not leg.finest:
+        turn = (yield _round(here, leg)).rounded
+        if turn is not None and turn.folded:
+            kind, value, within = FOLD, turn.value, turn.within
+    end = BranchEnd(kind, value, within, here.period, complex(known.multipliers[0]))
+    seed = Seed(here.value, here.state, here.period, way)
+    if beyond is not None and merged:
+        seed = Seed(beyond[0], beyond[1].state, beyond[1].period, -way)
+    return _Left(here, end, seed, here.state if beyond is None else beyond[1].state)
 
 
-def _guess(before: _Place | None, here: _Place, value: float) -> Float[Array, " state"]:
-    """The state at a value, by a straight line through the last two places."""
-    if before is None:
+def _place(value: float, orbit: Orbit) -> _Place:
+    return _Place(value, orbit.state, orbit.period, orbit)
+
+
+def _guess(other: _Place | None, here: _Place, value: float) -> Float[Array, " state"]:
+    """The state at a value, by a straight line through a place and another, the last or one beyond."""
+    if other is None:
         return here.state
-    share = (value - here.value) / (here.value - before.value)
-    return here.state + min(share, 2.0) * (here.state - before.state)
+    share = (value - here.value) / (here.value - other.value)
+    return here.state + min(share, 2.0) * (here.state - other.state)
 
 
 def _comparable(here: _Place, orbit: Orbit, scale: Float[Array, " state"], step: float) -> bool:

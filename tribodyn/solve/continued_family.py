@@ -1,11 +1,14 @@
-"""Systems along a parameter, and what is asked of them while they are followed."""
+"""What is asked of systems along a parameter while their motions are followed, and the answers."""
 
-from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple, Protocol
+from collections.abc import Mapping
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.solve.arclength import Rounded, rounded
+from tribodyn.solve.branch_end import Seed
+from tribodyn.solve.family import Family
 from tribodyn.solve.judged import judge
 from tribodyn.solve.orbit import NOT_PERIODIC, Orbit, failed_orbit
 from tribodyn.solve.period_map import PeriodMap
@@ -14,17 +17,6 @@ from tribodyn.solve.steady_orbit import find
 
 #: Newton steps that a step along a branch may take: one that needs more is too long.
 STEPS = 6
-
-
-class Family(Protocol):
-    """Systems along a parameter, on one or several lines that differ in what else there is."""
-
-    def at(self, lines: Sequence[int], values: Sequence[float]) -> tuple[PeriodMap, list[str]]:
-        """Systems on lines at values of the parameter, and why there is none; empty where there is.
-
-        Only those that there are count as cases of the map.
-        """
-        ...
 
 
 class Close(NamedTuple):
@@ -50,14 +42,45 @@ class Carry(NamedTuple):
     periods: int
 
 
-Request = Close | Settle | Carry
+class Round(NamedTuple):
+    """Follow a branch by its arclength where nothing is found behind a value.
+
+    Attributes
+    ----------
+    value, state
+        The last place.
+    period : int
+        Of the motion.
+    way : float
+        Sense of the parameter, ±1.
+    size : float
+        Magnitude by which steps of the parameter are measured.
+    """
+
+    value: float
+    state: Float[Array, " state"]
+    period: int
+    way: float
+    size: float
+
+
+Request = Close | Settle | Carry | Round
 
 
 class Answer(NamedTuple):
-    """What was found, and the sizes by which its states are measured."""
+    """What was found, and the sizes by which its states are measured.
+
+    Attributes
+    ----------
+    orbit : Orbit
+    scale : (N,)
+    rounded : Rounded or None
+        The answer to `Round`, whose orbit is none.
+    """
 
     orbit: Orbit
     scale: Float[Array, " state"]
+    rounded: Rounded | None = None
 
 
 def answered(
@@ -79,11 +102,17 @@ def answered(
     tolerance, max_periods
         As `steady_orbit.find` has them.
     """
+    answers: dict[int, Answer] = {}
     alike: dict[tuple[Any, ...], list[int]] = {}
     for number, request in asked.items():
+        if isinstance(request, Round):
+            seed = Seed(*request[:4])
+            state = request.state
+            turn = rounded(family, lines[number], seed, request.size, tolerance=tolerance)
+            answers[number] = Answer(failed_orbit(state, 0, ""), np.ones_like(state), turn)
+            continue
         extra = request[2:]  # periods
         alike.setdefault((type(request), *extra), []).append(number)
-    answers: dict[int, Answer] = {}
     for (sort, *extra), numbers in alike.items():
         values = [asked[number].value for number in numbers]
         period_map, refusals = family.at([lines[number] for number in numbers], values)

@@ -1,7 +1,7 @@
 """Gear pairs followed along a parameter: `continuation` over `gear_map.GearMap`."""
 
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -13,9 +13,50 @@ from tribodyn.solve.continuation import Arrival, Leg, follow
 from tribodyn.solve.gear_map import GearMap, moving_states
 from tribodyn.solve.period_map import PeriodMap
 from tribodyn.solve.periodic import FINE, Steady, sampled
+from tribodyn.solve.unstable_branch import UnstableBranch, unstable_branches
 
 ModelAt = Callable[[int, float], Model]
 """Gives the model on a line at a value of the parameter; raises InputError where there is none."""
+
+
+class Continued(NamedTuple):
+    """A branch beyond the end of its stable part.
+
+    Attributes
+    ----------
+    end : int
+        Number of that end among those of the leg.
+    branch : UnstableBranch
+    steadies : list of Steady
+        Its motions.
+    """
+
+    end: int
+    branch: UnstableBranch
+    steadies: list[Steady]
+
+
+class Followed(NamedTuple):
+    """What following one gear pair gave: the motion at the target, how the leg ended, what is unstable."""
+
+    steady: Steady
+    arrival: Arrival
+    continued: list[Continued]
+
+
+class Unstable(NamedTuple):
+    """What of the branches beyond their ends is wanted.
+
+    Attributes
+    ----------
+    span : (lowest, highest)
+        Range of the parameter.
+    motions : int
+        Motions on a branch at most, evenly along its arclength.
+    """
+
+    span: tuple[float, float]
+    motions: int
 
 
 class GearLines:
@@ -67,7 +108,8 @@ def followed_states(
     max_steps: int,
     workers: int | None,
     tolerance: float = 1e-7,
-) -> list[tuple[Steady, Arrival]]:
+    unstable: Unstable | None = None,
+) -> list[Followed]:
     """Follow gear pairs, each along its leg, to the steady motions at the targets.
 
     Parameters
@@ -77,6 +119,8 @@ def followed_states(
         Their states are (STATES,) at phase 0 after engagement; those that are carried on likewise.
     samples, rtol, max_cycles, solver, max_steps, workers, tolerance
         As `periodic.steady_states` has them.
+    unstable : Unstable, optional
+        Continue branches beyond the ends of their stable parts.
     """
     alike: dict[tuple[Any, ...], list[int]] = {}
     for number, leg in enumerate(legs):
@@ -84,7 +128,7 @@ def followed_states(
         # lines are of one method each: it is estimated once
         key = moving_states(model), choose(solver, model, leg.state).method
         alike.setdefault(key, []).append(number)
-    results: dict[int, tuple[Steady, Arrival]] = {}
+    results: dict[int, Followed] = {}
     for (moving, method), numbers in alike.items():
         rtols = {"rtol": rtol, "fine_rtol": FINE * tolerance}
         starts = {legs[number].line: legs[number].state for number in numbers}
@@ -97,5 +141,24 @@ def followed_states(
         steadies = sampled(period_map, [one.orbit for one in arrivals], samples)
         for number, steady, arrival in zip(numbers, steadies, arrivals, strict=True):
             carried = period_map.full(arrival.carried[None])[0]
-            results[number] = steady, arrival._replace(carried=carried)
+            continued = (
+                [] if unstable is None else _continued(family, legs[number].line, arrival, unstable, samples)
+            )
+            results[number] = Followed(steady, arrival._replace(carried=carried), continued)
     return [results[number] for number in range(len(legs))]
+
+
+def _continued(
+    family: GearLines, line: int, arrival: Arrival, unstable: Unstable, samples: int
+) -> list[Continued]:
+    """The branches beyond the ends of a leg."""
+    found = []
+    branches = unstable_branches(family, line, arrival.seeds, unstable.span)
+    for end, whole in enumerate(branches):
+        if whole is None:
+            continue
+        branch = whole.thinned(unstable.motions)
+        period_map, _ = family.at([line] * len(branch.values), branch.values.tolist())
+        assert isinstance(period_map, GearMap)
+        found.append(Continued(end, branch, sampled(period_map, branch.orbits(), samples)))
+    return found

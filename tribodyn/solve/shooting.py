@@ -141,7 +141,7 @@ class _Row:
         self.done = True
 
     def shot(self) -> Shot:
-        multipliers = _eigenvalues(self.last_jacobian)
+        multipliers = eigenvalues(self.last_jacobian)
         return Shot(self.x, self.residual, multipliers, self.last_jacobian, self.steps, self.reason)
 
 
@@ -191,7 +191,8 @@ def _newton_direction(
     return scale * (right.T @ ((left.T @ (off / scale)) / values))
 
 
-def _eigenvalues(jacobian: Float[Array, "state state"]) -> Complex[Array, " state"]:
+def eigenvalues(jacobian: Float[Array, "state state"]) -> Complex[Array, " state"]:
+    """Multipliers (N,) of a map with this derivative (N, N), largest modulus first; NaN where it has none."""
     if not np.all(np.isfinite(jacobian)):
         return np.full(len(jacobian), np.nan, dtype=complex)
     values = np.asarray(np.linalg.eigvals(jacobian), dtype=complex)

@@ -18,15 +18,20 @@ class Way(NamedTuple):
         Values of the parameter, SI units.
     period : int
         Of the neighbour's motion; 0: it has none.
-    reach : float
-        Largest magnitude of the parameter in the sweep.
+    span : (lowest, highest)
+        Range of the parameter in the sweep.
     """
 
     neighbour: Any
     start: float
     target: float
     period: int
-    reach: float
+    span: tuple[float, float]
+
+    @property
+    def reach(self) -> float:
+        """Largest magnitude of the parameter in the sweep."""
+        return max(map(abs, self.span))
 
 
 class Chunk(NamedTuple):
@@ -82,6 +87,16 @@ class Batch(Protocol):
 
     def followed(self, settings: Any) -> Any:
         """The settings of a sweep whose cases go on from each other."""
+        ...
+
+    def with_unstable(self, settings: Any) -> Any:
+        """The settings of such a sweep that continues branches beyond their ends, unstable, too.
+
+        Raises
+        ------
+        InputError
+            Where there are none to continue.
+        """
         ...
 
     def layout(self, settings: Any) -> SweepLayout:

@@ -47,6 +47,11 @@ class ByFigures:
         """The same: such cases do not go on from each other."""
         return settings
 
+    def with_unstable(self, settings: Settings) -> Settings:
+        """There are none: such cases do not go on from each other."""
+        rule = f"{self.study.about}: its cases do not go on from each other"
+        raise InputError("--unstable", None, rule, "omit it")
+
     def layout(self, settings: Settings) -> SweepLayout:
         """The figures that the study names."""
         return SweepLayout(self.study.swept())

@@ -72,7 +72,7 @@ def _way(grid: Grid, behind: tuple[tuple[int, ...], int] | None, place: tuple[in
         return None
     last, period = behind
     values = [float(value) for value in grid.axes[0].values]
-    return Way(grid.case(last), values[last[0]], values[place[0]], period, max(map(abs, values)))
+    return Way(grid.case(last), values[last[0]], values[place[0]], period, (min(values), max(values)))
 
 
 def case_or_reason(grid: Grid, number: int) -> Any:

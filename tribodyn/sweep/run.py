@@ -47,6 +47,7 @@ def run(
     output: str | Path,
     *,
     directions: Sequence[str] = (),
+    unstable: bool = False,
     force: bool = False,
     resume: bool = False,
     follow: Follow | None = None,
@@ -62,6 +63,8 @@ def run(
     output : path
     directions : sequence of "up", "down"
         Senses in which to follow the first parameter; none: every case begins by itself.
+    unstable : bool
+        Continue branches beyond the ends of their stable parts.
     force, resume : bool
         Replace a record, or go on with what an unfinished sweep left.
     follow : callable, optional
@@ -80,6 +83,9 @@ def run(
         raise InputError("--direction", axis, "has no order to go up or down", "vary a number first")
     if directions:
         settings = grid.batch.followed(settings)
+    if unstable:
+        _can_be_continued(grid, directions)
+        settings = grid.batch.with_unstable(settings)
     head = _head(grid, settings, directions)
     if not resume:
         check_target(Path(output), force)
@@ -114,6 +120,16 @@ def run(
         path = record.finish(summary)
     status = "failed" if failed == record.status.size else "complete"
     return SweepResult(path, status, record.status.size, failed, summary)
+
+
+def _can_be_continued(grid: Grid, directions: Sequence[str]) -> None:
+    """Raise InputError where no branch is followed, or steps between the values asked for are too dear."""
+    if not directions:
+        rule = "continues the branches that --direction follows"
+        raise InputError("--unstable", None, rule, "add --direction up, down or both")
+    if grid.changes_what_is_shared(0):
+        rule = f"each value of {grid.axes[0].key} needs a table of the mesh of its own"
+        raise InputError("--unstable", None, rule, "vary another key first, or omit it")
 
 
 def _head(grid: Grid, settings: Any, directions: Sequence[str]) -> SweepHead:

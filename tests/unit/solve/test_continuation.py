@@ -3,21 +3,10 @@
 import numpy as np
 import pytest
 
-from tests.support.closed_form_maps import ClosedForm, logistic
+from tests.support.closed_form_maps import Lines, cubic, delayed, logistic
 from tribodyn.solve.branch_end import CORNER, FOLD, MERGING, NEIMARK_SACKER, PERIOD_DOUBLING
-from tribodyn.solve.continuation import Leg, between, follow
-
-
-class Lines:
-    """A map with one parameter, the same on every line."""
-
-    def __init__(self, step, size, tangent=None):
-        self.step, self.size = step, size
-        self.asked: list[float] = []
-
-    def at(self, lines, values):
-        self.asked += list(values)
-        return ClosedForm(self.step, values, self.size), [""] * len(values)
+from tribodyn.solve.carried import between
+from tribodyn.solve.continuation import Leg, follow
 
 
 def swept(family, values, start, **options):
@@ -49,17 +38,34 @@ def test_the_cascade_of_the_logistic_map(step):
             assert orbit.period == (1 if value < 3.0 else 2 if value < 1.0 + np.sqrt(6.0) else 4)
 
 
+@pytest.mark.parametrize("start", [2.8, 2.85, 2.9])
+def test_a_place_that_is_not_found_is_no_end(start):
+    """Nothing is found at the first place between a stable and an unstable one: the end is still located."""
+    plain = Lines(logistic, 1)
+    leg = Leg(0, start, 3.2, np.array([1.0 - 1.0 / start]), 1)
+    follow(plain, [leg], tolerance=1e-9)
+    beyond = next(i for i, value in enumerate(plain.asked) if value > 3.0)
+    between = plain.asked[beyond + 1]
+    assert start < between < plain.asked[beyond]
+
+    class WithGap(Lines):
+        def at(self, lines, values):
+            inside = [abs(value - between) < 1e-4 for value in values]
+            outside = [value for value, one in zip(values, inside, strict=True) if not one]
+            period_map, _ = super().at(lines, outside)
+            return period_map, ["not here" if one else "" for one in inside]
+
+    (arrival,) = follow(WithGap(logistic, 1), [leg], tolerance=1e-9)
+    assert [end.kind for end in arrival.ends] == [PERIOD_DOUBLING]
+    assert arrival.ends[0].value == pytest.approx(3.0, rel=1e-4)
+
+
 def test_the_way_back_merges():
     values = np.arange(3.4, 2.85, -0.1)
     found, ends = swept(Lines(logistic, 1), values, [0.6])
     assert [end.kind for end in ends] == [MERGING]
     assert ends[0].value == pytest.approx(3.0, rel=1e-4)
     assert [orbit.period for orbit in found] == [2, 2, 2, 2, 1, 1]
-
-
-def cubic(x, a):
-    """x' = x + (a + x − x³)/4: a cusp's folds at a = ±2/√27."""
-    return x + 0.25 * (a[:, None] + x - x**3)
 
 
 @pytest.mark.parametrize("step", [0.031, 0.11, 0.5])
@@ -73,11 +79,6 @@ def test_a_branch_is_left_at_its_fold_whatever_the_step(step):
         for value, orbit in zip(values, found, strict=True):
             assert orbit.kind == "period-1"
             assert np.sign(orbit.state[0]) == (-way if way * value < fold else way)
-
-
-def delayed(x, a):
-    """The delayed logistic map x' = a x (1 − y), y' = x: multipliers on the unit circle at ±60° for a = 2."""
-    return np.stack([a * x[:, 0] * (1.0 - x[:, 1]), x[:, 0]], axis=1)
 
 
 def test_a_neimark_sacker_point_is_located_and_what_follows_is_on_a_torus():

@@ -27,6 +27,8 @@ class BacklashOscillatorCase(CaseHead):
         Ω, increasing.
     max_periods : int
         Periods of the excitation marched at each frequency before a motion is called not periodic.
+    unstable : bool
+        Whether branches are continued beyond the ends of their stable parts.
     """
 
     damping: float
@@ -35,3 +37,4 @@ class BacklashOscillatorCase(CaseHead):
     stiffness_variation: float
     frequencies: tuple[float, ...]
     max_periods: int = 600
+    unstable: bool = False

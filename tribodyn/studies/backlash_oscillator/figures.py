@@ -17,6 +17,8 @@ from tribodyn.record.reader import Record
 ABSCISSA = "Frequency of the excitation / natural frequency"
 UP, DOWN = 0, 1
 LINES: dict[int, Any] = {UP: "-", DOWN: (0, (4, 1.6))}
+#: Line of unstable motions beyond the ends.
+UNSTABLE: dict[str, Any] = {"linestyle": (0, (1.6, 1.3)), "linewidth": 0.9}
 #: Mark of an end of a branch.
 END: dict[str, Any] = {"markersize": 5, "markerfacecolor": "none", "markeredgewidth": 0.8}
 WORDS = {UP: "up", DOWN: "down"}
@@ -31,6 +33,8 @@ def _response(records: Sequence[Record]) -> Figure:
             color = _color(records, number, direction)
             _branch(upper, record, direction, color)
             _ends(upper, record, direction, color)
+            _unstable(upper, record, direction, color, "rms_displacement")
+            _unstable(lower, record, direction, color, "contact_loss_fraction", 100.0)
             free = 100.0 * record["contact_loss_fraction"][:, direction]
             lower.plot(record["frequency"], free, color=color, linestyle=LINES[direction])
             back = 100.0 * record["back_contact_fraction"][:, direction]
@@ -78,6 +82,16 @@ def _ends(axes: Axes, record: Record, direction: int, color: str) -> None:
         axes.plot(at, np.full(len(at), 0.02), "^", color=color, transform=axes.get_xaxis_transform(), **END)
 
 
+def _unstable(axes: Axes, record: Record, direction: int, color: str, name: str, factor: float = 1.0) -> None:
+    """Draw the branches beyond the ends that were met in a direction."""
+    if "unstable_frequency" not in record:
+        return
+    x, y = record["unstable_frequency"], factor * np.abs(record[f"unstable_{name}"])
+    for end in np.flatnonzero(record["end_direction"] == direction) + 1:
+        chosen = record["unstable_end"] == end
+        axes.plot(x[chosen], y[chosen], color=color, zorder=1.8, **UNSTABLE)
+
+
 def jumps(values: np.ndarray, periodic: np.ndarray) -> list[int]:
     """Places after which a branch jumps: a step ten times its neighbours', of a tenth of the range."""
     step = np.abs(np.diff(values))
@@ -102,6 +116,8 @@ def _multipliers(records: Sequence[Record]) -> Figure:
             angle = np.degrees(np.abs(record["multiplier_angle"][:, direction, 0]))
             upper.plot(record["frequency"], modulus, color=color, linestyle=LINES[direction])
             lower.plot(record["frequency"], angle, color=color, linestyle=LINES[direction])
+            _unstable(upper, record, direction, color, "multiplier_modulus")
+            _unstable(lower, record, direction, color, "multiplier_angle", 180.0 / np.pi)
     upper.axhline(1.0, color=INK, linewidth=0.7)
     upper.set_ylabel("Largest multiplier, modulus")
     upper.set_ylim(bottom=0)
@@ -126,6 +142,9 @@ def _finish(drawn: Figure, panels: Sequence[Axes], records: Sequence[Record], lo
         for direction in (UP, DOWN)
     ]
     labels = [f"frequency {WORDS[direction]}" for direction in (UP, DOWN)]
+    if any("unstable_frequency" in record for record in records):
+        handles.append(Line2D([], [], color=QUIET, **UNSTABLE))
+        labels.append("unstable")
     if losing:
         handles.append(Line2D([], [], color=QUIET, linewidth=4.5, alpha=0.4))
         labels.append("contact lost for part of the period")

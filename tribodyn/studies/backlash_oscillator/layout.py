@@ -3,6 +3,7 @@
 from tribodyn.numerics.variable import Variable, flag
 from tribodyn.record.schema import Layout
 from tribodyn.studies import ends
+from tribodyn.studies.backlash_oscillator import unstable
 
 _POINT = ("frequency", "direction")
 _MULTIPLIER = ("frequency", "direction", "multiplier")
@@ -67,4 +68,8 @@ LAYOUT = Layout(
     {"direction": DIRECTION, "multiplier": MULTIPLIER, "end": ends.END},
     ENDS,
     groups={"mesh_cycle": {}, "geometry": {}},
+)
+#: Of a case that asks for unstable motions.
+LAYOUT_WITH_UNSTABLE = LAYOUT._replace(
+    scales={**LAYOUT.scales, "unstable": unstable.SCALE}, others={**ENDS, **unstable.VARIABLES}
 )

@@ -45,7 +45,10 @@ def sentences(record: Record) -> list[str]:
     if summary.get("residual_max") is not None:
         said.append(f"Periodic motions close within {summary['residual_max']:.1e} of half a backlash.")
     numbers = sorted(int(name[4:]) for name in summary if name.startswith("end_"))
-    said += [f"A branch ends: {summary[f'end_{number}']}." for number in numbers]
+    for number in numbers:
+        said.append(f"A branch ends: {summary[f'end_{number}']}.")
+        if f"unstable_{number}" in summary:
+            said.append(f"Beyond it is unstable: {summary[f'unstable_{number}']}.")
     said += [f"At {summary[name]}." for name in sorted(summary) if name.startswith("remark_")]
     if "remarks_more" in summary:
         said.append(f"And {summary['remarks_more']} more points that are not periodic or failed.")

@@ -8,8 +8,9 @@ import numpy as np
 
 from tribodyn.solve import orbit
 from tribodyn.solve.branch_end import BranchEnd
-from tribodyn.solve.continuation import Leg, follow
+from tribodyn.solve.continuation import Arrival, Leg, follow
 from tribodyn.solve.orbit import Orbit
+from tribodyn.solve.unstable_branch import unstable_branches
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.motion import (
     BACK,
@@ -20,6 +21,7 @@ from tribodyn.studies.backlash_oscillator.motion import (
     SQUARE,
     OscillatorMap,
 )
+from tribodyn.studies.backlash_oscillator.unstable import Beyond, measured
 
 UP, DOWN = 0, 1
 #: Periods over which a motion that is not periodic is measured.
@@ -74,6 +76,8 @@ class Response(NamedTuple):
         Remarks on single points.
     ends : list of (direction, BranchEnd)
         Where branches were left, in the order in which they were met.
+    beyond : list of Beyond
+        Unstable motions beyond these, where the case asks for them.
     """
 
     frequency: np.ndarray
@@ -90,6 +94,7 @@ class Response(NamedTuple):
     velocity: np.ndarray
     messages: list[tuple[float, int, str]]
     ends: list[tuple[int, BranchEnd]]
+    beyond: list[Beyond]
 
 
 def frequency_response(
@@ -114,6 +119,7 @@ def frequency_response(
         velocity=one.copy(),
         messages=[],
         ends=[],
+        beyond=[],
     )
     rest = np.array([at_rest(case.mean_force), 0.0])
     family = _Oscillators(case)
@@ -131,6 +137,8 @@ def frequency_response(
         for direction, arrival in enumerate(arrivals):
             found = arrival.orbit
             _put(response, places[direction], direction, found, oscillator)
+            if case.unstable:
+                _go_on(response, family, direction, arrival)
             response.ends.extend((direction, end) for end in arrival.ends)
             failed = found.kind == orbit.FAILED
             at[direction] = None if failed else (legs[direction].target, arrival.carried, found.period)
@@ -158,6 +166,15 @@ def oscillator_at(case: BacklashOscillatorCase, frequency: np.ndarray) -> Oscill
 def at_rest(mean_force: float) -> float:
     """Displacement at which the mean force is balanced; in the middle where there is none."""
     return float(mean_force + np.sign(mean_force))
+
+
+def _go_on(response: Response, family: _Oscillators, direction: int, arrival: Arrival) -> None:
+    """Continue the branches beyond the ends of a leg."""
+    span = float(response.frequency[0]), float(response.frequency[-1])
+    for place, branch in enumerate(unstable_branches(family, direction, arrival.seeds, span)):
+        if branch is not None:
+            oscillator = oscillator_at(family.case, branch.values)
+            response.beyond.append(measured(len(response.ends) + place, branch, oscillator))
 
 
 def _put(response: Response, place: int, direction: int, found: Orbit, oscillator: OscillatorMap) -> None:

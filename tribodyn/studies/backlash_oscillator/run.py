@@ -9,7 +9,7 @@ import numpy as np
 from tribodyn.errors import SimulationError
 from tribodyn.solve.branch_end import KINDS, BranchEnd
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
-from tribodyn.studies.backlash_oscillator.layout import LAYOUT
+from tribodyn.studies.backlash_oscillator.layout import LAYOUT, LAYOUT_WITH_UNSTABLE
 from tribodyn.studies.backlash_oscillator.response import (
     CHAOTIC,
     DOWN,
@@ -20,6 +20,7 @@ from tribodyn.studies.backlash_oscillator.response import (
     Response,
     frequency_response,
 )
+from tribodyn.studies.backlash_oscillator.unstable import described, finish_row, rows_of
 from tribodyn.studies.recording import target, writer
 from tribodyn.studies.study import Progress, RunResult
 
@@ -48,10 +49,18 @@ def run(
     scales = {"direction": np.array(["up", "down"]), "multiplier": np.array([1, 2])}
     if response.ends:
         scales["end"] = np.arange(1, len(response.ends) + 1)
-    with writer(case, path, LAYOUT, len(response.frequency), scales=scales, force=force) as record:
+    unstable_rows = [row for one in response.beyond for row in rows_of(one)]
+    if unstable_rows:
+        scales["unstable"] = np.arange(1, len(unstable_rows) + 1)
+    layout = LAYOUT_WITH_UNSTABLE if case.unstable else LAYOUT
+    with writer(case, path, layout, len(response.frequency), scales=scales, force=force) as record:
         record.write(0, record_arrays(response))
         for row, (direction, end) in enumerate(response.ends):
             record.put(row, end_row(direction, end))
+        for one in response.beyond:
+            record.put(one.end, finish_row(one))
+        for row, values in enumerate(unstable_rows):
+            record.put(row, values)
         if np.all(response.kind == FAILED):
             message = response.messages[0][2]
             return RunResult(record.fail(message, summary), "failed", message, summary)
@@ -132,6 +141,8 @@ def response_figures(response: Response) -> dict[str, Any]:
     for number, (direction, end) in enumerate(response.ends, 1):
         way = "up" if direction == UP else "down"
         summary[f"end_{number}"] = f"{end.kind} of period {end.period} at {end.value:.6g}, {way}"
+    for one in response.beyond:
+        summary[f"unstable_{one.end + 1}"] = described(one)
     said = response.messages
     for number, (at, direction, text) in enumerate(said[:REMARKS]):
         summary[f"remark_{number + 1}"] = f"frequency {at:g}, {'up' if direction == UP else 'down'}: {text}"

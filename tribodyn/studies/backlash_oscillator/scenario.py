@@ -73,6 +73,9 @@ class OscillatorSolver(Table):
     max_periods: Annotated[int, Field(strict=True, ge=24)] = Field(
         600, description="of the excitation, marched at each frequency before a motion is called not periodic"
     )
+    unstable: bool = Field(
+        False, description="continue branches beyond the ends of their stable parts, round folds"
+    )
 
 
 class BacklashOscillatorScenario(ScenarioHead):
@@ -105,4 +108,5 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> BacklashOscillatorCas
         stiffness_variation=scenario.stiffness_variation,
         frequencies=given.values() if isinstance(given, FrequencyRange) else tuple(given),
         max_periods=scenario.solver.max_periods,
+        unstable=scenario.solver.unstable,
     )

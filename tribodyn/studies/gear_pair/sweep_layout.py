@@ -6,7 +6,8 @@ import numpy as np
 
 from tribodyn.numerics.variable import Variable, flag
 from tribodyn.record.sweep_schema import WORD, SweepLayout
-from tribodyn.studies import ends
+from tribodyn.solve.recurrence import MAX_PERIOD
+from tribodyn.studies import ends, unstable
 
 #: `stable`, where the linearised motion was not looked at.
 UNKNOWN = -1
@@ -44,6 +45,15 @@ FIGURES: dict[str, Variable] = {
     ),
 }
 
+#: Figures that are kept of unstable motions too.
+UNSTABLE_FIGURES = (
+    "transmission_error_rms",
+    "transmission_error_peak_to_peak",
+    "dynamic_factor",
+    "contact_loss_fraction",
+    "film_min",
+)
+
 #: Everything a sweep records of a case.
 CASES: dict[str, Variable] = {
     **FIGURES,
@@ -74,10 +84,27 @@ CASES: dict[str, Variable] = {
     ),
 }
 
+#: What it records of the unstable motions beyond the ends of branches, see `studies.unstable`.
+UNSTABLE: dict[str, Variable] = {
+    **unstable.VARIABLES,
+    **{
+        unstable.PREFIX + name: FIGURES[name]._replace(
+            dims=("end", "motion"), long_name=f"{FIGURES[name].long_name}, of an unstable motion"
+        )
+        for name in UNSTABLE_FIGURES
+    },
+    "unstable_poincare_error": Variable(
+        ("end", "motion", "return"),
+        "m",
+        "rotational transmission error at the start of the mesh cycles of an unstable motion",
+    ),
+}
+
 #: The scales after those of the cases.
 SAMPLE = Variable(("sample",), "1", "phase of the mesh in mesh cycles, from the start of the window")
 CYCLE = Variable(("cycle",), "1", "mesh cycle, counted from the first that was kept")
 MODE = Variable(("mode",), "1", "mode of vibration, lowest first")
+RETURN = Variable(("return",), "1", "mesh cycle of an unstable motion")
 STATE_VARIABLE = Variable(("state_variable",), "1", "state of the model, see tribodyn.dynamics.parameters")
 STATE_NAMES = (
     *("x_p", "y_p", "x_g", "y_g", "lag", "xi", "twist"),
@@ -99,4 +126,8 @@ def layout_of(settings: Any) -> SweepLayout:
     if settings.followed:
         variables = {**CASES, **ends.VARIABLES}
         scales["end"] = ends.END, np.arange(1, ends.ENDS + 1)
+    if settings.unstable:
+        variables = {**variables, **UNSTABLE}
+        scales["motion"] = unstable.MOTION, np.arange(1, unstable.MOTIONS + 1)
+        scales["return"] = RETURN, np.arange(1, MAX_PERIOD + 1)
     return SweepLayout(variables, scales, {"samples_per_cycle": settings.samples})

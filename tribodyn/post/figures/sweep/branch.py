@@ -26,6 +26,8 @@ MOTIONS: tuple[tuple[str, dict[str, Any]], ...] = (
     ("repeats after several mesh cycles", {"marker": "D", "markersize": 4, "markerfacecolor": "none"}),
     ("does not repeat", {"marker": "x", "markersize": 5}),
 )
+#: Line of unstable motions beyond the ends of branches.
+UNSTABLE: dict[str, Any] = {"linestyle": (0, (1.6, 1.3)), "linewidth": 0.8}
 #: Mark of an end of a branch.
 ENDS: dict[str, Any] = {
     "linestyle": "none",
@@ -166,6 +168,27 @@ def mark_ends(axes: Axes, drawn: Sequence[Branch]) -> None:
             axes.plot(at, height, color=branch.color, transform=axes.get_xaxis_transform(), **ENDS)
 
 
+def draw_unstable(axes: Axes, drawn: Sequence[Branch], name: str, factor: float) -> None:
+    """Draw the branches beyond their ends, where a figure of their unstable motions was recorded.
+
+    Parameters
+    ----------
+    axes : Axes
+    drawn : sequence of Branch
+    name : str
+        Dataset over case, end and motion, and what else there is.
+    factor : float
+        From SI.
+    """
+    for branch in drawn:
+        if name not in branch.record:
+            continue
+        x = branch.values("unstable_value") * shown_unit(branch.record.parameters[0].units)[1]
+        y = branch.values(name) * factor
+        for at in np.argwhere(np.isfinite(x).any(axis=-1)):
+            axes.plot(x[tuple(at)], y[tuple(at)], color=branch.color, zorder=1.8, **UNSTABLE)
+
+
 def shade_contact_loss(axes: Axes, drawn: Sequence[Branch]) -> None:
     """Shade where contact is lost at times, on any of the branches."""
     for branch in drawn:
@@ -189,6 +212,9 @@ def regime_handles(drawn: Sequence[Branch]) -> list[Artist]:
     ending = [branch for branch in drawn if "end_value" in branch.record]
     if any(np.isfinite(branch.values("end_value")).any() for branch in ending):
         handles.append(Line2D([], [], color=QUIET, label="a branch ends", **ENDS))
+    continued = [branch for branch in drawn if "unstable_value" in branch.record]
+    if any(np.isfinite(branch.values("unstable_value")).any() for branch in continued):
+        handles.append(Line2D([], [], color=QUIET, label="unstable", **UNSTABLE))
     known = [branch for branch in drawn if "contact_loss_fraction" in branch.record]
     if any(np.nanmax(branch.values("contact_loss_fraction"), initial=0.0) > 0.0 for branch in known):
         handles.append(Patch(color=LOST, label="a curve loses contact"))

@@ -12,6 +12,7 @@ from tribodyn.post.figures.sweep.branch import (
     branch_legend,
     branches,
     draw_branch,
+    draw_unstable,
     mark_ends,
     regime_handles,
     shade_contact_loss,
@@ -85,6 +86,7 @@ def response_figure(records: Sequence[SweepRecord], panels: Sequence[Panel]) -> 
     for letter, axes, (name, factor, label, from_zero) in zip("abcdef", rows.flat, panels, strict=False):
         for branch in drawn:
             draw_branch(axes, branch, branch.values(name) * factor)
+        draw_unstable(axes, drawn, f"unstable_{name}", factor)
         axes.margins(x=0.02)
         axes.set_ylabel(label)
         if from_zero:

@@ -10,7 +10,9 @@ from tribodyn.post.figures.sweep.branch import (
     axis_label,
     branch_legend,
     branches,
+    draw_unstable,
     mark_ends,
+    regime_handles,
     sweep_title,
 )
 from tribodyn.post.shown_units import shown
@@ -42,7 +44,9 @@ def bifurcation_figure(records: Sequence[SweepRecord]) -> Figure:
     axes.set_ylabel("Error at phase 0 (µm)")
     axes.margins(x=0.02)
     mark_ends(axes, drawn)
-    branch_legend(figure, drawn, lines=False)
+    draw_unstable(axes, drawn, "unstable_poincare_error", 1e6)
+    marks = [one for one in regime_handles(drawn) if one.get_label() in ("unstable", "a branch ends")]
+    branch_legend(figure, drawn, lines=False, marks=marks)
     both = "; up filled, down hollow" if any(branch.direction for branch in drawn) else ""
     figure.suptitle(sweep_title(records) + both, x=0.01, ha="left", fontsize=9)
     return figure

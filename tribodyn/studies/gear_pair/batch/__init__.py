@@ -6,6 +6,7 @@ import numpy as np
 
 from tribodyn.dynamics.modes import MODES, MODES_WITH_SHAFT
 from tribodyn.dynamics.parameters import STATES
+from tribodyn.errors import InputError
 from tribodyn.record.sweep_schema import SweepLayout
 from tribodyn.solve.methods import Runs, runs
 from tribodyn.solve.periodic import refuse_time_dependent
@@ -50,6 +51,14 @@ class GearPairs:
     def followed(self, settings: Settings) -> Settings:
         """Steady motions are followed to the ends of their branches."""
         return settings._replace(followed=settings.steady)
+
+    def with_unstable(self, settings: Settings) -> Settings:
+        """Branches of steady motions only are continued."""
+        if not settings.steady:
+            raise InputError(
+                "--unstable", None, "continues steady motions, which --transient has none of", "omit one"
+            )
+        return settings._replace(unstable=True)
 
     def layout(self, settings: Settings) -> SweepLayout:
         """Figures, the window of the transmission error, Poincaré section, modes, and the state."""

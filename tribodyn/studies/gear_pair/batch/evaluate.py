@@ -7,6 +7,7 @@ the same numbers in both. Nothing of a case depends on the others that it is eva
 import threading
 from collections import OrderedDict
 from collections.abc import Hashable, Sequence
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -22,10 +23,12 @@ from tribodyn.studies.ends import fill_ends
 from tribodyn.studies.gear_pair.batch.figures import window_figures
 from tribodyn.studies.gear_pair.batch.marched import marched
 from tribodyn.studies.gear_pair.batch.outcome import Outcome
+from tribodyn.studies.gear_pair.batch.ways import PreparedAt, legs_of, prepared_between
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.prepare import Prepared, Tabulated, prepare, table_key, tables
 from tribodyn.studies.gear_pair.summary import warning_of
 from tribodyn.studies.gear_pair.sweep_layout import layout_of
+from tribodyn.studies.unstable import MOTIONS
 
 #: Tables kept in a process; a table is about 100 kB.
 TABLES_KEPT = 32
@@ -53,6 +56,8 @@ class Settings(NamedTuple):
         Integration method instead of the scenario's; empty for the scenario's own.
     followed : bool
         Whether steady motions are followed from case to case, to the ends of their branches.
+    unstable : bool
+        Whether branches are continued beyond these.
     """
 
     steady: bool
@@ -63,6 +68,7 @@ class Settings(NamedTuple):
     modes: int
     method: str = ""
     followed: bool = False
+    unstable: bool = False
 
 
 def evaluate(chunk: Chunk, settings: Settings, workers: int | None = None) -> dict[str, np.ndarray]:
@@ -91,9 +97,14 @@ def evaluate(chunk: Chunk, settings: Settings, workers: int | None = None) -> di
             _fail(rows, i, str(error))
     for numbers in _alike({i: prepared.case for i, (prepared, _) in ready.items()}):
         ways = [chunk.ways[i] if chunk.ways else None for i in numbers]
-        outcomes = _solve([ready[i] for i in numbers], ways, settings, workers)
-        for i, outcome in zip(numbers, outcomes, strict=True):
+        prepared_at = prepared_between([ready[i][0] for i in numbers], ways, tabulated)
+        outcomes = _solve([ready[i] for i in numbers], ways, prepared_at, settings, workers)
+        for line, (i, outcome) in enumerate(zip(numbers, outcomes, strict=True)):
             _fill(rows, i, ready[i][0], outcome, settings)
+            if outcome.continued:
+                from tribodyn.studies.gear_pair.batch.unstable import fill_unstable
+
+                fill_unstable(rows, i, outcome.continued, partial(prepared_at, line), settings.samples)
     return rows
 
 
@@ -108,6 +119,7 @@ def _alike(cases: dict[int, Case]) -> list[list[int]]:
 def _solve(
     cases: list[tuple[Prepared, np.ndarray]],
     ways: Sequence[Way | None],
+    prepared_at: PreparedAt,
     settings: Settings,
     workers: int | None,
 ) -> list[Outcome]:
@@ -124,11 +136,16 @@ def _solve(
     models, states = [one.model for one, _ in cases], np.array([state for _, state in cases])
     if settings.steady:
         from tribodyn.studies.gear_pair.batch.steady import steady
-        from tribodyn.studies.gear_pair.batch.ways import legs_of, models_between
 
         if settings.followed:
             common["legs"] = legs_of(cases, ways)
-            common["model_at"] = models_between([one for one, _ in cases], ways, tabulated)
+            common["model_at"] = lambda line, value: prepared_at(line, value).model
+        if settings.unstable:
+            from tribodyn.solve.followed import Unstable
+
+            # all ways of a chunk are along the same values
+            span = next((way.span for way in ways if way is not None), (0.0, 0.0))
+            common["unstable"] = Unstable(span, MOTIONS)
         return steady(models, states, **common)
     return marched(models, states, window=settings.window, **common)
 

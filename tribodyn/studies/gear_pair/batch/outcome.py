@@ -1,6 +1,6 @@
 """Outcome of a case: its way through the window, its Poincaré section, the sort of motion."""
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -9,6 +9,9 @@ from tribodyn.dynamics.parameters import LAG, WORKS
 from tribodyn.solve.branch_end import BranchEnd
 from tribodyn.solve.integrator import REASONS, Status
 from tribodyn.studies.gear_pair.sweep_layout import UNKNOWN
+
+if TYPE_CHECKING:
+    from tribodyn.solve.followed import Continued
 
 
 class Passage(NamedTuple):
@@ -54,6 +57,8 @@ class Outcome(NamedTuple):
         As `sweep_layout.CASES` has them.
     ends : tuple of BranchEnd
         Of the branches that were left on the way from the neighbour.
+    continued : tuple of Continued
+        Those branches beyond their ends.
     """
 
     passage: Passage | None
@@ -67,6 +72,7 @@ class Outcome(NamedTuple):
     multiplier_max: float = float("nan")
     residual: float = float("nan")
     ends: tuple[BranchEnd, ...] = ()
+    continued: "tuple[Continued, ...]" = ()
 
 
 def failed(state: np.ndarray, cycles: float, reason: str) -> Outcome:

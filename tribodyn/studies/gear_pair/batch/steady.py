@@ -7,8 +7,8 @@ import numpy as np
 
 from tribodyn.dynamics.parameters import Model
 from tribodyn.errors import InputError
-from tribodyn.solve.continuation import Arrival, Leg
-from tribodyn.solve.followed import ModelAt, followed_states
+from tribodyn.solve.continuation import Leg
+from tribodyn.solve.followed import Followed, ModelAt, Unstable, followed_states
 from tribodyn.solve.orbit import FAILED
 from tribodyn.solve.periodic import WANDERING, Steady, refuse_time_dependent, steady_states
 from tribodyn.studies.gear_pair.batch.marched import marched
@@ -28,6 +28,7 @@ def steady(
     samples: int,
     legs: Sequence[Leg] | None = None,
     model_at: ModelAt | None = None,
+    unstable: Unstable | None = None,
     **solver: Any,
 ) -> list[Outcome]:
     """Find every case's steady state from its state, after the engagement at phase 0.
@@ -40,7 +41,7 @@ def steady(
         Mesh cycles to march at most.
     points, samples : int
         Points of the section of a motion without period; samples in a mesh cycle.
-    legs, model_at
+    legs, model_at, unstable
         To follow a neighbour's motion to each case, see `followed.followed_states`; lines are cases.
     **solver
         rtol, method, max_steps and workers, as `ensemble.march` takes them.
@@ -54,12 +55,12 @@ def steady(
     pending = [i for i, one in enumerate(outcomes) if one is None]
     method = solver.pop("method")
     common: dict[str, Any] = {"samples": samples, "max_cycles": cycles, "solver": method, **solver}
-    arrivals: Sequence[Arrival | None] = [None] * len(pending)
+    followed: Sequence[Followed | None] = [None] * len(pending)
     if legs is None or model_at is None:
         answers = steady_states([models[i] for i in pending], states[pending], **common)
     else:
-        both = followed_states(model_at, [legs[i] for i in pending], **common)
-        answers, arrivals = [one for one, _ in both], [one for _, one in both]
+        followed = followed_states(model_at, [legs[i] for i in pending], unstable=unstable, **common)
+        answers = [one.steady for one in followed]
     wandering = []
     for i, answer in zip(pending, answers, strict=True):
         if answer.kind == FAILED:
@@ -82,9 +83,11 @@ def steady(
         )
         for (i, answer), stretch in zip(some, stretches, strict=True):
             outcomes[i] = _described(stretch, answer)
-    for i, arrival in zip(pending, arrivals, strict=True):
-        if arrival is not None and (outcome := outcomes[i]) is not None:
-            outcomes[i] = outcome._replace(state=continued(arrival.carried), ends=arrival.ends)
+    for i, one in zip(pending, followed, strict=True):
+        if one is not None and (outcome := outcomes[i]) is not None:
+            outcomes[i] = outcome._replace(
+                state=continued(one.arrival.carried), ends=one.arrival.ends, continued=tuple(one.continued)
+            )
     return [one for one in outcomes if one is not None]
 
 

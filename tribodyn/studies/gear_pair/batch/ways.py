@@ -4,9 +4,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from tribodyn.dynamics.parameters import Model
 from tribodyn.solve.continuation import Leg
-from tribodyn.solve.followed import ModelAt
 from tribodyn.studies.batch import Way
 from tribodyn.studies.between import NothingBetween, case_between
 from tribodyn.studies.gear_pair.case import Case
@@ -28,20 +26,24 @@ def legs_of(cases: Sequence[tuple[Prepared, np.ndarray]], ways: Sequence[Way | N
     return legs
 
 
-def models_between(
-    cases: Sequence[Prepared], ways: Sequence[Way | None], tabulated: Callable[[Case], Tabulated]
-) -> ModelAt:
-    """Gives the model at a place on the way to a case, or beyond it."""
+PreparedAt = Callable[[int, float], Prepared]
+"""Gives the prepared case on a line at a value of the parameter; raises InputError where there is none."""
 
-    def model_at(line: int, value: float) -> Model:
+
+def prepared_between(
+    cases: Sequence[Prepared], ways: Sequence[Way | None], tabulated: Callable[[Case], Tabulated]
+) -> PreparedAt:
+    """Gives the prepared case at a place on the way to a case, or beyond it."""
+
+    def prepared_at(line: int, value: float) -> Prepared:
         way = ways[line]
         if way is None or value == way.target:
-            return cases[line].model
+            return cases[line]
         share = (value - way.start) / (way.target - way.start)
         case = case_between(way.neighbour, cases[line].case, share)
-        return prepare(case, tabulated(case)).model
+        return prepare(case, tabulated(case))
 
-    return model_at
+    return prepared_at
 
 
 def _finest(way: Way, case: Case) -> float:

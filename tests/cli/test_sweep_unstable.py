@@ -1,0 +1,84 @@
+"""Branches that a sweep continues beyond their ends: recorded, shown, drawn; and where that is refused."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from tribodyn.cli.app import app
+from tribodyn.record.sweep_reader import SweepRecord
+
+SPEEDS = "operating.pinion_speed=440:490:25rad/s"
+
+
+def tribodyn(*words: object) -> str:
+    ended = CliRunner().invoke(app, [str(word) for word in words])
+    assert ended.exit_code == 0, f"{ended.output}\n{ended.exception}"
+    return ended.stdout
+
+
+@pytest.fixture(scope="module")
+def jump(tmp_path_factory) -> Path:
+    path = tmp_path_factory.mktemp("unstable") / "jump.h5"
+    options = ("--direction", "up", "--unstable", "--set", "output.samples_per_cycle=20")
+    said = tribodyn("sweep", "jump-involute-23-47", "--vary", SPEEDS, *options, "-o", path, "--json")
+    path.with_suffix(".json").write_text(said, encoding="utf-8")
+    return path
+
+
+def test_the_record_holds_the_branch_from_the_fold_to_the_border(jump: Path):
+    with SweepRecord(jump) as record:
+        ((case, direction, end),) = np.argwhere(record["end_kind"] > 0)
+        at = case, direction, end
+        assert case == 2
+        assert record.meanings("end_kind")[int(record["end_kind"][at])] == "fold"
+        speed = record["unstable_value"][at]
+        there = np.isfinite(speed)
+        assert record.units("unstable_value") == "rad/s"
+        assert speed[0] == pytest.approx(record["end_value"][at], rel=1e-4)
+        assert speed[there][-1] == pytest.approx(440.0)
+        assert np.all(np.diff(speed[there]) < 0.0)
+        assert np.all(record["unstable_multiplier_modulus"][at][there] > 1.0)
+        assert np.all(record["unstable_residual"][at][there] <= 1e-7)
+        assert record["unstable_period"][at] == 1
+        # between the motions on the lower and on the upper branch, the one on it before and after the jump
+        rms = record["unstable_transmission_error_rms"][at][there]
+        assert np.all(rms > record["transmission_error_rms"][1, 0])
+        assert np.all(np.diff(rms) > 0.0)
+        section = record["unstable_poincare_error"][at][there]
+        assert np.all(np.isfinite(section[:, 0]))
+        assert np.all(np.isnan(section[:, 1:]))
+        assert np.all(np.isnan(record["unstable_value"][:2]))
+
+
+def test_it_is_said_and_drawn(jump: Path, tmp_path: Path):
+    said = json.loads(jump.with_suffix(".json").read_text(encoding="utf-8"))
+    (end,) = said["ends"]
+    assert end["unstable"]["period"] == 1
+    assert end["unstable"]["from"] == pytest.approx(440.0)
+    assert end["unstable"]["multiplier_modulus_max"] > 1.5
+    shown = tribodyn("show", jump)
+    assert "beyond, period 1 unstable between 4201.7 rpm and 4628" in " ".join(shown.split())
+    said = json.loads(tribodyn("plot", jump, "response", "bifurcation", "-o", tmp_path, "--json"))
+    assert all(Path(picture).stat().st_size > 10_000 for picture in said["pictures"])
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("crc-23-47", "--vary", SPEEDS), "continues the branches that --direction follows"),
+        (("crc-23-47", "--vary", SPEEDS, "--direction", "up", "--transient", "4"), "steady motions"),
+        (
+            ("involute-23-47", "--vary", "drive.pinion.profile_shift=0:0.2:0.1", "--direction", "up"),
+            "needs a table of the mesh of its own",
+        ),
+        (("efficiency-crc-23-47", "--vary", "operating.pinion_speed=100:300:100rad/s"), "--unstable"),
+    ],
+)
+def test_where_there_is_no_branch_it_is_refused(words: tuple[str, ...], message: str, tmp_path: Path):
+    refused = CliRunner().invoke(app, ["sweep", *words, "--unstable", "-o", str(tmp_path / "s.h5")])
+    assert refused.exit_code == 2
+    assert message in refused.stderr
+    assert not list(tmp_path.iterdir())

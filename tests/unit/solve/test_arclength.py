@@ -1,0 +1,96 @@
+"""Branches beyond the ends of their stable parts, on maps whose branches are known in closed form."""
+
+import numpy as np
+import pytest
+
+from tests.support.closed_form_maps import Lines, cubic, delayed, logistic
+from tribodyn.solve.branch_end import FOLD, MERGING, PERIOD_DOUBLING, Seed
+from tribodyn.solve.continuation import Leg, follow
+from tribodyn.solve.unstable_branch import unstable_branches
+
+
+def beyond(family, start, target, state, period, span):
+    """The branch beyond the only end on the way from one value to another."""
+    leg = Leg(0, start, target, np.array(state, dtype=float), period, reach=max(map(abs, span)))
+    (arrival,) = follow(family, [leg], tolerance=1e-9)
+    (end,), (branch,) = arrival.ends, unstable_branches(family, 0, arrival.seeds, span, tolerance=1e-9)
+    assert branch is not None
+    assert np.max(branch.residuals) <= 1e-9
+    assert np.all(np.abs(branch.multipliers[:, 0]) > 1.0)
+    return end, branch
+
+
+@pytest.mark.parametrize("way", [1.0, -1.0])
+def test_round_a_fold_to_the_other_fold(way):
+    """a = x³ − x between both folds of the cubic map, with the multiplier 1 + (1 − 3 x²)/4."""
+    end, branch = beyond(Lines(cubic, 1), -0.7 * way, 0.5 * way, [-1.2 * way], 1, (-1.0, 1.0))
+    fold = 2.0 / np.sqrt(27.0)
+    assert end.kind == FOLD
+    assert branch.finish is not None
+    assert branch.finish.kind == FOLD
+    assert branch.finish.value == pytest.approx(-way * fold, abs=1e-4)
+    assert branch.finish.within <= 1e-4
+    x = branch.states[:, 0]
+    np.testing.assert_allclose(branch.values, x**3 - x, atol=1e-7)
+    np.testing.assert_allclose(branch.multipliers[:, 0].real, 1.0 + 0.25 * (1.0 - 3.0 * x**2), atol=1e-4)
+    assert np.all(np.diff(way * x) > 0.0)
+    assert np.ptp(x) > 0.95 * 2.0 / np.sqrt(3.0)
+
+
+def test_beyond_a_period_doubling_to_the_border_of_the_range():
+    """The fixed point 1 − 1/r of the logistic map, with the multiplier 2 − r."""
+    end, branch = beyond(Lines(logistic, 1), 2.8, 3.2, [1.0 - 1.0 / 2.8], 1, (2.8, 3.4))
+    assert end.kind == PERIOD_DOUBLING
+    assert branch.finish is None
+    np.testing.assert_allclose(branch.states[:, 0], 1.0 - 1.0 / branch.values, atol=1e-8)
+    np.testing.assert_allclose(branch.multipliers[:, 0].real, 2.0 - branch.values, atol=1e-4)
+    assert branch.values[-1] == pytest.approx(3.4)
+    assert np.max(np.diff(branch.values)) <= 0.035
+
+
+def test_behind_a_merging_the_motion_of_fewer_periods_is_unstable():
+    state = (4.2 - np.sqrt(4.2 * 0.2)) / 6.4
+    end, branch = beyond(Lines(logistic, 1), 3.2, 2.9, [state], 2, (2.8, 3.4))
+    assert (end.kind, end.period, branch.period) == (MERGING, 2, 1)
+    np.testing.assert_allclose(branch.states[:, 0], 1.0 - 1.0 / branch.values, atol=1e-8)
+    assert branch.values[0] == pytest.approx(3.0, abs=0.01)
+    assert branch.values[-1] == pytest.approx(3.4)
+
+
+def test_beyond_a_neimark_sacker_point():
+    """Of the delayed logistic map, where the multipliers' modulus is the root of a − 1."""
+    _, branch = beyond(Lines(delayed, 2), 1.8, 2.05, [0.45, 0.45], 1, (1.7, 2.2))
+    np.testing.assert_allclose(np.abs(branch.multipliers[:, 0]), np.sqrt(branch.values - 1.0), atol=1e-4)
+    assert branch.values[-1] == pytest.approx(2.2)
+
+
+def subcritical(x, a):
+    """x' = −(1 + a) x − x³ + x⁵/4: the fixed point 0 doubles at a = 0, what is doubled is there for a < 0.
+
+    On it a = −x² + x⁴/4, which turns back at a = −1 where x² = 2.
+    """
+    return -(1.0 + a[:, None]) * x - x**3 + 0.25 * x**5
+
+
+def test_a_doubled_motion_ends_where_it_merges():
+    """From its fold, where it is met stable, to the doubling of the motion of one period."""
+    family = Lines(subcritical, 1)
+    x = np.sqrt(2.0 + 2.0 * np.sqrt(0.1))
+    end, branch = beyond(family, -0.9, -1.05, [x], 2, (-1.2, 0.2))
+    assert (end.kind, end.period, branch.period) == (FOLD, 2, 2)
+    assert branch.finish is not None
+    assert branch.finish.kind == MERGING
+    assert branch.finish.value == pytest.approx(0.0, abs=1e-4)
+    np.testing.assert_allclose(
+        branch.values, -(branch.states[:, 0] ** 2) + 0.25 * branch.states[:, 0] ** 4, atol=1e-6
+    )
+
+
+def test_where_nothing_goes_on_there_is_no_branch():
+    """A place that is stable as far as the range goes."""
+    (branch,) = unstable_branches(
+        Lines(logistic, 1), 0, [Seed(2.5, np.array([0.6]), 1, 1.0)], (2.0, 2.9), tolerance=1e-9
+    )
+    assert branch is None
+    runs_away = Seed(2.5, np.array([40.0]), 1, 1.0)
+    assert unstable_branches(Lines(logistic, 1), 0, [runs_away], (2.0, 2.9)) == [None]
