@@ -61,3 +61,17 @@ def test_a_stage_that_turns_the_pinion_back_is_no_standstill(prepared):
         assert one.status == Status.DONE
     speeds = [one.state[SLIP] for one in found.values()]
     assert speeds[0] == pytest.approx(speeds[1], rel=1e-4)
+
+
+def test_switching_leaves_the_explicit_method_that_jumps_across_the_reversal(prepared):
+    """A velocity's tolerance is wider than the reversal: the stages find friction constant, nothing stiff."""
+    bearings = {
+        f"bearings.{gear}.stiffness_{axis}": "1e6 N/m" for gear in ("pinion", "gear") for axis in "xy"
+    }
+    overrides = {"friction.sliding": "dynamic", "operating.pinion_speed": "1 rad/s"} | bearings
+    model = prepared("crc-23-47", **overrides).model
+    state = static_equilibrium(model)
+    tolerances = tolerances_from(model, state, 1e-5, 20_000)
+    for method in ("rodas4", "switching"):
+        found = integrator_class(method)(method_file(method), model, 8, tolerances).integrate(state, 0, 1)
+        assert found.status == Status.DONE

@@ -22,9 +22,13 @@ APART = A[6] - A[5]
 STIFF, NOT_STIFF = 3.0, 12.0
 #: Accepted steps in a row after which the explicit or the stiff method gives way to the other.
 EXPLICIT_STEPS, STIFF_STEPS = 12, 3
-#: The last row of the buffer: which method (0 explicit), the step over the time constant, steps in a row.
+#: Explicit steps after which the stiff method is tried whatever the explicit one says of stiffness: where the
+#: tolerance of a velocity exceeds the width of reversal, its stages jump across, and find friction constant.
+MOST_EXPLICIT_STEPS = 500.0
+#: The last row of the buffer: which method (0 explicit), the step over the time constant, steps in a row that
+#: speak for the other method, explicit steps in a row.
 MODE = len(rodas4.buffer())
-WHICH, STIFFNESS, COUNT = range(3)
+WHICH, STIFFNESS, COUNT, EXPLICIT_RUN = range(4)
 EXPLICIT_METHOD, STIFF_METHOD = 0.0, 1.0
 
 
@@ -73,8 +77,9 @@ def accept(buffer):
     mode = buffer[MODE]
     if mode[WHICH] == EXPLICIT_METHOD:
         mode[COUNT] = mode[COUNT] + 1.0 if mode[STIFFNESS] > STIFF * STIFF else 0.0
-        if mode[COUNT] >= EXPLICIT_STEPS:
-            mode[WHICH], mode[COUNT] = STIFF_METHOD, 0.0
+        mode[EXPLICIT_RUN] += 1.0
+        if mode[COUNT] >= EXPLICIT_STEPS or mode[EXPLICIT_RUN] >= MOST_EXPLICIT_STEPS:
+            mode[WHICH], mode[COUNT], mode[EXPLICIT_RUN] = STIFF_METHOD, 0.0, 0.0
             return True
         return dopri5.accept(buffer)
     mode[COUNT] = mode[COUNT] + 1.0 if mode[STIFFNESS] < NOT_STIFF else 0.0
