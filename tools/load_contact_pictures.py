@@ -9,10 +9,11 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from tribodyn import load_scenario, open_record, run
 from tribodyn.post.style import save
-from tribodyn.record.reader import Record
+from tribodyn.record.reader import Record, open_record
+from tribodyn.studies.load import load_scenario
 from tribodyn.studies.pictures import figure
+from tribodyn.studies.run import run
 
 FOLDER = Path(__file__).parents[1] / "docs" / "pictures"
 UNRELIEVED = {

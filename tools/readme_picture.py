@@ -8,12 +8,13 @@ from contextlib import ExitStack
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from tribodyn import load_scenario, open_record, run
 from tribodyn.post.figures import over_phase as panels
 from tribodyn.post.figures.panel import View, draw, legend
 from tribodyn.post.figures.path_of_contact import draw_path
 from tribodyn.post.style import house_style, mark_panel, new_figure, save
-from tribodyn.record.reader import Record
+from tribodyn.record.reader import Record, open_record
+from tribodyn.studies.load import load_scenario
+from tribodyn.studies.run import run
 
 FOLDER = Path(__file__).parents[1] / "docs" / "pictures"
 PANELS = (

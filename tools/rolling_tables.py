@@ -10,9 +10,11 @@ from typing import Any
 import numpy as np
 from marked_block import put
 
-from tribodyn import load_scenario, open_record, run
 from tribodyn.post.style import save
+from tribodyn.record.reader import open_record
+from tribodyn.studies.load import load_scenario
 from tribodyn.studies.pictures import overview
+from tribodyn.studies.run import run
 
 PAGE = Path(__file__).parents[1] / "docs" / "rolling-elements.md"
 PICTURE = PAGE.parent / "pictures" / "irefc.png"

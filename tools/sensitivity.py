@@ -17,8 +17,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from marked_block import put
 
-from tribodyn import load_scenario, open_record, run
-from tribodyn.record.reader import Record
+from tribodyn.record.reader import Record, open_record
+from tribodyn.studies.load import load_scenario
+from tribodyn.studies.run import run
 from tribodyn.validation.rows import published
 
 CRC, INVOLUTE, DRY = "crc-23-47", "involute-23-47", "crc-23-47-frictionless"

@@ -2,15 +2,17 @@
 
 As a library::
 
-    from tribodyn import load_scenario, open_record, run
+    import tribodyn as td
 
-    result = run(load_scenario("crc-23-47"), "crc.h5")
-    with open_record(result.path) as record:
-        print(record["normal_load"].max())
+    crc = td.run("crc-23-47", {"operating.gear_torque": "600 N*m"})
+    crc.summary["efficiency"], crc.data["normal_load"].max()
+    crc.plot("film")
 
 `docs/extending.md` says how laws, tooth families and kinds of study are added from outside.
 """
 
+import sys
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 __version__ = "0.1.0"
@@ -19,12 +21,15 @@ __version__ = "0.1.0"
 OWN_PROCESS = False
 
 if TYPE_CHECKING:
-    from tribodyn.errors import InputError, SimulationError
+    from tribodyn.errors import InputError, OutputError, SimulationError
     from tribodyn.geometry.family import Family
+    from tribodyn.interface.drive import GearPair, drive
+    from tribodyn.interface.run import Run, run
+    from tribodyn.interface.scenario import scenario
+    from tribodyn.interface.sweep import Sweep, sweep
+    from tribodyn.interface.sweep import open_result as open
+    from tribodyn.interface.validate import validate
     from tribodyn.numerics.parameter import Parameter
-    from tribodyn.record.reader import open_record
-    from tribodyn.studies.load import load_scenario
-    from tribodyn.studies.run import run
     from tribodyn.studies.study import Study
     from tribodyn.tribology.law import FilmLaw, FrictionLaw
 
@@ -32,14 +37,21 @@ __all__ = [
     "Family",
     "FilmLaw",
     "FrictionLaw",
+    "GearPair",
     "InputError",
+    "OutputError",
     "Parameter",
+    "Run",
     "SimulationError",
     "Study",
+    "Sweep",
     "__version__",
-    "load_scenario",
-    "open_record",
+    "drive",
+    "open",
     "run",
+    "scenario",
+    "sweep",
+    "validate",
 ]
 
 # imported when asked for, so that `tribodyn --help` needs none of it
@@ -47,13 +59,20 @@ _PLACES = {
     "Family": "tribodyn.geometry.family",
     "FilmLaw": "tribodyn.tribology.law",
     "FrictionLaw": "tribodyn.tribology.law",
+    "GearPair": "tribodyn.interface.drive",
     "InputError": "tribodyn.errors",
+    "OutputError": "tribodyn.errors",
     "Parameter": "tribodyn.numerics.parameter",
+    "Run": "tribodyn.interface.run",
     "SimulationError": "tribodyn.errors",
     "Study": "tribodyn.studies.study",
-    "load_scenario": "tribodyn.studies.load",
-    "open_record": "tribodyn.record.reader",
-    "run": "tribodyn.studies.run",
+    "Sweep": "tribodyn.interface.sweep",
+    "drive": "tribodyn.interface.drive",
+    "open": "tribodyn.interface.sweep:open_result",
+    "run": "tribodyn.interface.run",
+    "scenario": "tribodyn.interface.scenario",
+    "sweep": "tribodyn.interface.sweep",
+    "validate": "tribodyn.interface.validate",
 }
 
 
@@ -62,8 +81,20 @@ def __getattr__(name: str) -> Any:
         raise AttributeError(f"module 'tribodyn' has no attribute {name!r}")
     from importlib import import_module
 
-    return getattr(import_module(_PLACES[name]), name)
+    module, _, attribute = _PLACES[name].partition(":")
+    return getattr(import_module(module), attribute or name)
 
 
 def __dir__() -> list[str]:
     return __all__
+
+
+class _Interface(ModuleType):
+    """What the module is: a folder with the name of a function, `sweep`, does not take its place."""
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not (name in _PLACES and isinstance(value, ModuleType)):
+            super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Interface

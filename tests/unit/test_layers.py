@@ -31,7 +31,8 @@ MAY_IMPORT["scenario"] = {"numerics", "geometry", "tribology", "mesh", "dynamics
 MAY_IMPORT["studies"] = set(MAY_IMPORT) - {"studies"}
 MAY_IMPORT["sweep"] = set(MAY_IMPORT) - {"sweep"}
 MAY_IMPORT["validation"] = set(MAY_IMPORT) - {"validation"}
-MAY_IMPORT["cli"] = set(MAY_IMPORT) - {"cli"}
+MAY_IMPORT["interface"] = set(MAY_IMPORT) - {"interface"}
+MAY_IMPORT["cli"] = set(MAY_IMPORT) - {"cli", "interface"}
 
 #: File formats, input and pictures, which physics knows nothing of.
 BORDERS = {"pydantic", "pint", "h5py", "matplotlib", "ezdxf", "typer", "rich", "tomllib", "tomli_w"}

@@ -3,6 +3,7 @@
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
+from contextvars import ContextVar
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,8 @@ import matplotlib
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
+
+from tribodyn.errors import InputError
 
 #: Okabe & Ito (2008), the colours that stay apart for every kind of colour vision; yellow is left out, too
 #: pale for a line on white.
@@ -76,8 +79,39 @@ def house_style() -> Iterator[None]:
         yield
 
 
+_place: ContextVar[Axes | None] = ContextVar("place", default=None)
+
+
+@contextmanager
+def in_place_of(axes: Axes) -> Iterator[None]:
+    """Draw the next figure where axes stand, which are removed from their figure.
+
+    Raises
+    ------
+    InputError
+        For axes that are in no grid, such as ``figure.add_axes(...)`` makes.
+    """
+    if axes.get_subplotspec() is None:
+        rule = "axes that stand in no grid have no room for a figure"
+        raise InputError("ax", None, rule, "make them with plt.subplots")
+    token = _place.set(axes)
+    try:
+        yield
+    finally:
+        _place.reset(token)
+
+
 def new_figure(width: float = WIDTH, height: float = PANEL_HEIGHT) -> Figure:
-    """Make an empty figure, inch, that keeps its labels apart by itself."""
+    """Make an empty figure, inch, that keeps its labels apart by itself; see `in_place_of`."""
+    axes = _place.get()
+    if axes is not None:
+        _place.set(None)
+        whole: Any = axes.figure
+        spec = axes.get_subplotspec()
+        axes.remove()
+        if whole.get_layout_engine() is None:  # without it labels would lie on each other
+            whole.set_layout_engine("constrained")
+        return whole.add_subfigure(spec)
     return Figure(figsize=(width, height), layout=ConstrainedLayoutEngine(w_pad=0.06, h_pad=0.06))
 
 

@@ -91,13 +91,13 @@ class Record:
     def _along(self) -> tuple[str, ...]:
         """The axis, and the datasets along it."""
         names = str(self.attrs["datasets"]).split() if "datasets" in self.attrs else sorted(self._file)
-        datasets = [name for name in names if self.axis in self._dims(name)[:1]]
+        datasets = [name for name in names if self.axis in self.dims_of(name)[:1]]
         return self.axis, *(name for name in datasets if name != self.axis)
 
-    def _dims(self, name: str) -> tuple[str, ...]:
+    def dims_of(self, name: str) -> tuple[str, ...]:
         """Names of a dataset's dimensions; none of a group, or of a number."""
         if name not in self._known_dims:
-            self._known_dims[name] = _dims_in(self._file, name)
+            self._known_dims[name] = dims_in(self._file, name)
         return self._known_dims[name]
 
     @cached_property
@@ -182,6 +182,11 @@ class Record:
         """Outlines and path of contact (points, 2), radii and other lengths, m."""
         return self._group("geometry")
 
+    @cached_property
+    def groups(self) -> tuple[str, ...]:
+        """Names of the groups: "mesh_cycle", "geometry", "summary", as far as there are."""
+        return tuple(name for name, item in self._file.items() if isinstance(item, h5py.Group))
+
     def _numbers(self, scale: str) -> tuple[int, ...]:
         return tuple(int(number) for number in self._file[scale][...]) if scale in self else ()
 
@@ -229,7 +234,7 @@ class Record:
         for name in str(self.attrs.get("datasets", self.axis)).split():
             if not isinstance(self._file[name], h5py.Dataset):
                 raise ValueError(f"{name} is no dataset")
-            if "" in self._dims(name):
+            if "" in self.dims_of(name):
                 raise ValueError(f"{name} lacks the scale of an axis")
         if self.samples < 0:
             raise ValueError(f"{self.samples} samples")
@@ -268,7 +273,8 @@ def open_file(path: Path) -> h5py.File:
         raise InputError("record", str(path), "not an HDF5 file", "name a file of tribodyn run") from error
 
 
-def _dims_in(file: h5py.File, name: str) -> tuple[str, ...]:
+def dims_in(file: h5py.File, name: str) -> tuple[str, ...]:
+    """Names of a dataset's dimensions; none of a group, or of a number."""
     item = file[name]
     if not isinstance(item, h5py.Dataset) or not item.shape:
         return ()

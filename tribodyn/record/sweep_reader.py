@@ -14,6 +14,7 @@ from tribodyn.record import schema
 from tribodyn.record.reader import (
     Record,
     attributes,
+    dims_in,
     harmless_data,
     harmless_texts,
     open_file,
@@ -102,6 +103,10 @@ class SweepRecord:
     def case(self, name: str, place: tuple[int, ...]) -> np.ndarray:
         """Return a dataset of the case at one place, without reading the others."""
         return self._read(name, place)
+
+    def dims_of(self, name: str) -> tuple[str, ...]:
+        """Names of a dataset's dimensions."""
+        return dims_in(self._file, name)
 
     def __contains__(self, name: object) -> bool:
         return name in self._file and isinstance(self._file[name], h5py.Dataset)

@@ -6,13 +6,15 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from tribodyn import FilmLaw, FrictionLaw, InputError, Parameter, load_scenario, open_record, run
+from tribodyn import FilmLaw, FrictionLaw, InputError, Parameter
 from tribodyn.kernels.native.identity import function_layout
 from tribodyn.numerics.elementary import exp, law, log
+from tribodyn.record.reader import open_record
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.initial import initial_state
 from tribodyn.studies.gear_pair.prepare import prepare
-from tribodyn.studies.run import with_law
+from tribodyn.studies.load import load_scenario
+from tribodyn.studies.run import run, with_law
 
 SHORT = {"solver.cycles": 1, "output.samples_per_cycle": 40, "solver.rtol": 1e-8}
 COULOMB = {"friction": {"law": "coulomb", "coefficient": 0.05, "sliding": "kinematic"}}

@@ -1,0 +1,142 @@
+"""A gear pair as an object: its teeth, path of contact, geometry sheet and stiffness."""
+
+from collections.abc import Mapping
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from tribodyn.drawing.picture import gears_in_mesh
+from tribodyn.errors import InputError
+from tribodyn.geometry.body import body_masses
+from tribodyn.geometry.checks import check
+from tribodyn.geometry.families import family
+from tribodyn.geometry.sheet import geometry_sheet
+from tribodyn.interface.scenario import in_toml
+from tribodyn.mesh.data import MeshData
+from tribodyn.mesh.quasi_static import quasi_static
+from tribodyn.mesh.tabulate import pair_slots, tabulate
+from tribodyn.studies.drive_file import load_drive
+from tribodyn.studies.gears import sheet_tables
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+class GearPair:
+    """A gear pair; `drive` makes one.
+
+    Attributes
+    ----------
+    title, family : str
+    contact_ratio : float
+        Theoretical transverse contact ratio.
+    """
+
+    def __init__(self, model: str | Path, overrides: Mapping[str, Any] | None = None) -> None:
+        changes = {str(key): in_toml(value) for key, value in (overrides or {}).items()}
+        self._model = load_drive(str(model), changes)
+        self.title, self.family = self._model.title, self._model.family
+        with self._model.origins.naming():
+            self._assembly = check(family(self.family), self._model.drive)
+        self.contact_ratio = float(self._assembly.contact_ratio)
+
+    @cached_property
+    def sheet(self) -> dict[str, Any]:
+        """The geometry sheet: name to (value, unit), of pinion and gear in dictionaries of their own."""
+        given = [(one.mass, one.inertia) for one in self._model.masses]
+        masses = body_masses(self._assembly, given, [one.density for one in self._model.materials])
+        return geometry_sheet(self._assembly, masses)
+
+    @cached_property
+    def outlines(self) -> dict[str, np.ndarray]:
+        """Closed outlines of pinion and gear, (points, 2), m, as they stand when a pair begins contact.
+
+        The origin is the pitch point; y points along the line of centres towards the pinion's.
+        """
+        mesh = gears_in_mesh(self._assembly)
+        return {"pinion": np.asarray(mesh.pinion), "gear": np.asarray(mesh.gear)}
+
+    @cached_property
+    def path(self) -> np.ndarray:
+        """The path of contact from the first to the last contact, (points, 2), m; in axes as `outlines`."""
+        return np.asarray(gears_in_mesh(self._assembly).path)
+
+    def stiffness(self, gear_torque: float | str | Any = 100.0) -> "xarray.DataArray":
+        """Mesh stiffness over a mesh cycle by the energy method, N/m: all pairs, along the pitch tangent.
+
+        Parameters
+        ----------
+        gear_torque : float, str or quantity of pint
+            Torque on the gear; a plain number is in N m.
+        """
+        import xarray as xr
+
+        from tribodyn.scenario.units import TORQUE, NotAQuantity, to_si
+
+        text = in_toml(gear_torque)
+        try:
+            torque = to_si(text, TORQUE) if isinstance(text, str) else float(text)
+        except NotAQuantity as error:
+            raise InputError("gear_torque", repr(gear_torque), error.rule, error.remedy) from None
+        slots = pair_slots(self._assembly)
+        cycle = tabulate(self._assembly, self._model.materials, MeshData("energy", 0.05), slots)
+        phase = np.asarray(cycle.phase).ravel()
+        total = np.asarray(quasi_static(cycle, torque).mesh_stiffness).ravel()
+        named = {"units": "N/m", "long_name": "mesh stiffness, all pairs"}
+        axis = ("phase", phase, {"units": "1", "long_name": "mesh phase"})
+        return xr.DataArray(total, {"phase": axis}, ("phase",), "mesh_stiffness", named)
+
+    def plot(self, ax: "Axes | None" = None) -> "Figure":
+        """Draw the pair: both gears, and the teeth in contact with their path.
+
+        Parameters
+        ----------
+        ax : matplotlib axes, optional
+            Draw where these stand, in place of them; default: a figure of its own.
+        """
+        from contextlib import nullcontext
+
+        from tribodyn.drawing.picture import pair_figure
+        from tribodyn.post.style import in_place_of
+
+        with in_place_of(ax) if ax is not None else nullcontext():
+            return pair_figure(self._assembly, self.title)
+
+    def __repr__(self) -> str:
+        return f"<tribodyn gear pair: {self.title} ({self.family}), contact ratio {self.contact_ratio:.3f}>"
+
+    def _repr_html_(self) -> str:
+        from html import escape
+
+        def row(cells: Any, tag: str) -> str:
+            return "<tr>" + "".join(f"<{tag}>{escape(cell)}</{tag}>" for cell in cells) + "</tr>"
+
+        tables = (
+            f"<h4>{escape(one.title)}</h4><table>{row(one.columns, 'th')}"
+            + "".join(row(cells, "td") for cells in one.rows)
+            + "</table>"
+            for one in sheet_tables(self.sheet)
+        )
+        return f"<p><b>{escape(self.title)}</b></p>" + "".join(tables)
+
+
+def drive(model: str | Path, overrides: Mapping[str, Any] | None = None) -> GearPair:
+    """Make a gear pair, without a load or a speed.
+
+    Parameters
+    ----------
+    model : str or Path
+        Name of a shipped drive or scenario, or a file of either sort.
+    overrides : mapping, optional
+        Dotted key to value: ``{"drive.pinion.profile_shift": 0.3}``.
+
+    Raises
+    ------
+    InputError
+        If there is none, or no such gears can be made.
+    """
+    return GearPair(model, overrides)

@@ -1,0 +1,208 @@
+"""A run as an object: its data, summary and pictures."""
+
+import shutil
+import tempfile
+import weakref
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, nullcontext
+from functools import cached_property
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from tribodyn.interface import datasets
+from tribodyn.interface.scenario import Source, scenario
+from tribodyn.record.reader import Record, open_record
+from tribodyn.studies.run import run as run_case
+from tribodyn.studies.study import Progress
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from tribodyn.tribology.law import FilmLaw, FrictionLaw
+
+
+class Run:
+    """A record of a run, and what can be asked of it; `run` and `open` make one.
+
+    Parameters
+    ----------
+    path : Path
+        The record.
+    folder : str, optional
+        A temporary folder, which goes with this object.
+
+    Attributes
+    ----------
+    path : Path
+    status : str
+        "complete"; "failed" where the simulation could not go on; "partial" of a run that was killed.
+    message : str
+        Why it is not complete.
+    summary : dict
+        Figures of the run by name, SI units; None where one is withheld.
+    scenario : dict
+        The resolved scenario.
+    """
+
+    def __init__(self, path: Path, folder: str | None = None) -> None:
+        self.path = path
+        if folder is not None:
+            weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
+        with open_record(path) as record:
+            self.kind, self.status, self.message = record.kind, record.status, record.message
+            self.summary: dict[str, Any] = record.summary
+            self.scenario: dict[str, Any] = record.scenario
+
+    @cached_property
+    def data(self) -> "xarray.Dataset":
+        """Everything that was sampled, with dimensions and units; SI."""
+        with open_record(self.path) as record:
+            return datasets.of_run(record)
+
+    @cached_property
+    def mesh_cycle(self) -> dict[str, Any]:
+        """The table over a mesh cycle that the run was made from, by name; empty where there is none."""
+        with open_record(self.path) as record:
+            return record.mesh_cycle if "mesh_cycle" in record.groups else {}
+
+    @property
+    def plots(self) -> tuple[str, ...]:
+        """Names that `plot` takes."""
+        from tribodyn.studies.pictures import OVERVIEW, names
+
+        with open_record(self.path) as record:
+            return (OVERVIEW, *names([record]))
+
+    def plot(
+        self,
+        name: str = "overview",
+        *others: "Run",
+        ax: "Axes | None" = None,
+        cycles: int | None = 2,
+        against: str = "phase",
+    ) -> "Figure":
+        """Draw one figure.
+
+        Parameters
+        ----------
+        name : str
+            One of `plots`.
+        *others : Run
+            Runs to compare with, of the same kind.
+        ax : matplotlib axes, optional
+            Draw where these stand, in place of them; default: a figure of its own.
+        cycles : int or None
+            How many of the last mesh cycles to show; None: the whole run.
+        against : {"phase", "time"}
+            Mesh cycles, or milliseconds.
+
+        Returns
+        -------
+        Figure
+            Of matplotlib, or the part of one that took the place of `ax`.
+
+        Raises
+        ------
+        InputError
+            For an unknown name, and runs that cannot be compared.
+        """
+        from tribodyn.post.style import in_place_of
+        from tribodyn.studies.pictures import figure
+
+        with records_of([self, *others]) as records, in_place_of(ax) if ax is not None else nullcontext():
+            return figure(name, records, cycles=cycles, against=against)
+
+    def save(self, path: str | Path, *, force: bool = False) -> Path:
+        """Copy the record to a file.
+
+        Raises
+        ------
+        InputError
+            If there is one already, without `force`.
+        """
+        from tribodyn.record.writer import check_target
+
+        target = Path(path)
+        check_target(target, force)
+        return Path(shutil.copyfile(self.path, target))
+
+    def __repr__(self) -> str:
+        title = self.scenario.get("title", self.path.stem)
+        state = self.status if not self.message else f"{self.status}: {self.message}"
+        return f"<tribodyn run: {title} [{state}], {self.path}>"
+
+    def _repr_html_(self) -> str:
+        """The summary as a table, for notebooks."""
+        from io import StringIO
+
+        from rich.console import Console
+
+        from tribodyn.studies.pictures import summary_table
+
+        with open_record(self.path) as record:
+            text = StringIO()
+            Console(file=text, width=110).print(summary_table(record))
+        return f"<pre>{escape(text.getvalue())}</pre>"
+
+
+@contextmanager
+def records_of(runs: "list[Run]") -> Iterator[list[Record]]:
+    """The records of runs, open."""
+    from contextlib import ExitStack
+
+    with ExitStack() as stack:
+        yield [stack.enter_context(open_record(one.path)) for one in runs]
+
+
+def run(
+    source: Source,
+    overrides: Mapping[str, Any] | None = None,
+    *,
+    output: str | Path | None = None,
+    force: bool = False,
+    film: "FilmLaw | None" = None,
+    friction: "FrictionLaw | None" = None,
+    progress: Progress | None = None,
+) -> Run:
+    """Run a scenario.
+
+    Parameters
+    ----------
+    source, overrides
+        As `scenario` takes them.
+    output : path, optional
+        Keep the record in this file; default: in a temporary folder, as long as the result is in use.
+    force : bool
+        Replace a record of that name.
+    film, friction : FilmLaw, FrictionLaw, optional
+        Take the place of the scenario's laws.
+    progress : callable, optional
+        Called with the share done, 0 … 1.
+
+    Returns
+    -------
+    Run
+        Its `status` is "failed", and `message` says why, where the simulation could not go on; what was
+        computed until then is there.
+
+    Raises
+    ------
+    InputError
+        Before anything is computed.
+    OutputError
+        If the record cannot be written.
+    """
+    case = scenario(source, overrides)
+    laws = {"film": film, "friction": friction}
+    if output is not None:
+        return Run(run_case(case, output, force=force, progress=progress, **laws).path)
+    folder = tempfile.mkdtemp(prefix="tribodyn-")
+    try:
+        done = run_case(case, Path(folder) / f"{case.name}.h5", progress=progress, **laws)
+        return Run(done.path, folder)
+    except BaseException:
+        shutil.rmtree(folder, ignore_errors=True)
+        raise

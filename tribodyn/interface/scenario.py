@@ -1,0 +1,83 @@
+"""Scenarios from whatever Python has: a name, a path, a nested dictionary, a case; NumPy and pint values."""
+
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from tribodyn.errors import InputError
+from tribodyn.scenario.resolve import resolve_table
+from tribodyn.studies.load import load_scenario, loaded_from, table_of
+from tribodyn.studies.study import CaseHead
+
+Source = str | Path | Mapping[str, Any] | CaseHead
+"""What names or describes a scenario."""
+
+#: Stands for the file in messages on a scenario that is in none; names in it are looked for from here.
+_FILE = Path("scenario")
+
+
+def scenario(source: Source, overrides: Mapping[str, Any] | None = None) -> Any:
+    """Make a case, which `run` and `sweep` take.
+
+    Parameters
+    ----------
+    source : str, Path, mapping or case
+        Name of a shipped scenario, path of a scenario file, its tables as nested dictionaries, or a case.
+    overrides : mapping, optional
+        Dotted key to value: ``{"operating.gear_torque": "600 N*m"}``.
+
+    Returns
+    -------
+    case
+        With all that the scenario says; ``case.toml`` is its text.
+
+    Raises
+    ------
+    InputError
+        Anything that is wrong with it; `InputErrors`, one per line, where there is more than one mistake.
+
+    Notes
+    -----
+    A value with a unit is a text, ``"3 mm"``, or a quantity of pint. NumPy numbers and arrays are taken as
+    Python's numbers and lists.
+    """
+    changes = {str(key): in_toml(value) for key, value in (overrides or {}).items()}
+    if isinstance(source, (str, Path)):
+        return load_scenario(source, changes)
+    if isinstance(source, CaseHead):
+        if not changes:
+            return source
+        written = tomllib.loads(source.toml)
+    elif isinstance(source, Mapping):
+        written = in_toml(source)
+    else:
+        rule = f"a name, a path, a mapping or a case is due, not a {type(source).__name__}"
+        raise InputError("scenario", None, rule, 'give the name of a scenario: "crc-23-47"')
+    return loaded_from(resolve_table(written, _FILE, changes, table_of), _FILE).case
+
+
+def in_toml(value: Any) -> Any:
+    """A value as a scenario file would hold it."""
+    if isinstance(value, Mapping):
+        return {str(key): in_toml(item) for key, item in value.items() if item is not None}
+    if hasattr(value, "magnitude") and hasattr(value, "units"):
+        return with_unit(value.magnitude, str(value.units))
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    if isinstance(value, np.generic):
+        return value.item()
+    if isinstance(value, (list, tuple)):
+        return [in_toml(item) for item in value]
+    return str(value) if isinstance(value, Path) else value
+
+
+def with_unit(magnitude: Any, unit: str) -> Any:
+    """A number, or all numbers of an array, with a unit; plain numbers where there is none."""
+    if unit in ("", "dimensionless"):
+        return np.asarray(magnitude).tolist()
+    if np.ndim(magnitude):
+        return [f"{float(one)!r} {unit}" for one in np.ravel(magnitude)]
+    return f"{float(magnitude)!r} {unit}"

@@ -1,0 +1,175 @@
+"""Sweeps from Python: a scenario over a grid of its keys, as an xarray dataset."""
+
+import tempfile
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from tribodyn.errors import InputError
+from tribodyn.interface import datasets
+from tribodyn.interface.run import Run
+from tribodyn.interface.scenario import Source, in_toml, scenario
+from tribodyn.record.sweep_reader import SweepRecord, is_sweep
+from tribodyn.record.sweep_schema import DIRECTIONS
+from tribodyn.sweep.engines import engine_of
+from tribodyn.sweep.grid import Grid
+from tribodyn.sweep.run import run, settings_of
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.figure import Figure
+
+Values = str | Sequence[Any] | np.ndarray | Any
+"""Values of a varied key: "1000:6000:100rpm", a list of texts, a quantity of pint, plain numbers."""
+
+
+class Sweep:
+    """The record of a sweep, and what can be asked of it; `open` makes one.
+
+    Attributes
+    ----------
+    path : Path
+    status, message : str
+        As of a `Run`.
+    summary : dict
+        Cases, those that failed, wall time.
+    """
+
+    def __init__(self, path: str | Path) -> None:
+        self.path = Path(path)
+        with SweepRecord(self.path) as record:
+            self.status, self.message = record.status, record.message
+            self.summary: dict[str, Any] = record.summary
+            self.scenario: dict[str, Any] = record.scenario
+            self.data: xarray.Dataset = datasets.of_sweep(record)
+
+    @property
+    def plots(self) -> tuple[str, ...]:
+        """Names that `plot` takes."""
+        from tribodyn.studies.pictures import sweep_names
+
+        with SweepRecord(self.path) as record:
+            return sweep_names([record])
+
+    def plot(self, name: str = "overview", **at: float | str) -> "Figure":
+        """Draw one figure.
+
+        Parameters
+        ----------
+        name : str
+            One of `plots`; "overview" is the first of them.
+        **at : float or str
+            Parameter to value in SI, for a figure of one case.
+        """
+        from tribodyn.studies.pictures import sweep_figure
+
+        with SweepRecord(self.path) as record:
+            return sweep_figure(name, [record], at)
+
+    def __repr__(self) -> str:
+        return f"<tribodyn sweep: {self.scenario.get('title', self.path.stem)} [{self.status}], {self.path}>"
+
+    def _repr_html_(self) -> str:
+        return self.data._repr_html_()
+
+
+def sweep(
+    source: Source,
+    vary: Mapping[str, Values],
+    overrides: Mapping[str, Any] | None = None,
+    *,
+    transient: int | None = None,
+    direction: Literal["up", "down", "both"] | None = None,
+    engine: Literal["native", "jax", "dask"] = "native",
+    workers: int | None = None,
+    scheduler: str | None = None,
+    output: str | Path | None = None,
+    force: bool = False,
+    resume: bool = False,
+    progress: Any = None,
+) -> "xarray.Dataset":
+    """Evaluate a scenario over a grid of its keys.
+
+    Parameters
+    ----------
+    source, overrides
+        As `scenario` takes them.
+    vary : mapping
+        Dotted key to its values, see `Values`; several keys span a grid, the last running fastest.
+    transient : int, optional
+        March so many mesh cycles; default: seek the periodic steady state of each case.
+    direction : {"up", "down", "both"}, optional
+        Follow the first key, each case from its neighbour's state: shows jumps.
+    engine, workers, scheduler
+        Where the cases are evaluated: compiled on all cores, by JAX on its device, by Dask.
+    output, force, resume
+        Keep the record in a file, replace one, go on with an unfinished one; default: nothing is kept.
+    progress : callable, optional
+        Called with the share done, 0 … 1.
+
+    Returns
+    -------
+    xarray.Dataset
+        Figures over the grid, SI; NaN, with the reason in "message", where a case failed.
+
+    Raises
+    ------
+    InputError
+        Before anything is computed.
+    """
+    if direction not in (None, *DIRECTIONS, "both"):
+        raise InputError("direction", f'"{direction}"', "no such direction", 'one of "up", "down", "both"')
+    chosen = DIRECTIONS if direction == "both" else (direction,) if direction else ()
+    with tempfile.TemporaryDirectory(prefix="tribodyn-") as folder:
+        grid = _grid(source, vary, overrides, Path(folder))
+        record = Path(output) if output is not None else Path(folder) / "sweep.h5"
+        with engine_of(engine, workers, scheduler) as evaluator:
+            done = run(
+                grid,
+                settings_of(grid, transient, engine),
+                evaluator,
+                record,
+                directions=chosen,
+                force=force,
+                resume=resume,
+                follow=(lambda count, total: progress(count / total)) if progress else None,
+            )
+        with SweepRecord(done.path) as written:
+            return datasets.of_sweep(written).load()
+
+
+def open_result(path: str | Path) -> Run | Sweep:
+    """Open the record of a run or of a sweep.
+
+    Raises
+    ------
+    InputError
+        If there is none, or it is damaged.
+    """
+    return Sweep(path) if is_sweep(path) else Run(Path(path))
+
+
+def _grid(
+    source: Source, vary: Mapping[str, Values], overrides: Mapping[str, Any] | None, folder: Path
+) -> Grid:
+    changes = {str(key): in_toml(value) for key, value in (overrides or {}).items()}
+    options = [f"{key}={_values(key, values)}" for key, values in vary.items()]
+    if isinstance(source, (str, Path)):
+        return Grid(str(source), options, changes)
+    case = scenario(source)  # with everything written out: no file of its own is needed
+    file = folder / f"{case.name}.toml"
+    file.write_text(case.toml, encoding="utf-8")
+    return Grid(str(file), options, changes)
+
+
+def _values(key: str, values: Values) -> str:
+    """Values as the command line takes them."""
+    if isinstance(values, str):
+        return values
+    texts = in_toml(values)
+    if not isinstance(texts, list) or not texts:
+        rule = "a list, an array or a text of values is due"
+        raise InputError(key, repr(values), rule, 'such as "1000:6000:100rpm" or ["1000 rpm", "2000 rpm"]')
+    return ",".join(one if isinstance(one, str) else repr(one) for one in texts)
