@@ -9,6 +9,7 @@ from rich.console import Group
 from rich.table import Table
 from rich.text import Text
 
+from tribodyn.record import trust
 from tribodyn.record.reader import Record
 from tribodyn.record.withheld import reasons, warnings
 
@@ -42,6 +43,8 @@ def summary_table(record: Record, lines: Lines, sentences: Sequence[str]) -> Gro
     parts: list[Any] = [title]
     if record.status != "complete":
         parts.append(Text(f"{record.status}: {record.message}", style="bold red"))
+    if record.trust == trust.OUTSIDE:
+        parts.append(Text(f"{trust.OUTSIDE}: not to be trusted, see below", style="bold red"))
     table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2, 0, 0))
     table.add_column(no_wrap=True)
     table.add_column(justify="right")
@@ -151,6 +154,8 @@ def as_json(record: Record) -> dict[str, Any]:
         "title": record.scenario.get("title", ""),
         "status": record.status,
         "message": record.message,
+        "trust": record.trust,
+        "trust_reasons": trust.reasons(record.summary),
         **{name: record.attrs[name] for name in head},
         "samples": record.samples,
         **({"elements": len(record.elements)} if record.elements else {"pairs": list(record.pairs)}),

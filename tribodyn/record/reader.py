@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 
 from tribodyn.errors import InputError, harmless
-from tribodyn.record import schema
+from tribodyn.record import schema, trust
 from tribodyn.record.layout import counted
 from tribodyn.record.soundness import UNREADABLE, check_sound
 from tribodyn.record.sweep_schema import SWEEP
@@ -122,6 +122,11 @@ class Record:
     def message(self) -> str:
         """Why the record is not complete."""
         return str(self.attrs["message"])
+
+    @property
+    def trust(self) -> str:
+        """Whether the result lies within its model, see `record.trust`; "" where nothing was judged."""
+        return trust.verdict(self.summary)
 
     @cached_property
     def attrs(self) -> dict[str, Any]:

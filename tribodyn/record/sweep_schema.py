@@ -6,6 +6,7 @@ from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from tribodyn.numerics.variable import Variable, flag
+from tribodyn.record.trust import NOT_JUDGED, TRUST
 
 SWEEP = "sweep"
 
@@ -29,6 +30,12 @@ FIRST_PARAMETER = "first parameter"
 
 #: What every sweep records of a case. `status` is written last: what it calls done is there.
 OF_EVERY_SWEEP: dict[str, Variable] = {
+    TRUST: flag(
+        (),
+        "whether the result lies within its model: 1 inside, 0 outside, -1 not judged",
+        "not_judged outside_the_model inside_the_model",
+        NOT_JUDGED,
+    ),
     "message": Variable((), "1", "why a case failed, or a remark on its result", f"S{MESSAGE}", b""),
     "status": flag((), "state of the case: 0 waiting, 1 done, 2 failed", "waiting done failed", WAITING),
 }

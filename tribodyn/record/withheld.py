@@ -11,6 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.record import trust
+
 #: Figures and datasets of this name, and those whose names begin with it and an underscore, are efficiencies.
 EFFICIENCY = "efficiency"
 #: Added to a figure's name: why it is withheld.
@@ -86,7 +88,16 @@ def cases_withheld(block: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def warnings(summary: Mapping[str, Any]) -> list[str]:
-    """What to warn of: what the study says under `warning`, and figures that are withheld."""
+    """What to warn of: what lies outside the model, what the study says, and figures that are withheld."""
+    return [f"{trust.OUTSIDE}: {why}" for why in trust.reasons(summary)] + _said(summary)
+
+
+def remarks(summary: Mapping[str, Any]) -> list[str]:
+    """The same for one of many cases: without values, so that equal ones can be counted."""
+    return [one for one in (trust.brief(summary), *_said(summary)) if one]
+
+
+def _said(summary: Mapping[str, Any]) -> list[str]:
     said = [str(summary["warning"])] if summary.get("warning") else []
     by_reason: dict[str, list[str]] = {}
     for name, why in reasons(summary).items():

@@ -20,7 +20,7 @@ import numpy as np
 
 from tribodyn.errors import NO_ROOM, InputError, OutputError
 from tribodyn.numerics.cache import replacing
-from tribodyn.record import disk
+from tribodyn.record import disk, trust
 from tribodyn.record import layout as file_layout
 from tribodyn.record.schema import COMPLETE, FAILED, FORMAT, STATUS_NOTES, Layout, partial_path
 from tribodyn.record.soundness import remember_own
@@ -316,6 +316,8 @@ def conclude(status: str, message: str, summary: Mapping[str, Any], file: h5py.F
     file_layout.write_summary(file, summary)
     file.attrs["status"] = status
     file.attrs["message"] = message
+    for name, text in trust.attributes(summary).items():
+        file.attrs[name] = text
 
 
 def _copy(source: BinaryIO, start: int, target: BinaryIO, offset: int, size: int) -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from tribodyn.numerics.registry import cannot_be_loaded
+from tribodyn.record import trust
 from tribodyn.record.withheld import withheld
 
 if TYPE_CHECKING:
@@ -59,6 +60,16 @@ class RunResult(NamedTuple):
     status: str
     message: str
     summary: dict[str, Any]
+
+    @property
+    def trust(self) -> str:
+        """Whether the result lies within its model: "inside the model", "outside the model", or ""."""
+        return trust.verdict(self.summary)
+
+    @property
+    def reasons(self) -> list[str]:
+        """What lies outside the model, in words; the numbers are in ``summary["trust_reasons"]``."""
+        return trust.reasons(self.summary)
 
 
 class TextTable(NamedTuple):

@@ -7,7 +7,8 @@ import numpy as np
 
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.record.sweep_schema import DONE, FAILED, SweepLayout
-from tribodyn.record.withheld import remarked, warned, warnings
+from tribodyn.record.trust import TRUST, number
+from tribodyn.record.withheld import remarked, remarks, warned
 from tribodyn.studies.batch import Chunk
 from tribodyn.studies.study import Study
 
@@ -84,6 +85,7 @@ class ByFigures:
             for name in layout.figures:
                 if figures.get(name) is not None:
                     rows[name][i] = figures[name]
-            rows["message"][i] = remarked(*map(warned, warnings(figures)))
+            rows["message"][i] = remarked(*map(warned, remarks(figures)))
+            rows[TRUST][i] = number(figures)
             rows["status"][i] = DONE
         return rows

@@ -21,6 +21,7 @@ from tribodyn.geometry.path import Path as PathOfContact
 from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.cycle import MeshCycle, as_arrays
 from tribodyn.mesh.power_flow import driving_gear, efficiency, power_put_in
+from tribodyn.record.trust import Judge
 from tribodyn.studies.efficiency.along_path import CycleEfficiency, Duty, Engagement, cycle_efficiency, engage
 from tribodyn.studies.efficiency.case import EfficiencyCase
 from tribodyn.studies.efficiency.loss_factor import exact, hoehn, tip_contact_ratios
@@ -189,6 +190,7 @@ def _figures(study: Prepared, over: Samples, mesh: Places, state: Engagement) ->
         return float(np.min(values[loaded]))
 
     return {
+        **_judged(study, mesh, state, means.efficiency),
         "contact_ratio": float(cycle.contact_ratio),
         **_effective_contact_ratio(mesh, state, duty),
         "load_sharing": duty.sharing,
@@ -212,6 +214,20 @@ def _figures(study: Prepared, over: Samples, mesh: Places, state: Engagement) ->
         "averaging_cycles": 1,
         **efficiencies(study, {duty.sharing: means}),
     }
+
+
+def _judged(study: Prepared, mesh: Places, state: Engagement, efficiency: float) -> dict[str, Any]:
+    """Whether the study lies within its model, see `record.trust`."""
+    quantities = {
+        "deflection": state.normal_load * mesh.cycle.compliance[:, 0] / study.case.drive.module,
+        "friction_coefficient": state.friction_coefficient,
+        "hertz_pressure": state.hertz_pressure,
+    }
+    loaded = state.normal_load > 0
+    judge = Judge()
+    judge.take({name: np.where(loaded, values, np.nan) for name, values in quantities.items()})
+    judge.take({"efficiency": efficiency})
+    return judge.figures()
 
 
 def _record_arrays(over: Samples, mesh: Places, state: Engagement, duty: Duty) -> dict[str, Any]:

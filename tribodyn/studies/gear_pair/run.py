@@ -11,13 +11,15 @@ from tribodyn.dynamics.recorded import scales_of
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.outlines import geometry_arrays
 from tribodyn.mesh.by_compliance import compliance_remark
-from tribodyn.mesh.cycle import MeshCycle, as_arrays
+from tribodyn.mesh.cycle import as_arrays
 from tribodyn.mesh.stiffness import single_pair
+from tribodyn.record.trust import Judge
 from tribodyn.solve.choice import choose
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.transient import SampledStates, Stop, TransientSettings, transient
+from tribodyn.studies.gear_pair.assumptions import judge_balance, judge_block
 from tribodyn.studies.gear_pair.case import Case
-from tribodyn.studies.gear_pair.prepare import prepare
+from tribodyn.studies.gear_pair.prepare import Prepared, prepare
 from tribodyn.studies.gear_pair.summary import RunningExtremes, energy_residual, steady_figures, warning_of
 from tribodyn.studies.gears import LAYOUT
 from tribodyn.studies.recording import target, writer
@@ -71,7 +73,7 @@ def run(
         settings = TransientSettings(
             choice.method, case.solver.rtol, cycles, case.solver.max_steps, samples, window, extremes=True
         )
-        statistics = RunStatistics(window, cycles, cycle)
+        statistics = RunStatistics(window, cycles, prepared)
         stop = Stop(state, 0.0, 0, 0, "", 0.0)
         for part in transient(model, state, settings):
             if isinstance(part, Stop):
@@ -89,7 +91,9 @@ def run(
             "simulated_time": stop.time,
             "cycles_done": stop.reached,
         }
+        judge_balance(statistics.judge, summary, case.solver.rtol)
         if stop.reason:
+            summary |= statistics.judge.figures()
             message = str(SimulationError(stop.reason, stop.time))
             return RunResult(record.fail(message, summary), "failed", message, summary)
         summary |= steady_figures(
@@ -101,20 +105,24 @@ def run(
             statistics.in_window,
         )
         summary["warning"] = warning_of(summary["friction_work_on_vibration"], case.friction.sliding)
+        statistics.judge.take({"efficiency": summary["efficiency"]})
+        summary |= statistics.judge.figures()
         return RunResult(record.finish(summary), "complete", "", summary)
 
 
 class RunStatistics:
     """What the summary needs of a run that arrives in blocks: extremes, both ends, the last cycles."""
 
-    def __init__(self, cycles: int, total: int, cycle: MeshCycle):
+    def __init__(self, cycles: int, total: int, prepared: Prepared):
         self.start = total - cycles
         self.stop = total
         self.written = 0
-        self.extremes, self.in_window = RunningExtremes(cycle), RunningExtremes(cycle)
+        self.prepared = prepared
+        self.extremes, self.in_window = RunningExtremes(prepared.cycle), RunningExtremes(prepared.cycle)
         self.blocks: list[dict[str, np.ndarray]] = []
         self.ends: list[tuple[np.ndarray, float]] = []
         self.window_start = np.empty(0)
+        self.judge = Judge()
 
     def add(
         self,
@@ -127,6 +135,8 @@ class RunStatistics:
         self.written += len(part.cycles)
         self.extremes.add(part.cycles, block)
         self.extremes.add(at, extreme)
+        judge_block(self.judge, part.cycles, block, self.prepared)
+        judge_block(self.judge, at, extreme, self.prepared, between_samples=True)
         if not self.ends:
             self.ends.append((part.states[0], block["stored_energy"][0]))
         self.ends[1:] = [(part.states[-1], block["stored_energy"][-1])]

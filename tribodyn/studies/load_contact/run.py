@@ -14,6 +14,7 @@ from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.families import family
 from tribodyn.geometry.outlines import geometry_arrays
 from tribodyn.numerics.shapes import Array, Float, Int
+from tribodyn.record.trust import Judge
 from tribodyn.studies.load_contact.case import LoadContactCase
 from tribodyn.studies.load_contact.layout import BODIES, LAYOUT
 from tribodyn.studies.recording import target, writer
@@ -179,7 +180,17 @@ def loaded_figures(study: Prepared, loaded: LoadedContact) -> dict[str, Any]:
         "torque_residual": float(np.max(np.abs(torque_residual(study, loaded)))),
         "gear_torque": study.case.gear_torque,
         "slices": study.case.slices,
+        **_judged(study, loaded),
     }
+
+
+def _judged(study: Prepared, loaded: LoadedContact) -> dict[str, Any]:
+    """Whether the contact lies within its model, see `record.trust`; the load deflects all pairs alike."""
+    judge = Judge()
+    places, pairs = {"phase": loaded.phase - loaded.phase[0]}, pair_numbers(study, loaded).tolist()
+    bent = np.abs(loaded.deflection - loaded.unloaded) / study.case.drive.module
+    judge.take({"deflection": bent, "hertz_pressure": loaded.pressure}, places, pairs)
+    return judge.figures()
 
 
 def single_pair_stiffness(study: Prepared) -> float:

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.errors import InputError
+from tribodyn.record.trust import Judge
 from tribodyn.studies.recording import target, writer
 from tribodyn.studies.rolling.case import RollingCase
 from tribodyn.studies.rolling.checks import check
@@ -185,7 +186,11 @@ class RunStatistics:
         by_energy = mean["power_out"] / mean["power_in"]
         torque = np.concatenate(self.power_out) * case.drive.ratio / case.input_speed
         published = case.mode == "as_published"
+        efficiency = float(self.efficiency[0][0]) if published else by_energy
+        judge = Judge()
+        judge.take({"efficiency": efficiency})
         return {
+            **judge.figures(),
             "mode": case.mode,
             "ratio": case.drive.ratio,
             "eccentricity": case.drive.eccentricity,
@@ -201,7 +206,7 @@ class RunStatistics:
             "power_friction_mean": mean["power_friction"],
             "power_cam_mean": mean["power_cam"],
             "power_crown_mean": mean["power_crown"],
-            "efficiency": float(self.efficiency[0][0]) if published else by_energy,
+            "efficiency": efficiency,
             "efficiency_by_energy": by_energy,
             "energy_residual": (mean["power_in"] - mean["power_out"] - mean["power_friction"])
             / mean["power_in"],

@@ -16,7 +16,8 @@ from tribodyn.dynamics.modes import natural_frequencies
 from tribodyn.dynamics.parameters import XI, XI_RATE, frictionless
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.record.sweep_schema import DONE, FAILED
-from tribodyn.record.withheld import remarked, warned
+from tribodyn.record.trust import TRUST, number
+from tribodyn.record.withheld import remarked, remarks, warned
 from tribodyn.solve.initial import initial_state, static_equilibrium
 from tribodyn.studies.batch import Chunk, Way
 from tribodyn.studies.ends import fill_ends
@@ -159,12 +160,13 @@ def _fill(
     if outcome.passage is None:
         rows["status"][i] = FAILED
         return
-    figures = window_figures(prepared, outcome.passage, settings.samples)
+    figures, judged = window_figures(prepared, outcome.passage, settings.samples)
     for name, value in figures.items():
         rows[name][i] = value
     warning = warning_of(figures["friction_work_on_vibration"], prepared.case.friction.sliding)
-    if warning:
-        rows["message"][i] = remarked(rows["message"][i], warned(warning))
+    said = remarks(judged | {"warning": warning})
+    rows["message"][i] = remarked(rows["message"][i], *map(warned, said))
+    rows[TRUST][i] = number(judged)
     error = outcome.passage.window[:, XI]
     room = settings.window * settings.samples
     whole = room if outcome.period == 0 else room // error.size * error.size

@@ -1,17 +1,31 @@
 """The figures of one case, from its states in the window."""
 
+from typing import Any
+
 import numpy as np
 
 from tribodyn.dynamics.outputs import outputs_with_extremes
 from tribodyn.dynamics.parameters import XI
+from tribodyn.record.trust import Judge
+from tribodyn.studies.gear_pair.assumptions import judge_block
 from tribodyn.studies.gear_pair.batch.outcome import Passage
 from tribodyn.studies.gear_pair.prepare import Prepared
 from tribodyn.studies.gear_pair.summary import RunningExtremes, steady_figures
 from tribodyn.studies.gear_pair.sweep_layout import FIGURES
 
 
-def window_figures(prepared: Prepared, passage: Passage, samples: int) -> dict[str, float]:
-    """Return the figures of `sweep_layout.FIGURES` over a window with `samples` per mesh cycle, SI units."""
+def window_figures(
+    prepared: Prepared, passage: Passage, samples: int
+) -> tuple[dict[str, float], dict[str, Any]]:
+    """Return the figures of `sweep_layout.FIGURES` over a window, SI units, and what is said of their trust.
+
+    Parameters
+    ----------
+    prepared : Prepared
+    passage : Passage
+    samples : int
+        Per mesh cycle of the window.
+    """
     cycles = passage.first_cycle + np.arange(len(passage.window)) / samples
     block, extreme, at = outputs_with_extremes(cycles, passage.window, passage.extremes, prepared.model)
     extremes = RunningExtremes(prepared.cycle)
@@ -27,4 +41,9 @@ def window_figures(prepared: Prepared, passage: Passage, samples: int) -> dict[s
         "transmission_error_peak_to_peak": figures["transmission_error_rotational_peak_to_peak"],
         "transmission_error_mean": float(np.mean(error)),
     }
-    return {name: float("nan") if (value := figures.get(name)) is None else value for name in FIGURES}
+    judge = Judge()
+    judge_block(judge, cycles, block, prepared)
+    judge_block(judge, at, extreme, prepared, between_samples=True)
+    judge.take({"efficiency": figures["efficiency"]})
+    named = {name: float("nan") if (value := figures.get(name)) is None else value for name in FIGURES}
+    return named, judge.figures()

@@ -1,0 +1,222 @@
+"""Results outside their model are complete and marked: in the record, and in all that is shown of it."""
+
+import json
+import re
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+from rich.console import Console
+from typer.testing import CliRunner
+
+from tests.support.record_samples import block, gear_pair_writer, geometry
+from tribodyn.cli.app import app
+from tribodyn.post.report import as_json
+from tribodyn.record.reader import open_record
+from tribodyn.record.sweep_reader import SweepRecord
+from tribodyn.record.sweep_schema import DONE, SweepLayout
+from tribodyn.record.sweep_writer import ParameterScale, SweepHead, SweepWriter
+from tribodyn.record.trust import INSIDE, OUTSIDE, RULES, Judge, attributes, brief, number, reasons, verdict
+from tribodyn.record.withheld import remarked, remarks, warned, warnings
+from tribodyn.studies.batch import Chunk
+from tribodyn.studies.efficiency.report import SWEPT
+from tribodyn.studies.load import load_scenario
+from tribodyn.studies.pictures import summary_table, sweep_table
+from tribodyn.studies.run import run
+from tribodyn.sweep.grid import Grid
+from tribodyn.sweep.run import settings_of
+
+DOCS = Path(__file__).parents[3] / "docs"
+
+
+def printed(table) -> str:
+    console = Console(width=200, no_color=True)
+    with console.capture() as capture:
+        console.print(table)
+    return capture.get()
+
+
+def judged(**quantities):
+    judge = Judge()
+    judge.take(quantities)
+    return judge.figures()
+
+
+@pytest.mark.parametrize("name", RULES)
+def test_every_limit_is_a_limit(name):
+    """A little below it the result is inside, a little above outside, with value, limit and unit."""
+    rule = RULES[name]
+    assert judged(**{name: rule.most * (1 - 1e-6)}) == {"trust": INSIDE}
+    assert judged(**{name: np.full(5, rule.most)}) == {"trust": INSIDE}
+    figures = judged(**{name: rule.most * 1.01})
+    assert figures["trust"] == OUTSIDE
+    reason = figures["trust_reasons"][name]
+    assert (reason["value"], reason["limit"], reason["units"]) == (rule.most * 1.01, rule.most, rule.units)
+    assert reason["share"] is None
+    (said,) = reasons(figures)
+    assert said.startswith(rule.label)
+    assert "at most" in said
+    assert rule.label in brief(figures)
+
+
+def test_an_efficiency_below_zero_and_one_above_one():
+    assert judged(efficiency=[0.0, 1.0, 0.5, np.nan]) == {"trust": INSIDE}
+    below = judged(efficiency=-0.2)
+    assert "at least" in reasons(below)[0]
+    assert "below" in brief(below)
+    assert "efficiency 106 %, at most 100 %" in reasons(judged(efficiency=1.06))[0]
+
+
+def test_share_and_place_of_the_worst_value():
+    """Shares count samples in which any pair is outside; values between samples count in none."""
+    judge = Judge()
+    pressure = np.full((10, 2), 1e9)
+    pressure[3, 1], pressure[4, 0], pressure[7, 1] = 5e9, 4.5e9, np.nan
+    cycles = np.linspace(0.0, 0.9, 10)
+    judge.take({"hertz_pressure": pressure}, {"mesh_cycle": cycles, "time": 2 * cycles}, [0, 1])
+    judge.take({"hertz_pressure": pressure * 0.5}, {"mesh_cycle": 1 + cycles, "time": 2 + 2 * cycles}, [0, 1])
+    reason = judge.figures()["trust_reasons"]["hertz_pressure"]
+    assert reason["share"] == pytest.approx(2 / 20)
+    assert (reason["value"], reason["pair"]) == (5e9, 1)
+    assert (reason["mesh_cycle"], reason["time"]) == pytest.approx((0.3, 0.6))
+    judge.take({"hertz_pressure": [[6e9, 0.0]]}, {"mesh_cycle": [5.25]}, [0, 1], between_samples=True)
+    figures = judge.figures()
+    again = figures["trust_reasons"]["hertz_pressure"]
+    assert again["share"] == reason["share"]
+    assert (again["value"], again["pair"], again["mesh_cycle"]) == (6e9, 0, 5.25)
+    (said,) = reasons(figures)
+    assert said == (
+        "Hertz pressure 6 GPa, at most 4 GPa, outside in 10 % of the samples, worst mesh cycle 5.25, pair 0"
+    )
+
+
+def test_nothing_is_outside_where_nothing_is_known():
+    assert judged() == {}
+    assert judged(friction_coefficient=np.full((3, 2), np.nan))["trust"] == INSIDE
+    assert judged(hertz_pressure=np.inf)["trust"] == OUTSIDE
+    assert (verdict({}), number({}), attributes({}), warnings({})) == ("", -1, {}, [])
+    assert (number({"trust": INSIDE}), number({"trust": OUTSIDE})) == (1, 0)
+    # a record from a stranger
+    for odd in (
+        {"trust": "x"},
+        {"trust": OUTSIDE},
+        {"trust": OUTSIDE, "trust_reasons": {"x": 1, "efficiency": {}}},
+    ):
+        assert reasons(odd) == []
+
+
+@pytest.fixture
+def outside():
+    """Figures of a run with two reasons."""
+    figures = judged(deflection=np.array([[0.01, 0.2], [0.05, 0.3]]), efficiency=1.0597)
+    return figures | {"efficiency": 1.0597, "mesh_frequency": 3.0}
+
+
+def test_the_record_says_so(tmp_path, outside):
+    with gear_pair_writer(tmp_path / "run.h5", 9, outlines=geometry()) as writer:
+        writer.write(0, block(0, 9))
+        writer.finish(outside)
+    with h5py.File(tmp_path / "run.h5") as file:
+        assert file.attrs["status"] == "complete"
+        assert file.attrs["trust"] == OUTSIDE
+        assert "deflection" in str(file.attrs["trust_reasons"])
+        assert file["summary"].attrs["trust_reasons/deflection/value"] == 0.3
+        assert file["summary"].attrs["trust_reasons/deflection/share"] == 1.0
+    with open_record(tmp_path / "run.h5") as record:
+        assert record.trust == OUTSIDE
+        text = printed(summary_table(record))
+        found = json.loads(json.dumps(as_json(record), allow_nan=False))
+    assert text.splitlines()[1].startswith(f"{OUTSIDE}: not to be trusted")
+    assert (
+        "Warning: outside the model: deflection of a pair of teeth over the module 30 %, at most 10 %" in text
+    )
+    assert "outside the model: efficiency 106 %, at most 100 %" in text
+    assert found["trust"] == OUTSIDE
+    assert len(found["trust_reasons"]) == 2
+    assert found["summary"]["trust_reasons"]["efficiency"]["value"] == 1.0597
+
+
+def test_a_record_inside_says_that_too(tmp_path):
+    with gear_pair_writer(tmp_path / "run.h5", 9, outlines=geometry()) as writer:
+        writer.write(0, block(0, 9))
+        writer.finish(judged(efficiency=0.99))
+    with open_record(tmp_path / "run.h5") as record:
+        assert (record.attrs["trust"], record.trust) == (INSIDE, INSIDE)
+        assert "outside the model" not in printed(summary_table(record))
+        assert as_json(record)["trust_reasons"] == []
+
+
+def test_a_sweep_says_it_case_by_case(tmp_path, outside):
+    scale = ParameterScale("speed", "operating.pinion_speed", "rad/s", (1.0, 2.0, 3.0))
+    layout = SweepLayout({"efficiency": SWEPT["efficiency"]})
+    head = SweepHead('kind = "efficiency"', "0", (scale,), "", (), layout)
+    with SweepWriter(tmp_path / "sweep.h5", head) as writer:
+        rows = layout.empty_rows(3)
+        rows["trust"][:] = 1, 0, 0
+        for i, deflection in ((1, 0.3), (2, 0.4)):
+            said = remarks(judged(deflection=deflection))
+            rows["message"][i] = remarked(*map(warned, said))
+        rows["status"][:] = DONE
+        writer.write(np.arange(3), rows)
+        writer.finish({})
+    with SweepRecord(tmp_path / "sweep.h5") as record:
+        assert record["trust"].tolist() == [1, 0, 0]
+        assert record.meanings("trust")[0] == "outside_the_model"
+        text = printed(sweep_table(record))
+    assert (
+        "Warning: 2 of 3 cases: outside the model: deflection of a pair of teeth over the module above 10 %"
+        in text
+    )
+
+
+@pytest.mark.parametrize("name", ["efficiency-involute-18-36", "load-contact-18-36"])
+def test_studies_hand_over_what_they_have(name, tmp_path):
+    """A hundred times the torque: complete, and marked."""
+    result = run(load_scenario(name, {"operating.gear_torque": "40 kN*m"}), tmp_path / "much.h5")
+    assert (result.status, result.trust) == ("complete", OUTSIDE)
+    known = result.summary["trust_reasons"]["hertz_pressure"]
+    assert known["value"] == pytest.approx(result.summary["hertz_pressure_max"], rel=1e-9)
+    assert 0.0 < known["share"] <= 1.0
+    assert any("Hertz pressure" in why for why in result.reasons)
+
+
+def test_an_absurd_load_is_loud(tmp_path):
+    """500 kN m on a drive for 500 N m: complete, exit status 0, every reason on the terminal and in JSON."""
+    words = ["involute-23-47", "--set", "operating.gear_torque=500 kN*m", "--set", "solver.cycles=2"]
+    output = tmp_path / "much.h5"
+    done = CliRunner().invoke(app, ["run", *words, "--no-plot", "--json", "--output", str(output)])
+    assert done.exit_code == 0
+    found = json.loads(done.stdout)
+    assert (found["status"], found["trust"]) == ("complete", OUTSIDE)
+    named = found["summary"]["trust_reasons"]
+    assert {"deflection", "hertz_pressure", "bearing_displacement"} <= set(named)
+    assert named["deflection"]["value"] > 0.5
+    for reason in found["trust_reasons"]:
+        assert f"warning: {OUTSIDE}: {reason}" in done.stderr
+    shown = CliRunner().invoke(app, ["show", str(output)])
+    assert shown.stdout.splitlines()[1].startswith(OUTSIDE)
+    usual = run(load_scenario("involute-23-47", {"solver.cycles": 2}), tmp_path / "usual.h5")
+    assert (usual.trust, usual.reasons) == (INSIDE, [])
+
+
+def test_a_sweep_of_gear_pairs_judges_every_case():
+    """From the usual load to an absurd one."""
+    grid = Grid("involute-23-47", ["operating.gear_torque=500 N*m,500 kN*m"], {})
+    settings = settings_of(grid, 2)
+    numbers = np.arange(2)
+    rows = grid.batch.evaluate(Chunk(numbers, tuple(grid.case((i,)) for i in range(2))), settings, 1)
+    assert rows["status"].tolist() == [DONE, DONE]
+    assert rows["trust"].tolist() == [1, 0]
+    assert OUTSIDE not in rows["message"][0]
+    assert "warning: outside the model: " in rows["message"][1]
+    assert "Hertz pressure above 4 GPa" in rows["message"][1]
+
+
+def test_the_page_lists_the_rules_as_they_are():
+    text = (DOCS / "trust.md").read_text(encoding="utf-8")
+    rows = dict(re.findall(r"^\| `(\w+)` \| [^|]+ \| ([^|]+) \|", text, re.MULTILINE))
+    assert list(rows) == list(RULES)
+    for name, rule in RULES.items():
+        assert rule.shown(rule.most) in rows[name], name
+        assert rule.label in text.replace("\n", " "), name
