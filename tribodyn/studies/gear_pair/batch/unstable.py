@@ -42,7 +42,7 @@ def fill_unstable(
             if not len(steady.samples):  # it cannot be integrated over its period once more
                 continue
             passage = Passage(0, steady.samples, steady.state, steady.end, steady.extremes)
-            figures = window_figures(prepared_at(value), passage, samples)
+            figures, _ = window_figures(prepared_at(value), passage, samples)
             for name in UNSTABLE_FIGURES:
                 rows[PREFIX + name][i, end, motion] = figures[name]
             section = steady.samples[::samples, XI]
