@@ -112,7 +112,9 @@ def _scenarios(what: list[str], settings: Mapping[str, str]) -> dict[str, "Loade
 
 
 def _is_record(word: str) -> bool:
-    return word.endswith((".h5", ".hdf5")) or (not word.endswith(".toml") and Path(word).is_file())
+    from tribodyn.scenario.sources import is_file
+
+    return word.endswith((".h5", ".hdf5")) or (not word.endswith(".toml") and is_file(Path(word)))
 
 
 def _run(loaded: "Loaded", folder: Path, force: bool) -> Path:

@@ -28,7 +28,9 @@ def gear(
     ],
     output: Annotated[Path | None, typer.Option("--output", "-o", help="Folder of the drawings.")] = None,
     settings: SetOption = None,
-    points: Annotated[int, typer.Option(help="Points along a flank in the drawings.", min=10)] = 100,
+    points: Annotated[
+        int, typer.Option(help="Points along a flank in the drawings.", min=10, max=100_000)
+    ] = 100,
     json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
     """Print a gear pair's geometry; draw it."""

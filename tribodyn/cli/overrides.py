@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from tribodyn.errors import InputError
+from tribodyn.errors import InputError, quoted
 
 SetOption = Annotated[
     list[str] | None,
@@ -16,13 +16,19 @@ SetOption = Annotated[
 ]
 
 
+#: Characters of a key; above that it is none of a scenario's.
+LONGEST_KEY = 200
+
+
 def overrides(settings: list[str] | None) -> dict[str, str]:
     """Return key and value of each ``KEY=VALUE``; the last of a key wins."""
     parsed: dict[str, str] = {}
     for setting in settings or []:
         key, equals, value = setting.partition("=")
         key = key.strip()
-        if not equals or not all(key.split(".")):
-            raise InputError("--set", f'"{setting}"', "not KEY=VALUE", "write it like --set solver.cycles=40")
+        if not equals or len(key) > LONGEST_KEY or not all(key.split(".")):
+            raise InputError(
+                "--set", quoted(setting), "not KEY=VALUE", "write it like --set solver.cycles=40"
+            )
         parsed[key] = value.strip()
     return parsed

@@ -67,9 +67,10 @@ def plot(
     from tribodyn.errors import InputError
     from tribodyn.record.reader import open_record
     from tribodyn.record.sweep_reader import is_sweep
+    from tribodyn.scenario.sources import is_file
     from tribodyn.studies.pictures import names as figure_names
 
-    paths = [word for word in what if word.endswith((".h5", ".hdf5")) or Path(word).is_file()]
+    paths = [word for word in what if word.endswith((".h5", ".hdf5")) or is_file(Path(word))]
     names = [word for word in what if word not in paths]
     if not paths:
         raise InputError("record", f'"{what[0]}"', "no such file", "name a record that tribodyn run wrote")

@@ -59,7 +59,11 @@ def sweep(
     transient: Annotated[
         int | None,
         typer.Option(
-            "--transient", metavar="N", min=1, help="March N mesh cycles instead; figures of the last ones."
+            "--transient",
+            metavar="N",
+            min=1,
+            max=10**9,
+            help="March N mesh cycles instead; figures of the last ones.",
         ),
     ] = None,
     direction: Annotated[
@@ -84,7 +88,8 @@ def sweep(
         typer.Option(metavar="ADDRESS", help="Dask's scheduler, tcp://host:8786; default: one of its own."),
     ] = None,
     workers: Annotated[
-        int | None, typer.Option(min=1, help="Threads, or Dask's worker processes; default: one per core.")
+        int | None,
+        typer.Option(min=1, max=1024, help="Threads, or Dask's worker processes; default: one per core."),
     ] = None,
     output: Annotated[
         Path | None,

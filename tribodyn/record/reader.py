@@ -159,7 +159,7 @@ class Record:
         """The resolved scenario; InputError where the file's text is no scenario."""
         try:
             return harmless_data(tomllib.loads(str(self.attrs["scenario"])))
-        except (KeyError, tomllib.TOMLDecodeError, RecursionError) as error:
+        except (KeyError, ValueError, RecursionError) as error:
             raise self._damaged(error) from error
 
     @cached_property

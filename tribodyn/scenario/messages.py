@@ -97,6 +97,7 @@ _PLAIN = {
     ),
     "model_type": ("not a table", "write a table, or see the keys with: tribodyn schema"),
     "tuple_type": ("not a list", "write a list: [ … ]"),
+    "too_long": ("more than {max_length} values", "write fewer"),
     "too_short": ("fewer than {min_length} values", "write at least {min_length}"),
     "greater_than": ("must be greater than {gt:g}", "write a larger number"),
     "greater_than_equal": ("must be at least {ge:g}", "write {ge:g} or more"),

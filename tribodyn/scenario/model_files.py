@@ -52,7 +52,7 @@ MaterialReference = Annotated[Material, model_file("materials")]
 class Gear(Table):
     """One gear of a drive."""
 
-    teeth: Annotated[int, Field(strict=True, ge=4)]
+    teeth: Annotated[int, Field(strict=True, ge=4, le=10_000)]
     face_width: Length
     bore_radius: Length = Field(description="radius of the bore, where the body is held")
     profile_shift: Number = Field(0.0, description="x, times the module")

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, Field
 from pydantic_core import PydanticCustomError, core_schema
 
+from tribodyn.errors import quoted
 from tribodyn.scenario.units import Kind, NotAQuantity, factor_to_si, to_si
 
 
@@ -161,7 +162,9 @@ class Curve(Table):
             try:
                 factor_to_si(columns[name].unit, field.metadata[0])
             except NotAQuantity as error:
-                raise broken(f'{name} is in "{columns[name].unit}": {error.rule}', error.remedy) from None
+                raise broken(
+                    f"{name} is in {quoted(columns[name].unit)}: {error.rule}", error.remedy
+                ) from None
         (first, x), (second, y) = columns.items()
         if len(x.values) != len(y.values):
             raise broken(

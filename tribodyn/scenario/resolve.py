@@ -10,8 +10,9 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tribodyn.errors import InputError, harmless, printable, quoted
+from tribodyn.errors import InputError, printable, quoted
 from tribodyn.geometry.families import FAMILIES
+from tribodyn.scenario.bounds import TooMuch, broken_bounds, parsed
 from tribodyn.scenario.messages import Key, Origins
 from tribodyn.scenario.quantity import Reference, Table, csv_file, defaults_written_out, references
 from tribodyn.scenario.sources import find_model, is_file, read_curve, read_toml
@@ -69,21 +70,8 @@ def resolve_table(
         except InputError as error:
             errors.append(origins.locate(error))
     data = defaults_written_out(data, table_of(data))
-    errors += [origins.locate(error) for error in _harmful(data, ())]
+    errors += [origins.locate(error) for error in broken_bounds(data)]
     return Resolved(data, origins, errors)
-
-
-def _harmful(value: Any, key: Key) -> Iterator[InputError]:
-    """Refuse texts that a terminal or a picture would obey: titles and names are printed and drawn."""
-    if isinstance(value, Mapping):
-        for name, item in value.items():
-            yield from _harmful(item, (*key, name))
-    elif isinstance(value, (list, tuple)) and value and isinstance(value[0], (str, Mapping, list)):
-        for place, item in enumerate(value):
-            yield from _harmful(item, (*key, place))
-    elif isinstance(value, str) and harmless(value) != value:
-        rule = "holds a control character or a mark that turns the direction of writing"
-        yield InputError(printable(".".join(map(str, key))), quoted(value), rule, "remove it")
 
 
 class _References(NamedTuple):
@@ -120,8 +108,8 @@ def unresolved_keys(errors: Iterable[InputError]) -> set[str]:
 def toml_value(text: str) -> Any:
     """Return what `text` means: a TOML value if it is one, else the text itself."""
     try:
-        data = tomllib.loads(f"value = {text}")
-    except tomllib.TOMLDecodeError:
+        data = parsed(f"value = {text}")
+    except (tomllib.TOMLDecodeError, TooMuch):
         return text
     return data["value"] if len(data) == 1 else text
 

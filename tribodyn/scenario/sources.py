@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from tribodyn.errors import InputError, near_name, printable, quoted
+from tribodyn.scenario.bounds import MOST_CSV, MOST_POINTS, MOST_TOML, TooMuch, parsed
 
 _PACKAGE = Path(__file__).resolve().parents[1]
 _HEADER = re.compile(r"\s*(?P<name>\w+)\s*\[(?P<unit>[^\]]*)\]\s*$")
@@ -98,10 +99,16 @@ def _not_found(key: str, name: str, what: str, folders: Iterable[Path]) -> Input
     return InputError(key, quoted(name), f"no such {what}; looked in {places}", f"{remedy}there is: {there}")
 
 
-def read_text(path: Path) -> str:
-    """Return the text of a file; an unreadable one is bad input."""
+def read_text(path: Path, most: int) -> str:
+    """Return the text of a file; one that is unreadable, or of more than `most` bytes, is bad input."""
     try:
-        return path.read_text(encoding="utf-8-sig")
+        with path.open("rb") as file:
+            content = file.read(most + 1)
+        if len(content) > most:
+            raise InputError(
+                "file", rule=f"larger than {most >> 20} MiB", remedy="shorten it", file=str(path)
+            )
+        return content.decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
     except UnicodeDecodeError as error:
         raise InputError(
             f"byte {error.start}", rule="not UTF-8 text", remedy="save it as UTF-8", file=str(path)
@@ -113,9 +120,11 @@ def read_text(path: Path) -> str:
 
 def read_toml(path: Path) -> dict[str, Any]:
     """Return the data of a TOML file; a syntax error names its line."""
-    text = read_text(path)
+    text = read_text(path, MOST_TOML)
     try:
-        return tomllib.loads(text)
+        return parsed(text)
+    except TooMuch as error:
+        raise InputError("file", rule=str(error), remedy="a scenario needs none", file=str(path)) from None
     except tomllib.TOMLDecodeError as error:
         what, _, place = str(error).partition(" (at ")
         line = re.match(r"line (\d+)", place)
@@ -138,25 +147,34 @@ def read_curve(path: Path, key: str, columns: Iterable[str]) -> dict[str, Any]:
     """
     due = list(columns)
     example = ",".join(f"{name} [unit]" for name in due)
-    numbered = [
+    lines = [
         (number, line)
-        for number, line in enumerate(read_text(path).splitlines(), start=1)
+        for number, line in enumerate(read_text(path, MOST_CSV).split("\n"), start=1)
         if line.strip() and not line.lstrip().startswith("#")
     ]
 
     def bad(number: int, rule: str, remedy: str) -> InputError:
         return InputError(key, rule=f"line {number}: {rule}", remedy=remedy, file=str(path))
 
-    if not numbered:
+    def cells(number: int, line: str) -> list[str]:
+        try:
+            return next(csv.reader([line], strict=True))
+        except csv.Error as error:
+            remedy = "write plain numbers separated by commas, each row in one line"
+            raise bad(number, f"not a row of a table: {error}", remedy) from None
+
+    if not lines:
         raise bad(1, "the file is empty", f"begin it with {example}")
-    rows = list(csv.reader(line for _, line in numbered))
-    heads = [_HEADER.match(cell) for cell in rows[0]]
+    if len(lines) > MOST_POINTS + 1:
+        raise bad(lines[MOST_POINTS + 1][0], f"more than {MOST_POINTS} points", "leave some out")
+    heads = [_HEADER.match(cell) for cell in cells(*lines[0])]
     header = {head["name"]: (head["unit"], index) for index, head in enumerate(heads) if head}
     for name in due:
         if name not in header:
-            raise bad(numbered[0][0], f'no column "{name} [unit]" in the header', f"write {example}")
+            raise bad(lines[0][0], f'no column "{name} [unit]" in the header', f"write {example}")
     values: dict[str, list[float]] = {name: [] for name in due}
-    for (number, _), row in zip(numbered[1:], rows[1:], strict=True):
+    for number, line in lines[1:]:
+        row = cells(number, line)
         for name in due:
             cell = row[header[name][1]] if header[name][1] < len(row) else ""
             try:

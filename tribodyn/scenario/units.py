@@ -11,6 +11,7 @@ from math import isfinite, pi
 from typing import Any, NamedTuple
 
 from tribodyn.scenario.common_units import COMMON_UNITS
+from tribodyn.scenario.unit_grammar import LONGEST, RULE, is_unit
 
 
 class Kind(NamedTuple):
@@ -50,6 +51,10 @@ _NUMBER = re.compile(
 _ONE_OVER = re.compile(r"^1(?=\s*/)")
 _NM = re.compile(r"\bNm\b")
 
+#: Magnitudes, in SI units, of what can be computed with: products of a few still are numbers.
+SMALLEST, LARGEST = 1e-50, 1e50
+EXTREME = f"not between {SMALLEST:g} and {LARGEST:g} in magnitude"
+
 SPEED = "angular speed"
 FREQUENCY = "frequency"
 ANGLE = "angle"
@@ -79,15 +84,24 @@ def to_si(value: Any, kind: Kind) -> float:
         raise NotAQuantity(f"not a quantity but {_toml_name(value)}", write)
     if not isinstance(value, str):
         raise NotAQuantity("a number without a unit", write)
+    if len(value) > LONGEST:
+        raise NotAQuantity(f"longer than {LONGEST} characters", write)
     number = _NUMBER.match(value)
     if number is None:
         raise NotAQuantity("not a number and a unit", write)
     magnitude = _scaled(float(number["number"]), _factor(number["unit"], kind, write))
     if not isfinite(magnitude):
         raise NotAQuantity("not a finite number", write)
+    if is_extreme(magnitude):
+        raise NotAQuantity(f"{EXTREME}, in {kind.si}", write)
     if (kind.allowed == "positive" and magnitude <= 0) or (kind.allowed == "not negative" and magnitude < 0):
         raise NotAQuantity(f"must be {_sign(kind.allowed)}", f'write it like "{kind.example}"')
     return magnitude
+
+
+def is_extreme(number: float) -> bool:
+    """Whether a number is so large or so small that what is computed from it would overflow or vanish."""
+    return number != 0.0 and not SMALLEST <= abs(number) <= LARGEST
 
 
 def factor_to_si(unit: str, kind: Kind) -> float:
@@ -105,6 +119,8 @@ def _units(text: str, write: str) -> Any:
     """Text to pint's units."""
     import pint
 
+    if not is_unit(text):
+        raise NotAQuantity(RULE if len(text) <= LONGEST else f"a unit of {len(text)} characters", write)
     try:
         return registry().parse_units(_spelling(text))
     except pint.UndefinedUnitError as error:
@@ -134,17 +150,21 @@ def _factor_by_pint(text: str, kind: Kind, write: str) -> float:
     import pint
 
     units = _units(text, write)
-    if kind.name in (SPEED, FREQUENCY) and not _has_angle(units):
-        if kind.name == SPEED and units.is_compatible_with("1/s"):
-            raise NotAQuantity("a frequency, which leaves open whether turns or radians are meant", write)
-        if kind.name == FREQUENCY and units.is_compatible_with("1/s"):
-            return 2 * pi * float(registry().Quantity(1.0, units).to("1/s").magnitude)
+    if not is_unit(kind.si):  # of a file from elsewhere
+        raise NotAQuantity(RULE, write)
     try:
+        if kind.name in (SPEED, FREQUENCY) and not _has_angle(units):
+            if kind.name == SPEED and units.is_compatible_with("1/s"):
+                raise NotAQuantity("a frequency, which leaves open whether turns or radians are meant", write)
+            if kind.name == FREQUENCY and units.is_compatible_with("1/s"):
+                return 2 * pi * float(registry().Quantity(1.0, units).to("1/s").magnitude)
         return float(registry().Quantity(1.0, units).to(kind.si).magnitude)
     except pint.DimensionalityError:
         raise NotAQuantity(f'"{text}" is not a unit of {kind.name}', write) from None
     except pint.OffsetUnitCalculusError:
         raise NotAQuantity(f'"{text}" has a shifted zero', write) from None
+    except ArithmeticError:
+        raise NotAQuantity(f'"{text}": {EXTREME}', write) from None
 
 
 def _has_angle(units: Any) -> bool:

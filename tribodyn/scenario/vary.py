@@ -12,9 +12,11 @@ from typing import Any, NamedTuple
 
 from pydantic import BaseModel
 
-from tribodyn.errors import InputError
+from tribodyn.errors import InputError, quoted
+from tribodyn.scenario.bounds import broken_bounds
 from tribodyn.scenario.quantity import Quantity, Reference, parts_of
 from tribodyn.scenario.resolve import toml_value
+from tribodyn.scenario.unit_grammar import is_unit
 from tribodyn.scenario.units import Kind, NotAQuantity, to_si
 
 VARY = "--vary"
@@ -22,11 +24,15 @@ VARY = "--vary"
 MOST_VALUES = 100_000
 GRAMMAR = "write start:stop:step, start:stop/count or value,value,… with the unit once, at the end"
 
-_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+# of bounded length, because ranges are worked out in whole decimals
+_NUMBER = r"[+-]?(?:\d{1,40}\.?\d{0,40}|\.\d{1,40})(?:[eE][+-]?\d{1,2})?"
+_COUNT = r"\d{1,9}"
+#: Characters of a range; what is longer is a list.
+_LONGEST_RANGE = 250
 _STEPS = re.compile(rf"\s*({_NUMBER})\s*:\s*({_NUMBER})\s*:\s*({_NUMBER})\s*([^\d\s:.].*|1\s*/.*)?", re.ASCII)
 _COUNTS = (
-    re.compile(rf"\s*({_NUMBER})\s*:\s*({_NUMBER})\s*/\s*(\d+)\s*([^\d\s:./].*)?", re.ASCII),
-    re.compile(rf"\s*({_NUMBER})\s*:\s*({_NUMBER})\s*([^\d\s:./].*?)\s*/\s*(\d+)\s*()", re.ASCII),
+    re.compile(rf"\s*({_NUMBER})\s*:\s*({_NUMBER})\s*/\s*({_COUNT})\s*([^\d\s:./].*)?", re.ASCII),
+    re.compile(rf"\s*({_NUMBER})\s*:\s*({_NUMBER})\s*([^\d\s:./].*?)\s*/\s*({_COUNT})\s*()", re.ASCII),
 )
 _BARE = re.compile(rf"\s*{_NUMBER}\s*", re.ASCII)
 
@@ -78,7 +84,7 @@ def axes_of(options: list[str], table: type[BaseModel]) -> list[Axis]:
         axis = _axis(option, table)
         if any(axis.key == other.key for other in axes):
             raise InputError(
-                VARY, f'"{option}"', f"{axis.key} is varied twice", "list all its values at once"
+                VARY, quoted(option), f"{axis.key} is varied twice", "list all its values at once"
             )
         axes.append(axis)
     return _named_apart(axes)
@@ -96,6 +102,8 @@ def _axis(option: str, table: type[BaseModel]) -> Axis:
         raise _refusal(option, f"{key} is a table", f"vary a key in it, such as {key}.{_example(leaf)}")
     texts = _values(option, text, leaf)
     written = tuple(value if isinstance(leaf, Kind) else toml_value(value) for value in texts)
+    for error in broken_bounds(list(written)):
+        raise _refusal(option, error.rule, error.remedy)
     values, units = _in_si(option, key, written, leaf)
     if len(set(values)) < len(values):
         raise _refusal(option, "a value comes twice", "list every value once")
@@ -104,11 +112,11 @@ def _axis(option: str, table: type[BaseModel]) -> Axis:
 
 def _values(option: str, text: str, leaf: Any) -> list[str]:
     """Split into values, each with the unit."""
-    if match := _STEPS.fullmatch(text):
+    if match := len(text) <= _LONGEST_RANGE and _STEPS.fullmatch(text):
         start, stop, step, unit = match.groups()
         return _with_unit(_by_step(option, *map(Decimal, (start, stop, step))), unit)
     for pattern, order in zip(_COUNTS, ((1, 2, 3, 4), (1, 2, 4, 3)), strict=True):
-        if match := pattern.fullmatch(text):
+        if match := len(text) <= _LONGEST_RANGE and pattern.fullmatch(text):
             start, stop, count, unit = (match[i] for i in order)
             return _with_unit(_by_count(option, Fraction(start), Fraction(stop), int(count)), unit)
     if re.match(rf"\s*{_NUMBER}[^,]*:", text) and not isinstance(leaf, Reference):
@@ -161,7 +169,7 @@ def _in_si(
         try:
             return tuple(to_si(value, leaf) for value in written), leaf.si.replace("**", "")
         except NotAQuantity as error:
-            raise InputError(key, f'"{option.partition("=")[2]}"', error.rule, error.remedy, VARY) from None
+            raise InputError(key, quoted(option.partition("=")[2]), error.rule, error.remedy, VARY) from None
     if all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in written):
         return tuple(float(value) for value in written), "1"
     if any(isinstance(value, (dict, list)) for value in written):
@@ -177,7 +185,7 @@ def _base_units(value: Any) -> tuple[float, str] | None:
     from tribodyn.scenario.units import registry
 
     match = re.fullmatch(rf"\s*({_NUMBER})\s*(\S.*)", value, re.ASCII) if isinstance(value, str) else None
-    if match is None:
+    if match is None or not is_unit(match[2]):
         return None
     try:
         base = registry().Quantity(1.0, match[2]).to_base_units()
@@ -228,4 +236,4 @@ RESERVED = ("direction", "sample", "cycle", "mode", "state_variable", "status", 
 
 
 def _refusal(option: str, rule: str, remedy: str) -> InputError:
-    return InputError(VARY, f'"{option}"', rule, remedy)
+    return InputError(VARY, quoted(option), rule, remedy)

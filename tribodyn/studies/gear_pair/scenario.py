@@ -51,6 +51,9 @@ from tribodyn.solve.data import SolverData
 from tribodyn.studies.gear_pair.case import Case, OutputData
 from tribodyn.tribology.data import FrictionData
 
+#: Cosines in a load or an error: a curve is given by points.
+MOST_HARMONICS = 1000
+
 
 class TorqueHarmonic(Table):
     """A cosine in the load torque."""
@@ -81,7 +84,9 @@ class Operating(Table):
     gear_torque_table: Annotated[TorqueCurve, csv_file("time", "torque")] | None = Field(
         None, description="over time, added to the load"
     )
-    gear_torque_harmonics: tuple[TorqueHarmonic, ...] = Field((), description="added to the load")
+    gear_torque_harmonics: tuple[TorqueHarmonic, ...] = Field(
+        (), max_length=MOST_HARMONICS, description="added to the load"
+    )
     load_inertia: Inertia = written("0 kg*m**2")
     load_damping: TorsionalDamping = written(
         "0 N*m*s/rad", description="load that grows with speed above nominal"
@@ -102,7 +107,7 @@ class Operating(Table):
 class TransmissionError(Table):
     """Static transmission error e of a pair, positive where material is missing."""
 
-    harmonics: tuple[ErrorHarmonic, ...] = ()
+    harmonics: tuple[ErrorHarmonic, ...] = Field((), max_length=MOST_HARMONICS)
     table: (
         Annotated[
             ErrorCurve,
@@ -163,7 +168,9 @@ class Solver(Table):
     method: Text = "auto"
     rtol: Annotated[float, Field(strict=True, ge=1e-13, le=1e-2)] = 1e-6
     cycles: Count = Field(20, description="mesh cycles to run")
-    max_steps: Count = Field(1_000_000, description="steps allowed in one mesh cycle")
+    max_steps: Annotated[int, Field(strict=True, gt=0, le=10**9)] = Field(
+        1_000_000, description="steps allowed in one mesh cycle"
+    )
     initial: Literal["static", "unloaded"] = Field("static", description="state at the start")
 
 

@@ -27,7 +27,9 @@ class LoadContactOperating(Table):
     """The load, against the gear's motion."""
 
     gear_torque: Load
-    gear_torques: tuple[Load, ...] = Field((), description="of the Harris map, in increasing order")
+    gear_torques: tuple[Load, ...] = Field(
+        (), max_length=1000, description="of the Harris map, in increasing order"
+    )
 
 
 class LoadContactMesh(Table):

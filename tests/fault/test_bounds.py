@@ -1,0 +1,188 @@
+"""Input that no simulation needs is refused at once: towers of powers, endless texts, numbers of no use."""
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from tribodyn.errors import InputError
+from tribodyn.scenario import bounds
+from tribodyn.scenario.bounds import DEEPEST, MOST_CSV, MOST_POINTS, MOST_TOML, TooMuch, parsed
+from tribodyn.scenario.sources import read_curve, read_toml
+from tribodyn.scenario.unit_grammar import is_unit
+from tribodyn.scenario.units import ANGULAR_SPEED, LENGTH, TIME, NotAQuantity, factor_to_si, to_si
+from tribodyn.studies.load import load_scenario
+
+Refused = Callable[..., tuple[int, list[str]]]
+
+UNITS = (
+    "m N*m kg*m**2 kg*m^2 W/(m*K) J/(kg*K) 1/Pa mPa*s Nm N·m m² s⁻¹ m**-1 m**(-1) m^0.5 ° °C % (m/s)**2"
+    " 1/(m*s) inch"
+).split()
+NO_UNITS = [
+    *("m**1e3", "m%m", "rad//s", "rad/s!", "rad/s**9**9**9", "m**10", "m*", "*m", "/m", "m)", "(m", "()"),
+    *("((m))", "m**(9**9)", "m**", "2 m", "m 2", "m;", "m#x", "_m", "m²²", "m⁻", "m^m", "m(s)", "1.5", "11"),
+    *(
+        "a" * 81,
+        "m" * 100_000,
+        "m*" * 50_000 + "m",
+        "(" * 50_000,
+        "m\n**9**9",
+        "__import__('os')",
+    ),
+]
+
+
+@pytest.mark.parametrize("unit", [*UNITS, "N m", "m per s", "N/(mm um)", "kg m²", " mm "])
+def test_what_is_a_unit(unit: str):
+    assert is_unit(unit)
+
+
+@pytest.mark.parametrize("unit", NO_UNITS, ids=lambda unit: unit[:20])
+def test_what_is_none(unit: str):
+    assert not is_unit(unit)
+    started = time.process_time()
+    with pytest.raises(NotAQuantity):
+        to_si(f"10 {unit}", ANGULAR_SPEED)
+    with pytest.raises(NotAQuantity):
+        factor_to_si(unit, ANGULAR_SPEED)  # as it may stand in the header of a CSV file
+    assert time.process_time() - started < 2.0
+
+
+@pytest.mark.parametrize(
+    "text", ["1e-323 m", "1e308 m", "9e60 m", "1 (Ym*Ym/m)**9/m**8", "-1e300 um", "9" * 400 + " m"]
+)
+def test_magnitudes_beyond_all_use(text: str):
+    with pytest.raises(NotAQuantity):
+        to_si(text, LENGTH)
+    assert to_si("1e-30 m", LENGTH) == 1e-30
+    assert to_si("0 s", TIME) == 0.0
+
+
+LONG_KEY = ".".join("a" * 2000)
+TOO_MUCH = {
+    "lists": "a = " + "[" * 100_000,
+    "inline tables": "a = " + "{a = " * 100_000,
+    "one too deep": "a = " + "[" * (DEEPEST + 1) + "]" * (DEEPEST + 1),
+    "dotted key": f"{LONG_KEY} = 1",
+    "header": f"[{LONG_KEY}]",
+    "dotted key inside": f"a = {{{LONG_KEY} = 1}}",
+    "quoted parts": "a." + ".".join(['"\\""', "''"] * 1000) + " = 1",
+    "digits": "a = " + "9" * 5000,
+    "digits with points of their own": "a = 1" + "_000" * 2000,
+}
+
+
+@pytest.mark.parametrize("name", TOO_MUCH)
+def test_toml_that_no_scenario_needs(name: str, tmp_path: Path):
+    started = time.process_time()
+    with pytest.raises(TooMuch):
+        parsed(TOO_MUCH[name])
+    path = tmp_path / "much.toml"
+    path.write_text(TOO_MUCH[name], encoding="utf-8")
+    with pytest.raises(InputError) as error:
+        read_toml(path)
+    assert error.value.file == str(path)
+    assert time.process_time() - started < 2.0
+    assert parsed("a = " + "[" * (DEEPEST - 1) + "]" * (DEEPEST - 1))
+    assert parsed('title = "' + "a.b" * 5 + '"')
+
+
+def test_files_that_are_too_large(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    path = tmp_path / "large.toml"
+    with path.open("wb") as file:
+        file.truncate(MOST_TOML + 1)
+    with pytest.raises(InputError, match="larger than 16 MiB"):
+        read_toml(path)
+    with path.open("wb") as file:
+        file.truncate(MOST_CSV + 1)
+    with pytest.raises(InputError, match="larger than 4 MiB"):
+        read_curve(path, "key", ["time"])
+    monkeypatch.setattr("tribodyn.scenario.sources.MOST_POINTS", 3)
+    path.write_text("time [s]\n" + "1\n" * 4, encoding="utf-8")
+    with pytest.raises(InputError, match="line 5: more than 3 points"):
+        read_curve(path, "key", ["time"])
+    assert MOST_POINTS == bounds.MOST_POINTS > 10_000
+
+
+CURVES = {
+    "line break in quotes": ('time [s],torque [N*m]\n0,"1\n2"\n3,4\n', "line 2"),
+    "field of 200 000 characters": ("time [s],torque [N*m]\n0," + "1" * 200_000 + "\n", "line 2"),
+    "heading of 200 000 characters": ("time [s],torque [" + "N" * 200_000 + "]\n0,1\n", "line 1"),
+    "unit of 100 kB": ("time [s],torque [" + "N*" * 50_000 + "m]\n0,1\n1,2\n", "line 1"),
+    "tower of powers": ("time [s**9**9**9],torque [N*m]\n0,1\n1,2\n", "not a unit"),
+    "unit with a bang": ("time [s!],torque [N*m]\n0,1\n1,2\n", "not a unit"),
+    "times of 1e308": ("time [s],torque [N*m]\n0,1\n1e308,2\n", "not between 1e-50 and 1e+50"),
+    "nothing but a quote": ('time [s],torque [N*m]\n"', "line 2"),
+}
+
+
+@pytest.mark.parametrize("name", CURVES)
+def test_curves_that_are_none(name: str, scenario: Path, refused: Refused):
+    text, says = CURVES[name]
+    (scenario.parent / "load.csv").write_text(text, encoding="utf-8")
+    status, lines = refused("check", str(scenario), "--set", "operating.gear_torque_table=load.csv")
+    assert status == 2
+    assert says in lines[0]
+    assert len(lines[0]) < 1000
+
+
+NUMBERS = {
+    "solver.cycles": [str(2**63), "9" * 400, "9" * 5000],
+    "mesh.damping_ratio": ["1e-323", "1e308", "9" * 400],
+    "drive.pinion.teeth": ["10001", str(10**18)],
+    "operating.pinion_speed": [
+        "1e-323 rad/s",
+        "1e308 rad/s",
+        "1 rad/s" + " " * 100,
+        "1 rad//s",
+        "1 " + "rad*" * 9999,
+    ],
+    "title": ["x" * 20_001],
+    "solver.max_steps": [str(10**10)],
+    "operating.gear_torque": ["[" * 5000, "{a=" * 5000],
+    "a." * 60 + "b": ["1"],
+    "k" * 201: ["1"],
+    "9" * 150 + ".9": ["1"],
+}
+
+
+@pytest.mark.parametrize("key", NUMBERS, ids=lambda key: key[:24])
+def test_values_beyond_all_use(key: str, scenario: Path, refused: Refused):
+    for value in NUMBERS[key]:
+        status, lines = refused("check", str(scenario), "--set", f"{key}={value}")
+        assert status == 2, (value[:50], lines)
+        assert all(len(line) < 1000 for line in lines)
+
+
+VARIED = [
+    "operating.pinion_speed=1:1e999999999:1rad/s",
+    "operating.pinion_speed=1:2:1e-999999999rad/s",
+    "operating.pinion_speed=1e99:2e99:1e-99rad/s",
+    "operating.pinion_speed=1:2/99999999999999999999rad/s",
+    "operating.pinion_speed=1:2/3rad/s**9**9**9",
+    "operating.pinion_speed=1,2rad//s",
+    f"operating.pinion_speed={'9' * 5000}:1:1rad/s",
+    f"operating.pinion_speed=1:2{' ' * 60_000}",
+    f"solver.cycles=1,{'9' * 400}",
+    f"mesh.damping_ratio=0.1,{'9' * 5000}",
+    "mesh.damping_ratio=0.1,1e-323",
+    f"{'a.' * 5000}b=1,2",
+    f"drive.shape.radius=1,2{'m*' * 5000}m",
+]
+
+
+@pytest.mark.parametrize("vary", VARIED, ids=lambda vary: vary[:40])
+def test_axes_beyond_all_use(vary: str, scenario: Path, refused: Refused):
+    started = time.process_time()
+    status, lines = refused("sweep", str(scenario), "--vary", vary, "-o", str(scenario.parent / "s.h5"))
+    assert status == 2
+    assert all(len(line) < 1000 for line in lines)
+    assert time.process_time() - started < 5.0
+    assert not list(scenario.parent.glob("*.h5"))
+
+
+def test_overrides_of_python_are_bounded_too(scenario: Path):
+    with pytest.raises(InputError, match="beyond 64 bits"):
+        load_scenario(scenario, {"solver.cycles": 2**64})
