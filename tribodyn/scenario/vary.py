@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 from pydantic import BaseModel
 
 from tribodyn.errors import InputError, quoted
-from tribodyn.scenario.bounds import broken_bounds
+from tribodyn.scenario.bounds import LONGEST_KEY, broken_bounds
 from tribodyn.scenario.quantity import Quantity, Reference, parts_of
 from tribodyn.scenario.resolve import toml_value
 from tribodyn.scenario.unit_grammar import is_unit
@@ -22,6 +22,8 @@ from tribodyn.scenario.units import Kind, NotAQuantity, to_si
 VARY = "--vary"
 #: Values of one axis; beyond, a range was surely mistyped, and the values alone would fill the memory.
 MOST_VALUES = 100_000
+#: Varied keys: a dataset's dimensions are limited, and their values multiply.
+MOST_AXES = 12
 GRAMMAR = "write start:stop:step, start:stop/count or value,value,… with the unit once, at the end"
 
 # of bounded length, because ranges are worked out in whole decimals
@@ -79,6 +81,8 @@ def axes_of(options: list[str], table: type[BaseModel]) -> list[Axis]:
         raise InputError(
             VARY, None, "nothing is varied", f"add {VARY} operating.pinion_speed=100:6000:200rpm"
         )
+    if len(options) > MOST_AXES:
+        raise InputError(VARY, len(options), "too many keys at once", f"vary at most {MOST_AXES}")
     axes: list[Axis] = []
     for option in options:
         axis = _axis(option, table)
@@ -93,7 +97,7 @@ def axes_of(options: list[str], table: type[BaseModel]) -> list[Axis]:
 def _axis(option: str, table: type[BaseModel]) -> Axis:
     key, equals, text = option.partition("=")
     key, text = key.strip(), text.strip()
-    if not equals or not text or not all(key.split(".")):
+    if not equals or not text or len(key) > LONGEST_KEY or not all(key.split(".")):
         raise _refusal(option, "not KEY=VALUES", GRAMMAR)
     leaf = _leaf(table, key)
     if key in ("title", "name", "kind") or key.startswith("output."):

@@ -26,6 +26,9 @@ from tribodyn.studies.recording import target, writer
 from tribodyn.studies.study import Progress, RunResult
 from tribodyn.tribology.closure import law_figures
 
+#: Mesh cycles at the end of a run that its means and its spectrum are of, at most: they are held in memory,
+#: and an attribute of a record holds no longer spectrum.
+WIDEST_WINDOW = 400
 #: What a record says of the contact at the pitch point, under `pitch_point` in its summary.
 REGULAR = "regular"
 AVERAGED = "radius and entrainment vanish; averaged over the contact's own half width"
@@ -69,7 +72,7 @@ def run(
             return RunResult(record.fail(str(error), summary), "failed", str(error), summary)
         choice = choose(case.solver.method, model, state)
         summary |= {"solver": choice.method, "solver_reason": choice.reason}
-        window = max(1, cycles // 4)
+        window = window_of(cycles)
         settings = TransientSettings(
             choice.method, case.solver.rtol, cycles, case.solver.max_steps, samples, window, extremes=True
         )
@@ -108,6 +111,11 @@ def run(
         statistics.judge.take({"efficiency": summary["efficiency"]})
         summary |= statistics.judge.figures()
         return RunResult(record.finish(summary), "complete", "", summary)
+
+
+def window_of(cycles: int) -> int:
+    """Mesh cycles at the end of a run that its means are of: a quarter of them, at most `WIDEST_WINDOW`."""
+    return max(1, min(cycles // 4, WIDEST_WINDOW))
 
 
 class RunStatistics:
