@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from tribodyn.cli.overrides import SetOption, overrides
+from tribodyn.cli.overrides import LargeOption, SetOption, overrides
 
 EXAMPLES = (
     "\b\nExamples:\n"
@@ -16,6 +16,7 @@ EXAMPLES = (
 def check(
     scenario: Annotated[str, typer.Argument(help="A scenario file, or the name of a shipped scenario.")],
     settings: SetOption = None,
+    allow_large: LargeOption = False,
     json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
     """Check a scenario; print geometry and stiffness."""
@@ -24,7 +25,7 @@ def check(
 
     loaded = load(scenario, overrides(settings))
     with loaded.naming():
-        checked = loaded.study.check(loaded.case)
+        checked = loaded.study.check(loaded.case, allow_large=allow_large)
     if json:
         print_json({"scenario": str(loaded.path), "title": loaded.case.title, **checked.data})
         return

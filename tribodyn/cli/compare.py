@@ -2,12 +2,12 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from tribodyn.cli.output import make_folder
-from tribodyn.cli.overrides import SetOption, overrides
+from tribodyn.cli.overrides import LargeOption, SetOption, overrides
 from tribodyn.cli.plot import Format
 
 if TYPE_CHECKING:
@@ -33,6 +33,7 @@ def compare(
     ] = None,
     settings: SetOption = None,
     force: Annotated[bool, typer.Option("--force", help="Replace records of that name.")] = False,
+    allow_large: LargeOption = False,
     format: Annotated[Format, typer.Option(help="File format of the pictures.")] = Format.png,
     json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
@@ -55,7 +56,10 @@ def compare(
         else:
             folder = output
             make_folder(folder)
-        paths = [_run(scenarios[word], folder, force) if word in scenarios else Path(word) for word in what]
+        paths = [
+            _run(scenarios[word], folder, force, allow_large) if word in scenarios else Path(word)
+            for word in what
+        ]
         records = [stack.enter_context(open_record(path)) for path in paths]
         compared = compare_records(records)
         if output is not None:
@@ -117,7 +121,7 @@ def _is_record(word: str) -> bool:
     return word.endswith((".h5", ".hdf5")) or (not word.endswith(".toml") and is_file(Path(word)))
 
 
-def _run(loaded: "Loaded", folder: Path, force: bool) -> Path:
+def _run(loaded: "Loaded", folder: Path, force: bool, allow_large: bool) -> Path:
     """Run a scenario into a folder; return its record."""
     from tribodyn.cli.outcome import SIMULATION_FAILED, complain
     from tribodyn.cli.progress import progress_bar
@@ -126,7 +130,8 @@ def _run(loaded: "Loaded", folder: Path, force: bool) -> Path:
 
     name = loaded.case.name
     with loaded.naming(), progress_bar(name) as progress:
-        result = run_case(loaded.case, folder / f"{name}.h5", force=force, progress=progress)
+        options: dict[str, Any] = {"force": force, "progress": progress, "allow_large": allow_large}
+        result = run_case(loaded.case, folder / f"{name}.h5", **options)
     for warning in warnings(result.summary):
         complain(f"{loaded.path}: warning: {warning}")
     if result.status != "complete":

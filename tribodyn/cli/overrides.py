@@ -16,6 +16,11 @@ SetOption = Annotated[
 ]
 
 
+LargeOption = Annotated[
+    bool,
+    typer.Option("--allow-large", help="Also what takes very much memory, disk or time."),
+]
+
 #: Characters of a key; above that it is none of a scenario's.
 LONGEST_KEY = 200
 

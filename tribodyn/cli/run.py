@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 import typer
 
-from tribodyn.cli.overrides import SetOption, overrides
+from tribodyn.cli.overrides import LargeOption, SetOption, overrides
 
 EXAMPLES = (
     "\b\nExamples:\n"
@@ -24,6 +24,7 @@ def run(
     ] = None,
     settings: SetOption = None,
     force: Annotated[bool, typer.Option("--force", help="Replace a record of that name.")] = False,
+    allow_large: LargeOption = False,
     plot: Annotated[
         bool | None,
         typer.Option("--plot/--no-plot", help="All pictures, or none; default: one overview picture."),
@@ -42,7 +43,7 @@ def run(
     case = loaded.case
     record = output or Path(f"{case.name}.h5")
     with loaded.naming(), progress_bar(case.name) as progress:
-        result = run_case(case, record, force=force, progress=progress)
+        result = run_case(case, record, force=force, progress=progress, allow_large=allow_large)
     failed = result.status != "complete"
     pictures = [] if failed or plot is False else _draw(result.path, everything=plot is True)
     if json:

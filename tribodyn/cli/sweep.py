@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from tribodyn.cli.overrides import SetOption, overrides
+from tribodyn.cli.overrides import LargeOption, SetOption, overrides
 
 if TYPE_CHECKING:
     from tribodyn.sweep.run import SweepResult
@@ -97,6 +97,7 @@ def sweep(
     ] = None,
     settings: SetOption = None,
     force: Annotated[bool, typer.Option("--force", help="Replace a record of that name.")] = False,
+    allow_large: LargeOption = False,
     json: Annotated[bool, typer.Option("--json", help="Print axes and figures as JSON.")] = False,
 ) -> None:
     """Vary keys of a scenario, one record of all cases."""
@@ -130,6 +131,7 @@ def sweep(
             force=force,
             resume=resume,
             follow=lambda done, total: progress(done / total),
+            allow_large=allow_large,
         )
     _print(result, json)
     if not json:

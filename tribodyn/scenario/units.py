@@ -52,7 +52,7 @@ _ONE_OVER = re.compile(r"^1(?=\s*/)")
 _NM = re.compile(r"\bNm\b")
 
 #: Magnitudes, in SI units, of what can be computed with: products of a few still are numbers.
-SMALLEST, LARGEST = 1e-50, 1e50
+SMALLEST, LARGEST = 1e-30, 1e30
 EXTREME = f"not between {SMALLEST:g} and {LARGEST:g} in magnitude"
 
 SPEED = "angular speed"

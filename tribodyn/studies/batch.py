@@ -6,6 +6,7 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 
 from tribodyn.record.sweep_schema import SweepLayout
+from tribodyn.studies.estimate import Estimate
 
 
 class Way(NamedTuple):
@@ -105,6 +106,10 @@ class Batch(Protocol):
 
     def size_of_chunk(self, settings: Any, total: int, width: int) -> int:
         """Cases to be evaluated together, of so many; `width` of them at the cost of one."""
+        ...
+
+    def estimate(self, case: Any, settings: Any, total: int, width: int) -> Estimate:
+        """What one of so many cases takes: the memory of those evaluated together, the bytes of its row."""
         ...
 
     def sharing(self, case: Any) -> Hashable:

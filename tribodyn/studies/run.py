@@ -27,6 +27,7 @@ def run(
     friction: FrictionLaw | None = None,
     force: bool = False,
     progress: Progress | None = None,
+    allow_large: bool = False,
 ) -> RunResult:
     """Run a case and write its record.
 
@@ -45,6 +46,8 @@ def run(
         Replace an existing record.
     progress : callable, optional
         Called with the share done, 0 … 1.
+    allow_large : bool
+        Run what takes more memory, disk or time than is done unasked, too (`studies.estimate.LIMITS`).
 
     Returns
     -------
@@ -59,7 +62,7 @@ def run(
     for table, law in (("film", film), ("friction", friction)):
         if law is not None:
             case = with_law(case, table, law)
-    return STUDIES[case.kind].run(case, output, force=force, progress=progress)
+    return STUDIES[case.kind].run(case, output, force=force, progress=progress, allow_large=allow_large)
 
 
 def with_law(case: CaseHead, table: str, law: FilmLaw | FrictionLaw) -> CaseHead:

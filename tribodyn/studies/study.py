@@ -10,6 +10,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from tribodyn.numerics.registry import cannot_be_loaded
 from tribodyn.record import trust
 from tribodyn.record.withheld import withheld
+from tribodyn.studies.estimate import (
+    WORTH_SAYING,
+    Estimate,
+    as_data,
+    described,
+    refuse_large,
+    share_of_limits,
+)
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -110,6 +118,7 @@ class Study:
     figures       ``DRAWINGS``, its pictures by name; the one called overview is drawn after a run
     sweep_figures ``SWEEP_DRAWINGS``, pictures of its sweeps (optional: the response of its figures)
     batch         ``BATCH``, how many cases are evaluated together (optional), see `studies.batch.Batch`
+    estimate      ``estimate(case) -> Estimate``, what a run takes (optional)
     template      ``template.toml``, a commented scenario in which TITLE stands for its title; of a study
                   in a single module its attribute ``TEMPLATE``
     ============= =================================================================================
@@ -158,15 +167,26 @@ class Study:
             return package.TEMPLATE
         return resources.files(package).joinpath("template.toml").read_text(encoding="utf-8")
 
-    def check(self, case: Any) -> Checked:
-        """Check a case and say what it describes, without a run.
+    def estimate(self, case: Any) -> Estimate:
+        """What a run of a case takes; nothing, where the study does not say."""
+        estimate = self._part("estimate", "estimate", optional=True)
+        return estimate(case) if estimate else Estimate()
+
+    def check(self, case: Any, *, allow_large: bool = False) -> Checked:
+        """Check a case and say what it describes, and what a run takes where that is much, without a run.
 
         Raises
         ------
         InputError
-            Where it cannot be run.
+            Where it cannot be run, or takes more than is done unasked and that is not allowed.
         """
-        return self._part("check", "check")(case)
+        estimate = self.estimate(case)
+        refuse_large(estimate, allow_large)
+        checked = self._part("check", "check")(case)
+        data, remarks = checked.data | {"estimate": as_data(estimate)}, checked.remarks
+        if share_of_limits(estimate) >= WORTH_SAYING:
+            remarks = (*remarks, f"A run takes about {described(estimate)}.")
+        return checked._replace(data=data, remarks=remarks)
 
     def run(
         self,
@@ -175,6 +195,7 @@ class Study:
         *,
         force: bool = False,
         progress: Progress | None = None,
+        allow_large: bool = False,
     ) -> RunResult:
         """Run a case and write its record.
 
@@ -187,6 +208,8 @@ class Study:
         force : bool
             Replace an existing record.
         progress : callable, optional
+        allow_large : bool
+            Run what takes more than `estimate.LIMITS`, too.
 
         Returns
         -------
@@ -199,6 +222,7 @@ class Study:
         InputError
             Before anything is written.
         """
+        refuse_large(self.estimate(case), allow_large)
         result = self._part("run", "run")(case, output, force=force, progress=progress)
         return result._replace(summary=withheld(result.summary))
 

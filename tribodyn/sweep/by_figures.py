@@ -10,6 +10,7 @@ from tribodyn.record.sweep_schema import DONE, FAILED, SweepLayout
 from tribodyn.record.trust import TRUST, number
 from tribodyn.record.withheld import remarked, remarks, warned
 from tribodyn.studies.batch import Chunk
+from tribodyn.studies.estimate import Estimate, variable_bytes
 from tribodyn.studies.study import Study
 
 
@@ -60,6 +61,11 @@ class ByFigures:
     def size_of_chunk(self, settings: Settings, total: int, width: int) -> int:
         """One: each is recorded as soon as it is done."""
         return 1
+
+    def estimate(self, case: Any, settings: Settings, total: int, width: int) -> Estimate:
+        """What the study says of a run; the record holds its figures."""
+        row = variable_bytes(self.layout(settings).variables.values(), {})
+        return self.study.estimate(case)._replace(record=row)
 
     def sharing(self, case: Any) -> Hashable:
         """Nothing is known to be shared."""

@@ -15,11 +15,7 @@ from tribodyn.record.writer import check_target
 from tribodyn.sweep.engines import Engine
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.plan import chained_steps, single_steps
-
-#: Above these a sweep is refused: surely mistyped, or too large for one file.
-MOST_CASES, MOST_BYTES = 1_000_000, 64 * 2**30
-#: Seconds that a case takes on one core, for the message about a sweep that is too large.
-SECONDS_A_CASE = 0.02
+from tribodyn.sweep.size import estimate_of, refuse_large
 
 Follow = Callable[[int, int], None]
 """Called with the cases done and to do."""
@@ -51,6 +47,7 @@ def run(
     force: bool = False,
     resume: bool = False,
     follow: Follow | None = None,
+    allow_large: bool = False,
 ) -> SweepResult:
     """Evaluate every case of a grid and write the record.
 
@@ -68,13 +65,15 @@ def run(
     force, resume : bool
         Replace a record, or go on with what an unfinished sweep left.
     follow : callable, optional
+    allow_large : bool
+        Evaluate what takes more than is done unasked, too (`sweep.size`).
 
     Raises
     ------
     InputError
         Before anything is computed.
     """
-    _not_absurd(grid, settings, directions)
+    refuse_large(estimate_of(grid, settings, len(directions), engine.width), allow_large)
     if directions and not grid.batch.states:
         rule = f"{grid.study.about}: its cases do not go on from each other"
         raise InputError("--direction", None, rule, "omit it")
@@ -160,17 +159,3 @@ def _sound_somewhere(grid: Grid, settings: Any) -> None:
             refused = refused or error
     if refused:
         raise refused
-
-
-def _not_absurd(grid: Grid, settings: Any, directions: Sequence[str]) -> None:
-    cases = int(np.prod(grid.shape, dtype=float)) * max(1, len(directions))
-    row = grid.batch.layout(settings).empty_rows(1)
-    size = cases * sum(one.nbytes for one in row.values())
-    if cases > MOST_CASES or size > MOST_BYTES:
-        hours = cases * SECONDS_A_CASE / 3600
-        raise InputError(
-            "--vary",
-            " × ".join(map(str, grid.shape)),
-            f"{cases:.3g} cases, about {hours:.3g} core hours and {size / 2**30:.3g} GiB",
-            f"choose larger steps, or fewer output.samples_per_cycle; at most {MOST_CASES} cases",
-        )

@@ -50,6 +50,10 @@ class Places(NamedTuple):
     flanks: LoadedFlanks | None
 
 
+#: Places on the path that are sought at a time.
+AT_A_TIME = 1000
+
+
 def places(
     cycle: MeshCycle,
     path: Path,
@@ -101,7 +105,10 @@ def places(
     if flanks is not None and corners:
         motion = pair_geometry(flanks.flexible.assembly, roll).motion
     else:
-        motion = kinematics(path, path.signed_distance(np.clip(roll, start, end)))
+        within = np.clip(roll, start, end)
+        # families without closed forms integrate, and hold a hundred numbers of each place meanwhile
+        parts = [within[first : first + AT_A_TIME] for first in range(0, len(within), AT_A_TIME)]
+        motion = kinematics(path, np.concatenate([path.signed_distance(part) for part in parts]))
     at = _Lookup(polynomials(cycle), cycle.boundary, segment, phase)
     one = cycle._replace(
         in_contact=inside,

@@ -5,9 +5,10 @@ from typing import Any
 import numpy as np
 
 from tribodyn.numerics.variable import Variable, flag
-from tribodyn.record.sweep_schema import WORD, SweepLayout
+from tribodyn.record.sweep_schema import OF_EVERY_SWEEP, WORD, SweepLayout
 from tribodyn.solve.recurrence import MAX_PERIOD
 from tribodyn.studies import ends, unstable
+from tribodyn.studies.estimate import variable_bytes
 
 #: `stable`, where the linearised motion was not looked at.
 UNKNOWN = -1
@@ -111,6 +112,19 @@ STATE_NAMES = (
     *("vx_p", "vy_p", "vx_g", "vy_g", "slip", "xi_rate", "motor_slip"),
     *("work_in", "work_out", "work_friction", "work_damping", "work_parametric", "work_sliding"),
 )
+
+
+def row_bytes(settings: Any) -> float:
+    """Bytes of a case in the record of a sweep with these `evaluate.Settings`."""
+    sizes = {
+        "sample": settings.window * settings.samples,
+        "cycle": settings.points,
+        "mode": settings.modes,
+        "state_variable": len(STATE_NAMES),
+        "end": ends.ENDS,
+    }
+    variables = {**CASES, **(ends.VARIABLES if settings.followed else {}), **OF_EVERY_SWEEP}
+    return variable_bytes(variables.values(), sizes)
 
 
 def layout_of(settings: Any) -> SweepLayout:

@@ -12,10 +12,12 @@ from tribodyn.solve.methods import Runs, runs
 from tribodyn.solve.periodic import refuse_time_dependent
 from tribodyn.solve.recurrence import MAX_PERIOD
 from tribodyn.studies.batch import Batch, Chunk
+from tribodyn.studies.estimate import Estimate
 from tribodyn.studies.gear_pair.batch.evaluate import Settings, evaluate, tabulated
 from tribodyn.studies.gear_pair.case import Case
+from tribodyn.studies.gear_pair.estimate import STEADY_CYCLES, swept
 from tribodyn.studies.gear_pair.prepare import prepare, table_key
-from tribodyn.studies.gear_pair.sweep_layout import layout_of
+from tribodyn.studies.gear_pair.sweep_layout import layout_of, row_bytes
 
 #: Mesh cycles that the search for a steady state may take, that its window has (whole periods), and points of
 #: the section of a motion that has no period.
@@ -68,6 +70,12 @@ class GearPairs:
         """Cases to be evaluated together, by the room that their windows take."""
         by_room = max(1, min(MOST_IN_CHUNK, CHUNK_BYTES // (settings.window * settings.samples * STATES * 8)))
         return max(width, min(by_room, max(MINIMUM_IN_CHUNK, total // CHUNKS)))
+
+    def estimate(self, case: Case, settings: Settings, total: int, width: int) -> Estimate:
+        """What one of so many cases takes."""
+        together = min(total, self.size_of_chunk(settings, total, width))
+        taken = swept(case, STEADY_CYCLES if settings.steady else settings.cycles, settings.window, together)
+        return taken._replace(record=row_bytes(settings))
 
     def sharing(self, case: Case) -> Hashable:
         """What the table of the mesh depends on."""

@@ -1,0 +1,28 @@
+"""What an efficiency study takes, before any work."""
+
+from tribodyn.studies.efficiency.case import EfficiencyCase
+from tribodyn.studies.estimate import PROGRAM, Driver, Estimate, record_bytes
+from tribodyn.studies.gears import LAYOUT
+from tribodyn.studies.gears_estimate import FINITE_ELEMENTS, OUTLINES, pressed_memory, pressed_seconds
+
+#: Pairs in contact at once; bytes and seconds of a sample while it is worked out; seconds of the cycle means,
+#: and positions at which these share the load.
+PAIRS, A_SAMPLE_HELD, A_SAMPLE, MEANS, POSITIONS = 2, 1600.0, 4.5e-4, 0.3, 3000.0
+#: Bytes that places on the path take at once while they are sought.
+PATH = 15 * 2.0**20
+
+
+def estimate(case: EfficiencyCase) -> Estimate:
+    """What a run of a case takes."""
+    samples, slices = float(case.samples_per_cycle), case.mesh.slices
+    record = record_bytes(LAYOUT, {"time": case.samples_per_cycle + 1, "pair": PAIRS, "dof": 6}) + OUTLINES
+    memory, seconds, shared = PROGRAM + PATH + A_SAMPLE_HELD * samples, MEANS + A_SAMPLE * samples, 0.0
+    if case.mesh.at_load:
+        memory += pressed_memory(samples, slices)
+        seconds += pressed_seconds(samples + POSITIONS, slices)
+        shared = FINITE_ELEMENTS
+    drivers = (
+        Driver("output.samples_per_cycle", samples, 200),
+        Driver("mesh.slices", slices, 21),
+    )
+    return Estimate(memory, record, seconds, drivers, shared)
