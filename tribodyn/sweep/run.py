@@ -73,7 +73,6 @@ def run(
     InputError
         Before anything is computed.
     """
-    refuse_large(estimate_of(grid, settings, len(directions), engine.width), allow_large)
     if directions and not grid.batch.states:
         rule = f"{grid.study.about}: its cases do not go on from each other"
         raise InputError("--direction", None, rule, "omit it")
@@ -85,6 +84,7 @@ def run(
     if unstable:
         _can_be_continued(grid, directions)
         settings = grid.batch.with_unstable(settings)
+    refuse_large(estimate_of(grid, settings, len(directions), engine.width), allow_large)
     head = _head(grid, settings, directions)
     if not resume:
         check_target(Path(output), force)

@@ -122,9 +122,15 @@ def row_bytes(settings: Any) -> float:
         "mode": settings.modes,
         "state_variable": len(STATE_NAMES),
         "end": ends.ENDS,
+        "motion": unstable.MOTIONS,
+        "return": MAX_PERIOD,
     }
-    variables = {**CASES, **(ends.VARIABLES if settings.followed else {}), **OF_EVERY_SWEEP}
-    return variable_bytes(variables.values(), sizes)
+    return variable_bytes({**_variables(settings), **OF_EVERY_SWEEP}.values(), sizes)
+
+
+def _variables(settings: Any) -> dict[str, Variable]:
+    """What is recorded of every case."""
+    return CASES | (ends.VARIABLES if settings.followed else {}) | (UNSTABLE if settings.unstable else {})
 
 
 def layout_of(settings: Any) -> SweepLayout:
@@ -136,12 +142,9 @@ def layout_of(settings: Any) -> SweepLayout:
         "mode": (MODE, np.arange(1, settings.modes + 1)),
         "state_variable": (STATE_VARIABLE, STATE_NAMES),
     }
-    variables = CASES
     if settings.followed:
-        variables = {**CASES, **ends.VARIABLES}
         scales["end"] = ends.END, np.arange(1, ends.ENDS + 1)
     if settings.unstable:
-        variables = {**variables, **UNSTABLE}
         scales["motion"] = unstable.MOTION, np.arange(1, unstable.MOTIONS + 1)
         scales["return"] = RETURN, np.arange(1, MAX_PERIOD + 1)
-    return SweepLayout(variables, scales, {"samples_per_cycle": settings.samples})
+    return SweepLayout(_variables(settings), scales, {"samples_per_cycle": settings.samples})

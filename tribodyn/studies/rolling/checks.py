@@ -64,6 +64,8 @@ def check(drive: RollingDrive) -> None:
 
 def _millimetres(length: float) -> str:
     """Write a limit rounded down, so that what it says may be used."""
+    if length <= 0.0:
+        return "0 mm"
     digits = 3 - math.floor(math.log10(length * 1e3))
     scale = 10.0**digits
     return f"{math.floor(length * 1e3 * scale) / scale:g} mm"
