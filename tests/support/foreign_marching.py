@@ -116,11 +116,14 @@ class Compared(NamedTuple):
     closes, away : float
         Over the size of the motion: change of the reported motion over its period by the foreign integrator,
         and distance of the marched motion from it; NaN without period.
+    period : int
+        That is reported.
     """
 
     verdict: str
     closes: float
     away: float
+    period: int
 
 
 def compared(march: March, neighbour: Reported, point: Reported, ends: Sequence[float]) -> Compared:
@@ -136,7 +139,7 @@ def compared(march: March, neighbour: Reported, point: Reported, ends: Sequence[
         track = march(point.value, state, 4 * BLOCK)[-2 * BLOCK :]
         size = max(1.0, float(np.max(np.abs(track))))
         nearest = min(float(np.max(np.abs(track[n:] - track[:-n]))) for n in range(1, 9))
-        return Compared("no period" if nearest > SAME * size else other, np.nan, np.nan)
+        return Compared("no period" if nearest > SAME * size else other, np.nan, np.nan, 0)
     size = max(1.0, float(np.max(np.abs(point.state))))
     closes = float(np.max(np.abs(march(point.value, point.state, point.period)[-1] - point.state))) / size
     away = np.inf
@@ -146,4 +149,4 @@ def compared(march: March, neighbour: Reported, point: Reported, ends: Sequence[
         away = float(np.min(np.max(np.abs(track[-point.period :] - point.state), axis=1))) / size
         if away <= SAME / 100.0 or away > FALLING * before:
             break
-    return Compared("same" if away <= SAME else other, closes, away)
+    return Compared("same" if away <= SAME else other, closes, away, point.period)
