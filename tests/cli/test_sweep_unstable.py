@@ -11,6 +11,8 @@ from tribodyn.cli.app import app
 from tribodyn.record.sweep_reader import SweepRecord
 
 SPEEDS = "operating.pinion_speed=440:490:25rad/s"
+SWEEP = ("sweep", "jump-involute-23-47", "--vary", SPEEDS, "--direction", "up", "--unstable")
+SWEEP += ("--set", "output.samples_per_cycle=20")
 
 
 def tribodyn(*words: object) -> str:
@@ -22,8 +24,7 @@ def tribodyn(*words: object) -> str:
 @pytest.fixture(scope="module")
 def jump(tmp_path_factory) -> Path:
     path = tmp_path_factory.mktemp("unstable") / "jump.h5"
-    options = ("--direction", "up", "--unstable", "--set", "output.samples_per_cycle=20")
-    said = tribodyn("sweep", "jump-involute-23-47", "--vary", SPEEDS, *options, "-o", path, "--json")
+    said = tribodyn(*SWEEP, "--workers", "2", "-o", path, "--json")
     path.with_suffix(".json").write_text(said, encoding="utf-8")
     return path
 
@@ -63,6 +64,14 @@ def test_it_is_said_and_drawn(jump: Path, tmp_path: Path):
     assert "beyond, period 1 unstable between 4201.7 rpm and 462" in " ".join(shown.split())
     said = json.loads(tribodyn("plot", jump, "response", "bifurcation", "-o", tmp_path, "--json"))
     assert all(Path(picture).stat().st_size > 10_000 for picture in said["pictures"])
+
+
+def test_one_worker_gives_the_same_bits_as_two(jump: Path, tmp_path: Path):
+    tribodyn(*SWEEP, "--workers", "1", "-o", tmp_path / "one.h5")
+    with SweepRecord(jump) as two, SweepRecord(tmp_path / "one.h5") as one:
+        assert list(one) == list(two)
+        for name in one:
+            assert one[name].tobytes() == two[name].tobytes(), name
 
 
 @pytest.mark.parametrize(
