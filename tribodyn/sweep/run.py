@@ -73,6 +73,8 @@ def run(
     InputError
         Before anything is computed.
     """
+    if unstable:
+        _can_be_continued(grid, directions)
     if directions and not grid.batch.states:
         rule = f"{grid.study.about}: its cases do not go on from each other"
         raise InputError("--direction", None, rule, "omit it")
@@ -82,7 +84,6 @@ def run(
     if directions:
         settings = grid.batch.followed(settings)
     if unstable:
-        _can_be_continued(grid, directions)
         settings = grid.batch.with_unstable(settings)
     refuse_large(estimate_of(grid, settings, len(directions), engine.width), allow_large)
     head = _head(grid, settings, directions)
@@ -122,7 +123,10 @@ def run(
 
 
 def _can_be_continued(grid: Grid, directions: Sequence[str]) -> None:
-    """Raise InputError where no branch is followed, or steps between the values asked for are too dear."""
+    """Raise InputError where no branch is followed, or steps in between are too expensive."""
+    if not grid.batch.states:
+        rule = f"{grid.study.about}: its cases do not go on from each other"
+        raise InputError("--unstable", None, rule, "omit it")
     if not directions:
         rule = "continues the branches that --direction follows"
         raise InputError("--unstable", None, rule, "add --direction up, down or both")
