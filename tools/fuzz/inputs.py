@@ -1,0 +1,187 @@
+"""What is drawn: an input for one of the targets, from a seed and a number."""
+
+from functools import cache
+from pathlib import Path
+from random import Random
+from typing import NamedTuple
+
+from tools.fuzz import corpus
+from tribodyn.scenario.quantity import Table, references
+from tribodyn.scenario.sources import shipped
+from tribodyn.studies import STUDIES
+
+ROOT = Path(__file__).parents[2]
+RECORDS = ROOT / "tests" / "fixtures" / "records-0.1.0"
+CURVE = "load-step.csv"
+#: Targets and how often each is drawn.
+SHARES = {"toml": 30, "set": 30, "curve": 10, "vary": 8, "record": 12, "cache": 8, "check": 2}
+#: Bytes that a mutation likes to put somewhere.
+INTERESTING = (0, 1, 7, 8, 10, 13, 27, 34, 39, 46, 61, 91, 123, 127, 128, 194, 254, 255)
+#: Changes of one input, at most.
+MOST_CHANGES = 8
+
+
+class Input(NamedTuple):
+    """One input: its target, what it is based on, and what is handed over.
+
+    Attributes
+    ----------
+    target : str
+        One of `SHARES`.
+    base : str
+        Name of a scenario or of a record.
+    content : bytes
+        Of a file, or a text for the command line.
+    """
+
+    target: str
+    base: str
+    content: bytes
+
+
+def drawn(seed: int, number: int) -> Input:
+    """The input of that number."""
+    random = Random(f"{seed}/{number}")
+    target = random.choices(list(SHARES), list(SHARES.values()))[0]
+    return globals()[f"_{target}"](random)
+
+
+def of_corpus() -> list[Input]:
+    """Everything of the corpus, each once."""
+    found = [Input("set", "crc-23-47", f"operating.pinion_speed={text}".encode()) for text in corpus.texts()]
+    found += [Input("set", "crc-23-47", f"drive={text}".encode()) for text in corpus.NAMES]
+    found += [
+        Input("set", "load-step", f"operating.gear_torque_table={text}".encode()) for text in corpus.NAMES
+    ]
+    found += [Input("set", "crc-23-47", f"solver.cycles={text}".encode()) for text in corpus.NUMBERS]
+    found += [Input("vary", "crc-23-47", f"operating.pinion_speed={text}".encode()) for text in corpus.RANGES]
+    found += [Input("curve", "load-step", text.encode()) for text in corpus.CURVES]
+    whole = scenarios()["crc-23-47"]
+    for piece in corpus.PIECES:
+        found += [
+            Input("toml", "crc-23-47", whole + piece.encode()),
+            Input("toml", "crc-23-47", piece.encode()),
+        ]
+    return found
+
+
+@cache
+def scenarios() -> dict[str, bytes]:
+    """Shipped scenarios by name."""
+    return {path.stem: path.read_bytes() for path in sorted(shipped("scenarios").glob("*.toml"))}
+
+
+@cache
+def records() -> dict[str, bytes]:
+    """Records by name: one per kind of layout."""
+    return {path.stem: path.read_bytes() for path in sorted(RECORDS.glob("*.h5"))}
+
+
+@cache
+def keys(kind: str) -> tuple[str, ...]:
+    """All dotted keys of the scenarios of a kind, and some that are none."""
+    table = STUDIES[kind].table()
+    named = (".".join(map(str, key)) for key, _ in references(table))
+    return (
+        *_keys(table),
+        *named,
+        "nonsense",
+        "mesh.nonsense.more",
+        "a..b",
+        "",
+        "operating.0",
+        "solver.cycles.1",
+    )
+
+
+def _keys(table: type[Table], above: str = "") -> list[str]:
+    found = []
+    for name, field in table.model_fields.items():
+        found.append(above + name)
+        inner = field.annotation
+        if isinstance(inner, type) and hasattr(inner, "model_fields"):
+            found += _keys(inner, f"{above}{name}.")
+    return found
+
+
+def mutated(random: Random, content: bytes, pieces: list[bytes]) -> bytes:
+    """Content after a few changes: bits, bytes, cuts, copies, pieces from elsewhere."""
+    changed = bytearray(content)
+    for _ in range(random.randint(1, MOST_CHANGES)):
+        at = random.randrange(len(changed) + 1)
+        length = min(len(changed) - at, int(2 ** random.uniform(0, 9)))
+        way = random.randrange(7)
+        if way == 0 and at < len(changed):
+            changed[at] ^= 1 << random.randrange(8)
+        elif way == 1 and at < len(changed):
+            changed[at] = random.choice(INTERESTING)
+        elif way == 2:
+            del changed[at : at + length]
+        elif way == 3:
+            changed[at:at] = changed[at : at + length]
+        elif way == 4:
+            changed[at:at] = bytes(random.choice(INTERESTING) for _ in range(random.randint(1, 8)))
+        elif way == 5 and pieces:
+            changed[at : at + random.choice((0, length))] = random.choice(pieces)
+        elif way == 6:
+            other = random.randrange(len(changed) + 1)
+            changed[at : at + length] = changed[other : other + length]
+    return bytes(changed)
+
+
+def _pieces() -> list[bytes]:
+    texts = (*corpus.PIECES, *corpus.NUMBERS, *corpus.NAMES, *(f'"{one}"' for one in corpus.QUANTITIES))
+    return [one.encode() for one in texts]
+
+
+def _toml(random: Random) -> Input:
+    name = random.choice(list(scenarios()))
+    return Input("toml", name, mutated(random, scenarios()[name], _pieces()))
+
+
+def _set(random: Random) -> Input:
+    name = random.choice(list(scenarios()))
+    kind = random.choice(list(STUDIES))
+    value = random.choice(list(corpus.texts()))
+    if random.random() < 0.5:
+        value = mutated(random, value.encode()[:400], _pieces()[-40:]).decode(errors="replace")
+    equals = random.choice(("=", "=", "=", "=", " = ", ""))
+    return Input("set", name, f"{random.choice(keys(kind))}{equals}{value}".encode())
+
+
+def _curve(random: Random) -> Input:
+    given = (shipped("scenarios") / CURVE).read_bytes()
+    if random.random() < 0.3:
+        given = random.choice(corpus.CURVES).encode()[:2000]
+    return Input("curve", "load-step", mutated(random, given, _pieces()))
+
+
+def _vary(random: Random) -> Input:
+    text = random.choice(corpus.RANGES)
+    if random.random() < 0.7:
+        text = mutated(random, text.encode()[:200], [b":", b",", b"/", b"e9", b" rpm"]).decode(
+            errors="replace"
+        )
+    return Input("vary", "crc-23-47", f"{random.choice(keys('gear-pair'))}={text}".encode())
+
+
+def _record(random: Random) -> Input:
+    name = random.choice(list(records()))
+    given = records()[name]
+    if random.random() < 0.2:
+        return Input("record", name, given[: random.randrange(len(given))])
+    return Input("record", name, mutated(random, given, []))
+
+
+def _cache(random: Random) -> Input:
+    base = random.choice(("kernel", "arrays"))
+    return Input("cache", base, random.randbytes(16))
+
+
+def _check(random: Random) -> Input:
+    key = random.choice([key for key in keys("gear-pair") if key.startswith("drive.")])
+    value = random.choice(
+        ("0", "1", "-1", "0.5", "1e3", "1e-9", "7", "1e308", '"3 mm"', '"1e-9 m"', '"1 km"')
+    )
+    name = random.choice(("crc-23-47", "involute-23-47", "parabolic-23-47", "s-gear-23-47"))
+    return Input("check", name, f"{key}={value}".encode())

@@ -1,0 +1,146 @@
+"""What takes an input, and what may come of it: it is taken, or refused with an `InputError` of one line."""
+
+import hashlib
+import io
+import json
+import os
+from pathlib import Path
+from random import Random
+
+import numpy as np
+
+from tools.fuzz.inputs import CURVE, Input, mutated, scenarios
+from tribodyn.cli.overrides import overrides
+from tribodyn.compliance import fem_cache
+from tribodyn.compliance.gear_compliance import GearCompliance
+from tribodyn.errors import InputError, InputErrors, SimulationError
+from tribodyn.kernels.native import store
+from tribodyn.numerics.cache import keep, trusted_folder
+from tribodyn.post.report import as_json
+from tribodyn.post.sweep_report import sweep_as_json
+from tribodyn.record.sweep_reader import SweepRecord, open_any
+from tribodyn.studies import STUDIES
+from tribodyn.studies.load import load_scenario
+from tribodyn.studies.pictures import summary_table, sweep_table
+from tribodyn.sweep.grid import Grid
+
+TAKEN, REFUSED = "taken", "refused"
+#: Characters that a message has at most: whoever reads it sees what is wrong, and not a file.
+LONGEST = 4000
+
+
+class Fault(Exception):
+    """What must not happen, and is no exception of its own."""
+
+
+def outcome(given: Input, folder: Path) -> str:
+    """`TAKEN` or `REFUSED`; whatever else is raised is a fault.
+
+    Parameters
+    ----------
+    given : Input
+    folder : Path
+        An empty folder for its files; the process's cache lies beside it.
+    """
+    try:
+        _TARGETS[given.target](given, folder)
+    except InputErrors as error:
+        for one in error.errors:
+            _readable(one)
+        return REFUSED
+    except InputError as error:
+        _readable(error)
+        return REFUSED
+    return TAKEN
+
+
+def _readable(error: InputError) -> None:
+    said = str(error)
+    if not error.key or not error.rule:
+        raise Fault(f"a message without key or rule: {said[:200]}")
+    if len(said.splitlines()) != 1 or len(said) > LONGEST:
+        raise Fault(f"a message of {len(said.splitlines())} lines, {len(said)} characters: {said[:200]}")
+
+
+def _toml(given: Input, folder: Path) -> None:
+    path = folder / "case.toml"
+    path.write_bytes(given.content)
+    load_scenario(path)
+
+
+def _set(given: Input, folder: Path) -> None:
+    load_scenario(given.base, overrides([os.fsdecode(given.content)]))
+
+
+def _curve(given: Input, folder: Path) -> None:
+    (folder / CURVE).write_bytes(given.content)
+    path = folder / "case.toml"
+    path.write_bytes(scenarios()[given.base])
+    load_scenario(path)
+
+
+def _vary(given: Input, folder: Path) -> None:
+    Grid(given.base, [os.fsdecode(given.content)], {})
+
+
+def _check(given: Input, folder: Path) -> None:
+    case = load_scenario(given.base, overrides([os.fsdecode(given.content)]))
+    try:
+        STUDIES[case.kind].check(case)
+    except SimulationError:
+        return
+
+
+def _record(given: Input, folder: Path) -> None:
+    path = folder / "run.h5"
+    path.write_bytes(given.content)
+    with open_any(path) as record:
+        if isinstance(record, SweepRecord):
+            sweep_table(record)
+            shown = sweep_as_json(record)
+        else:
+            summary_table(record)
+            shown = as_json(record)
+            for name in record:
+                _ = record[name]
+        del shown
+
+
+def _cache(given: Input, folder: Path) -> None:
+    """A file of the cache that somebody changed: it is as it was written, or none."""
+    random = Random(given.content)
+    if given.base == "kernel":
+        head = {"symbol": "f", "returns": "i8", "single": True, "needs": []}
+        body = random.randbytes(200)
+        head["sha256"] = hashlib.sha256(json.dumps(head, sort_keys=True).encode() + body).hexdigest()
+        written = json.dumps(head).encode() + b"\n" + body
+    else:
+        stream = io.BytesIO()
+        np.savez(stream, **{name: np.arange(12.0) for name in fem_cache._arrays(GearCompliance)})
+        written = stream.getvalue()
+    changed = mutated(random, written, [b"[" * 5000, b"\x93NUMPY\x01\x00", b"(1e9,)"])
+    keep("fuzz", "file", changed)
+    if trusted_folder("fuzz") is None:
+        raise Fault("the cache is not used")
+    if given.base == "kernel":
+        code = store._read("fuzz", "file")
+        if code is not None and code.body != body:
+            raise Fault("changed machine code was taken")
+        return
+    before = fem_cache._FOLDER
+    try:
+        fem_cache._FOLDER = "fuzz"
+        fem_cache._read(GearCompliance, "file")
+    finally:
+        fem_cache._FOLDER = before
+
+
+_TARGETS = {
+    "toml": _toml,
+    "set": _set,
+    "curve": _curve,
+    "vary": _vary,
+    "check": _check,
+    "record": _record,
+    "cache": _cache,
+}
