@@ -2,6 +2,7 @@
 # make test   lint, types and all tests, the slow ones and the speed ratios included
 # make quick  the shortest tests, under a minute (docs/development.md)
 # make soak   random drives, duties and options by the thousand, and other long checks (docs/soak.md)
+# make fuzz   100 000 mutated inputs: scenarios, options, curves, records, the cache (docs/fuzz.md)
 # make durations  measure the tests anew: which are the quick ones, in which order all run
 PYTHON ?= python3
 # two test processes share the cores; a BLAS's own threads would only stand in their way
@@ -17,7 +18,7 @@ BIN := $(VENV)/bin
 # the constraints also hold for what builds the package
 INSTALL := PIP_CONSTRAINT=$(CURDIR)/constraints.txt $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
-.PHONY: demo test quick soak durations lint types tests in-parallel ratios wheel clean
+.PHONY: demo test quick soak fuzz durations lint types tests in-parallel ratios wheel clean
 
 demo: $(VENV)/.installed
 	@mkdir -p demo
@@ -51,6 +52,9 @@ quick: $(VENV)/.testing
 
 soak: $(VENV)/.testing
 	XLA_FLAGS="$(TESTS_XLA)" nice $(BIN)/python -m pytest $(IN_PARALLEL) -m soak tests/soak
+
+fuzz: $(VENV)/.testing
+	nice $(BIN)/python -m tools.fuzz --count 100000 --jobs 2 --into docs/fuzz.md
 
 # twice: where the first user of something expensive is not quick, the next one prepares it
 durations: $(VENV)/.testing

@@ -6,6 +6,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+#: Characters of a path, more than files of any user have.
+LONGEST_PATH = 1024
+
 
 @dataclass
 class InputError(Exception):
@@ -120,7 +123,17 @@ def quoted(value: Any) -> str:
     else:
         text = str(value)
     most = 240 if isinstance(value, str) else 80  # a file's path is quoted in full
+    return cut(text, most)
+
+
+def cut(text: str, most: int) -> str:
+    """Return text of at most so many characters, its end left out where it is longer."""
     return text if len(text) <= most else text[: most - 3] + "..."
+
+
+def printable_path(path: Any) -> str:
+    """Return a path on one line, as long as systems take one; what is longer is no path."""
+    return cut(printable(str(path)), LONGEST_PATH)
 
 
 def printable(text: str) -> str:

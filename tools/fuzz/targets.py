@@ -1,11 +1,11 @@
 """What takes an input, and what may come of it: it is taken, or refused with an `InputError` of one line."""
 
-import hashlib
 import io
 import json
 import os
 from pathlib import Path
 from random import Random
+from typing import Any
 
 import numpy as np
 
@@ -109,30 +109,31 @@ def _record(given: Input, folder: Path) -> None:
 def _cache(given: Input, folder: Path) -> None:
     """A file of the cache that somebody changed: it is as it was written, or none."""
     random = Random(given.content)
-    if given.base == "kernel":
-        head = {"symbol": "f", "returns": "i8", "single": True, "needs": []}
-        body = random.randbytes(200)
-        head["sha256"] = hashlib.sha256(json.dumps(head, sort_keys=True).encode() + body).hexdigest()
-        written = json.dumps(head).encode() + b"\n" + body
-    else:
-        stream = io.BytesIO()
-        np.savez(stream, **{name: np.arange(12.0) for name in fem_cache._arrays(GearCompliance)})
-        written = stream.getvalue()
-    changed = mutated(random, written, [b"[" * 5000, b"\x93NUMPY\x01\x00", b"(1e9,)"])
-    keep("fuzz", "file", changed)
+    body = random.randbytes(200)
+    written = _kernel(body) if given.base == "kernel" else _arrays()
+    keep("fuzz", "file", mutated(random, written, [b"[" * 5000, b"\x93NUMPY\x01\x00", b"(1e9,)"]))
     if trusted_folder("fuzz") is None:
         raise Fault("the cache is not used")
     if given.base == "kernel":
         code = store._read("fuzz", "file")
         if code is not None and code.body != body:
             raise Fault("changed machine code was taken")
-        return
-    before = fem_cache._FOLDER
-    try:
-        fem_cache._FOLDER = "fuzz"
+    else:
+        fem_cache._FOLDER = "fuzz"  # of this process, which is for inputs only
         fem_cache._read(GearCompliance, "file")
-    finally:
-        fem_cache._FOLDER = before
+
+
+def _kernel(body: bytes) -> bytes:
+    head: dict[str, Any] = {"symbol": "f", "returns": "i8", "single": True, "needs": []}
+    head["sha256"] = store._checksum(head, body)
+    return json.dumps(head).encode() + b"\n" + body
+
+
+def _arrays() -> bytes:
+    stream = io.BytesIO()
+    arrays: dict[str, Any] = {name: np.arange(12.0) for name in fem_cache._arrays(GearCompliance)}
+    np.savez(stream, **arrays)
+    return stream.getvalue()
 
 
 _TARGETS = {

@@ -170,9 +170,10 @@ class Curve(Table):
             raise broken(
                 f"{len(x.values)} values of {first} and {len(y.values)} of {second}", "write as many of each"
             )
-        steps = np.diff(np.array(x.values))
-        if not (steps > 0).all():
-            row = int(np.argmin(steps > 0)) + 2
+        given = np.array(x.values)
+        rising = given[1:] > given[:-1]
+        if not rising.all():
+            row = int(np.argmin(rising)) + 2
             raise broken(f"{first} does not increase at point {row}", f"sort the points by {first}")
 
 

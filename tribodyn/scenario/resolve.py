@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tribodyn.errors import InputError, printable, quoted
+from tribodyn.errors import InputError, printable_path, quoted
 from tribodyn.geometry.families import FAMILIES
 from tribodyn.scenario.bounds import TooMuch, broken_bounds, parsed
 from tribodyn.scenario.messages import Key, Origins
@@ -162,7 +162,7 @@ def _put_content(known: _References, key: Key) -> None:
             raise InputError(
                 dotted,
                 quoted(name),
-                f"no such file: {printable(str(file))}",
+                f"no such file: {printable_path(file)}",
                 f"give a CSV file that begins with {columns}",
             )
         curve = read_curve(file, dotted, mark.columns)

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from tribodyn.errors import InputError, near_name, printable, quoted
+from tribodyn.errors import InputError, near_name, printable_path, quoted
 from tribodyn.scenario.bounds import MOST_CSV, MOST_POINTS, MOST_TOML, TooMuch, parsed
 
 _PACKAGE = Path(__file__).resolve().parents[1]
@@ -79,7 +79,7 @@ def find_model(name: str, kind: str, key: str, referring: Path) -> Path:
             return path
         near = near_name(path.stem, names(path.parent))
         remedy = f'did you mean "{Path(name).with_name(near + ".toml")}"?' if near else "check the path"
-        raise InputError(key, quoted(name), f"no such file: {printable(str(path))}", remedy)
+        raise InputError(key, quoted(name), f"no such file: {printable_path(path)}", remedy)
     above = referring.resolve().parent.parent
     # beside a scenario's folder there is models/, beside a model's own folder the other kinds
     folders = [above / "models" / kind, above / kind, shipped("models") / kind]
