@@ -44,6 +44,11 @@ def test_wheel_holds_models_and_scenarios(installed):
 
 
 @pytest.mark.slow
+def test_the_wheel_says_that_it_is_typed(installed):
+    assert (installed / "tribodyn" / "py.typed").is_file()
+
+
+@pytest.mark.slow
 def test_installed_wheel_runs_from_an_empty_folder(installed, tmp_path):
     done = tribodyn(installed, tmp_path, "run", "crc-23-47", "--set", "solver.cycles=2")
     assert done.returncode == 0, done.stderr

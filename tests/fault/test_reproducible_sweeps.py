@@ -1,0 +1,103 @@
+"""A sweep gives the same bits in any order and chunks, on any workers, interrupted and resumed; in short."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.support.killed_sweeps import MOVING_ERROR, differences
+from tribodyn.record.sweep_reader import SweepRecord
+from tribodyn.studies.gear_pair import batch
+from tribodyn.sweep.engines import Dask, Engine, Local
+from tribodyn.sweep.grid import Grid
+from tribodyn.sweep.run import run, settings_of
+
+KEY, _, ERROR = MOVING_ERROR.partition("=")
+SET = {KEY: ERROR, "output.samples_per_cycle": 32}
+SPEEDS = (300, 484, 492, 500, 508)
+#: Way -> mesh cycles to march, directions.
+WAYS: dict[str, tuple[int | None, tuple[str, ...]]] = {
+    "steady": (None, ()),
+    "followed": (None, ("up", "down")),
+    "transient": (40, ()),
+}
+
+
+class Stopped(Exception):
+    """Ends a sweep as Ctrl-C does."""
+
+
+def sweep(
+    way: str, output: Path, engine: Engine, speeds: Sequence[int] = SPEEDS, *, resume=False, stop=0
+) -> Path:
+    """Run a sweep, which stops after so many cases."""
+    cycles, directions = WAYS[way]
+    grid = Grid("jump-involute-23-47", [f"operating.pinion_speed={','.join(map(str, speeds))}rad/s"], SET)
+
+    def follow(done: int, total: int) -> None:
+        if stop and done >= stop and done < total:
+            raise Stopped
+
+    options = {"directions": directions, "resume": resume, "follow": follow}
+    return run(grid, settings_of(grid, cycles), engine, output, **options).path
+
+
+@pytest.fixture(scope="module")
+def alone(tmp_path_factory: pytest.TempPathFactory):
+    """(way) -> record of a sweep that nothing stopped."""
+    folder, made = tmp_path_factory.mktemp("alone"), {}
+
+    def record(way: str) -> Path:
+        if way not in made:
+            made[way] = sweep(way, folder / f"{way}.h5", Local(1))
+        return made[way]
+
+    return record
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_interruptions_change_no_bit(way: str, alone, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    for chunk, stop, workers in ((1, 2, 2), (2, 2, 1), (3, 0, 2)):
+        monkeypatch.setattr(batch, "MOST_IN_CHUNK", chunk)
+        resume = (tmp_path / "s.partial.h5").exists()
+        try:
+            sweep(way, tmp_path / "s.h5", Local(workers), resume=resume, stop=stop)
+        except Stopped:
+            assert stop
+    assert differences(tmp_path / "s.h5", alone(way)) == []
+
+
+@pytest.mark.parametrize("way", ["steady", "transient"])
+def test_order_and_part_of_the_range_change_no_bit(way: str, alone, tmp_path: Path):
+    part = sweep(way, tmp_path / "part.h5", Local(2), (500, 300))
+    with SweepRecord(part) as some, SweepRecord(alone(way)) as every:
+        rows = [SPEEDS.index(500), SPEEDS.index(300)]
+        for name in (
+            "state",
+            "transmission_error_rotational",
+            "poincare_rate",
+            "efficiency",
+            "cycles",
+            "residual",
+        ):
+            assert some[name].tobytes() == every[name][rows].tobytes(), name
+
+
+def test_the_motion_at_500_rad_s(alone):
+    """A start that belongs to another speed leads to the other motion, of six times the size."""
+    with SweepRecord(alone("steady")) as record:
+        size = record["transmission_error_peak_to_peak"][SPEEDS.index(500)]
+        assert size == pytest.approx(12.1e-6, rel=0.01)
+        assert np.ptp(record["transmission_error_rotational"][SPEEDS.index(500)]) == pytest.approx(
+            size, rel=0.02
+        )
+
+
+def test_dask_changes_no_bit(alone, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    distributed = pytest.importorskip("distributed")
+    monkeypatch.setattr(batch, "MOST_IN_CHUNK", 2)
+    one = {"n_workers": 1, "threads_per_worker": 1, "processes": False, "dashboard_address": None}
+    with distributed.LocalCluster(**one) as cluster, distributed.Client(cluster) as client:
+        sweep("steady", tmp_path / "s.h5", Dask(client))
+    assert differences(tmp_path / "s.h5", alone("steady")) == []

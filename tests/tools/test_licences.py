@@ -1,0 +1,48 @@
+"""The page of licences names what is tested with, and nothing that a run needs obliges its users to more."""
+
+import re
+
+import pytest
+
+from tools.licences import COPYLEFT, PAGE, Row, constraints, licence_of, needed, rows, same_name
+
+
+def listed() -> list[Row]:
+    lines = re.findall(
+        r"^\| (\S+) \| (\S+) \| ([^|]+) \| (\w+) \|$", PAGE.read_text(encoding="utf-8"), re.MULTILINE
+    )
+    return [Row(*line) for line in lines]
+
+
+def test_the_page_is_current_with_the_constraints():
+    assert {one.name: one.version for one in listed()} == constraints()
+
+
+def test_the_page_says_what_the_metadata_say():
+    pytest.importorskip("distributed")
+    assert listed() == rows()
+
+
+def test_nothing_that_a_run_needs_is_copyleft():
+    default = needed()
+    assert {
+        "numpy",
+        "numba",
+        "jax",
+        "matplotlib",
+        "pint",
+        "ezdxf",
+        "h5py",
+        "scikit-fem",
+        "llvmlite",
+    } <= default
+    found = {one.name: one.licence for one in listed() if same_name(one.name) in default}
+    assert len(found) == len(default)
+    assert not {name: licence for name, licence in found.items() if COPYLEFT.search(licence)}
+    assert all(licence != "unknown" for licence in found.values())
+
+
+@pytest.mark.parametrize("licence", ["GPL-3.0-or-later", "LGPL-2.1", "GNU AGPLv3 (AGPL)"])
+def test_what_counts_as_copyleft(licence: str):
+    assert COPYLEFT.search(licence)
+    assert not COPYLEFT.search(licence_of("numpy"))

@@ -1,0 +1,130 @@
+"""Licences of everything that tribodyn is tested with, from the metadata of what is installed, into a page.
+
+::
+
+    python -m tools.licences           # print the table
+    python -m tools.licences --write   # into docs/licences.md
+"""
+
+import re
+import sys
+from collections.abc import Iterator
+from importlib.metadata import PackageNotFoundError, metadata, requires
+from pathlib import Path
+from typing import NamedTuple
+
+from packaging.requirements import Requirement
+
+from tools.marked_block import put
+
+ROOT = Path(__file__).parents[1]
+PAGE, MARK = ROOT / "docs" / "licences.md", "licences"
+#: What is not installed with the tests, and what metadata say without naming the licence, read in its files.
+READ_BY_HAND = {
+    "editables": "MIT",
+    "scikit-sundae": "BSD-3-Clause",
+    "diffrax": "Apache-2.0",
+    "equinox": "Apache-2.0",
+    "lineax": "Apache-2.0",
+    "optimistix": "Apache-2.0",
+    "wadler_lindig": "Apache-2.0",
+    "jaxtyping": "MIT",
+    "contourpy": "BSD-3-Clause",
+    "h5netcdf": "BSD-3-Clause",
+    "kiwisolver": "BSD-3-Clause",
+    "scipy": "BSD-3-Clause",
+    "matplotlib": "PSF-2.0",
+    "cycler": "BSD-3-Clause",
+}
+#: Families of licences, by what a licence's name holds.
+COPYLEFT = re.compile(r"GPL|SSPL|EUPL|CC-BY-SA|AGPL", re.IGNORECASE)
+
+
+class Row(NamedTuple):
+    """A package: name and version of constraints.txt, its licence, and what needs it."""
+
+    name: str
+    version: str
+    licence: str
+    needed_for: str
+
+
+def constraints() -> dict[str, str]:
+    """Names and versions of constraints.txt."""
+    lines = (ROOT / "constraints.txt").read_text(encoding="utf-8").splitlines()
+    pairs = (line.partition("==") for line in lines if line and not line.startswith("#"))
+    return {name.strip(): version.strip() for name, _, version in pairs}
+
+
+def same_name(name: str) -> str:
+    """A package's name as indexes compare it."""
+    return re.sub(r"[-_.]+", "-", name).lower()
+
+
+def licence_of(name: str) -> str:
+    """The licence of an installed package; ``READ_BY_HAND`` where its metadata do not name it."""
+    if name in READ_BY_HAND:
+        return READ_BY_HAND[name]
+    said = metadata(name)
+    if said["License-Expression"]:
+        return said["License-Expression"]
+    classified = [
+        one.rpartition("::")[2].strip() for one in said.get_all("Classifier", []) if one.startswith("License")
+    ]
+    return " ".join((said["License"] or "; ".join(classified) or "unknown").split())
+
+
+def needed(extras: tuple[str, ...] = ()) -> set[str]:
+    """Packages that an installation draws in, by name; with these extras of tribodyn."""
+    known = {same_name(name) for name in constraints()}
+    found: set[str] = set()
+    waiting = list(_required("tribodyn", extras))
+    while waiting:
+        name, wanted = waiting.pop()
+        if name not in found and name in known:
+            found.add(name)
+            waiting += _required(name, wanted)
+    return found
+
+
+def _required(name: str, extras: tuple[str, ...]) -> Iterator[tuple[str, tuple[str, ...]]]:
+    try:
+        lines = requires(name) or []
+    except PackageNotFoundError:
+        return
+    for line in lines:
+        one = Requirement(line)
+        marked = one.marker
+        if marked is None or any(marked.evaluate({"extra": extra}) for extra in ("", *extras)):
+            yield same_name(one.name), tuple(one.extras)
+
+
+def rows() -> list[Row]:
+    """A row for every package of constraints.txt."""
+    default, optional = needed(), needed(("xarray", "cluster"))
+    return [
+        Row(
+            name,
+            version,
+            licence_of(name),
+            "runs"
+            if same_name(name) in default
+            else "extras"
+            if same_name(name) in optional
+            else "development",
+        )
+        for name, version in constraints().items()
+    ]
+
+
+def table() -> str:
+    """The rows as a table of a page."""
+    lines = [f"| {one.name} | {one.version} | {one.licence} | {one.needed_for} |" for one in rows()]
+    return "\n".join(["| package | version | licence | needed for |", "|---|---|---|---|", *lines])
+
+
+if __name__ == "__main__":
+    if "--write" in sys.argv:
+        put(PAGE, MARK, table())
+    else:
+        sys.stdout.write(table() + "\n")
