@@ -66,12 +66,13 @@ def licence_of(name: str) -> str:
     if name in READ_BY_HAND:
         return READ_BY_HAND[name]
     said = metadata(name)
-    if said["License-Expression"]:
-        return said["License-Expression"]
+    written = [*(said.get_all("License-Expression") or []), *(said.get_all("License") or [])]
     classified = [
-        one.rpartition("::")[2].strip() for one in said.get_all("Classifier", []) if one.startswith("License")
+        one.rpartition("::")[2].strip()
+        for one in said.get_all("Classifier") or []
+        if one.startswith("License")
     ]
-    return " ".join((said["License"] or "; ".join(classified) or "unknown").split())
+    return " ".join((next(iter(written), "") or "; ".join(classified) or "unknown").split())
 
 
 def needed(extras: tuple[str, ...] = ()) -> set[str]:
