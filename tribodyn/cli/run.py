@@ -29,6 +29,9 @@ def run(
         bool | None,
         typer.Option("--plot/--no-plot", help="All pictures, or none; default: one overview picture."),
     ] = None,
+    report: Annotated[
+        bool, typer.Option("--report", help="Also write a page for the browser, beside the record.")
+    ] = False,
     json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
 ) -> None:
     """Run a scenario: record, summary, picture."""
@@ -46,13 +49,17 @@ def run(
         result = run_case(case, record, force=force, progress=progress, allow_large=allow_large)
     failed = result.status != "complete"
     pictures = [] if failed or plot is False else _draw(result.path, everything=plot is True)
+    page = None if failed or not report else _report(result.path)
     if json:
-        print_json({**_as_json(result.path), "pictures": [str(path) for path in pictures]})
+        shown = {"pictures": [str(path) for path in pictures], **({"report": str(page)} if page else {})}
+        print_json({**_as_json(result.path), **shown})
     else:
         _print_summary(result.path)
         typer.echo(f"record   {quoted_path(result.path)}")
         for picture in pictures:
             typer.echo(f"picture  {quoted_path(picture)}")
+        if page:
+            typer.echo(f"report   {quoted_path(page)}")
     for warning in warnings(result.summary):
         complain(f"{loaded.path}: warning: {warning}")
     if failed:
@@ -84,3 +91,11 @@ def _draw(path: Path, *, everything: bool) -> list[Path]:
     with open_record(path) as record:
         chosen = ["overview", *names([record])] if everything else ["overview"]
         return draw([record], chosen, path.with_suffix(".png"))
+
+
+def _report(path: Path) -> Path:
+    from tribodyn.record.reader import open_record
+    from tribodyn.studies.pages import write_report
+
+    with open_record(path) as record:
+        return write_report([record], path.with_suffix(".html"))

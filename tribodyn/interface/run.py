@@ -115,6 +115,26 @@ class Run:
         with records_of([self, *others]) as records, in_place_of(ax) if ax is not None else nullcontext():
             return figure(name, records, cycles=cycles, against=against)
 
+    def report(self, path: str | Path | None = None, *others: "Run") -> Path:
+        """Write a page for the browser: summary, figures, the teeth rolling through mesh.
+
+        Parameters
+        ----------
+        path : path, optional
+            Default: the record's name, in the current folder.
+        *others : Run
+            Runs of the same kind, side by side with this one.
+
+        Returns
+        -------
+        Path
+            Of one HTML file that needs no other.
+        """
+        from tribodyn.studies.pages import write_report
+
+        with records_of([self, *others]) as records:
+            return write_report(records, path or f"{self.path.stem}.html")
+
     def save(self, path: str | Path, *, force: bool = False) -> Path:
         """Copy the record to a file.
 

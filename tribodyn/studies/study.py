@@ -114,7 +114,7 @@ class Study:
                   ``figures(case) -> dict``, its figures without a record (optional: to be swept)
     report        ``LINES``, heading -> lines of the summary; ``sentences(record)``, how far it is to be
                   trusted; ``SWEPT``, figures that a sweep keeps, and ``SWEEP_LINES``, those that it
-                  prints (both optional)
+                  prints (both optional); ``PANELS``, datasets that a page shows at first (optional)
     figures       ``DRAWINGS``, its pictures by name; the one called overview is drawn after a run
     sweep_figures ``SWEEP_DRAWINGS``, pictures of its sweeps (optional: the response of its figures)
     batch         ``BATCH``, how many cases are evaluated together (optional), see `studies.batch.Batch`
@@ -281,6 +281,10 @@ class Study:
             return response_figure(records, panels_of(records, self.sweep_lines()))
 
         return {"response": SweepDrawing(about, draw)}
+
+    def panels(self) -> tuple[str, ...]:
+        """Datasets that a page of its records shows at first; none: the first ones."""
+        return self._part("report", "PANELS", optional=True) or ()
 
     def batch(self) -> "Batch | None":
         """How many cases are evaluated together; None: one after the other, by `figures`."""

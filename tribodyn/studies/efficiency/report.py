@@ -52,6 +52,8 @@ SWEPT: dict[str, Variable] = {
     ),
 }
 
+PANELS = ("normal_load", "friction_coefficient", "hertz_pressure", "power_friction", "efficiency")
+
 
 def sentences(record: Record) -> list[str]:
     """Say how well the study satisfies what can be checked: range of the film law, balance of energy."""

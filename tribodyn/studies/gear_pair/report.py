@@ -56,6 +56,14 @@ SWEEP_LINES = (
 #: Difference between the extremes of the run and those of its last cycles that is said.
 DIFFERENT = 0.005
 
+PANELS = (
+    "transmission_error_rotational",
+    "normal_load",
+    "central_film_thickness",
+    "friction_coefficient",
+    "power_friction",
+)
+
 
 def on_extremes(summary: Mapping[str, Any]) -> list[str]:
     """Say which extremes of the whole run are not those of its last mesh cycles, and what the latter are."""

@@ -50,6 +50,8 @@ SWEPT: dict[str, Variable] = {
     "torque_residual": Variable((), "1", "torque of the loads over the gear's torque, less 1, at most"),
 }
 
+PANELS = ("loaded_transmission_error", "normal_load", "mesh_stiffness")
+
 
 def sentences(record: Record) -> list[str]:
     """Say what the model leaves out, and how well the loads carry the torque."""

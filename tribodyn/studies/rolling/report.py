@@ -52,6 +52,8 @@ MODES = {
     "by (Z2 + 1)/2, slip lowers the loss, efficiency is the product (23). A reference, not a prediction.",
 }
 
+PANELS = ("normal_load", "slip_speed", "power_friction", "efficiency")
+
 
 def sentences(record: Record) -> list[str]:
     """Say what the mode amounts to, and how well the energy balance closes."""

@@ -1,0 +1,218 @@
+"""Pages of records: what they hold, that they harm nobody, and what a browser makes of them."""
+
+import base64
+import html
+import json
+import re
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+import tribodyn as td
+from tribodyn.interface.run import Run
+from tribodyn.post.page import pdf
+from tribodyn.post.page.rolling_teeth import rolling_teeth
+from tribodyn.post.page.series import MOST_SAMPLES, in_engineers_units, thinned
+from tribodyn.record.reader import open_record
+
+needs_browser = pytest.mark.skipif(
+    pdf.browser() is None, reason="no browser: install Chromium (apt-get install chromium)"
+)
+
+
+@pytest.fixture(scope="module")
+def crc() -> Run:
+    return td.run("efficiency-crc-23-47")
+
+
+@pytest.fixture(scope="module")
+def page(crc, tmp_path_factory) -> Path:
+    return crc.report(tmp_path_factory.mktemp("page") / "crc.html")
+
+
+def data_of(page: Path) -> dict:
+    text = page.read_text(encoding="utf-8")
+    (data,) = re.findall(r'<script type="application/json" id="data">(.*?)</script>', text, re.DOTALL)
+    return json.loads(data)
+
+
+def unpacked(text: str, kind: str = "<f4") -> np.ndarray:
+    return np.frombuffer(base64.b64decode(text), kind)
+
+
+def test_it_needs_no_other_file_and_is_small(page):
+    text = page.read_text(encoding="utf-8")
+    assert len(text.encode()) < 6e6
+    assert not re.findall(r"<(?:script|link|img|iframe)[^>]+(?:src|href)=", text.split("<script>")[0])
+    assert "default-src 'none'" in text
+
+
+def test_it_holds_what_was_sampled(crc, page):
+    (record,) = data_of(page)["records"]
+    series = {one["name"]: one for one in record["series"]}
+    load = series["normal_load"]
+    assert load["unit"] == "N"
+    assert [one["label"] for one in load["curves"]] == ["pair 1", "pair 0"]
+    np.testing.assert_allclose(
+        unpacked(load["curves"][0]["y"]), crc.data["normal_load"].sel(pair=1), rtol=1e-6
+    )
+    np.testing.assert_allclose(unpacked(record["axis"], "<f8"), crc.data["time"] * 1e3)
+
+
+@pytest.mark.parametrize("scenario", ["efficiency-crc-23-47", "efficiency-involute-18-36"])
+def test_contact_points_lie_on_both_flanks_and_on_the_path(scenario):
+    """To a micrometre, at random positions; the flanks as the page has them, turned as it turns them."""
+    result = td.run(scenario)
+    with open_record(result.path) as record:
+        teeth = rolling_teeth(record)
+    assert teeth is not None
+    pairs, (rp, rg) = teeth["pairs"], teeth["radii"]
+    x, y = (unpacked(teeth[name]).astype(float).reshape(-1, pairs) for name in "xy")
+    pinion, gear, path = (unpacked(teeth[n]).astype(float).reshape(-1, 2) for n in ("pinion", "gear", "path"))
+    roll = unpacked(teeth["roll"], "<f8")
+    rng, found = np.random.default_rng(3), 0
+    for frame in rng.choice(len(roll), 25):
+        places = turned(pinion, -roll[frame]), turned(gear, roll[frame] * rp / rg)
+        places[0][:, 1] -= rp
+        places[1][:, 1] += rg
+        for point in np.stack([x[frame], y[frame]], axis=1):
+            if np.isfinite(point[0]):
+                found += 1
+                for line in (*map(closed, places), path):
+                    assert distance(point, line) < 1e-6
+    assert found > 25
+
+
+def turned(points, angle):
+    c, s = np.cos(angle), np.sin(angle)
+    return points @ np.array([[c, s], [-s, c]])
+
+
+def closed(points):
+    return np.concatenate([points, points[:1]])
+
+
+def distance(point, line):
+    start, along = line[:-1], np.diff(line, axis=0)
+    share = np.sum((point - start) * along, axis=1) / np.maximum(np.sum(along**2, axis=1), 1e-30)
+    return np.min(np.linalg.norm(start + np.clip(share, 0, 1)[:, None] * along - point, axis=1))
+
+
+def test_what_is_thinned_keeps_its_extremes_and_its_gaps(rng):
+    values = rng.normal(size=100_001)
+    values[[777, 50_000]] = 9.0, -9.0
+    values[30_000:40_000] = np.nan
+    index, kept = thinned(values)
+    assert len(index) < 2 * MOST_SAMPLES
+    assert (np.nanmax(kept), np.nanmin(kept)) == (9.0, -9.0)
+    np.testing.assert_array_equal(kept, values[index])
+    assert np.isnan(kept[(index >= 30_000) & (index < 40_000)]).all()
+    assert np.any((index >= 30_000) & (index < 40_000))
+    assert (index[0], index[-1]) == (0, 100_000)
+    short = np.arange(5.0)
+    np.testing.assert_array_equal(thinned(short)[1], short)
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "shown"),
+    [
+        (2.5e-6, "m", (2.5, "µm")),
+        (0.25e9, "Pa", (250.0, "MPa")),
+        (3.0, "kg", (3.0, "kg")),
+        (0.0, "m", (0.0, "mm")),
+    ],
+)
+def test_units_are_those_in_which_the_maximum_reads_best(value, unit, shown):
+    scaled, name = in_engineers_units(np.array([0.0, value, np.nan]), unit)
+    assert (scaled[1], name) == (pytest.approx(shown[0]), shown[1])
+
+
+def test_a_page_replaces_pages_only(crc, tmp_path: Path):
+    other = tmp_path / "mine.html"
+    other.write_text("my own", encoding="utf-8")
+    for target, said in ((other, "no page of tribodyn"), (tmp_path / "x.toml", "ends in .html")):
+        with pytest.raises(td.InputError, match=said):
+            crc.report(target)
+    assert other.read_text(encoding="utf-8") == "my own"
+    for _ in range(2):
+        assert crc.report(tmp_path / "again.html").is_file()
+    with pytest.raises(td.OutputError):
+        crc.report(tmp_path / "none" / "x.html")
+
+
+def test_records_of_different_quantities_have_pages_of_their_own(crc, tmp_path: Path):
+    other = td.run("irefc", {"output.samples_per_cycle": 8})
+    with pytest.raises(td.InputError, match="a page of its own"):
+        crc.report(tmp_path / "x.html", other)
+    assert other.report(tmp_path / "irefc.html").is_file()
+
+
+HOSTILE = (
+    '<script>document.body.dataset.hit="yes"</script></script>'
+    '<img src=x onerror="document.body.dataset.hit=1">'
+)
+
+
+@pytest.fixture(scope="module")
+def hostile(crc, tmp_path_factory) -> Path:
+    """The page of a record with a hostile title, dataset, unit and summary."""
+    folder = tmp_path_factory.mktemp("hostile")
+    path = crc.save(folder / "hostile.h5")
+    with h5py.File(path, "r+") as file:
+        scenario = str(file.attrs["scenario"])
+        title = re.search(r'^title = ".*"$', scenario, re.MULTILINE)
+        assert title
+        file.attrs["scenario"] = scenario.replace(title.group(), f"title = '''{HOSTILE}'''")
+        file["normal_load"].attrs["long_name"] = HOSTILE
+        file["efficiency"].attrs["units"] = HOSTILE
+        file["summary"].attrs["compliance_remark"] = HOSTILE
+    opened = td.open(path)
+    assert isinstance(opened, Run)
+    return opened.report(folder / "hostile.html")
+
+
+def test_texts_of_a_record_are_texts(hostile):
+    text = hostile.read_text(encoding="utf-8")
+    assert HOSTILE not in text
+    assert html.escape(HOSTILE) in text
+
+
+@needs_browser
+@pytest.mark.slow
+@pytest.mark.parametrize("at", [3.0, 11.0])
+def test_one_cursor_moves_everything(at, crc, page):
+    dom = shown(f"{page.as_uri()}#at={at}")
+    assert 'data-ready="yes"' in dom
+    assert f'data-at="{at:g}"' in dom
+    time = crc.data["time"].to_numpy() * 1e3
+    sample = int(np.argmin(np.abs(time - at)))
+    for pair in (1, 0):
+        load = float(crc.data["normal_load"].sel(pair=pair)[sample])
+        (printed,) = re.findall(rf"<td>normal load, pair {pair}</td><td>([^<]*) N</td>", dom)
+        assert float(printed) == pytest.approx(load, rel=1e-4)
+    assert re.search(r'data-line="[1-9][0-9.]*px"', dom)
+
+
+@needs_browser
+@pytest.mark.slow
+def test_a_hostile_record_does_nothing(hostile):
+    dom = shown(hostile.as_uri())
+    assert 'data-ready="yes"' in dom
+    assert "data-hit" not in dom.split("<script")[0]
+
+
+def shown(address: str) -> str:
+    """The document as the browser has it in the end; no error on its console."""
+    ended = pdf.run_browser("--dump-dom", "--enable-logging=stderr", "--window-size=1200,1000", address)
+    assert ended.returncode == 0
+    complaints = [line for line in ended.stderr.splitlines() if "CONSOLE" in line]
+    assert not complaints, complaints
+    return ended.stdout
+
+
+def test_without_a_browser_nothing_is_printed(page, monkeypatch):
+    monkeypatch.setattr(pdf, "browser", lambda: None)
+    with pytest.raises(td.InputError, match="install Chromium"):
+        pdf.print_page(page)

@@ -1,0 +1,45 @@
+"""`tribodyn report`: a page of records, to be opened in a browser."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+EXAMPLES = (
+    "\b\nExamples:\n"
+    "  tribodyn report crc-23-47.h5\n"
+    "  tribodyn report crc-23-47.h5 involute-23-47.h5 -o both.html\n"
+    "\b\nThe page is one file, which needs no other and no network: summary, figures that can be\n"
+    "zoomed, the teeth rolling through mesh, the scenario."
+)
+
+
+def report(
+    records: Annotated[list[str], typer.Argument(metavar="RECORD...", help="Records of tribodyn run.")],
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", help="The page; default: the records' names, in this folder."),
+    ] = None,
+    pdf: Annotated[bool, typer.Option("--pdf", help="Also print it, through an installed browser.")] = False,
+    json: Annotated[bool, typer.Option("--json", help="Print the path as JSON.")] = False,
+) -> None:
+    """Write a page of records for the browser; several side by side."""
+    from contextlib import ExitStack
+
+    from tribodyn.cli.printing import print_json, quoted_path
+    from tribodyn.record.reader import open_record
+    from tribodyn.studies.pages import write_report
+
+    target = output or Path(f"{'-'.join(Path(path).stem for path in records)}.html")
+    with ExitStack() as stack:
+        written = write_report([stack.enter_context(open_record(path)) for path in records], target)
+    files = {"report": written}
+    if pdf:
+        from tribodyn.post.page.pdf import print_page
+
+        files["pdf"] = print_page(written)
+    if json:
+        print_json({what: str(path) for what, path in files.items()})
+    else:
+        for what, path in files.items():
+            typer.echo(f"{what:8} {quoted_path(path)}")

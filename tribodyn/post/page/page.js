@@ -1,0 +1,249 @@
+"use strict";
+(function () {
+  const data = JSON.parse(document.getElementById("data").textContent);
+  const $ = (id) => document.getElementById(id);
+  const COLORS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"];
+  const DASHES = ["solid", "dash", "dot", "dashdot"];
+  function numbers(text, Kind) {
+    const raw = atob(text), bytes = new Uint8Array(raw.length);
+    for (let i = 0; i < raw.length; i++) bytes[i] = raw.charCodeAt(i);
+    return new Kind(bytes.buffer);
+  }
+  // unpack the records
+  for (const record of data.records) {
+    record.axis = numbers(record.axis, Float64Array);
+    record.byName = {};
+    for (const one of record.series) {
+      record.byName[one.name] = one;
+      for (const curve of one.curves) {
+        curve.y = numbers(curve.y, Float32Array);
+        curve.i = curve.i === null ? null : numbers(curve.i, Uint32Array);
+        curve.x = curve.i === null ? record.axis : Float64Array.from(curve.i, (i) => record.axis[i]);
+      }
+    }
+    const teeth = record.teeth;
+    if (teeth) {
+      teeth.frames = numbers(teeth.frames, Uint32Array);
+      teeth.roll = numbers(teeth.roll, Float64Array);
+      for (const name of ["x", "y", "alpha", "path"]) teeth[name] = numbers(teeth[name], Float32Array);
+      for (const name of ["pinion", "gear"]) {
+        const points = numbers(teeth[name], Float32Array), outline = new Path2D();
+        for (let k = 0; k < points.length; k += 2) outline.lineTo(points[k], points[k + 1]);
+        outline.closePath();
+        teeth[name] = points;
+        teeth[name + "Path"] = outline;
+      }
+    }
+  }
+  const first = data.records[0];
+  let shown = data.panels.filter((name) => first.byName[name]);
+  let which = 0, at = first.start, playing = false, last = 0;
+  const span = () => [first.axis[0], first.axis[first.axis.length - 1]];
+  let range = first.window;
+
+  function indexAt(axis, value) {
+    let low = 0, high = axis.length - 1;
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (axis[middle] <= value) low = middle; else high = middle;
+    }
+    return value - axis[low] <= axis[high] - value ? low : high;
+  }
+  const valueAt = (curve) => curve.y[indexAt(curve.x, at)];
+  function written(value) {
+    if (!isFinite(value)) return "–";
+    const size = Math.abs(value);
+    return size >= 1e5 || (size > 0 && size < 1e-3) ? value.toExponential(3) : value.toPrecision(5);
+  }
+  // plotly reads tags in its texts
+  const plain = (text) => text.replace(/&/g, "&amp;").replace(/</g, "&lt;");
+  const several = data.records.length > 1;
+  const colorOf = (number, k) => COLORS[(several ? number : k) % COLORS.length];
+  function heading(series) {
+    const names = several ? data.records.map((one) => one.label) : series.curves.length > 1 ? series.curves.map((one) => one.label) : [];
+    if (names.length > 8) return plain(series.title + "   " + names[0] + " … " + names[names.length - 1]);
+    const colored = names.map((name, k) => '<span style="color:' + COLORS[k % COLORS.length] + '">' + plain(name) + "</span>");
+    return [plain(series.title)].concat(colored).join("   ");
+  }
+  // ---- figures
+  function draw() {
+    const style = getComputedStyle(document.documentElement), ink = style.getPropertyValue("--ink").trim();
+    const grid = style.getPropertyValue("--line").trim(), traces = [], count = shown.length;
+    const layout = {
+      height: 90 + 190 * count, margin: { l: 75, r: 20, t: 28, b: 48 }, paper_bgcolor: "rgba(0,0,0,0)",
+      plot_bgcolor: "rgba(0,0,0,0)", font: { color: ink, size: 12 }, hovermode: "x unified", showlegend: false,
+      annotations: [],
+      xaxis: { title: { text: data.axis }, range: range, gridcolor: grid, zeroline: false, anchor: count > 1 ? "y" + count : "y" },
+    };
+    shown.forEach((name, row) => {
+      const key = row === 0 ? "" : String(row + 1), gap = 0.11 / Math.max(count - 1, 1);
+      const height = (1 - gap * (count - 1)) / count, top = 1 - row * (height + gap);
+      const series = first.byName[name];
+      layout["yaxis" + key] = {
+        domain: [Math.max(0, top - height), top], title: { text: plain(series.unit) }, gridcolor: grid, zeroline: false, anchor: "x",
+      };
+      layout.annotations.push({
+        text: heading(series), x: 0, y: top, xref: "paper", yref: "paper", xanchor: "left", yanchor: "bottom", showarrow: false,
+      });
+      data.records.forEach((record, number) => {
+        const one = record.byName[name];
+        if (!one) return;
+        one.curves.forEach((curve, k) => {
+          const label = [several ? record.label : "", curve.label || (several ? "" : series.unit)];
+          traces.push({
+            type: "scatter", mode: "lines", x: curve.x, y: curve.y, xaxis: "x", yaxis: "y" + key, connectgaps: false,
+            name: plain(label.filter(Boolean).join(", ")),
+            line: { width: 1.3, color: colorOf(number, k), dash: several ? DASHES[k % DASHES.length] : "solid" },
+          });
+        });
+      });
+    });
+    Plotly.react($("plot"), traces, layout, { responsive: true, displaylogo: false, scrollZoom: false });
+    mark();
+  }
+  function mark() {
+    const full = $("plot")._fullLayout, line = $("line");
+    if (!full || !full.xaxis) return;
+    const x = full.xaxis._offset + full.xaxis.d2p(at);
+    line.style.display = x >= full.xaxis._offset - 1 && x <= full.xaxis._offset + full.xaxis._length + 1 ? "block" : "none";
+    line.style.left = x + "px";
+    line.style.height = full.height - 48 + "px";
+  }
+  // ---- teeth
+  function drawTeeth() {
+    const record = data.records[which], teeth = record.teeth, canvas = $("teeth");
+    if (!teeth) return;
+    const context = canvas.getContext("2d"), style = getComputedStyle(document.documentElement);
+    const color = (name) => style.getPropertyValue(name).trim();
+    const ratio = window.devicePixelRatio || 1, width = canvas.clientWidth || 900, height = Math.round(width * 0.66);
+    if (canvas.width !== Math.round(width * ratio)) {
+      canvas.width = Math.round(width * ratio);
+      canvas.height = Math.round(height * ratio);
+      canvas.style.height = height + "px";
+    }
+    const sample = indexAt(record.axis, at), frame = indexAt(teeth.frames, sample), roll = teeth.roll[frame];
+    let across = 1e-9;
+    for (let k = 0; k < teeth.path.length; k += 2) across = Math.max(across, Math.abs(teeth.path[k]), 1.4 * Math.abs(teeth.path[k + 1]));
+    const scale = (canvas.width / 2) / (1.75 * across);
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    context.clearRect(0, 0, canvas.width, canvas.height);
+    const world = () => context.setTransform(scale, 0, 0, -scale, canvas.width / 2, canvas.height / 2);
+    const body = (outline, centre, angle, fill, edge) => {
+      world();
+      context.translate(0, centre);
+      context.rotate(angle);
+      context.fillStyle = fill;
+      context.fill(outline);
+      context.lineWidth = 1.4 * ratio / scale;
+      context.strokeStyle = edge;
+      context.stroke(outline);
+    };
+    body(teeth.pinionPath, -teeth.radii[0], -roll, color("--pinion"), COLORS[0]);
+    body(teeth.gearPath, teeth.radii[1], roll * teeth.radii[0] / teeth.radii[1], color("--gear"), COLORS[1]);
+    world();
+    context.beginPath();
+    for (let k = 0; k < teeth.path.length; k += 2) context.lineTo(teeth.path[k], teeth.path[k + 1]);
+    context.lineWidth = 1.6 * ratio / scale;
+    context.strokeStyle = color("--ink");
+    context.stroke();
+    const loads = record.byName[data.load], tint = record.byName[$("color").value];
+    if (!loads) return;
+    let largest = 1e-30, lowest = Infinity, highest = -Infinity;
+    for (const curve of loads.curves) for (const y of curve.y) if (y > largest) largest = y;
+    if (tint) for (const curve of tint.curves) for (const y of curve.y) if (isFinite(y)) { lowest = Math.min(lowest, y); highest = Math.max(highest, y); }
+    const pairs = teeth.pairs;
+    for (let q = 0; q < pairs; q++) {
+      const x = teeth.x[frame * pairs + q], y = teeth.y[frame * pairs + q], alpha = teeth.alpha[frame * pairs + q];
+      if (!isFinite(x)) continue;
+      // the curves stand newest pair first, the slots oldest first
+      const load = valueAt(loads.curves[pairs - 1 - q] || loads.curves[0]);
+      const share = tint ? (valueAt(tint.curves[pairs - 1 - q] || tint.curves[0]) - lowest) / (highest - lowest || 1) : 1;
+      arrow(context, x, y, alpha, (load / largest) * 0.55 * across, share, ratio / scale);
+    }
+  }
+  function arrow(context, x, y, alpha, length, share, pixel) {
+    const c = Math.cos(alpha), s = Math.sin(alpha), hue = 240 - 240 * Math.min(1, Math.max(0, share || 0));
+    context.strokeStyle = context.fillStyle = "hsl(" + hue + " 85% 45%)";
+    context.lineWidth = 2.6 * pixel;
+    if (length > 0) {
+      const tip = [x + length * c, y + length * s], head = Math.min(10 * pixel, 0.4 * length);
+      context.beginPath(); context.moveTo(x, y); context.lineTo(tip[0], tip[1]); context.stroke();
+      context.beginPath(); context.moveTo(tip[0], tip[1]);
+      context.lineTo(tip[0] - head * c + 0.5 * head * s, tip[1] - head * s - 0.5 * head * c);
+      context.lineTo(tip[0] - head * c - 0.5 * head * s, tip[1] - head * s + 0.5 * head * c);
+      context.closePath(); context.fill();
+    }
+    context.beginPath(); context.arc(x, y, 3.5 * pixel, 0, 7); context.fill();
+  }
+  function read() {
+    const table = $("readings"), record = data.records[which];
+    $("where").textContent = data.axis + " " + written(at);
+    table.textContent = "";
+    for (const name of shown) {
+      const series = record.byName[name];
+      if (!series) continue;
+      for (const curve of series.curves) {
+        const row = table.insertRow();
+        row.insertCell().textContent = series.short + (curve.label ? ", " + curve.label : "");
+        row.insertCell().textContent = written(valueAt(curve)) + (series.unit === "–" ? "" : " " + series.unit);
+      }
+    }
+  }
+  function move(value, fromSlider) {
+    const [low, high] = span();
+    at = Math.min(high, Math.max(low, value));
+    if (!fromSlider) $("cursor").value = String(Math.round(1000 * (at - range[0]) / (range[1] - range[0])));
+    mark(); drawTeeth(); read();
+    document.body.dataset.at = String(at);
+    document.body.dataset.line = $("line").style.left;
+  }
+  function choose(select, options) {
+    for (const [value, text] of options) {
+      const option = document.createElement("option");
+      option.value = value; option.textContent = text;
+      select.appendChild(option);
+    }
+  }
+  function offer() {
+    $("add").textContent = "";
+    choose($("add"), [["", "…"]].concat(first.series.filter((one) => !shown.includes(one.name)).map((one) => [one.name, one.short])));
+  }
+  function tick(now) {
+    if (!playing) return;
+    // a mesh cycle, or a twentieth of what is shown, takes four seconds
+    const step = (now - last) / 4000 * first.cycle * Number($("speed").value);
+    last = now;
+    let next = at + step;
+    if (next > range[1]) next = range[0];
+    move(next);
+    requestAnimationFrame(tick);
+  }
+  $("play").onclick = () => { playing = !playing; $("play").textContent = playing ? "❚❚" : "▶"; last = performance.now(); if (playing) requestAnimationFrame(tick); };
+  $("cursor").oninput = (event) => move(range[0] + Number(event.target.value) / 1000 * (range[1] - range[0]), true);
+  $("add").onchange = (event) => { if (event.target.value) { shown.push(event.target.value); offer(); draw(); read(); } };
+  $("view").onchange = (event) => { range = event.target.value === "all" ? span() : first.window; draw(); move(Math.max(range[0], Math.min(range[1], at))); };
+  $("color").onchange = drawTeeth;
+  $("which").onchange = (event) => { which = Number(event.target.value); move(at); };
+  $("theme").onclick = () => { const root = document.documentElement; root.dataset.theme = root.dataset.theme === "dark" ? "light" : "dark"; draw(); drawTeeth(); };
+  document.addEventListener("keydown", (event) => {
+    if (["SELECT", "INPUT"].includes(event.target.tagName) && event.key !== " ") return;
+    const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+    if (step) { const axis = first.axis; move(axis[Math.min(axis.length - 1, Math.max(0, indexAt(axis, at) + step * (event.shiftKey ? 10 : 1)))]); event.preventDefault(); }
+    if (event.key === " ") { $("play").onclick(); event.preventDefault(); }
+  });
+  document.documentElement.dataset.theme = window.matchMedia && window.matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+  choose($("view"), [["window", "the last mesh cycles"], ["all", "the whole run"]]);
+  if (first.window[0] <= span()[0] && first.window[1] >= span()[1]) $("view").parentElement.hidden = true;
+  choose($("color"), first.series.filter((one) => one.curves.length > 1).map((one) => [one.name, one.short]));
+  if (first.byName[data.load]) $("color").value = data.load;
+  choose($("which"), data.records.map((one, k) => [String(k), one.label]));
+  $("which-label").hidden = data.records.length < 2;
+  $("teeth-section").hidden = !data.records.some((one) => one.teeth);
+  // page.html#at=1.25 opens there
+  const asked = Number(new URLSearchParams(location.hash.slice(1)).get("at") || NaN);
+  offer(); draw(); move(isFinite(asked) ? asked : at);
+  $("plot").on("plotly_hover", (event) => { if (!playing) move(event.points[0].x); });
+  $("plot").on("plotly_relayout", mark);
+  window.addEventListener("resize", () => { drawTeeth(); mark(); });
+  document.body.dataset.ready = "yes";
+})();

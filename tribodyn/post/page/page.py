@@ -1,0 +1,176 @@
+"""Puts a page together: one file, which asks nothing of any other place."""
+
+import json
+from collections.abc import Sequence
+from html import escape
+from importlib import resources
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.errors import InputError
+from tribodyn.post.page.rolling_teeth import rolling_teeth
+from tribodyn.post.page.series import as_data, in_engineers_units, packed, series_of
+from tribodyn.post.report import Lines, shown
+from tribodyn.record.reader import Record
+from tribodyn.record.withheld import reasons, warnings
+
+#: The dataset that is a pair's load.
+LOAD = "normal_load"
+#: Figures that are shown at first where a study names none.
+FIGURES = 4
+#: Mesh cycles that are shown at first.
+CYCLES = 2
+
+
+class Told(NamedTuple):
+    """What a record's study says of it: lines of its summary by heading, how far to trust it, its figures."""
+
+    lines: Lines
+    sentences: Sequence[str]
+    panels: Sequence[str] = ()
+
+
+def page(records: Sequence[Record], told: Sequence[Told]) -> str:
+    """Write the page of records, which share their quantities; the first one's are the panels.
+
+    Parameters
+    ----------
+    records : sequence of Record
+        Open.
+    told : sequence of Told
+        Of each.
+
+    Raises
+    ------
+    InputError
+        For a record without samples.
+    """
+    data = [_record(record) for record in records]
+    names = [one["name"] for one in data[0]["series"]]
+    panels = [name for name in told[0].panels if name in names] or names[:FIGURES]
+    axis = records[0].axis
+    unit = data[0].pop("axis_unit")
+    for one in data[1:]:
+        one.pop("axis_unit")
+    payload = {"records": data, "panels": panels, "load": LOAD, "axis": f"{axis.replace('_', ' ')} ({unit})"}
+    title = " · ".join(dict.fromkeys(_title(record) for record in records))
+    parts = {
+        "TITLE": escape(title),
+        "STYLE": _file("page.css"),
+        "WARNINGS": "".join(_warnings(record, len(records) > 1) for record in records),
+        "SUMMARY": _summary(records, [one.lines for one in told]),
+        "GEOMETRY": "",
+        "TRUST": "".join(
+            _list(record, one.sentences, len(records) > 1) for record, one in zip(records, told, strict=True)
+        ),
+        "ORIGIN": "".join(map(_origin, records)),
+        # no text of a record can end the element that holds it
+        "DATA": json.dumps(payload, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"),
+        "PLOTLY": resources.files("plotly")
+        .joinpath("package_data/plotly.min.js")
+        .read_text(encoding="utf-8"),
+        "SCRIPT": _file("page.js"),
+    }
+    written = _file("page.html")
+    pieces = written.split("@")
+    # every other piece is a name: what stands in for one is not looked through again
+    return "".join(parts[piece] if piece in parts else piece for piece in pieces)
+
+
+def _file(name: str) -> str:
+    return resources.files(__package__ or "").joinpath(name).read_text(encoding="utf-8")
+
+
+def _title(record: Record) -> str:
+    title = str(record.scenario.get("title", record.label))
+    return title if record.status == "complete" else f"{title} [{record.status}]"
+
+
+def _record(record: Record) -> dict[str, Any]:
+    """A record as the page reads it."""
+    if not record.samples:
+        rule = "holds no samples to draw"
+        raise InputError("record", str(record.path), rule, "run the scenario again")
+    teeth = rolling_teeth(record)
+    axis, unit = in_engineers_units(np.asarray(record[record.axis], dtype=float), record.units(record.axis))
+    cycle = float(axis[-1] - axis[0]) / 20.0
+    window = [float(axis[0]), float(axis[-1])]
+    cycles = record.summary.get("cycles_done")
+    if cycles and record.axis == "time":
+        cycle = float(axis[-1] - axis[0]) / float(cycles)
+        window[0] = max(window[0], window[1] - CYCLES * cycle)
+    elif record.axis == "phase":
+        cycle = 1.0
+    series = [as_data(one) for one in series_of(record)]
+    for one in series:
+        one["short"] = one["name"].replace("_", " ")
+    return {
+        "label": record.label,
+        "axis": packed(axis, "<f8"),
+        "axis_unit": unit,
+        "cycle": cycle,
+        "window": window,
+        "start": window[0],
+        "series": series,
+        "teeth": teeth,
+    }
+
+
+def _warnings(record: Record, named: bool) -> str:
+    said = [*warnings(record.summary), *([record.message] if record.message else [])]
+    return "".join(
+        f'<p class="warning">{escape(f"{record.label}: " if named else "")}{escape(one)}</p>' for one in said
+    )
+
+
+def _summary(records: Sequence[Record], lines: Sequence[Lines]) -> str:
+    """Headings with a table each; a column per record."""
+    merged: dict[str, dict[str, Any]] = {}
+    for some in lines:
+        for heading, group in some.items():
+            for line in group:
+                merged.setdefault(heading, {}).setdefault(line.name, line)
+    tables = []
+    for heading, group in merged.items():
+        rows = []
+        for line in group.values():
+            cells = [_cell(record, line) for record in records]
+            if any(cells):
+                name = f'<td title="{escape(line.name)} in the record">{escape(line.label)}</td>'
+                values = "".join(f"<td>{escape(cell or '–')}</td>" for cell in cells)
+                rows.append(f"<tr>{name}{values}<td>{escape(line.unit)}</td></tr>")
+        if rows:
+            tables.append(f"<div><h3>{escape(heading)}</h3><table>{''.join(rows)}</table></div>")
+    head = ""
+    if len(records) > 1:
+        head = f"<p>Columns: {escape(', '.join(record.label for record in records))}.</p>"
+    return f'{head}<div class="summary tables wide">{"".join(tables)}</div>'
+
+
+def _cell(record: Record, line: Any) -> str:
+    if line.name in reasons(record.summary):
+        return "withheld"
+    value = record.summary.get(line.name)
+    return "" if value is None else shown(line, value)
+
+
+def _list(record: Record, sentences: Sequence[str], named: bool) -> str:
+    heading = f"<h3>{escape(record.label)}</h3>" if named else ""
+    return heading + "<ul>" + "".join(f"<li>{escape(one)}</li>" for one in sentences) + "</ul>"
+
+
+def _origin(record: Record) -> str:
+    """The scenario and what made the record."""
+    known = ("created", "tribodyn_version", "scenario_sha256", "status")
+    rows = "".join(
+        f"<tr><td>{escape(name.replace('_', ' '))}</td><td>{escape(str(record.attrs[name]))}</td></tr>"
+        for name in known
+        if name in record.attrs
+    )
+    scenario = escape(str(record.attrs.get("scenario", "")))
+    return (
+        f"<h3>{escape(Path(record.path).name)}</h3><table>{rows}</table>"
+        f"<details><summary>Scenario</summary><pre>{scenario}</pre></details>"
+    )

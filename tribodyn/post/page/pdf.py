@@ -1,0 +1,76 @@
+"""Prints a page through a browser that is installed."""
+
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+
+from tribodyn.errors import InputError, OutputError
+
+BROWSERS = (
+    "chromium",
+    "chromium-browser",
+    "google-chrome",
+    "google-chrome-stable",
+    "microsoft-edge",
+    "chrome",
+)
+#: Options under which a browser draws a file and asks nothing of the network.
+QUIET = (
+    "--headless",
+    "--disable-gpu",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--virtual-time-budget=10000",
+)
+TIME_LIMIT = 120.0
+
+
+def browser() -> str | None:
+    """Path of a browser that can print without a window; None where there is none."""
+    return next((found for found in map(shutil.which, BROWSERS) if found), None)
+
+
+def run_browser(*options: str) -> subprocess.CompletedProcess[str]:
+    """Run the browser without a window, in a profile of its own.
+
+    Raises
+    ------
+    InputError
+        Where none is installed.
+    """
+    import os
+
+    found = browser()
+    if found is None:
+        rule = "no browser is installed that could print the page"
+        raise InputError(
+            "--pdf", None, rule, "install Chromium or Chrome, or print the page from your browser"
+        )
+    # as root, in containers, a browser runs without its sandbox only; the page is our own
+    sandbox = ("--no-sandbox",) if hasattr(os, "geteuid") and os.geteuid() == 0 else ()
+    with tempfile.TemporaryDirectory(prefix="tribodyn-", ignore_cleanup_errors=True) as profile:
+        command = [found, *QUIET, *sandbox, f"--user-data-dir={profile}", *options]
+        return subprocess.run(command, capture_output=True, text=True, timeout=TIME_LIMIT, check=False)
+
+
+def print_page(page: Path) -> Path:
+    """Print a page into a PDF beside it.
+
+    Raises
+    ------
+    InputError
+        Where no browser is installed.
+    OutputError
+        Where the browser does not print it.
+    """
+    target = page.with_suffix(".pdf")
+    try:
+        ended = run_browser("--no-pdf-header-footer", f"--print-to-pdf={target}", page.resolve().as_uri())
+    except subprocess.TimeoutExpired:
+        raise OutputError(str(target), f"the browser did not end within {TIME_LIMIT:g} s") from None
+    if ended.returncode or not target.is_file():
+        raise OutputError(str(target), f"the browser ended with status {ended.returncode}")
+    return target

@@ -1,0 +1,117 @@
+"""Datasets of a record as series of a page: in engineers' units, few enough points, extremes kept."""
+
+import base64
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.record.reader import Record
+
+#: Samples of a series above which it is thinned: two of every bucket stay, its minimum and its maximum.
+MOST_SAMPLES = 8000
+#: SI unit -> units to choose from, with the factor from SI; the first whose largest value is at least 1.
+_UNITS: dict[str, tuple[tuple[str, float], ...]] = {
+    "m": (("mm", 1e3), ("µm", 1e6), ("nm", 1e9)),
+    "Pa": (("GPa", 1e-9), ("MPa", 1e-6), ("Pa", 1.0)),
+    "N": (("N", 1.0), ("mN", 1e3)),
+    "N/m": (("N/µm", 1e-6), ("N/mm", 1e-3), ("N/m", 1.0)),
+    "W": (("kW", 1e-3), ("W", 1.0), ("mW", 1e3)),
+    "rad": (("°", 180.0 / np.pi),),
+    "s": (("s", 1.0), ("ms", 1e3), ("µs", 1e6)),
+    "1": (("–", 1.0),),
+}
+
+
+class Curve(NamedTuple):
+    """One curve: what tells it from others of its dataset, places among the samples, values."""
+
+    label: str
+    index: np.ndarray
+    values: np.ndarray
+
+
+class Series(NamedTuple):
+    """A dataset along the axis of a record."""
+
+    name: str
+    title: str
+    unit: str
+    curves: tuple[Curve, ...]
+
+
+def in_engineers_units(values: np.ndarray, unit: str) -> tuple[np.ndarray, str]:
+    """Values in the unit in which their maximum reads best, and that unit."""
+    choices = _UNITS.get(unit, ((unit, 1.0),))
+    finite = np.abs(values[np.isfinite(values)])
+    largest = float(finite.max()) if finite.size else 0.0
+    for name, factor in choices:
+        if largest * factor >= 1.0:
+            return values * factor, name
+    name, factor = choices[-1 if largest else 0]
+    return values * factor, name
+
+
+def series_of(record: Record) -> list[Series]:
+    """All datasets of numbers along a record's axis, but for the axis: one curve, or one per pair."""
+    found = []
+    for name in record:
+        dims = record.dims_of(name)
+        if name == record.axis or len(dims) > 2 or not record.units(name):
+            continue
+        values = np.asarray(record[name])
+        if values.dtype.kind != "f":
+            continue
+        values, unit = in_engineers_units(values, record.units(name))
+        title = record.long_name(name)
+        if len(dims) == 1:
+            curves = [Curve("", *thinned(values))]
+        else:
+            labels = record[dims[1]] if dims[1] in record else np.arange(values.shape[1])
+            word = dims[1].replace("_", " ")
+            curves = [
+                Curve(
+                    f"{word} {label}" if np.asarray(label).dtype.kind in "iu" else str(label), *thinned(one)
+                )
+                for label, one in _in_order(dims[1], list(zip(labels, values.T, strict=True)))
+            ]
+        found.append(Series(name, title, unit, tuple(curves)))
+    return found
+
+
+def _in_order(dim: str, curves: list[Any]) -> list[Any]:
+    """Of pairs, the one that entered last comes first."""
+    return curves[::-1] if dim == "pair" else curves
+
+
+def thinned(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Places and values of a series of at most about `MOST_SAMPLES`; extremes of every bucket stay."""
+    count = len(values)
+    if count <= MOST_SAMPLES:
+        return np.arange(count), values
+    size = -(-2 * count // MOST_SAMPLES)
+    full = count // size * size
+    buckets = values[:full].reshape(-1, size)
+    empty = np.all(np.isnan(buckets), axis=1)
+    lowest = np.where(empty, 0, np.argmin(np.where(np.isnan(buckets), np.inf, buckets), axis=1))
+    highest = np.where(empty, 0, np.argmax(np.where(np.isnan(buckets), -np.inf, buckets), axis=1))
+    first = np.arange(len(buckets)) * size
+    gaps = first + np.argmax(np.isnan(buckets), axis=1)  # where contact ends, a curve has to break
+    places = np.concatenate([first + lowest, first + highest, gaps, np.arange(full, count), [0, count - 1]])
+    index = np.unique(places)
+    return index, values[index]
+
+
+def packed(values: np.ndarray, kind: str = "<f4") -> str:
+    """An array as text: its bytes in base 64."""
+    return base64.b64encode(np.ascontiguousarray(values, dtype=kind).tobytes()).decode("ascii")
+
+
+def as_data(series: Series) -> dict[str, Any]:
+    """A series as the page reads it; `whole` where no sample is left out."""
+    curves = []
+    for one in series.curves:
+        whole = len(one.index) == int(one.index[-1]) + 1 if len(one.index) else True
+        curves.append(
+            {"label": one.label, "y": packed(one.values), "i": None if whole else packed(one.index, "<u4")}
+        )
+    return {"name": series.name, "title": series.title, "unit": series.unit, "curves": curves}
