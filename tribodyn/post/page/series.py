@@ -26,7 +26,7 @@ class Curve(NamedTuple):
     """One curve: what tells it from others of its dataset, places among the samples, values."""
 
     label: str
-    index: np.ndarray
+    places: np.ndarray
     values: np.ndarray
 
 
@@ -63,16 +63,15 @@ def series_of(record: Record) -> list[Series]:
             continue
         values, unit = in_engineers_units(values, record.units(name))
         title = record.long_name(name)
-        if len(dims) == 1:
-            curves = [Curve("", *thinned(values))]
-        else:
-            labels = record[dims[1]] if dims[1] in record else np.arange(values.shape[1])
-            word = dims[1].replace("_", " ")
+        curves = [Curve("", *thinned(values))] if values.ndim == 1 else []
+        for across in dims[1:]:
+            labels = record[across] if across in record else np.arange(values.shape[1])
+            word = across.replace("_", " ")
             curves = [
                 Curve(
                     f"{word} {label}" if np.asarray(label).dtype.kind in "iu" else str(label), *thinned(one)
                 )
-                for label, one in _in_order(dims[1], list(zip(labels, values.T, strict=True)))
+                for label, one in _in_order(across, list(zip(labels, values.T, strict=True)))
             ]
         found.append(Series(name, title, unit, tuple(curves)))
     return found
@@ -110,8 +109,8 @@ def as_data(series: Series) -> dict[str, Any]:
     """A series as the page reads it; `whole` where no sample is left out."""
     curves = []
     for one in series.curves:
-        whole = len(one.index) == int(one.index[-1]) + 1 if len(one.index) else True
+        whole = len(one.places) == int(one.places[-1]) + 1 if len(one.places) else True
         curves.append(
-            {"label": one.label, "y": packed(one.values), "i": None if whole else packed(one.index, "<u4")}
+            {"label": one.label, "y": packed(one.values), "i": None if whole else packed(one.places, "<u4")}
         )
     return {"name": series.name, "title": series.title, "unit": series.unit, "curves": curves}
