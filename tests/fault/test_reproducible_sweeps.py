@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from tests.support.killed_sweeps import MOVING_ERROR, differences
@@ -15,7 +14,7 @@ from tribodyn.sweep.run import run, settings_of
 
 KEY, _, ERROR = MOVING_ERROR.partition("=")
 SET = {KEY: ERROR, "output.samples_per_cycle": 32}
-SPEEDS = (300, 484, 492, 500, 508)
+SPEEDS = (480, 484, 488, 492)
 #: Way -> mesh cycles to march, directions.
 WAYS: dict[str, tuple[int | None, tuple[str, ...]]] = {
     "steady": (None, ()),
@@ -58,7 +57,7 @@ def alone(tmp_path_factory: pytest.TempPathFactory):
 
 @pytest.mark.parametrize("way", WAYS)
 def test_interruptions_change_no_bit(way: str, alone, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    for chunk, stop, workers in ((1, 2, 2), (2, 2, 1), (3, 0, 2)):
+    for chunk, stop, workers in ((1, 1, 2), (2, 2, 1), (3, 0, 2)):
         monkeypatch.setattr(batch, "MOST_IN_CHUNK", chunk)
         resume = (tmp_path / "s.partial.h5").exists()
         try:
@@ -70,9 +69,9 @@ def test_interruptions_change_no_bit(way: str, alone, tmp_path: Path, monkeypatc
 
 @pytest.mark.parametrize("way", ["steady", "transient"])
 def test_order_and_part_of_the_range_change_no_bit(way: str, alone, tmp_path: Path):
-    part = sweep(way, tmp_path / "part.h5", Local(2), (500, 300))
+    part = sweep(way, tmp_path / "part.h5", Local(2), (492, 480))
     with SweepRecord(part) as some, SweepRecord(alone(way)) as every:
-        rows = [SPEEDS.index(500), SPEEDS.index(300)]
+        rows = [SPEEDS.index(492), SPEEDS.index(480)]
         for name in (
             "state",
             "transmission_error_rotational",
@@ -82,16 +81,6 @@ def test_order_and_part_of_the_range_change_no_bit(way: str, alone, tmp_path: Pa
             "residual",
         ):
             assert some[name].tobytes() == every[name][rows].tobytes(), name
-
-
-def test_the_motion_at_500_rad_s(alone):
-    """A start that belongs to another speed leads to the other motion, of six times the size."""
-    with SweepRecord(alone("steady")) as record:
-        size = record["transmission_error_peak_to_peak"][SPEEDS.index(500)]
-        assert size == pytest.approx(12.1e-6, rel=0.01)
-        assert np.ptp(record["transmission_error_rotational"][SPEEDS.index(500)]) == pytest.approx(
-            size, rel=0.02
-        )
 
 
 def test_dask_changes_no_bit(alone, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
