@@ -150,9 +150,9 @@ def _read(kind: type[Kept], file: str) -> Kept | None:
                 return None  # not written here, and of unknown size
         with np.load(io.BytesIO(content), allow_pickle=False) as stored:
             parts = {name: stored[name] for name in _arrays(kind)}
-    except (OSError, ValueError, KeyError, EOFError, MemoryError, NotImplementedError, SyntaxError):
+    except (OSError, ValueError, KeyError, EOFError, MemoryError, SyntaxError):
         return None
-    except (zipfile.BadZipFile, zlib.error, RecursionError, OverflowError, struct.error):
+    except (zipfile.BadZipFile, zlib.error, RuntimeError, OverflowError, struct.error):  # or said encrypted
         return None
     if not all(part.dtype == float and np.all(np.isfinite(part)) for part in parts.values()):
         return None

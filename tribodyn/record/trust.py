@@ -253,7 +253,7 @@ def _sentence(rule: Rule, known: Mapping[str, Any]) -> str:
     side = "at least" if value < limit else "at most"
     said = f"{rule.label} {rule.shown(value)}, {side} {rule.shown(limit)}"
     if known.get("share") is not None:
-        said += f", outside in {_percent(float(known['share']))} of the samples"
+        said += f", outside {_share(float(known['share']))}"
     places = [
         text.format(float(known[name])) if name != "pair" else text.format(int(known[name]))
         for name, text in _PLACES.items()
@@ -271,6 +271,10 @@ _PLACES = {
 }
 
 
-def _percent(share: float) -> str:
-    """A share in per cent; 0 and 100 only where it is so."""
-    return "all" if share >= 1.0 else f"{min(max(100.0 * share, 0.01), 99.99):.3g} %"
+def _share(share: float) -> str:
+    """A share of the samples; none of them where an extreme lies between two."""
+    if share <= 0.0:
+        return "between samples only"
+    return (
+        "in all samples" if share >= 1.0 else f"in {min(max(100.0 * share, 0.01), 99.9):.3g} % of the samples"
+    )

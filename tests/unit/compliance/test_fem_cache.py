@@ -48,12 +48,19 @@ def test_other_material_or_body_is_another_file(folder):
     assert len(list(folder.iterdir())) == 3
 
 
-@pytest.mark.parametrize("damage", [b"", b"PK\x03\x04 cut off", "half"])
+def encrypted(whole: bytes) -> bytes:
+    """The same, said to be encrypted in the list of its files."""
+    at = whole.index(b"PK\x01\x02") + 8
+    return whole[:at] + bytes([whole[at] | 1]) + whole[at + 1 :]
+
+
+@pytest.mark.parametrize("damage", [b"", b"PK\x03\x04 cut off", "half", "encrypted"])
 def test_damaged_file_is_made_anew(folder, damage):
     first = solve()
     (file,) = folder.iterdir()
     whole = file.read_bytes()
-    file.write_bytes(whole[: len(whole) // 2] if damage == "half" else damage)
+    changed = {"half": whole[: len(whole) // 2], "encrypted": encrypted(whole)}
+    file.write_bytes(changed.get(damage, damage))
     assert same(first, solve())
     assert len(file.read_bytes()) == len(whole)
 

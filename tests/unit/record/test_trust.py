@@ -89,6 +89,10 @@ def test_share_and_place_of_the_worst_value():
     assert said == (
         "Hertz pressure 6 GPa, at most 4 GPa, outside in 10 % of the samples, worst mesh cycle 5.25, pair 0"
     )
+    alone = Judge()
+    alone.take({"hertz_pressure": pressure * 0.5})
+    alone.take({"hertz_pressure": [[6e9, 0.0]]}, between_samples=True)
+    assert reasons(alone.figures()) == ["Hertz pressure 6 GPa, at most 4 GPa, outside between samples only"]
 
 
 def test_nothing_is_outside_where_nothing_is_known():
