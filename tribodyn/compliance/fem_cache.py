@@ -18,7 +18,7 @@ import numpy as np
 from tribodyn.compliance.gear_compliance import NEIGHBOURS, FreeEnds, GearCompliance, LeadHarmonics
 from tribodyn.compliance.lead_harmonics import LARGEST_AT_ENDS, wave_numbers
 from tribodyn.geometry.tooth import Tooth, tooth_outline
-from tribodyn.numerics.cache import keep, read_kept
+from tribodyn.numerics.cache import alone, keep, read_kept
 from tribodyn.numerics.sources import digest_of
 
 Kept = TypeVar("Kept", GearCompliance, LeadHarmonics, FreeEnds)
@@ -95,8 +95,12 @@ def _kept(kind: type[Kept], fits: Callable[[Kept], bool], name: str, solve: Call
     stored = _read(kind, file)
     if stored is not None and fits(stored):
         return stored
-    solved = solve()
-    _write(file, solved)
+    with alone(_FOLDER, file):
+        stored = _read(kind, file)  # another process may have kept it meanwhile
+        if stored is not None and fits(stored):
+            return stored
+        solved = solve()
+        _write(file, solved)
     return solved
 
 

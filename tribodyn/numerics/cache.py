@@ -5,9 +5,12 @@ read from a folder or a file that somebody else owns or can write: the folder is
 warning says so once.
 """
 
+import hashlib
+import importlib.util
 import os
 import stat
 import threading
+import time
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -17,6 +20,8 @@ from pathlib import Path
 #: Maximum size of a file of the cache, bytes; a file that is larger is none of ours. The largest are those
 #: of gears under loads along wide teeth, some 20 MB.
 MAXIMUM_SIZE = 2**29
+#: Seconds for which a process waits for another that makes the same; a kernel takes ten of them, or thirty.
+LONGEST_WAIT = 120.0
 #: Permissions by which others could write.
 _OTHERS_WRITE = stat.S_IWGRP | stat.S_IWOTH
 #: Owner that the kernel shows for users it cannot name in a container.
@@ -124,6 +129,49 @@ def keep(folder: str, name: str, content: bytes) -> None:
         )
         with open(os.open(scratch, flags, 0o600), "wb") as stream:
             stream.write(content)
+
+
+@contextmanager
+def alone(folder: str, name: str) -> Iterator[None]:
+    """Work on a file of the cache while no other process does: what one makes, the others need not.
+
+    Waits for at most `LONGEST_WAIT`. Where the system has no locks, or none for this folder, nobody waits.
+    """
+    trusted = trusted_folder("locks")
+    number = _lock_file(trusted / folder) if trusted is not None else None
+    if number is None:
+        yield
+        return
+    import fcntl
+
+    # a byte of the lock's file for every name, and none of them is written
+    place = int.from_bytes(hashlib.sha256(name.encode()).digest()[:4], "big")
+    end = time.monotonic() + LONGEST_WAIT
+    try:
+        while True:
+            try:
+                fcntl.lockf(number, fcntl.LOCK_EX | fcntl.LOCK_NB, 1, place)
+                break
+            except (BlockingIOError, PermissionError):
+                if time.monotonic() > end:
+                    break
+                time.sleep(0.02)
+            except OSError:
+                break
+        yield
+    finally:
+        os.close(number)  # and with it goes the lock
+
+
+def _lock_file(path: Path) -> int | None:
+    """Open a file for locks; None where there can be none."""
+    if importlib.util.find_spec("fcntl") is None:
+        return None
+    flags = os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
+    try:
+        return os.open(path, flags, 0o600)
+    except OSError:
+        return None
 
 
 @contextmanager

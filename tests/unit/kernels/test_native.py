@@ -57,7 +57,7 @@ def folder(tmp_path, monkeypatch) -> Path:
 
 
 def kept(folder: Path) -> Path:
-    (found,) = [path for path in folder.rglob("*") if path.is_file()]
+    (found,) = [path for path in folder.rglob("kernels-*/*") if path.is_file()]
     return found
 
 

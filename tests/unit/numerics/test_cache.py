@@ -2,13 +2,16 @@
 
 import os
 import stat
+import subprocess
+import sys
+import time
 import warnings
 from pathlib import Path
 
 import pytest
 
 from tribodyn.numerics import cache
-from tribodyn.numerics.cache import keep, read_kept, trusted_folder
+from tribodyn.numerics.cache import alone, keep, read_kept, trusted_folder
 
 posix = pytest.mark.skipif(os.name == "nt", reason="permissions of POSIX")
 root = pytest.mark.skipif(os.name == "nt" or os.geteuid() != 0, reason="only root can give files away")
@@ -112,3 +115,43 @@ def test_a_link_where_a_file_is_to_be_written_is_not_followed(folder: Path, tmp_
     keep("things", "two", b"new")
     assert target.read_bytes() == b"untouched"
     assert read_kept("things", "two") == b"new"
+
+
+@posix
+def test_a_process_waits_for_another_that_makes_the_same_and_for_no_other(folder: Path, monkeypatch):
+    works = (
+        "from tribodyn.numerics.cache import alone\nwith alone('things', 'one'): print(flush=True); input()"
+    )
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
+    with subprocess.Popen([sys.executable, "-c", works], **pipes) as other:
+        assert other.stdout is not None
+        other.stdout.readline()
+        begun = time.monotonic()
+        with alone("things", "two"):
+            assert time.monotonic() - begun < 0.5
+        monkeypatch.setattr(cache, "LONGEST_WAIT", 0.3)
+        begun = time.monotonic()
+        with alone("things", "one"):  # for ever nobody waits
+            assert time.monotonic() - begun >= 0.3
+        monkeypatch.setattr(cache, "LONGEST_WAIT", 60.0)
+        other.communicate("\n")
+    begun = time.monotonic()
+    with alone("things", "one"):
+        assert time.monotonic() - begun < 0.5
+
+
+@posix
+@pytest.mark.parametrize("what", ["link", "pipe", "folder"])
+def test_a_lock_that_is_none_hinders_nobody(folder: Path, what: str, tmp_path: Path):
+    keep("locks", "other", b"content")
+    lock = folder / "locks" / "things"
+    if what == "link":
+        lock.symlink_to(tmp_path / "elsewhere")
+    elif what == "pipe":
+        os.mkfifo(lock)
+    else:
+        lock.mkdir()
+    begun = time.monotonic()
+    with alone("things", "one"):
+        assert time.monotonic() - begun < 0.5
+    assert not (tmp_path / "elsewhere").exists()

@@ -11,6 +11,7 @@ import importlib.util
 import json
 import os
 from collections.abc import Callable
+from contextlib import nullcontext
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -21,7 +22,7 @@ import llvmlite.binding as llvm
 from tribodyn.kernels.native.arguments import Record, is_kept
 from tribodyn.kernels.native.code import Code, Compiled
 from tribodyn.kernels.native.internals import report_missing
-from tribodyn.numerics.cache import keep, read_kept
+from tribodyn.numerics.cache import alone, keep, read_kept
 from tribodyn.numerics.sources import digest_of
 
 #: What turns any kernel into machine code.
@@ -41,13 +42,23 @@ def machine_code(function: Callable[..., Any], layout: Any) -> Code | None:
     if code is None:
         if report_missing():
             return None
-        from tribodyn.kernels.native.compiler import compiled
+        code = _compiled_now(function, layout, place)
+    return code
 
-        made = compiled(function, layout)
-        if place:
-            _write(*place, made)
-        code = loaded(made)
-        assert code is not None
+
+def _compiled_now(function: Callable[..., Any], layout: Any, place: tuple[str, str] | None) -> Code:
+    """Compile, unless another process does so at this moment: then wait for what it keeps."""
+    from tribodyn.kernels.native.compiler import compiled
+
+    with alone(*place) if place else nullcontext():
+        made = _read(*place) if place else None
+        code = loaded(made) if made else None
+        if code is None:
+            made = compiled(function, layout)
+            if place:
+                _write(*place, made)
+            code = loaded(made)
+    assert code is not None
     return code
 
 
