@@ -125,7 +125,8 @@ def steady(scenario: dict[str, Any]) -> dict[str, Any]:
         for key, value in scenario["operating"].items()
         if key not in ("gear_torque_harmonics", "gear_torque_table")
     }
-    return marched({**scenario, "operating": operating})
+    solver = {**scenario["solver"], "rtol": 1e-6}
+    return marched({**scenario, "operating": operating, "solver": solver})
 
 
 def marched(scenario: dict[str, Any]) -> dict[str, Any]:
