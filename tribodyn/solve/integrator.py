@@ -21,8 +21,8 @@ class Status(IntEnum):
 
 REASONS = {
     Status.STEP_TOO_SMALL: "the step size fell below 1e-13 mesh cycles",
-    Status.TOO_MANY_STEPS: "the limit of steps in one mesh cycle was reached; raise solver.max_steps or "
-    "choose a stiff solver.method",
+    Status.TOO_MANY_STEPS: "the limit of steps in one mesh cycle was reached; raise solver.max_steps or, "
+    "where it is explicit, choose a stiff solver.method",
     Status.NOT_FINITE: "the solution stopped being finite",
     Status.STALLED: "the pinion came to rest; integration in mesh phase needs it to turn forwards",
     Status.GAVE_UP: "the solver gave up",
