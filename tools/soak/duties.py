@@ -30,7 +30,7 @@ FRICTION_WEIGHTS = (4, 4, 2, 1, 1, 1, 1, 1, 1, 1, 1)
 METHODS = ("auto", "dopri5", "rodas4", "dop853", "lsoda", "bdf", "radau", "tsit5", "dopri8", "kvaerno5")
 METHOD_WEIGHTS = (63, 12, 14, 3, 3, 2, 2, 0.5, 0.25, 0.25)
 #: Steps in a mesh cycle after which a run is stopped: by native methods, and by those of SciPy and JAX, whose
-#: steps take a millisecond.
+#: steps take a millisecond, and in sweeps, which follow their derivatives too.
 MOST_STEPS, MOST_SLOW_STEPS = 50_000, 2_000
 #: Pinion speed below which explicit methods are slow, rad/s, and those methods.
 SLOW, EXPLICIT = 30.0, ("dopri5", "dop853", "tsit5", "dopri8")

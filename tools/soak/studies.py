@@ -4,7 +4,7 @@ from typing import Any
 
 from tools.soak.draw import Draw, quantity
 from tools.soak.drives import size_of
-from tools.soak.duties import laws, lubricant, scale_of, torque
+from tools.soak.duties import MOST_SLOW_STEPS, laws, lubricant, scale_of, torque
 
 
 def efficiency(draw: Draw, drive: dict[str, Any]) -> dict[str, Any]:
@@ -131,5 +131,5 @@ def steady(scenario: dict[str, Any]) -> dict[str, Any]:
 
 def marched(scenario: dict[str, Any]) -> dict[str, Any]:
     """Return the duty of a gear pair as a sweep runs it: by native methods, with few samples."""
-    solver = {**scenario["solver"], "method": "auto", "cycles": 8}
+    solver = {**scenario["solver"], "method": "auto", "cycles": 8, "max_steps": MOST_SLOW_STEPS}
     return {**scenario, "solver": solver, "output": {"samples_per_cycle": 16}}

@@ -1,0 +1,29 @@
+"""A path of contact through given points, from its first to its last."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from tests.support.sample_drives import LIU_NI
+from tribodyn.geometry.families import points
+
+
+def test_rotation_is_the_integral_between_all_points():
+    """Also between the outermost two of each end, which working flanks seldom reach."""
+    r = 0.003 * np.linspace(-6.0, 6.0, 13)
+    alpha = LIU_NI.pressure_angle + 0.05 * np.tanh(r / 0.009)
+    shape = points.Shape(np.stack([r * np.cos(alpha), r * np.sin(alpha)], axis=-1))
+    path = points.FAMILY.working_path(LIU_NI._replace(shape=shape))
+
+    def slope(s):
+        return 1.0 / (path.pinion_pitch_radius * np.cos(path.pressure_angle(s)))
+
+    for low, high in pairwise(r):
+        turned, _ = quad(slope, low, high)
+        inside = 1e-9 * (high - low)
+        found = path.rotation(high - inside) - path.rotation(low + inside)
+        assert found == pytest.approx(turned, rel=1e-8)
+        assert path.rotation(high + inside) == pytest.approx(path.rotation(high - inside), abs=1e-9)
+    assert path.rotation(0.0) == 0.0
