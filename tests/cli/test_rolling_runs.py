@@ -21,7 +21,10 @@ def folder(tmp_path_factory) -> Path:
     """Records of both shipped scenarios."""
     folder = tmp_path_factory.mktemp("rolling")
     for name in ("irefc", "irefc-as-published"):
-        run(load_scenario(name), folder / f"{name}.h5")
+        shares: list[float] = []
+        run(load_scenario(name), folder / f"{name}.h5", progress=shares.append)
+        assert shares == sorted(shares)
+        assert shares[-1] == 1.0
     return folder
 
 

@@ -26,6 +26,9 @@ def main() -> None:
     parser.add_argument(
         "--short", action="store_true", help="only dynamics, few laws: quick on a new version"
     )
+    parser.add_argument(
+        "--so-far", action="store_true", help="run nothing; the table of the outcomes there are"
+    )
     parser.add_argument("--into", type=Path, help="page with the marked block for the table")
     given = parser.parse_args()
     if given.case is not None:
@@ -33,11 +36,9 @@ def main() -> None:
     store = kept.store(given.seed, given.short)
     wanted = range(given.first, given.first + given.count)
     known = {one.case: one for one in kept.read(store)}
-    waiting = [number for number in wanted if number not in known]
-    print(
-        f"seed {given.seed}: {len(wanted) - len(waiting)} outcomes in {store}, {len(waiting)} to do",
-        flush=True,
-    )
+    waiting = [] if given.so_far else [number for number in wanted if number not in known]
+    done = sum(number in known for number in wanted)
+    print(f"seed {given.seed}: {done} outcomes in {store}, {len(waiting)} to do", flush=True)
     with ProcessPoolExecutor(given.jobs, mp_context=get_context("spawn")) as pool:
         futures = [pool.submit(run_one, given.seed, number, given.short) for number in waiting]
         for done, future in enumerate(as_completed(futures), 1):
@@ -48,8 +49,8 @@ def main() -> None:
                 print(_said(one), flush=True)
             if done % 50 == 0:
                 print(f"{done} of {len(waiting)}", flush=True)
-    outcomes = [known[number] for number in wanted]
-    text = table(outcomes)
+    outcomes = [known[number] for number in wanted if number in known]
+    text = f"{len(outcomes)} of the {len(wanted)} cases of seed {given.seed}:\n\n{table(outcomes)}"
     print(text)
     if given.into:
         put(given.into, "soak", text)

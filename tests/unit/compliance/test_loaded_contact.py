@@ -68,6 +68,9 @@ def test_torque_balances_with_everything_modified(pair, friction):
     np.testing.assert_allclose(np.sum(found.normal_load * lever, axis=1), TORQUE, rtol=1e-9)
     np.testing.assert_allclose(np.mean(found.line_load, axis=-1) * WIDTH, found.normal_load, rtol=1e-12)
     assert np.all(found.line_load >= 0)
+    modulus = STEEL.youngs_modulus / (1.0 - STEEL.poisson_ratio**2)
+    hertz = np.sqrt(found.line_load * modulus * motion.relative_curvature[..., None] / (2.0 * np.pi))
+    np.testing.assert_allclose(found.pressure, hertz, rtol=1e-9)
 
 
 @pytest.mark.parametrize("tilt", [4e-4, 5e-3])

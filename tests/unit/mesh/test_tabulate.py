@@ -9,6 +9,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 from scipy.interpolate import PchipInterpolator
+from scipy.optimize import brentq
 
 from tests.support.compile_fast import ONE_CALL
 from tribodyn.compliance.energy import hertz_linear, loaded_tooth, tooth_compliance
@@ -69,6 +70,21 @@ def test_involute_contact_ratio():
     np.testing.assert_array_equal(cycle.in_contact, [[1, 1], [0, 1]])
     assert cycle.face_width == 0.02
     assert cycle.pitch_point_phase == pytest.approx(-cycle.roll_start * 23 / (2 * math.pi))
+
+
+@pytest.mark.parametrize(("pairs", "beside"), [(2, -1e-13), (3, 1e-13)])
+def test_every_segment_has_a_length_beside_a_whole_contact_ratio(pairs, beside):
+    """Where a pair leaves as the mesh cycle ends, or just after it has begun."""
+
+    def made(addendum):
+        return assemble(involute.FAMILY, drive_of((math.radians(20.0), 0.0, addendum, 0.02)))
+
+    addendum = brentq(lambda one: made(one).contact_ratio - 2.0 - beside, 1.0, 1.4, xtol=1e-15)
+    cycle = tabulate(made(addendum), (STEEL, STEEL), mesh(points=5), pairs)
+    assert cycle.contact_ratio == pytest.approx(2.0, abs=1e-11)
+    assert cycle.boundary[0] == 0.0
+    assert cycle.boundary[-1] == 1.0
+    assert np.diff(cycle.boundary).min() > 5e-12
 
 
 @FAMILIES
@@ -270,6 +286,18 @@ class TestQuasiStatic:
         approach = cycle.compliance[0] * loads + cycle.hertz_coefficient * loads**0.9
         approach += np.einsum("nij,nj->ni", cycle.coupling[0], loads)
         np.testing.assert_allclose(approach, arms * state.deflection[0][:, None], rtol=1e-10)
+
+    def test_normal_and_friction_forces_turn_the_gear(self):
+        """Moments about the gear's centre from the positions of the contacts, by vectors."""
+        cycle = tabulate(assemble(crc.FAMILY, DRIVE), (STEEL, STEEL), ENERGY, 2)
+        share = 0.2 * np.sign(cycle.signed_distance)
+        load = quasi_static(cycle, 500.0, share).normal_load
+        cosine, sine = np.cos(cycle.pressure_angle), np.sin(cycle.pressure_angle)
+        x, y = cycle.signed_distance * cosine, cycle.signed_distance * sine - cycle.gear_pitch_radius
+        # the flank of the gear is pushed along (cos α, sin α), and rubbed along (sin α, −cos α)
+        force_x, force_y = load * (cosine + share * sine), load * (sine - share * cosine)
+        turning = (x * force_y - y * force_x).sum(axis=-1)
+        np.testing.assert_allclose(turning, 500.0, rtol=1e-12)
 
     @FAMILIES
     def test_loss_is_the_integral_of_sliding_friction(self, family):

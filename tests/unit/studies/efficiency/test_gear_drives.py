@@ -102,6 +102,7 @@ def test_the_record_begins_where_a_pair_enters(tmp_path):
     assert result.summary["power_in_mean"] == pytest.approx(500.0 * 10.0 * 23 / 47, rel=1e-12)
     assert result.summary["efficiency"] == result.summary["efficiency_elastic"]
     with open_record(result.path) as record:
+        np.testing.assert_allclose(record["time"], record["pinion_angle"] / 10.0, rtol=1e-12)
         newest = record.pairs.index(1)
         sliding, load = record["sliding_speed"], record["normal_load"]
         assert np.all(np.isfinite(sliding[:-1, newest]))
