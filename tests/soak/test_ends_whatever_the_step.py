@@ -12,8 +12,7 @@ from tribodyn.solve.shooting import shoot
 from tribodyn.studies.gear_pair.prepare import prepare, tables
 from tribodyn.studies.load import load_scenario
 
-#: A lightly damped pair at constant stiffness, whose doubled motion ends where a pair of multipliers leaves the
-#: unit circle.
+#: Lightly damped, at constant stiffness: its doubled motion ends where two multipliers leave the unit circle.
 DRIVE = {
     "friction.law": "none",
     "mesh.damping_ratio": 0.01,

@@ -1,0 +1,62 @@
+"""Unstable motions of the oscillator with backlash in its record, summary and figures."""
+
+import numpy as np
+import pytest
+
+from tribodyn.record.reader import open_record
+from tribodyn.studies.load import load_scenario
+from tribodyn.studies.pictures import figure
+from tribodyn.studies.run import run
+
+NAME = "backlash-oscillator"
+ABOUT_THE_FOLDS = {"frequency": [0.65, 0.75, 0.9]}
+
+
+@pytest.fixture(scope="module")
+def record(tmp_path_factory):
+    path = tmp_path_factory.mktemp("unstable") / "unstable.h5"
+    assert run(load_scenario(NAME, ABOUT_THE_FOLDS | {"solver.unstable": True}), path).status == "complete"
+    with open_record(path) as opened:
+        yield opened
+
+
+def test_the_branch_leads_from_fold_to_fold(record):
+    assert set(record["unstable_end"]) == {1, 2}
+    for end in (0, 1):
+        of_it = record["unstable_end"] == end + 1
+        frequency = record["unstable_frequency"][of_it]
+        assert frequency[0] == pytest.approx(record["end_frequency"][end], rel=1e-4)
+        assert record["end_unstable_finish_frequency"][end] == pytest.approx(
+            record["end_frequency"][1 - end], rel=1e-4
+        )
+        assert record["end_unstable_finish"][end] == record["end_kind"][end] == 1
+        assert abs(np.sum(np.sign(np.diff(frequency)))) >= len(frequency) - 3
+    assert np.all(record["unstable_multiplier_modulus"] > 1.0)
+    assert np.all(record["unstable_residual"] <= 1e-7)
+    assert np.all(record["unstable_period"] == 1)
+    # at 0.75 both stable motions are there, and the unstable one between them
+    one = int(np.argmin(np.abs(record["unstable_frequency"] - 0.75)))
+    up, down = record["rms_displacement"][1]
+    assert up < record["unstable_rms_displacement"][one] < down
+
+
+def test_it_is_said_and_drawn(record):
+    assert record.summary["unstable_1"].startswith("period 1 between 0.70")
+    assert "fold at" in record.summary["unstable_1"]
+    for name in ("response", "multipliers"):
+        labels = [text.get_text() for text in figure(name, [record]).legends[0].get_texts()]
+        assert "unstable" in labels
+
+
+def test_nothing_of_it_is_there_unless_asked_for(tmp_path):
+    run(load_scenario(NAME, ABOUT_THE_FOLDS), tmp_path / "plain.h5")
+    with open_record(tmp_path / "plain.h5") as plain:
+        assert "unstable_frequency" not in plain
+        assert "end_unstable_finish" not in plain
+        assert not any(name.startswith("unstable") for name in plain.summary)
+
+
+def test_where_no_branch_ends_there_is_none(tmp_path):
+    run(load_scenario(NAME, {"frequency": [1.2, 1.3], "solver.unstable": True}), tmp_path / "none.h5")
+    with open_record(tmp_path / "none.h5") as none:
+        assert "unstable_frequency" not in none
