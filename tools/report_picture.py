@@ -1,0 +1,26 @@
+"""The picture of the report in README and docs: a screenshot by an installed browser.
+
+    python -m tools.report_picture
+"""
+
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import tribodyn as td
+from tribodyn.post.page.pdf import run_browser
+
+PICTURE = Path(__file__).parents[1] / "docs" / "pictures" / "report.png"
+
+
+def main() -> None:
+    """Run the CRC drive, write its page, take a picture of its upper part."""
+    with TemporaryDirectory() as folder:
+        page = td.run("crc-23-47", {"solver.cycles": 6}).report(Path(folder) / "crc-23-47.html")
+        size = ("--window-size=1180,1080", "--hide-scrollbars")
+        ended = run_browser(*size, f"--screenshot={PICTURE}", f"{page.as_uri()}#at=147")
+    if ended.returncode:
+        raise SystemExit(ended.stderr)
+
+
+if __name__ == "__main__":
+    main()
