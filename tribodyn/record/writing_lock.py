@@ -60,6 +60,7 @@ class WritingLock:
                 _refuse_other(self._path, number)
                 if _is(number, self._path):  # otherwise its last owner removed it just now
                     os.ftruncate(number, 0)
+                    os.lseek(number, 0, os.SEEK_SET)  # behind what its last owner wrote it would leave zeros
                     os.write(number, str(os.getpid()).encode())
                     self._number = number
             finally:

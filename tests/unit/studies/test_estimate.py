@@ -119,7 +119,7 @@ LARGE = {
     "efficiency": [("output.samples_per_cycle", 10**9)],
     "load-contact": [("output.positions_per_cycle", 10**9), ("output.cycles", 10**9)],
     "irefc": [("output.samples_per_cycle", 10**9)],
-    "backlash-oscillator": [("frequency.from", 1e-40)],
+    "backlash-oscillator": [("frequency.from", 1e-29)],
 }
 
 
