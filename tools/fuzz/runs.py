@@ -71,8 +71,9 @@ def run_all(inputs: Sequence[tuple[str, Input]]) -> Result:
 
 def _in_a_child(part: Sequence[tuple[str, Input]]) -> tuple[list[str], int]:
     """A line for every input that was done, and how the child ended."""
-    import tools.fuzz.targets  # noqa: F401  (so that every child has it)
+    from tools.fuzz.targets import warm_up
 
+    warm_up()
     scratch = Path(tempfile.mkdtemp(prefix="fuzz-"))
     try:
         with warnings.catch_warnings():

@@ -3,6 +3,7 @@
 import io
 import json
 import os
+from functools import cache
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -31,6 +32,20 @@ LONGEST = 4000
 
 class Fault(Exception):
     """What must not happen, and is no exception of its own."""
+
+
+@cache
+def warm_up() -> None:
+    """Import, before processes are forked, what all of them would import on first use."""
+    for name in (
+        "crc-23-47",
+        "efficiency-involute-18-36",
+        "load-contact-18-36",
+        "irefc",
+        "backlash-oscillator",
+    ):
+        load_scenario(name)
+    Grid("crc-23-47", ["operating.pinion_speed=1,2 rad/s"], {})
 
 
 def outcome(given: Input, folder: Path) -> str:
