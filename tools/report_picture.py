@@ -1,6 +1,6 @@
 """The picture of the report in README and docs: a screenshot by an installed browser.
 
-    python -m tools.report_picture
+python -m tools.report_picture
 """
 
 from pathlib import Path

@@ -2,7 +2,7 @@
 
 import errno
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -36,6 +36,10 @@ class InputError(Exception):
     remedy: str = ""
     file: str = ""
 
+    def moved(self, place: Callable[[str], str]) -> "InputError":
+        """The same with another name for where the key stands, as a function of the old one."""
+        return InputError(self.key, self.value, self.rule, self.remedy, place(self.file))
+
     def __str__(self) -> str:
         place = f"{self.file}: " if self.file else ""
         given = f" = {self.value}" if self.value is not None else ""
@@ -50,6 +54,10 @@ class InputErrors(InputError):
         first = errors[0]
         super().__init__(first.key, first.value, first.rule, first.remedy, first.file)
         self.errors = tuple(errors)
+
+    def moved(self, place: Callable[[str], str]) -> "InputErrors":
+        """See `InputError.moved`."""
+        return InputErrors([one.moved(place) for one in self.errors])
 
     def __str__(self) -> str:
         return "\n".join(map(str, self.errors))

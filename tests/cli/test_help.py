@@ -11,7 +11,20 @@ from typer.testing import CliRunner
 
 from tribodyn.cli.app import app
 
-VERBS = ("run", "sweep", "check", "gear", "show", "plot", "compare", "list", "init", "schema", "validate")
+VERBS = (
+    "run",
+    "sweep",
+    "check",
+    "gear",
+    "show",
+    "plot",
+    "report",
+    "compare",
+    "list",
+    "init",
+    "schema",
+    "validate",
+)
 HEAVY = ("numpy", "scipy", "jax", "diffrax", "numba", "pydantic", "pint", "h5py", "matplotlib", "rich")
 
 
@@ -25,6 +38,12 @@ def test_help_imports_nothing_heavy(words: list[str]):
     )
     ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert ended.stdout.splitlines()[-1] == "heavy:"
+
+
+def test_a_short_option_gives_the_same_help():
+    for words in ([], ["run"]):
+        short, long = (CliRunner().invoke(app, [*words, option]) for option in ("-h", "--help"))
+        assert (short.exit_code, short.stdout) == (0, long.stdout)
 
 
 def test_help_names_every_verb():

@@ -20,6 +20,7 @@ app = typer.Typer(
     "outside its tolerance; 130 interrupted; 143 terminated.",
     no_args_is_help=True,
     add_completion=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
     # plain help: half the start-up time, and it pipes well
     rich_markup_mode=None,
     pretty_exceptions_enable=False,

@@ -13,7 +13,7 @@ from tribodyn.geometry.body import body_masses
 from tribodyn.geometry.checks import check
 from tribodyn.geometry.families import family
 from tribodyn.geometry.sheet import geometry_sheet
-from tribodyn.interface.scenario import in_toml
+from tribodyn.interface.scenario import in_python, in_toml
 from tribodyn.mesh.data import MeshData
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.mesh.tabulate import pair_slots, tabulate
@@ -139,4 +139,5 @@ def drive(model: str | Path, overrides: Mapping[str, Any] | None = None) -> Gear
     InputError
         If there is none, or no such gears can be made.
     """
-    return GearPair(model, overrides)
+    with in_python():
+        return GearPair(model, overrides)

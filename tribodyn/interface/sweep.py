@@ -10,7 +10,7 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.interface import datasets
 from tribodyn.interface.run import Run
-from tribodyn.interface.scenario import Source, in_toml, scenario
+from tribodyn.interface.scenario import Source, in_python, in_toml, scenario
 from tribodyn.record.sweep_reader import SweepRecord, is_sweep
 from tribodyn.record.sweep_schema import DIRECTIONS
 from tribodyn.sweep.engines import engine_of
@@ -122,7 +122,7 @@ def sweep(
     if direction not in (None, *DIRECTIONS, "both"):
         raise InputError("direction", f'"{direction}"', "no such direction", 'one of "up", "down", "both"')
     chosen = DIRECTIONS if direction == "both" else (direction,) if direction else ()
-    with tempfile.TemporaryDirectory(prefix="tribodyn-") as folder:
+    with in_python(), tempfile.TemporaryDirectory(prefix="tribodyn-") as folder:
         grid = _grid(source, vary, overrides, Path(folder))
         record = Path(output) if output is not None else Path(folder) / "sweep.h5"
         with engine_of(engine, workers, scheduler) as evaluator:

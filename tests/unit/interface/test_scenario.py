@@ -64,6 +64,17 @@ def test_a_case_with_overrides_is_another_case():
     assert other.sha256 == td.scenario("crc-23-47", {"operating.gear_torque": "600 N*m"}).sha256
 
 
+def test_errors_name_what_python_has():
+    for call in (
+        lambda: td.scenario("crc-23-47", {"operating.gear_torqe": "1 N*m"}),
+        lambda: td.drive("liu-ni-crc-23-47", {"drive.pinion.profile_shift": "3 mm"}),
+    ):
+        with pytest.raises(td.InputError, match=r"^overrides: "):
+            call()
+    with pytest.raises(td.InputError, match=r"^vary: "):
+        td.sweep("crc-23-47", {"operating.pinion_speed": [1.0, 2.0]})
+
+
 @pytest.mark.parametrize(
     ("source", "said"),
     [
