@@ -156,3 +156,13 @@ def test_the_verbs_know_the_kind(tmp_path, monkeypatch):
 def test_it_is_no_pair_of_gears():
     ended = CliRunner().invoke(app, ["gear", "sheet", NAME])
     assert ended.exit_code == 2
+
+
+def test_the_summary_counts_points_of_longer_period(tmp_path):
+    """Of a varying stiffness near twice the natural frequency; its motions have the period 1 or 2."""
+    varying = {"error_amplitude": 0.0, "stiffness_variation": 0.3, "frequency": [1.7, 1.8, 1.9]}
+    result = run(load_scenario(NAME, {"damping": 0.05, "mean_force": 0.1, **varying}), tmp_path / "two.h5")
+    with open_record(result.path) as found:
+        periods = found["period"]
+    assert np.unique(periods).tolist() == [1, 2]
+    assert result.summary["points_of_longer_period"] == np.sum(periods == 2)
