@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -99,7 +100,7 @@ def test_files_that_are_too_large(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
         file.truncate(MOST_CSV + 1)
     with pytest.raises(InputError, match="larger than 4 MiB"):
         read_curve(path, "key", ["time"])
-    monkeypatch.setattr("tribodyn.scenario.sources.MOST_POINTS", 3)
+    monkeypatch.setattr(import_module("tribodyn.scenario.sources"), "MOST_POINTS", 3)
     path.write_text("time [s]\n" + "1\n" * 4, encoding="utf-8")
     with pytest.raises(InputError, match="line 5: more than 3 points"):
         read_curve(path, "key", ["time"])

@@ -1,5 +1,6 @@
 """Sweeps that take too much are refused before anything is made, with what they take."""
 
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -42,7 +43,7 @@ def test_the_record_of_a_sweep_is_what_was_said(
     grid = Grid("crc-23-47", [SPEEDS], {"output.samples_per_cycle": samples})
     settings = settings_of(grid, transient=8)
     said = estimate_of(grid, settings, 0)
-    monkeypatch.setattr("tribodyn.sweep.size.MOST_CASES", 2)
+    monkeypatch.setattr(import_module("tribodyn.sweep.size"), "MOST_CASES", 2)
     result = run(grid, settings, Local(), tmp_path / "s.h5", allow_large=True)
     with SweepRecord(result.path) as record:
         assert record.summary["cases"] == 3

@@ -89,6 +89,7 @@ def sweep(
     force: bool = False,
     resume: bool = False,
     progress: Any = None,
+    allow_large: bool = False,
 ) -> "xarray.Dataset":
     """Evaluate a scenario over a grid of its keys.
 
@@ -108,6 +109,8 @@ def sweep(
         Keep the record in a file, replace one, go on with an unfinished one; default: nothing is kept.
     progress : callable, optional
         Called with the share done, 0 … 1.
+    allow_large : bool
+        Evaluate what takes more memory, disk or time than is done unasked, too.
 
     Returns
     -------
@@ -135,6 +138,7 @@ def sweep(
                 force=force,
                 resume=resume,
                 follow=(lambda count, total: progress(count / total)) if progress else None,
+                allow_large=allow_large,
             )
         with SweepRecord(done.path) as written:
             return datasets.of_sweep(written).load()
