@@ -186,6 +186,7 @@ def run(
     film: "FilmLaw | None" = None,
     friction: "FrictionLaw | None" = None,
     progress: Progress | None = None,
+    allow_large: bool = False,
 ) -> Run:
     """Run a scenario.
 
@@ -201,6 +202,8 @@ def run(
         Take the place of the scenario's laws.
     progress : callable, optional
         Called with the share done, 0 … 1.
+    allow_large : bool
+        Run what takes more memory, disk or time than is done unasked, too.
 
     Returns
     -------
@@ -216,12 +219,17 @@ def run(
         If the record cannot be written.
     """
     case = scenario(source, overrides)
-    laws = {"film": film, "friction": friction}
+    how: dict[str, Any] = {
+        "film": film,
+        "friction": friction,
+        "progress": progress,
+        "allow_large": allow_large,
+    }
     if output is not None:
-        return Run(run_case(case, output, force=force, progress=progress, **laws).path)
+        return Run(run_case(case, output, force=force, **how).path)
     folder = tempfile.mkdtemp(prefix="tribodyn-")
     try:
-        done = run_case(case, Path(folder) / f"{case.name}.h5", progress=progress, **laws)
+        done = run_case(case, Path(folder) / f"{case.name}.h5", **how)
         return Run(done.path, folder)
     except BaseException:
         shutil.rmtree(folder, ignore_errors=True)
