@@ -51,7 +51,7 @@ quick: $(VENV)/.testing
 	XLA_FLAGS="$(TESTS_XLA)" $(BIN)/python -m pytest $(IN_PARALLEL) --quick -m "not bench and not slow"
 
 soak: $(VENV)/.testing
-	XLA_FLAGS="$(TESTS_XLA)" nice $(BIN)/python -m pytest $(IN_PARALLEL) -m soak tests/soak
+	XLA_FLAGS="$(TESTS_XLA)" nice $(BIN)/python -m pytest $(IN_PARALLEL) -m soak
 
 fuzz: $(VENV)/.testing
 	nice $(BIN)/python -m tools.fuzz --count 100000 --jobs 2 --into docs/fuzz.md

@@ -37,6 +37,8 @@ OUTSIDE_THE_MODEL = {"jia-parabolic-17-29"}
 def test_it_runs(name: str, tmp_path: Path, forked: ForkedVerbs):
     still = load_scenario(name).kind != "gear-pair"  # solves no equation of motion and takes no time
     shorter = () if still else ("--set", "solver.cycles=2")
+    if load_scenario(name).kind == "load-contact":
+        shorter = ("--set", "output.positions_per_cycle=8")
     ended = forked("run", name, *shorter, "--json", folder=tmp_path)
     assert ended.returncode == 0, ended.stderr
     # no progress bar where nobody watches, and no warning but that of a drive outside its model

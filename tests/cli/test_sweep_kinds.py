@@ -26,7 +26,7 @@ VARIED = {
     "irefc": ("friction.sliding_coefficient", ("0.05", "0.1")),
     "backlash-oscillator": ("damping", ("0.05", "0.1")),
 }
-KINDS = [pytest.param(kind, marks=pytest.mark.slow) if kind == "load-contact" else kind for kind in VARIED]
+KINDS = [pytest.param(kind, marks=pytest.mark.soak) if kind == "load-contact" else kind for kind in VARIED]
 
 
 def invoked(*words: object, status: int = 0) -> str:

@@ -47,6 +47,7 @@ def drive(shape):
     return Drive(0.003, 0.0, *bodies, shape)
 
 
+@pytest.mark.soak
 def test_the_mesh_cycle_differentiates_by_the_shape():
     """Derivative of what the table holds by the shape's numbers, against differences."""
     family, shape = cycloidal.FAMILY, cycloidal.Shape(0.0235, 0.02)

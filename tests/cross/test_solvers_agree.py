@@ -5,7 +5,7 @@ import pytest
 
 from tribodyn.dynamics.parameters import XI
 from tribodyn.solve.initial import static_equilibrium
-from tribodyn.solve.methods import SOLVERS
+from tribodyn.solve.methods import METHODS, Runs
 from tribodyn.solve.transient import SampledStates, Stop, TransientSettings, transient
 
 CYCLES, SAMPLES = 6, 100
@@ -28,8 +28,14 @@ def reference(request, prepared):
     return model, solve(model, "dop853", 1e-11)
 
 
+QUICK = [name for name, entry in METHODS.items() if entry.runs is Runs.NATIVE]
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("method", sorted(set(SOLVERS) - {"auto"}))
+@pytest.mark.parametrize(
+    "method",
+    [*QUICK, *(pytest.param(name, marks=pytest.mark.soak) for name in METHODS if name not in QUICK)],
+)
 def test_dte_agrees_to_1e_4_of_its_range_at_rtol_1e_7(reference, method):
     model, exact = reference
     ours = solve(model, method, 1e-7)
@@ -37,8 +43,9 @@ def test_dte_agrees_to_1e_4_of_its_range_at_rtol_1e_7(reference, method):
     assert error < 1e-4
 
 
-def test_native_and_scipy_agree(prepared):
-    """The quick part of the same: two independent codes at a tight tolerance."""
+@pytest.mark.parametrize("method", ["dop853", pytest.param("tsit5", marks=pytest.mark.slow)])
+def test_independent_codes_agree(method, prepared):
+    """The short part of the same: the native method, SciPy's and diffrax's at a tight tolerance."""
     model = prepared("crc-23-47", **{"operating.pinion_speed": "300 rad/s"}).model
-    native, scipy = solve(model, "dopri5", 1e-9), solve(model, "dop853", 1e-9)
-    assert np.max(np.abs(native[:, XI] - scipy[:, XI])) / np.ptp(scipy[:, XI]) < 1e-6
+    native, other = solve(model, "dopri5", 1e-9), solve(model, method, 1e-9)
+    assert np.max(np.abs(native[:, XI] - other[:, XI])) / np.ptp(other[:, XI]) < 1e-6

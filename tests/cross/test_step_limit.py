@@ -50,7 +50,9 @@ def test_a_cycle_may_take_so_many_steps(case, method):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("method", JAX)
+@pytest.mark.parametrize(
+    "method", [pytest.param(name, marks=[] if name == "tsit5" else pytest.mark.soak) for name in JAX]
+)
 def test_a_cycle_may_take_so_many_steps_through_jax(case, method):
     """One program for every cycle and limit: what the first cycle takes compiles nothing for the others."""
     integrated(case, method, MANY, 1)
@@ -76,7 +78,7 @@ def test_a_cycle_may_take_so_many_steps_in_lanes(case):
     assert_batch_limit_is_per_cycle(case, "dopri5")
 
 
-@pytest.mark.slow
+@pytest.mark.soak
 def test_a_cycle_may_take_so_many_steps_in_a_batch_of_jax(case, monkeypatch):
     monkeypatch.setattr(jax_ensemble, "WIDTH_ON_CPU", 2)
     model, state = case

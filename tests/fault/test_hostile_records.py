@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 from tests.support.record_samples import block, gear_pair_writer, geometry
 from tribodyn.cli.app import app
 from tribodyn.errors import InputError
-from tribodyn.record import soundness
+from tribodyn.record import lookout, soundness
 from tribodyn.record.reader import open_record
 from tribodyn.record.sweep_reader import open_any
 
@@ -150,31 +150,43 @@ def test_compressed_data_that_would_fill_the_memory_are_refused(path: Path):
         open_any(path)
 
 
-@pytest.mark.parametrize("threads", [False, True])
-def test_a_structure_without_end_is_given_up(threads: bool, path: Path, monkeypatch):
-    """A stand-in for a file in which HDF5 goes around in circles; with threads in another process."""
-    if threads:
-        monkeypatch.setattr(soundness, "TIME_LIMIT", 0.02)  # importing h5py alone takes longer
-        monkeypatch.setattr(soundness, "_can_fork", lambda: False)
-    else:
-        monkeypatch.setattr(soundness, "TIME_LIMIT", 0.5)
-        monkeypatch.setattr(soundness, "unsound", lambda path: time.sleep(100))
+needs_fork = pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork")
+
+
+def never_ends(path: Path) -> str:
+    """A stand-in for a file in which HDF5 goes around in circles."""
+    time.sleep(100)
+    return ""
+
+
+def dies(path: Path) -> str:
+    """A stand-in for a file on which HDF5 crashes."""
+    os.kill(os.getpid(), 9)
+    return ""
+
+
+def test_a_structure_without_end_is_given_up(path: Path, monkeypatch):
+    monkeypatch.setattr(lookout, "TIME_LIMIT", 0.3)
+    monkeypatch.setattr(soundness, "unsound", never_ends)
+    monkeypatch.setattr(lookout, "through_a_child", lookout.forked)
     with pytest.raises(InputError, match="did not end within"):
         open_any(path)
 
 
-@pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork")
+@needs_fork
 def test_a_crash_of_the_library_is_not_ours(path: Path, monkeypatch):
-    monkeypatch.setattr(soundness, "unsound", lambda path: os.kill(os.getpid(), 9))
+    monkeypatch.setattr(soundness, "unsound", dies)
+    monkeypatch.setattr(lookout, "through_a_child", lookout.forked)
     with pytest.raises(InputError, match="HDF5 crashes on it"):
         open_any(path)
 
 
 def test_a_good_record_is_looked_through_once(path: Path, monkeypatch):
     looked = []
-    original = soundness._look_forked
-    monkeypatch.setattr(soundness, "_look_forked", lambda path: looked.append(path) or original(path))
-    monkeypatch.setattr(soundness, "_can_fork", lambda: True)
+    original = lookout.through_a_child
+    monkeypatch.setattr(
+        lookout, "through_a_child", lambda look, path: looked.append(path) or original(look, path)
+    )
     for _ in range(3):
         with open_record(path) as record:
             assert record.samples == 10
@@ -185,10 +197,32 @@ def test_a_good_record_is_looked_through_once(path: Path, monkeypatch):
         open_record(path)
 
 
-def test_both_ways_of_looking_agree(path: Path):
-    assert soundness._look_apart(path) == soundness.unsound(path) == ""
+@pytest.fixture
+def kept():
+    """Processes that are kept for looks end with the test."""
+    yield lookout._kept
+    lookout.end_all()
+
+
+@needs_fork
+def test_all_ways_of_looking_agree(path: Path, kept):
+    ways = (lookout.forked, lookout._by_a_new_process, lambda look, path: kept(look).answer(path))
+    for way in ways:
+        assert way(soundness.unsound, path) == ""
     with h5py.File(path, "r+") as file:
         external_link(file)
-    assert (
-        soundness._look_apart(path) == soundness.unsound(path) == "'normal_load' is a link to somewhere else"
-    )
+    for way in ways:
+        assert way(soundness.unsound, path) == "'normal_load' is a link to somewhere else"
+
+
+@needs_fork
+def test_a_process_that_is_kept_survives_what_it_looks_at(path: Path, kept, monkeypatch):
+    process = kept(dies)
+    assert process.answer(path) == process.answer(path) == lookout.CRASHED
+    assert kept(dies) is process
+    process._process.kill()
+    assert process.answer(path) == lookout.CRASHED
+    assert kept(dies) is not process
+    monkeypatch.setattr(lookout, "START_LIMIT", 0.2)
+    monkeypatch.setattr(lookout, "TIME_LIMIT", 0.2)
+    assert "did not end within" in kept(never_ends).answer(path)

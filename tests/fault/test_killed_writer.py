@@ -10,7 +10,7 @@ import numpy as np
 from tests.support.record_samples import block
 from tribodyn.record.reader import open_record
 
-BLOCK, BLOCKS, KILLS = 50, 40, 60
+BLOCK, BLOCKS, KILLS = 50, 40, 24
 
 #: Forks one writer after another and kills each: a third at any moment of its life, the others while samples
 #: are written or the record is being finished.

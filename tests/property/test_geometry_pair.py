@@ -28,7 +28,7 @@ def limits_of(family, drive):
 
 
 fraction = st.floats(0.0, 1.0)
-over_pairs = settings(max_examples=60, deadline=None)
+over_pairs = settings(max_examples=30, deadline=None)
 
 
 @over_pairs
@@ -113,7 +113,7 @@ def test_flanks_touch_along_a_common_normal_through_the_pitch_point(pair, where)
 
 
 @pytest.mark.parametrize("name", FAMILIES)
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=10, deadline=None)
 @given(st.data())
 def test_every_radius_of_a_flank_is_found_on_its_path(name, data):
     family, drive = data.draw(drives((name,)))

@@ -26,7 +26,7 @@ SUMMARIES = st.dictionaries(
 )
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=15, deadline=None)
 @given(st.lists(st.integers(1, 7), max_size=6), st.data())
 def test_samples_come_back(lengths: list[int], data: st.DataObject):
     total = sum(lengths)
@@ -44,7 +44,7 @@ def test_samples_come_back(lengths: list[int], data: st.DataObject):
             np.testing.assert_array_equal(record["velocity"], block(0, total)["velocity"])
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=15, deadline=None)
 @given(SUMMARIES, st.text(st.characters(codec="utf-8", exclude_characters="\0"), max_size=200))
 def test_summary_and_scenario_come_back(summary: dict, scenario: str):
     with tempfile.TemporaryDirectory() as folder:

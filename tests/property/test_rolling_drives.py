@@ -38,7 +38,7 @@ def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=50, deadline=None)
 @given(drives(), FRICTIONS, TURNS)
 def test_torques_balance_and_energy_is_kept(drive: RollingDrive, friction: RollingFriction, turn: np.ndarray):
     check(drive)
@@ -59,7 +59,7 @@ def test_torques_balance_and_energy_is_kept(drive: RollingDrive, friction: Rolli
     assert (np.abs(loaded - drive.elements / 2) <= 1).all()
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(drives(), FRICTIONS, st.floats(0.0, 6.0))
 def test_the_pattern_repeats_when_each_element_takes_its_neighbours_place(
     drive: RollingDrive, friction: RollingFriction, start: float
@@ -71,7 +71,7 @@ def test_the_pattern_repeats_when_each_element_takes_its_neighbours_place(
         np.testing.assert_allclose(np.roll(values[1], -1) / size, values[0] / size, atol=1e-9)
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(drives(), FRICTIONS, st.floats(0.5, 4.0))
 def test_losses_of_a_gear_of_another_size(drive: RollingDrive, friction: RollingFriction, factor: float):
     """At one torque loads fall as 1/size while slip grows with it, so that sliding keeps its loss."""
@@ -86,7 +86,7 @@ def test_losses_of_a_gear_of_another_size(drive: RollingDrive, friction: Rolling
     np.testing.assert_allclose(sliding[1], sliding[0], rtol=1e-6, atol=1e-9 * POWER)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=15, deadline=None)
 @given(drives())
 def test_profiles_close_and_keep_clear_of_every_element(drive: RollingDrive):
     assume(drive.elements <= 30)

@@ -19,6 +19,11 @@ SPEEDS = {"rad/s": 1.0, "rpm": np.pi / 30}
 ANGLES = {"rad": 1.0, "deg": np.pi / 180}
 
 
+def zero_or_more(low: float, high: float) -> st.SearchStrategy[float]:
+    """Zero, or of a magnitude that scenarios take, in the smallest unit too."""
+    return st.floats(low, high).filter(lambda value: value == 0.0 or abs(value) > 1e-20)
+
+
 def quantities(
     units: dict[str, float], numbers: st.SearchStrategy[float] = POSITIVE
 ) -> st.SearchStrategy[str]:
@@ -26,7 +31,7 @@ def quantities(
 
 
 CURVE = (
-    st.lists(st.floats(0, 1e3), min_size=2, max_size=6, unique=True)
+    st.lists(zero_or_more(0, 1e3), min_size=2, max_size=6, unique=True)
     .map(sorted)
     .flatmap(
         lambda times: st.fixed_dictionaries(
@@ -37,7 +42,7 @@ CURVE = (
                 "torque": st.fixed_dictionaries(
                     {
                         "unit": st.sampled_from(sorted(TORQUES)),
-                        "values": st.lists(st.floats(-1e6, 1e6), min_size=len(times), max_size=len(times)),
+                        "values": st.lists(zero_or_more(-1e6, 1e6), min_size=len(times), max_size=len(times)),
                     }
                 ),
             }
@@ -57,7 +62,7 @@ OVERRIDES = st.fixed_dictionaries(
         "drive": st.sampled_from(["liu-ni-involute-23-47", "diez-ibarbia-18-36"]),
         "drive.module": quantities(LENGTHS),
         "drive.pinion.teeth": st.integers(5, 200),
-        "drive.pinion.profile_shift": st.floats(-1, 1),
+        "drive.pinion.profile_shift": zero_or_more(-1, 1),
         "drive.gear.tip_radius": quantities(LENGTHS),
         "drive.gear.mass": quantities({"kg": 1, "g": 1}),
         "drive.gear.material": st.just("steel-diez-ibarbia"),
@@ -80,7 +85,7 @@ OVERRIDES = st.fixed_dictionaries(
 )
 
 SMALL = {"um": 1e-6, "mm": 1e-3, "inch": 0.0254}
-DEVIATIONS = st.floats(-1e3, 1e3)
+DEVIATIONS = zero_or_more(-1e3, 1e3)
 FLANKS = {
     **{
         f"drive.{gear}.modification.{name}": quantities(SMALL)

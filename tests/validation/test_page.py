@@ -18,7 +18,7 @@ def printed(paper: str) -> dict[str, list[str]]:
 
 
 @pytest.mark.parametrize(
-    "paper", ["liu-ni-2022", "diez-ibarbia", pytest.param("jia-2022", marks=pytest.mark.slow)]
+    "paper", ["liu-ni-2022", "diez-ibarbia", pytest.param("jia-2022", marks=pytest.mark.soak)]
 )
 def test_the_table_of_the_page_is_up_to_date(paper: str, tmp_path: Path):
     """If this fails: tools/validation_table.py PAPER --into docs/validation.md, and read what it says."""

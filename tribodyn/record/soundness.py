@@ -5,20 +5,14 @@ then it crashes. So a file that this process has not written is first looked thr
 hang or die.
 """
 
-import os
-import select
-import signal
-import subprocess
-import sys
-import threading
-import warnings
 from contextlib import suppress
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any
 
 import h5py
 
 from tribodyn.errors import InputError
+from tribodyn.record import lookout
 
 #: What a damaged file makes h5py and those who read it raise.
 UNREADABLE = (
@@ -31,8 +25,6 @@ UNREADABLE = (
     IndexError,
     OverflowError,
 )
-#: Seconds that a look through a file may take; a record of 1 GB takes milliseconds, its data are not read.
-TIME_LIMIT = 20.0
 #: Maximum number of groups and datasets, depth of groups, axes of a dataset, and bytes of an attribute.
 MAXIMUM_ITEMS, MAXIMUM_DEPTH, MAXIMUM_AXES, MAXIMUM_ATTRIBUTE = 100_000, 4, 8, 2**26
 #: Maximum ratio of a compressed dataset's size to its bytes in the file, and bytes that need none.
@@ -61,7 +53,7 @@ def check_sound(path: Path) -> None:
     """
     if _identity(path) in _own:
         return
-    reason = _look_forked(path) if _can_fork() else _look_apart(path)
+    reason = lookout.through_a_child(unsound, path)
     if reason:
         raise InputError("record", str(path), f"damaged: {reason}", "make it anew")
     remember_own(path)
@@ -154,63 +146,3 @@ class _Look:
 def _identity(path: Path) -> tuple[int, ...]:
     found = path.stat()
     return found.st_dev, found.st_ino, found.st_size, found.st_mtime_ns
-
-
-def _can_fork() -> bool:
-    """Whether a copy of this process is safe: no thread of Python's can hold a lock that it needs."""
-    return hasattr(os, "fork") and threading.active_count() == 1
-
-
-def _look_forked(path: Path) -> str:
-    """Look through a file in a copy of this process."""
-    reading, writing = os.pipe()
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # that others' threads do not come along is known
-        child = os.fork()
-    if child == 0:
-        _answer(path, writing)
-    os.close(writing)
-    try:
-        ready, _, _ = select.select([reading], [], [], TIME_LIMIT)
-        said = _all_of(reading) if ready else b""
-        if not ready:
-            os.kill(child, signal.SIGKILL)
-    finally:
-        os.close(reading)
-        _, status = os.waitpid(child, 0)
-    if not ready:
-        return f"reading it did not end within {TIME_LIMIT:g} s"
-    return said.decode(errors="replace") if status == 0 else "HDF5 crashes on it"
-
-
-def _answer(path: Path, writing: int) -> NoReturn:
-    """Write what is wrong with the file and end, without what a process does at its end."""
-    status = 1
-    try:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # a crash is said by the parent
-        signal.signal(signal.SIGINT, signal.SIG_DFL)
-        signal.signal(signal.SIGTERM, signal.SIG_DFL)
-        os.write(writing, unsound(path).encode(errors="replace")[:4096])
-        status = 0
-    finally:
-        os._exit(status)
-
-
-def _all_of(reading: int) -> bytes:
-    parts = []
-    while part := os.read(reading, 4096):
-        parts.append(part)
-    return b"".join(parts)
-
-
-def _look_apart(path: Path) -> str:
-    """Look through a file in a process of its own."""
-    program = "import sys; from pathlib import Path; from tribodyn.record.soundness import unsound\n"
-    program += "sys.stdout.buffer.write(unsound(Path(sys.argv[1])).encode(errors='replace'))"
-    command = [sys.executable, "-c", program, str(path)]
-    try:
-        # a slow machine needs some time to import h5py
-        ended = subprocess.run(command, capture_output=True, timeout=3.0 * TIME_LIMIT, check=False)
-    except subprocess.TimeoutExpired:
-        return f"reading it did not end within {3.0 * TIME_LIMIT:g} s"
-    return ended.stdout.decode(errors="replace") if ended.returncode == 0 else "HDF5 crashes on it"

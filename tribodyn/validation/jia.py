@@ -45,7 +45,7 @@ def pressure_at_pitch_point(case: Case) -> float:
 
 def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[Row]:
     """All rows of the paper; no run is recorded, so that `folder` stays empty."""
-    values = _geometry()
+    values = geometry()
     parts = (
         lambda: _misaligned("involute", "unmodified", State()),
         lambda: _misaligned("involute", "crowned", CROWNED),
@@ -61,7 +61,8 @@ def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[
     return [compare(table[key], *values[key]) for key in table]
 
 
-def _geometry() -> dict[str, tuple[Any, str]]:
+def geometry() -> dict[str, tuple[Any, str]]:
+    """Rows of limits of the geometry, contact ratios and the pressure at the pitch point: value and note."""
     parabolic, involute = case_of("parabolic"), case_of("involute")
     pinion, gear = parabolic.drive.pinion.teeth, parabolic.drive.gear.teeth
     lowest, highest_k1 = published_limits(gear)

@@ -45,7 +45,7 @@ def crc_drive(values, teeth):
 CASES = [
     pytest.param(involute.FAMILY, INVOLUTE_VALUES, 23.0, id="involute"),
     pytest.param(involute.FAMILY, INVOLUTE_VALUES * [1, 0, 1, 1, 1], 12.0, id="undercut"),
-    pytest.param(crc.FAMILY, CRC_VALUES, 23.0, id="crc"),
+    pytest.param(crc.FAMILY, CRC_VALUES, 23.0, id="crc", marks=pytest.mark.soak),
 ]
 DRIVES = {"involute": involute_drive, "crc": crc_drive}
 

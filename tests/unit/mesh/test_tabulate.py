@@ -30,6 +30,10 @@ jax.config.update("jax_enable_x64", True)
 STEEL = MaterialData("steel", 206e9, 0.3, 7850.0, 46.0, 470.0, 6e9)
 ENERGY = MeshData(compliance="energy", damping_ratio=0.05)
 FAMILIES = pytest.mark.parametrize("family", [involute.FAMILY, crc.FAMILY], ids=lambda f: f.name)
+#: For what XLA compiles: the other family takes twice as long.
+ONE_FAMILY = pytest.mark.parametrize(
+    "family", [involute.FAMILY, pytest.param(crc.FAMILY, marks=pytest.mark.soak)], ids=lambda f: f.name
+)
 
 
 def drive_of(parameters):
@@ -233,7 +237,7 @@ START["crc"] = np.array([math.radians(22.81), 0.0, 1.0, 0.02])
 
 
 @pytest.mark.slow
-@FAMILIES
+@ONE_FAMILY
 def test_gradients_agree_with_finite_differences(family):
     start = START[family.name]
 
@@ -255,7 +259,7 @@ def test_gradients_agree_with_finite_differences(family):
 
 
 @pytest.mark.slow
-@FAMILIES
+@ONE_FAMILY
 def test_a_thousand_drives_in_one_batch(family):
     rng = np.random.default_rng(1)
     batch = START[family.name] * (1 + 0.01 * rng.uniform(-1, 1, size=(1000, 4)))

@@ -174,7 +174,9 @@ def test_a_sweep_says_it_case_by_case(tmp_path, outside):
     )
 
 
-@pytest.mark.parametrize("name", ["efficiency-involute-18-36", "load-contact-18-36"])
+@pytest.mark.parametrize(
+    "name", ["efficiency-involute-18-36", pytest.param("load-contact-18-36", marks=pytest.mark.soak)]
+)
 def test_studies_hand_over_what_they_have(name, tmp_path):
     """A hundred times the torque: complete, and marked."""
     result = run(load_scenario(name, {"operating.gear_torque": "40 kN*m"}), tmp_path / "much.h5")

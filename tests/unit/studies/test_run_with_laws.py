@@ -75,7 +75,12 @@ def sampled(result):
 
 
 @pytest.mark.parametrize(
-    "place", ["module", *(pytest.param(one, marks=pytest.mark.slow) for one in ("closure", "notebook"))]
+    "place",
+    [
+        "module",
+        pytest.param("closure", marks=pytest.mark.soak),
+        pytest.param("notebook", marks=pytest.mark.slow),
+    ],
 )
 def test_a_law_works_wherever_it_is_defined(place, case, by_numpy, tmp_path):
     """The same formula in the native kernel as in NumPy, to what the integrators' tolerances leave."""
@@ -86,7 +91,7 @@ def test_a_law_works_wherever_it_is_defined(place, case, by_numpy, tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("method", ["dopri5", "rodas4"])
+@pytest.mark.parametrize("method", ["dopri5", pytest.param("rodas4", marks=pytest.mark.soak)])
 def test_a_constant_law_is_coulombs(method, tmp_path):
     """A law that returns a plain number gives bit for bit what the shipped law gives."""
     case = load_scenario("crc-23-47", {**SHORT, "solver.method": method, **COULOMB})
@@ -96,7 +101,7 @@ def test_a_constant_law_is_coulombs(method, tmp_path):
     np.testing.assert_allclose(own[1], shipped[1], rtol=0, atol=0)
 
 
-@pytest.mark.slow
+@pytest.mark.soak
 def test_the_lanes_take_a_law_that_is_a_closure(case):
     """Eight cases side by side under a constant from outside the function, as under the shipped law."""
     coefficient = 0.05
@@ -233,7 +238,7 @@ def test_a_law_that_cannot_work_is_refused_before_anything_is_written(function, 
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.slow
+@pytest.mark.soak
 def test_a_law_may_call_functions_that_are_marked(case, tmp_path):
     result = run(case, tmp_path / "run.h5", friction=FrictionLaw("marked", "", marked))
     with open_record(result.path) as record:

@@ -79,6 +79,7 @@ def test_a_law_handed_over_runs_in_every_compiler(rng):
     assert_right_hand_sides_agree(at_several_conditions(prepare(case).model), rng, 1e-12)
 
 
+@pytest.mark.soak
 def test_a_run_with_laws_handed_over_says_so(tmp_path):
     plain = load_scenario("crc-23-47", {"solver.cycles": 1, "output.samples_per_cycle": 16})
     thick = FilmLaw("thick", "a film of 17 µm", _thick)

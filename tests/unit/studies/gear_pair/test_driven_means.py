@@ -33,7 +33,7 @@ def test_mean_powers_are_works_over_time(tmp_path):
 
 def test_a_load_reversed_without_back_flanks(tmp_path):
     """Without backlash there are driving flanks only, whatever the load does."""
-    table = {"time": {"unit": "ms", "values": [0, 3]}, "torque": {"unit": "N*m", "values": [0, -900]}}
+    table = {"time": {"unit": "ms", "values": [0, 3]}, "torque": {"unit": "N*m", "values": [0, -550]}}
     reversed_load = {**DRIVEN, "operating.source": "speed", "operating.gear_torque_table": table}
     del reversed_load["operating.speed_regulation"]
     result = run(load_scenario("crc-23-47", reversed_load), tmp_path / "reversed.h5")
