@@ -7,37 +7,42 @@ from pathlib import Path
 
 import pytest
 
-from tribodyn.numerics.cache import keep, read_kept
-
+ROOT = Path(__file__).parents[2]
 PROCESSES, ROUNDS, FILES = 8, 20, 5
 #: What a process writes: itself again and again, so that a mixture of two would show.
 SIZE = 60_000
 
 
-def _write_and_read(number: int) -> None:
-    for round_ in range(ROUNDS):
-        name = f"file-{round_ % FILES}"
-        keep("races", name, bytes([number]) * SIZE)
-        found = read_kept("races", name)
-        assert found is not None
-        assert len(found) == SIZE
-        assert len(set(found)) == 1
+#: Forks the processes; by itself, because no threads of others may be there.
+WRITERS = """
+import os, sys
+from tribodyn.numerics.cache import keep, read_kept
+
+processes, rounds, files, size = map(int, sys.argv[1:])
+children = []
+for number in range(processes):
+    child = os.fork()
+    if child == 0:
+        status = 1
+        try:
+            for turn in range(rounds):
+                name = f"file-{turn % files}"
+                keep("races", name, bytes([number]) * size)
+                found = read_kept("races", name)
+                assert found is not None and len(found) == size and len(set(found)) == 1
+            status = 0
+        finally:
+            os._exit(status)
+    children.append(child)
+print(*(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) for child in children))
+"""
 
 
-def test_no_reader_sees_half_a_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setenv("TRIBODYN_CACHE", str(tmp_path / "cache"))
-    children = []
-    for number in range(PROCESSES):
-        child = os.fork()
-        if child == 0:
-            status = 1
-            try:
-                _write_and_read(number)
-                status = 0
-            finally:
-                os._exit(status)
-        children.append(child)
-    assert [os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) for child in children] == [0] * PROCESSES
+def test_no_reader_sees_half_a_file(tmp_path: Path):
+    command = [sys.executable, "-c", WRITERS, *map(str, (PROCESSES, ROUNDS, FILES, SIZE))]
+    environment = {**os.environ, "TRIBODYN_CACHE": str(tmp_path / "cache"), "PYTHONPATH": str(ROOT)}
+    ended = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+    assert ended.stdout.split() == ["0"] * PROCESSES, ended.stderr
     left = sorted(path.name for path in (tmp_path / "cache" / "races").iterdir())
     assert left == [f"file-{i}" for i in range(FILES)]
 
