@@ -37,7 +37,7 @@ def figures(tmp_path_factory):
     first = processor_time(RUN, folder, folder / "cache")
     others = {"run": RUN, "libraries": LIBRARIES, "loop": LOOP}
     times = {name: [] for name in others}
-    for _ in range(3):
+    for _ in range(5):
         for name, command in others.items():
             times[name].append(processor_time(command, folder, folder / "cache"))
     return {"first": first, **{name: min(values) for name, values in times.items()}}
