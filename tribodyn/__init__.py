@@ -28,10 +28,10 @@ if TYPE_CHECKING:
     from tribodyn.interface.scenario import scenario
     from tribodyn.interface.sweep import Sweep, sweep
     from tribodyn.interface.sweep import open_result as open
-    from tribodyn.interface.validate import validate
     from tribodyn.numerics.parameter import Parameter
     from tribodyn.studies.study import Study
     from tribodyn.tribology.law import FilmLaw, FrictionLaw
+    from tribodyn.validation import validate
 
 __all__ = [
     "Family",
@@ -72,7 +72,7 @@ _PLACES = {
     "run": "tribodyn.interface.run",
     "scenario": "tribodyn.interface.scenario",
     "sweep": "tribodyn.interface.sweep",
-    "validate": "tribodyn.interface.validate",
+    "validate": "tribodyn.validation",
 }
 
 

@@ -6,24 +6,14 @@ from typing import Any
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tools.fuzz.inputs import keys_of
 from tribodyn.errors import InputError, InputErrors
 from tribodyn.scenario.quantity import references
 from tribodyn.studies.gear_pair.scenario import Scenario
 from tribodyn.studies.load import load_scenario
 
-
-def keys(table: Any = Scenario, above: str = "") -> list[str]:
-    found = []
-    for name, field in table.model_fields.items():
-        found.append(above + name)
-        inner = field.annotation
-        if isinstance(inner, type) and hasattr(inner, "model_fields"):
-            found += keys(inner, f"{above}{name}.")
-    return found
-
-
 REFERENCES = [".".join(map(str, key)) for key in (key for key, _ in references(Scenario))]
-KEYS = [*keys(), *REFERENCES, "nonsense", "mesh.nonsense.more"]
+KEYS = [*keys_of(Scenario), *REFERENCES, "nonsense", "mesh.nonsense.more"]
 QUANTITY = r"-?[0-9]{1,3}(\.[0-9])? ?(mm|N\*m|rad/s|deg|kg|Pa|1/K|%|m\*\*[0-9]|/)"
 SCALARS = st.one_of(
     st.text(st.characters(codec="utf-8"), max_size=8),

@@ -83,7 +83,7 @@ def keys(kind: str) -> tuple[str, ...]:
     table = STUDIES[kind].table()
     named = (".".join(map(str, key)) for key, _ in references(table))
     return (
-        *_keys(table),
+        *keys_of(table),
         *named,
         "nonsense",
         "mesh.nonsense.more",
@@ -94,13 +94,14 @@ def keys(kind: str) -> tuple[str, ...]:
     )
 
 
-def _keys(table: type[Table], above: str = "") -> list[str]:
+def keys_of(table: type[Table], above: str = "") -> list[str]:
+    """Dotted keys of a schema, those of the tables inside it too."""
     found = []
     for name, field in table.model_fields.items():
         found.append(above + name)
         inner = field.annotation
         if isinstance(inner, type) and hasattr(inner, "model_fields"):
-            found += _keys(inner, f"{above}{name}.")
+            found += keys_of(inner, f"{above}{name}.")
     return found
 
 

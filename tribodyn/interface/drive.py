@@ -17,6 +17,7 @@ from tribodyn.interface.scenario import in_python, in_toml
 from tribodyn.mesh.data import MeshData
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.mesh.tabulate import pair_slots, tabulate
+from tribodyn.post.figures.gears_in_mesh import GearsInMesh
 from tribodyn.studies.drive_file import load_drive
 from tribodyn.studies.gears import sheet_tables
 
@@ -52,18 +53,21 @@ class GearPair:
         return geometry_sheet(self._assembly, masses)
 
     @cached_property
+    def _mesh(self) -> GearsInMesh:
+        return gears_in_mesh(self._assembly)
+
+    @cached_property
     def outlines(self) -> dict[str, np.ndarray]:
         """Closed outlines of pinion and gear, (points, 2), m, as they stand when a pair begins contact.
 
         The origin is the pitch point; y points along the line of centres towards the pinion's.
         """
-        mesh = gears_in_mesh(self._assembly)
-        return {"pinion": np.asarray(mesh.pinion), "gear": np.asarray(mesh.gear)}
+        return {"pinion": np.asarray(self._mesh.pinion), "gear": np.asarray(self._mesh.gear)}
 
     @cached_property
     def path(self) -> np.ndarray:
         """The path of contact from the first to the last contact, (points, 2), m; in axes as `outlines`."""
-        return np.asarray(gears_in_mesh(self._assembly).path)
+        return np.asarray(self._mesh.path)
 
     def stiffness(self, gear_torque: float | str | Any = 100.0) -> "xarray.DataArray":
         """Mesh stiffness over a mesh cycle by the energy method, N/m: all pairs, along the pitch tangent.

@@ -24,7 +24,7 @@ FIGURES = {
 
 
 def validate(
-    paper: str, progress: Callable[[float], None] | None = None, folder: Path | None = None
+    paper: str, progress: Callable[[float], None] | None = None, folder: str | Path | None = None
 ) -> list[Row]:
     """Run what a paper's rows need and compare.
 
@@ -34,8 +34,13 @@ def validate(
         One of `PAPERS`.
     progress : callable, optional
         Called with the share done, 0 … 1.
-    folder : Path, optional
+    folder : path, optional
         Where to keep the records of the runs; a temporary folder if not given.
+
+    Returns
+    -------
+    list of Row
+        Published and computed value, tolerance, verdict ("pass", "fail", "reported") and a note.
 
     Raises
     ------

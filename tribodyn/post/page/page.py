@@ -61,7 +61,6 @@ def page(records: Sequence[Record], told: Sequence[Told]) -> str:
         "STYLE": _file("page.css"),
         "WARNINGS": "".join(_warnings(record, len(records) > 1) for record in records),
         "SUMMARY": _summary(records, [one.lines for one in told]),
-        "GEOMETRY": "",
         "TRUST": "".join(
             _list(record, one.sentences, len(records) > 1) for record, one in zip(records, told, strict=True)
         ),

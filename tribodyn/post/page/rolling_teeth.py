@@ -48,7 +48,6 @@ def rolling_teeth(record: Record) -> dict[str, Any] | None:
         "gear": packed(shape["gear_outline"]),
         "path": packed(shape["path_of_contact"]),
         "radii": [float(shape["pinion_pitch_radius"]), float(shape["gear_pitch_radius"])],
-        "tips": [float(shape["pinion_tip_radius"]), float(shape["gear_tip_radius"])],
     }
 
 
