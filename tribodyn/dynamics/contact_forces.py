@@ -22,9 +22,13 @@ from tribodyn.dynamics.parameters import (
 )
 from tribodyn.dynamics.smooth import (
     load_with_damping,
+    onset,
+    onset_integral,
     positive_part,
     positive_part_integral,
     power_law_force,
+    power_law_stiffness,
+    power_law_work,
     ramp,
     sign,
 )
@@ -46,7 +50,7 @@ COMPLIANCE_SLOPE = 8  # dC/dφ, m/(N rad)
 EFFECTIVE_APPROACH = 9  # δ less what the loads on neighbouring pairs deflect, m
 ELASTIC_LOAD = 10  # N
 NORMAL_LOAD = 11  # elastic and damping, N
-STIFFNESS = 12  # of one pair at its load, N/m
+STIFFNESS = 12  # of one pair at its load, below the contact width at that of the width, N/m
 SLIDING = 13  # sliding velocity, pinion less gear, along t, m/s
 RELATIVE_VELOCITY = 14  # the same with the vibration, m/s
 FRICTION_FORCE = 15  # on the pinion along +t, N
@@ -176,14 +180,15 @@ def elastic_loads(segment, cell, u, model, work):
                 for j in range(pairs):
                     if j != i and not out_of_reach(segment, j, model):
                         free = free - work[COUPLING + j, i] * work[ELASTIC_LOAD, j]
-            deflection = positive_part(free, width)
             if model.options.hertz == HERTZ_POWER_LAW:
                 compliance = work[COMPLIANCE, i]
-                load = power_law_force(deflection, compliance, coefficient)
-                root = (maximum(load, 1e-6)) ** -0.1
-                work[STIFFNESS, i] = 1.0 / (compliance + 0.9 * coefficient * root)
+                load = power_law_force(maximum(free, width), compliance, coefficient)
+                stiffness = power_law_stiffness(load, compliance, coefficient)
+                if not skippable(free >= width):
+                    load = where(free >= width, load, onset(free, width, load, stiffness))
+                work[STIFFNESS, i] = stiffness
             else:
-                load = deflection * work[STIFFNESS, i]
+                load = positive_part(free, width) * work[STIFFNESS, i]
             work[EFFECTIVE_APPROACH, i] = free
             work[ELASTIC_LOAD, i] = model.table.in_contact[segment, i] * load
 
@@ -267,16 +272,43 @@ def contact_forces(segment, cell, u, cells_per_radian, y, model, work):
 @law
 def pair_energy(i, model, work):
     """Strain energy of one pair without the coupling, J."""
+    width = model.mechanics.contact_width
+    free = work[EFFECTIVE_APPROACH, i]
     load = work[ELASTIC_LOAD, i]
     if model.options.hertz == HERTZ_POWER_LAW:
-        coefficient = model.table.hertz_coefficient
-        energy = (
-            0.5 * work[COMPLIANCE, i] * load * load + coefficient * 0.9 / 1.9 * maximum(load, 1e-9) ** 1.9
+        compliance, coefficient = work[COMPLIANCE, i], model.table.hertz_coefficient
+        at_width = power_law_force(width, compliance, coefficient)
+        stiffness = power_law_stiffness(at_width, compliance, coefficient)
+        above = power_law_work(load, compliance, coefficient) - power_law_work(
+            at_width, compliance, coefficient
         )
+        energy = onset_integral(free, width, at_width, stiffness) + where(free > width, above, 0.0)
     else:
-        width = model.mechanics.contact_width
-        energy = positive_part_integral(work[EFFECTIVE_APPROACH, i], width) * work[STIFFNESS, i]
+        energy = positive_part_integral(free, width) * work[STIFFNESS, i]
     return where(load > 0.0, energy, 0.0)
+
+
+@law
+def compliance_force(i, model, work):
+    """−∂V/∂C of one pair's strain energy at fixed effective approach, N²: ½ F² but for the contact's onset.
+
+    At the onset's width w, ∂F/∂C = −F k and ∂k/∂C = −k² (1 + 0.09 h F^-0.1 k), where h F^0.9 is the Hertz
+    contact's part of w and k the stiffness there.
+    """
+    if model.options.hertz == HERTZ_POWER_LAW:
+        width = model.mechanics.contact_width
+        free = work[EFFECTIVE_APPROACH, i]
+        compliance = work[COMPLIANCE, i]
+        at_width = power_law_force(width, compliance, model.table.hertz_coefficient)
+        stiffness = power_law_stiffness(at_width, compliance, model.table.hertz_coefficient)
+        hertz = (1.0 / stiffness - compliance) / 0.9
+        load_slope = at_width * stiffness
+        stiffness_slope = stiffness * stiffness * (1.0 + 0.09 * hertz * stiffness)
+        load = work[ELASTIC_LOAD, i]
+        above = 0.5 * (load * load - at_width * at_width)
+        whole = onset_integral(free, width, load_slope, stiffness_slope) + where(free > width, above, 0.0)
+        return where(load > 0.0, whole, 0.0)
+    return pair_energy(i, model, work) * work[STIFFNESS, i]
 
 
 @law
@@ -309,11 +341,8 @@ def parametric_torque(segment, cell, u, cells_per_radian, model, work):
         if out_of_reach(segment, i, model):
             continue
         load = work[ELASTIC_LOAD, i]
-        if model.options.hertz == HERTZ_POWER_LAW:
-            stored = 0.5 * load * load
-        else:
-            stored = pair_energy(i, model, work) * work[STIFFNESS, i]
-        torque = torque - stored * work[COMPLIANCE_SLOPE, i] + work[NORMAL_LOAD, i] * work[APPROACH_SLOPE, i]
+        torque = torque - compliance_force(i, model, work) * work[COMPLIANCE_SLOPE, i]
+        torque = torque + work[NORMAL_LOAD, i] * work[APPROACH_SLOPE, i]
         if model.options.sweeps > 1:
             for j in range(i):
                 if out_of_reach(segment, j, model):

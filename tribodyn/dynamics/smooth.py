@@ -54,6 +54,22 @@ def sign(x):
 
 
 @law
+def onset(x, width, load, stiffness):
+    """Load of an approach 0 ≤ x ≤ w, the cubic from zero with zero slope to a load and stiffness at w; C1."""
+    share = minimum(maximum(x, 0.0), width) / width
+    rise = stiffness * width
+    return share * share * (3.0 * load - rise + share * (rise - 2.0 * load))
+
+
+@law
+def onset_integral(x, width, load, stiffness):
+    """The integral of `onset` from 0 to x; linear in load and stiffness, as `onset` is."""
+    share = minimum(maximum(x, 0.0), width) / width
+    rise = stiffness * width
+    return width * share * share * share * (load - rise / 3.0 + 0.25 * share * (rise - 2.0 * load))
+
+
+@law
 def power_law_force(deflection, compliance, coefficient):
     """Load F ≥ 0 of deflection = compliance F + coefficient F^0.9, by six Newton steps."""
     force = deflection / (compliance + 0.4 * coefficient)  # F^-0.1 is 0.4 near 10 kN
@@ -62,3 +78,15 @@ def power_law_force(deflection, compliance, coefficient):
         tangent = coefficient * exp(-0.1 * log(force))
         force = (deflection - 0.1 * tangent * force) / (compliance + 0.9 * tangent)
     return maximum(force, 0.0)
+
+
+@law
+def power_law_stiffness(force, compliance, coefficient):
+    """dF/dδ of the same law at a load F > 0."""
+    return 1.0 / (compliance + 0.9 * coefficient * exp(-0.1 * log(maximum(force, 1e-9))))
+
+
+@law
+def power_law_work(force, compliance, coefficient):
+    """The integral of the same law's load over its deflection, from zero to a load F ≥ 0."""
+    return 0.5 * compliance * force * force + coefficient * (0.9 / 1.9) * maximum(force, 1e-9) ** 1.9

@@ -237,6 +237,40 @@ def test_parametric_torque_is_the_energy_slope_at_fixed_coordinates(model, rng):
         assert powers[4] == pytest.approx(slope * speed, rel=1e-4, abs=2e-3 * speed)
 
 
+@pytest.mark.parametrize("hertz", ["linear", "load-dependent"])
+def test_a_contact_that_sets_in_has_the_energy_of_its_load(prepared, rng, hertz):
+    """Below the contact width, made wide enough to be resolved: load and torque are slopes of the energy."""
+    model = prepared("crc-23-47", **{"mesh.hertz": hertz}).model
+    mechanics = model.mechanics._replace(mesh_damping=0.0, contact_width=20e-6)
+    options = model.options._replace(sweeps=12)  # the onset is not in the tabulated start
+    model = model._replace(mechanics=mechanics, options=options)
+    within = 0
+    for _ in range(60):
+        y = random_state(rng)
+        y[VX_P:SLIP] = 0.0
+        y[XI_RATE] = 0.0
+        phase, segment = random_place(rng, model.table.boundary)
+        work, _, powers = evaluate(model, y, phase, segment)
+        loads = [work[contact.ELASTIC_LOAD, i] for i in range(model.table.side.shape[0])]
+        free = [work[contact.EFFECTIVE_APPROACH, i] for i in range(len(loads)) if loads[i] > 0.0]
+        within += any(0.0 < one < mechanics.contact_width for one in free)
+        step = 1e-9
+        up, down = y.copy(), y.copy()
+        up[XI] += step
+        down[XI] -= step
+        slope = (_strain(model, up, phase, segment) - _strain(model, down, phase, segment)) / (2 * step)
+        pull = sum(
+            model.table.side[i] * load * work[contact.COS, i] for i, load in enumerate(loads) if load > 0.0
+        )
+        assert slope == pytest.approx(pull, rel=1e-5, abs=1e-4)
+        turn = 1e-5
+        ahead, behind = (_strain(model, y, phase + by, segment) for by in (turn, -turn))
+        torque = (ahead - behind) / (2 * turn * model.table.pitch_angle)
+        speed = mechanics.nominal_speed + y[SLIP]
+        assert powers[4] / speed == pytest.approx(torque, rel=1e-4, abs=1e-5)
+    assert within >= 15
+
+
 @pytest.mark.parametrize("formulation", [CLASSICAL, ENERGY_CONSISTENT])
 @pytest.mark.parametrize("drive", [DRIVE_SPEED, DRIVE_TORQUE, DRIVE_SHAFT])
 def test_instantaneous_powers_balance(model, rng, formulation, drive):

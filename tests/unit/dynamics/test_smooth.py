@@ -3,9 +3,13 @@ import pytest
 
 from tribodyn.dynamics.smooth import (
     load_with_damping,
+    onset,
+    onset_integral,
     positive_part,
     positive_part_integral,
     power_law_force,
+    power_law_stiffness,
+    power_law_work,
     ramp,
     sign,
 )
@@ -71,6 +75,36 @@ def test_power_law_force_inverts_the_deflection():
     deflection = compliance * force + coefficient * force**0.9
     np.testing.assert_allclose(power_law_force(deflection, compliance, coefficient), force, rtol=1e-9)
     assert power_law_force(0.0, compliance, coefficient) == 0.0
+
+
+def test_power_law_stiffness_and_work_belong_to_its_force():
+    deflection = np.linspace(1e-6, 40e-6, 2001)
+    compliance, coefficient = 2.5e-9, 4e-9
+    force = power_law_force(deflection, compliance, coefficient)
+    stiffness = power_law_stiffness(force, compliance, coefficient)
+    np.testing.assert_allclose(np.gradient(force, deflection, edge_order=2), stiffness, rtol=1e-5)
+    work = power_law_work(force, compliance, coefficient)
+    np.testing.assert_allclose(np.gradient(work, deflection, edge_order=2)[1:-1], force[1:-1], rtol=1e-5)
+
+
+def test_onset_meets_load_and_stiffness_at_its_width():
+    x, width, load, stiffness = np.linspace(0.0, 1e-7, 4001), 1e-7, 30.0, 3.3e8
+    force = onset(x, width, load, stiffness)
+    slope = np.gradient(force, x, edge_order=2)
+    assert np.all(np.diff(force) > 0.0)
+    assert force[0] == onset(-1e-9, width, load, stiffness) == 0.0
+    assert force[-1] == pytest.approx(load, rel=1e-12)
+    np.testing.assert_allclose([slope[0] / stiffness, slope[-1] / stiffness], [0.0, 1.0], atol=1e-5)
+    np.testing.assert_allclose(
+        onset_integral(x, width, load, stiffness)[1:],
+        np.cumsum(0.5 * np.diff(x) * (force[1:] + force[:-1])),
+        rtol=1e-3,
+        atol=1e-13,
+    )
+    linear = stiffness * width  # with the line through the origin it is the positive part
+    np.testing.assert_allclose(
+        onset(x, width, linear, stiffness), stiffness * positive_part(x, width), atol=1e-12
+    )
 
 
 def test_asperity_load_ratio_is_capped_smoothly():
