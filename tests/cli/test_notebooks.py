@@ -1,0 +1,54 @@
+"""The notebooks of the documentation: their cells run in order, and what they end with can be shown."""
+
+import ast
+import re
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+import pytest
+from matplotlib import pyplot
+
+NOTEBOOKS = sorted((Path(__file__).parents[2] / "docs" / "notebooks").glob("*.md"))
+#: Ways in which an object says how a notebook shall show it; what has none is shown by `repr`.
+SHOWN_BY = ("_repr_html_", "_repr_svg_", "_repr_png_")
+
+
+def cells(text: str) -> list[tuple[int, str]]:
+    """Line and source of the code cells, without the options that begin them."""
+    found = re.finditer(r"^```\{code-cell\} ipython3\n((?::.*\n)*)((?:.*\n)*?)```$", text, re.MULTILINE)
+    return [(text[: one.start(2)].count("\n"), one[2]) for one in found]
+
+
+def execute(source: str, where: str, line: int, names: dict[str, Any]) -> None:
+    """Run a cell, and show what its last line gives, as a notebook does."""
+    tree = ast.increment_lineno(ast.parse(source), line)
+    last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
+    exec(compile(tree, where, "exec"), names)
+    if not isinstance(last, ast.Expr):
+        return
+    shown = eval(compile(ast.Expression(last.value), where, "eval"), names)
+    ways = [getattr(shown, way)() for way in SHOWN_BY if hasattr(shown, way)]
+    assert shown is None or ways or repr(shown)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("page", NOTEBOOKS, ids=lambda page: page.stem)
+def test_a_notebook_runs(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    matplotlib.use("agg")
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, Any] = {"__name__": "__main__"}
+    found = cells(page.read_text(encoding="utf-8"))
+    assert len(found) == page.read_text(encoding="utf-8").count("```{code-cell}") > 4
+    try:
+        for line, source in found:
+            execute(source, str(page), line, names)
+    finally:
+        pyplot.close("all")
+    assert list(tmp_path.iterdir()) == []  # nothing is left in the reader's folder
+
+
+@pytest.mark.parametrize("page", NOTEBOOKS, ids=lambda page: page.stem)
+def test_links_lead_somewhere(page: Path):
+    for target in re.findall(r"\]\((?!https?://)([^)#\s]+)[^)]*\)", page.read_text(encoding="utf-8")):
+        assert (page.parent / target).resolve().exists(), target
