@@ -167,6 +167,7 @@ def test_the_family_reduces_to_two_arcs(plugin, tmp_path):
             np.testing.assert_allclose(one[name], other[name], rtol=1e-10, atol=1e-13, err_msg=name)
 
 
+@pytest.mark.soak
 def test_all_integrators_agree(plugin, tmp_path):
     """The native kernels, JAX and SciPy over NumPy, on one case, to what their tolerances leave."""
     found = {}

@@ -97,10 +97,15 @@ def bytes_of(work, folder: Path, monkeypatch: pytest.MonkeyPatch) -> int:
     return 10**9 - whole.room
 
 
+#: Into how many parts a record is cut: places at which the disk is full.
+PARTS = pytest.mark.parametrize("parts", [20, pytest.param(400, marks=pytest.mark.soak)])
+
+
+@PARTS
 @pytest.mark.parametrize("work", [record, failed_record])
-def test_a_run_keeps_what_it_has(work, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+def test_a_run_keeps_what_it_has(work, parts: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     total = bytes_of(work, tmp_path / "whole", monkeypatch)
-    for room in sorted({*range(0, total, total // 60), *range(total - 9, total)}):
+    for room in sorted({*range(0, total, total // parts), *range(total - 9, total, 2)}):
         folder = tmp_path / str(room)
         folder.mkdir()
         with monkeypatch.context() as patch:
@@ -153,10 +158,13 @@ def sweep(path: Path, resume: bool = False) -> None:
         writer.finish({})
 
 
-def test_a_sweep_goes_on_when_there_is_room_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+@PARTS
+def test_a_sweep_goes_on_when_there_is_room_again(
+    parts: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
     total = bytes_of(sweep, tmp_path / "whole", monkeypatch)
     whole = (tmp_path / "whole" / "run.h5").read_bytes()
-    for room in sorted({*range(0, total, total // 40), *range(total - 9, total)}):
+    for room in sorted({*range(0, total, total // parts), *range(total - 9, total, 2)}):
         folder = tmp_path / str(room)
         folder.mkdir()
         with monkeypatch.context() as patch:

@@ -258,7 +258,7 @@ def test_gradients_agree_with_finite_differences(family):
         np.testing.assert_allclose(jacobian[:, i], difference, rtol=1e-5, atol=1e-9)
 
 
-@pytest.mark.slow
+@pytest.mark.soak
 @ONE_FAMILY
 def test_a_thousand_drives_in_one_batch(family):
     rng = np.random.default_rng(1)

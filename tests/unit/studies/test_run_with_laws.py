@@ -167,8 +167,21 @@ def test_two_laws_of_one_name_in_one_file_have_kernels_of_their_own():
     layouts = [function_layout(one) for one in (first, second)]
     assert all(one.kept for one in layouts)
     assert layouts[0].identity != layouts[1].identity
-    assert not function_layout(closure(0.03)).kept
-    assert not function_layout(notebook()).kept
+
+
+def test_a_law_of_a_notebook_or_with_numbers_from_around_it_is_known_again():
+    """By what it does and the numbers that it takes, in whatever order these are equal."""
+    for make in (notebook, lambda: closure(0.03)):
+        assert function_layout(make()).kept
+        assert function_layout(make()).identity == function_layout(make()).identity
+    assert function_layout(closure(0.03)).identity != function_layout(closure(0.04)).identity
+
+    def of_three(a, b, c, d=0.0):
+        return lambda x, own=d: a + 2.0 * b + 4.0 * c + own
+
+    given = [(1, 2, 1), (2, 1, 1), (1, 1, 2), (1, 1, 1), (1.0, 1, 1), (True, 1, 1), (1, 1, 1, 1)]
+    assert len({function_layout(of_three(*numbers)).identity for numbers in given}) == len(given)
+    assert not function_layout(closure(np.zeros(2))).kept
 
 
 @pytest.mark.parametrize("scenario", ["load-contact-18-36", "irefc", "backlash-oscillator"])

@@ -153,14 +153,15 @@ def test_kernels_take_functions_and_tell_them_apart():
     assert [_apply(_closed(factor), 1.5) for factor in (3.0, 5.0)] == [4.5, 7.5]
 
 
-def test_machine_code_is_kept_for_functions_in_files_only(tmp_path, monkeypatch):
+def test_machine_code_is_kept_where_all_it_depends_on_is_known_again(tmp_path, monkeypatch):
     monkeypatch.setenv("TRIBODYN_CACHE", str(tmp_path / "cache"))
-    layout = packed(_twice).layout
-    assert layout.kept
-    assert not packed(_closed(3.0)).layout.kept
-    whole = packed(Pair(_twice, 1.0)).layout
-    assert store._place_of(_apply.function, whole) is not None
-    assert store._place_of(_apply.function, packed(Pair(_closed(3.0), 1.0)).layout) is None
+    places = []
+    for function in (_twice, _closed(3.0), _closed(5.0), _closed(np.ones(1))):
+        layout = packed(Pair(function, 1.0)).layout
+        places.append(store._place_of(_apply.function, layout))
+        assert packed(function).layout.kept is (places[-1] is not None)
+    assert places[-1] is None
+    assert len(set(places)) == 4
 
 
 class Pair(tuple):

@@ -19,7 +19,7 @@ from typing import Any
 import llvmlite
 import llvmlite.binding as llvm
 
-from tribodyn.kernels.native.arguments import Record, is_kept
+from tribodyn.kernels.native.arguments import is_kept
 from tribodyn.kernels.native.code import Code, Compiled
 from tribodyn.kernels.native.internals import report_missing
 from tribodyn.numerics.cache import alone, keep, read_kept
@@ -63,8 +63,8 @@ def _compiled_now(function: Callable[..., Any], layout: Any, place: tuple[str, s
 
 
 @cache
-def _digest(*modules: str) -> str:
-    """Digest of the sources of modules, of what compiles them and of the processor that they are made for."""
+def _digest(module: str) -> str:
+    """Digest of a module's source and of all that it imports, of what compiles them, and of the processor."""
     numba = importlib.util.find_spec("numba")
     assert numba is not None
     assert numba.origin is not None
@@ -72,7 +72,7 @@ def _digest(*modules: str) -> str:
     switches = sorted(item for item in os.environ.items() if item[0].startswith("NUMBA_"))
     processor = llvm.get_host_cpu_name(), llvm.get_host_cpu_features().flatten()
     digest.update(repr((llvmlite.__version__, llvm.get_process_triple(), processor, switches)).encode())
-    digest.update(digest_of(*modules, _COMPILER))
+    digest.update(digest_of(module, _COMPILER))
     return digest.hexdigest()[:16]
 
 
@@ -83,16 +83,7 @@ def _place_of(function: Callable[..., Any], layout: Any) -> tuple[str, str] | No
         return None
     digest = hashlib.sha256(repr(layout).encode() + source.read_bytes()).hexdigest()[:16]
     name = f"{function.__module__.removeprefix('tribodyn.')}.{function.__qualname__}-{digest}"
-    modules = sorted({function.__module__, *_modules_in(layout)})
-    return f"kernels-{_digest(*modules)}", name
-
-
-def _modules_in(layout: Any) -> set[str]:
-    """Modules of the functions among a kernel's arguments, which are compiled into it."""
-    if isinstance(layout, Record):
-        return set().union(*(_modules_in(field) for _, field in layout.fields))
-    function = getattr(layout, "function", None)
-    return {function.__module__} if function is not None else set()
+    return f"kernels-{_digest(function.__module__)}", name
 
 
 def _read(folder: str, name: str) -> Compiled | None:
