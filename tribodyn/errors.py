@@ -71,15 +71,15 @@ class SimulationError(Exception):
     ----------
     reason : str
         Why, in a sentence that the user can act on.
-    time : float
-        Simulated time reached, s.
+    time : float, optional
+        Simulated time reached, s; none where time is not simulated.
     """
 
     reason: str
-    time: float = 0.0
+    time: float | None = None
 
     def __str__(self) -> str:
-        return f"stopped at t = {self.time:.6g} s: {self.reason}"
+        return self.reason if self.time is None else f"stopped at t = {self.time:.6g} s: {self.reason}"
 
 
 @dataclass

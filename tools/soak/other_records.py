@@ -131,11 +131,19 @@ def sweep_faults(record: SweepRecord) -> Iterator[str]:
             yield "state is not finite"
 
 
-def sweep_against_run(record: SweepRecord, summary: dict[str, Any], rtol: float) -> Iterator[str]:
-    """Compare the first case of a sweep of transients with the same run by itself."""
+def sweep_against_run(
+    record: SweepRecord, summary: dict[str, Any], finer: dict[str, Any], rtol: float
+) -> Iterator[str]:
+    """Compare the first case of a sweep of transients with the same run by itself.
+
+    `finer` is the summary of that run at a tenth of the tolerance: a motion that amplifies any deviation also
+    differs from run to run, and the sweep may be as far away. In a sweep an explicit method may need more
+    steps than it may take.
+    """
     place = (0,) * len(record.dims)
     if record.case("status", place) != DONE:
-        yield "the run by itself is complete, the sweep's first case is not"
+        if "limit of steps" not in str(record.case("message", place)):
+            yield "the run by itself is complete, the sweep's first case is not"
         return
     size = abs(summary["power_in_mean"])
     for name, scale in (
@@ -144,5 +152,6 @@ def sweep_against_run(record: SweepRecord, summary: dict[str, Any], rtol: float)
         ("power_friction_mean", size),
     ):
         one, other = float(record.case(name, place)), float(summary[name])
-        if not abs(one - other) <= 1e3 * rtol * scale:
+        away = 3.0 * abs(float(finer.get(name, other)) - other)
+        if not abs(one - other) <= 1e3 * rtol * scale + away:
             yield f"{name}: {one:.9g} in the sweep, {other:.9g} in the run by itself"

@@ -25,7 +25,7 @@ from tools.soak.other_records import (
     sweep_faults,
 )
 from tools.soak.refusals import untrue
-from tribodyn.errors import InputError
+from tribodyn.errors import InputError, SimulationError
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.studies.load import load_scenario
@@ -110,6 +110,8 @@ def _tried(made: SoakCase, folder: Path) -> tuple[str, str, list[str], float]:
             return _run(made, folder)
     except InputError as error:
         return REFUSED, str(error), _unclear(error), float("nan")
+    except SimulationError as error:
+        return STOPPED, str(error), [], float("nan")
     except Exception:
         _log.debug("the case ended in an error", exc_info=True)
         last = traceback.format_exc().strip().splitlines()
@@ -168,7 +170,9 @@ def _swept(made: SoakCase, path: Path, target: Path) -> tuple[str, str, list[str
         if transient:
             alone = run(load_scenario(path), target.with_name("alone.h5"), force=True)
             if alone.status == "complete":
-                faults += sweep_against_run(record, alone.summary, _rtol(made))
+                finer = load_scenario(path, {"solver.rtol": max(0.1 * _rtol(made), 1e-12)})
+                again = run(finer, target.with_name("finer.h5"), force=True)
+                faults += sweep_against_run(record, alone.summary, again.summary, _rtol(made))
     status = COMPLETE if result.status == "complete" else STOPPED
     return status, "; ".join(reasons), faults, float("nan")
 

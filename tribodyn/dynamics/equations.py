@@ -4,6 +4,7 @@ Six degrees of freedom after Liu & Ni, Mechanics & Industry 23 (2022) 10, (12)-(
 pair forces on the two bodies are equal and opposite in every component.
 """
 
+from tribodyn.dynamics.contact_energy import mesh_energy, parametric_torque
 from tribodyn.dynamics.contact_forces import (
     APPROACH_RATE,
     COS,
@@ -17,9 +18,7 @@ from tribodyn.dynamics.contact_forces import (
     approach,
     contact_forces,
     elastic_loads,
-    mesh_energy,
     out_of_reach,
-    parametric_torque,
 )
 from tribodyn.dynamics.parameters import (
     DRIVE_SHAFT,
@@ -222,7 +221,8 @@ def engagement(before, phase_before, after, phase_after, y, model, work):
 
     The strain energy that appears or vanishes there is the parametric work of an impulse. The classical
     equations leave it unbalanced and the energy audit counts it; the energy-consistent ones take it from
-    the drive (prescribed speed) or from the pinion's kinetic energy.
+    the drive (prescribed speed) or from the pinion's kinetic energy; where that is too small, the pinion
+    comes to rest, and what is missing is parametric work.
     """
     step = strain_energy(phase_after, after, y, model, work) - strain_energy(
         phase_before, before, y, model, work
@@ -235,7 +235,8 @@ def engagement(before, phase_before, after, phase_after, y, model, work):
     speed = model.mechanics.nominal_speed + y[SLIP]
     squared = speed * speed - 2.0 * step / model.mechanics.pinion_inertia
     slip = sqrt(maximum(squared, 0.0)) - speed
-    return slip, model.table.pinion_pitch_radius * slip, zero, zero
+    missing = 0.5 * model.mechanics.pinion_inertia * maximum(-squared, 0.0)
+    return slip, model.table.pinion_pitch_radius * slip, zero, missing
 
 
 @law

@@ -188,7 +188,7 @@ def over_cycle(
             status,
         )
         cost = jnp.where(dead, 0, solution.stats["num_steps"] * method.stages)
-        return went_on, SegmentResult(states[:-1], status, jnp.where(good, accepted, 0), cost)
+        return went_on, SegmentResult(states[:-1], status, jnp.where(dead, 0, accepted), cost)
 
     return jax.lax.scan(one, carried._replace(steps=jnp.zeros_like(carried.steps)), jnp.arange(segments))
 

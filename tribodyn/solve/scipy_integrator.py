@@ -18,6 +18,8 @@ from tribodyn.solve.tolerances import Tolerances
 
 #: Smallest relative tolerance that SciPy's solvers take without a word.
 SMALLEST_RTOL = 3e-14
+#: Share of the nominal speed at which the pinion has come to rest for these solvers.
+SLOWEST = 1e-4
 
 
 def rtol_of_all(rtol: float, atol: Float[Array, " state"], y: Float[Array, " state"]) -> float:
@@ -104,20 +106,25 @@ class _Walk:
         """Integrate over a segment; raises `_Ended` where that cannot be done."""
         rtol, atol, max_steps = self.integrator.tolerances
         nominal_speed = self.integrator.model.mechanics.nominal_speed
+        slowest = (SLOWEST - 1.0) * nominal_speed
 
         def slope(phase: float, y: Float[Array, " state"]) -> Float[Array, " state"]:
-            """No numbers where the pinion does not turn: a stage on trial may go there, no accepted step."""
+            """Very steep where the pinion does not turn: a stage on trial may go there, no accepted step.
+
+            Not without numbers, which LSODA takes for a step without error, and BDF for a damaged Jacobian.
+            """
             self.evaluations += 1
-            if nominal_speed + y[SLIP] <= 0.0:
-                return np.full(STATES, np.nan)
             self._place[:] = y
+            self._place[SLIP] = max(self._place[SLIP], slowest)
             rhs(phase, cycle, segment, *self._arguments)
             return self._rates.copy()
 
         def end_where_nothing_goes_on(phase: float, y: Float[Array, " state"], failed: bool) -> None:
-            speed = nominal_speed + y[SLIP]
-            if speed <= 0.0 or (failed and speed < STANDSTILL * nominal_speed):
+            share = 1.0 + y[SLIP] / nominal_speed
+            if share <= SLOWEST or (failed and share < STANDSTILL):
                 raise _Ended(Status.STALLED, phase)
+            if not np.all(np.isfinite(y)):
+                raise _Ended(Status.NOT_FINITE, phase)
             if unbounded(y, self.integrator.model.table):
                 raise _Ended(Status.UNBOUNDED, phase)
 
