@@ -89,9 +89,10 @@ def _summary(record: Record, data: dict[str, np.ndarray]) -> Iterator[str]:
     summary = record.summary
     for key, name, greatest in EXTREMES:
         values = data[name][np.isfinite(data[name])]
-        if not values.size or key not in summary:
+        known = summary.get("extremes", {}).get("run", {}).get(key)
+        if not values.size or known is None:
             continue
-        sampled, said = float(values.max() if greatest else values.min()), float(summary[key])
+        sampled, said = float(values.max() if greatest else values.min()), float(known["value"])
         beyond = said - sampled if greatest else sampled - said
         if not beyond >= -1e-9 * abs(sampled):
             yield f"summary {key} = {said:.9g}, a sample of {name} is {sampled:.9g}"

@@ -27,10 +27,11 @@ from tribodyn.dynamics.parameters import (
     Y_P,
     Model,
 )
+from tribodyn.dynamics.recorded import UNRECORDED
 from tribodyn.mesh.power_flow import efficiency
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.tribology.contact import LocalContact
-from tribodyn.tribology.surface_state import surface_state
+from tribodyn.tribology.surface_state import range_shares, surface_state
 
 
 def segment_of(phase: Float[Array, "*sample"], boundary: Float[Array, " boundary"]) -> Int[Array, "*sample"]:
@@ -61,7 +62,8 @@ def outputs(
     dict
         Name -> array (n,), (n, pairs) or (n, dof) in SI, as `record.schema` lists them. Quantities of a
         pair that carries no load are NaN where they mean nothing then (film, pressure, …) and 0 where the
-        loss of contact itself is the answer (loads, stiffness).
+        loss of contact itself is the answer (loads, stiffness). Those of `UNRECORDED`, (n, pairs, limits),
+        are for the summary alone.
     """
     table, mechanics = model.table, model.mechanics
     whole = np.floor(cycles + 1e-12)
@@ -103,6 +105,7 @@ def outputs(
     with np.errstate(over="ignore", under="ignore"):
         contacts = _contacts(phase, segment, model, work, count)
         surface = surface_state(contacts, model.closure)
+        shares = range_shares(contacts, model.closure)
     # by the sliding that friction is given, against which it acts at every moment: with the nominal one
     # power_friction, the work on the vibrating bodies, is another
     sliding_loss = np.sum(per_pair(contact.FRICTION_FORCE) * contacts.sliding, axis=1)
@@ -143,7 +146,7 @@ def outputs(
         "work_parametric": y[WORK_PARAMETRIC],
         "efficiency": efficiency(power_in, power_out, sliding_loss),
     }
-    return result
+    return result | dict(zip(UNRECORDED, shares, strict=True))
 
 
 def outputs_with_extremes(

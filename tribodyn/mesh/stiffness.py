@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.numerics.shapes import Array, Float
 
 
 class SinglePair(NamedTuple):
@@ -20,6 +21,16 @@ class SinglePair(NamedTuple):
 
     normal_load: float
     stiffness: float
+
+
+def total_stiffness(
+    stiffness: Float[Array, "sample pair"], pressure_angle: Float[Array, "sample pair"]
+) -> Float[Array, " sample"]:
+    """Stiffness of all pairs together along the pitch tangent, Σ k cos² α, N/m.
+
+    The force along the pitch tangent per rotational transmission error, of a mesh whose pairs deflect apart.
+    """
+    return np.sum(stiffness * np.cos(np.nan_to_num(pressure_angle)) ** 2, axis=-1)
 
 
 def single_pair(cycle: MeshCycle, gear_torque: float) -> SinglePair:

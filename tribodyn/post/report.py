@@ -15,13 +15,29 @@ from tribodyn.record.withheld import reasons, warnings
 
 
 class Line(NamedTuple):
-    """A line of the table: summary name, what it is called, factor from SI, unit, format of the number."""
+    """A line of the table.
+
+    Attributes
+    ----------
+    name : str
+        In the summary.
+    label : str
+        What it is called.
+    factor, unit, form
+        From SI to what is shown, the unit of that, and the format of the number.
+    definition : str
+        What it is, in a sentence or two: over which part of the run, of which pairs, by which formula.
+    listed : bool
+        Whether an array is a list to be shown in its order; else its entries belong to pairs.
+    """
 
     name: str
     label: str
     factor: float = 1.0
     unit: str = ""
     form: str = ".4g"
+    definition: str = ""
+    listed: bool = False
 
 
 Lines = Mapping[str, tuple[Line, ...]]
@@ -62,7 +78,7 @@ def summary_table(record: Record, lines: Lines, sentences: Sequence[str]) -> Gro
             if line.name in withheld:
                 table.add_row(f"  {label}", "withheld", "")
                 continue
-            if np.ndim(record.summary[line.name]):
+            if np.ndim(record.summary[line.name]) and not line.listed:
                 label += f", pairs {', '.join(str(pair) for pair in reversed(record.pairs))}"
             table.add_row(f"  {label}", shown(line, record.summary[line.name]), unit)
     parts.append(table)
@@ -75,11 +91,12 @@ def summary_table(record: Record, lines: Lines, sentences: Sequence[str]) -> Gro
 
 
 def shown(line: Line, value: Any) -> str:
-    """Write one value in its unit; the values of pairs from pair 1 on."""
+    """Write one value in its unit; the values of pairs from pair 1 on, those of a list in its order."""
     if isinstance(value, str):
         return value
     if np.ndim(value):
-        return " / ".join(shown(line, item) for item in reversed(np.asarray(value).tolist()))
+        items = np.asarray(value).tolist()
+        return " / ".join(shown(line, item) for item in (items if line.listed else reversed(items)))
     if isinstance(value, float) and not math.isfinite(value):
         return "–"
     number = value * line.factor if line.factor != 1.0 else value
@@ -108,6 +125,7 @@ def on_closures(summary: Mapping[str, Any]) -> list[str]:
         sentences.append(
             f"The film law is inside its fitted range in {_percent(fraction)} of the contact{outside}."
         )
+        sentences += exceeded(summary, "closure_exceeded", "film law")
     sentences += _other_ranges(summary)
     if summary.get("pitch_point", "regular") != "regular":
         sentences.append(f"At the pitch point {summary['pitch_point']}; pressure there is no merit figure.")
@@ -127,9 +145,22 @@ def _other_ranges(summary: Mapping[str, Any]) -> list[str]:
             f"The friction law {name} is inside its range in {_percent(friction)} of the contact; "
             "the rest is extrapolated, see friction_in_range."
         )
+        sentences += exceeded(summary, "friction_exceeded", "friction law")
     elif friction is None and name not in (None, "none"):
         sentences.append(f"The friction law {name} states no range of validity.")
     return sentences
+
+
+def exceeded(summary: Mapping[str, Any], name: str, law: str) -> list[str]:
+    """Say which limits of a law are exceeded, by how much and in which share of the contact."""
+    found = summary.get(name)
+    if not isinstance(found, Mapping) or not found:
+        return []
+    parts = []
+    for one in found.values():
+        factor = f" by up to {float(one['factor']):.3g} times" if "factor" in one else ""
+        parts.append(f"{one['limit']}{factor} in {_percent(float(one['share']), up=True)}")
+    return [f"Limits of the {law} exceeded: {'; '.join(parts)} of the contact."]
 
 
 def on_energy(summary: Mapping[str, Any]) -> list[str]:
@@ -140,10 +171,10 @@ def on_energy(summary: Mapping[str, Any]) -> list[str]:
     return [f"The energy balance closes within {abs(residual):.1e} of the largest work in it."]
 
 
-def _percent(fraction: float) -> str:
-    """Write a share in per cent, 100 only when it is whole."""
-    percent = 100 * fraction
-    return f"{math.floor(percent * 10) / 10:.1f} %" if fraction < 1 else "100 %"
+def _percent(fraction: float, up: bool = False) -> str:
+    """Write a share in per cent, 100 only when it is whole; rounded down, or `up`."""
+    tenths = (math.ceil if up else math.floor)(fraction * 1000 - (1e-9 if up else 0.0))
+    return f"{min(tenths, 999) / 10:.1f} %" if fraction < 1 else "100 %"
 
 
 def as_json(record: Record) -> dict[str, Any]:

@@ -16,33 +16,158 @@ LAYOUT = Layout(
     TIME, SAMPLES, {"pair": PAIR, "dof": DOF_SCALE}, groups={"mesh_cycle": MESH_CYCLE, "geometry": GEOMETRY}
 )
 
-CONTACT_RATIO = Line("contact_ratio", "Contact ratio", form=".4f")
+CONTACT_RATIO = Line(
+    "contact_ratio",
+    "Contact ratio",
+    form=".4f",
+    definition="Rotation of the pinion during which a pair touches over the pitch between two pairs; "
+    "unloaded teeth.",
+)
 EFFECTIVE_CONTACT_RATIO = Line(
-    "contact_ratio_effective", "Contact ratio under load, corner contact included", form=".4f"
+    "contact_ratio_effective",
+    "Contact ratio under load, corner contact included",
+    form=".4f",
+    definition="Rotation during which a pair carries load over the pitch between two pairs, elastic teeth.",
 )
 SINGLE_PAIR = Line(
-    "stiffness_single_pair_at_pitch_point", "Stiffness of one pair at the pitch point", 1e-6, "N/µm"
+    "stiffness_single_pair_at_pitch_point",
+    "Stiffness of one pair at the pitch point",
+    1e-6,
+    "N/µm",
+    definition="Load over deflection of one pair along its normal, the whole torque on this pair; with a "
+    "load-dependent contact the tangent.",
 )
-MESH_FREQUENCY = Line("mesh_frequency", "Mesh frequency", 1.0, "Hz")
-NORMAL_LOAD = Line("normal_load_max", "Maximum normal load", 1.0, "N", ",.0f")
+MESH_FREQUENCY = Line(
+    "mesh_frequency",
+    "Mesh frequency",
+    1.0,
+    "Hz",
+    definition="Pairs that pass per second: pinion teeth times its mean speed in revolutions per second.",
+)
+NORMAL_LOAD = Line(
+    "normal_load_max",
+    "Maximum normal load",
+    1.0,
+    "N",
+    ",.0f",
+    "Maximum of a single pair, along its normal.",
+)
 TRIBOLOGY = (
-    Line("film_min", "Minimum film thickness", 1e6, "µm", ".3g"),
-    Line("film_parameter_min", "Minimum film parameter", form=".3g"),
-    Line("hertz_pressure_max", "Maximum Hertz pressure", 1e-9, "GPa", ".3g"),
-    Line("flash_temperature_max", "Maximum flash temperature rise", 1.0, "K", ".3g"),
-    Line("friction_coefficient_mean", "Friction coefficient, mean", form=".4f"),
-    Line("friction_force_mean", "Friction force, mean over the cycle", 1.0, "N", ".1f"),
+    Line(
+        "film_min",
+        "Minimum film thickness",
+        1e6,
+        "µm",
+        ".3g",
+        "Minimum of all pairs under load; the central film, or the minimum film where the law gives that.",
+    ),
+    Line(
+        "film_parameter_min",
+        "Minimum film parameter λ",
+        form=".3g",
+        definition="Minimum of film thickness over composite RMS roughness. Below 1 mixed to boundary, "
+        "above 3 full "
+        "film lubrication.",
+    ),
+    Line(
+        "film_parameter_min_roll_angle",
+        "at the roll angle from the pitch point",
+        57.29577951308232,
+        "°",
+        ".3g",
+        "Rotation of the pinion since the pair with the minimum film parameter passed the pitch point; "
+        "negative "
+        "before it.",
+    ),
+    Line(
+        "hertz_pressure_max",
+        "Maximum Hertz pressure",
+        1e-9,
+        "GPa",
+        ".3g",
+        "Maximum of the pressure in the middle of the Hertz contact, at the highest line load along the "
+        "face.",
+    ),
+    Line(
+        "flash_temperature_max",
+        "Maximum flash temperature rise",
+        1.0,
+        "K",
+        ".3g",
+        "Maximum rise of the contact's temperature above that of the gear bodies. Their own temperature "
+        "is not "
+        "modelled.",
+    ),
+    Line(
+        "friction_coefficient_mean",
+        "Friction coefficient, mean",
+        form=".4f",
+        definition="Mean weighted with normal load times sliding speed: the coefficient that gives the "
+        "same loss.",
+    ),
+    Line(
+        "friction_force_mean",
+        "Friction force, mean over the cycle",
+        1.0,
+        "N",
+        ".1f",
+        "Mean magnitude, by number of the pair; zero while a number has no contact.",
+    ),
 )
 ENERGY = (
-    Line("driving_gear", "Driving gear"),
-    Line("power_in_mean", "Power in, mean", 1.0, "W", ",.1f"),
-    Line("power_friction_mean", "Friction loss, mean", 1.0, "W", ".3g"),
     Line(
-        "friction_work_on_vibration", "Friction's work on the vibration, share of the loss", 100.0, "%", ".2g"
+        "driving_gear",
+        "Driving gear",
+        definition="The gear that puts power in, by the sign of the mean powers.",
     ),
-    Line("efficiency", "Efficiency", 100.0, "%", ".2f"),
+    Line(
+        "power_in_mean",
+        "Power in, mean",
+        1.0,
+        "W",
+        ",.1f",
+        "Mean power that the driving gear puts in, from its integrated work.",
+    ),
+    Line(
+        "power_friction_mean",
+        "Loss to tooth friction, mean",
+        1.0,
+        "W",
+        ".3g",
+        "Mean power of the friction forces, from their integrated work. Churning, windage and bearing "
+        "losses are "
+        "not modelled.",
+    ),
+    Line(
+        "power_damping_mean",
+        "Loss to damping of mesh and bearings, mean",
+        1.0,
+        "W",
+        ".3g",
+        "Mean power of the damping forces of mesh and bearings, from their integrated work.",
+    ),
+    Line(
+        "friction_work_on_vibration",
+        "Friction's work on the vibration, share of the loss",
+        100.0,
+        "%",
+        ".2g",
+        "Work that friction does on the vibration over the loss that the rotation alone would have; "
+        "positive where "
+        "friction feeds the vibration.",
+    ),
+    Line(
+        "efficiency",
+        "Efficiency",
+        100.0,
+        "%",
+        ".2f",
+        "Mean power out over mean power in, by energy over whole mesh cycles; withheld outside 0 … 100 %.",
+    ),
 )
-WALL_TIME = Line("wall_time", "Wall time", 1.0, "s", ".3g")
+WALL_TIME = Line(
+    "wall_time", "Wall time", 1.0, "s", ".3g", "Time that the computation took, without start and drawing."
+)
 
 
 def checked(

@@ -14,6 +14,7 @@ from tribodyn.tribology.friction import friction_law
 from tribodyn.tribology.law import ActiveFilm, ActiveFriction, Closure, FilmLaw, FrictionLaw, LawInput
 from tribodyn.tribology.lubricant import LubricantData
 from tribodyn.tribology.nominal import NominalConditions
+from tribodyn.tribology.surface_state import exceeded
 from tribodyn.tribology.trial import try_laws
 
 #: Pressure angle at the pitch point below which Niemann's formula has no meaning: radius and speed vanish.
@@ -122,6 +123,23 @@ def law_figures(case: Lubricated) -> dict[str, Any]:
         "friction_law": friction.name,
         "friction_range": friction.range or "none stated",
     }
+
+
+def exceeded_limits(case: Lubricated, closure_shares: Any, friction_shares: Any) -> dict[str, Any]:
+    """Which limits of the laws in use are exceeded, for a summary: `closure_exceeded`, `friction_exceeded`.
+
+    Parameters
+    ----------
+    case : Lubricated
+    closure_shares, friction_shares : (contacts, limits)
+        See `surface_state.range_shares`; of loaded contacts.
+    """
+    film, friction = laws_of(case)
+    found = {
+        "closure_exceeded": exceeded(closure_shares, film.limits),
+        "friction_exceeded": exceeded(friction_shares, friction.limits),
+    }
+    return {name: limits for name, limits in found.items() if limits}
 
 
 def surfaces_of(case: Lubricated) -> Surfaces:

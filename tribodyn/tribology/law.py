@@ -131,7 +131,11 @@ class _Law:
     keys : tuple of Parameter
         Keys of its own in the scenario's table.
     in_range : callable
-        Gives 1.0 inside the range of validity, 0.0 outside, NaN where none is stated.
+        Gives for each of `limits` the share allowed over actual, or actual over the least that is allowed: at
+        least 1 inside, below 1 outside. A law without `limits` gives one number: 1.0 inside its range of
+        validity, 0.0 outside, NaN where none is stated.
+    limits : tuple of str
+        The limits of the range one by one, such as "U ≤ 1e-10", in the order of `in_range`.
     range : str
         The range of validity in words, with its source; "" where none is stated.
     """
@@ -143,6 +147,7 @@ class _Law:
     keys: tuple[Parameter, ...] = ()
     in_range: Callable[..., Any] = range_not_stated
     range: str = ""
+    limits: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         for function in self.functions:

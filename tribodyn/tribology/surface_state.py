@@ -1,5 +1,6 @@
 """All that is known of a contact under the laws in use: what is recorded of it."""
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -78,9 +79,59 @@ def surface_state(contact: LocalContact, closure: Closure) -> SurfaceState:
         exp(log_smooth) * rough,
         zero + temperature,
         zero + _pressure(contact, surfaces),
-        film.functions.in_range(contact, surfaces, film.parameters),
-        friction.functions.in_range(contact, known, surfaces, friction.parameters),
+        _inside(film.functions.in_range(contact, surfaces, film.parameters)),
+        _inside(friction.functions.in_range(contact, known, surfaces, friction.parameters)),
     )
+
+
+def range_shares(contact: LocalContact, closure: Closure) -> tuple[np.ndarray, np.ndarray]:
+    """Shares allowed by each limit of film and friction law, (…, limits); below 1 outside, NaN: unstated."""
+    surfaces, film, friction = closure
+    return (
+        _stacked(film.functions.in_range(contact, surfaces, film.parameters)),
+        _stacked(friction.functions.in_range(contact, film, surfaces, friction.parameters)),
+    )
+
+
+def _stacked(shares: Any) -> np.ndarray:
+    """What a law says of its range as an array, its limits last."""
+    several = shares if isinstance(shares, (tuple, list)) else (shares,)
+    return np.stack(np.broadcast_arrays(*several), axis=-1)
+
+
+def _inside(shares: Any) -> np.ndarray:
+    """1.0 where every share is at least 1, 0.0 elsewhere, NaN where none is stated."""
+    least = np.min(_stacked(shares), axis=-1)
+    return np.where(np.isnan(least), np.nan, least >= 1.0)
+
+
+def exceeded(shares: np.ndarray, limits: Sequence[str]) -> dict[str, dict[str, Any]]:
+    """Which limits of a law are exceeded, by how much and in which share of the contacts.
+
+    Parameters
+    ----------
+    shares : (contacts, limits)
+        See `range_shares`; of loaded contacts.
+    limits : sequence of str
+        In words; none: the law says only whether it is inside.
+
+    Returns
+    -------
+    dict
+        Number as text -> `limit`, `share` of the contacts outside, `factor` by which the limit is exceeded
+        at most; the factor is left out where the law does not say it. The largest factor first.
+    """
+    if len(limits) != shares.shape[-1]:
+        return {}
+    found = []
+    for column, limit in zip(shares.T, limits, strict=True):
+        outside = column < 1.0
+        if np.any(outside):
+            least = float(np.min(column[outside]))
+            factor = {"factor": 1.0 / least} if least > 0.0 else {}
+            found.append({"limit": limit, "share": float(np.mean(outside)), **factor})
+    found.sort(key=lambda one: -one.get("factor", np.inf))
+    return {str(number): one for number, one in enumerate(found, start=1)}
 
 
 def fraction_in_range(in_range: Any) -> float | None:

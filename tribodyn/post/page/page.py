@@ -137,7 +137,8 @@ def _summary(records: Sequence[Record], lines: Sequence[Lines]) -> str:
         for line in group.values():
             cells = [_cell(record, line) for record in records]
             if any(cells):
-                name = f'<td title="{escape(line.name)} in the record">{escape(line.label)}</td>'
+                about = f"{line.definition} In the record: {line.name}.".strip()
+                name = f'<td title="{escape(about)}">{escape(line.label)}</td>'
                 values = "".join(f"<td>{escape(cell or '–')}</td>" for cell in cells)
                 rows.append(f"<tr>{name}{values}<td>{escape(line.unit)}</td></tr>")
         if rows:

@@ -6,22 +6,100 @@ from tribodyn.record.reader import Record
 
 LINES: Lines = {
     "Response": (
-        Line("points", "Points, up and down", form="d"),
-        Line("points_of_longer_period", "with a longer period than the excitation's", form="d"),
-        Line("points_not_periodic", "not periodic", form="d"),
-        Line("points_quasi_periodic", "of these quasi-periodic", form="d"),
-        Line("points_chaotic", "of these chaotic", form="d"),
-        Line("points_failed", "grown without bound", form="d"),
-        Line("rms_max", "Maximum RMS about the mean, in half backlashes"),
-        Line("rms_max_frequency", "at the frequency"),
-        Line("contact_loss_from", "Contact is lost from the frequency"),
-        Line("contact_loss_to", "to the frequency"),
-        Line("contact_loss_fraction_max", "for at most this share of the time", 100.0, "%", ".3g"),
-        Line("back_contact_fraction_max", "Contact on the back side, at most", 100.0, "%", ".3g"),
-        Line("bistable_from", "Up and down differ from the frequency"),
-        Line("bistable_to", "to the frequency"),
+        Line(
+            "points",
+            "Points, up and down",
+            form="d",
+            definition="Motions that were sought: every frequency on the way up and on the way down.",
+        ),
+        Line(
+            "points_of_longer_period",
+            "with a longer period than the excitation's",
+            form="d",
+            definition="Points whose motion repeats after several periods of the excitation.",
+        ),
+        Line(
+            "points_not_periodic",
+            "not periodic",
+            form="d",
+            definition="Points without a stable periodic motion of up to the longest period that is sought.",
+        ),
+        Line(
+            "points_quasi_periodic",
+            "of these quasi-periodic",
+            form="d",
+            definition="Points with a second frequency that no multiple of the excitation's meets; "
+            "Lyapunov exponent zero.",
+        ),
+        Line(
+            "points_chaotic",
+            "of these chaotic",
+            form="d",
+            definition="Points with a positive Lyapunov exponent.",
+        ),
+        Line(
+            "points_failed",
+            "grown without bound",
+            form="d",
+            definition="Points whose motion grew without bound.",
+        ),
+        Line(
+            "rms_max",
+            "Maximum RMS about the mean, in half backlashes",
+            definition="Maximum over all points of the root mean square of the displacement about its mean.",
+        ),
+        Line(
+            "rms_max_frequency",
+            "at the frequency",
+            definition="Frequency of that point over the natural frequency of the oscillator in contact.",
+        ),
+        Line(
+            "contact_loss_from",
+            "Contact is lost from the frequency",
+            definition="Lowest frequency at which contact is lost for part of the period.",
+        ),
+        Line(
+            "contact_loss_to",
+            "to the frequency",
+            definition="Highest frequency at which contact is lost for part of the period.",
+        ),
+        Line(
+            "contact_loss_fraction_max",
+            "for at most this share of the time",
+            100.0,
+            "%",
+            ".3g",
+            definition="Maximum over all points of the share of the period without contact.",
+        ),
+        Line(
+            "back_contact_fraction_max",
+            "Contact on the back side, at most",
+            100.0,
+            "%",
+            ".3g",
+            definition="Maximum over all points of the share of the period in contact on the back side.",
+        ),
+        Line(
+            "bistable_from",
+            "Up and down differ from the frequency",
+            definition="Lowest frequency at which the ways up and down end in different motions.",
+        ),
+        Line(
+            "bistable_to",
+            "to the frequency",
+            definition="Highest frequency at which the ways up and down end in different motions.",
+        ),
     ),
-    "Solver": (Line("wall_time", "Wall time", 1.0, "s", ".3g"),),
+    "Solver": (
+        Line(
+            "wall_time",
+            "Wall time",
+            1.0,
+            "s",
+            ".3g",
+            definition="Time that the computation took, without start and drawing.",
+        ),
+    ),
 }
 
 SWEPT: dict[str, Variable] = {

@@ -20,6 +20,7 @@ from tribodyn.studies.efficiency.contact_friction import ContactFriction, contac
 from tribodyn.studies.efficiency.places import Places, Sharing, places
 from tribodyn.studies.efficiency.quadrature import Array, piecewise
 from tribodyn.tribology.law import Closure
+from tribodyn.tribology.surface_state import range_shares
 
 #: Nodes between two breaks of the integrand.
 POINTS = 20
@@ -40,6 +41,8 @@ class Engagement(NamedTuple):
     asperity_load_ratio, central_film_thickness, flash_temperature_rise, hertz_pressure, closure_in_range,
     friction_in_range
         As in `SurfaceState`, where the line load along the face is highest.
+    closure_shares, friction_shares : (K, Q, limits)
+        See `surface_state.range_shares`.
     deflection : (K,)
         r_p θ_p − r_g θ_g, m; NaN where the load sharing knows no elasticity.
     pinion_torque, gear_torque : (K,)
@@ -60,6 +63,8 @@ class Engagement(NamedTuple):
     hertz_pressure: Array
     closure_in_range: Array
     friction_in_range: Array
+    closure_shares: Array
+    friction_shares: Array
     deflection: Array
     pinion_torque: Array
     gear_torque: Array
@@ -132,6 +137,7 @@ def engage(mesh: Places, duty: Duty) -> Engagement:
     if np.any(peak != uneven):
         contact = contact_at(load / width * peak)
     surface = contact.surface
+    closure_shares, friction_shares = range_shares(contact.contact, duty.closure)
     arms = mesh.normal_arm + side * mu * mesh.friction_arm
     pinion_torque, gear_torque = duty.way * np.sum(load * arms, axis=-1)
     ratio = cycle.pinion_pitch_radius / cycle.gear_pitch_radius
@@ -148,6 +154,8 @@ def engage(mesh: Places, duty: Duty) -> Engagement:
         hertz_pressure=surface.hertz_pressure,
         closure_in_range=surface.closure_in_range,
         friction_in_range=surface.friction_in_range,
+        closure_shares=closure_shares,
+        friction_shares=friction_shares,
         deflection=duty.way * deflection,
         pinion_torque=pinion_torque,
         gear_torque=gear_torque,

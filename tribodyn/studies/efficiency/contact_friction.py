@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.studies.efficiency.quadrature import Array
-from tribodyn.tribology.contact import averaged_radius, local_contact
+from tribodyn.tribology.contact import LocalContact, averaged_radius, local_contact
 from tribodyn.tribology.law import Closure
 from tribodyn.tribology.surface_state import SurfaceState, surface_state
 
@@ -18,11 +18,14 @@ class ContactFriction(NamedTuple):
     surface : SurfaceState
     radius, entrainment
         Averaged over the contact's own width where they vanish at the pitch point.
+    contact : LocalContact
+        As the laws see it.
     """
 
     surface: SurfaceState
     radius: Array
     entrainment: Array
+    contact: LocalContact
 
 
 def contact_friction(
@@ -55,4 +58,4 @@ def contact_friction(
     entrainment = (speeds[0] + speeds[1]) / 2.0
     with np.errstate(over="ignore", under="ignore"):
         contact = local_contact(line_load, 1.0 / seen, entrainment, sliding, *speeds)
-        return ContactFriction(surface_state(contact, closure), seen, entrainment)
+        return ContactFriction(surface_state(contact, closure), seen, entrainment, contact)

@@ -32,7 +32,7 @@ from tribodyn.studies.efficiency.torque_ratio import path_contact, torque_ratio
 from tribodyn.studies.gears import LAYOUT
 from tribodyn.studies.recording import target, writer
 from tribodyn.studies.study import Progress, RunResult
-from tribodyn.tribology.closure import closure_of, law_figures
+from tribodyn.tribology.closure import closure_of, exceeded_limits, law_figures
 from tribodyn.tribology.friction.coulomb import constant
 from tribodyn.tribology.surface_state import fraction_in_range
 
@@ -198,12 +198,16 @@ def _figures(study: Prepared, over: Samples, mesh: Places, state: Engagement) ->
         "normal_load_max": maximum(state.normal_load),
         "film_min": minimum(state.central_film_thickness),
         "film_parameter_min": minimum(state.central_film_thickness) / duty.closure.surfaces.roughness,
+        "film_parameter_min_roll_angle": float(
+            mesh.roll.ravel()[np.argmin(np.where(loaded, state.central_film_thickness, np.inf))]
+        ),
         "hertz_pressure_max": maximum(state.hertz_pressure),
         "flash_temperature_max": maximum(state.flash_temperature_rise),
         "friction_coefficient_mean": means.friction_coefficient,
         "friction_force_mean": np.sum(np.abs(over.by_pair(state.friction_force)[:-1]), axis=0) * share,
         "compliance_remark": compliance_remark(study.assembly, study.case.materials, study.case.mesh) or None,
         **law_figures(study.case),
+        **exceeded_limits(study.case, state.closure_shares[loaded], state.friction_shares[loaded]),
         "closure_in_range_fraction": fraction_in_range(state.closure_in_range[loaded]),
         "friction_in_range_fraction": fraction_in_range(state.friction_in_range[loaded]),
         "driving_gear": driving_gear(means.power_in, means.power_out),

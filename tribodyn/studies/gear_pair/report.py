@@ -20,18 +20,75 @@ LINES: Lines = {
     "Geometry": (CONTACT_RATIO, SINGLE_PAIR),
     "Dynamics": (
         MESH_FREQUENCY,
-        Line("transmission_error_mean", "Transmission error, mean", 1e6, "µm"),
-        Line("transmission_error_peak_to_peak", "Transmission error, peak to peak", 1e6, "µm"),
+        Line(
+            "transmission_error_mean",
+            "Transmission error, mean",
+            1e6,
+            "µm",
+            definition="Mean of the dynamic transmission error of the newest pair along its normal.",
+        ),
+        Line(
+            "transmission_error_peak_to_peak",
+            "Transmission error, peak to peak",
+            1e6,
+            "µm",
+            definition="Maximum less minimum of the same, between the samples too.",
+        ),
+        Line(
+            "transmission_error_harmonics",
+            "Transmission error, orders 1 to 5 of the mesh",
+            1e6,
+            "µm",
+            ".3g",
+            "Amplitudes of the rotational transmission error r_p θ_p − r_g θ_g at 1 to 5 times the mesh "
+            "frequency.",
+            listed=True,
+        ),
+        Line(
+            "mesh_stiffness_mean",
+            "Mesh stiffness of all pairs, mean",
+            1e-6,
+            "N/µm",
+            definition="Mean of Σ k cos² α over the loaded pairs: the stiffness along the pitch tangent, "
+            "of pairs with "
+            "stiffness k along normals at the angle α.",
+        ),
+        Line(
+            "mesh_stiffness_peak_to_peak",
+            "Mesh stiffness of all pairs, peak to peak",
+            1e-6,
+            "N/µm",
+            definition="Maximum less minimum of the same, in the samples.",
+        ),
         NORMAL_LOAD,
-        Line("dynamic_factor", "Dynamic factor", form=".3f"),
-        Line("contact_loss_fraction", "Time without contact", 100.0, "%", ".3g"),
+        Line(
+            "dynamic_factor",
+            "Dynamic factor K_v",
+            form=".3f",
+            definition="Maximum of the loads' moment over that of the mean load, from the motion. ISO "
+            "6336-1 estimates "
+            "the same ratio from formulas.",
+        ),
+        Line(
+            "contact_loss_fraction",
+            "Time without contact",
+            100.0,
+            "%",
+            ".3g",
+            "Share of the samples in which no pair carries load.",
+        ),
     ),
     "Tribology": TRIBOLOGY,
     "Energy": ENERGY,
     "Solver": (
-        Line("solver", "Method"),
-        Line("steps", "Steps", form=",d"),
-        Line("rhs_evaluations", "Right-hand sides", form=",d"),
+        Line("solver", "Method", definition="Method of integration, chosen or by solver.method."),
+        Line("steps", "Steps", form=",d", definition="Steps of the integration."),
+        Line(
+            "rhs_evaluations",
+            "Right-hand sides",
+            form=",d",
+            definition="Evaluations of the equations of motion.",
+        ),
         WALL_TIME,
     ),
 }
@@ -53,7 +110,7 @@ SWEEP_LINES = (
 )
 
 
-#: Difference between the extremes of the run and those of its last cycles that is said.
+#: Relative difference between the extremes of the whole run and those of its last cycles that is said.
 DIFFERENT = 0.005
 
 PANELS = (
@@ -66,22 +123,23 @@ PANELS = (
 
 
 def on_extremes(summary: Mapping[str, Any]) -> list[str]:
-    """Say which extremes of the whole run are not those of its last mesh cycles, and what the latter are."""
+    """Say which extremes of the whole run, or of its last mesh cycles, are not those of the table."""
     described = summary.get("extremes")
     if not described:  # a record of 0.1.0, or of a run that stopped at once
         return []
-    run, last = described.get("run", {}), described.get("last_cycles", {})
-    parts = []
-    for line in (NORMAL_LOAD, *TRIBOLOGY):
-        if line.name not in run or line.name not in last:
-            continue
-        value = last[line.name]["value"]
-        if abs(run[line.name]["value"] - value) > DIFFERENT * abs(value):
+    said = []
+    for part, words in (("run", "Over the whole run"), ("last_cycles", "Over the last mesh cycles")):
+        others = []
+        for line in (NORMAL_LOAD, *TRIBOLOGY):
+            known, value = described.get(part, {}).get(line.name), summary.get(line.name)
+            if known is None or value is None or not abs(known["value"] - value) > DIFFERENT * abs(value):
+                continue
             name = line.label[0].lower() + line.label[1:]
-            parts.append(f"{name} {shown(line, value)} {line.unit}".rstrip())
-    if not parts:
-        return []
-    return [f"Extremes are over the whole run. Over the cycles of the means: {', '.join(parts)}."]
+            at = f" at t = {known['time']:.4g} s" if part == "run" and "time" in known else ""
+            others.append(f"{name} {shown(line, known['value'])} {line.unit}".rstrip() + at)
+        if others:
+            said.append(f"{words}: {', '.join(others)}.")
+    return said
 
 
 def sentences(record: Record) -> list[str]:

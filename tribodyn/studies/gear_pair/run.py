@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.dynamics.outputs import outputs_with_extremes
-from tribodyn.dynamics.recorded import scales_of
+from tribodyn.dynamics.recorded import UNRECORDED, scales_of
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.outlines import geometry_arrays
 from tribodyn.mesh.by_compliance import compliance_remark
@@ -24,7 +24,7 @@ from tribodyn.studies.gear_pair.summary import RunningExtremes, energy_residual,
 from tribodyn.studies.gears import LAYOUT
 from tribodyn.studies.recording import target, writer
 from tribodyn.studies.study import Progress, RunResult
-from tribodyn.tribology.closure import law_figures
+from tribodyn.tribology.closure import exceeded_limits, law_figures
 
 #: Mesh cycles at the end of a run that its means and its spectrum are of, at most: they are held in memory,
 #: and an attribute of a record holds no longer spectrum.
@@ -83,11 +83,12 @@ def run(
                 stop = part
             elif len(part.cycles):
                 block, extreme, at = outputs_with_extremes(part.cycles, part.states, part.extremes, model)
-                record.write(statistics.written, block)
+                recorded = {name: values for name, values in block.items() if name not in UNRECORDED}
+                record.write(statistics.written, recorded)
                 statistics.add(part, block, extreme, at)
                 if progress:
                     progress(min(1.0, statistics.written / (cycles * samples)))
-        summary |= statistics.figures() | {
+        summary |= statistics.figures(complete=not stop.reason) | {
             "steps": stop.steps,
             "rhs_evaluations": stop.evaluations,
             "wall_time": perf_counter() - begun,
@@ -99,8 +100,11 @@ def run(
             summary |= statistics.judge.figures()
             message = str(SimulationError(stop.reason, stop.time))
             return RunResult(record.fail(message, summary), "failed", message, summary)
+        last = statistics.window()
+        touching = last["normal_load"] > 0.0
+        summary |= exceeded_limits(case, *(last[name][touching] for name in UNRECORDED))
         summary |= steady_figures(
-            statistics.window(),
+            last,
             statistics.window_work(),
             cycle,
             samples,
@@ -156,12 +160,13 @@ class RunStatistics:
             self.in_window.add(part.cycles[inside], self.blocks[-1])
             self.in_window.add(at, extreme)
 
-    def figures(self) -> dict[str, Any]:
-        """Extremes, and the residual of the energy balance."""
+    def figures(self, complete: bool) -> dict[str, Any]:
+        """Extremes of the last cycles, of an incomplete run of all; residual of the energy balance."""
         if not self.ends:
             return {}
         (first, stored_first), (last, stored_last) = self.ends
-        return self.extremes.values() | {
+        shown = self.in_window if complete else self.extremes
+        return shown.values() | {
             "extremes": {"run": self.extremes.described(), "last_cycles": self.in_window.described()},
             "energy_residual": energy_residual(first, last, stored_last - stored_first),
         }

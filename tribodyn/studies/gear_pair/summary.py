@@ -20,6 +20,7 @@ from tribodyn.dynamics.parameters import (
 from tribodyn.dynamics.recorded import pair_numbers
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.power_flow import driving_gear, efficiency, power_put_in
+from tribodyn.mesh.stiffness import total_stiffness
 from tribodyn.post.spectra import amplitude_spectrum
 from tribodyn.tribology.surface_state import fraction_in_range
 
@@ -32,7 +33,8 @@ RECORDED = {
     "flash_temperature_max": ("flash_temperature_rise", 1),
 }
 
-
+#: Mesh orders whose amplitudes of the transmission error are in the summary: 1 to this.
+HARMONICS = 5
 #: Share of the loss that friction may give to the vibration before it is said.
 FEEDS = 0.01
 #: What that means, by `friction.sliding`.
@@ -104,6 +106,14 @@ class RunningExtremes:
     def values(self) -> dict[str, float]:
         """Values of `RECORDED`."""
         return {name: self.by_name[name].value for name in RECORDED if name in self.by_name}
+
+    def where(self, name: str, cycle: MeshCycle) -> dict[str, float]:
+        """Roll angle (rad, 0 at the pitch point) at which a driving pair has an extreme, by summary name."""
+        one = self.by_name.get(name)
+        if one is None or one.pair is None or one.pair > 1:
+            return {}
+        roll = float(cycle.roll_start) + (one.mesh_cycle % 1.0 + 1 - one.pair) * float(cycle.pitch_angle)
+        return {f"{name}_roll_angle": roll}
 
     def described(self) -> dict[str, dict[str, Any]]:
         """All extremes by name, for a summary."""
@@ -203,8 +213,11 @@ def steady_figures(
     cycles = len(error) / samples
     duration = float(cycles * cycle.pitch_angle / nominal_speed + work[LAG])
     frequency = cycles / duration
-    orders, amplitudes = amplitude_spectrum(error, samples)
-    power_in, power_out, power_friction = work[[WORK_IN, WORK_OUT, WORK_FRICTION]] / duration
+    spectrum = amplitude_spectrum(error, samples)
+    orders, amplitudes = spectrum
+    powers = work[[WORK_IN, WORK_OUT, WORK_FRICTION, WORK_DAMPING]] / duration
+    power_in, power_out, power_friction, power_damping = powers
+    stiffness = total_stiffness(window["mesh_stiffness"], window["pressure_angle"])
     share = friction_work_on_vibration(work)
     # the mean load by its work over the gear's rotation: neither depends on the sampling
     turned = cycle.pinion_pitch_radius * cycle.pitch_angle * cycles - work[XI]
@@ -221,6 +234,7 @@ def steady_figures(
         "transmission_error_mean": float(np.nanmean(newest)),
         "transmission_error_peak_to_peak": extremes.spread(f"{flanks}transmission_error"),
         "transmission_error_rotational_mean": float(np.mean(error)),
+        "transmission_error_harmonics": spectrum.harmonics(HARMONICS),
         "transmission_error_rotational_peak_to_peak": extremes.spread("transmission_error_rotational"),
         "dynamic_factor": extremes.by_name[f"{flanks}mesh_force_max"].value / abs(force)
         if force != 0.0
@@ -228,6 +242,10 @@ def steady_figures(
         "friction_coefficient_mean": float(slid / loaded) if loaded > 0 else float("nan"),
         "friction_force_mean": np.mean(friction, axis=0),
         "efficiency": float(efficiency(power_in, power_out, power_friction)),
+        "power_damping_mean": float(power_damping),
+        "mesh_stiffness_mean": float(np.mean(stiffness)),
+        "mesh_stiffness_peak_to_peak": float(np.ptp(stiffness)),
+        **extremes.where("film_parameter_min", cycle),
         "friction_work_on_vibration": share,
         "driving_gear": driving_gear(power_in, power_out),
         "power_in_mean": float(power_put_in(power_in, power_out)),

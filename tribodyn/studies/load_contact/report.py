@@ -8,24 +8,131 @@ from tribodyn.studies.gears import CONTACT_RATIO, EFFECTIVE_CONTACT_RATIO, NORMA
 LINES: Lines = {
     "Geometry": (CONTACT_RATIO, EFFECTIVE_CONTACT_RATIO, SINGLE_PAIR),
     "Load contact": (
-        Line("gear_torque", "Torque on the gear", 1.0, "N m"),
-        Line("loaded_transmission_error_mean", "Loaded transmission error, mean", 1e6, "µm"),
-        Line("loaded_transmission_error_peak_to_peak", "Loaded transmission error, peak to peak", 1e6, "µm"),
-        Line("unloaded_transmission_error_peak_to_peak", "Unloaded, peak to peak", 1e6, "µm", ".3g"),
-        Line("least_peak_to_peak", "Minimum peak to peak of all torques", 1e6, "µm"),
-        Line("least_peak_to_peak_torque", "at a torque on the gear of", 1.0, "N m"),
-        Line("mesh_stiffness_mean", "Mesh stiffness, mean", 1e-6, "N/µm"),
-        Line("mesh_stiffness_peak_to_peak", "Mesh stiffness, peak to peak", 1e-6, "N/µm", ".3g"),
-        Line("line_load_max", "Maximum line load", 1e-3, "N/mm"),
-        Line("face_load_factor", "Face load factor there", form=".3f"),
-        Line("face_load_factor_pitch_point", "Face load factor at the pitch point", form=".3f"),
-        Line("pinion_root_tension_max", "Maximum root tension, pinion", 1e-6, "MPa"),
-        Line("gear_root_tension_max", "Maximum root tension, gear", 1e-6, "MPa"),
-        Line("pinion_root_compression_max", "Maximum root compression, pinion", 1e-6, "MPa"),
-        Line("gear_root_compression_max", "Maximum root compression, gear", 1e-6, "MPa"),
+        Line(
+            "gear_torque",
+            "Torque on the gear",
+            1.0,
+            "N m",
+            definition="Torque at which everything but the Harris map is computed.",
+        ),
+        Line(
+            "loaded_transmission_error_mean",
+            "Loaded transmission error, mean",
+            1e6,
+            "µm",
+            definition="Mean over the mesh cycle of r_p θ_p − r_g θ_g in slow rotation under load.",
+        ),
+        Line(
+            "loaded_transmission_error_peak_to_peak",
+            "Loaded transmission error, peak to peak",
+            1e6,
+            "µm",
+            definition="Maximum less minimum of the same.",
+        ),
+        Line(
+            "unloaded_transmission_error_peak_to_peak",
+            "Unloaded, peak to peak",
+            1e6,
+            "µm",
+            ".3g",
+            definition="Maximum less minimum of r_p θ_p − r_g θ_g without load: that of modified or "
+            "erroneous flanks.",
+        ),
+        Line(
+            "least_peak_to_peak",
+            "Minimum peak to peak of all torques",
+            1e6,
+            "µm",
+            definition="Minimum over the torques of the Harris map.",
+        ),
+        Line(
+            "least_peak_to_peak_torque",
+            "at a torque on the gear of",
+            1.0,
+            "N m",
+            definition="Torque of that minimum.",
+        ),
+        Line(
+            "mesh_stiffness_mean",
+            "Mesh stiffness, mean",
+            1e-6,
+            "N/µm",
+            definition="Mean of the derivative of the load at the pitch radius by the loaded "
+            "transmission error, all pairs together.",
+        ),
+        Line(
+            "mesh_stiffness_peak_to_peak",
+            "Mesh stiffness, peak to peak",
+            1e-6,
+            "N/µm",
+            ".3g",
+            definition="Maximum less minimum of the same.",
+        ),
+        Line(
+            "line_load_max",
+            "Maximum line load",
+            1e-3,
+            "N/mm",
+            definition="Maximum normal load per face width, over pairs, face and mesh cycle.",
+        ),
+        Line(
+            "face_load_factor",
+            "Face load factor there",
+            form=".3f",
+            definition="Maximum over the mean line load along the face, where the line load is at its "
+            "maximum. K_Hβ of ISO 6336-1 estimates the same ratio.",
+        ),
+        Line(
+            "face_load_factor_pitch_point",
+            "Face load factor at the pitch point",
+            form=".3f",
+            definition="The same where a pair is at the pitch point.",
+        ),
+        Line(
+            "pinion_root_tension_max",
+            "Maximum root tension, pinion",
+            1e-6,
+            "MPa",
+            definition="Maximum surface stress in the pinion's fillet on the loaded side, over face and "
+            "mesh cycle.",
+        ),
+        Line(
+            "gear_root_tension_max",
+            "Maximum root tension, gear",
+            1e-6,
+            "MPa",
+            definition="Maximum surface stress in the gear's fillet on the loaded side, over face and "
+            "mesh cycle.",
+        ),
+        Line(
+            "pinion_root_compression_max",
+            "Maximum root compression, pinion",
+            1e-6,
+            "MPa",
+            definition="Minimum surface stress in the pinion's fillet on the other side; negative: "
+            "compression.",
+        ),
+        Line(
+            "gear_root_compression_max",
+            "Maximum root compression, gear",
+            1e-6,
+            "MPa",
+            definition="Minimum surface stress in the gear's fillet on the other side; negative: "
+            "compression.",
+        ),
     ),
     "Dynamics": (NORMAL_LOAD,),
-    "Tribology": (Line("hertz_pressure_max", "Maximum Hertz pressure", 1e-9, "GPa", ".3g"),),
+    "Tribology": (
+        Line(
+            "hertz_pressure_max",
+            "Maximum Hertz pressure",
+            1e-9,
+            "GPa",
+            ".3g",
+            definition="Maximum of the pressure in the middle of the Hertz contact, over pairs, face and "
+            "mesh cycle.",
+        ),
+    ),
     "Solver": (WALL_TIME,),
 }
 

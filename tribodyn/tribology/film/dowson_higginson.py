@@ -9,7 +9,7 @@ with the groups of ISO/TR 15144-1, which goes back to the same authors (1600 G^0
 import math
 from typing import Any, NamedTuple
 
-from tribodyn.numerics.elementary import law, log, maximum, minimum, where
+from tribodyn.numerics.elementary import law, log
 from tribodyn.tribology.law import FilmLaw, LawInput
 
 _LOG_FACTOR = math.log(2.65)
@@ -59,14 +59,12 @@ def dowson_higginson(contact, surfaces, parameters):
 
 @law
 def in_fitted_range(contact, surfaces, parameters):
-    """1.0 where every dimensionless group lies inside `FITTED_RANGE`, else 0.0."""
+    """Shares of the dimensionless groups allowed by `FITTED_RANGE`, in the order of the law's limits."""
     modulus = surfaces.effective_modulus
     W = contact.line_load * contact.curvature / modulus
     U = surfaces.inlet_viscosity * contact.entrainment * contact.curvature / modulus
     G = surfaces.pressure_viscosity * modulus
-    lowest = minimum(minimum(W / _W_LOW, U / _U_LOW), G / _G_LOW)
-    highest = maximum(maximum(W / _W_HIGH, U / _U_HIGH), G / _G_HIGH)
-    return where(lowest >= 1.0, 1.0, 0.0) * where(highest <= 1.0, 1.0, 0.0)
+    return W / _W_LOW, U / _U_LOW, G / _G_LOW, _W_HIGH / W, _U_HIGH / U, _G_HIGH / G
 
 
 LAW = FilmLaw(
@@ -77,4 +75,5 @@ LAW = FilmLaw(
     in_range=in_fitted_range,
     range="3e-5 ≤ W ≤ 3e-4, 1e-13 ≤ U ≤ 1e-11, 2500 ≤ G ≤ 5000 (from memory, not checked against the book)",
     thickness="minimum",
+    limits=("W ≥ 3e-5", "U ≥ 1e-13", "G ≥ 2500", "W ≤ 3e-4", "U ≤ 1e-11", "G ≤ 5000"),
 )

@@ -31,6 +31,10 @@ _V_LOW, _V_HIGH = FITTED_RANGE["V"]
 CAP_WIDTH = 0.01
 _LOG_FILM_FACTOR = math.log(2.691)
 _CAP_BEND = 1.0 / (4.0 * CAP_WIDTH)
+LIMITS = (
+    *("W ≥ 2e-5", "U ≥ 1e-12", "G ≥ 2500", "V ≥ 0.005"),
+    *("W ≤ 5e-4", "U ≤ 1e-10", "G ≤ 7500", "V ≤ 0.03", "σ/ρ ≤ 5e-5"),
+)
 RANGE = (
     "2e-5 ≤ W ≤ 5e-4, 1e-12 ≤ U ≤ 1e-10, 2500 ≤ G ≤ 7500, σ/ρ ≤ 5e-5, 0.005 ≤ V ≤ 0.03 "
     "(from memory of the literature, not checked against the paper)"
@@ -100,17 +104,15 @@ def rough_film(contact, surfaces, parameters):
 
 @law
 def in_fitted_range(contact, surfaces, parameters):
-    """1.0 where every dimensionless group lies inside `FITTED_RANGE`, else 0.0."""
+    """Shares of the dimensionless groups allowed by `FITTED_RANGE`, in the order of `LIMITS`."""
     modulus = surfaces.effective_modulus
     W = contact.line_load * contact.curvature / modulus
     U = surfaces.inlet_viscosity * contact.entrainment * contact.curvature / modulus
     G = surfaces.pressure_viscosity * modulus
     S = surfaces.roughness * contact.curvature
     V = surfaces.hardness / modulus
-    lowest = minimum(minimum(W / _W_LOW, U / _U_LOW), minimum(G / _G_LOW, V / _V_LOW))
-    highest = maximum(maximum(W / _W_HIGH, U / _U_HIGH), maximum(G / _G_HIGH, V / _V_HIGH))
-    highest = maximum(highest, S / _S_HIGH)
-    return where(lowest >= 1.0, 1.0, 0.0) * where(highest <= 1.0, 1.0, 0.0)
+    low = W / _W_LOW, U / _U_LOW, G / _G_LOW, V / _V_LOW
+    return (*low, _W_HIGH / W, _U_HIGH / U, _G_HIGH / G, _V_HIGH / V, _S_HIGH / S)
 
 
 def rough_film_of(given: LawInput, asperity_log_factor: float = 4470.0) -> RoughFilm:
@@ -134,6 +136,7 @@ LAW = FilmLaw(
     rough_film_of,
     in_range=in_fitted_range,
     range=RANGE,
+    limits=LIMITS,
 )
 AS_PRINTED = FilmLaw(
     "masjedi-khonsari-as-printed",
@@ -142,4 +145,5 @@ AS_PRINTED = FilmLaw(
     partial(rough_film_of, asperity_log_factor=447.0),
     in_range=in_fitted_range,
     range=RANGE,
+    limits=LIMITS,
 )

@@ -1,6 +1,6 @@
 """Friction coefficient of gear teeth by Benedict & Kelley's disc tests."""
 
-from tribodyn.numerics.elementary import absolute, law, log, maximum, where
+from tribodyn.numerics.elementary import absolute, exp, law, log, maximum
 from tribodyn.tribology.friction.none import NoParameters
 from tribodyn.tribology.law import FrictionLaw, LawInput
 
@@ -11,6 +11,7 @@ LN10 = 2.302585092994046
 MINIMUM_SLIDING = 0.01
 #: Their roughness factor has a pole at Ra = 1.13 µm; it is held at this value, which Ra = 0.75 µm reaches.
 MAXIMUM_ROUGHNESS_FACTOR = 3.0
+_MAXIMUM_ROUGHNESS = 1e-6 * 1.13 * (1.0 - 1.0 / MAXIMUM_ROUGHNESS_FACTOR)
 
 
 @law
@@ -58,14 +59,12 @@ def benedict_kelley_at(contact, film, surfaces, parameters):
 
 @law
 def not_held(contact, film, surfaces, parameters):
-    """1.0 where the law is not held at one of its poles or at zero, else 0.0."""
+    """Shares by which the law is clear of its poles and of zero, where it is held."""
     sum_speed = 2.0 * contact.entrainment
     logarithm = log10_of_group(contact.line_load, sum_speed, contact.sliding, surfaces.inlet_viscosity)
-    slides = where(absolute(contact.sliding) >= MINIMUM_SLIDING * sum_speed, 1.0, 0.0)
-    smooth = where(
-        1.13 - 1e6 * surfaces.mean_roughness >= 1.13 / MAXIMUM_ROUGHNESS_FACTOR + 0.0 * logarithm, 1.0, 0.0
-    )
-    return slides * smooth * where(logarithm > 0.0, 1.0, 0.0)
+    slides = absolute(contact.sliding) / (MINIMUM_SLIDING * sum_speed)
+    smooth = _MAXIMUM_ROUGHNESS / surfaces.mean_roughness + 0.0 * logarithm
+    return slides, smooth, exp(LN10 * logarithm)
 
 
 def _none(given: LawInput) -> NoParameters:
@@ -79,4 +78,9 @@ LAW = FrictionLaw(
     _none,
     in_range=not_held,
     range="where it is not held: sliding ≥ 1 % of the rolling speed, Ra ≤ 0.75 µm, coefficient above zero",
+    limits=(
+        "sliding ≥ 1 % of the rolling speed",
+        "Ra ≤ 0.75 µm",
+        "29700 w/(η |v_s| V_Σ²) ≥ 1 (coefficient above zero)",
+    ),
 )

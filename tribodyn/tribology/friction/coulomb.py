@@ -13,7 +13,7 @@ class Constant(NamedTuple):
     Attributes
     ----------
     coefficient : μ
-    in_range : 1.0: the formula that it was computed by is inside its range; 0.0: outside; NaN: none stated
+    in_range : smallest share allowed by the limits of the formula that it was computed by; NaN: none stated
     """
 
     coefficient: Any
@@ -28,7 +28,7 @@ def constant(contact, film, surfaces, parameters):
 
 @law
 def range_of_constant(contact, film, surfaces, parameters):
-    """Whether the formula of the mean coefficient was inside its range."""
+    """Smallest share allowed by the limits of the formula of the mean coefficient."""
     return 0.0 * contact.sliding + parameters.in_range
 
 

@@ -26,11 +26,12 @@ def iso_14179_1(conditions: NominalConditions) -> float:
 
 def _mean(given: LawInput) -> Constant:
     conditions = given.nominal()
-    inside = (
-        SPEED_RANGE[0] < conditions.pitch_line_speed <= SPEED_RANGE[1]
-        and INTENSITY_RANGE[0] < conditions.load_intensity <= INTENSITY_RANGE[1]
+    speed, intensity = conditions.pitch_line_speed, conditions.load_intensity
+    shares = (
+        *(speed / SPEED_RANGE[0], SPEED_RANGE[1] / speed),
+        *(intensity / INTENSITY_RANGE[0], INTENSITY_RANGE[1] / intensity),
     )
-    return Constant(float(iso_14179_1(conditions)), float(inside))
+    return Constant(float(iso_14179_1(conditions)), float(min(shares)))
 
 
 LAW = FrictionLaw(
@@ -40,4 +41,5 @@ LAW = FrictionLaw(
     _mean,
     in_range=range_of_constant,
     range="2 < V ≤ 25 m/s, 1.4 < K ≤ 14 N/mm² (the standard)",
+    limits=("2 m/s ≤ V ≤ 25 m/s and 1.4 N/mm² ≤ K ≤ 14 N/mm²",),
 )

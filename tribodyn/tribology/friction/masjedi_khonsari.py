@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from tribodyn.numerics.elementary import absolute, exp, expm1, law, log, maximum, minimum, skippable
 from tribodyn.tribology.contact import hertz_half_width
-from tribodyn.tribology.film.masjedi_khonsari import RANGE, in_fitted_range
+from tribodyn.tribology.film.masjedi_khonsari import LIMITS, RANGE, in_fitted_range
 from tribodyn.tribology.flash import flash_temperature_rise
 from tribodyn.tribology.law import FrictionLaw, LawInput, film_at
 from tribodyn.tribology.rheology import limiting_shear_share, log_roelands_viscosity
@@ -111,7 +111,7 @@ def _peclet_speed(speed, sliding, share):
 
 @law
 def in_range_of_film(contact, film, surfaces, parameters):
-    """1.0 where the law's own regressions, those of its film, are inside their fitted range, else 0.0."""
+    """Shares allowed by the fitted range of the law's own regressions, which are those of its film."""
     return in_fitted_range(contact, surfaces, parameters)
 
 
@@ -165,6 +165,7 @@ def _law(name: str, about: str, film: str = "masjedi-khonsari", **settings: Any)
         partial(_mixed, **settings),
         in_range=in_range_of_film,
         range=f"that of its film: {RANGE}",
+        limits=LIMITS,
         flash_temperature=heat_of_mixed_friction,
         film=film,
     )

@@ -30,7 +30,7 @@ def niemann(conditions: NominalConditions) -> float:
 
 def _mean(given: LawInput) -> Constant:
     conditions = given.nominal()
-    return Constant(float(niemann(conditions)), float(conditions.pitch_line_speed <= MAXIMUM_SPEED))
+    return Constant(float(niemann(conditions)), float(MAXIMUM_SPEED / conditions.pitch_line_speed))
 
 
 LAW = FrictionLaw(
@@ -40,4 +40,5 @@ LAW = FrictionLaw(
     _mean,
     in_range=range_of_constant,
     range="pitch line speed up to about 50 m/s (FZG tests of case-hardened gears)",
+    limits=("pitch line speed ≤ 50 m/s",),
 )

@@ -1,6 +1,6 @@
 """Friction coefficient by Xu's regression over thermal elastohydrodynamic solutions."""
 
-from tribodyn.numerics.elementary import absolute, exp, law, log, maximum, minimum, where
+from tribodyn.numerics.elementary import absolute, exp, law, log, maximum, minimum
 from tribodyn.tribology.contact import hertz_pressure
 from tribodyn.tribology.friction.none import NoParameters
 from tribodyn.tribology.law import FrictionLaw, LawInput
@@ -71,11 +71,11 @@ def xu_at(contact, film, surfaces, parameters):
 
 @law
 def in_fitted_range(contact, film, surfaces, parameters):
-    """1.0 where pressure, slide-to-roll ratio and roughness lie inside `FITTED_RANGE`, else 0.0."""
+    """Shares of pressure, slide-to-roll ratio and roughness allowed by `FITTED_RANGE`."""
     pressure = hertz_pressure(contact.line_load, contact.curvature, surfaces.effective_modulus)
-    ratio = absolute(contact.sliding) / contact.entrainment
-    highest = maximum(maximum(pressure / _P_HIGH, ratio / _SR_HIGH), surfaces.roughness / _S_HIGH)
-    return where(pressure >= _P_LOW, 1.0, 0.0) * where(highest <= 1.0, 1.0, 0.0)
+    ratio = maximum(absolute(contact.sliding) / contact.entrainment, 1e-12)
+    rough = _S_HIGH / surfaces.roughness + 0.0 * pressure
+    return pressure / _P_LOW, _P_HIGH / pressure, _SR_HIGH / ratio, rough
 
 
 def _none(given: LawInput) -> NoParameters:
@@ -90,4 +90,5 @@ LAW = FrictionLaw(
     in_range=in_fitted_range,
     range="Hertz pressure 0.5 … 2.5 GPa, slide-to-roll ratio ≤ 1, roughness ≤ 1 µm "
     "(from memory of the dissertation)",
+    limits=("p_H ≥ 0.5 GPa", "p_H ≤ 2.5 GPa", "slide-to-roll ratio ≤ 1", "roughness ≤ 1 µm"),
 )

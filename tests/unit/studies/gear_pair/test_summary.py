@@ -6,8 +6,16 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
-from tribodyn.dynamics.parameters import LAG, STATES, WORK_FRICTION, WORK_IN, WORK_OUT, WORK_SLIDING
-from tribodyn.studies.gear_pair.summary import RECORDED, RunningExtremes, steady_figures
+from tribodyn.dynamics.parameters import (
+    LAG,
+    STATES,
+    WORK_DAMPING,
+    WORK_FRICTION,
+    WORK_IN,
+    WORK_OUT,
+    WORK_SLIDING,
+)
+from tribodyn.studies.gear_pair.summary import RECORDED, Extreme, RunningExtremes, steady_figures
 
 SAMPLES, CYCLES, SPEED, PITCH, RADIUS = 50, 4, 100.0, 0.27, 0.07
 #: Pinion speed of the window on the average, rad/s, and time of it, s.
@@ -41,12 +49,14 @@ def window(way: int, torque: float) -> tuple[dict[str, np.ndarray], np.ndarray]:
     work[LAG] = TIME - CYCLES * PITCH / SPEED
     gear = way * torque * 40.0 * TIME
     work[WORK_OUT], work[WORK_FRICTION], work[WORK_SLIDING] = gear, 0.02 * torque, 0.025 * torque
+    work[WORK_DAMPING] = 0.004 * torque
     work[WORK_IN] = gear + work[WORK_FRICTION]
     return {
         "transmission_error_rotational": 1e-5 + 4e-6 * np.cos(6.0 * np.pi * phase),
         "transmission_error": error,
         "normal_load": load,
         "pressure_angle": angle,
+        "mesh_stiffness": np.where(load > 0.0, 3e8 + 1e8 * np.cos(2.0 * np.pi * phase)[:, None], 0.0),
         "friction_force": np.sign(sliding) * load * np.array([0.1, 0.04, 0.1, 0.04]),
         "sliding_speed": sliding,
         "velocity": np.tile([0.0, 0.0, 0.0, 0.0, MEAN_SPEED, 40.0], (count, 1)),
@@ -81,6 +91,11 @@ def test_figures_of_a_known_window(way):
     mean = np.array([0.03, 0.028]) * static
     expected = [*mean, 0.0, 0.0] if way > 0 else [0.0, 0.0, *mean]
     np.testing.assert_allclose(found["friction_force_mean"], expected, rtol=1e-12)
+    # two pairs of 3e8 ± 1e8 N/m along normals at 0.4 rad
+    assert found["mesh_stiffness_mean"] == pytest.approx(6e8 * np.cos(0.4) ** 2, rel=1e-12)
+    assert found["mesh_stiffness_peak_to_peak"] == pytest.approx(4e8 * np.cos(0.4) ** 2, rel=1e-9)
+    np.testing.assert_allclose(found["transmission_error_harmonics"], [0, 0, 4e-6, 0, 0], atol=1e-18)
+    assert found["power_damping_mean"] == pytest.approx(0.004 * torque / TIME, rel=1e-12)
     put_in = torque * 40.0 * TIME + (0.02 * torque if way > 0 else 0.0)
     assert found["driving_gear"] == ("pinion" if way > 0 else "gear")
     assert found["power_in_mean"] == pytest.approx(put_in / TIME, rel=1e-12)
@@ -130,3 +145,15 @@ def test_extremes_of_blocks_are_those_of_the_whole(rng):
     assert (where.mesh_cycle, where.time, where.pair) == (cycles[row], values["time"][row], slot)
     assert extremes.spread("transmission_error_rotational") == np.ptp(values["transmission_error_rotational"])
     assert extremes.spread("back_transmission_error") == np.ptp(values["transmission_error"][:, 3])
+
+
+def test_a_minimum_has_its_place_on_the_path_of_contact():
+    """Pair 0 entered a pitch before pair 1, which enters at the start of a mesh cycle."""
+    extremes = RunningExtremes(CYCLE)
+    cycle = SimpleNamespace(roll_start=-0.2, pitch_angle=PITCH)
+    for pair, pitches in ((1, 0.25), (0, 1.25), (-1, 2.25)):
+        extremes.by_name["film_parameter_min"] = Extreme(1.2, 0.1, 7.25, pair)
+        (found,) = extremes.where("film_parameter_min", cast(Any, cycle)).values()
+        assert found == pytest.approx(-0.2 + pitches * PITCH)
+    extremes.by_name["film_parameter_min"] = Extreme(1.2, 0.1, 7.25, 2)
+    assert extremes.where("film_parameter_min", cast(Any, cycle)) == {}
