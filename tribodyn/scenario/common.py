@@ -11,7 +11,7 @@ Torque = Annotated[float, Quantity(units.TORQUE)]
 Inertia = Annotated[float, Quantity(units.not_negative(units.INERTIA))]
 TorsionalDamping = Annotated[float, Quantity(units.not_negative(units.TORSIONAL_DAMPING))]
 Angle = Annotated[float, Quantity(units.ANGLE_KIND)]
-SignedLength = Annotated[float, Quantity(units.LENGTH)]
+Error = Annotated[float, Quantity(units.LENGTH, "2 um")]
 Slices = Annotated[int, Field(strict=True, ge=1, le=501)]
 Name = Annotated[str, Field(strict=True, pattern=r"^\w[\w .-]*$")]
 """A scenario's name, which also names its record."""

@@ -25,6 +25,9 @@ Mass = Annotated[float, Quantity(units.positive(units.MASS))]
 Inertia = Annotated[float, Quantity(units.positive(units.INERTIA))]
 Pressure = Annotated[float, Quantity(units.positive(units.PRESSURE))]
 Stiffness = Annotated[float, Quantity(units.positive(units.STIFFNESS))]
+FaceWidth = Annotated[float, Quantity(units.positive(units.LENGTH), "20 mm")]
+Radius = Annotated[float, Quantity(units.positive(units.LENGTH), "12 mm")]
+Roughness = Annotated[float, Quantity(units.positive(units.LENGTH), "0.5 um")]
 
 
 class Described(Table):
@@ -43,7 +46,9 @@ class Material(Described):
     density: Annotated[float, Quantity(units.positive(units.DENSITY))]
     thermal_conductivity: Annotated[float, Quantity(units.positive(units.CONDUCTIVITY))]
     specific_heat: Annotated[float, Quantity(units.positive(units.SPECIFIC_HEAT))]
-    hardness: Pressure = Field(description="Vickers hardness as a pressure")
+    hardness: Annotated[float, Quantity(units.positive(units.PRESSURE), "7 GPa")] = Field(
+        description="Vickers hardness as a pressure"
+    )
 
 
 MaterialReference = Annotated[Material, model_file("materials")]
@@ -53,15 +58,15 @@ class Gear(Table):
     """One gear of a drive."""
 
     teeth: Annotated[int, Field(strict=True, ge=4, le=10_000)]
-    face_width: Length
-    bore_radius: Length = Field(description="radius of the bore, where the body is held")
+    face_width: FaceWidth
+    bore_radius: Radius = Field(description="radius of the bore, where the body is held")
     profile_shift: Number = Field(0.0, description="x, times the module")
     addendum: Positive = Field(1.0, description="h_a*, times the module (ISO 53)")
     dedendum: Positive = Field(1.25, description="h_f*, times the module (ISO 53)")
     fillet_radius: NotNegative = Field(
         0.25, description="radius of the cutter's tip, times the module (Diez-Ibarbia et al.)"
     )
-    tip_radius: Length | None = Field(None, description="takes the place of the addendum")
+    tip_radius: Radius | None = Field(None, description="takes the place of the addendum")
     mass: Mass | None = Field(None, description="default: from outline, bore and width")
     inertia: Inertia | None = Field(None, description="polar; default: from outline, bore and width")
     material: MaterialReference | None = Field(None, description="default: the drive's")
@@ -77,8 +82,8 @@ class DriveTable(Described):
         None, description="of the rack for involutes; at the pitch point for other families, if they take one"
     )
     shape: dict[str, Any] | None = Field(None, description="what else the family needs, see `tribodyn list`")
-    roughness: Length = Field(description="composite rms roughness of the flanks")
-    mean_roughness: Length | None = Field(
+    roughness: Roughness = Field(description="composite rms roughness of the flanks")
+    mean_roughness: Roughness | None = Field(
         None, description="Ra of the flanks; default: roughness/sqrt(pi), that of two equal Gaussian flanks"
     )
     material: MaterialReference | None = None
@@ -95,7 +100,7 @@ class Lubricant(Described):
     pressure_viscosity: Annotated[float, Quantity(units.positive(units.PRESSURE_VISCOSITY))]
     viscosity_pressure_index: Positive = Field(description="z of Roelands' law")
     temperature_viscosity: Annotated[float, Quantity(units.not_negative(units.PER_KELVIN))]
-    density: Annotated[float, Quantity(units.positive(units.DENSITY))]
+    density: Annotated[float, Quantity(units.positive(units.DENSITY), "870 kg/m**3")]
     load_exponent: NotNegative = Field(
         0.0651,
         description="d of Niemann's lubricant factor; default: mineral oil 75W90 (Diez-Ibarbia et al.)",

@@ -118,9 +118,13 @@ def _known_keys(owner: Owner, name: str, known: Iterable[str]) -> str:
 
 
 def _example(owner: Owner, parameter: Parameter) -> str:
+    return f"add {parameter.name} = {example_of(parameter)} to [{owner.table.removeprefix('drive.')}]"
+
+
+def example_of(parameter: Parameter) -> str:
+    """Return a sensible value as TOML writes it."""
     plain = {"number": "0.3", "path": '"path.csv"', "length": '"12 mm"', "signed length": '"12 mm"'}
-    value = parameter.example or plain.get(parameter.kind) or quoted(_kind(parameter).example)
-    return f"add {parameter.name} = {value} to [{owner.table.removeprefix('drive.')}]"
+    return parameter.example or plain.get(parameter.kind) or quoted(_kind(parameter).example)
 
 
 def _number(parameter: Parameter, value: Any, key: str) -> float:

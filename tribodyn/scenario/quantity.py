@@ -29,10 +29,12 @@ class Quantity:
     ----------
     kind : Kind
         What it is a quantity of.
+    example : str
+        A sensible value of this field; default: the kind's own.
     """
 
-    def __init__(self, kind: Kind):
-        self.kind = kind
+    def __init__(self, kind: Kind, example: str = ""):
+        self.kind = kind._replace(example=example) if example else kind
 
     def __get_pydantic_core_schema__(self, _source: Any, _handler: Any) -> core_schema.CoreSchema:
         return core_schema.no_info_plain_validator_function(self.read)

@@ -134,9 +134,18 @@ def read_toml(path: Path) -> dict[str, Any]:
         raise InputError(
             f"line {number}",
             rule=f"not TOML: {what[0].lower()}{what[1:]}" + (f" in {quoted(given)}" if given else ""),
-            remedy='write key = value, with quotes round text and quantities: module = "3 mm"',
+            remedy=_toml_remedy(given),
             file=str(path),
         ) from None
+
+
+def _toml_remedy(line: str) -> str:
+    """What to write instead of a line that is not TOML."""
+    if re.search(r'"[^"]*\\', line):
+        return r"write / for \ in a path, or single quotes round it: 'C:\data\load.csv'"
+    if re.search(r"=\s*[+-]?\d+,\d+\s*(#|$)", line):
+        return "write a decimal point: 0.5"
+    return 'write key = value, with quotes round text and quantities: module = "3 mm"'
 
 
 def read_curve(path: Path, key: str, columns: Iterable[str]) -> dict[str, Any]:

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 from tribodyn.scenario.common_units import COMMON_UNITS
 from tribodyn.scenario.unit_grammar import LONGEST, RULE, is_unit
+from tribodyn.scenario.unit_hints import decimal_comma, spelling
 
 
 class Kind(NamedTuple):
@@ -87,9 +88,12 @@ def to_si(value: Any, kind: Kind) -> float:
     if len(value) > LONGEST:
         raise NotAQuantity(f"longer than {LONGEST} characters", write)
     number = _NUMBER.match(value)
+    if hint := decimal_comma(value):
+        raise NotAQuantity(*hint)
     if number is None:
         raise NotAQuantity("not a number and a unit", write)
-    magnitude = _scaled(float(number["number"]), _factor(number["unit"], kind, write))
+    factor = _spelled_factor(number["number"], number["unit"], kind, write)
+    magnitude = _scaled(float(number["number"]), factor)
     if not isfinite(magnitude):
         raise NotAQuantity("not a finite number", write)
     if is_extreme(magnitude):
@@ -106,7 +110,8 @@ def is_extreme(number: float) -> bool:
 
 def factor_to_si(unit: str, kind: Kind) -> float:
     """Return the factor from `unit` to the SI unit of `kind`; raises as `to_si` does."""
-    return _factor(unit, kind, f'write a unit of {kind.name}, such as "{kind.example.split(" ", 1)[1]}"')
+    write = f'write a unit of {kind.name}, such as "{kind.example.split(" ", 1)[1]}"'
+    return _spelled_factor("", unit, kind, write)
 
 
 def _scaled(number: float, factor: float) -> float:
@@ -134,6 +139,16 @@ def _units(text: str, write: str) -> Any:
 def _spelling(text: str) -> str:
     """Engineers' spelling to pint's: "Nm" (a nautical mile to pint), "·", and the 1 of "1/K"."""
     return _NM.sub("N*m", _ONE_OVER.sub("dimensionless", text).replace("·", "*"))
+
+
+def _spelled_factor(number: str, unit: str, kind: Kind, write: str) -> float:
+    """Factor of a unit; where it has none, the error says how it is written here, if that is known."""
+    try:
+        return _factor(unit, kind, write)
+    except NotAQuantity:
+        if hint := spelling(number, unit, kind.name):
+            raise NotAQuantity(*hint) from None
+        raise
 
 
 @cache
@@ -199,7 +214,6 @@ ANGLE_KIND = Kind(ANGLE, "rad", "20 deg")
 ANGULAR_SPEED = Kind(SPEED, "rad/s", "10 rad/s")
 ANGULAR_FREQUENCY = Kind(FREQUENCY, "rad/s", "30 Hz")
 TIME = Kind("time", "s", "0.1 s")
-VELOCITY = Kind("velocity", "m/s", "0.5 m/s")
 POWER = Kind("power", "W", "1500 W")
 TORQUE = Kind("torque", "N*m", "500 N*m")
 MASS = Kind("mass", "kg", "0.7 kg")

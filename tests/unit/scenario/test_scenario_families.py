@@ -125,11 +125,13 @@ def test_refused(name):
     assert advice in said
 
 
-@pytest.mark.parametrize(("key", "name"), [("k1", "parabolic"), ("form_factor", "s-gear")])
-def test_what_is_missing_is_named_with_what_to_add(key, name):
+@pytest.mark.parametrize(
+    ("key", "name", "value"), [("k1", "parabolic", "0.32"), ("form_factor", "s-gear", "1.6")]
+)
+def test_what_is_missing_is_named_with_what_to_add(key, name, value):
     with pytest.raises(InputError, match=f"drive.shape.{key}.*missing") as caught:
         load_scenario("crc-23-47", {"drive.family": name})
-    assert f"add {key} = 0.3 to [shape]" in str(caught.value)
+    assert f"add {key} = {value} to [shape]" in str(caught.value)
 
 
 X = [-6.0, -4.0, -2.0, -1.0, 0.0, 1.0, 2.0, 4.0, 6.0]

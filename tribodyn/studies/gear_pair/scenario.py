@@ -15,9 +15,9 @@ from tribodyn.mesh.data import MeshData
 from tribodyn.scenario import units
 from tribodyn.scenario.common import (
     Angle,
+    Error,
     Inertia,
     ScenarioHead,
-    SignedLength,
     Slices,
     Torque,
     TorsionalDamping,
@@ -34,7 +34,7 @@ from tribodyn.scenario.drive_data import (
     slices_of,
 )
 from tribodyn.scenario.law_tables import FilmTable, FrictionTable, film_data, friction_values
-from tribodyn.scenario.model_files import Bearing, Bearings, DriveTable, Length, Lubricant, Stiffness
+from tribodyn.scenario.model_files import Bearing, Bearings, DriveTable, Lubricant, Stiffness
 from tribodyn.scenario.modification import MisalignmentTable
 from tribodyn.scenario.quantity import (
     Count,
@@ -54,6 +54,8 @@ from tribodyn.tribology.data import FrictionData
 #: Cosines in a load or an error: a curve is given by points.
 MOST_HARMONICS = 1000
 
+Smoothing = Annotated[float, Quantity(units.positive(units.LENGTH), "0.1 um")]
+
 
 class TorqueHarmonic(Table):
     """A cosine in the load torque."""
@@ -67,7 +69,7 @@ class ErrorHarmonic(Table):
     """A cosine in the static transmission error, over the mesh cycle."""
 
     order: Count = Field(description="1: mesh frequency, 2: twice that, …")
-    amplitude: SignedLength
+    amplitude: Error
     phase: Angle = written("0 deg")
 
 
@@ -140,8 +142,8 @@ class Mesh(Table):
     formulation: Literal["classical", "energy-consistent"] = Field(
         "classical", description="whether the varying stiffness acts on the rotations"
     )
-    contact_width: Length = written("0.1 um", description="deflection over which contact sets in")
-    backlash: Annotated[float, Quantity(units.not_negative(units.LENGTH))] | None = Field(
+    contact_width: Smoothing = written("0.1 um", description="deflection over which contact sets in")
+    backlash: Annotated[float, Quantity(units.not_negative(units.LENGTH), "0.1 mm")] | None = Field(
         None, description="normal backlash at the pitch point; default: back flanks never touch"
     )
     points: Annotated[int, Field(strict=True, ge=5)] = Field(65, description="nodes per segment of the table")
@@ -159,7 +161,7 @@ class Friction(FrictionTable):
     sliding: Literal["kinematic", "dynamic"] = Field(
         "dynamic", description="sliding speed from nominal rotation or from the vibrating bodies"
     )
-    reversal_width: Length = written("20 um", description="along the path, over which friction turns at P")
+    reversal_width: Smoothing = written("20 um", description="along the path, over which friction turns at P")
 
 
 class Solver(Table):

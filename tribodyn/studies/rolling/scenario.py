@@ -6,7 +6,7 @@ from pydantic import Field
 
 from tribodyn.scenario import units
 from tribodyn.scenario.common import ScenarioHead, head_of
-from tribodyn.scenario.model_files import Described, Length
+from tribodyn.scenario.model_files import Described
 from tribodyn.scenario.quantity import (
     NotNegative,
     Positive,
@@ -23,14 +23,18 @@ from tribodyn.studies.rolling.geometry import RollingDrive
 class RollingDriveTable(Described):
     """A gear with rolling elements (`models/drives/`)."""
 
-    pitch_radius: Length = Field(description='r_2, of the cage\'s pitch circle, the "generating circle"')
+    pitch_radius: Annotated[float, Quantity(units.positive(units.LENGTH), "20 mm")] = Field(
+        description='r_2, of the cage\'s pitch circle, the "generating circle"'
+    )
     elements: Annotated[int, Field(strict=True, gt=0, le=200)] = Field(
         description="Z_2, number of rolling elements"
     )
     displacement: Positive = Field(
         description="χ, radius of the circle of the elements' centres over pitch_radius"
     )
-    element_radius: Length = Field(description="r_b")
+    element_radius: Annotated[float, Quantity(units.positive(units.LENGTH), "2 mm")] = Field(
+        description="r_b"
+    )
 
 
 class RollingOperating(Table):
@@ -43,7 +47,7 @@ class RollingOperating(Table):
 class RollingFrictionTable(Table):
     """Friction between the elements and both profiles."""
 
-    rolling_arm: Annotated[float, Quantity(units.not_negative(units.LENGTH))] = Field(
+    rolling_arm: Annotated[float, Quantity(units.not_negative(units.LENGTH), "0.01 mm")] = Field(
         description="μ, lever arm of rolling resistance"
     )
     sliding_coefficient: NotNegative = Field(description="f_s, of the slip over the cam")
