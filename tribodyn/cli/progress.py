@@ -6,6 +6,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, Protocol
 
+from tribodyn.numerics.work import watched
+
 
 class Report(Protocol):
     """Called with the fraction done, 0 … 1."""
@@ -25,12 +27,26 @@ def progress_bar(label: str) -> Iterator[Report]:
         return
     bar = _bar()
     task = bar.add_task(label, total=1.0)
+    reached = 0.0
+
+    def report(fraction: float) -> None:
+        nonlocal reached
+        reached = fraction
+        bar.update(task, description=label, completed=fraction)
+
+    def prepare(fraction: float) -> None:
+        if fraction < 1.0:
+            bar.update(task, description=f"{label}: finite elements", completed=fraction)
+        else:
+            report(reached)
+
     # a timer, so that the bar also comes up while code is compiled and no progress is reported
     patience = threading.Timer(PATIENCE, bar.start)
     patience.daemon = True
     patience.start()
     try:
-        yield lambda fraction: bar.update(task, completed=fraction)
+        with watched(prepare):
+            yield report
     finally:
         patience.cancel()
         patience.join()

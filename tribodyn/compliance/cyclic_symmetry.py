@@ -16,6 +16,7 @@ from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import splu
 
 from tribodyn.numerics.shapes import Array, Complex, Float
+from tribodyn.numerics.work import steps
 
 _SIDES = 4  # right-hand sides solved at a time
 
@@ -166,7 +167,7 @@ def ring_response(
     """
     ring = reduced_ring(half, stiffness, loads, readers, mirrored)
     seen = np.zeros((len(sectors), len(readers), loads.shape[1]))
-    for z, weight in phases(half.teeth):
+    for z, weight in steps(phases(half.teeth)):
         seen += weight * np.real(z ** sectors[:, None, None] * ring.at_phase(z))
     return seen
 

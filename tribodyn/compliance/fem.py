@@ -13,6 +13,7 @@ from tribodyn.compliance.root_stress import edge_points, stress_rows
 from tribodyn.compliance.strips import COMPONENTS, plane_stiffness, strip_stiffness
 from tribodyn.geometry.tooth import Tooth
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.numerics.work import steps
 
 _SECTORS = np.arange(-NEIGHBOURS, NEIGHBOURS + 1)
 
@@ -76,7 +77,7 @@ def lead_harmonics(
     constant, linear, square = strip_stiffness(model.basis, poisson_ratio)
     solved = [
         _harmonic(model, csr_matrix(constant + k * linear + k**2 * square), poisson_ratio, float(k))
-        for k in wave_number
+        for k in steps(np.asarray(wave_number).tolist())
     ]
     inside, between, stress = (np.stack(part) for part in zip(*solved, strict=True))
     return LeadHarmonics(np.asarray(wave_number), inside, between, edge_points(model.root_position), stress)

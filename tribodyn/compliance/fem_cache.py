@@ -20,6 +20,7 @@ from tribodyn.compliance.lead_harmonics import LARGEST_AT_ENDS, wave_numbers
 from tribodyn.geometry.tooth import Tooth, tooth_outline
 from tribodyn.numerics.cache import alone, keep, read_kept
 from tribodyn.numerics.sources import digest_of
+from tribodyn.numerics.work import part
 
 Kept = TypeVar("Kept", GearCompliance, LeadHarmonics, FreeEnds)
 
@@ -49,25 +50,28 @@ def cached_gear_compliance(
         Some seconds more, once; another width then needs a part of them again.
     """
     numbers = (teeth, bore_radius, poisson_ratio, depth, level)
-    plane = _kept(GearCompliance, _plane_fits, _digest(tooth, *numbers), lambda: _plane(tooth, *numbers))
+    with part(0.0, 1.0 if width is None else 0.05):
+        plane = _kept(GearCompliance, _plane_fits, _digest(tooth, *numbers), lambda: _plane(tooth, *numbers))
     plane = plane._replace(depth=float(plane.depth))
     if width is None:
         return plane
     module = 2.0 * float(tooth.path.pinion_pitch_radius) / teeth
     waves = wave_numbers(module, float(tooth.root_radius))
-    harmonics = _kept(
-        LeadHarmonics,
-        lambda stored: _lead_fits(stored, len(waves), len(plane.radius)),
-        "lead-" + _digest(tooth, *numbers, *waves),
-        lambda: _lead(tooth, *numbers, waves),
-    )
+    with part(0.05, 0.5):
+        harmonics = _kept(
+            LeadHarmonics,
+            lambda stored: _lead_fits(stored, len(waves), len(plane.radius)),
+            "lead-" + _digest(tooth, *numbers, *waves),
+            lambda: _lead(tooth, *numbers, waves),
+        )
     shorter = wave_numbers(module, float(tooth.root_radius), LARGEST_AT_ENDS)
-    ends = _kept(
-        FreeEnds,
-        lambda stored: _ends_fit(stored, len(shorter), harmonics.root_position.shape[-1]),
-        "ends-" + _digest(tooth, *numbers, *shorter, width),
-        lambda: _ends(tooth, *numbers, shorter, width),
-    )
+    with part(0.5, 1.0):
+        ends = _kept(
+            FreeEnds,
+            lambda stored: _ends_fit(stored, len(shorter), harmonics.root_position.shape[-1]),
+            "ends-" + _digest(tooth, *numbers, *shorter, width),
+            lambda: _ends(tooth, *numbers, shorter, width),
+        )
     return plane._replace(lead=harmonics, ends=ends)
 
 
@@ -133,9 +137,9 @@ def _ends_fit(stored: FreeEnds, waves: int, points: int) -> bool:
 def _digest(tooth: Tooth, *numbers: float) -> str:
     outline = tooth_outline(tooth, 40, 40)
     digest = hashlib.sha256(_source_digest())
-    for part in (*outline, np.array(numbers, dtype=float)):
+    for values in (*outline, np.array(numbers, dtype=float)):
         # rounded: the last bits differ between processors
-        digest.update(np.char.mod("%.11e", np.atleast_1d(np.asarray(part, dtype=float))).tobytes())
+        digest.update(np.char.mod("%.11e", np.atleast_1d(np.asarray(values, dtype=float))).tobytes())
     return digest.hexdigest()[:32]
 
 

@@ -20,6 +20,7 @@ from tribodyn.compliance.root_stress import edge_parameters, edge_values, stress
 from tribodyn.compliance.strips import COMPONENTS, strip_stiffness
 from tribodyn.geometry.tooth import Tooth
 from tribodyn.numerics.shapes import Array, Complex, Float
+from tribodyn.numerics.work import part, steps
 
 #: Refinement of the mesh. On a sector, twice as fine a one adds 2 % to what the ends are worth to the last of
 #: ten slices, and 0.2 % elsewhere.
@@ -88,20 +89,24 @@ def free_ends(
     model = gear_model(tooth, teeth, bore_radius, depth, LEVEL)
     face = face_of(model, openings(model.basis, poisson_ratio))
     matrices = strip_stiffness(model.basis, poisson_ratio)
-    harmonics = [harmonic_of(model, face.openings, matrices, poisson_ratio, k) for k in wave_number]
+    with part(0.0, 0.4):
+        harmonics = [
+            harmonic_of(model, face.openings, matrices, poisson_ratio, k) for k in steps(wave_number)
+        ]
     weights = parity_weights(np.asarray(wave_number), width)
     count, flank = len(wave_number), model.loads.shape[1]
     roots = harmonics[0].on_root.shape[0]
     flanks = np.zeros((2, len(_SECTORS), count * flank, count * flank))
     stress = np.zeros((2, len(_SECTORS), count * 2 * roots, count * flank))
-    for phase, weight in phases(teeth):
-        held, reached, seen = at_phase(harmonics, face, phase)
-        turns = weight * phase ** _SECTORS[:, None, None]
-        for parity in (0, 1):
-            stiffness = np.tensordot(weights[parity], held, 1)
-            opened = np.linalg.solve(stiffness, reached)
-            flanks[parity] += np.real(turns * (reached.conj().T @ opened))
-            stress[parity] += np.real(turns * (seen @ opened))
+    with part(0.4, 1.0):
+        for phase, weight in steps(phases(teeth)):
+            held, reached, seen = at_phase(harmonics, face, phase)
+            turns = weight * phase ** _SECTORS[:, None, None]
+            for parity in (0, 1):
+                stiffness = np.tensordot(weights[parity], held, 1)
+                opened = np.linalg.solve(stiffness, reached)
+                flanks[parity] += np.real(turns * (reached.conj().T @ opened))
+                stress[parity] += np.real(turns * (seen @ opened))
     flanks = flanks.reshape(2, -1, count, flank, count, flank).transpose(0, 2, 4, 1, 3, 5)
     stress = stress.reshape(2, -1, count, 2, roots, count, flank).transpose(0, 2, 5, 1, 3, 4, 6)
     edges = roots // (2 * LEVEL)

@@ -26,6 +26,7 @@ from tribodyn.geometry.corner_contact import pair_geometry, part_of
 from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.geometry.pitch_point import averaged_radius, pitch_point
 from tribodyn.numerics.shapes import Array, Float, Int
+from tribodyn.numerics.work import steps
 
 #: Depth of the local region, in modules, and refinement of the mesh: together within 0.1 % of their limits
 #: (test_load_contact).
@@ -99,7 +100,7 @@ def flexibility(
             level,
             width if lead else None,
         )
-        for side, material in zip(SIDES, materials, strict=True)
+        for side, material in steps(list(zip(SIDES, materials, strict=True)))
     ]
     return PairFlexibility(assembly, materials, width, (gears[0], gears[1]))
 

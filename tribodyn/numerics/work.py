@@ -1,0 +1,44 @@
+"""How far long work is that several layers below a run do: finite elements are solved once, then kept.
+
+Whoever shows progress calls `watched`; loops that take seconds go through `steps`, and `part` divides work
+among what is called for it. Nobody watching, all of it does nothing.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
+from typing import TypeVar
+
+Step = TypeVar("Step")
+
+_watcher: ContextVar[Callable[[float], None] | None] = ContextVar("watcher", default=None)
+
+
+@contextmanager
+def watched(report: Callable[[float], None]) -> Iterator[None]:
+    """Call `report` with the share done, 0 … 1, of the work inside the block."""
+    token = _watcher.set(report)
+    try:
+        yield
+    finally:
+        _watcher.reset(token)
+
+
+@contextmanager
+def part(begin: float, end: float) -> Iterator[None]:
+    """Take what is done inside the block for the part between two shares of the work around it."""
+    report = _watcher.get()
+    if report is None:
+        yield
+        return
+    with watched(lambda share: report(begin + (end - begin) * share)):
+        report(begin)
+        yield
+        report(end)
+
+
+def steps(of: Sequence[Step]) -> Iterator[Step]:
+    """Go through steps of about equal length, and report each that is done; each may have `part` in it."""
+    for done, step in enumerate(of):
+        with part(done / len(of), (done + 1) / len(of)):
+            yield step
