@@ -4,7 +4,7 @@ from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
 
-from tribodyn.errors import InputError
+from tribodyn.errors import InputError, unknown_name
 from tribodyn.validation.rows import Row
 
 #: Paper's name on the command line -> module that computes its rows.
@@ -14,6 +14,14 @@ PAPERS = {
     "veciana-2024": "tribodyn.validation.veciana",
     "diez-ibarbia": "tribodyn.validation.diez_ibarbia",
     "jia-2022": "tribodyn.validation.jia",
+}
+#: Paper's name -> who, where, and what is compared.
+ABOUT = {
+    "liu-ni-2022": "Liu & Ni, Mechanics & Industry 23:10 (2022): CRC drive and involute",
+    "efremenkov-2024": "Efremenkov et al., Mathematics 12:873 (2024): gear with rolling elements",
+    "veciana-2024": "Veciana et al., Machines 12:943 (2024): efficiency of cycloidal gears",
+    "diez-ibarbia": "Diez-Ibarbia et al.: efficiency of spur gears over the profile shift",
+    "jia-2022": "Jia et al., Mathematics 10:4290 (2022): gears with a parabolic path of contact",
 }
 #: Paper's name -> module that draws its figures.
 FIGURES = {
@@ -116,4 +124,4 @@ def draw(
 
 def _check(paper: str) -> None:
     if paper not in PAPERS:
-        raise InputError("paper", paper, "no such paper", f"one of: {', '.join(PAPERS)}")
+        raise unknown_name("paper", paper, PAPERS, "paper")

@@ -37,7 +37,10 @@ class Row(NamedTuple):
 
 
 def published(paper: str) -> dict[str, dict[str, Any]]:
-    """The published rows of a paper by id, in order."""
+    """The published rows of a paper by id, in order.
+
+    What stands in `note` is shown to users, what stands in `for_maintainers` is not.
+    """
     text = files("tribodyn.validation").joinpath("published.json").read_text(encoding="utf-8")
     return {row["id"]: row for row in json.loads(text) if row["paper"] == paper}
 
@@ -45,14 +48,15 @@ def published(paper: str) -> dict[str, dict[str, Any]]:
 def compare(row: dict[str, Any], computed: Any, note: str = "") -> Row:
     """Judge a computed value against a published row; `note` is put before the row's own.
 
-    Where the paper has a figure only, the value of a separate prototype takes its number's place, and the
-    row's `tolerance_kind` and note say so. What cannot be computed yet is None and stays "reported".
+    Where the paper has a figure only, the value of another implementation of its equations takes the
+    number's place, and the row's `tolerance_kind` and note say so. What cannot be computed yet is None and
+    stays "reported".
     """
     figure_only = row["published"] is None and row["independent"] is not None
     value: Any = row["independent"] if figure_only else row["published"]
     tolerance, kind = row["tolerance"], row["tolerance_kind"]
     if figure_only:
-        note = "; ".join(text for text in (note, f"a separate prototype of the equations: {value:g}") if text)
+        note = "; ".join(text for text in (note, f"compared with another implementation: {value:g}") if text)
     difference: Any = None
     if computed is None:
         verdict = REPORTED
