@@ -1,4 +1,4 @@
-# make demo   run the CRC drive of Liu & Ni (2022): record, summary and picture in ./demo
+# make demo   run an involute pair: record, summary, picture and a page for the browser in ./demo
 # make test   lint, types and all tests, the slow ones and the speed ratios included
 # make quick  the shortest tests, under a minute (docs/development.md)
 # make soak   random drives, duties and options by the thousand, and other long checks (docs/soak.md)
@@ -22,7 +22,13 @@ INSTALL := PIP_CONSTRAINT=$(CURDIR)/constraints.txt $(BIN)/python -m pip install
 
 demo: $(VENV)/.installed
 	@mkdir -p demo
-	$(BIN)/tribodyn run crc-23-47 --force --output demo/crc-23-47.h5
+	$(BIN)/tribodyn run involute-18-36 --force --report --output demo/involute-18-36.h5
+	@echo
+	@echo "Next, type one of:"
+	@echo "  $(BIN)/tribodyn list                                       what there is to run"
+	@echo "  $(BIN)/tribodyn plot demo/involute-18-36.h5 all -o demo    all figures of this run"
+	@echo "  $(BIN)/tribodyn init my-drive                              a gear pair of your own, to edit"
+	@echo "  source $(BIN)/activate                                    then tribodyn needs no path"
 
 # the types are checked beside the tests and reported after them
 test: lint

@@ -10,6 +10,7 @@ from typer.main import get_command
 from typer.testing import CliRunner
 
 from tribodyn.cli.app import app
+from tribodyn.cli.printing import command_name
 
 VERBS = (
     "run",
@@ -83,3 +84,21 @@ def test_the_version_is_the_package_s():
     from tribodyn import __version__
 
     assert CliRunner().invoke(app, ["--version"]).stdout == f"tribodyn {__version__}\n"
+
+
+@pytest.mark.parametrize(
+    ("called", "on_path", "typed"),
+    [
+        ("bin/tribodyn", "", "bin/tribodyn"),
+        ("bin/tribodyn", "bin", "tribodyn"),
+        ("with a space/tribodyn", "", "'with a space/tribodyn'"),
+    ],
+)
+def test_the_command_is_named_as_it_must_be_typed(called, on_path, typed, tmp_path, monkeypatch):
+    program = tmp_path / called
+    program.parent.mkdir()
+    program.touch(0o755)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("PATH", str(tmp_path / on_path))
+    monkeypatch.setattr(sys, "argv", [str(program)])
+    assert command_name() == typed

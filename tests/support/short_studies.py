@@ -3,8 +3,8 @@
 from pathlib import Path
 from typing import Any
 
-from tribodyn.studies import STUDIES
 from tribodyn.studies.load import load_scenario
+from tribodyn.studies.template import filled
 
 #: Kind -> overrides under which its template takes seconds.
 SHORT: dict[str, dict[str, Any]] = {
@@ -19,7 +19,7 @@ SHORT: dict[str, dict[str, Any]] = {
 def written_template(kind: str, folder: Path) -> Path:
     """Write the template of a kind as `tribodyn init` does; return its path."""
     path = folder / f"{kind}.toml"
-    path.write_text(STUDIES[kind].template().replace("TITLE", f"A study of kind {kind}"), encoding="utf-8")
+    path.write_text(filled(kind, f"A study of kind {kind}"), encoding="utf-8")
     return path
 
 

@@ -15,11 +15,11 @@ app = typer.Typer(
     "  tribodyn list                what there is to run\n"
     "  tribodyn run crc-23-47       run a scenario: record, summary, picture\n"
     "  tribodyn init my-drive       write a scenario of your own to edit\n"
+    "  tribodyn --install-completion    let the shell complete verbs, options and names\n"
     "\b\nExit status: 0 done; 1 a bug in tribodyn; 2 bad input; 3 the simulation\n"
     "failed, partial record kept, or its results cannot be written; 4 a validation\n"
     "outside its tolerance; 130 interrupted; 143 terminated.",
     no_args_is_help=True,
-    add_completion=False,
     context_settings={"help_option_names": ["-h", "--help"]},
     # plain help: half the start-up time, and it pipes well
     rich_markup_mode=None,

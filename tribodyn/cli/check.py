@@ -4,6 +4,7 @@ from typing import Annotated
 
 import typer
 
+from tribodyn.cli import completion
 from tribodyn.cli.overrides import LargeOption, SetOption, overrides
 
 EXAMPLES = (
@@ -14,13 +15,18 @@ EXAMPLES = (
 
 
 def check(
-    scenario: Annotated[str, typer.Argument(help="A scenario file, or the name of a shipped scenario.")],
+    scenario: Annotated[
+        str,
+        typer.Argument(
+            help="A scenario file, or the name of a shipped scenario.", autocompletion=completion.scenarios
+        ),
+    ],
     settings: SetOption = None,
     allow_large: LargeOption = False,
     json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
     """Check a scenario; print geometry and stiffness."""
-    from tribodyn.cli.printing import print_json, print_text_table
+    from tribodyn.cli.printing import print_json, print_prose, print_text_table
     from tribodyn.studies.load import load
 
     loaded = load(scenario, overrides(settings))
@@ -29,8 +35,8 @@ def check(
     if json:
         print_json({"scenario": str(loaded.path), "title": loaded.case.title, **checked.data})
         return
-    typer.echo(f"{loaded.path}: {loaded.case.title}: sound")
+    print_prose(f"{loaded.path}: {loaded.case.title}: sound")
     for table in checked.tables:
         print_text_table(table)
     for remark in checked.remarks:
-        typer.echo(remark)
+        print_prose(remark)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from tribodyn.cli import completion
 from tribodyn.cli.output import make_folder
 from tribodyn.cli.overrides import LargeOption, SetOption, overrides
 from tribodyn.cli.plot import Format
@@ -26,7 +27,12 @@ EXAMPLES = (
 
 def compare(
     what: Annotated[
-        list[str], typer.Argument(metavar="A B...", help="Records, scenario files, names of scenarios.")
+        list[str],
+        typer.Argument(
+            metavar="A B...",
+            help="Records, scenario files, names of scenarios.",
+            autocompletion=completion.scenarios_and_records,
+        ),
     ],
     output: Annotated[
         Path | None, typer.Option("--output", "-o", help="Folder of the records and pictures.")

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from tribodyn.cli import completion
 from tribodyn.cli.output import make_folder, unwritable
 from tribodyn.cli.overrides import SetOption, overrides
 
@@ -24,7 +25,11 @@ EXAMPLES = (
 
 def gear(
     model: Annotated[
-        str, typer.Argument(help="A drive or a scenario: the name of a shipped one, or a file.")
+        str,
+        typer.Argument(
+            help="A drive or a scenario: the name of a shipped one, or a file.",
+            autocompletion=completion.drives,
+        ),
     ],
     output: Annotated[Path | None, typer.Option("--output", "-o", help="Folder of the drawings.")] = None,
     settings: SetOption = None,
@@ -34,7 +39,7 @@ def gear(
     json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
     """Print a gear pair's geometry; draw it."""
-    from tribodyn.cli.printing import print_json, print_text_table, quoted_path
+    from tribodyn.cli.printing import print_json, print_prose, print_text_table, quoted_path
     from tribodyn.geometry.body import body_masses
     from tribodyn.geometry.checks import check
     from tribodyn.geometry.families import family
@@ -60,7 +65,7 @@ def gear(
             }
         )
         return
-    typer.echo(f"{loaded.path}: {loaded.title}: {loaded.family}")
+    print_prose(f"{loaded.path}: {loaded.title}: {loaded.family}")
     for table in sheet_tables(sheet):
         print_text_table(table)
     for file in files:

@@ -5,6 +5,8 @@ from typing import Annotated
 
 import typer
 
+from tribodyn.cli import completion
+
 EXAMPLES = (
     "\b\nExamples:\n"
     "  tribodyn init my-drive\n"
@@ -15,21 +17,27 @@ EXAMPLES = (
 
 def init(
     name: Annotated[str, typer.Argument(help="Name of the scenario; NAME.toml is written in this folder.")],
-    kind: Annotated[str, typer.Option(help="Kind of study; all of them: tribodyn list kinds.")] = "",
+    kind: Annotated[
+        str,
+        typer.Option(
+            help="Kind of study; all of them: tribodyn list kinds.", autocompletion=completion.kinds
+        ),
+    ] = "",
     force: Annotated[bool, typer.Option("--force", help="Replace a file of that name.")] = False,
 ) -> None:
     """Write a commented scenario to run and to edit."""
-    from tribodyn.cli.printing import quoted_path
+    from tribodyn.cli.printing import command_name, quoted_path
     from tribodyn.errors import InputError
-    from tribodyn.studies import DEFAULT, STUDIES
+    from tribodyn.studies import DEFAULT
+    from tribodyn.studies.template import filled
 
-    template = STUDIES[kind or DEFAULT].template()
     path = Path(name if name.endswith(".toml") else f"{name}.toml")
+    template = filled(kind or DEFAULT, path.stem)
     if not path.parent.is_dir():
         raise InputError("name", f'"{path}"', "the folder does not exist", f"create {path.parent} first")
     try:
         with path.open("w" if force else "x", encoding="utf-8") as file:
-            file.write(template.replace("TITLE", path.stem.replace('"', "'")))
+            file.write(template)
     except FileExistsError:
         raise InputError("name", f'"{path}"', "the file exists", "choose another name, or --force") from None
     except OSError as error:
@@ -37,4 +45,4 @@ def init(
         raise InputError(
             "name", f'"{path}"', f"cannot be written: {reason}", "choose another place"
         ) from None
-    typer.echo(f"{path}\nrun it with: tribodyn run {quoted_path(path)}")
+    typer.echo(f"{path}\nrun it with: {command_name()} run {quoted_path(path)}")

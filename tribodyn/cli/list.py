@@ -2,11 +2,18 @@
 
 import builtins
 from enum import StrEnum
+from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-EXAMPLES = "\b\nExamples:\n  tribodyn list\n  tribodyn list laws\n  tribodyn list models --json"
+EXAMPLES = (
+    "\b\nExamples:\n"
+    "  tribodyn list\n"
+    "  tribodyn list laws\n"
+    "  tribodyn list plots crc-23-47.h5\n"
+    "  tribodyn list models --json"
+)
 
 
 class What(StrEnum):
@@ -21,16 +28,25 @@ class What(StrEnum):
     solvers = "solvers"
     plots = "plots"
     sweep_plots = "sweep-plots"
+    papers = "papers"
 
 
 def list(
     what: Annotated[What | None, typer.Argument(help="What to list; everything if left out.")] = None,
+    record: Annotated[
+        Path | None,
+        typer.Argument(help="With plots: the figures that this record, or sweep, holds enough for."),
+    ] = None,
     json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
-    """List scenarios, models, kinds of study, laws, solvers, plots."""
+    """List scenarios, models, kinds of study, laws, solvers, plots, papers."""
     from tribodyn.cli.printing import print_json, print_table
 
-    listed: dict[str, dict[str, Any]] = {one.value: _about(one) for one in ([what] if what else What)}
+    listed: dict[str, dict[str, Any]]
+    if record is not None:
+        listed = {_plots_only(what).value: _plots_of(record)}
+    else:
+        listed = {one.value: _about(one) for one in ([what] if what else What)}
     if json:
         print_json(listed)
         return
@@ -76,10 +92,34 @@ def _about(what: What) -> dict[str, str]:
             from tribodyn.studies import STUDIES
 
             return _drawn(dict(STUDIES.each(lambda study: study.sweep_drawings() if study.swept() else {})))
+        case What.papers:
+            from tribodyn.validation import ABOUT
+
+            return dict(ABOUT)
         case What.plots:
             from tribodyn.studies import STUDIES
 
             return _drawn(dict(STUDIES.each(lambda study: study.drawings())))
+
+
+def _plots_only(what: What | None) -> What:
+    """Refuse a record where something else than its figures is to be listed."""
+    from tribodyn.errors import InputError
+
+    if what is not What.plots:
+        rule = f"{what.value if what else 'everything'} does not depend on a record"
+        raise InputError("record", None, rule, "write: tribodyn list plots RECORD")
+    return what
+
+
+def _plots_of(path: Path) -> dict[str, str]:
+    """Return name and description of the figures that a record holds enough for."""
+    from tribodyn.record.sweep_reader import SweepRecord, open_any
+    from tribodyn.studies.pictures import drawable, drawable_of_sweep
+
+    with open_any(path) as opened:
+        known = drawable_of_sweep([opened]) if isinstance(opened, SweepRecord) else drawable([opened])
+        return {name: one.about for name, one in known.items()}
 
 
 def _described(registry: Any) -> dict[str, str]:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from tribodyn.cli import completion
 from tribodyn.cli.output import make_folder, unwritable
 
 if TYPE_CHECKING:
@@ -45,7 +46,8 @@ def plot(
         list[str],
         typer.Argument(
             metavar="RECORD... [NAME...]",
-            help="Records, then figures: all, or names from `tribodyn list plots`.",
+            help="Records, then figures: all, or names from `tribodyn list plots RECORD`.",
+            autocompletion=completion.records_and_plots,
         ),
     ],
     output: Annotated[Path, typer.Option("--output", "-o", help="Folder of the pictures.")] = Path(),

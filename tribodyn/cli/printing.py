@@ -4,13 +4,17 @@ import json
 import math
 import os
 import shlex
+import shutil
 import sys
 from collections.abc import Iterable
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tribodyn.errors import harmless
 
 if TYPE_CHECKING:
+    from rich.console import Console
+
     from tribodyn.studies.study import TextTable
 
 WIDTH_OF_A_PIPE = 160
@@ -52,24 +56,71 @@ def print_table(title: str, columns: Iterable[str], rows: Iterable[Iterable[str]
 
     table = Table(title=title, title_justify="left", title_style="bold", box=SIMPLE_HEAD, pad_edge=False)
     for column in columns:
-        table.add_column(column, overflow="fold")
+        table.add_column(column)
     for row in rows:
         table.add_row(*row)
     print_rich(table)
 
 
 def print_rich(renderable: Any) -> None:
-    """Write something that rich can draw to stdout."""
-    from rich.console import Console
+    """Write something that rich can draw to stdout; tables are fitted to the terminal."""
+    from rich.console import Console, Group
 
     console = Console(markup=False, highlight=False)
+    parts = renderable.renderables if isinstance(renderable, Group) else [renderable]
     if console.is_terminal:
-        console.print(renderable)
+        for part in parts:
+            console.print(_fitted(part, console, console.width))
         return
-    console = Console(markup=False, highlight=False, width=WIDTH_OF_A_PIPE)
+    width = max(WIDTH_OF_A_PIPE, *map(_least, parts))
+    console = Console(markup=False, highlight=False, width=width)
     with console.capture() as captured:
-        console.print(renderable)
+        for part in parts:
+            console.print(_fitted(part, console, width))
     sys.stdout.writelines(line.rstrip() + "\n" for line in captured.get().splitlines())
+
+
+def print_prose(text: str) -> None:
+    """Write sentences to stdout, on a terminal broken between words."""
+    from rich.console import Console
+    from rich.text import Text
+
+    if Console().is_terminal:
+        print_rich(Text(text))
+    else:
+        sys.stdout.write(text + "\n")
+
+
+def _fitted(part: Any, console: "Console", width: int) -> Any:
+    from rich.table import Table
+
+    from tribodyn.cli.fitting import fitted
+
+    return fitted(part, console, width) if isinstance(part, Table) else part
+
+
+def _least(part: Any) -> int:
+    from rich.table import Table
+
+    from tribodyn.cli.fitting import least_width
+
+    return least_width(part) if isinstance(part, Table) else 0
+
+
+def command_name() -> str:
+    """How tribodyn is called, to be typed: by its name where the shell finds it so, else by its path."""
+    called = Path(sys.argv[0])
+    if called.name == "__main__.py":
+        return f"{quoted_path(_from_here(Path(sys.executable)))} -m tribodyn"
+    found = shutil.which("tribodyn")
+    if called.name != "tribodyn" or (found and Path(found).resolve() == called.resolve()):
+        return "tribodyn"
+    return quoted_path(_from_here(called))
+
+
+def _from_here(path: Path) -> Path:
+    here = Path.cwd()
+    return path.relative_to(here) if path.is_relative_to(here) else path
 
 
 def quoted_path(path: Any) -> str:

@@ -5,6 +5,7 @@ from typing import Annotated, Any
 
 import typer
 
+from tribodyn.cli import completion
 from tribodyn.cli.overrides import LargeOption, SetOption, overrides
 
 EXAMPLES = (
@@ -17,7 +18,12 @@ EXAMPLES = (
 
 
 def run(
-    scenario: Annotated[str, typer.Argument(help="A scenario file, or the name of a shipped scenario.")],
+    scenario: Annotated[
+        str,
+        typer.Argument(
+            help="A scenario file, or the name of a shipped scenario.", autocompletion=completion.scenarios
+        ),
+    ],
     output: Annotated[
         Path | None,
         typer.Option("--output", "-o", help="The record; default: the scenario's name, in this folder."),

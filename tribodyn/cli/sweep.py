@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from tribodyn.cli import completion
 from tribodyn.cli.overrides import LargeOption, SetOption, overrides
 
 if TYPE_CHECKING:
@@ -43,7 +44,12 @@ class EngineName(StrEnum):
 
 
 def sweep(
-    scenario: Annotated[str, typer.Argument(help="A scenario file, or the name of a shipped scenario.")],
+    scenario: Annotated[
+        str,
+        typer.Argument(
+            help="A scenario file, or the name of a shipped scenario.", autocompletion=completion.scenarios
+        ),
+    ],
     *,
     vary: Annotated[
         list[str] | None,

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from tribodyn.cli import completion
 from tribodyn.cli.output import make_folder, unwritable
 
 if TYPE_CHECKING:
@@ -19,7 +20,13 @@ EXAMPLES = (
 
 
 def validate(
-    paper: Annotated[str, typer.Argument(help="The paper, such as liu-ni-2022.")],
+    paper: Annotated[
+        str,
+        typer.Argument(
+            help="The paper: tribodyn list papers.",
+            autocompletion=completion.papers,
+        ),
+    ],
     output: Annotated[
         Path | None, typer.Option("--output", "-o", help="Folder to keep the records in.")
     ] = None,

@@ -35,13 +35,14 @@ def study_of_record(record: Record) -> Study:
 
 
 def names(records: Sequence[Record]) -> tuple[str, ...]:
-    """Names of the figures that these records hold enough for."""
+    """Names of the figures that these records hold enough for, but the overview of the first."""
+    return tuple(name for name in drawable(records) if name != OVERVIEW)
+
+
+def drawable(records: Sequence[Record]) -> "Mapping[str, Drawing]":
+    """Figures that these records hold enough for, by name."""
     known = drawings(records)
-    return tuple(
-        name
-        for name, one in known.items()
-        if name != OVERVIEW and all(one.fits(record) for record in records)
-    )
+    return {name: one for name, one in known.items() if all(one.fits(record) for record in records)}
 
 
 def drawings(records: Sequence[Record]) -> "Mapping[str, Drawing]":
@@ -91,7 +92,7 @@ def figure(
         raise InputError("cycles", cycles, "at least one mesh cycle is drawn", "1 or more")
     known = drawings(records)
     if name not in known:
-        offered = [one for one in known if one != OVERVIEW]
+        offered = drawable(records)
         near = near_name(name, offered)
         hint = f"did you mean {near}? " if near else ""
         raise InputError("plot", name, "no such figure", f"{hint}There are: {', '.join(offered)}")
@@ -156,10 +157,11 @@ def study_of_sweep(record: "SweepRecord") -> Study:
 
 def sweep_names(records: "Sequence[SweepRecord]") -> tuple[str, ...]:
     """Names of the figures that can be drawn from sweeps."""
-    return tuple(_sweep_drawings(records))
+    return tuple(drawable_of_sweep(records))
 
 
-def _sweep_drawings(records: "Sequence[SweepRecord]") -> "Mapping[str, SweepDrawing]":
+def drawable_of_sweep(records: "Sequence[SweepRecord]") -> "Mapping[str, SweepDrawing]":
+    """Figures that can be drawn from sweeps, by name."""
     study = study_of_sweep(records[0])
     for record in records[1:]:
         if study_of_sweep(record) is not study:
@@ -189,7 +191,7 @@ def sweep_figure(
     """
     from tribodyn.post.style import house_style
 
-    known = _sweep_drawings(records)
+    known = drawable_of_sweep(records)
     name = next(iter(known)) if name == OVERVIEW else name
     if name not in known:
         near = near_name(name, known)

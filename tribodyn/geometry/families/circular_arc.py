@@ -131,8 +131,18 @@ FAMILY = Family(
     check=check,
     shape=Shape,
     parameters=(
-        Parameter("approach_diameter", "signed length", "of the arc on which contact approaches P"),
-        Parameter("recess_diameter", "signed length", "of the arc on which it recedes from P"),
+        Parameter(
+            "approach_diameter",
+            "signed length",
+            "of the arc on which contact approaches P",
+            example='"45 mm"',
+        ),
+        Parameter(
+            "recess_diameter",
+            "signed length",
+            "of the arc on which it recedes from P",
+            example='"45 mm"',
+        ),
     ),
     corner=True,
     about="path of two circular arcs; pressure_angle at the pitch point, "

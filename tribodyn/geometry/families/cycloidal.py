@@ -64,8 +64,18 @@ FAMILY = Family(
     check=check,
     shape=Shape,
     parameters=(
-        Parameter("approach_circle", "length", "diameter of the circle that rolls inside the pinion, d_g1"),
-        Parameter("recess_circle", "length", "diameter of the circle that rolls inside the gear, d_g2"),
+        Parameter(
+            "approach_circle",
+            "length",
+            "diameter of the circle that rolls inside the pinion, d_g1",
+            example='"18 mm"',
+        ),
+        Parameter(
+            "recess_circle",
+            "length",
+            "diameter of the circle that rolls inside the gear, d_g2",
+            example='"18 mm"',
+        ),
     ),
     pressure_angle=False,
     corner=True,

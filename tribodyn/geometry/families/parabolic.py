@@ -148,8 +148,8 @@ FAMILY = Family(
     check=check,
     shape=Shape,
     parameters=(
-        Parameter("k1", "number", "p1/(2 r_g) of the parabola in recess (Jia et al.)"),
-        Parameter("k2", "number", "p2/(2 r_p) of the parabola in approach"),
+        Parameter("k1", "number", "p1/(2 r_g) of the parabola in recess (Jia et al.)", example="0.32"),
+        Parameter("k2", "number", "p2/(2 r_p) of the parabola in approach", example="0.32"),
     ),
     pressure_angle=False,
     corner=True,

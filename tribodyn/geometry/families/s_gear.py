@@ -167,8 +167,8 @@ FAMILY = Family(
     check=check,
     shape=Shape,
     parameters=(
-        Parameter("form_factor", "number", "a_P of the rack's flank, height in modules"),
-        Parameter("exponent", "number", "n of the rack's flank"),
+        Parameter("form_factor", "number", "a_P of the rack's flank, height in modules", example="1.6"),
+        Parameter("exponent", "number", "n of the rack's flank", example="1.8"),
     ),
     pressure_angle=False,
     corner=True,

@@ -1,0 +1,62 @@
+"""What the shell is offered while a command is typed."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tribodyn.cli import completion
+from tribodyn.scenario.sources import find_scenario
+from tribodyn.studies import STUDIES
+
+MAIN = "from tribodyn.cli import main; main()"
+
+
+def offered(typed: str, folder: Path) -> list[str]:
+    """What bash offers for the last word of what is typed."""
+    last = len(typed.split()) - (0 if typed.endswith(" ") else 1)
+    asked = {"_TRIBODYN_COMPLETE": "complete_bash", "COMP_WORDS": typed, "COMP_CWORD": str(last)}
+    ended = subprocess.run(
+        [sys.executable, "-c", MAIN],
+        env={**os.environ, **asked},
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    return ended.stdout.split()
+
+
+def test_verbs_and_options_are_completed(tmp_path):
+    assert offered("tribodyn va", tmp_path) == ["validate"]
+    assert "--set" in offered("tribodyn run crc-23-47 --s", tmp_path)
+
+
+def test_names_and_files_are_completed(tmp_path):
+    (tmp_path / "crc-mine.toml").touch()
+    (tmp_path / "crc.h5").touch()
+    names = offered("tribodyn run crc", tmp_path)
+    assert names[0] == "crc-mine.toml"
+    assert "crc-23-47" in names
+    assert "crc.h5" not in names
+
+
+@pytest.fixture
+def files(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name in ("a.toml", "a.h5", "sub/b.h5"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).touch()
+
+
+def test_every_sort_of_word_has_its_own_names(files):
+    assert completion.kinds("") == list(STUDIES)
+    assert all(find_scenario(name).exists() for name in completion.scenarios(""))
+    assert {"liu-ni-crc-23-47", "crc-23-47", "a.toml"} <= set(completion.drives(""))
+    assert completion.papers("jia") == ["jia-2022"]
+    assert {"a.h5", "a.toml"} <= set(completion.scenarios_and_records("a"))
+    assert completion.records_and_plots("a") == ["a.h5", "all"]
+    assert completion.records_and_plots("sub/") == ["sub/b.h5"]
+    assert completion.records_and_plots("wat") == ["waterfall"]

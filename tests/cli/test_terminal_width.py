@@ -1,0 +1,103 @@
+"""On a narrow terminal words go on to the next line, no line is too long, and no number is broken or cut."""
+
+import os
+import re
+from collections import Counter
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from tests.support.short_studies import SHORT, written_template
+from tribodyn.cli.app import app
+from tribodyn.studies.load import load_scenario
+from tribodyn.studies.run import run
+
+#: A number as it stands in a text; those in names, such as crc-23-47, are numbers too.
+NUMBER = re.compile(r"\d[\d.,]*(?:e[+-]?\d+)?")
+WIDE, NARROW = 1000, (80, 60)
+
+
+@pytest.fixture(scope="module")
+def studies(tmp_path_factory) -> Path:
+    """A scenario and a short record of every kind, and a sweep."""
+    folder = tmp_path_factory.mktemp("studies")
+    for kind, shorter in SHORT.items():
+        run(load_scenario(written_template(kind, folder), shorter), folder / f"{kind}.h5")
+    swept = ["sweep", "gear-pair.toml", "--vary", "operating.pinion_speed=1000,12000rpm", "-o", "swept.h5"]
+    here = Path.cwd()
+    os.chdir(folder)
+    try:
+        ended = CliRunner().invoke(app, [*swept, "--transient", "2"])
+    finally:
+        os.chdir(here)
+    assert ended.exit_code == 0, ended.output
+    return folder
+
+
+def shown(words: list[str], width: int) -> str:
+    terminal = {"FORCE_COLOR": "1", "TERM": "xterm", "COLUMNS": str(width)}
+    ended = CliRunner().invoke(app, words, env=terminal)
+    assert ended.exit_code in (0, 4), ended.output
+    return re.sub(r"\x1b\[[0-9;]*m", "", ended.stdout)
+
+
+def check_narrow(words: list[str]) -> None:
+    numbers = Counter(NUMBER.findall(shown(words, WIDE)))
+    for width in NARROW:
+        narrow = shown(words, width)
+        assert max(len(line) for line in narrow.splitlines()) <= width, words
+        found = Counter(NUMBER.findall(narrow))
+        # a name that is as long as a line may be broken; a heading that became a label may come again
+        assert not {number for number in numbers if numbers[number] > found[number]}, words
+
+
+@pytest.mark.parametrize("kind", SHORT)
+def test_summaries_and_checks(kind, studies, monkeypatch):
+    monkeypatch.chdir(studies)
+    check_narrow(["show", f"{kind}.h5"])
+    check_narrow(["check", f"{kind}.toml"])
+
+
+def test_sweeps_and_comparisons(studies, monkeypatch):
+    monkeypatch.chdir(studies)
+    check_narrow(["show", "swept.h5"])
+    check_narrow(["compare", "gear-pair.h5", "efficiency.h5"])
+    for copy in ("b", "c", "d"):
+        Path(f"{copy}.h5").write_bytes(Path("gear-pair.h5").read_bytes())
+    check_narrow(["compare", "gear-pair.h5", "b.h5", "c.h5", "d.h5", "efficiency.h5"])
+
+
+@pytest.mark.parametrize(
+    "words", [["list"], ["gear", "liu-ni-crc-23-47"], ["validate", "efremenkov-2024"]], ids=" ".join
+)
+def test_lists_sheets_and_validations(words):
+    check_narrow(words)
+
+
+@pytest.mark.parametrize("kind", SHORT)
+def test_every_figure_that_is_listed_for_a_record_is_drawn_and_no_other(kind, studies, monkeypatch):
+    monkeypatch.chdir(studies)
+    listed = re.findall(r"^ (\S+)  ", shown(["list", "plots", f"{kind}.h5"], WIDE), re.MULTILINE)[1:]
+    refused = CliRunner().invoke(app, ["plot", f"{kind}.h5", "no-such"])
+    assert refused.exit_code == 2
+    assert refused.stderr.strip().endswith(f"There are: {', '.join(listed)}")
+    from tribodyn.record.reader import open_record
+    from tribodyn.studies.pictures import figure
+
+    with open_record(f"{kind}.h5") as record:
+        for name in listed:
+            assert figure(name, [record]).axes
+
+
+def test_figures_are_listed_for_sweeps_and_refused_for_what_has_none(studies, monkeypatch):
+    monkeypatch.chdir(studies)
+    assert "campbell" in shown(["list", "plots", "swept.h5"], WIDE)
+    for words in (["list", "laws", "gear-pair.h5"], ["list", "plots", "gear-pair.toml"]):
+        refused = CliRunner().invoke(app, words)
+        assert refused.exit_code == 2
+
+
+def test_papers_are_listed_with_their_titles():
+    listed = shown(["list", "papers"], WIDE)
+    assert re.search(r"^ liu-ni-2022 +Liu & Ni, Mechanics & Industry", listed, re.MULTILINE)

@@ -1,0 +1,56 @@
+"""Scenarios to begin with: they run as written, and every choice that their comments offer is one."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from tribodyn.geometry.families import FAMILIES
+from tribodyn.scenario.sources import shipped
+from tribodyn.studies import STUDIES
+from tribodyn.studies.load import load
+from tribodyn.studies.template import filled
+
+WITH_GEARS = [name for name, study in STUDIES.items() if study.has_gears]
+
+
+@pytest.mark.parametrize("kind", list(STUDIES))
+def test_a_template_offers_every_kind_and_loads(kind, tmp_path):
+    text = filled(kind, 'my "own" \\ study')
+    assert {name for name in STUDIES if re.search(rf"^#   {name} ", text, re.MULTILINE)} == {*STUDIES} - {
+        kind
+    }
+    assert max(map(len, text.splitlines())) <= 120
+    (tmp_path / "mine.toml").write_text(text, encoding="utf-8")
+    case = load(tmp_path / "mine.toml").case
+    assert (case.kind, case.title) == (kind, 'my "own" \\ study')
+
+
+@pytest.mark.parametrize("kind", WITH_GEARS)
+def test_the_drive_stands_in_the_file(kind):
+    text = filled(kind, "mine")
+    assert re.search(r"^\[drive\]$", text, re.MULTILINE)
+    assert {name for name in FAMILIES if f'family = "{name}"' in text} == set(FAMILIES)
+
+
+@pytest.mark.parametrize("name", list(FAMILIES))
+def test_every_family_can_be_chosen_as_the_comments_say(name, tmp_path, monkeypatch):
+    text = filled("gear-pair", "mine")
+    if name != "involute":
+        offer = re.search(rf'^# family = "{name}"\n((?:#   .*\n)*)', text, re.MULTILINE)
+        assert offer is not None
+        lines = [line.removeprefix("#   ") for line in offer[1].splitlines()]
+        text = text.replace('family = "involute"', f'family = "{name}"', 1)
+        if "it has no pressure_angle" in lines:
+            text = text.replace('pressure_angle = "20 deg"\n', "")
+        keys = "".join(f"{line}\n" for line in lines if line.startswith("shape = "))
+        text = text.replace("\n[drive.pinion]", f"{keys}\n[drive.pinion]")
+    if name == "points":  # the shipped ones are of other gears
+        text = text.replace("teeth = 18", "teeth = 23").replace("teeth = 36", "teeth = 47")
+        text = text.replace('"20 deg"', '"22.81 deg"')
+    path = shipped("models") / "drives" / "points-23-47-path.csv"
+    (tmp_path / "path.csv").write_text(Path(str(path)).read_text(encoding="utf-8"), encoding="utf-8")
+    (tmp_path / "mine.toml").write_text(text, encoding="utf-8")
+    loaded = load(tmp_path / "mine.toml")
+    assert loaded.case.family == name
+    assert loaded.study.check(loaded.case).data["geometry"]["contact ratio"][0] > 1.0

@@ -1,0 +1,60 @@
+"""What the shell completes: names of scenarios, drives, kinds, papers, figures, and files of their sort."""
+
+from collections.abc import Iterable
+from pathlib import Path
+
+RECORDS = ("*.h5", "*.hdf5")
+
+
+def scenarios(incomplete: str) -> list[str]:
+    """Scenario files here, names of shipped scenarios."""
+    from tribodyn.scenario.sources import names, shipped
+
+    return _beginning([*_files(incomplete, "*.toml"), *names(shipped("scenarios"))], incomplete)
+
+
+def drives(incomplete: str) -> list[str]:
+    """Files here, names of shipped drives and scenarios."""
+    from tribodyn.scenario.sources import names, shipped
+
+    return _beginning([*names(shipped("models") / "drives"), *scenarios(incomplete)], incomplete)
+
+
+def scenarios_and_records(incomplete: str) -> list[str]:
+    """Records and scenario files here, names of shipped scenarios."""
+    return _beginning([*_files(incomplete, *RECORDS), *scenarios(incomplete)], incomplete)
+
+
+def kinds(incomplete: str) -> list[str]:
+    """Kinds of study."""
+    from tribodyn.studies import STUDIES
+
+    return _beginning(STUDIES, incomplete)
+
+
+def papers(incomplete: str) -> list[str]:
+    """Papers that there is a validation for."""
+    from tribodyn.validation import PAPERS
+
+    return _beginning(PAPERS, incomplete)
+
+
+def records_and_plots(incomplete: str) -> list[str]:
+    """Records here, figures of all kinds of study and of sweeps."""
+    from tribodyn.studies import STUDIES
+
+    plots = [name for _, drawn in STUDIES.each(lambda study: study.drawings()) for name in drawn]
+    swept = STUDIES.each(lambda study: study.sweep_drawings() if study.swept() else {})
+    of_sweeps = [name for _, drawn in swept for name in drawn]
+    return _beginning([*_files(incomplete, *RECORDS), "all", *plots, *of_sweeps], incomplete)
+
+
+def _files(incomplete: str, *patterns: str) -> list[str]:
+    """Files in the folder that is written so far, or here."""
+    folder = Path(incomplete[: incomplete.rfind("/") + 1])
+    return sorted(str(path) for pattern in patterns for path in folder.glob(pattern))
+
+
+def _beginning(known: Iterable[str], incomplete: str) -> list[str]:
+    """Names that begin with what is written, each once; where there are none the shell offers any file."""
+    return [name for name in dict.fromkeys(known) if name.startswith(incomplete)]
