@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from tribodyn.errors import InputError, OutputError, SimulationError
     from tribodyn.geometry.family import Family
     from tribodyn.interface.drive import GearPair, drive
+    from tribodyn.interface.gradient import Gradient, gradient
     from tribodyn.interface.run import Run, run
     from tribodyn.interface.scenario import scenario
     from tribodyn.interface.sweep import Sweep, sweep
@@ -38,6 +39,7 @@ __all__ = [
     "FilmLaw",
     "FrictionLaw",
     "GearPair",
+    "Gradient",
     "InputError",
     "OutputError",
     "Parameter",
@@ -47,6 +49,7 @@ __all__ = [
     "Sweep",
     "__version__",
     "drive",
+    "gradient",
     "open",
     "run",
     "scenario",
@@ -60,6 +63,7 @@ _PLACES = {
     "FilmLaw": "tribodyn.tribology.law",
     "FrictionLaw": "tribodyn.tribology.law",
     "GearPair": "tribodyn.interface.drive",
+    "Gradient": "tribodyn.interface.gradient",
     "InputError": "tribodyn.errors",
     "OutputError": "tribodyn.errors",
     "Parameter": "tribodyn.numerics.parameter",
@@ -68,6 +72,7 @@ _PLACES = {
     "Study": "tribodyn.studies.study",
     "Sweep": "tribodyn.interface.sweep",
     "drive": "tribodyn.interface.drive",
+    "gradient": "tribodyn.interface.gradient",
     "open": "tribodyn.interface.sweep:open_result",
     "run": "tribodyn.interface.run",
     "scenario": "tribodyn.interface.scenario",

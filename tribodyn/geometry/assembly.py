@@ -11,7 +11,7 @@ from tribodyn.geometry.drive import SIDES, Drive, Side, root_radius, tip_radius
 from tribodyn.geometry.family import Family
 from tribodyn.geometry.path import Path, contact_limits, contact_ratio, kinematics, radius, seen_from
 from tribodyn.geometry.tooth import Tooth, cut_tooth, fillet_point, thickness_half_angle
-from tribodyn.numerics.elementary import is_jax, namespace
+from tribodyn.numerics.elementary import as_float, namespace
 
 _SAMPLES = 400
 
@@ -70,7 +70,7 @@ class Assembly:
     @cached_property
     def contact_ratio(self) -> Any:
         """Transverse contact ratio."""
-        return _plain([contact_ratio(self.path, *self.limits, self.drive.pinion.teeth)])[0]
+        return as_float(contact_ratio(self.path, *self.limits, self.drive.pinion.teeth))
 
     @property
     def common_width(self) -> Any:
@@ -98,7 +98,7 @@ class Assembly:
 
 def _plain(values: Iterable[Any]) -> tuple[Any, ...]:
     """Floats, where they are not JAX's."""
-    return tuple(value if is_jax(value) else float(value) for value in values)
+    return tuple(map(as_float, values))
 
 
 def mate_of(side: Side) -> Side:

@@ -90,7 +90,7 @@ def quasi_static(
         return load, active, total, stiffness
 
     equal = present * force / (present * torque_arms).sum(axis=-1, keepdims=True)
-    load, _, deflection, stiffness = iterate(share, (equal, present, equal, equal), _STEPS)
+    load, _, deflection, stiffness = iterate(share, (equal, present, equal[..., 0], equal[..., 0]), _STEPS)
     return QuasiStatic(load, deflection, stiffness)
 
 

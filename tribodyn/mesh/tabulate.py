@@ -76,6 +76,9 @@ def tabulate(
     _check_options(drive, mesh, back)
     start, end = assembly.roll_limits
     boundary, phase, in_contact, roll = _phases(assembly, pairs, mesh.points, back)
+    if corner:  # which side of the pitch point a node there is on must not depend on rounding
+        xp = namespace(roll)
+        roll = xp.where(xp.abs(roll) < _MINIMUM_SEGMENT, 0.0, roll)
     curve = _RollCurve(start, end)
 
     r_nodes = path.signed_distance(curve.nodes())

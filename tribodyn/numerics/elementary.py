@@ -32,6 +32,11 @@ def is_jax(value: Any) -> bool:
     return jax is not None and isinstance(value, jax.Array)
 
 
+def as_float(value: Any) -> Any:
+    """A Python float, or what JAX holds as it is."""
+    return value if is_jax(value) else float(value)
+
+
 def namespace(*values: Any) -> Any:
     """`jax.numpy` if any leaf of `values` (nested tuples and lists allowed) is a JAX array, else `numpy`."""
     if "jax" in sys.modules and any(_has_jax(value) for value in values):

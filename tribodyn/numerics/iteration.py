@@ -18,16 +18,20 @@ State = TypeVar("State")
 def iterate(step: Callable[[State], State], state: State, steps: int) -> State:
     """Apply `step` to `state` (an array or a tuple of arrays) `steps` ≥ 1 times.
 
-    From the first step on the state must keep its shapes and types.
+    From the first step on the state must keep its shapes and types; one that has them from the start makes
+    half the program.
     """
-    state = step(state)
     if namespace(state) is np:
-        for _ in range(steps - 1):
+        state, steps = step(state), steps - 1
+    if namespace(state) is np:
+        for _ in range(steps):
             state = step(state)
         return state
     import jax
 
-    return jax.lax.fori_loop(0, steps - 1, lambda _, current: step(current), state)
+    if jax.eval_shape(step, state) != jax.eval_shape(lambda same: same, state):
+        state, steps = step(state), steps - 1
+    return jax.lax.fori_loop(0, steps, lambda _, current: step(current), state)
 
 
 def newton(step: Callable[..., Any], start: Any, count: int, *parameters: Any) -> Any:

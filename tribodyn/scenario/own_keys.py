@@ -105,6 +105,11 @@ def in_toml(parameter: Parameter, value: float) -> Any:
     return float(value) if parameter.kind == "number" else f"{float(value)!r} {_kind(parameter).si}"
 
 
+def si_unit(parameter: Parameter) -> str:
+    """Return the SI unit of a key's number; "1" of a plain one."""
+    return "1" if parameter.kind == "number" else _kind(parameter).si
+
+
 def _kind(parameter: Parameter) -> units.Kind:
     signed = parameter.kind.startswith("signed ")
     kind = units.QUANTITIES[parameter.kind.removeprefix("signed ")]

@@ -99,7 +99,7 @@ def _axis(option: str, table: type[BaseModel]) -> Axis:
     key, text = key.strip(), text.strip()
     if not equals or not text or len(key) > LONGEST_KEY or not all(key.split(".")):
         raise _refusal(option, "not KEY=VALUES", GRAMMAR)
-    leaf = _leaf(table, key)
+    leaf = kind_at(table, key)
     if key in ("title", "name", "kind") or key.startswith("output."):
         raise _refusal(option, f"{key} cannot be varied", "vary what the physics depends on")
     if isinstance(leaf, type) and issubclass(leaf, BaseModel):
@@ -200,7 +200,7 @@ def _base_units(value: Any) -> tuple[float, str] | None:
     return exact, f"{base.units:~C}".replace("**", "") or "1"
 
 
-def _leaf(table: type[BaseModel], key: str) -> Any:
+def kind_at(table: type[BaseModel], key: str) -> Any:
     """What stands at a key: a `Kind` of quantity, a `Reference` or a table; None for anything else."""
     place: Any = table
     for part in key.split("."):

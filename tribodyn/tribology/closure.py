@@ -7,6 +7,7 @@ from typing import Any, Protocol, TypeVar
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.material import MaterialData
+from tribodyn.numerics.elementary import as_float, is_jax, minimum
 from tribodyn.tribology.contact import Surfaces
 from tribodyn.tribology.data import FilmData, FrictionData
 from tribodyn.tribology.film import film_law
@@ -66,11 +67,16 @@ def closure_of(case: Lubricated) -> Closure:
         from outside this package and does not work (`trial.try_laws`).
     """
     film, friction = laws_of(case)
-    surfaces = surfaces_of(case)
-    given = LawInput(surfaces, case.lubricant, case.materials, lambda: nominal_conditions(case))
-    made = closure(given, film, friction, dict(case.film.values), dict(case.friction.values))
+    made = untried_closure_of(case)
     try_laws(film, friction, made)
     return made
+
+
+def untried_closure_of(case: Lubricated) -> Closure:
+    """As `closure_of`, of a case whose numbers may be traced, and whose laws have been tried."""
+    film, friction = laws_of(case)
+    given = LawInput(surfaces_of(case), case.lubricant, case.materials, lambda: nominal_conditions(case))
+    return closure(given, film, friction, dict(case.film.values), dict(case.friction.values))
 
 
 def closure(
@@ -148,7 +154,7 @@ def surfaces_of(case: Lubricated) -> Surfaces:
     compliance = [(1 - m.poisson_ratio**2) / m.youngs_modulus for m in case.materials]
     return Surfaces(
         effective_modulus=2.0 / sum(compliance),
-        hardness=min(pinion.hardness, gear.hardness),
+        hardness=minimum(pinion.hardness, gear.hardness),
         roughness=case.roughness,
         mean_roughness=case.mean_roughness,
         inlet_viscosity=case.lubricant.inlet_viscosity,
@@ -172,8 +178,8 @@ def nominal_conditions(case: Lubricated) -> NominalConditions:
     from tribodyn.geometry.families import family
 
     path = family(case.family).working_path(case.drive)
-    angle = float(path.pressure_angle(0.0))
-    if angle < MINIMUM_ANGLE or case.operating.gear_torque == 0.0:
+    angle, torque = path.pressure_angle(0.0), case.operating.gear_torque
+    if (not is_jax(angle) and angle < MINIMUM_ANGLE) or (not is_jax(torque) and torque == 0.0):
         law = case.friction.law
         raise InputError(
             "friction.law",
@@ -181,14 +187,13 @@ def nominal_conditions(case: Lubricated) -> NominalConditions:
             "is a mean over the mesh from radius, speed and load at the pitch point, which vanish here",
             "use a law of the local contact, such as masjedi-khonsari or xu",
         )
-    gear_radius = float(path.gear_pitch_radius)
     return NominalConditions(
-        abs(case.operating.gear_torque) / gear_radius,
-        float(path.pinion_pitch_radius),
-        gear_radius,
-        angle,
+        as_float(abs(torque) / path.gear_pitch_radius),
+        as_float(path.pinion_pitch_radius),
+        as_float(path.gear_pitch_radius),
+        as_float(angle),
         case.operating.pinion_speed,
-        min(case.drive.pinion.face_width, case.drive.gear.face_width),
+        minimum(case.drive.pinion.face_width, case.drive.gear.face_width),
         case.lubricant.inlet_viscosity,
         case.lubricant.density,
         case.mean_roughness,

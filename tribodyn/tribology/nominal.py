@@ -1,7 +1,8 @@
 """Nominal conditions of a mesh at its pitch point, for laws that give the whole mesh one mean coefficient."""
 
-import math
 from typing import Any, NamedTuple
+
+from tribodyn.numerics.elementary import cos, sin
 
 
 class NominalConditions(NamedTuple):
@@ -34,12 +35,12 @@ class NominalConditions(NamedTuple):
     @property
     def line_load(self) -> Any:
         """Normal load of a single pair over the face width, w = F_t/(b cos α), N/m."""
-        return self.tangential_load / self.face_width / math.cos(self.pressure_angle)
+        return self.tangential_load / self.face_width / cos(self.pressure_angle)
 
     @property
     def curvature(self) -> Any:
         """Relative curvature 1/ρ_C at the pitch point, 1/m."""
-        return self._sum_of_curvatures / math.sin(self.pressure_angle)
+        return self._sum_of_curvatures / sin(self.pressure_angle)
 
     @property
     def pitch_line_speed(self) -> Any:
@@ -49,7 +50,7 @@ class NominalConditions(NamedTuple):
     @property
     def sum_speed(self) -> Any:
         """Sum of the rolling speeds at the pitch point, V_ΣC = 2 V sin α, m/s."""
-        return 2.0 * self.pitch_line_speed * math.sin(self.pressure_angle)
+        return 2.0 * self.pitch_line_speed * sin(self.pressure_angle)
 
     @property
     def load_intensity(self) -> Any:

@@ -22,9 +22,9 @@ from tribodyn.geometry.material import MaterialData
 from tribodyn.geometry.path import kinematics
 from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.data import MeshData
+from tribodyn.mesh.friction_loss import mean_efficiency
 from tribodyn.mesh.quasi_static import cycle_mean, quasi_static
 from tribodyn.mesh.tabulate import pair_slots, tabulate
-from tribodyn.studies.efficiency.given_coefficient import mean_efficiency
 
 jax.config.update("jax_enable_x64", True)
 STEEL = MaterialData("steel", 206e9, 0.3, 7850.0, 46.0, 470.0, 6e9)

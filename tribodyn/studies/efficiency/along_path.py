@@ -16,9 +16,9 @@ from tribodyn.geometry.path import Path
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.power_flow import efficiency
 from tribodyn.mesh.quasi_static import quasi_static
-from tribodyn.studies.efficiency.contact_friction import ContactFriction, contact_friction
 from tribodyn.studies.efficiency.places import Places, Sharing, places
 from tribodyn.studies.efficiency.quadrature import Array, piecewise
+from tribodyn.tribology.contact_friction import ContactFriction, contact_friction
 from tribodyn.tribology.law import Closure
 from tribodyn.tribology.surface_state import range_shares
 

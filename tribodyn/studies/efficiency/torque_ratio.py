@@ -13,8 +13,8 @@ import numpy as np
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.path import Path, kinematics
 from tribodyn.geometry.pitch_point import pitch_point
-from tribodyn.studies.efficiency.contact_friction import contact_friction
 from tribodyn.studies.efficiency.quadrature import Array, from_pitch_point
+from tribodyn.tribology.contact_friction import contact_friction
 from tribodyn.tribology.law import Closure
 
 #: Nodes on either side of the pitch point: the efficiency is then known to 1e-7 for every family and law.

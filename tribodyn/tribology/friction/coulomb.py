@@ -2,7 +2,7 @@
 
 from typing import Any, NamedTuple
 
-from tribodyn.numerics.elementary import law
+from tribodyn.numerics.elementary import as_float, law
 from tribodyn.numerics.parameter import Parameter
 from tribodyn.tribology.law import FrictionLaw, LawInput
 
@@ -33,7 +33,7 @@ def range_of_constant(contact, film, surfaces, parameters):
 
 
 def _given(given: LawInput, coefficient: float) -> Constant:
-    return Constant(float(coefficient), float("nan"))
+    return Constant(as_float(coefficient), float("nan"))
 
 
 LAW = FrictionLaw(

@@ -1,6 +1,6 @@
 """Mean friction coefficient of a mesh by ISO/TR 14179-1, from the conditions at its pitch point."""
 
-from tribodyn.numerics.elementary import exp, log
+from tribodyn.numerics.elementary import as_float, exp, log, minimum
 from tribodyn.tribology.friction.coulomb import Constant, constant, range_of_constant
 from tribodyn.tribology.law import FrictionLaw, LawInput
 from tribodyn.tribology.nominal import NominalConditions
@@ -31,7 +31,8 @@ def _mean(given: LawInput) -> Constant:
         *(speed / SPEED_RANGE[0], SPEED_RANGE[1] / speed),
         *(intensity / INTENSITY_RANGE[0], INTENSITY_RANGE[1] / intensity),
     )
-    return Constant(float(iso_14179_1(conditions)), float(min(shares)))
+    least = minimum(minimum(*shares[:2]), minimum(*shares[2:]))
+    return Constant(as_float(iso_14179_1(conditions)), as_float(least))
 
 
 LAW = FrictionLaw(

@@ -1,6 +1,6 @@
 """Mean friction coefficient of a mesh by Niemann, from the conditions at its pitch point."""
 
-from tribodyn.numerics.elementary import exp, log
+from tribodyn.numerics.elementary import as_float, exp, log
 from tribodyn.tribology.friction.coulomb import Constant, constant, range_of_constant
 from tribodyn.tribology.law import FrictionLaw, LawInput
 from tribodyn.tribology.nominal import NominalConditions
@@ -30,7 +30,7 @@ def niemann(conditions: NominalConditions) -> float:
 
 def _mean(given: LawInput) -> Constant:
     conditions = given.nominal()
-    return Constant(float(niemann(conditions)), float(MAXIMUM_SPEED / conditions.pitch_line_speed))
+    return Constant(as_float(niemann(conditions)), as_float(MAXIMUM_SPEED / conditions.pitch_line_speed))
 
 
 LAW = FrictionLaw(

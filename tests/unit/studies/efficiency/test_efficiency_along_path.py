@@ -8,10 +8,10 @@ import pytest
 from tests.support.closures import LOCAL_LAWS, of_case
 from tribodyn.errors import InputError
 from tribodyn.geometry.families import family
+from tribodyn.mesh.friction_loss import mean_efficiency
 from tribodyn.record.reader import open_record
 from tribodyn.studies.efficiency.along_path import Duty, cycle_efficiency, engage
 from tribodyn.studies.efficiency.dynamic import dynamic_efficiency
-from tribodyn.studies.efficiency.given_coefficient import mean_efficiency
 from tribodyn.studies.efficiency.loss_factor import exact, tip_contact_ratios
 from tribodyn.studies.efficiency.places import SHARINGS, places
 from tribodyn.studies.efficiency.run import Prepared, efficiencies

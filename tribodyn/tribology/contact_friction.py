@@ -4,7 +4,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.studies.efficiency.quadrature import Array
+from tribodyn.numerics.elementary import is_jax
+from tribodyn.numerics.shapes import Array, Float
 from tribodyn.tribology.contact import LocalContact, averaged_radius, local_contact
 from tribodyn.tribology.law import Closure
 from tribodyn.tribology.surface_state import SurfaceState, surface_state
@@ -23,18 +24,18 @@ class ContactFriction(NamedTuple):
     """
 
     surface: SurfaceState
-    radius: Array
-    entrainment: Array
+    radius: Float[Array, "*contact"]
+    entrainment: Float[Array, "*contact"]
     contact: LocalContact
 
 
 def contact_friction(
     closure: Closure,
-    line_load: Array,
-    radius: Array,
-    pinion_speed: Array,
-    gear_speed: Array,
-    pitch_point_length: float = 0.0,
+    line_load: Float[Array, "*contact"],
+    radius: Float[Array, "*contact"],
+    pinion_speed: Float[Array, "*contact"],
+    gear_speed: Float[Array, "*contact"],
+    pitch_point_length: Any = 0.0,
     pitch_point_rate: Any = 0.0,
 ) -> ContactFriction:
     """Evaluate the laws in use.
@@ -46,11 +47,11 @@ def contact_friction(
         N/m, m, and the rolling speeds in m/s.
     pitch_point_length, pitch_point_rate : float
         M (m) and entrainment over equivalent radius (1/s) of `geometry.pitch_point`; 0: nothing vanishes, or
-        nothing is averaged.
+        nothing is averaged. A traced length is taken as positive.
     """
     sliding = pinion_speed - gear_speed
     seen, speeds = radius + 0.0 * line_load, (pinion_speed, gear_speed)
-    if pitch_point_length > 0.0:
+    if is_jax(pitch_point_length) or pitch_point_length > 0.0:
         seen = averaged_radius(radius, line_load, closure.surfaces.effective_modulus, pitch_point_length)
         # entrainment is averaged with the radius, to which it is proportional there; sliding is not
         added = pitch_point_rate * (seen - radius)

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from tests.support.closures import MIXED, VECIANA, under
-from tribodyn.studies.efficiency.contact_friction import contact_friction
 from tribodyn.tribology.contact import averaged_radius, local_contact
+from tribodyn.tribology.contact_friction import contact_friction
 from tribodyn.tribology.surface_state import surface_state
 
 #: M, m, and entrainment over radius, 1/s, of a cycloid; line load, N/m; sliding, m/s.
