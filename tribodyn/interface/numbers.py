@@ -103,11 +103,11 @@ def _of_drive(case: Any) -> Iterator[tuple[str, Number]]:
 
 def _of_materials(case: Any, table: dict[str, Any]) -> Iterator[tuple[str, Number]]:
     own = {side: bool(table["drive"][side].get("material")) for side in SIDES}
-    groups: list[tuple[str, tuple[Side, ...]]] = [
-        (f"drive.{side}.material", (side,)) for side in SIDES if own[side]
-    ]
-    shared = tuple(side for side in SIDES if not own[side])
-    if shared:
+    groups: list[tuple[str, tuple[Side, ...]]] = []
+    for side in SIDES:
+        if own[side]:
+            groups.append((f"drive.{side}.material", (side,)))
+    if shared := tuple(side for side in SIDES if not own[side]):
         groups.append(("drive.material", shared))
     for key, sides in groups:
         for name in _OF_MATERIAL:

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tribodyn.interface import datasets
+from tribodyn.interface.animation import Animation, check_teeth
 from tribodyn.interface.scenario import Source, scenario
 from tribodyn.record.reader import Record, open_record
 from tribodyn.studies.run import run as run_case
@@ -134,6 +135,30 @@ class Run:
 
         with records_of([self, *others]) as records:
             return write_report(records, path or f"{self.path.stem}.html")
+
+    def animate(self, *others: "Run") -> Animation:
+        """Roll the teeth through mesh, with the path of contact and the loads of the pairs.
+
+        Parameters
+        ----------
+        *others : Run
+            Runs of the same kind, to choose from.
+
+        Returns
+        -------
+        Animation
+            Shows itself in a notebook; `html` is its page.
+
+        Raises
+        ------
+        InputError
+            For a record without gears that turn.
+        """
+        from tribodyn.studies.pages import report
+
+        with records_of([self, *others]) as records:
+            check_teeth(records)
+            return Animation(report(records, figures=False))
 
     def save(self, path: str | Path, *, force: bool = False) -> Path:
         """Copy the record to a file.

@@ -11,8 +11,14 @@ from tribodyn.studies.pictures import study_of_record
 MADE_HERE = '<meta name="generator" content="tribodyn">'
 
 
-def report(records: Sequence[Record]) -> str:
+def report(records: Sequence[Record], figures: bool = True) -> str:
     """Write the page of one record, or of several side by side: one HTML file that needs no other.
+
+    Parameters
+    ----------
+    records : sequence of Record
+    figures : bool
+        Whether there is more on it than the teeth in mesh and what moves them.
 
     Raises
     ------
@@ -32,7 +38,7 @@ def report(records: Sequence[Record]) -> str:
         Told(one.lines(), one.sentences(record), one.panels())
         for one, record in zip(studies, records, strict=True)
     ]
-    return page(records, told)
+    return page(records, told, figures)
 
 
 def write_report(records: Sequence[Record], path: str | Path) -> Path:

@@ -67,6 +67,7 @@
   }
   // ---- figures
   function draw() {
+    if (!data.figures) return;
     const style = getComputedStyle(document.documentElement), ink = style.getPropertyValue("--ink").trim();
     const grid = style.getPropertyValue("--line").trim(), traces = [], count = shown.length;
     const layout = {
@@ -242,8 +243,10 @@
   // page.html#at=1.25 opens there
   const asked = Number(new URLSearchParams(location.hash.slice(1)).get("at") || NaN);
   offer(); draw(); move(isFinite(asked) ? asked : at);
-  $("plot").on("plotly_hover", (event) => { if (!playing) move(event.points[0].x); });
-  $("plot").on("plotly_relayout", mark);
+  if (data.figures) {
+    $("plot").on("plotly_hover", (event) => { if (!playing) move(event.points[0].x); });
+    $("plot").on("plotly_relayout", mark);
+  } else document.body.classList.add("teeth-alone");
   window.addEventListener("resize", () => { drawTeeth(); mark(); });
   document.body.dataset.ready = "yes";
 })();

@@ -32,7 +32,7 @@ class Told(NamedTuple):
     panels: Sequence[str] = ()
 
 
-def page(records: Sequence[Record], told: Sequence[Told]) -> str:
+def page(records: Sequence[Record], told: Sequence[Told], figures: bool = True) -> str:
     """Write the page of records, which share their quantities; the first one's are the panels.
 
     Parameters
@@ -41,6 +41,8 @@ def page(records: Sequence[Record], told: Sequence[Told]) -> str:
         Open.
     told : sequence of Told
         Of each.
+    figures : bool
+        Whether there is more on the page than the teeth and what moves them: figures, summary, origin.
 
     Raises
     ------
@@ -48,6 +50,12 @@ def page(records: Sequence[Record], told: Sequence[Told]) -> str:
         For a record without samples.
     """
     data = [_record(record) for record in records]
+    if not figures:
+        panels = (LOAD, *told[0].panels)
+        for one in data:
+            one["series"] = [
+                series for series in one["series"] if len(series["curves"]) > 1 or series["name"] in panels
+            ]
     names = [one["name"] for one in data[0]["series"]]
     panels = [name for name in told[0].panels if name in names] or names[:FIGURES]
     axis = records[0].axis
@@ -55,21 +63,20 @@ def page(records: Sequence[Record], told: Sequence[Told]) -> str:
     for one in data[1:]:
         one.pop("axis_unit")
     payload = {"records": data, "panels": panels, "load": LOAD, "axis": f"{axis.replace('_', ' ')} ({unit})"}
+    payload["figures"] = figures
     title = " · ".join(dict.fromkeys(_title(record) for record in records))
     parts = {
         "TITLE": escape(title),
         "STYLE": _file("page.css"),
         "WARNINGS": "".join(_warnings(record, len(records) > 1) for record in records),
-        "SUMMARY": _summary(records, [one.lines for one in told]),
+        "SUMMARY": _summary(records, [one.lines for one in told]) if figures else "",
         "TRUST": "".join(
             _list(record, one.sentences, len(records) > 1) for record, one in zip(records, told, strict=True)
         ),
-        "ORIGIN": "".join(map(_origin, records)),
+        "ORIGIN": "".join(map(_origin, records)) if figures else "",
         # no text of a record can end the element that holds it
         "DATA": json.dumps(payload, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"),
-        "PLOTLY": resources.files("plotly")
-        .joinpath("package_data/plotly.min.js")
-        .read_text(encoding="utf-8"),
+        "PLOTLY": _plotly() if figures else "",
         "SCRIPT": _file("page.js"),
     }
     written = _file("page.html")
@@ -80,6 +87,10 @@ def page(records: Sequence[Record], told: Sequence[Told]) -> str:
 
 def _file(name: str) -> str:
     return resources.files(__package__ or "").joinpath(name).read_text(encoding="utf-8")
+
+
+def _plotly() -> str:
+    return resources.files("plotly").joinpath("package_data/plotly.min.js").read_text(encoding="utf-8")
 
 
 def _title(record: Record) -> str:
