@@ -13,6 +13,7 @@ from tribodyn.geometry.body import body_masses
 from tribodyn.geometry.checks import check
 from tribodyn.geometry.families import family
 from tribodyn.geometry.sheet import geometry_sheet
+from tribodyn.interface import shown
 from tribodyn.interface.scenario import in_python, in_toml
 from tribodyn.mesh.data import MeshData
 from tribodyn.mesh.quasi_static import quasi_static
@@ -114,18 +115,12 @@ class GearPair:
         return f"<tribodyn gear pair: {self.title} ({self.family}), contact ratio {self.contact_ratio:.3f}>"
 
     def _repr_html_(self) -> str:
-        from html import escape
-
-        def row(cells: Any, tag: str) -> str:
-            return "<tr>" + "".join(f"<{tag}>{escape(cell)}</{tag}>" for cell in cells) + "</tr>"
-
-        tables = (
-            f"<h4>{escape(one.title)}</h4><table>{row(one.columns, 'th')}"
-            + "".join(row(cells, "td") for cells in one.rows)
-            + "</table>"
-            for one in sheet_tables(self.sheet)
+        """Title, teeth in contact and geometry sheet, for notebooks."""
+        return shown.block(
+            shown.heading(self.title, self.family),
+            shown.picture_of_gears(self._mesh),
+            shown.tables(sheet_tables(self.sheet)),
         )
-        return f"<p><b>{escape(self.title)}</b></p>" + "".join(tables)
 
 
 def drive(model: str | Path, overrides: Mapping[str, Any] | None = None) -> GearPair:

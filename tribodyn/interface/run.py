@@ -6,11 +6,10 @@ import weakref
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, nullcontext
 from functools import cached_property
-from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from tribodyn.interface import datasets
+from tribodyn.interface import datasets, shown
 from tribodyn.interface.animation import Animation, check_teeth
 from tribodyn.interface.scenario import Source, scenario
 from tribodyn.record.reader import Record, open_record
@@ -180,17 +179,18 @@ class Run:
         return f"<tribodyn run: {title} [{state}], {self.path}>"
 
     def _repr_html_(self) -> str:
-        """The summary as a table, for notebooks."""
-        from io import StringIO
-
-        from rich.console import Console
-
-        from tribodyn.studies.pictures import summary_table
+        """Title, warnings, a small picture and the summary, for notebooks."""
+        from tribodyn.post.page.page import summary_tables, warnings_of
+        from tribodyn.studies.pictures import study_of_record
 
         with open_record(self.path) as record:
-            text = StringIO()
-            Console(file=text, width=110).print(summary_table(record))
-        return f"<pre>{escape(text.getvalue())}</pre>"
+            study = study_of_record(record)
+            return shown.block(
+                shown.heading(str(self.scenario.get("title", self.path.stem)), self.status),
+                warnings_of(record, named=False),
+                shown.picture_of_run(record, study),
+                summary_tables([record], [study.lines()]),
+            )
 
 
 @contextmanager

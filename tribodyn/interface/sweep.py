@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.interface import datasets
+from tribodyn.interface import datasets, shown
 from tribodyn.interface.run import Run
 from tribodyn.interface.scenario import Source, in_python, in_toml, scenario
 from tribodyn.record.sweep_reader import SweepRecord, is_sweep
 from tribodyn.record.sweep_schema import DIRECTIONS
+from tribodyn.studies import study_of
 from tribodyn.sweep.engines import engine_of
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.run import run, settings_of
@@ -72,7 +73,19 @@ class Sweep:
         return f"<tribodyn sweep: {self.scenario.get('title', self.path.stem)} [{self.status}], {self.path}>"
 
     def _repr_html_(self) -> str:
-        return self.data._repr_html_()
+        """Title, size, a small picture and the dataset, for notebooks."""
+        study = study_of(self.scenario)
+        return shown.block(
+            shown.heading(str(self.scenario.get("title", self.path.stem)), self._said()),
+            shown.picture_of_sweep(self.data, study),
+            self.data._repr_html_(),
+        )
+
+    def _said(self) -> str:
+        """How many cases there are, and what became of them."""
+        cases, failed = self.summary.get("cases"), self.summary.get("failed")
+        counted = f", {cases} cases" if cases is not None else ""
+        return f"{self.status}{counted}" + (f", {failed} failed" if failed else "")
 
 
 def sweep(

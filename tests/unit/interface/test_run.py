@@ -50,7 +50,9 @@ def test_a_run_has_data_with_units_and_a_summary(crc):
     assert crc.mesh_cycle["pinion_teeth"] == 23
     assert crc.scenario["operating"]["gear_torque"] == "500 N*m"
     assert "CRC drive" in repr(crc)
-    assert "Efficiency" in crc._repr_html_()
+    shown = crc._repr_html_()
+    assert "Efficiency" in shown
+    assert 'src="data:image/png;base64,' in shown
 
 
 def test_its_record_goes_with_it_unless_it_is_kept(tmp_path: Path):
@@ -110,7 +112,10 @@ def test_a_sweep_is_a_dataset_over_its_grid(tmp_path: Path):
     assert isinstance(opened, Sweep)
     assert opened.data.identical(data)
     assert isinstance(opened.plot(opened.plots[0]), Figure)
-    assert "xarray" in opened._repr_html_()
+    shown = opened._repr_html_()
+    assert "xarray" in shown
+    assert "4 cases" in shown
+    assert 'src="data:image/png;base64,' in shown
 
 
 @pytest.mark.parametrize(
@@ -146,7 +151,9 @@ def test_a_gear_pair_has_teeth_sheet_and_stiffness():
     assert 1.5e8 < float(stiffness.min()) < float(stiffness.max()) < 6e8
     np.testing.assert_allclose(pair.stiffness(500.0), stiffness)
     assert isinstance(pair.plot(), Figure)
-    assert "contact ratio" in pair._repr_html_()
+    shown = pair._repr_html_()
+    assert "contact ratio" in shown
+    assert 'src="data:image/png;base64,' in shown
     with pytest.raises(td.InputError, match="torque"):
         pair.stiffness("5 mm")
 

@@ -68,8 +68,8 @@ def page(records: Sequence[Record], told: Sequence[Told], figures: bool = True) 
     parts = {
         "TITLE": escape(title),
         "STYLE": _file("page.css"),
-        "WARNINGS": "".join(_warnings(record, len(records) > 1) for record in records),
-        "SUMMARY": _summary(records, [one.lines for one in told]) if figures else "",
+        "WARNINGS": "".join(warnings_of(record, len(records) > 1) for record in records),
+        "SUMMARY": summary_tables(records, [one.lines for one in told]) if figures else "",
         "TRUST": "".join(
             _list(record, one.sentences, len(records) > 1) for record, one in zip(records, told, strict=True)
         ),
@@ -128,14 +128,15 @@ def _record(record: Record) -> dict[str, Any]:
     }
 
 
-def _warnings(record: Record, named: bool) -> str:
+def warnings_of(record: Record, named: bool) -> str:
+    """Write what forbids to trust a record, a paragraph each; `named`: with its label."""
     said = [*warnings(record.summary), *([record.message] if record.message else [])]
     return "".join(
         f'<p class="warning">{escape(f"{record.label}: " if named else "")}{escape(one)}</p>' for one in said
     )
 
 
-def _summary(records: Sequence[Record], lines: Sequence[Lines]) -> str:
+def summary_tables(records: Sequence[Record], lines: Sequence[Lines]) -> str:
     """Headings with a table each; a column per record."""
     merged: dict[str, dict[str, Any]] = {}
     for some in lines:

@@ -1,0 +1,139 @@
+"""How objects show themselves in a notebook: tables and small pictures as HTML that needs no other file."""
+
+import base64
+from collections.abc import Iterable, Sequence
+from html import escape
+from io import BytesIO
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from tribodyn.post.figures.gears_in_mesh import GearsInMesh
+from tribodyn.record.reader import Record
+from tribodyn.studies.study import Study, TextTable
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+#: Of a small picture: inches per panel, and dots per inch.
+SIZE, RESOLUTION = (3.6, 2.1), 90
+#: Panels of a run; mesh cycles in them.
+PANELS, CYCLES = 2, 2
+#: Characters that fit over a panel.
+LONGEST = 40
+#: Curves of a sweep over its second key, at most.
+CURVES = 6
+# columns beside each other where there is room; notebooks align to the right what is not told otherwise
+_STYLE = (
+    "<style>.tribodyn .tables{display:flex;flex-wrap:wrap;gap:0 2.5rem}"
+    ".tribodyn td:first-child,.tribodyn th{text-align:left}</style>"
+)
+
+
+def block(*parts: str) -> str:
+    """Put parts below each other."""
+    return f'<div class="tribodyn">{_STYLE}{"".join(parts)}</div>'
+
+
+def heading(title: str, *remarks: str) -> str:
+    """Write a title, and what is to be said of it."""
+    return f"<p><b>{escape(title)}</b>{''.join(f'<br>{escape(one)}' for one in remarks if one)}</p>"
+
+
+def tables(some: Iterable[TextTable]) -> str:
+    """Write tables beside each other."""
+
+    def row(cells: Sequence[str], tag: str) -> str:
+        return "<tr>" + "".join(f"<{tag}>{escape(cell)}</{tag}>" for cell in cells) + "</tr>"
+
+    written = (
+        f"<div><h4>{escape(one.title)}</h4><table>{row(one.columns, 'th')}"
+        + "".join(row(cells, "td") for cells in one.rows)
+        + "</table></div>"
+        for one in some
+    )
+    return f'<div class="tables">{"".join(written)}</div>'
+
+
+def picture_of_run(record: Record, study: Study) -> str:
+    """Draw the first datasets of a record over the last mesh cycles; nothing, where there are none."""
+    from tribodyn.post.page.series import in_engineers_units, series_of
+
+    series = {one.name: one for one in series_of(record)}
+    names = [name for name in study.panels() if name in series] or list(series)
+    if not names or not record.samples:
+        return ""
+    axis, unit = in_engineers_units(np.asarray(record[record.axis], dtype=float), record.units(record.axis))
+    done, start = record.summary.get("cycles_done"), axis[0]
+    if done and record.axis == "time":
+        start = max(start, axis[-1] - CYCLES * (axis[-1] - axis[0]) / float(done))
+
+    def draw(axes: "Axes", name: str) -> None:
+        for curve in series[name].curves:
+            inside = axis[curve.places] >= start
+            axes.plot(axis[curve.places][inside], curve.values[inside], label=curve.label)
+        title = series[name].title if len(series[name].title) < LONGEST else name.replace("_", " ")
+        axes.set_title(f"{title} ({series[name].unit})", loc="left")
+        axes.set_xlabel(f"{record.axis.replace('_', ' ')} ({unit})")
+        if 1 < len(series[name].curves) <= CURVES:
+            axes.legend(fontsize=7)
+
+    return _picture([lambda axes, name=name: draw(axes, name) for name in names[:PANELS]])
+
+
+def picture_of_sweep(data: "xarray.Dataset", study: Study) -> str:
+    """Draw the first figure of a sweep over its first key; nothing, where there are no numbers to draw."""
+    line = next((one for one in study.sweep_lines() if one.name in data), None)
+    if line is None:
+        return ""
+    values = data[line.name] * line.factor
+    first, *others = values.dims
+    if data[first].dtype.kind != "f":
+        return ""
+
+    def draw(axes: "Axes") -> None:
+        stacked = values.stack(others=others) if others else values.expand_dims("others", 1)
+        places = np.linspace(0, stacked.sizes["others"] - 1, min(stacked.sizes["others"], CURVES)).astype(int)
+        for place in places:
+            one = stacked.isel(others=place)
+            label = ", ".join(f"{name} {_short(one[name].item())}" for name in others)
+            axes.plot(data[first], one, marker=".", label=label)
+        axes.set_title(f"{line.label} ({line.unit})" if line.unit else line.label, loc="left")
+        unit = data[first].attrs.get("units", "1")
+        name = str(first).replace("_", " ")
+        axes.set_xlabel(name if unit == "1" else f"{name} ({unit})")
+        if others:
+            axes.legend(fontsize=7)
+
+    return _picture([draw])
+
+
+def _short(value: Any) -> str:
+    return f"{value:.4g}" if isinstance(value, float) else str(value)
+
+
+def picture_of_gears(mesh: GearsInMesh) -> str:
+    """Draw the teeth in contact."""
+    from tribodyn.post.figures.gears_in_mesh import draw_gears
+
+    return _picture([lambda axes: draw_gears(axes, mesh)], height=1.7)
+
+
+def _picture(panels: Sequence[Any], height: float = 1.0) -> str:
+    from matplotlib.figure import Figure
+
+    from tribodyn.post.style import house_style
+
+    with house_style():
+        figure = Figure((SIZE[0] * len(panels), SIZE[1] * height), layout="constrained")
+        for axes, draw in zip(figure.subplots(1, len(panels), squeeze=False)[0], panels, strict=True):
+            draw(axes)
+        return _inline(figure)
+
+
+def _inline(figure: "Figure") -> str:
+    stream = BytesIO()
+    figure.savefig(stream, format="png", dpi=RESOLUTION)
+    return f'<img alt="" src="data:image/png;base64,{base64.b64encode(stream.getvalue()).decode("ascii")}">'
