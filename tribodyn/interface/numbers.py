@@ -107,7 +107,8 @@ def _of_materials(case: Any, table: dict[str, Any]) -> Iterator[tuple[str, Numbe
     for side in SIDES:
         if own[side]:
             groups.append((f"drive.{side}.material", (side,)))
-    if shared := tuple(side for side in SIDES if not own[side]):
+    shared: tuple[Side, ...] = tuple(side for side in SIDES if not own[side])
+    if shared:
         groups.append(("drive.material", shared))
     for key, sides in groups:
         for name in _OF_MATERIAL:
