@@ -48,7 +48,13 @@ SIZES = [
 ]
 
 
-@pytest.mark.parametrize("size", SIZES, ids=lambda one: f"{one.kind}-{'-'.join(map(str, one.more.values()))}")
+#: A run whose memory is far beyond what no estimate counts.
+LONG = pytest.param(Size("efficiency", {"output__samples_per_cycle": 30000}), marks=pytest.mark.soak)
+
+
+@pytest.mark.parametrize(
+    "size", [*SIZES, LONG], ids=lambda one: f"{one.kind}-{'-'.join(map(str, one.more.values()))}"
+)
 def test_estimates_are_true(size: Size, tmp_path: Path):
     """Memory and record within a factor of two, with a few MiB that no estimate counts; time by its order."""
     run(short_case(size.kind, tmp_path), tmp_path / "warm.h5")

@@ -7,9 +7,9 @@ from tribodyn.studies.gears_estimate import FINITE_ELEMENTS, OUTLINES, pressed_m
 
 #: Pairs in contact at once; bytes and seconds of a sample while it is worked out; seconds of the cycle means,
 #: and positions at which these share the load.
-PAIRS, A_SAMPLE_HELD, A_SAMPLE, MEANS, POSITIONS = 2, 1600.0, 4.5e-4, 0.3, 3000.0
+PAIRS, A_SAMPLE_HELD, A_SAMPLE, MEANS, POSITIONS = 2, 1250.0, 6e-5, 0.2, 3000.0
 #: Bytes that places on the path take at once while they are sought.
-PATH = 15 * 2.0**20
+PATH = 6 * 2.0**20
 
 
 def estimate(case: EfficiencyCase) -> Estimate:
