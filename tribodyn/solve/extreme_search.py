@@ -74,11 +74,11 @@ class Search(NamedTuple):
 def promising(start, end, change_before, extreme):
     """Whether a measure may pass its extreme inside a step.
 
-    A smooth one rises above both ends of a step by less than it changes over that step or would by its rate
-    over the step before; a parabola rises by no more than an eighth of the sum.
+    A parabola rises above both ends of a step by no more than an eighth of the sum of what it changes over
+    that step and would by its rate over the step before; twice that is allowed for.
     """
-    change = maximum(absolute(end - start), change_before)
-    return worthwhile(maximum(start, end) + change, extreme) & (end > LOWEST)
+    rise = 0.25 * (absolute(end - start) + change_before)
+    return worthwhile(maximum(start, end) + rise, extreme) & (end > LOWEST)
 
 
 @law
