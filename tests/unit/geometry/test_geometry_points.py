@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import quad
 
 from tests.support.sample_drives import LIU_NI
+from tribodyn.errors import InputError
 from tribodyn.geometry.families import points
 
 
@@ -27,3 +28,17 @@ def test_rotation_is_the_integral_between_all_points():
         assert found == pytest.approx(turned, rel=1e-8)
         assert path.rotation(high + inside) == pytest.approx(path.rotation(high - inside), abs=1e-9)
     assert path.rotation(0.0) == 0.0
+
+
+@pytest.mark.parametrize("half", [-1, 1])
+def test_a_pressure_angle_that_the_points_do_not_go_on_from_is_refused(half: int):
+    """On either side of P; what is advised is the angle there, from the parabola through the nearest points."""
+    r = 0.003 * np.linspace(-6.0, 6.0, 13)
+    # of the other half the angle at P is the one that is given
+    off = np.where(half * r > 0, np.radians(3.0), 0.0)
+    alpha = LIU_NI.pressure_angle + off + 0.02 * r / 0.018 + 0.03 * (r / 0.018) ** 2
+    drive = LIU_NI._replace(shape=points.Shape(np.stack([r * np.cos(alpha), r * np.sin(alpha)], axis=-1)))
+    with pytest.raises(InputError, match=r"does not go on from the path's points") as error:
+        points.FAMILY.check(drive)
+    advised = float(error.value.remedy.split('"')[1].removesuffix(" deg"))
+    assert advised == pytest.approx(np.degrees(LIU_NI.pressure_angle) + 3.0, abs=2e-3)

@@ -130,3 +130,20 @@ def test_friction_makes_the_difference_of_both_ways():
     assert backward["efficiency"] == pytest.approx(forward["efficiency"], abs=2.0 * loss**2)
     assert backward["efficiency"] != forward["efficiency"]
     assert backward["normal_load_max"] == pytest.approx(forward["normal_load_max"], rel=0.02)
+
+
+@pytest.mark.parametrize("torque", [500.0, -500.0])
+def test_relief_acts_on_the_flanks_that_carry(torque: float):
+    """Of the driving flanks alone it changes nothing where the gear drives, unless the file says both."""
+    relief = {"drive.pinion.modification": {"tip_relief": "20 um", "tip_relief_length": "2 mm"}}
+    both = {"drive.pinion.modification": {**relief["drive.pinion.modification"], "both_flanks": True}}
+
+    def loads(modification):
+        given = {"operating.gear_torque": f"{torque} N*m", "mesh.compliance": "fem", **modification}
+        study = prepare(load_scenario("efficiency-crc-23-47", given))
+        at = places(study.cycle, study.path, np.linspace(0.003, 0.997, 31), study.duty.sharing)
+        return engage(at, study.duty).normal_load
+
+    plain, one, two = loads({}), loads(relief), loads(both)
+    assert np.array_equal(one, plain) == (torque < 0.0)
+    assert not np.allclose(two, plain, rtol=1e-3)
