@@ -32,7 +32,7 @@ def test_rotation_is_the_integral_between_all_points():
 
 @pytest.mark.parametrize("half", [-1, 1])
 def test_a_pressure_angle_that_the_points_do_not_go_on_from_is_refused(half: int):
-    """On either side of P; what is advised is the angle there, from the parabola through the nearest points."""
+    """On either side of P; the advice is the angle there, by the parabola through the nearest points."""
     r = 0.003 * np.linspace(-6.0, 6.0, 13)
     # of the other half the angle at P is the one that is given
     off = np.where(half * r > 0, np.radians(3.0), 0.0)
