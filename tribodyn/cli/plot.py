@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Sequence
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -51,8 +51,18 @@ def plot(
         ),
     ],
     output: Annotated[Path, typer.Option("--output", "-o", help="Folder of the pictures.")] = Path(),
-    cycles: Annotated[int, typer.Option(help="Mesh cycles to show, the last ones; 0: the whole run.")] = 2,
-    against: Annotated[Against, typer.Option(help="Mesh phase, or time.")] = Against.phase,
+    cycles: Annotated[
+        int | None,
+        typer.Option(
+            help="Mesh cycles to show, the last ones; 0: the whole run. "
+            "Default 2; the whole run where speed or load change.",
+            show_default=False,
+        ),
+    ] = None,
+    against: Annotated[
+        Against | None,
+        typer.Option(help="Mesh phase, or time. Default phase; time where speed or load change."),
+    ] = None,
     format: Annotated[Format, typer.Option(help="File format.")] = Format.png,
     at: Annotated[
         list[str] | None,
@@ -83,7 +93,8 @@ def plot(
         with ExitStack() as stack:
             records = [stack.enter_context(open_record(path)) for path in paths]
             chosen = figure_names(records) if not names or "all" in names else names
-            pictures = draw(records, chosen, beside, cycles=cycles or None, against=against.value)
+            shown = "auto" if cycles is None else cycles or None
+            pictures = draw(records, chosen, beside, cycles=shown, against=against and against.value)
     if json:
         print_json({"pictures": [str(picture) for picture in pictures]})
     else:
@@ -96,8 +107,8 @@ def draw(
     names: Iterable[str],
     beside: Path,
     *,
-    cycles: int | None = 2,
-    against: str = "phase",
+    cycles: int | Literal["auto"] | None = "auto",
+    against: str | None = None,
 ) -> list[Path]:
     """Draw figures by name into files named after `beside`: ``crc.png`` becomes ``crc-film.png``."""
     from tribodyn.studies.pictures import figure

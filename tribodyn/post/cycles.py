@@ -7,6 +7,11 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.record.reader import Record
 
+#: Change of speed or load over a run, as a share of the maximum, by which it is a transient.
+CHANGING = 0.05
+#: Phases closer than this are one, mesh cycles.
+_SAME_PHASE = 1e-9
+
 
 class Window(NamedTuple):
     """Whole mesh cycles of a record.
@@ -41,13 +46,12 @@ class KeyPoint(NamedTuple):
     ----------
     phase : float
         0 … 1, mesh cycles.
-    newest, before : str
-        Where pair 1 and where pair 0 then is; empty where the point concerns the other one only.
+    names : dict
+        Number of the pair -> the point where it then is.
     """
 
     phase: float
-    newest: str
-    before: str
+    names: dict[int, str]
 
 
 def samples_per_cycle(record: Record) -> int:
@@ -110,14 +114,40 @@ def key_points(record: Record) -> list[KeyPoint]:
     """Key points of one mesh cycle, by phase; C_p and C_g only where one and two pairs alternate."""
     table = record.mesh_cycle
     pitch = 2 * np.pi / table["pinion_teeth"]
-    start, end = ((roll - table["roll_start"]) / pitch for roll in path_limits(record))
-    two = 1.0 < end - start <= 2.0
-    points = [
-        KeyPoint(float(start), "B_g", "C_g" if two else ""),
-        KeyPoint(float(end - np.ceil(end) + 1), "C_p" if two else "", "B_p"),
-        KeyPoint(float(table["pitch_point_phase"]) % 1.0, "P", ""),
-    ]
-    return sorted(points)
+    begin, end = ((roll - table["roll_start"]) / pitch for roll in path_limits(record))
+    # pitches of a pair from where pair 1 stands at the start of a mesh cycle
+    places = {"B_g": begin, "B_p": end, "P": -table["roll_start"] / pitch}
+    if 1.0 < end - begin <= 2.0:
+        places |= {"C_g": begin + 1.0, "C_p": end - 1.0}
+    points: dict[float, dict[int, str]] = {}
+    for name, place in places.items():
+        passed = int(np.floor(place + _SAME_PHASE))
+        phase = max(float(place) - passed, 0.0)
+        known = next((one for one in points if abs(one - phase) < _SAME_PHASE), phase)
+        points.setdefault(known, {})[1 - passed] = name
+    return [KeyPoint(phase, names) for phase, names in sorted(points.items())]
+
+
+def transient(record: Record) -> bool:
+    """Whether the mean speed or the load of a mesh cycle changes by more than `CHANGING` during a run."""
+    if "velocity" not in record or "power_out" not in record or record.samples < 2:
+        return False
+    window = last_cycles(record, None)
+    count = round(window.phase[-1])
+    if count < 3:
+        return False
+    size = window.samples_per_cycle
+    dof = list(record["dof"])
+    speed = record["velocity"][window.part]
+    pinion, gear = (speed[:-1, dof.index(name)].reshape(count, size) for name in ("theta_p", "theta_g"))
+    power = record["power_out"][window.part][:-1].reshape(count, size)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        torque = np.mean(power / gear, axis=1)
+    return any(
+        float(np.ptp(values)) > CHANGING * float(np.max(np.abs(values)))
+        for values in (np.mean(pinion, axis=1), torque)
+        if np.all(np.isfinite(values))
+    )
 
 
 def pair_history(record: Record, name: str) -> tuple[np.ndarray, np.ndarray]:

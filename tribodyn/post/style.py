@@ -34,6 +34,9 @@ PAIR_STYLES = {
 #: Width of a figure over both columns of a paper, and of a panel's height, inch.
 WIDTH, PANEL_HEIGHT = 6.7, 2.5
 
+#: Height of a row of names above axes, points.
+ROW = 9.5
+
 STYLE: dict[Any, Any] = {
     "font.family": "sans-serif",
     "font.sans-serif": ["DejaVu Sans"],
@@ -122,14 +125,7 @@ def save(figure: Figure, path: str | Path) -> Path:
     return Path(path)
 
 
-def mark_panel(axes: Axes, letter: str) -> None:
-    """Put (a), (b), … above the axes at the left, where papers have it."""
-    axes.annotate(
-        f"({letter})",
-        (0, 1),
-        xycoords="axes fraction",
-        xytext=(-30, 4),
-        textcoords="offset points",
-        fontweight="bold",
-        annotation_clip=False,
-    )
+def mark_panel(axes: Axes, letter: str, title: str = "", rows: int = 0) -> None:
+    """Put (a), (b), … and what a panel shows above the axes at the left, above `rows` rows of names."""
+    marked = rf"$\mathbf{{({letter})}}$" if letter else ""
+    axes.set_title(" ".join(filter(None, (marked, title))), loc="left", pad=5 + ROW * rows)

@@ -1,7 +1,7 @@
 """Figures, summaries and comparisons of records, as their studies make them."""
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from tribodyn.errors import InputError, near_name
 from tribodyn.record.reader import Record
@@ -61,7 +61,11 @@ def drawings(records: Sequence[Record]) -> "Mapping[str, Drawing]":
 
 
 def figure(
-    name: str, records: Sequence[Record], *, cycles: int | None = 2, against: str = "phase"
+    name: str,
+    records: Sequence[Record],
+    *,
+    cycles: int | Literal["auto"] | None = "auto",
+    against: str | None = None,
 ) -> "Figure":
     """Draw one figure from one record, or from several to compare them.
 
@@ -71,24 +75,26 @@ def figure(
         One of `names(records)`, or `overview` (of the first record).
     records : sequence of Record
         Records, open; one colour each.
-    cycles : int or None
-        How many of the last whole mesh cycles to show, None for the whole run.
-    against : str
-        `phase` (mesh cycles) or `time` (ms).
+    cycles : int, None or "auto"
+        How many of the last whole mesh cycles to show, None for the whole run. By default two, and the whole
+        run where speed or load change in it.
+    against : str, optional
+        `phase` (mesh cycles) or `time` (ms). By default phase, and time where speed or load change.
 
     Raises
     ------
     InputError
         For an unknown name or abscissa, no record, or a record without samples.
     """
+    from tribodyn.post.cycles import transient
     from tribodyn.post.figures.panel import View
     from tribodyn.post.style import house_style
 
     if not records:
         raise InputError("records", None, "there is nothing to draw", "name at least one record")
-    if against not in ("phase", "time"):
+    if against not in ("phase", "time", None):
         raise InputError("against", against, "no such abscissa", "phase or time")
-    if cycles is not None and cycles < 1:
+    if isinstance(cycles, int) and cycles < 1:
         raise InputError("cycles", cycles, "at least one mesh cycle is drawn", "1 or more")
     known = drawings(records)
     if name not in known:
@@ -96,8 +102,11 @@ def figure(
         near = near_name(name, offered)
         hint = f"did you mean {near}? " if near else ""
         raise InputError("plot", name, "no such figure", f"{hint}There are: {', '.join(offered)}")
+    whole = cycles == "auto" and any(transient(record) for record in records)
+    number = (None if whole else 2) if cycles == "auto" else cycles
     with house_style():
-        return known[name].draw(records, View(cycles, against))
+        over = against or ("time" if whole else "phase")
+        return known[name].draw(records, View(number, over, against is not None))
 
 
 def overview(record: Record) -> "Figure":

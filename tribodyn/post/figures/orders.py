@@ -17,6 +17,8 @@ from tribodyn.record.reader import Record
 NAME = "orders"
 #: Mesh cycles in the window of one spectrum, and between two.
 WINDOW, HOP = 16, 4
+#: Spectra over a run, at least, where it is long enough.
+MOST_HOPPED = 60
 #: Orders of the mesh shown, and those followed in the lower panel.
 SHOWN, FOLLOWED = 8.0, 4
 #: Amplitudes below this part of the maximum are off the scale.
@@ -68,7 +70,8 @@ def track(record: Record) -> Track:
     """
     whole = last_cycles(record, None)
     per_cycle = whole.samples_per_cycle
-    size, step = WINDOW * per_cycle, HOP * per_cycle
+    count = round(whole.phase[-1]) - WINDOW
+    size, step = WINDOW * per_cycle, min(HOP, max(1, count // MOST_HOPPED)) * per_cycle
     signal = record["transmission_error_rotational"][whole.part]
     if signal.size < 2 * size:
         raise InputError(
@@ -92,12 +95,12 @@ def track(record: Record) -> Track:
 def orders_figure(records: Sequence[Record], view: View) -> Figure:
     """Draw the spectrogram of the first record over its speed, or time, and the orders of the mesh below.
 
-    Over time too where the speed does not keep rising or falling.
+    Over time too where the speed does not keep rising.
     """
     record = records[0]
     tracked = track(record)
-    steady = np.all(np.diff(tracked.speed) > 0) or np.all(np.diff(tracked.speed) < 0)
-    over_time = view.against == "time" or not steady
+    asked = view.asked and view.against == "time"
+    over_time = asked or not np.all(np.diff(tracked.speed) > 0)
     x = tracked.time * 1e3 if over_time else tracked.speed * 30 / np.pi
     figure = new_figure(WIDTH, 2 * PANEL_HEIGHT + 0.6)
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
@@ -109,8 +112,9 @@ def orders_figure(records: Sequence[Record], view: View) -> Figure:
     below.set_ylim(bottom=0)
     below.set_xlabel("Time (ms)" if over_time else "Pinion speed (rpm)")
     below.legend(ncols=2)
-    for letter, axes in zip("ab", (above, below), strict=True):
-        mark_panel(axes, letter)
+    over = "time" if over_time else "the speed"
+    mark_panel(above, "a", f"Amplitudes of the transmission error over its order and {over}")
+    mark_panel(below, "b", f"Orders 1 to {FOLLOWED} of the mesh (1: the mesh frequency)")
     figure.suptitle(record_title(record), x=0.01, ha="left", fontsize=9)
     return figure
 

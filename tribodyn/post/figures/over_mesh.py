@@ -3,23 +3,32 @@
 from collections.abc import Sequence
 from functools import partial
 
+import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from tribodyn.post.cycles import last_cycles, transient
 from tribodyn.post.figures import over_phase as panels
 from tribodyn.post.figures.drawing import Drawing
-from tribodyn.post.figures.panel import View, draw, legend, record_title
+from tribodyn.post.figures.panel import View, abscissa, abscissa_label, draw, legend, record_title
 from tribodyn.post.figures.path_of_contact import draw_path, path_figure
+from tribodyn.post.figures.scale import scale
 from tribodyn.post.figures.spectrum import spectrum_figure
-from tribodyn.post.style import mark_panel, new_figure
+from tribodyn.post.style import PALETTE, mark_panel, new_figure
 from tribodyn.record.reader import Record
 
 
 def overview_figure(records: Sequence[Record], view: View) -> Figure:
-    """Draw what the first record holds in six panels."""
+    """Draw what the first record holds in six panels; of a transient its speed and load in the first."""
     record = records[0]
-    drawn = new_figure(11.0, 6.2)
+    drawn = new_figure(11.0, 6.6)
     rows = drawn.subplots(2, 3)
-    draw_path(rows[0, 0], record)
+    if view.cycles is None and transient(record):
+        draw_speed(rows[0, 0], record, view)
+        mark_panel(rows[0, 0], "a", "Speed and load, means of a mesh cycle")
+    else:
+        draw_path(rows[0, 0], record)
+        mark_panel(rows[0, 0], "a", "Teeth and path of contact")
     quantities = (
         panels.TRANSMISSION_ERROR,
         panels.NORMAL_LOAD,
@@ -27,13 +36,37 @@ def overview_figure(records: Sequence[Record], view: View) -> Figure:
         panels.FILM_THICKNESS,
         panels.EFFICIENCY,
     )
-    for axes, quantity in zip(rows.flat[1:], quantities, strict=True):
-        draw(axes, [record], quantity, view)
-    for letter, axes in zip("abcdef", rows.flat, strict=True):
-        mark_panel(axes, letter)
-    legend(drawn, rows[0, 2], [record])
+    for letter, axes, quantity in zip("bcdef", rows.flat[1:], quantities, strict=True):
+        names = draw(axes, [record], quantity, view)
+        mark_panel(axes, letter, quantity.title, names)
+    legend(drawn, list(rows.flat[1:]), [record], view)
     drawn.suptitle(record_title(record), x=0.01, ha="left", fontsize=11)
     return drawn
+
+
+def draw_speed(axes: Axes, record: Record, view: View) -> None:
+    """Draw the pinion's speed and the torque on the gear, means of every mesh cycle, on two axes."""
+    window = last_cycles(record, view.cycles)
+    size = window.samples_per_cycle
+    dof = list(record["dof"])
+    velocity = record["velocity"][window.part][:-1]
+    power = record["power_out"][window.part][:-1]
+    pinion, gear = (velocity[:, dof.index(name)] for name in ("theta_p", "theta_g"))
+    x, speed, torque = (
+        np.mean(values.reshape(-1, size), axis=1)
+        for values in (abscissa(window, view)[:-1], pinion * 30 / np.pi, power / gear)
+    )
+    right = axes.twinx()
+    for one, values, color, label in (
+        (axes, speed, PALETTE[0], "Pinion speed (rpm)"),
+        (right, torque, PALETTE[1], "Torque on the gear (N m)"),
+    ):
+        one.plot(x, values, color=color)
+        one.set_ylabel(label, color=color)
+        scale(one, [values])
+    right.spines["right"].set_visible(True)
+    right.grid(False)
+    axes.set_xlabel(abscissa_label(view))
 
 
 def _over_phase(name: str, about: str) -> Drawing:
@@ -46,13 +79,13 @@ DRAWINGS: dict[str, Drawing] = {
         "path of contact, transmission error, load, friction, film, efficiency", overview_figure
     ),
     "transmission-error": _over_phase("transmission-error", "transmission error of every pair"),
-    "spectrum": Drawing("spectrum of the rotational transmission error", spectrum_figure),
+    "spectrum": Drawing("spectrum of the rotational transmission error, with the modes", spectrum_figure),
     "normal-load": _over_phase("normal-load", "normal load of every pair"),
     "friction": _over_phase("friction", "friction force and coefficient"),
     "film": _over_phase("film", "film thickness and film parameter"),
     "entrainment": _over_phase("entrainment", "entrainment and sliding speed"),
     "pressure": _over_phase("pressure", "Hertz pressure and flash temperature"),
     "efficiency": _over_phase("efficiency", "instantaneous efficiency"),
-    "mesh-stiffness": _over_phase("mesh-stiffness", "stiffness of every pair"),
+    "mesh-stiffness": _over_phase("mesh-stiffness", "stiffness of every pair, and of all together"),
     "path-of-contact": Drawing("both gears in mesh, path of contact, key points", path_figure),
 }

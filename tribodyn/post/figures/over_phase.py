@@ -2,24 +2,55 @@
 
 from collections.abc import Sequence
 
+import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tribodyn.post.figures.panel import Quantity, View, draw, legend, record_title
-from tribodyn.post.style import PANEL_HEIGHT, WIDTH, mark_panel, new_figure
+from tribodyn.post.cycles import last_cycles
+from tribodyn.post.figures.panel import (
+    MOST_CYCLES_DRAWN,
+    Quantity,
+    View,
+    abscissa,
+    draw,
+    legend,
+    record_title,
+)
+from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, QUIET, WIDTH, mark_panel, new_figure
 from tribodyn.record.reader import Record
 
-TRANSMISSION_ERROR = Quantity("transmission_error", 1e6, "Transmission error (µm)")
-NORMAL_LOAD = Quantity("normal_load", 1.0, "Normal load $F_n$ (N)", from_zero=True)
-FRICTION_FORCE = Quantity("friction_force", 1.0, "Friction force $F_f$ (N)")
-FRICTION_COEFFICIENT = Quantity("friction_coefficient", 1.0, "Friction coefficient µ (–)", from_zero=True)
-FILM_THICKNESS = Quantity("central_film_thickness", 1e6, "Film thickness $h_c$ (µm)")
-FILM_PARAMETER = Quantity("film_parameter", 1.0, "Film parameter $h_c/σ$ (–)")
-ENTRAINMENT = Quantity("entrainment_speed", 1.0, "Entrainment speed (m/s)")
-SLIDING = Quantity("sliding_speed", 1.0, "Sliding speed (m/s)")
-HERTZ_PRESSURE = Quantity("hertz_pressure", 1e-9, "Hertz pressure $p_H$ (GPa)")
-FLASH_TEMPERATURE = Quantity("flash_temperature_rise", 1.0, "Flash temperature rise (K)", from_zero=True)
-STIFFNESS = Quantity("mesh_stiffness", 1e-6, "Mesh stiffness (N/µm)", from_zero=True)
-EFFICIENCY = Quantity("efficiency", 100.0, "Efficiency (%)")
+TRANSMISSION_ERROR = Quantity(
+    "transmission_error", 1e6, "Transmission error along each pair's normal", "$δ$", "µm"
+)
+NORMAL_LOAD = Quantity("normal_load", 1.0, "Normal load of each pair", "$F_n$", "N", from_zero=True)
+FRICTION_FORCE = Quantity(
+    "friction_force", 1.0, "Friction force on the pinion", "$F_f$", "N", flag="friction_in_range"
+)
+FRICTION_COEFFICIENT = Quantity(
+    "friction_coefficient", 1.0, "Friction coefficient", "$µ$", "–", from_zero=True, flag="friction_in_range"
+)
+FILM_THICKNESS = Quantity(
+    "central_film_thickness", 1e6, "Film thickness", "$h_c$", "µm", flag="closure_in_range"
+)
+FILM_PARAMETER = Quantity(
+    "film_parameter",
+    1.0,
+    "Film parameter: film thickness over roughness",
+    "$λ = h_c/σ$",
+    "–",
+    from_zero=True,
+    flag="closure_in_range",
+)
+ENTRAINMENT = Quantity("entrainment_speed", 1.0, "Entrainment speed, mean of both flanks", "$u$", "m/s")
+SLIDING = Quantity("sliding_speed", 1.0, "Sliding speed, pinion less gear", "$v_s$", "m/s")
+HERTZ_PRESSURE = Quantity("hertz_pressure", 1e-9, "Hertz pressure, maximum in the contact", "$p_H$", "GPa")
+FLASH_TEMPERATURE = Quantity(
+    "flash_temperature_rise", 1.0, "Flash temperature rise", "$ΔT$", "K", from_zero=True
+)
+STIFFNESS = Quantity(
+    "mesh_stiffness", 1e-6, "Stiffness of each pair along its normal", "$k_i$", "N/µm", from_zero=True
+)
+EFFICIENCY = Quantity("efficiency", 100.0, "Efficiency at each moment", "$η$", "%")
 
 #: Figures by name: the panels of each, from top to bottom.
 PANELS: dict[str, tuple[Quantity, ...]] = {
@@ -32,19 +63,69 @@ PANELS: dict[str, tuple[Quantity, ...]] = {
     "efficiency": (EFFICIENCY,),
     "mesh-stiffness": (STIFFNESS,),
 }
+#: Film parameters that divide kinds of lubrication, and what lies between.
+LUBRICATION = ((1.0, "λ = 1: mixed above, boundary below"), (3.0, "λ = 3: full film above"))
 
 
 def over_phase(name: str, records: Sequence[Record], view: View) -> Figure:
     """Draw the figure `name` of `PANELS`."""
     panels = PANELS[name]
-    figure = new_figure(WIDTH, PANEL_HEIGHT * len(panels) + 0.4)
+    figure = new_figure(WIDTH, (PANEL_HEIGHT + 0.15) * len(panels) + 0.5)
     rows = figure.subplots(len(panels), 1, squeeze=False, sharex=True)[:, 0]
     for letter, axes, quantity in zip("abc", rows, panels, strict=False):
-        draw(axes, records, quantity, view, first=axes is rows[0], last=axes is rows[-1])
-        if len(panels) > 1:
-            mark_panel(axes, letter)
+        names = draw(axes, records, quantity, view, first=axes is rows[0], last=axes is rows[-1])
+        title = quantity.title
+        if quantity is STIFFNESS:
+            draw_total_stiffness(axes, records, view)
+            title = "Stiffness of each pair, and of all pairs together along the pitch tangent"
+        if quantity is FILM_PARAMETER:
+            draw_lubrication(axes)
+        mark_panel(axes, letter if len(panels) > 1 else "", title, names)
     figure.align_ylabels()
-    legend(figure, rows[0], records)
+    legend(figure, list(rows), records, view)
     if len(records) == 1:
         figure.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
     return figure
+
+
+def draw_total_stiffness(axes: Axes, records: Sequence[Record], view: View) -> None:
+    """Add the stiffness Σ k cos² α of all pairs along the pitch tangent."""
+    highest = 0.0
+    for number, record in enumerate(records):
+        window = last_cycles(record, view.cycles)
+        if window.phase[-1] > MOST_CYCLES_DRAWN:
+            continue
+        angle = np.nan_to_num(record["pressure_angle"][window.part])
+        single = record["mesh_stiffness"][window.part]
+        total = np.sum(single * np.cos(angle) ** 2, axis=1) * STIFFNESS.factor
+        color = INK if len(records) == 1 else PALETTE[number % len(PALETTE)]
+        axes.plot(
+            abscissa(window, view),
+            total,
+            color=color,
+            linewidth=1.7,
+            alpha=0.85,
+            label=r"all pairs, $\Sigma\, k_i \cos^2 α_i$",
+        )
+        highest = max(highest, float(total.max()))
+    if highest > 0.0:
+        axes.set_ylim(0.0, 1.08 * highest)
+
+
+def draw_lubrication(axes: Axes) -> None:
+    """Draw the film parameters that divide kinds of lubrication, the first one always in view."""
+    top = max(axes.get_ylim()[1], 1.15 * LUBRICATION[0][0])
+    axes.set_ylim(0.0, top)
+    for value, text in LUBRICATION:
+        if value < top:
+            axes.axhline(value, color=QUIET, linewidth=0.8, linestyle=(0, (5, 2)))
+            axes.annotate(
+                text,
+                (0.995, value),
+                xycoords=("axes fraction", "data"),
+                xytext=(0, 2),
+                textcoords="offset points",
+                ha="right",
+                fontsize=6.5,
+                color=QUIET,
+            )

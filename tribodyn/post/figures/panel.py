@@ -4,18 +4,32 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
 from tribodyn.post.cycles import Window, key_points, last_cycles, pair_curve
-from tribodyn.post.style import INK, PAIR_STYLES, PALETTE, QUIET
+from tribodyn.post.figures.scale import scale
+from tribodyn.post.style import INK, PAIR_STYLES, PALETTE, QUIET, ROW
+from tribodyn.record import trust
 from tribodyn.record.reader import Record
 
 #: Over more cycles than these, key points would hide the curves.
 MOST_CYCLES_MARKED = 4
-#: Height of a row of names above the axes, points.
-ROW = 9.5
+#: Over more cycles than these, curves would fill the panel: the range within each cycle is drawn.
+MOST_CYCLES_DRAWN = 24
+#: Shade where a law is extrapolated, by the flag that says so: colour and what the legend says.
+EXTRAPOLATED = {
+    "closure_in_range": ("#faf0dc", "film law extrapolated"),
+    "friction_in_range": ("#faf0dc", "friction law extrapolated"),
+}
+#: What the numbers of pairs mean, in a legend.
+ORDER = {"pair 1": " (entered last)", "pair 0": " (before it)"}
+#: What the names of the key points mean.
+KEY_POINTS = "$B_g$: a pair enters,  $P$: it passes the pitch point,  $B_p$: it leaves"
+ALONE = ",  $C_p$ to $C_g$: it carries alone"
 
 
 class View(NamedTuple):
@@ -27,19 +41,45 @@ class View(NamedTuple):
         How many of the last whole mesh cycles; None for all.
     against : str
         `phase` (mesh cycles) or `time` (ms).
+    asked : bool
+        Whether somebody asked for that abscissa.
     """
 
     cycles: int | None = 2
     against: str = "phase"
+    asked: bool = False
 
 
 class Quantity(NamedTuple):
-    """A dataset and how engineers read it: factor from SI, axis label, whether the axis starts at 0."""
+    """A dataset and how engineers read it.
+
+    Attributes
+    ----------
+    dataset : str
+    factor : float
+        From SI.
+    title : str
+        In words.
+    symbol, unit : str
+        For the axis.
+    from_zero : bool
+        Whether the axis starts at 0.
+    flag : str
+        Dataset that says where the law behind it is inside its range, if any.
+    """
 
     dataset: str
     factor: float
-    label: str
+    title: str
+    symbol: str
+    unit: str
     from_zero: bool = False
+    flag: str = ""
+
+    @property
+    def label(self) -> str:
+        """Label of the axis."""
+        return f"{self.symbol} ({self.unit})"
 
 
 def record_label(record: Record) -> str:
@@ -48,9 +88,10 @@ def record_label(record: Record) -> str:
 
 
 def record_title(record: Record) -> str:
-    """Return what a record is about: the scenario's title, and that it is unfinished where it is."""
+    """Return what a record is about, and that it is unfinished or outside its model where it is."""
     title = str(record.scenario.get("title", record_label(record)))
-    return title if record.status == "complete" else f"{title} [{record.status}]"
+    marks = [record.status] * (record.status != "complete") + [record.trust] * (record.trust == trust.OUTSIDE)
+    return " ".join((title, *(f"[{mark}]" for mark in marks)))
 
 
 def abscissa(window: Window, view: View) -> np.ndarray:
@@ -65,31 +106,87 @@ def draw(
     view: View,
     first: bool = True,
     last: bool = True,
-) -> None:
+) -> int:
     """Draw a dataset of every record, pairs apart where it has pairs, with axis labels and key points.
 
-    In a stack of panels the `first` alone names the key points and the `last` alone the horizontal axis.
+    In a stack of panels the `first` alone names the key points and the `last` alone the horizontal axis. Over
+    many cycles the range within each cycle and its mean are drawn.
+
+    Returns
+    -------
+    int
+        Rows of names above the axes.
     """
     several = len(records) > 1
+    shown = []
     for number, record in enumerate(records):
         window = last_cycles(record, view.cycles)
         x = abscissa(window, view)
         values = record[quantity.dataset] * quantity.factor
-        if values.ndim == 1:
-            color = PALETTE[number % len(PALETTE)] if several else PALETTE[0]
+        color = PALETTE[number % len(PALETTE)] if several else PALETTE[0]
+        if window.phase[-1] > MOST_CYCLES_DRAWN:
+            shown += _draw_ranges(axes, record, values, window, x, color)
+        elif values.ndim == 1:
             axes.plot(x, values[window.part], color=color)
-            continue
-        for position, pair in enumerate(drawn_pairs(record, window)):
-            curve = pair_curve(record, values, pair, window, x)
-            color = PALETTE[(number if several else position) % len(PALETTE)]
-            style = PAIR_STYLES.get(pair, "-")
-            axes.plot(*curve, color=color, linestyle=style, label=pair_label(pair))
+            shown.append(values[window.part])
+        else:
+            for position, pair in enumerate(drawn_pairs(record, window)):
+                curve = pair_curve(record, values, pair, window, x)
+                shade = PALETTE[(number if several else position) % len(PALETTE)]
+                axes.plot(*curve, color=shade, linestyle=PAIR_STYLES.get(pair, "-"), label=pair_label(pair))
+                shown.append(curve[1])
+        _shade_extrapolated(axes, record, quantity, window, x, color if several else "")
     axes.set_ylabel(quantity.label)
-    if quantity.from_zero:
-        axes.set_ylim(bottom=0)
+    scale(axes, shown, quantity.from_zero)
     if last:
         axes.set_xlabel(abscissa_label(view))
-    mark_key_points(axes, records, view, first)
+    return mark_key_points(axes, records, view, first)
+
+
+def _draw_ranges(
+    axes: Axes, record: Record, values: np.ndarray, window: Window, x: np.ndarray, color: str
+) -> list[np.ndarray]:
+    """Draw minimum, mean and maximum within each mesh cycle, of all pairs under load; what is drawn."""
+    low, mean, high = cycle_ranges(record, values, window)
+    size = window.samples_per_cycle
+    middle = x[:-1].reshape(-1, size).mean(axis=1)
+    axes.fill_between(middle, low, high, color=color, alpha=0.3, linewidth=0, label="range in a mesh cycle")
+    axes.plot(middle, mean, color=color, linewidth=0.9, label="mean of a mesh cycle")
+    return [low, high]
+
+
+def cycle_ranges(
+    record: Record, values: np.ndarray, window: Window
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Minimum, mean and maximum (cycles,) within each whole mesh cycle; of pairs those under load; or NaN."""
+    values = values[window.part][:-1]
+    if values.ndim > 1:
+        values = np.where(record["normal_load"][window.part][:-1] > 0.0, values, np.nan)
+    rows = values.reshape(round(window.phase[-1]), -1)
+    known = np.isfinite(rows)
+    count = known.sum(axis=1)
+    some = count > 0
+    low = np.where(some, np.min(np.where(known, rows, np.inf), axis=1), np.nan)
+    high = np.where(some, np.max(np.where(known, rows, -np.inf), axis=1), np.nan)
+    mean = np.where(some, np.sum(np.where(known, rows, 0.0), axis=1) / np.maximum(count, 1), np.nan)
+    return low, mean, high
+
+
+def _shade_extrapolated(
+    axes: Axes, record: Record, quantity: Quantity, window: Window, x: np.ndarray, own: str = ""
+) -> None:
+    """Shade where a law is outside its range for any pair under load; in a record's `own` colour if given."""
+    if quantity.flag not in record:
+        return
+    outside = (record[quantity.flag] == 0) & (record["normal_load"] > 0.0)
+    outside = np.any(outside[window.part], axis=1)
+    color, label = EXTRAPOLATED[quantity.flag]
+    if own:
+        color, label = f"{own}18", f"{label}: {record_label(record)}"
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], outside.astype(int), [0]])))
+    for start, stop in zip(edges[::2], edges[1::2], strict=True):
+        left, right = float(x[start]), float(x[min(stop, len(x) - 1)])
+        axes.axvspan(left, right, color=color, linewidth=0, zorder=0.5, label=label)
 
 
 def drawn_pairs(record: Record, window: Window) -> list[int]:
@@ -101,7 +198,7 @@ def drawn_pairs(record: Record, window: Window) -> list[int]:
 
 
 def pair_label(pair: int) -> str:
-    """Name a pair in a legend."""
+    """Name a pair."""
     return f"pair {pair}" if pair <= 1 else f"back flanks {pair - 1}"
 
 
@@ -110,43 +207,49 @@ def abscissa_label(view: View) -> str:
     return "Time (ms)" if view.against == "time" else "Phase (mesh cycles)"
 
 
-def mark_key_points(axes: Axes, records: Sequence[Record], view: View, named: bool = True) -> None:
+def mark_key_points(axes: Axes, records: Sequence[Record], view: View, named: bool = True) -> int:
     """Draw thin lines at the key points of every cycle, named above the axes unless `named` is off.
 
-    One record: the upper row names where pair 1 is, the lower one pair 0. Several: a row for each record
-    in its colour, naming where pair 1 is. Over many cycles lines and names would hide the curves and are
-    left out.
+    One record: a row for each of its pairs, naming where it is. Several: a row for each record in its colour,
+    naming where pair 1 is. Over many cycles lines and names would hide the curves and are left out.
+
+    Returns
+    -------
+    int
+        Rows of names above the axes.
     """
     several = len(records) > 1
-    widest = 0.0
+    rows, left, right = 0, np.inf, -np.inf
     for number, record in enumerate(records):
         window = last_cycles(record, view.cycles)
         x = abscissa(window, view)
-        widest = max(widest, float(x[-1]))
+        left, right = min(left, float(x[0])), max(right, float(x[-1]))
         cycles = round(window.phase[-1])
         if not 0 < cycles <= MOST_CYCLES_MARKED:
             continue
+        known = key_points(record)
         points = [
-            (cycle + point.phase, point)
+            (cycle + point.phase, point.names)
             for cycle in range(cycles + 1)
-            for point in key_points(record)
+            for point in known
             if cycle + point.phase <= cycles + 1e-9
         ]
-        for phase, point in points:
+        pairs = [1] if several else sorted({pair for one in known for pair in one.names}, reverse=True)
+        heads = {1: record_label(record)} if several else {pair: f"pair {pair}" for pair in pairs}
+        color = PALETTE[number % len(PALETTE)] if several else QUIET
+        for phase, names in points:
             place = float(np.interp(phase, window.phase, x))
-            color = PALETTE[number % len(PALETTE)] if several else QUIET
             axes.axvline(place, color=color, linewidth=0.6, linestyle=":", zorder=0.9)
-            if named and several:
-                _name(axes, place, len(records) - 1 - number, point.newest, color)
-            elif named:
-                _name(axes, place, 1, point.newest, INK)
-                _name(axes, place, 0, point.before, QUIET)
-        if named and several:
-            _head_row(axes, len(records) - 1 - number, record_label(record), PALETTE[number % len(PALETTE)])
-        elif named:
-            _head_row(axes, 1, "pair 1", INK)
-            _head_row(axes, 0, "pair 0", QUIET)
-    axes.set_xlim(right=widest)
+            for position, pair in enumerate(pairs if named else ()):
+                row = len(records) - 1 - number if several else len(pairs) - 1 - position
+                _name(axes, place, row, names.get(pair, ""), color if several or position else INK)
+        if named:
+            for position, pair in enumerate(pairs):
+                row = len(records) - 1 - number if several else len(pairs) - 1 - position
+                _head_row(axes, row, heads[pair], color if several or position else INK)
+            rows = len(records) if several else len(pairs)
+    axes.set_xlim(left, right)
+    return rows
 
 
 def _head_row(axes: Axes, row: int, text: str, color: str) -> None:
@@ -176,18 +279,35 @@ def _name(axes: Axes, place: float, row: int, name: str, color: str) -> None:
     )
 
 
-def legend(figure: Figure, axes: Axes, records: Sequence[Record]) -> None:
-    """Put one legend below the figure: records by colour, pairs by line."""
-    handles, labels = axes.get_legend_handles_labels()
+def legend(figure: Figure, panels: Sequence[Axes], records: Sequence[Record], view: View) -> None:
+    """Put one legend below the figure: records by colour, pairs by line, shades, names of key points."""
+    entries: dict[str, Artist] = {}
+    for axes in panels:
+        for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
+            entries.setdefault(label, handle)
     if len(records) > 1:
-        numbers = sorted(
-            {pair for record in records for pair in record.pairs}, key=lambda pair: (pair > 1, -pair)
-        )
-        pairs = [pair for pair in numbers if pair_label(pair) in labels]
-        handles = [Line2D([], [], color=PALETTE[i % len(PALETTE)]) for i in range(len(records))]
-        handles += [Line2D([], [], color=QUIET, linestyle=PAIR_STYLES.get(pair, "-")) for pair in pairs]
-        labels = [*map(record_label, records), *map(pair_label, pairs)]
-    if len(labels) > 1:
+        of_pairs = {pair_label(pair): pair for record in records for pair in record.pairs}
+        lines: dict[str, Artist] = {
+            record_label(record): Line2D([], [], color=PALETTE[number % len(PALETTE)])
+            for number, record in enumerate(records)
+        }
+        for label, handle in entries.items():
+            style = PAIR_STYLES.get(of_pairs.get(label, 1), "-")
+            shade = isinstance(handle, Patch) or label not in of_pairs
+            lines[label] = handle if shade else Line2D([], [], color=QUIET, linestyle=style)
+        entries = lines
+    title = None
+    cycles = [round(last_cycles(record, view.cycles).phase[-1]) for record in records]
+    if any(0 < count <= MOST_CYCLES_MARKED for count in cycles):
+        names = {name for record in records for point in key_points(record) for name in point.names.values()}
+        title = KEY_POINTS + ALONE * ("C_p" in names)
+    if len(entries) > 1 or title:
         figure.legend(
-            handles, labels, loc="outside lower center", ncols=min(4, len(labels)), handlelength=2.6
+            list(entries.values()),
+            [f"{label}{ORDER.get(label, '')}" for label in entries],
+            loc="outside lower center",
+            ncols=max(1, min(4, len(entries))),
+            handlelength=2.6,
+            title=title,
+            title_fontsize=7.5,
         )

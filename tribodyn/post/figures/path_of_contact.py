@@ -1,16 +1,18 @@
 """Both gears in mesh, with tip circles, path of contact and its key points."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from tribodyn.errors import InputError
 from tribodyn.post.cycles import pair_history, path_limits
 from tribodyn.post.figures.gears_in_mesh import GearsInMesh, draw_gears, key_rolls, placed
-from tribodyn.post.figures.panel import View, record_label, record_title
-from tribodyn.post.style import WIDTH, new_figure
+from tribodyn.post.figures.panel import ALONE, KEY_POINTS, View, record_label, record_title
+from tribodyn.post.style import QUIET, WIDTH, new_figure
 from tribodyn.record.reader import Record
 
 
@@ -60,7 +62,7 @@ def path_figure(records: Sequence[Record], view: View) -> Figure:
     for record in records:
         if "pinion_outline" not in record.geometry:
             raise InputError("record", str(record.path), "holds no tooth outlines", "draw another figure")
-    figure = new_figure(width, rows * (0.8 * (width / columns - 0.6) + 0.6))
+    figure = new_figure(width, rows * (0.8 * (width / columns - 0.6) + 0.6) + 0.5)
     grid = figure.subplots(rows, columns, squeeze=False).ravel()
     for axes in grid[len(records) :]:
         axes.remove()
@@ -69,4 +71,25 @@ def path_figure(records: Sequence[Record], view: View) -> Figure:
         axes.set_title(
             record_label(record) if len(records) > 1 else record_title(record), loc="left", fontsize=9
         )
+    shown = grid[: len(records)]
+    across, along = (
+        max(abs(end) for axes in shown for end in get(axes)) for get in (Axes.get_xlim, Axes.get_ylim)
+    )
+    for axes in shown:
+        axes.set_xlim(-across, across)
+        axes.set_ylim(-along, along)
+    lines: tuple[tuple[str, Any, str], ...] = (
+        ("black", "-", "path of contact"),
+        (QUIET, (0, (5, 2)), "tip circles"),
+        (QUIET, "-.", "pitch circles"),
+    )
+    names = {name for record in records for name in key_positions(record)}
+    figure.legend(
+        [Line2D([], [], color=color, linestyle=style) for color, style, _ in lines],
+        [label for _, _, label in lines],
+        loc="outside lower center",
+        ncols=3,
+        title=KEY_POINTS + ALONE * ("C_p" in names),
+        title_fontsize=7.5,
+    )
     return figure

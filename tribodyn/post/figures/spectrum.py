@@ -1,4 +1,4 @@
-"""Spectrum of the transmission error, harmonics of the mesh marked."""
+"""Spectrum of the transmission error, orders of the mesh and natural frequencies marked."""
 
 from collections.abc import Sequence
 
@@ -10,13 +10,15 @@ from tribodyn.errors import InputError
 from tribodyn.post.cycles import Window, last_cycles
 from tribodyn.post.figures.panel import View, record_label, record_title
 from tribodyn.post.spectra import Spectrum, amplitude_spectrum
-from tribodyn.post.style import PALETTE, QUIET, WIDTH, new_figure
+from tribodyn.post.style import PALETTE, PANEL_HEIGHT, QUIET, ROW, WIDTH, mark_panel, new_figure
 from tribodyn.record.reader import Record
 
-#: How many harmonics of the mesh are shown: beyond, gears of usual stiffness answer no more.
-HARMONICS = 12
+#: Orders of the mesh that are shown at least, and where no mode is known.
+ORDERS = 12
 #: Lines below this part of the highest one are off the scale.
-FLOOR = 1e-4
+FLOOR = 1e-5
+#: Orders that have a mark, and names of orders above the axes, at most.
+MARKED, NAMED = 40, 14
 
 
 def steady_spectrum(record: Record) -> tuple[Spectrum, Window]:
@@ -32,62 +34,80 @@ def steady_spectrum(record: Record) -> tuple[Spectrum, Window]:
     return amplitude_spectrum(signal, window.samples_per_cycle), window
 
 
-def draw_spectrum(axes: Axes, records: Sequence[Record]) -> None:
-    """Draw amplitude (µm) over frequency (Hz), the harmonics as stems."""
-    highest, width = 0.0, 0.0
-    for number, record in enumerate(records):
-        spectrum, window = steady_spectrum(record)
-        color = PALETTE[number % len(PALETTE)]
-        mesh = window.mesh_frequency
-        amplitudes = np.abs(spectrum.amplitudes) * 1e6
-        shown = (spectrum.orders > 0) & (spectrum.orders <= HARMONICS + 0.5)
-        axes.plot(spectrum.orders[shown] * mesh, amplitudes[shown], color=color, linewidth=0.8, alpha=0.45)
-        harmonics = spectrum.harmonics(HARMONICS) * 1e6
-        places = np.arange(1, HARMONICS + 1) * mesh
-        tiny = np.finfo(float).tiny
-        # of later records larger and hollow, so that equal amplitudes still show both
-        axes.vlines(places, tiny, harmonics, color=color, linewidth=1.2, zorder=2.5 - 0.1 * number)
-        axes.plot(
-            places,
-            harmonics,
-            linestyle="none",
-            marker="os^Dv"[number % 5],
-            markersize=4 + 2.5 * number,
-            markeredgecolor=color,
-            markerfacecolor="none" if number else color,
-            label=f"{record_label(record)}, mesh frequency {mesh:.4g} Hz",
-        )
-        highest, width = max(highest, harmonics.max()), max(width, (HARMONICS + 0.5) * mesh)
-        if number == 0:
-            _name_harmonics(axes, places)
-    axes.set_yscale("log")
-    if highest > 0:
-        axes.set_ylim(FLOOR * highest, 2 * highest)
-    axes.set_xlim(0, width)
-    axes.set_xlabel("Frequency (Hz)")
-    axes.set_ylabel("Transmission error (µm)")
+def mode_frequencies(record: Record) -> np.ndarray:
+    """Natural frequencies that the record's summary holds, Hz; of a record of an older version none."""
+    return np.atleast_1d(np.asarray(record.summary.get("mode_frequencies", []), dtype=float))
 
 
-def _name_harmonics(axes: Axes, places: np.ndarray) -> None:
-    for order, place in enumerate(places, start=1):
-        axes.annotate(
-            "$f_m$" if order == 1 else f"{order}$f_m$",
-            (place, 1),
-            xycoords=("data", "axes fraction"),
-            xytext=(0, 3),
-            textcoords="offset points",
-            ha="center",
-            fontsize=7,
-            color=QUIET,
-        )
+def _orders_shown(record: Record, mesh: float, spectrum: Spectrum) -> float:
+    """Orders up to a little above the highest mode, and at most those that the sampling resolves."""
+    modes = mode_frequencies(record)
+    wanted = 1.08 * float(modes.max()) / mesh if modes.size else 0.0
+    return min(max(wanted, ORDERS + 0.5), float(spectrum.orders[-1]))
+
+
+def draw_spectrum(axes: Axes, record: Record, color: str) -> tuple[float, float]:
+    """Draw amplitude (µm) over frequency (kHz), orders as stems; highest amplitude and frequency."""
+    spectrum, window = steady_spectrum(record)
+    mesh = window.mesh_frequency
+    limit = _orders_shown(record, mesh, spectrum)
+    amplitudes = np.abs(spectrum.amplitudes) * 1e6
+    shown = (spectrum.orders > 0) & (spectrum.orders <= limit)
+    axes.plot(spectrum.orders[shown] * mesh * 1e-3, amplitudes[shown], color=color, linewidth=0.7, alpha=0.4)
+    count = int(limit)
+    orders = spectrum.harmonics(count) * 1e6
+    places = np.arange(1, count + 1) * mesh * 1e-3
+    axes.vlines(places, np.finfo(float).tiny, orders, color=color, linewidth=1.2 if count <= MARKED else 0.7)
+    if count <= MARKED:
+        axes.plot(places, orders, linestyle="none", marker="o", markersize=4, color=color)
+    step = -(-count // NAMED)
+    for order in range(1 if step == 1 else step, count + 1, step):
+        text = "$f_m$" if order == 1 else f"{order}$f_m$"
+        _above(axes, places[order - 1], text, 0)
+    for number, frequency in enumerate(mode_frequencies(record), start=1):
+        if frequency <= limit * mesh:
+            axes.axvline(frequency * 1e-3, color=PALETTE[3], linewidth=0.9, linestyle=(0, (4, 2)), zorder=1)
+            _above(axes, frequency * 1e-3, f"mode {number}", 1, PALETTE[3])
+    return float(orders.max(initial=0.0)), limit * mesh * 1e-3
+
+
+def _above(axes: Axes, place: float, text: str, row: int, color: str = QUIET) -> None:
+    axes.annotate(
+        text,
+        (place, 1),
+        xycoords=("data", "axes fraction"),
+        xytext=(0, 3 + ROW * row),
+        textcoords="offset points",
+        ha="center",
+        fontsize=6.5,
+        color=color,
+    )
 
 
 def spectrum_figure(records: Sequence[Record], view: View) -> Figure:
-    """Draw the spectrum of each record; the view's cycles do not matter, the second half of a run is used."""
-    figure = new_figure(WIDTH, 2.9)
-    axes = figure.subplots()
-    draw_spectrum(axes, records)
-    figure.legend(loc="outside lower center", ncols=2)
-    if len(records) == 1:
+    """Draw the spectrum of each record on axes of its own with common limits; the view does not matter.
+
+    The second half of a run is used.
+    """
+    count = len(records)
+    figure = new_figure(WIDTH, count * (PANEL_HEIGHT + 0.1) + 0.5)
+    rows = figure.subplots(count, 1, squeeze=False, sharex=True, sharey=True)[:, 0]
+    highest = width = 0.0
+    for number, (axes, record) in enumerate(zip(rows, records, strict=True)):
+        top, right = draw_spectrum(axes, record, PALETTE[number % len(PALETTE)])
+        highest, width = max(highest, top), max(width, right)
+        mesh = steady_spectrum(record)[1].mesh_frequency
+        named = "" if count == 1 else f"{record_label(record)}: "
+        title = f"{named}Amplitudes of the transmission error, mesh frequency $f_m$ = {mesh:.4g} Hz"
+        mark_panel(axes, "abcdefgh"[number] if 1 < count <= 8 else "", title, 2)
+        axes.set_ylabel("Amplitude (µm)")
+    rows[-1].set_yscale("log")
+    if highest > 0:
+        rows[-1].set_ylim(FLOOR * highest, 2 * highest)
+    rows[-1].set_xlim(0, width)
+    beyond = any(modes.size and modes.max() * 1e-3 > width for modes in map(mode_frequencies, records))
+    said = "; higher ones are above half the sampling rate" if beyond else ""
+    rows[-1].set_xlabel(f"Frequency (kHz); dashed: natural frequencies at the mean mesh stiffness{said}")
+    if count == 1:
         figure.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
     return figure

@@ -21,7 +21,7 @@ LINES: dict[int, Any] = {UP: "-", DOWN: (0, (4, 1.6))}
 UNSTABLE: dict[str, Any] = {"linestyle": (0, (1.6, 1.3)), "linewidth": 0.9}
 #: Mark of an end of a branch.
 END: dict[str, Any] = {"markersize": 5, "markerfacecolor": "none", "markeredgewidth": 0.8}
-WORDS = {UP: "up", DOWN: "down"}
+WORDS = {UP: "increasing", DOWN: "decreasing"}
 
 
 def _response(records: Sequence[Record]) -> Figure:
@@ -44,7 +44,8 @@ def _response(records: Sequence[Record]) -> Figure:
     upper.set_ylim(bottom=0)
     lower.set_ylabel("Time without\ncontact (%)")
     lower.set_ylim(bottom=0)
-    _finish(drawn, (upper, lower), records, losing=True)
+    titles = "Amplitude of the vibration: root mean square about the mean", "Loss of contact"
+    _finish(drawn, (upper, lower), records, titles, losing=True)
     return drawn
 
 
@@ -123,7 +124,8 @@ def _multipliers(records: Sequence[Record]) -> Figure:
     upper.set_ylim(bottom=0)
     lower.set_ylabel("its angle (°)")
     lower.set_yticks(range(0, 181, 45))
-    _finish(drawn, (upper, lower), records, losing=False)
+    titles = "Stability: the largest Floquet multiplier; stable below 1", "Its angle: 180° period doubling"
+    _finish(drawn, (upper, lower), records, titles, losing=False)
     return drawn
 
 
@@ -131,9 +133,11 @@ def _color(records: Sequence[Record], number: int, direction: int) -> str:
     return PALETTE[(number if len(records) > 1 else direction) % len(PALETTE)]
 
 
-def _finish(drawn: Figure, panels: Sequence[Axes], records: Sequence[Record], losing: bool) -> None:
-    for letter, axes in zip("ab", panels, strict=True):
-        mark_panel(axes, letter)
+def _finish(
+    drawn: Figure, panels: Sequence[Axes], records: Sequence[Record], titles: Sequence[str], losing: bool
+) -> None:
+    for letter, axes, title in zip("ab", panels, titles, strict=True):
+        mark_panel(axes, letter, title)
     panels[-1].set_xlabel(ABSCISSA)
     drawn.align_ylabels()
     several = len(records) > 1

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.dynamics.modes import natural_frequencies
 from tribodyn.dynamics.outputs import outputs_with_extremes
 from tribodyn.dynamics.recorded import UNRECORDED, scales_of
 from tribodyn.errors import SimulationError
@@ -53,6 +54,7 @@ def run(
         "gear_mass": prepared.masses[1][0],
         "pinion_inertia": prepared.masses[0][1],
         "gear_inertia": prepared.masses[1][1],
+        "mode_frequencies": natural_frequencies(model, cycle),
         "pitch_point": AVERAGED if model.options.averaged else REGULAR,
         "compliance_remark": compliance_remark(prepared.assembly, case.materials, case.mesh) or None,
         **law_figures(case),

@@ -22,11 +22,11 @@ SWEEP_DRAWINGS: dict[str, SweepDrawing] = {
     ),
     "waterfall": SweepDrawing(
         "amplitude spectra of the transmission error over the first varied key",
-        lambda records, _: waterfall_figure(records),
+        waterfall_figure,
     ),
     "campbell": SweepDrawing(
         "natural frequencies and orders of the mesh, with the amplitudes at the crossings",
-        lambda records, _: campbell_figure(records),
+        campbell_figure,
     ),
     "bifurcation": SweepDrawing(
         "transmission error once per mesh cycle over the first varied key",

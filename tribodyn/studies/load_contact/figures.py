@@ -13,10 +13,19 @@ from tribodyn.post.figures.drawing import Drawing, always
 from tribodyn.post.figures.panel import View, record_label, record_title
 from tribodyn.post.style import PAIR_STYLES, PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
 from tribodyn.record.reader import Record
-from tribodyn.studies.load_contact.maps import LINE_LOAD, PRESSURE, draw_map, line_load_figure, pressure_map
+from tribodyn.studies.load_contact.layout import BODIES
+from tribodyn.studies.load_contact.maps import (
+    EXPLAINED,
+    LINE_LOAD,
+    PRESSURE,
+    draw_map,
+    line_load_figure,
+    pressure_map,
+)
 from tribodyn.studies.load_contact.rolled import over_phase, over_roll, pair_over_phase, require_positions
 
 HARRIS = "harris"
+MAP_CURVES = "Transmission error over the mesh cycle, less its mean, at every torque"
 PHASE = "Phase (mesh cycles)"
 ROLL = "Roll angle from the pitch point (°)"
 #: Peak to peak below which an unloaded transmission error is none, m.
@@ -47,14 +56,17 @@ def colour(number: int) -> str:
 def _loaded_error(records: Sequence[Record]) -> Figure:
     modified = any(np.ptp(record["unloaded_transmission_error"]) > _NO_ERROR for record in records)
     drawn, rows = _stacked(2 if modified else 1)
-    names_of = {0: ("loaded_transmission_error", "Loaded"), 1: ("unloaded_transmission_error", "Unloaded")}
-    for row, axes in enumerate(rows):
-        name, what = names_of[row]
+    datasets = ("loaded_transmission_error", "unloaded_transmission_error")
+    titles = (
+        "Transmission error under load, in slow rotation",
+        "Transmission error without load: that of modifications and errors",
+    )
+    for name, axes in zip(datasets, rows, strict=False):
         draw_error(axes, records, name)
-        axes.set_ylabel(f"{what} transmission error (µm)")
+        axes.set_ylabel("Transmission error (µm)")
         axes.legend(loc="upper right", ncols=1 + (len(records) > 2))
     rows[-1].set_xlabel(PHASE)
-    return _finish(drawn, rows, records)
+    return _finish(drawn, rows, records, titles)
 
 
 def draw_error(axes: Axes, records: Sequence[Record], name: str) -> None:
@@ -79,7 +91,8 @@ def _load_sharing(records: Sequence[Record]) -> Figure:
     show_contact(rows[1], records)
     rows[1].set_ylabel("Share of the load (%)")
     rows[1].set_ylim(bottom=0)
-    return _finish(drawn, rows, records, pairs=len(records) == 1)
+    titles = ("Normal load of each pair", "Share of the load of one pair from entry to exit")
+    return _finish(drawn, rows, records, titles, pairs=len(records) == 1)
 
 
 def draw_loads(axes: Axes, records: Sequence[Record]) -> None:
@@ -98,7 +111,7 @@ def draw_loads(axes: Axes, records: Sequence[Record]) -> None:
 def _mesh_stiffness(records: Sequence[Record]) -> Figure:
     drawn, rows = _stacked(1)
     draw_stiffness(rows[0], records)
-    return _finish(drawn, rows, records)
+    return _finish(drawn, rows, records, ("Stiffness of all pairs together, at the pitch radius",))
 
 
 def show_contact(axes: Axes, records: Sequence[Record]) -> None:
@@ -126,13 +139,21 @@ def _root_stress(records: Sequence[Record]) -> Figure:
     for row, name in enumerate(("root_tension", "root_compression")):
         for column, body in enumerate(("pinion", "gear")):
             draw_root_stress(panels[row, column], records, name, body)
-            if row == 0:
-                panels[row, column].set_title(body, loc="right", fontsize=9)
     for axes in panels[1]:
         show_contact(axes, records)
     for axes, text in zip(panels[:, 0], ("Root tension (MPa)", "Root compression (MPa)"), strict=True):
         axes.set_ylabel(text)
-    return _finish(drawn, panels.ravel(), records)
+    share_rows(panels)
+    titles = [f"{what} in the fillet of the {body}" for what in ("Tension", "Compression") for body in BODIES]
+    return _finish(drawn, panels.ravel(), records, titles)
+
+
+def share_rows(panels: np.ndarray) -> None:
+    """Give the panels of each row common vertical limits."""
+    for row in panels:
+        low, high = zip(*(axes.get_ylim() for axes in row), strict=True)
+        for axes in row:
+            axes.set_ylim(min(low), max(high))
 
 
 def draw_root_stress(axes: Axes, records: Sequence[Record], name: str, body: str, style: str = "-") -> None:
@@ -150,7 +171,8 @@ def _harris(records: Sequence[Record]) -> Figure:
     draw_harris(rows[0], records)
     if len(records) == 1:
         _draw_map_curves(rows[1], records[0])
-    return _finish(drawn, rows, records)
+    titles = ("Peak to peak of the transmission error over torque; circle: torque of all else", MAP_CURVES)
+    return _finish(drawn, rows, records, titles)
 
 
 def draw_harris(axes: Axes, records: Sequence[Record]) -> None:
@@ -190,7 +212,8 @@ def _overview(records: Sequence[Record]) -> Figure:
     panels[0].legend(loc="upper right")
     draw_loads(panels[1], [record])
     panels[1].set_xlabel(PHASE)
-    panels[1].legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3, handlelength=1.5)
+    panels[1].set_ylim(top=1.3 * panels[1].get_ylim()[1])
+    panels[1].legend(loc="upper right", ncols=3, handlelength=1.5)
     if "torque" in record:
         draw_harris(panels[2], [record])
     else:
@@ -201,10 +224,20 @@ def _overview(records: Sequence[Record]) -> Figure:
         draw_root_stress(panels[5], [record], "root_tension", body, style)
     panels[5].set_ylabel("Root tension (MPa)")
     show_contact(panels[5], [record])
-    panels[5].legend(["pinion", "gear"], loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2)
-    for letter, axes in zip("abcdef", panels, strict=True):
-        mark_panel(axes, letter)
-    drawn.suptitle(record_title(record), x=0.01, ha="left", fontsize=11)
+    panels[5].set_ylim(top=1.2 * panels[5].get_ylim()[1])
+    panels[5].legend(["pinion", "gear"], loc="upper right", ncols=2)
+    titles = (
+        "Transmission error under load",
+        "Normal load of each pair",
+        "Harris map: error over torque" if "torque" in record else "Stiffness of all pairs",
+        LINE_LOAD.title,
+        PRESSURE.title,
+        "Root tension of one pair",
+    )
+    for letter, axes, title in zip("abcdef", panels, titles, strict=True):
+        mark_panel(axes, letter, title)
+    said = f"{record_title(record)}.  Maps: {EXPLAINED[0].lower()}{EXPLAINED[1:]}"
+    drawn.suptitle(said, x=0.01, ha="left", fontsize=11)
     return drawn
 
 
@@ -213,11 +246,16 @@ def _stacked(count: int, sharex: bool = True) -> tuple[Figure, Sequence[Axes]]:
     return drawn, list(drawn.subplots(count, 1, squeeze=False, sharex=sharex)[:, 0])
 
 
-def _finish(drawn: Figure, panels: Sequence[Axes], records: Sequence[Record], pairs: bool = False) -> Figure:
-    """Letter the panels, name the records (or the pairs of the only one), say what it is about."""
-    if len(panels) > 1:
-        for letter, axes in zip("abcd", panels, strict=False):
-            mark_panel(axes, letter)
+def _finish(
+    drawn: Figure,
+    panels: Sequence[Axes],
+    records: Sequence[Record],
+    titles: Sequence[str],
+    pairs: bool = False,
+) -> Figure:
+    """Letter and title the panels, name the records (or the pairs of the only one), say what it is about."""
+    for letter, axes, title in zip("abcd", panels, titles, strict=False):
+        mark_panel(axes, letter if len(panels) > 1 else "", title)
     drawn.align_ylabels()
     if len(records) == 1:
         drawn.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)

@@ -17,15 +17,20 @@ _EVEN = 1e-6
 
 
 class OverFace(NamedTuple):
-    """A quantity over the face and how engineers read it: dataset, factor from SI, label."""
+    """A quantity over the face and how engineers read it: dataset, factor from SI, label, title of a map."""
 
     dataset: str
     factor: float
     label: str
+    title: str
 
 
-LINE_LOAD = OverFace("line_load", 1e-3, "Line load (N/mm)")
-PRESSURE = OverFace("hertz_pressure", 1e-9, "Hertz pressure (GPa)")
+LINE_LOAD = OverFace("line_load", 1e-3, "Line load (N/mm)", "Line load of one pair from entry to exit")
+PRESSURE = OverFace(
+    "hertz_pressure", 1e-9, "Hertz pressure (GPa)", "Hertz pressure of one pair from entry to exit"
+)
+#: What is drawn into a map.
+EXPLAINED = "Cross: maximum.  Dotted line: pitch point.  Dark: no load."
 
 
 def draw_map(axes: Axes, records: Sequence[Record], record: Record, quantity: OverFace) -> Any:
@@ -36,10 +41,18 @@ def draw_map(axes: Axes, records: Sequence[Record], record: Record, quantity: Ov
     top = max(float(np.max(one[quantity.dataset])) for one in records) * quantity.factor
     face_values = face_map(record, quantity.dataset)
     roll, values = np.degrees(face_values.roll), face_values.values * quantity.factor
-    middles = (roll[1:] + roll[:-1]) / 2
-    edges = np.concatenate([[2 * roll[0] - middles[0]], middles, [2 * roll[-1] - middles[-1]]])
+    across = face_values.face * 1e3
+    edges = face_edges(record)[[0, -1]] * 1e3
+    # to the edges of the face with the values of the outermost slices
     mesh = axes.pcolormesh(
-        edges, face_edges(record) * 1e3, values.T, vmin=0.0, vmax=top, cmap="viridis", rasterized=True
+        roll,
+        np.concatenate([edges[:1], across, edges[1:]]),
+        np.concatenate([values[:, :1], values, values[:, -1:]], axis=1).T,
+        vmin=0.0,
+        vmax=top,
+        cmap="viridis",
+        shading="gouraud",
+        rasterized=True,
     )
     at = np.unravel_index(np.argmax(values), values.shape)
     if np.ptp(values[at[0]]) > _EVEN * top:
@@ -50,7 +63,7 @@ def draw_map(axes: Axes, records: Sequence[Record], record: Record, quantity: Ov
     axes.grid(visible=False)
     axes.margins(0)
     axes.set_xlabel("Roll angle from the pitch point (°)")
-    axes.set_ylabel("Face (mm)")
+    axes.set_ylabel("Place on the face (mm)")
     if len(records) == 1:
         bar = axes.figure.colorbar(mesh, ax=axes, label=quantity.label, pad=0.02)
         bar.outline.set_visible(False)
@@ -61,8 +74,8 @@ def draw_across_face(axes: Axes, record: Record, quantity: OverFace, color: str)
     """Draw a quantity over the face where a pair is at the pitch point, each slice as a step."""
     values = at_pitch_point(record, quantity.dataset) * quantity.factor
     axes.stairs(values, face_edges(record) * 1e3, baseline=None, color=color, label=record_label(record))
-    axes.set_xlabel("Face (mm)")
-    axes.set_ylabel(f"{quantity.label}\nat the pitch point")
+    axes.set_xlabel("Place on the face, from its middle (mm)")
+    axes.set_ylabel(quantity.label)
 
 
 def _columns(maps: int) -> int:
@@ -81,11 +94,13 @@ def line_load_figure(records: Sequence[Record]) -> Figure:
     for number, record in enumerate(records):
         draw_across_face(below, record, LINE_LOAD, PALETTE[number % len(PALETTE)])
     below.set_ylim(bottom=0)
-    mark_panel(below, "abcdefgh"[len(records)])
+    mark_panel(below, "abcdefgh"[len(records)], "Line load over the face, the pair at the pitch point")
     if len(records) > 1:
         below.legend(loc="lower center", ncols=min(3, len(records)))
+    if len(records) == 1:
+        drawn.suptitle(f"{record_title(records[0])}\n{EXPLAINED}", x=0.01, ha="left", fontsize=9)
     else:
-        drawn.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
+        drawn.suptitle(f"{LINE_LOAD.title}. {EXPLAINED}", x=0.01, ha="left", fontsize=9)
     return drawn
 
 
@@ -95,7 +110,9 @@ def pressure_map(records: Sequence[Record]) -> Figure:
     drawn = new_figure(WIDTH, rows * PANEL_HEIGHT + 0.6)
     _maps(drawn, records, PRESSURE)
     if len(records) == 1:
-        drawn.suptitle(record_title(records[0]), x=0.01, ha="left", fontsize=9)
+        drawn.suptitle(f"{record_title(records[0])}\n{EXPLAINED}", x=0.01, ha="left", fontsize=9)
+    else:
+        drawn.suptitle(f"{PRESSURE.title}. {EXPLAINED}", x=0.01, ha="left", fontsize=9)
     return drawn
 
 
@@ -109,9 +126,7 @@ def _maps(part: Any, records: Sequence[Record], quantity: OverFace) -> None:
     mesh = None
     for number, (axes, record) in enumerate(zip(grid.ravel(), records, strict=False)):
         mesh = draw_map(axes, records, record, quantity)
-        mark_panel(axes, "abcdefgh"[number])
-        if len(records) > 1:
-            axes.set_title(record_label(record), loc="right", fontsize=8)
+        mark_panel(axes, "abcdefgh"[number], quantity.title if len(records) == 1 else record_label(record))
         if number % columns:
             axes.set_ylabel("")
         if columns > 2:

@@ -12,9 +12,18 @@ from matplotlib.ticker import MaxNLocator
 from tribodyn.errors import InputError
 from tribodyn.post.figures.drawing import Drawing
 from tribodyn.post.figures.panel import View, abscissa_label, record_label, record_title
+from tribodyn.post.figures.scale import scale
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, QUIET, WIDTH, mark_panel, new_figure
 from tribodyn.record.reader import Record
 from tribodyn.studies.rolling.gear_picture import draw_gear
+
+#: What the four panels of one element's way, or of all elements, show.
+CURVES = (
+    "Normal load on the cam",
+    "Slip of the elements over the cam",
+    "Power lost by one element, at cam and crown",
+    "The same, added up",
+)
 
 
 class Curve(NamedTuple):
@@ -75,8 +84,8 @@ def _four_panels(records: Sequence[Record], curves: Callable[[Record], Curve]) -
     panels = drawn.subplots(2, 2, sharex=True).ravel()
     for number, record in enumerate(records):
         draw_curve(panels, curves(record), PALETTE[number % len(PALETTE)], curves is by_number)
-    for letter, axes in zip("abcd", panels, strict=True):
-        mark_panel(axes, letter)
+    for letter, axes, title in zip("abcd", panels, CURVES, strict=True):
+        mark_panel(axes, letter, title)
     _from_zero(panels)
     _label_abscissa(panels[2:], curves is by_number)
     drawn.align_ylabels()
@@ -131,14 +140,16 @@ def _cycles(record: Record, view: View) -> tuple[slice, np.ndarray]:
 
 
 def _over_time(
-    records: Sequence[Record], view: View, draw: Callable[[Sequence[Axes], Sequence[Record], View], None]
+    records: Sequence[Record],
+    view: View,
+    draw: Callable[[Sequence[Axes], Sequence[Record], View], tuple[str, str]],
 ) -> Figure:
     drawn = new_figure(WIDTH, 2 * PANEL_HEIGHT + 0.4)
     panels = drawn.subplots(2, 1, sharex=True)
-    draw(panels, records, view)
+    titles = draw(panels, records, view)
     panels[1].set_xlabel(abscissa_label(view))
-    for letter, axes in zip("ab", panels, strict=True):
-        mark_panel(axes, letter)
+    for letter, axes, title in zip("ab", panels, titles, strict=True):
+        mark_panel(axes, letter, title)
     drawn.align_ylabels()
     if len(records) == 1:
         drawn.suptitle(_title(records[0]), x=0.01, ha="left", fontsize=9)
@@ -147,8 +158,8 @@ def _over_time(
     return drawn
 
 
-def _draw_loads(panels: Sequence[Axes], records: Sequence[Record], view: View) -> None:
-    """Draw the load of each element, one element drawn heavier, and the number of loaded elements."""
+def _draw_loads(panels: Sequence[Axes], records: Sequence[Record], view: View) -> tuple[str, str]:
+    """Draw the load of each element, one of them heavier, and the number of loaded ones; their titles."""
     for number, record in enumerate(records):
         part, x = _cycles(record, view)
         load = record["normal_load"][part]
@@ -161,6 +172,7 @@ def _draw_loads(panels: Sequence[Axes], records: Sequence[Record], view: View) -
     panels[1].set_ylabel("Loaded elements")
     panels[1].yaxis.set_major_locator(MaxNLocator(integer=True))
     panels[1].set_ylim(bottom=0)
+    return "Normal load of each element, one drawn heavier", "Number of elements under load"
 
 
 def draw_loads(axes: Axes, x: np.ndarray, load: np.ndarray, color: str) -> None:
@@ -179,14 +191,21 @@ def draw_loads(axes: Axes, x: np.ndarray, load: np.ndarray, color: str) -> None:
     )
 
 
-def _draw_efficiency(panels: Sequence[Axes], records: Sequence[Record], view: View) -> None:
+def _draw_efficiency(panels: Sequence[Axes], records: Sequence[Record], view: View) -> tuple[str, str]:
+    """Draw loss and efficiency at each moment; their titles."""
+    losses, shares = [], []
     for number, record in enumerate(records):
         part, x = _cycles(record, view)
         color = PALETTE[number % len(PALETTE)]
-        panels[0].plot(x, record["power_friction"][part], color=color)
-        panels[1].plot(x, record["efficiency"][part] * 100, color=color)
-    panels[0].set_ylabel("Loss of all elements (W)")
+        losses.append(record["power_friction"][part])
+        shares.append(record["efficiency"][part] * 100)
+        panels[0].plot(x, losses[-1], color=color)
+        panels[1].plot(x, shares[-1], color=color)
+    panels[0].set_ylabel("Loss (W)")
     panels[1].set_ylabel("Efficiency (%)")
+    scale(panels[0], losses)
+    scale(panels[1], shares)
+    return "Power lost in all contacts", "Efficiency at each moment"
 
 
 def _gears(records: Sequence[Record]) -> Figure:
@@ -197,9 +216,14 @@ def _gears(records: Sequence[Record]) -> Figure:
     grid = drawn.subplots(rows, columns, squeeze=False).ravel()
     for axes in grid[len(records) :]:
         axes.remove()
-    for axes, record in zip(grid, records, strict=False):
+    shown = grid[: len(records)]
+    for axes, record in zip(shown, records, strict=True):
         draw_gear(axes, record)
         axes.set_title(_title(record), loc="left", fontsize=9)
+    reach = max(abs(end) for axes in shown for end in (*axes.get_xlim(), *axes.get_ylim()))
+    for axes in shown:
+        axes.set_xlim(-reach, reach)
+        axes.set_ylim(-reach, reach)
     return drawn
 
 
@@ -222,8 +246,9 @@ def _overview(records: Sequence[Record], view: View) -> Figure:
         rows[1, 2].set_ylim(bottom=0)
     else:
         rows[1, 2].remove()
-    for letter, axes in zip("abcdef" if moving else "abcde", rows.flat, strict=False):
-        mark_panel(axes, letter)
+    titles = ("Cam, elements and crown", *CURVES, "Normal load of each element over time")
+    for letter, axes, title in zip("abcdef" if moving else "abcde", rows.flat, titles, strict=False):
+        mark_panel(axes, letter, title)
     drawn.suptitle(_title(record), x=0.01, ha="left", fontsize=11)
     return drawn
 

@@ -3,6 +3,8 @@
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -11,6 +13,7 @@ from matplotlib.figure import Figure
 from tests.support import record_samples, synthetic_record
 from tests.support.synthetic_record import PITCH_ANGLE, SPEED, approach_and_recess
 from tribodyn.errors import InputError
+from tribodyn.mesh.cycle import as_arrays
 from tribodyn.post.cycles import key_points, last_cycles, pair_curve
 from tribodyn.post.figures.path_of_contact import gears_in_mesh, key_positions
 from tribodyn.post.style import save
@@ -30,15 +33,15 @@ def records(tmp_path_factory: pytest.TempPathFactory) -> list[Record]:
 
 
 LABELS = {
-    "transmission-error": ["Transmission error (µm)"],
-    "spectrum": ["Transmission error (µm)"],
-    "normal-load": ["Normal load $F_n$ (N)"],
-    "friction": ["Friction force $F_f$ (N)", "Friction coefficient µ (–)"],
-    "film": ["Film thickness $h_c$ (µm)", "Film parameter $h_c/σ$ (–)"],
-    "entrainment": ["Entrainment speed (m/s)", "Sliding speed (m/s)"],
-    "pressure": ["Hertz pressure $p_H$ (GPa)", "Flash temperature rise (K)"],
-    "efficiency": ["Efficiency (%)"],
-    "mesh-stiffness": ["Mesh stiffness (N/µm)"],
+    "transmission-error": ["$δ$ (µm)"],
+    "spectrum": ["Amplitude (µm)"],
+    "normal-load": ["$F_n$ (N)"],
+    "friction": ["$F_f$ (N)", "$µ$ (–)"],
+    "film": ["$h_c$ (µm)", "$λ = h_c/σ$ (–)"],
+    "entrainment": ["$u$ (m/s)", "$v_s$ (m/s)"],
+    "pressure": ["$p_H$ (GPa)", "$ΔT$ (K)"],
+    "efficiency": ["$η$ (%)"],
+    "mesh-stiffness": ["$k_i$ (N/µm)"],
     "path-of-contact": ["Along the line of centres (mm)"],
 }
 
@@ -60,8 +63,9 @@ def test_every_figure_has_its_labels_checked():
 def test_axes_carry_engineers_units(records: list[Record], name: str):
     drawn = figure(name, records[:1])
     assert [axes.get_ylabel() for axes in drawn.axes] == LABELS[name]
-    last = {"spectrum": "Frequency (Hz)", "path-of-contact": "Along the pitch tangent (mm)"}
-    assert drawn.axes[-1].get_xlabel() == last.get(name, "Phase (mesh cycles)")
+    last = {"spectrum": "Frequency (kHz)", "path-of-contact": "Along the pitch tangent (mm)"}
+    assert drawn.axes[-1].get_xlabel().startswith(last.get(name, "Phase (mesh cycles)"))
+    assert all(axes.get_title(loc="left") for axes in drawn.axes)
 
 
 @pytest.mark.parametrize("name", [*LABELS, "overview"])
@@ -115,13 +119,62 @@ def test_key_points_of_both_pairs_are_named(records: list[Record]):
 
 def test_key_points_stand_at_their_phases(records: list[Record]):
     start, end = approach_and_recess()
-    found = {point.newest: point.phase for point in key_points(records[0])}
+    found = {point.names[1]: point.phase for point in key_points(records[0]) if 1 in point.names}
     assert found["B_g"] == 0.0
     assert found["C_p"] == pytest.approx((end - start) / PITCH_ANGLE - 1)
     assert found["P"] == pytest.approx(-start / PITCH_ANGLE)
     drawn = figure("normal-load", records[:1], cycles=1)
     marks = [np.asarray(line.get_xdata())[0] for line in drawn.axes[0].lines if line.get_linestyle() == ":"]
     assert sorted(marks) == pytest.approx([0.0, found["C_p"], found["P"], 1.0])
+
+
+@pytest.mark.parametrize("scenario", ["high-contact-ratio", "parabolic-23-47", "crc-23-47"])
+def test_key_points_name_the_pairs_that_the_table_shows_there(prepared, scenario: str):
+    """A pair begins or ends contact, or passes the pitch point, in the slot that its number belongs to."""
+    cycle = prepared(scenario).cycle
+    table = as_arrays(cycle)
+    fronts = int(np.sum(table["side"] > 0))
+    teeth = round(2.0 * np.pi / float(cycle.pitch_angle))
+    points = key_points(cast(Any, SimpleNamespace(mesh_cycle=table | {"pinion_teeth": teeth})))
+    names = [name for point in points for name in point.names.values()]
+    expected = {"B_g", "P", "B_p"} | ({"C_g", "C_p"} if cycle.contact_ratio <= 2.0 else set())
+    assert sorted(names) == sorted(expected)
+    phase, touching, distance = (table[name] for name in ("phase", "in_contact", "signed_distance"))
+    for point in points:
+        for pair, name in point.names.items():
+            slot = pair + fronts - 2
+            # a hair beside the point: a pair that is newest in one cycle goes on as the one before it
+            before = (point.phase - 1e-6) % 1.0
+            slot_before = slot + 1 if point.phase < 1e-6 else slot
+            after = at_phase(phase, touching[:, slot], point.phase + 1e-6)
+            was = at_phase(phase, touching[:, slot_before], before) if slot_before < fronts else 0.0
+            if name in ("B_g", "B_p"):
+                assert (was > 0.5, after > 0.5) == ((False, True) if name == "B_g" else (True, False))
+            if name == "P":
+                assert at_phase(phase, distance[:, slot], point.phase) == pytest.approx(0.0, abs=1e-6)
+
+
+def at_phase(phase: np.ndarray, values: np.ndarray, where: float) -> float:
+    """Value in the segment that holds a phase; nodes where segments meet stand twice."""
+    left = int(np.searchsorted(phase, where, side="right")) - 1
+    left = min(max(left, 0), len(phase) - 2)
+    return float(np.interp(where, phase[left : left + 2], values[left : left + 2]))
+
+
+def test_where_a_law_is_extrapolated_is_shaded(records: list[Record]):
+    drawn = figure("film", records[:1])
+    outside = (records[0]["closure_in_range"] == 0) & (records[0]["normal_load"] > 0.0)
+    labels = [text.get_text() for text in drawn.legends[0].get_texts()]
+    assert ("film law extrapolated" in labels) == bool(outside[last_cycles(records[0]).part].any())
+
+
+def test_the_total_stiffness_is_told_from_that_of_pairs(records: list[Record]):
+    drawn = figure("mesh-stiffness", records[:1])
+    _, total = curve(drawn, r"all pairs, $\Sigma\, k_i \cos^2 α_i$")
+    record, part = records[0], last_cycles(records[0]).part
+    angle = np.nan_to_num(record["pressure_angle"][part])
+    expected = np.sum(record["mesh_stiffness"][part] * np.cos(angle) ** 2, axis=1) * 1e-6
+    np.testing.assert_allclose(total, expected, rtol=1e-12)
 
 
 def test_a_whole_run_is_not_covered_with_marks(records: list[Record], tmp_path: Path):
@@ -147,7 +200,7 @@ def test_each_pair_is_followed_to_the_end_of_its_cycle(records: list[Record]):
 
 def test_pairs_out_of_contact_are_not_drawn(records: list[Record]):
     phase, load = curve(figure("normal-load", records[:1], cycles=1), "pair 0")
-    leaves = key_points(records[0])[1].phase
+    leaves = next(point.phase for point in key_points(records[0]) if point.names.get(0) == "B_p")
     assert np.isnan(load[phase > leaves + 1e-9]).all()
     assert np.isfinite(load[phase < leaves]).all()
 
@@ -155,7 +208,8 @@ def test_pairs_out_of_contact_are_not_drawn(records: list[Record]):
 def test_records_are_compared_by_colour_with_a_legend(records: list[Record]):
     drawn = figure("friction", records)
     legend = [text.get_text() for text in drawn.legends[0].get_texts()]
-    assert legend == ["slippery", "rough", "pair 1", "pair 0"]
+    assert legend[:4] == ["slippery", "rough", "pair 1 (entered last)", "pair 0 (before it)"]
+    assert all(label.startswith("friction law extrapolated") for label in legend[4:])
     curves = [line for line in drawn.axes[0].lines if str(line.get_label()).startswith("pair")]
     assert len(curves) == 4
     assert len({line.get_color() for line in curves}) == 2
@@ -168,9 +222,9 @@ def test_harmonics_of_the_mesh_are_marked(records: list[Record]):
     assert named[0] == "$f_m$"
     assert named[4] == "5$f_m$"
     frequency = SPEED / PITCH_ANGLE
-    assert f"{frequency:.4g} Hz" in drawn.legends[0].get_texts()[0].get_text()
+    assert f"{frequency:.4g} Hz" in drawn.axes[0].get_title(loc="left")
     places = next(np.asarray(line.get_xdata()) for line in drawn.axes[0].lines if line.get_marker() == "o")
-    np.testing.assert_allclose(places, frequency * np.arange(1, 13), rtol=1e-12)
+    np.testing.assert_allclose(places, 1e-3 * frequency * np.arange(1, 13), rtol=1e-12)
 
 
 def test_key_points_lie_on_the_path(records: list[Record]):
@@ -211,9 +265,8 @@ def test_the_path_is_drawn_with_both_teeth_and_tip_circles(records: list[Record]
 def test_the_overview_has_six_panels(records: list[Record]):
     drawn = overview(records[0])
     assert len(drawn.axes) == 6
-    assert {text for axes in drawn.axes for text in [t.get_text() for t in axes.texts]} >= {
-        f"({c})" for c in "abcdef"
-    }
+    for letter, axes in zip("abcdef", drawn.axes, strict=True):
+        assert axes.get_title(loc="left").startswith(rf"$\mathbf{{({letter})}}$ ")
 
 
 def test_pyplot_is_never_imported(records: list[Record], tmp_path: Path):
@@ -244,7 +297,7 @@ def test_pyplot_is_never_imported(records: list[Record], tmp_path: Path):
 )
 def test_bad_wishes_are_refused(records: list[Record], arguments: dict, message: str):
     with pytest.raises(InputError, match=message):
-        figure(**{"records": records} | arguments)
+        figure(**cast(Any, {"records": records} | arguments))
 
 
 def failed_record(path: Path, samples: int) -> Path:

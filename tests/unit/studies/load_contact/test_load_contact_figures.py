@@ -40,10 +40,10 @@ def plain(tmp_path_factory: pytest.TempPathFactory) -> Record:
 
 NAMES = tuple(name for name in DRAWINGS if name != "overview")
 LABELS = {
-    "loaded-error": ["Loaded transmission error (µm)", "Unloaded transmission error (µm)"],
+    "loaded-error": ["Transmission error (µm)", "Transmission error (µm)"],
     "load-sharing": ["Normal load of each pair (N)", "Share of the load (%)"],
-    "line-load": ["Face (mm)", "Line load (N/mm)", "Line load (N/mm)\nat the pitch point"],
-    "pressure-map": ["Face (mm)", "Hertz pressure (GPa)"],
+    "line-load": ["Place on the face (mm)", "Line load (N/mm)", "Line load (N/mm)"],
+    "pressure-map": ["Place on the face (mm)", "Hertz pressure (GPa)"],
     "root-stress": ["Root tension (MPa)", "", "Root compression (MPa)", ""],
     "mesh-stiffness": ["Mesh stiffness (N/µm)"],
     "harris": ["Peak to peak (µm)", "Loaded error less its mean (µm)"],

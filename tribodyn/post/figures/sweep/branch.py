@@ -1,11 +1,13 @@
 """Curves of a sweep: the first parameter along the abscissa, a branch for every value of the others."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+from matplotlib import colormaps
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
@@ -16,8 +18,12 @@ from tribodyn.post.style import PALETTE, QUIET
 from tribodyn.record.sweep_reader import Parameter, SweepRecord
 from tribodyn.record.sweep_schema import DONE
 
-#: Maximum number of branches in a figure; of more, this many are shown.
-MOST_BRANCHES = 6
+#: Branches that have a colour of the palette each; of more, colours follow their order.
+MOST_COLORS = 6
+#: Entries of a legend, at most; of more, the first and the last are named.
+MOST_NAMED = 16
+#: Mark of single cases, by direction: it says which way the parameter went.
+MARKS = {"": "o", "up": "^", "down": "v"}
 UP, DOWN = "-", (0, (3, 1.5))
 #: Shade of the range in which contact is lost.
 LOST = "#f1e8dc"
@@ -73,7 +79,9 @@ class Branch(NamedTuple):
 
 
 def branches(records: Sequence[SweepRecord]) -> list[Branch]:
-    """All branches of the records, at most `MOST_BRANCHES` colours, evenly chosen where there are more.
+    """All branches of the records.
+
+    Of a single one up and down have different colours; of several each has its own, up solid, down dashed.
 
     Raises
     ------
@@ -98,16 +106,48 @@ def branches(records: Sequence[SweepRecord]) -> list[Branch]:
             if len(records) > 1:
                 label = f"{record.label}, {label}" if label else record.label
             curves.append((record, place, label))
-    keep = np.unique(np.linspace(0, len(curves) - 1, min(len(curves), MOST_BRANCHES)).round().astype(int))
+    colors = colors_of(len(curves))
     drawn = []
-    for number, chosen in enumerate(keep):
-        record, place, label = curves[chosen]
+    for number, (record, place, label) in enumerate(curves):
         for d, direction in enumerate(record.directions or ("",)):
             index = (slice(None), *place, *((d,) if direction else ()))
             style = DOWN if direction == "down" else UP
+            color = PALETTE[d] if len(curves) == 1 else colors[number]
             x = record.parameters[0].values * shown_unit(record.parameters[0].units)[1]
-            drawn.append(Branch(record, index, x, PALETTE[number], style, label, direction))
+            drawn.append(Branch(record, index, x, color, style, label, direction))
     return drawn
+
+
+def colors_of(count: int) -> list[str]:
+    """Colours of so many branches: of the palette, or along a colour map where it has not enough."""
+    if count <= MOST_COLORS:
+        return list(PALETTE[:count])
+    return [to_hex(color) for color in colormaps["viridis"](np.linspace(0.0, 0.92, count))]
+
+
+def chosen_branch(records: Sequence[SweepRecord], at: Mapping[str, float | str]) -> tuple[list[Branch], str]:
+    """The branches, up and down, of the first record nearest to the values `at`, and what to call them.
+
+    Of parameters without a value the first is taken.
+    """
+    drawn = branches(records[:1])
+    record = records[0]
+    wanted = []
+    for one in record.parameters[1:]:
+        if one.name not in at:
+            wanted.append(0)
+        elif one.values.dtype.kind in "fi":
+            wanted.append(int(np.argmin(np.abs(one.values - float(at[one.name])))))
+        else:
+            same = np.flatnonzero(one.values == at[one.name])
+            if not same.size:
+                known = ", ".join(map(str, one.values))
+                raise InputError("--at", f"{one.name}={at[one.name]}", "no such value", f"one of {known}")
+            wanted.append(int(same[0]))
+    found = [branch for branch in drawn if branch.place[1 : len(record.parameters)] == tuple(wanted)]
+    others = len(drawn) // len(record.directions or ("",)) - 1
+    more = f" (one of {others + 1}; choose with --at)" if others else ""
+    return found, f"{found[0].label}{more}"
 
 
 def axis_label(parameter: Parameter) -> str:
@@ -132,14 +172,14 @@ def draw_branch(axes: Axes, branch: Branch, values: np.ndarray) -> None:
 
     Where the motion does not repeat with the mesh there is a larger mark, by `MOTIONS`.
     """
-    marker = "o" if len(branch.x) <= 80 else ""
+    marker = MARKS[branch.direction] if len(branch.x) <= 80 else ""
     axes.plot(
         branch.x,
         values,
         color=branch.color,
         linestyle=branch.style,
         marker=marker,
-        markersize=2.4 if branch.direction == "down" else 1.8,
+        markersize=3.4 if branch.direction else 1.8,
         markerfacecolor="white" if branch.direction == "down" else branch.color,
         markeredgewidth=0.6,
         linewidth=1.0,
@@ -226,10 +266,31 @@ def branch_legend(
 ) -> None:
     """Put one legend below the figure: branches by colour, directions by line where there are `lines`."""
     labels = {branch.label: branch.color for branch in drawn if branch.label}
-    handles: list[Artist] = [Line2D([], [], color=color, label=label) for label, color in labels.items()]
-    if lines and any(branch.direction == "down" for branch in drawn):
-        handles.append(Line2D([], [], color=QUIET, linestyle=UP, label="up"))
-        handles.append(Line2D([], [], color=QUIET, linestyle=DOWN, label="down"))
+    if len(labels) > MOST_NAMED:
+        first, *_, last = labels
+        between = f"… {len(labels) - 2} more in order of colour …"
+        labels = {first: labels[first], between: "none", last: labels[last]}
+    plain: dict[str, Any] = {} if lines else {"linestyle": "none", "marker": "o", "markersize": 4}
+    handles: list[Artist] = [
+        Line2D([], [], color=color, label=label, **plain) for label, color in labels.items()
+    ]
+    if any(branch.direction == "down" for branch in drawn):
+        single = len({branch.label for branch in drawn}) == 1
+        ways: tuple[tuple[str, Any], ...] = ("up", UP), ("down", DOWN)
+        for direction, style in ways:
+            color = next((one.color for one in drawn if one.direction == direction), QUIET)
+            handles.append(
+                Line2D(
+                    [],
+                    [],
+                    color=color if single else QUIET,
+                    linestyle=style if lines else "none",
+                    marker=MARKS[direction],
+                    markersize=4,
+                    markerfacecolor="white" if direction == "down" else None,
+                    label=f"parameter {'increasing' if direction == 'up' else 'decreasing'}",
+                )
+            )
     handles += list(marks)
     if len(handles) > 1 or marks:
         figure.legend(

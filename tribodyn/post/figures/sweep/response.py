@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from tribodyn.post.figures.sweep.branch import (
+    MOST_COLORS,
     axis_label,
     branch_legend,
     branches,
@@ -19,9 +20,11 @@ from tribodyn.post.figures.sweep.branch import (
     sweep_title,
 )
 from tribodyn.post.report import Line
+from tribodyn.post.shown_units import shown_unit
 from tribodyn.post.style import PANEL_HEIGHT, WIDTH, mark_panel, new_figure
 from tribodyn.post.sweep_report import described
 from tribodyn.record.sweep_reader import SweepRecord
+from tribodyn.record.sweep_schema import DONE
 
 
 class Panel(NamedTuple):
@@ -76,9 +79,11 @@ def response_figure(records: Sequence[SweepRecord], panels: Sequence[Panel]) -> 
     panels : sequence of Panel
         At most `MOST_PANELS`.
     """
+    if maps_of(records):
+        return _maps(records[0], panels)
     columns = min(2, len(panels))
     count = -(-len(panels) // columns)
-    figure = new_figure(WIDTH, count * (PANEL_HEIGHT - 0.4) + 0.6 + 0.6 * (count == 1))
+    figure = new_figure(WIDTH, count * (PANEL_HEIGHT - 0.2) + 0.6 + 0.6 * (count == 1))
     rows = figure.subplots(count, columns, sharex=True, squeeze=False)
     for axes in rows.flat[len(panels) :]:
         axes.set_visible(False)
@@ -88,7 +93,8 @@ def response_figure(records: Sequence[SweepRecord], panels: Sequence[Panel]) -> 
             draw_branch(axes, branch, branch.values(name) * factor)
         draw_unstable(axes, drawn, f"unstable_{name}", factor)
         axes.margins(x=0.02)
-        axes.set_ylabel(label)
+        title, unit = titled(label)
+        axes.set_ylabel(unit)
         if from_zero:
             axes.set_ylim(bottom=0)
         elif np.ptp(axes.dataLim.intervaly) < FLAT * abs(axes.dataLim.y1):
@@ -96,11 +102,64 @@ def response_figure(records: Sequence[SweepRecord], panels: Sequence[Panel]) -> 
             axes.set_ylim(0.98 * axes.dataLim.y1, 1.004 * axes.dataLim.y1)
         shade_contact_loss(axes, drawn)
         mark_ends(axes, drawn)
-        mark_panel(axes, letter)
+        mark_panel(axes, letter, title)
     for axes in rows.flat[max(0, len(panels) - columns) : len(panels)]:
         axes.tick_params(labelbottom=True)
         axes.set_xlabel(axis_label(records[0].parameters[0]))
     figure.align_ylabels()
     branch_legend(figure, drawn, marks=regime_handles(drawn))
     figure.suptitle(sweep_title(records), x=0.01, ha="left", fontsize=9)
+    return figure
+
+
+def titled(label: str) -> tuple[str, str]:
+    """Title of a panel, and its unit, from a label such as "Dynamic factor (–)"."""
+    text = " ".join(label.split())
+    title, _, unit = text.rpartition(" (")
+    unit = unit.removesuffix(")")
+    return title, "" if unit == "–" else unit
+
+
+def maps_of(records: Sequence[SweepRecord]) -> bool:
+    """Whether figures are maps: one record over two numbers, one direction, more curves than colours."""
+    record = records[0]
+    return (
+        len(records) == 1
+        and not record.directions
+        and len(record.parameters) == 2
+        and all(one.values.dtype.kind in "fi" for one in record.parameters)
+        and len(record.parameters[0].values) > 2
+        and len(record.parameters[1].values) > MOST_COLORS
+    )
+
+
+def _maps(record: SweepRecord, panels: Sequence[Panel]) -> Figure:
+    """Draw figures of the cases as maps over both parameters; a dot on every case that loses contact."""
+    columns = min(2, len(panels))
+    count = -(-len(panels) // columns)
+    figure = new_figure(WIDTH, count * (PANEL_HEIGHT - 0.1) + 0.6)
+    rows = figure.subplots(count, columns, sharex=True, sharey=True, squeeze=False)
+    for axes in rows.flat[len(panels) :]:
+        axes.set_visible(False)
+    x, y = (one.values * shown_unit(one.units)[1] for one in record.parameters)
+    done = record["status"] == DONE
+    for letter, axes, (name, factor, label, _) in zip("abcdef", rows.flat, panels, strict=False):
+        values = np.where(done, record[name], np.nan) * factor
+        title, unit = titled(label)
+        image = axes.pcolormesh(x, y, values.T, cmap="viridis", shading="nearest", rasterized=True)
+        bar = figure.colorbar(image, ax=axes, label=unit, pad=0.02)
+        bar.outline.set_visible(False)
+        axes.grid(False)
+        mark_panel(axes, letter, title)
+        if "contact_loss_fraction" in record:
+            lost = np.argwhere(done & (record["contact_loss_fraction"] > 0.0))
+            axes.plot(x[lost[:, 0]], y[lost[:, 1]], ".", color="white", markersize=2.5)
+    for axes in rows[:, 0]:
+        axes.set_ylabel(axis_label(record.parameters[1]))
+    for axes in rows.flat[max(0, len(panels) - columns) : len(panels)]:
+        axes.tick_params(labelbottom=True)
+        axes.set_xlabel(axis_label(record.parameters[0]))
+    dots = "contact_loss_fraction" in record and np.any(done & (record["contact_loss_fraction"] > 0.0))
+    said = "; white dots: cases that lose contact" if dots else ""
+    figure.suptitle(sweep_title([record]) + said, x=0.01, ha="left", fontsize=9)
     return figure

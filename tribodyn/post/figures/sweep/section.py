@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 
 from tribodyn.errors import InputError
 from tribodyn.post.figures.sweep.branch import (
+    MARKS,
     axis_label,
     branch_legend,
     branches,
@@ -16,7 +17,7 @@ from tribodyn.post.figures.sweep.branch import (
     sweep_title,
 )
 from tribodyn.post.shown_units import shown
-from tribodyn.post.style import PALETTE, PANEL_HEIGHT, WIDTH, new_figure
+from tribodyn.post.style import PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE
 
@@ -34,21 +35,23 @@ def bifurcation_figure(records: Sequence[SweepRecord]) -> Figure:
             x.ravel(),
             points.ravel(),
             linestyle="none",
-            marker="o",
-            markersize=3.2 if down else 1.6,
+            marker=MARKS[branch.direction],
+            markersize=3.6 if down else (2.4 if branch.direction else 1.6),
             markerfacecolor="none" if down else branch.color,
             markeredgecolor=branch.color,
-            markeredgewidth=0.5,
+            markeredgewidth=0.6,
         )
     axes.set_xlabel(axis_label(records[0].parameters[0]))
-    axes.set_ylabel("Error at phase 0 (µm)")
+    axes.set_ylabel("Transmission error (µm)")
+    mark_panel(
+        axes, "", "Once per mesh cycle, at its start: one point where the motion repeats with the mesh"
+    )
     axes.margins(x=0.02)
     mark_ends(axes, drawn)
     draw_unstable(axes, drawn, "unstable_poincare_error", 1e6)
     marks = [one for one in regime_handles(drawn) if one.get_label() in ("unstable", "a branch ends")]
     branch_legend(figure, drawn, lines=False, marks=marks)
-    both = "; up filled, down hollow" if any(branch.direction for branch in drawn) else ""
-    figure.suptitle(sweep_title(records) + both, x=0.01, ha="left", fontsize=9)
+    figure.suptitle(sweep_title(records), x=0.01, ha="left", fontsize=9)
     return figure
 
 
@@ -82,6 +85,7 @@ def poincare_figure(records: Sequence[SweepRecord], at: Mapping[str, float | str
         )
     axes.set_xlabel("Transmission error (µm)")
     axes.set_ylabel("Its rate (mm/s)")
+    mark_panel(axes, "", "Poincaré section: the state at the start of each mesh cycle")
     axes.margins(0.1)
     if several:
         figure.legend(loc="outside lower center")

@@ -1,78 +1,117 @@
-"""Spectra over a parameter, one behind the other."""
+"""Spectra over a parameter: a line of the spectrum is a mark at its frequency, coloured by its amplitude."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from tribodyn.post.figures.sweep.amplitudes import spectra
-from tribodyn.post.figures.sweep.branch import Branch, axis_label, branches, sweep_title
-from tribodyn.post.style import GRID, PALETTE, QUIET, WIDTH, new_figure
+from tribodyn.post.figures.sweep.branch import Branch, axis_label, chosen_branch, sweep_title
+from tribodyn.post.figures.sweep.campbell import NOWHERE
+from tribodyn.post.style import INK, QUIET, ROW, WIDTH, mark_panel, new_figure
 from tribodyn.record.sweep_reader import SweepRecord
 
-#: Spectra in a figure; of more cases, so many are shown.
-MOST_SPECTRA = 60
-#: Orders of the mesh that are shown.
-ORDERS = 6
-#: Height of the highest line, in spacings of the baselines.
-HEIGHT = 3.5
-#: Lines weaker than the highest by more than this are not seen, dB.
+#: Orders of the mesh that are shown at least.
+ORDERS = 4
+#: Lines weaker than the highest by more than this are not shown, dB.
 RANGE = 60.0
+_LOWEST = 10 ** (-RANGE / 20)
 
 
-def waterfall_figure(records: Sequence[SweepRecord]) -> Figure:
-    """Draw amplitude spectra of the transmission error over frequency, at the parameter of each case.
+def waterfall_figure(records: Sequence[SweepRecord], at: Mapping[str, float | str] = NOWHERE) -> Figure:
+    """Draw amplitude spectra of the transmission error over frequency and the first parameter.
 
-    Up and down beside each other where both were followed; of several other parameters the first branch.
+    Up and down beside each other where both were followed; of several other parameters the branch nearest to
+    `at`, or the first.
     """
-    drawn = branches(records[:1])
-    drawn = [branch for branch in drawn if branch.place[1 : len(records[0].parameters)] == _first(drawn)]
-    figure = new_figure(WIDTH, 4.6)
+    drawn, named = chosen_branch(records, at)
+    figure = new_figure(WIDTH if len(drawn) == 1 else 1.35 * WIDTH, 4.6)
     panels = figure.subplots(1, len(drawn), squeeze=False, sharex=True, sharey=True)[0]
-    highest = max(_highest(branch) for branch in drawn)
-    for axes, branch in zip(panels, drawn, strict=True):
-        _draw(axes, branch, highest)
-        if branch.direction:
-            axes.set_title(branch.direction, loc="left")
+    highest = max(_highest(branch) for branch in drawn) * 1e6 or 1.0
+    norm = LogNorm(highest * _LOWEST, highest)
+    limit = max(map(_limit, drawn))
+    lines: Any = None
+    for letter, axes, branch in zip("ab", panels, drawn, strict=False):
+        lines = _draw(axes, branch, norm, limit)
+        way = {"up": ", parameter increasing", "down": ", parameter decreasing"}.get(branch.direction, "")
+        mark_panel(axes, letter if len(drawn) > 1 else "", f"Spectra of the transmission error{way}", 2)
         axes.set_xlabel("Frequency (kHz)")
     panels[0].set_ylabel(axis_label(records[0].parameters[0]))
-    scale = f"highest line {highest * 1e6:.3g} µm, logarithmic over {RANGE:g} dB; modes dashed"
-    shown = f": {drawn[0].label}" if drawn[0].label else ""
-    title = f"{sweep_title(records)}{shown}\nSpectra of the transmission error: {scale}"
-    figure.suptitle(title, x=0.01, ha="left", fontsize=9)
+    bar = figure.colorbar(lines, ax=list(panels), label="Amplitude (µm)", pad=0.02)
+    bar.outline.set_visible(False)
+    shown = f": {named}" if named else ""
+    figure.suptitle(f"{sweep_title(records)}{shown}", x=0.01, ha="left", fontsize=9)
     return figure
-
-
-def _first(drawn: Sequence[Branch]) -> tuple[int | slice, ...]:
-    branch = drawn[0]
-    return branch.place[1 : len(branch.record.parameters)]
 
 
 def _highest(branch: Branch) -> float:
     return max(float(one.amplitudes[1:].max()) for one in spectra(branch) if one is not None)
 
 
-def _draw(axes: Axes, branch: Branch, highest: float) -> None:
-    lines = spectra(branch)
+def _limit(branch: Branch) -> float:
+    """Highest frequency shown, kHz: above the highest mode and the first orders."""
+    modes, mesh = branch.values("mode_frequency"), branch.values("mesh_frequency")
+    return 1e-3 * max(1.05 * float(np.nanmax(modes)), ORDERS * float(np.nanmax(mesh)))
+
+
+def _draw(axes: Axes, branch: Branch, norm: LogNorm, limit: float) -> LineCollection:
     frequency = branch.values("mesh_frequency") * 1e-3
-    stride = -(-len(lines) // MOST_SPECTRA)
-    spacing = stride * (branch.x.max() - branch.x.min()) / max(1, len(lines) - 1) or 1.0
-    for i in range(0, len(lines), stride):
-        one = lines[i]
+    low, high = _edges(branch.x)
+    places, amplitudes = [], []
+    for i, one in enumerate(spectra(branch)):
         if one is None:
             continue
-        shown = (one.orders > 0) & (one.orders <= ORDERS + 0.5)
-        level = 20 * np.log10(np.maximum(one.amplitudes[shown], 1e-300) / highest) / RANGE + 1
-        top = branch.x[i] + np.maximum(level, 0) * HEIGHT * spacing
-        axes.axhline(branch.x[i], color=GRID, linewidth=0.5, zorder=1)
-        axes.vlines(
-            one.orders[shown] * frequency[i], branch.x[i], top, color=PALETTE[0], linewidth=0.9, zorder=2
-        )
-    limit = float(np.nanmax(frequency)) * min(ORDERS, 4)
+        levels = one.amplitudes * 1e6
+        for k in np.flatnonzero(
+            (one.orders > 0)
+            & (levels > _LOWEST * float(norm.vmax or 0.0))
+            & (one.orders * frequency[i] <= limit)
+        ):
+            x = one.orders[k] * frequency[i]
+            places.append([(x, low[i]), (x, high[i])])
+            amplitudes.append(levels[k])
+    order = np.argsort(amplitudes)  # the strongest on top
+    lines = LineCollection(
+        [places[i] for i in order],
+        array=np.array(amplitudes)[order],
+        norm=norm,
+        cmap="viridis_r",
+        linewidths=1.8,
+        capstyle="butt",
+    )
+    axes.add_collection(lines)
     modes = branch.values("mode_frequency") * 1e-3
+    last = int(np.argmax(branch.x))
     for mode in range(modes.shape[1]):
-        if np.nanmin(modes[:, mode]) < limit:
-            axes.plot(modes[:, mode], branch.x, color=QUIET, linestyle=(0, (3, 2)), linewidth=0.7, zorder=3)
+        axes.plot(modes[:, mode], branch.x, color=QUIET, linestyle=(0, (3, 2)), linewidth=0.7, zorder=0.9)
+        if np.isfinite(modes[last, mode]):
+            axes.annotate(
+                f"mode {mode + 1}",
+                (modes[last, mode], 1),
+                xycoords=("data", "axes fraction"),
+                xytext=(0, 3 + ROW * (mode % 2)),
+                textcoords="offset points",
+                ha="center",
+                fontsize=6.5,
+                color=INK,
+            )
     axes.set_xlim(0, limit)
+    axes.set_ylim(float(np.min(low)), float(np.max(high)))
     axes.grid(False)
+    return lines
+
+
+def _edges(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Where the mark of each case begins and ends: halfway to its neighbours."""
+    if len(x) < 2:
+        return x - 0.5, x + 0.5
+    order = np.argsort(x)
+    middle = (x[order][1:] + x[order][:-1]) / 2.0
+    first, last = 2 * x[order][0] - middle[0], 2 * x[order][-1] - middle[-1]
+    low, high = np.empty(len(x)), np.empty(len(x))
+    low[order], high[order] = np.concatenate([[first], middle]), np.concatenate([middle, [last]])
+    return low, high
