@@ -29,10 +29,10 @@ if TYPE_CHECKING:
     from tribodyn.interface.scenario import scenario
     from tribodyn.interface.sweep import Sweep, sweep
     from tribodyn.interface.sweep import open_result as open
+    from tribodyn.interface.validation import validate
     from tribodyn.numerics.parameter import Parameter
     from tribodyn.studies.study import Study
     from tribodyn.tribology.law import FilmLaw, FrictionLaw
-    from tribodyn.validation import validate
 
 __all__ = [
     "Family",
@@ -77,7 +77,7 @@ _PLACES = {
     "run": "tribodyn.interface.run",
     "scenario": "tribodyn.interface.scenario",
     "sweep": "tribodyn.interface.sweep",
-    "validate": "tribodyn.validation",
+    "validate": "tribodyn.interface.validation",
 }
 
 

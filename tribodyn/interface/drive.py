@@ -14,7 +14,8 @@ from tribodyn.geometry.checks import check
 from tribodyn.geometry.families import family
 from tribodyn.geometry.sheet import geometry_sheet
 from tribodyn.interface import shown
-from tribodyn.interface.scenario import in_python, in_toml
+from tribodyn.interface.scenario import in_toml
+from tribodyn.interface.words import in_python
 from tribodyn.mesh.data import MeshData
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.mesh.tabulate import pair_slots, tabulate
@@ -31,9 +32,17 @@ if TYPE_CHECKING:
 class GearPair:
     """A gear pair; `drive` makes one.
 
+    Parameters
+    ----------
+    model, overrides
+        As `drive` takes them.
+
     Attributes
     ----------
-    title, family : str
+    title : str
+        Of the drive or scenario.
+    family : str
+        Name of the tooth family.
     contact_ratio : float
         Theoretical transverse contact ratio.
     """
@@ -70,6 +79,7 @@ class GearPair:
         """The path of contact from the first to the last contact, (points, 2), m; in axes as `outlines`."""
         return np.asarray(self._mesh.path)
 
+    @in_python()
     def stiffness(self, gear_torque: float | str | Any = 100.0) -> "xarray.DataArray":
         """Mesh stiffness over a mesh cycle by the energy method, N/m: all pairs, along the pitch tangent.
 
@@ -77,6 +87,16 @@ class GearPair:
         ----------
         gear_torque : float, str or quantity of pint
             Torque on the gear; a plain number is in N m.
+
+        Returns
+        -------
+        xarray.DataArray
+            Over the mesh phase, 0 … 1 from the moment when a pair comes into contact.
+
+        Raises
+        ------
+        InputError
+            For what is no torque, and a body without a bore, by which it is held.
         """
         import xarray as xr
 
@@ -95,6 +115,7 @@ class GearPair:
         axis = ("phase", phase, {"units": "1", "long_name": "mesh phase"})
         return xr.DataArray(total, {"phase": axis}, ("phase",), "mesh_stiffness", named)
 
+    @in_python()
     def plot(self, ax: "Axes | None" = None) -> "Figure":
         """Draw the pair: both gears, and the teeth in contact with their path.
 
@@ -102,6 +123,11 @@ class GearPair:
         ----------
         ax : matplotlib axes, optional
             Draw where these stand, in place of them; default: a figure of its own.
+
+        Returns
+        -------
+        Figure
+            Of matplotlib, or the part of one that took the place of `ax`.
         """
         from contextlib import nullcontext
 
@@ -123,6 +149,7 @@ class GearPair:
         )
 
 
+@in_python()
 def drive(model: str | Path, overrides: Mapping[str, Any] | None = None) -> GearPair:
     """Make a gear pair, without a load or a speed.
 
@@ -133,10 +160,13 @@ def drive(model: str | Path, overrides: Mapping[str, Any] | None = None) -> Gear
     overrides : mapping, optional
         Dotted key to value: ``{"drive.pinion.profile_shift": 0.3}``.
 
+    Returns
+    -------
+    GearPair
+
     Raises
     ------
     InputError
         If there is none, or no such gears can be made.
     """
-    with in_python():
-        return GearPair(model, overrides)
+    return GearPair(model, overrides)

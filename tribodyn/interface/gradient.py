@@ -15,7 +15,8 @@ from tribodyn.geometry.checks import check
 from tribodyn.geometry.families import family
 from tribodyn.interface.numbers import Number, numbers_of
 from tribodyn.interface.quantities import QUANTITIES, Fixed, Quantity
-from tribodyn.interface.scenario import Source, in_python, scenario
+from tribodyn.interface.scenario import Source, scenario
+from tribodyn.interface.words import in_python
 from tribodyn.mesh.tabulate import pair_slots
 from tribodyn.studies import study_of
 from tribodyn.tribology.closure import closure_of
@@ -86,6 +87,7 @@ def _with_unit(value: float, unit: str) -> str:
     return f"{value:.6g}" if unit == "1" else f"{value:.6g} {unit}"
 
 
+@in_python()
 def gradient(
     source: Source, of: str, wrt: str | Sequence[str], overrides: Mapping[str, Any] | None = None
 ) -> Gradient:
@@ -120,13 +122,12 @@ def gradient(
     set of pairs in contact is about to change, at a whole contact ratio, derivatives are one-sided.
     """
     keys = [wrt] if isinstance(wrt, str) else list(wrt)
-    with in_python():
-        case = scenario(source, overrides)
-        quantity, fixed = _checked(case, of)
-        numbers = numbers_of(case)
-        _check_keys(case, keys, numbers)
-        value = float(quantity.function(case, fixed))
-        slopes = _slopes(case, of, fixed, numbers, keys)
+    case = scenario(source, overrides)
+    quantity, fixed = _checked(case, of)
+    numbers = numbers_of(case)
+    _check_keys(case, keys, numbers)
+    value = float(quantity.function(case, fixed))
+    slopes = _slopes(case, of, fixed, numbers, keys)
     return Gradient(
         of,
         quantity.about,

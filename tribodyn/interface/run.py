@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from tribodyn.interface import datasets, shown
 from tribodyn.interface.animation import Animation, check_teeth
 from tribodyn.interface.scenario import Source, scenario
+from tribodyn.interface.words import in_python
 from tribodyn.record.reader import Record, open_record
 from tribodyn.studies.run import run as run_case
 from tribodyn.studies.study import Progress
@@ -37,6 +38,9 @@ class Run:
     Attributes
     ----------
     path : Path
+        The record.
+    kind : str
+        Kind of the study, as scenarios name it.
     status : str
         "complete"; "failed" where the simulation could not go on; "partial" of a run that was killed.
     message : str
@@ -76,6 +80,7 @@ class Run:
         with open_record(self.path) as record:
             return (OVERVIEW, *names([record]))
 
+    @in_python()
     def plot(
         self,
         name: str = "overview",
@@ -115,6 +120,7 @@ class Run:
         with records_of([self, *others]) as records, in_place_of(ax) if ax is not None else nullcontext():
             return figure(name, records, cycles=cycles, against=against)
 
+    @in_python()
     def report(self, path: str | Path | None = None, *others: "Run") -> Path:
         """Write a page for the browser: summary, figures, the teeth rolling through mesh.
 
@@ -129,12 +135,20 @@ class Run:
         -------
         Path
             Of one HTML file that needs no other.
+
+        Raises
+        ------
+        InputError
+            For runs of different kinds, and a file that is there and is no page of ours.
+        OutputError
+            If it cannot be written.
         """
         from tribodyn.studies.pages import write_report
 
         with records_of([self, *others]) as records:
             return write_report(records, path or f"{self.path.stem}.html")
 
+    @in_python()
     def animate(self, *others: "Run") -> Animation:
         """Roll the teeth through mesh, with the path of contact and the loads of the pairs.
 
@@ -159,8 +173,21 @@ class Run:
             check_teeth(records)
             return Animation(report(records, figures=False))
 
+    @in_python()
     def save(self, path: str | Path, *, force: bool = False) -> Path:
         """Copy the record to a file.
+
+        Parameters
+        ----------
+        path : path
+            The file.
+        force : bool
+            Replace a record of that name.
+
+        Returns
+        -------
+        Path
+            Of the copy.
 
         Raises
         ------
@@ -202,6 +229,7 @@ def records_of(runs: "list[Run]") -> Iterator[list[Record]]:
         yield [stack.enter_context(open_record(one.path)) for one in runs]
 
 
+@in_python()
 def run(
     source: Source,
     overrides: Mapping[str, Any] | None = None,

@@ -1,16 +1,15 @@
 """Scenarios from whatever Python has: a name, a path, a nested dictionary, a case; NumPy and pint values."""
 
 import tomllib
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.scenario.resolve import OVERRIDES, resolve_table
-from tribodyn.scenario.vary import VARY
+from tribodyn.interface.words import in_python
+from tribodyn.scenario.resolve import resolve_table
 from tribodyn.studies.load import load_scenario, loaded_from, table_of
 from tribodyn.studies.study import CaseHead
 
@@ -21,6 +20,7 @@ Source = str | Path | Mapping[str, Any] | CaseHead
 _FILE = Path("scenario")
 
 
+@in_python()
 def scenario(source: Source, overrides: Mapping[str, Any] | None = None) -> Any:
     """Make a case, which `run` and `sweep` take.
 
@@ -46,8 +46,7 @@ def scenario(source: Source, overrides: Mapping[str, Any] | None = None) -> Any:
     A value with a unit is a text, ``"3 mm"``, or a quantity of pint. NumPy numbers and arrays are taken as
     Python's numbers and lists.
     """
-    with in_python():
-        return _case(source, {str(key): in_toml(value) for key, value in (overrides or {}).items()})
+    return _case(source, {str(key): in_toml(value) for key, value in (overrides or {}).items()})
 
 
 def _case(source: Source, changes: dict[str, Any]) -> Any:
@@ -63,18 +62,6 @@ def _case(source: Source, changes: dict[str, Any]) -> Any:
         rule = f"a name, a path, a mapping or a case is due, not a {type(source).__name__}"
         raise InputError("scenario", None, rule, 'give the name of a scenario: "crc-23-47"')
     return loaded_from(resolve_table(written, _FILE, changes, table_of), _FILE).case
-
-
-@contextmanager
-def in_python() -> Iterator[None]:
-    """Name in the errors raised inside what a Python program has, where the command line has options."""
-    try:
-        yield
-    except InputError as error:
-        names = {OVERRIDES: "overrides", VARY: "vary"}
-        moved = error.moved(lambda place: names.get(place, place))
-        moved.key = names.get(moved.key, moved.key)
-        raise moved from None
 
 
 def in_toml(value: Any) -> Any:

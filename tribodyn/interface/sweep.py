@@ -10,7 +10,8 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.interface import datasets, shown
 from tribodyn.interface.run import Run
-from tribodyn.interface.scenario import Source, in_python, in_toml, scenario
+from tribodyn.interface.scenario import Source, in_toml, scenario
+from tribodyn.interface.words import in_python
 from tribodyn.record.sweep_reader import SweepRecord, is_sweep
 from tribodyn.record.sweep_schema import DIRECTIONS
 from tribodyn.studies import study_of
@@ -32,10 +33,15 @@ class Sweep:
     Attributes
     ----------
     path : Path
+        The record.
     status, message : str
         As of a `Run`.
     summary : dict
-        Cases, those that failed, wall time.
+        Cases, those that failed, wall time in s.
+    scenario : dict
+        The resolved scenario, without the varied keys' values.
+    data : xarray.Dataset
+        Figures over the grid, with units; SI. NaN, with the reason in "message", where a case failed.
     """
 
     def __init__(self, path: str | Path) -> None:
@@ -54,6 +60,7 @@ class Sweep:
         with SweepRecord(self.path) as record:
             return sweep_names([record])
 
+    @in_python()
     def plot(self, name: str = "overview", **at: float | str) -> "Figure":
         """Draw one figure.
 
@@ -63,6 +70,16 @@ class Sweep:
             One of `plots`; "overview" is the first of them.
         **at : float or str
             Parameter to value in SI, for a figure of one case.
+
+        Returns
+        -------
+        Figure
+            Of matplotlib.
+
+        Raises
+        ------
+        InputError
+            For an unknown name, and a place that is not in the grid.
         """
         from tribodyn.studies.pictures import sweep_figure
 
@@ -88,6 +105,7 @@ class Sweep:
         return f"{self.status}{counted}" + (f", {failed} failed" if failed else "")
 
 
+@in_python()
 def sweep(
     source: Source,
     vary: Mapping[str, Values],
@@ -138,7 +156,7 @@ def sweep(
     if direction not in (None, *DIRECTIONS, "both"):
         raise InputError("direction", f'"{direction}"', "no such direction", 'one of "up", "down", "both"')
     chosen = DIRECTIONS if direction == "both" else (direction,) if direction else ()
-    with in_python(), tempfile.TemporaryDirectory(prefix="tribodyn-") as folder:
+    with tempfile.TemporaryDirectory(prefix="tribodyn-") as folder:
         grid = _grid(source, vary, overrides, Path(folder))
         record = Path(output) if output is not None else Path(folder) / "sweep.h5"
         with engine_of(engine, workers, scheduler) as evaluator:
@@ -157,8 +175,18 @@ def sweep(
             return datasets.of_sweep(written).load()
 
 
+@in_python()
 def open_result(path: str | Path) -> Run | Sweep:
     """Open the record of a run or of a sweep.
+
+    Parameters
+    ----------
+    path : path
+        Of a record, complete or partial, that a run, a sweep or the command line wrote.
+
+    Returns
+    -------
+    Run or Sweep
 
     Raises
     ------
