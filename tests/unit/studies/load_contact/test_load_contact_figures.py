@@ -125,6 +125,11 @@ def test_a_map_covers_the_contact_and_the_face(records: list[Record]):
     found = face_map(records[1], "line_load")
     assert found.values.shape == (len(found.roll), len(found.face))
     assert np.degrees(found.roll[0]) == pytest.approx(np.degrees(START), abs=1.0)
+    # from the last position before contact to the first one behind it
+    loaded = np.any(found.values > 0.0, axis=1)
+    assert not loaded[0]
+    assert np.all(loaded[1:-1])
+    assert not loaded[-1]
     np.testing.assert_allclose(found.face, records[1]["slice"])
     # the tilted load grows along the face
     middle = np.argmin(np.abs(found.roll))
