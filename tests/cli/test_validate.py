@@ -67,4 +67,4 @@ def test_every_figure_of_a_paper_is_drawn(tmp_path: Path, monkeypatch: pytest.Mo
 def test_figures_have_names_of_their_own(paper: str):
     names = tribodyn.validation.figure_names(paper)
     assert len(names) > 5
-    assert all(name.startswith("figure-") for name in names)
+    assert len(set(names)) == len(names)

@@ -25,6 +25,7 @@ ABOUT = {
 }
 #: Paper's name -> module that draws its figures.
 FIGURES = {
+    "liu-ni-2022": "tribodyn.validation.figures.liu_ni",
     "veciana-2024": "tribodyn.validation.figures.veciana",
     "diez-ibarbia": "tribodyn.validation.figures.diez_ibarbia",
     "jia-2022": "tribodyn.validation.figures.jia",

@@ -306,7 +306,7 @@ def legend(figure: Figure, panels: Sequence[Axes], records: Sequence[Record], vi
             list(entries.values()),
             [f"{label}{ORDER.get(label, '')}" for label in entries],
             loc="outside lower center",
-            ncols=max(1, min(4, len(entries))),
+            ncols=max(1, min(3 if len(records) > 1 else 4, len(entries))),
             handlelength=2.6,
             title=title,
             title_fontsize=7.5,
