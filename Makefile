@@ -3,6 +3,7 @@
 # make quick  the shortest tests, under a minute (docs/development.md)
 # make soak   random drives, duties and options by the thousand, and other long checks (docs/soak.md)
 # make fuzz   100 000 mutated inputs: scenarios, options, curves, records, the cache (docs/fuzz.md)
+# make docs   the documentation site, into docs/_build/html
 # make durations  measure the tests anew: which are the quick ones, in which order all run
 PYTHON ?= python3
 # two test processes share the cores; a BLAS's own threads would only stand in their way
@@ -18,7 +19,7 @@ BIN := $(VENV)/bin
 # the constraints also hold for what builds the package
 INSTALL := PIP_CONSTRAINT=$(CURDIR)/constraints.txt $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
-.PHONY: demo test quick soak fuzz durations lint types tests in-parallel ratios wheel clean
+.PHONY: demo docs test quick soak fuzz durations lint types tests in-parallel ratios wheel clean
 
 demo: $(VENV)/.installed
 	@mkdir -p demo
@@ -67,6 +68,10 @@ durations: $(VENV)/.testing
 	XLA_FLAGS="$(TESTS_XLA)" $(BIN)/python -m pytest $(IN_PARALLEL) --measure-durations -m "not bench"
 	XLA_FLAGS="$(TESTS_XLA)" $(BIN)/python -m pytest $(IN_PARALLEL) --measure-durations --quick -m "not bench and not slow"
 
+docs: $(VENV)/.documenting
+	$(BIN)/python -m sphinx --fail-on-warning --keep-going -b html docs docs/_build/html
+	@echo "Open docs/_build/html/index.html"
+
 wheel: $(VENV)/.testing
 	$(BIN)/python -m build --outdir dist
 
@@ -84,5 +89,9 @@ $(VENV)/.testing: $(VENV)/.installed
 	$(INSTALL) --editable ".[test]"
 	@touch $@
 
+$(VENV)/.documenting: $(VENV)/.installed
+	$(INSTALL) --editable ".[docs]"
+	@touch $@
+
 clean:
-	rm -rf $(VENV) demo dist .pytest_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) demo dist docs/_build .pytest_cache .ruff_cache .hypothesis

@@ -1,6 +1,6 @@
 """Throughput of batches by their size, from 64 to a million cases, and what share of the processor it is.
 
-python tools/batch_sizes.py --into docs/performance.md      # lanes, and diffrax up to DIFFRAX_UP_TO cases
+python tools/batch_sizes.py --into docs/measurements.md      # lanes, and diffrax up to DIFFRAX_UP_TO cases
 python tools/batch_sizes.py --engine jax --width 16384      # on a GPU: whatever device JAX has
 
 The CRC drive at speeds from 100 to 600 rad/s in no order, at the tolerances of `bench_peers` for an error of

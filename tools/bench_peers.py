@@ -1,7 +1,7 @@
 """Speed compared with other programs, at equal error, in one run: ratios of medians, never a time alone.
 
 python tools/bench_peers.py                              # everything that is installed, to the terminal
-python tools/bench_peers.py --into docs/performance.md   # and into the page
+python tools/bench_peers.py --into docs/measurements.md   # and into the page
 python tools/bench_peers.py --only tribodyn LSODA        # programs whose names contain a word
 
 Single: the CRC drive at 300 rad/s over 20 mesh cycles. Every program gets the loosest tolerance (of a ladder)

@@ -13,11 +13,11 @@ PICTURE = Path(__file__).parents[1] / "docs" / "pictures" / "report.png"
 
 
 def main() -> None:
-    """Run the CRC drive, write its page, take a picture of its upper part."""
+    """Run an involute pair, write its page, take a picture of its upper part."""
     with TemporaryDirectory() as folder:
-        page = td.run("crc-23-47", {"solver.cycles": 6}).report(Path(folder) / "crc-23-47.html")
+        page = td.run("involute-18-36", {"solver.cycles": 6}).report(Path(folder) / "pair.html")
         size = ("--window-size=1180,1080", "--hide-scrollbars")
-        ended = run_browser(*size, f"--screenshot={PICTURE}", f"{page.as_uri()}#at=147")
+        ended = run_browser(*size, f"--screenshot={PICTURE}", f"{page.as_uri()}#at=11.1")
     if ended.returncode:
         raise SystemExit(ended.stderr)
 

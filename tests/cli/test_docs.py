@@ -22,7 +22,11 @@ from tribodyn.scenario.sources import find_scenario
 from tribodyn.studies.load import load_scenario
 
 ROOT = Path(__file__).parents[2]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [
+    ROOT / "README.md",
+    *sorted((ROOT / "docs").glob("*.md")),
+    *sorted((ROOT / "docs").glob("how-to/*.md")),
+]
 RECORD = "crc-23-47"
 
 
@@ -71,7 +75,7 @@ def commands(block: Block) -> list[list[str]]:
     return [line[1:] for line in words if line[:1] == ["tribodyn"]]
 
 
-PAGES_WITH_COMMANDS = sorted({block.page for block in blocks("console")})
+PAGES_WITH_COMMANDS = sorted({block.page for block in blocks("console") if block.page.name != "README.md"})
 
 
 @pytest.mark.parametrize("page", PAGES_WITH_COMMANDS, ids=lambda page: page.name)
@@ -93,6 +97,24 @@ def test_commands_run(page: Path, folder: Path):
             assert ended.exit_code == 0, f"{block}: {shlex.join(words)}\n{ended.output}\n{ended.exception}"
 
 
+def test_the_readme_works_pasted_in_order_into_one_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """Commands, then Python, nothing replaced and nothing there before; sweep and validation as above."""
+    monkeypatch.chdir(tmp_path)
+    readme = ROOT / "README.md"
+    for block in blocks("console"):
+        for words in commands(block) if block.page == readme else ():
+            if words[0] not in ("validate", "sweep"):
+                ended = CliRunner().invoke(app, words)
+                assert ended.exit_code == 0, (
+                    f"{block}: {shlex.join(words)}\n{ended.output}\n{ended.exception}"
+                )
+    matplotlib.use("agg")
+    for block in blocks("python"):
+        if block.page == readme:
+            exec(compile(block.text, str(block), "exec"), {"__name__": "__main__"})
+    pyplot.close("all")
+
+
 @pytest.mark.parametrize("block", blocks("toml", "scenario"), ids=str)
 def test_scenarios_load(block: Block, folder: Path):
     (folder / "page.toml").write_text(block.text, encoding="utf-8")
@@ -110,10 +132,10 @@ def test_fragments_load(block: Block, folder: Path):
 
 
 def flat(table: dict[str, Any], above: str = "") -> dict[str, Any]:
-    """Dotted keys; a drive that is written out replaces the other as a whole."""
+    """Dotted keys; a drive that is written out, or a model with changes, replaces the other as a whole."""
     found: dict[str, Any] = {}
     for key, value in table.items():
-        if isinstance(value, dict) and above + key != "drive":
+        if isinstance(value, dict) and above + key != "drive" and "like" not in value:
             found |= flat(value, f"{above}{key}.")
         else:
             found[above + key] = value
@@ -124,7 +146,7 @@ def test_every_toml_block_is_one_or_the_other():
     assert not [str(block) for block in blocks("toml") if block.info not in ("scenario", "fragment")]
 
 
-@pytest.mark.parametrize("block", blocks("python"), ids=str)
+@pytest.mark.parametrize("block", [one for one in blocks("python") if one.page.name != "README.md"], ids=str)
 def test_python_runs(block: Block, folder: Path):
     matplotlib.use("agg")
     try:

@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from tools.licences import COPYLEFT, PAGE, Row, constraints, licence_of, needed, rows, same_name
+from tools.licences import COPYLEFT, PAGE, Row, constraints, is_known, licence_of, needed, rows, same_name
 
 
 def listed() -> list[Row]:
@@ -20,7 +20,7 @@ def test_the_page_is_current_with_the_constraints():
 
 def test_the_page_says_what_the_metadata_say():
     pytest.importorskip("distributed")
-    assert listed() == rows()
+    assert [one for one in listed() if is_known(one.name)] == rows()
 
 
 def test_nothing_that_a_run_needs_is_copyleft():

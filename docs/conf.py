@@ -1,0 +1,105 @@
+"""The documentation site: `make docs` builds it with Sphinx from the pages of this folder."""
+
+import re
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+
+import tribodyn
+
+#: What the site's sidebar shows: heading -> pages. A test holds every page of this folder against it.
+CONTENTS = {
+    "Start here": ["start", "gallery", "trust"],
+    "Tutorials": [
+        "notebooks/first-run",
+        "notebooks/compare-tooth-forms",
+        "notebooks/sweep-and-resonance",
+        "notebooks/load-contact-and-relief",
+        "notebooks/your-own-law",
+    ],
+    "How to": [
+        "how-to/own-gears",
+        "how-to/relief",
+        "how-to/speeds",
+        "how-to/scripts",
+        "compare",
+        "report",
+        "extending",
+    ],
+    "Reference": [
+        "scenario",
+        "command-line",
+        "python",
+        "api",
+        "record",
+        "summary",
+        "figures",
+        "gear-sheet",
+        "glossary",
+    ],
+    "Explanation": [
+        "laws",
+        "physics",
+        "families",
+        "mesh-stiffness",
+        "load-contact",
+        "efficiency",
+        "solvers",
+        "periodic",
+        "sweep",
+        "backlash-oscillator",
+        "rolling-elements",
+        "performance",
+    ],
+    "Comparison and measurements": ["validation", "measurements", "soak", "fuzz"],
+    "For developers": ["development", "licences"],
+}
+
+project, author = "tribodyn", "the authors of tribodyn"
+version = release = tribodyn.__version__
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+html_theme = "furo"
+html_title = "tribodyn"
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
+add_module_names = False  # what is public is called tribodyn.NAME
+exclude_patterns = ["_build"]
+
+myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
+myst_heading_anchors = 6
+myst_links_external_new_tab = True
+# blocks that are no complete file of their language are shown as they are; "path" as a type is no attribute
+suppress_warnings = ["misc.highlighting_failure", "ref.python"]
+
+# tutorials are run when the site is built, and again only where they have changed
+nb_execution_mode = "cache"
+nb_execution_timeout = 600
+nb_execution_raise_on_error = True
+nb_merge_streams = True
+
+autodoc_typehints = "description"
+autodoc_member_order = "bysource"
+napoleon_numpy_docstring = True
+napoleon_use_rtype = False
+
+
+def with_contents(_app: object, name: str, source: list[str]) -> None:
+    """Put the table of contents below the first page, which GitHub shows without it."""
+    if name != "index":
+        return
+    for heading, pages in CONTENTS.items():
+        names = "\n".join(pages)
+        source[0] += f"\n```{{toctree}}\n:caption: {heading}\n:hidden:\n\n{names}\n```\n"
+
+
+def as_sphinx_reads(_app: object, _name: str, source: list[str]) -> None:
+    """Take off what is for tests and for GitHub: words after a fence's language, links to pages elsewhere."""
+    source[0] = re.sub(r"^```(toml|csv) \S+$", r"```\1", source[0], flags=re.MULTILINE)
+    source[0] = re.sub(r"\[([^\]]*)\]\((?:\.\./)+(?:README|examples/\S*|CHANGELOG)\.md\)", r"\1", source[0])
+
+
+def setup(app: object) -> None:
+    """Connect both to the reading of pages."""
+    app.connect("source-read", with_contents)  # type: ignore[attr-defined]
+    app.connect("source-read", as_sphinx_reads)  # type: ignore[attr-defined]

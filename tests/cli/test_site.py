@@ -1,0 +1,85 @@
+"""The documentation site: its contents, generated pages, and places in the source that pages name."""
+
+import ast
+import re
+import shlex
+import subprocess
+import sys
+from fnmatch import fnmatch
+from pathlib import Path
+
+import pytest
+from typer.main import get_command
+
+import tribodyn
+from tools.command_line_page import PAGE, page
+from tribodyn.cli.app import app
+from tribodyn.geometry.families import FAMILIES
+from tribodyn.scenario.sources import names, shipped
+from tribodyn.tribology.film import FILM_LAWS
+from tribodyn.tribology.friction import FRICTION_LAWS
+
+ROOT = Path(__file__).parents[2]
+DOCS = ROOT / "docs"
+
+
+def contents() -> list[str]:
+    """Pages of the site's table of contents, as docs/conf.py names them."""
+    for statement in ast.parse((DOCS / "conf.py").read_text(encoding="utf-8")).body:
+        if isinstance(statement, ast.Assign) and ast.unparse(statement.targets[0]) == "CONTENTS":
+            return [page for pages in ast.literal_eval(statement.value).values() for page in pages]
+    raise AssertionError("docs/conf.py names no contents")
+
+
+def test_the_table_of_contents_holds_every_page_once():
+    pages = [str(path.relative_to(DOCS).with_suffix("")) for path in DOCS.rglob("*.md")]
+    pages = [page for page in pages if page != "index" and not page.startswith("_build")]
+    for page_ in pages:
+        assert sum(fnmatch(page_, entry) for entry in contents()) == 1, page_
+    assert all(any(fnmatch(page_, entry) for page_ in pages) for entry in contents())
+
+
+def test_the_first_page_leads_to_every_other():
+    leads = set(re.findall(r"\]\(([\w/-]+)\.md\)", (DOCS / "index.md").read_text(encoding="utf-8")))
+    assert {entry for entry in contents() if "*" not in entry} <= leads
+
+
+def test_the_page_of_the_command_line_is_current():
+    assert page() in PAGE.read_text(encoding="utf-8"), "python -m tools.command_line_page --write"
+
+
+def test_the_page_of_laws_names_every_law_and_what_it_names_exists():
+    text = (DOCS / "laws.md").read_text(encoding="utf-8")
+    for name in (*FAMILIES, *FILM_LAWS, *FRICTION_LAWS):
+        assert f"`{name}`" in text, name
+    for place in re.findall(r"`((?:tribodyn|tests)/[^`]*)`", text):
+        assert (ROOT / place).exists(), place
+
+
+def test_the_reference_of_the_package_has_every_public_name():
+    text = (DOCS / "api.md").read_text(encoding="utf-8")
+    for name in tribodyn.__all__:
+        place = getattr(tribodyn, name)
+        if not isinstance(place, str):
+            assert f":: {place.__module__}.{place.__name__}\n" in text, name
+
+
+def test_commands_of_the_gallery_parse_and_name_shipped_scenarios():
+    """They are run elsewhere: all scenarios, and all figures of a record."""
+    text = (DOCS / "gallery.md").read_text(encoding="utf-8")
+    commands = re.findall(r"^tribodyn (.*)$", text, re.MULTILINE)
+    assert len(commands) > 8
+    for command in commands:
+        verb, *words = shlex.split(command)
+        get_command(app).commands[verb].make_context(verb, [*words])  # type: ignore[attr-defined]
+        if verb in ("run", "sweep"):
+            assert words[0] in names(shipped("scenarios"))
+
+
+@pytest.mark.soak
+def test_the_site_builds_without_a_warning(tmp_path):
+    pytest.importorskip("myst_nb")
+    words = ["-m", "sphinx", "--fail-on-warning", "--keep-going", "-q", "-b", "html", DOCS, tmp_path / "site"]
+    built = subprocess.run([sys.executable, *map(str, words)], capture_output=True, text=True)
+    assert built.returncode == 0, built.stderr
+    assert (tmp_path / "site" / "start.html").is_file()
