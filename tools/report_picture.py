@@ -17,7 +17,7 @@ def main() -> None:
     with TemporaryDirectory() as folder:
         page = td.run("involute-18-36", {"solver.cycles": 6}).report(Path(folder) / "pair.html")
         size = ("--window-size=1180,1080", "--hide-scrollbars")
-        ended = run_browser(*size, f"--screenshot={PICTURE}", f"{page.as_uri()}#at=11.1")
+        ended = run_browser(*size, f"--screenshot={PICTURE}", f"{page.as_uri()}#at=11.7")
     if ended.returncode:
         raise SystemExit(ended.stderr)
 
