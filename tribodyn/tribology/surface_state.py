@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.numerics.elementary import exp, law
+from tribodyn.numerics.elementary import exp, law, namespace
 from tribodyn.tribology.contact import MAXIMUM_OVER_MEAN, LocalContact, hertz_half_width
 from tribodyn.tribology.law import ActiveFilm, Closure, FilmFunctions, film_range_not_stated
 
@@ -93,16 +93,19 @@ def range_shares(contact: LocalContact, closure: Closure) -> tuple[np.ndarray, n
     )
 
 
-def _stacked(shares: Any) -> np.ndarray:
+def _stacked(shares: Any) -> Any:
     """What a law says of its range as an array, its limits last."""
     several = shares if isinstance(shares, (tuple, list)) else (shares,)
-    return np.stack(np.broadcast_arrays(*several), axis=-1)
+    xp = namespace(several)
+    return xp.stack(xp.broadcast_arrays(*several), axis=-1)
 
 
-def _inside(shares: Any) -> np.ndarray:
+def _inside(shares: Any) -> Any:
     """1.0 where every share is at least 1, 0.0 elsewhere, NaN where none is stated."""
-    least = np.min(_stacked(shares), axis=-1)
-    return np.where(np.isnan(least), np.nan, least >= 1.0)
+    least = _stacked(shares)
+    xp = namespace(least)
+    least = xp.min(least, axis=-1)
+    return xp.where(xp.isnan(least), np.nan, least >= 1.0)
 
 
 def exceeded(shares: np.ndarray, limits: Sequence[str]) -> dict[str, dict[str, Any]]:

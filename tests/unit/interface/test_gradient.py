@@ -2,6 +2,8 @@
 
 import math
 
+import jax
+import numpy as np
 import pytest
 
 import tribodyn as td
@@ -66,6 +68,24 @@ def test_efficiency_is_that_of_the_efficiency_study(name):
     assert quantity.function(case, fixed) == pytest.approx(
         td.run(name).summary["efficiency_elastic"], abs=2e-7
     )
+
+
+@pytest.mark.parametrize("name", ["efficiency-involute-18-36", "efficiency-crc-23-47", "cycloidal-23-47"])
+def test_losses_can_be_traced(name):
+    """With all numbers traced, mean and local laws: what the compiled programs are made of."""
+    case = td.scenario(name)
+    quantity, fixed = _checked(case, "efficiency")
+    numbers = numbers_of(case)
+
+    def traced(values):
+        changed = case
+        for number, value in zip(numbers.values(), values, strict=True):
+            changed = number.put(changed, value)
+        return quantity.function(changed, fixed)
+
+    with jax.enable_x64(True):
+        found = jax.eval_shape(traced, [float(number.value) for number in numbers.values()])
+    assert (found.shape, found.dtype) == ((), np.float64)
 
 
 def test_a_gradient_shows_itself():
