@@ -24,6 +24,7 @@ FAMILIES = {
 INVOLUTE = "efficiency-involute-18-36"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "shape"), FAMILIES.items())
 def test_contact_ratio_of_every_family(name, shape):
     """Against the ratio of gears that are made anew, with the number written into their scenario."""
@@ -70,6 +71,7 @@ def test_efficiency_is_that_of_the_efficiency_study(name):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["efficiency-involute-18-36", "efficiency-crc-23-47", "cycloidal-23-47"])
 def test_losses_can_be_traced(name):
     """With all numbers traced, mean and local laws: what the compiled programs are made of."""
