@@ -13,6 +13,7 @@ import tomli_w
 from tribodyn.errors import InputError, near_name, quoted, unknown_name
 from tribodyn.geometry.checks import check
 from tribodyn.geometry.families import family
+from tribodyn.interface import shown
 from tribodyn.interface.numbers import Number, numbers_of
 from tribodyn.interface.quantities import QUANTITIES, Fixed, Quantity
 from tribodyn.interface.scenario import Source, scenario
@@ -60,7 +61,10 @@ class Gradient:
 
     @property
     def sensitivity(self) -> dict[str, float]:
-        """Key to x/f df/dx: by how many per cent the figure changes where the key's value grows by one."""
+        """Key to x/f df/dx: by how many per cent the figure changes where the key's value grows by one.
+
+        0 for a value of 0, which has no per cent.
+        """
         return {key: self.at[key] * slope / self.value for key, slope in self.gradient.items()}
 
     def __repr__(self) -> str:
@@ -76,11 +80,11 @@ class Gradient:
                 key,
                 _with_unit(self.at[key], self.units[key]),
                 _with_unit(slope, over),
-                f"{self.sensitivity[key]:+.3g} %",
+                f"{self.sensitivity[key]:+.3g} %" if self.at[key] else "–",
             )
             rows.append("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in cells) + "</tr>")
         title = f"{escape(self.about)}: <b>{escape(_with_unit(self.value, self.unit))}</b>"
-        return f"<p>{title}</p><table>{head}{''.join(rows)}</table>"
+        return shown.block(f"<p>{title}</p><table>{head}{''.join(rows)}</table>")
 
 
 def _with_unit(value: float, unit: str) -> str:
