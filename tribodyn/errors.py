@@ -6,6 +6,8 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+#: Characters of a key in a message, more than any that is known has; one that nobody knows may have more.
+LONGEST_KEY = 240
 #: Characters of a path, more than files of any user have.
 LONGEST_PATH = 1024
 
@@ -42,9 +44,10 @@ class InputError(Exception):
 
     def __str__(self) -> str:
         place = f"{self.file}: " if self.file else ""
+        key = cut(self.key, LONGEST_KEY)
         given = f" = {self.value}" if self.value is not None else ""
         remedy = f"; {self.remedy}" if self.remedy else ""
-        return f"{place}{self.key}{given}: {self.rule}{remedy}"
+        return f"{place}{key}{given}: {self.rule}{remedy}"
 
 
 class InputErrors(InputError):

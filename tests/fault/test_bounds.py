@@ -188,3 +188,11 @@ def test_axes_beyond_all_use(vary: str, scenario: Path, refused: Refused):
 def test_overrides_of_python_are_bounded_too(scenario: Path):
     with pytest.raises(InputError, match="beyond 64 bits"):
         load_scenario(scenario, {"solver.cycles": 2**64})
+
+
+def test_the_name_of_an_unknown_key_is_cut(tmp_path: Path):
+    (tmp_path / "long.toml").write_text(f"{'a' * 5000} = 1\n", encoding="utf-8")
+    with pytest.raises(InputError) as error:
+        load_scenario(tmp_path / "long.toml")
+    assert all(len(line) < 1000 + len(str(tmp_path)) for line in str(error.value).splitlines())
+    assert "aaa..." in str(error.value)

@@ -14,11 +14,13 @@ from typer.testing import CliRunner
 from tests.support.record_samples import block, gear_pair_writer, geometry
 from tribodyn.cli.app import app
 from tribodyn.errors import InputError
-from tribodyn.record import lookout, soundness
+from tribodyn.record import lookout, schema, soundness
 from tribodyn.record.reader import open_record
 from tribodyn.record.sweep_reader import open_any
 
 SECRET = np.arange(10.0)
+#: Records of another version.
+OLD = Path(__file__).parents[1] / "fixtures" / "records-0.1.0"
 
 
 @pytest.fixture(scope="module")
@@ -141,6 +143,17 @@ def test_it_is_refused_in_python_and_on_the_command_line(damage, good: Path, pat
         assert ended.exit_code == 2, ended.output
         assert "damaged" in ended.stderr
         assert len(ended.stderr.splitlines()) == 1
+
+
+@pytest.mark.parametrize("name", schema.HEAD)
+@pytest.mark.parametrize("kind", ["gear-pair", "sweep"])
+def test_an_attribute_that_every_record_has_is_missing(name: str, kind: str, tmp_path: Path):
+    shutil.copy(OLD / f"{kind}.h5", tmp_path / "some.h5")
+    open_any(tmp_path / "some.h5").close()
+    with h5py.File(tmp_path / "some.h5", "a") as file:
+        del file.attrs[name]
+    with pytest.raises(InputError, match="damaged"):
+        open_any(tmp_path / "some.h5")
 
 
 def test_compressed_data_that_would_fill_the_memory_are_refused(path: Path):

@@ -226,8 +226,7 @@ class Record:
                 f"its format is version {version}, this program reads up to {schema.FORMAT_VERSION}",
                 f"use tribodyn {self.attrs['tribodyn_version']} or newer",
             )
-        if self.status not in (schema.PARTIAL, schema.COMPLETE, schema.FAILED):
-            raise ValueError(f"unknown status {self.status}")
+        schema.require_head(self.attrs)
         if self.attrs.get("kind") == SWEEP:
             raise InputError(
                 "record",

@@ -6,11 +6,13 @@
 from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from tribodyn.numerics.variable import Variable
 
 FORMAT = "tribodyn-record"
+#: Attributes that every record's root has.
+HEAD = ("created", "message", "scenario", "scenario_sha256", "status", "tribodyn_version")
 #: Raised when a reader of the previous version would misread the file.
 FORMAT_VERSION = 1
 
@@ -20,6 +22,15 @@ STATUS_NOTES = {
     PARTIAL: "the run is going on, or was killed: only the first samples_written samples are results",
     COMPLETE: "",
 }
+
+
+def require_head(attributes: Mapping[str, Any]) -> None:
+    """Raise KeyError or ValueError where a root's attributes are not those of a record."""
+    for name in HEAD:
+        _ = attributes[name]
+    if attributes["status"] not in (PARTIAL, COMPLETE, FAILED):
+        raise ValueError(f"unknown status {attributes['status']}")
+
 
 TIME = Variable(("time",), "s", "time")
 SAMPLES_WRITTEN = Variable((), "1", "number of samples, from the first, that hold results", "<i8", 0)

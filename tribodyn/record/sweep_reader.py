@@ -79,8 +79,7 @@ class SweepRecord:
                 if dim[0].shape != (length,):
                     raise ValueError(f"{name} does not fit its scales")
             _ = self.units(name), self.long_name(name)
-        if self.status not in (schema.PARTIAL, schema.COMPLETE, schema.FAILED):
-            raise ValueError(f"unknown status {self.status}")
+        schema.require_head(self.attrs)
         _ = self.message, self.parameters, self.directions, self.settings, self.scenario, self.summary
         _ = self.samples_per_cycle if "samples_per_cycle" in self.attrs else None
 
