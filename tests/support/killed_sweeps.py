@@ -29,11 +29,11 @@ ENGINES: dict[str, tuple[str, ...]] = {
     "dask 1": ("--engine", "dask", "--workers", "1"),
     "dask 3": ("--engine", "dask", "--workers", "3"),
 }
-# chunks of few cases, so that there is something between nothing and everything
+# Chunks of few cases: something lies between nothing and everything. Dask's workers import the main
+# program too, without its arguments.
 _SWEEP = (
-    "import sys\nfrom tribodyn.studies.gear_pair import batch\nbatch.MOST_IN_CHUNK = int(sys.argv[1])\n"
-    "from tribodyn.cli import main\nsys.argv = ['tribodyn', 'sweep', *sys.argv[2:]]\n"
-    "if __name__ == '__main__':\n    main()\n"
+    "from tribodyn.studies.gear_pair import batch\nbatch.MOST_IN_CHUNK = {most_in_chunk}\n"
+    "from tribodyn.cli import main\nif __name__ == '__main__':\n    main()\n"
 )
 
 
@@ -89,5 +89,5 @@ def _waiting(partial: Path) -> int | None:
 
 def _command(words: Sequence[str], output: Path, most_in_chunk: int) -> list[str]:
     script = output.parent / "sweep_in_small_chunks.py"
-    script.write_text(_SWEEP, encoding="utf-8")  # a file: Dask's workers import the main program
-    return [sys.executable, str(script), str(most_in_chunk), *words, "-o", str(output)]
+    script.write_text(_SWEEP.format(most_in_chunk=most_in_chunk), encoding="utf-8")
+    return [sys.executable, str(script), "sweep", *words, "-o", str(output)]
