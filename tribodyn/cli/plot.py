@@ -116,6 +116,16 @@ def draw(
     return _save_all(names, beside, lambda name: figure(name, records, cycles=cycles, against=against))
 
 
+def draw_pictures(path: Path, *, everything: bool) -> list[Path]:
+    """Draw the overview of a record, or all its figures, beside it."""
+    from tribodyn.record.reader import open_record
+    from tribodyn.studies.pictures import names
+
+    with open_record(path) as record:
+        chosen = ["overview", *names([record])] if everything else ["overview"]
+        return draw([record], chosen, path.with_suffix(".png"))
+
+
 def _draw_sweeps(paths: Sequence[str], names: Sequence[str], beside: Path, at: Sequence[str]) -> list[Path]:
     """Draw figures of sweeps."""
     from contextlib import ExitStack

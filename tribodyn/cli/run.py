@@ -41,28 +41,36 @@ def run(
     json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
 ) -> None:
     """Run a scenario: record, summary, picture."""
+    from tribodyn.cli.ahead import drawer
     from tribodyn.cli.outcome import SIMULATION_FAILED, complain
+    from tribodyn.cli.plot import draw_pictures
     from tribodyn.cli.printing import print_json, quoted_path
     from tribodyn.cli.progress import progress_bar
     from tribodyn.record.withheld import warnings
     from tribodyn.studies.load import load
     from tribodyn.studies.run import run as run_case
 
-    loaded = load(scenario, overrides(settings))
-    case = loaded.case
-    record = output or Path(f"{case.name}.h5")
-    with loaded.naming(), progress_bar(case.name) as progress:
-        result = run_case(case, record, force=force, progress=progress, allow_large=allow_large)
-    failed = result.status != "complete"
-    pictures = [] if failed or plot is False else _draw(result.path, everything=plot is True)
+    with drawer(wanted=plot is None) as ahead:
+        loaded = load(scenario, overrides(settings))
+        case = loaded.case
+        record = output or Path(f"{case.name}.h5")
+        with loaded.naming(), progress_bar(case.name) as progress:
+            result = run_case(case, record, force=force, progress=progress, allow_large=allow_large)
+        failed = result.status != "complete"
+        if ahead and not failed:
+            ahead.draw(result.path)
+        if not json:
+            _print_summary(result.path)
+        drawn = ahead.pictures() if ahead and not failed else None
+    if drawn is None:
+        drawn = [] if failed or plot is False else draw_pictures(result.path, everything=plot is True)
     page = None if failed or not report else _report(result.path)
     if json:
-        shown = {"pictures": [str(path) for path in pictures], **({"report": str(page)} if page else {})}
+        shown = {"pictures": [str(path) for path in drawn], **({"report": str(page)} if page else {})}
         print_json({**_as_json(result.path), **shown})
     else:
-        _print_summary(result.path)
         typer.echo(f"record   {quoted_path(result.path)}")
-        for picture in pictures:
+        for picture in drawn:
             typer.echo(f"picture  {quoted_path(picture)}")
         if page:
             typer.echo(f"report   {quoted_path(page)}")
@@ -87,16 +95,6 @@ def _as_json(path: Path) -> dict[str, Any]:
 
     with open_record(path) as record:
         return as_json(record)
-
-
-def _draw(path: Path, *, everything: bool) -> list[Path]:
-    from tribodyn.cli.plot import draw
-    from tribodyn.record.reader import open_record
-    from tribodyn.studies.pictures import names
-
-    with open_record(path) as record:
-        chosen = ["overview", *names([record])] if everything else ["overview"]
-        return draw([record], chosen, path.with_suffix(".png"))
 
 
 def _report(path: Path) -> Path:

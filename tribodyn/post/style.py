@@ -120,9 +120,28 @@ def new_figure(width: float = WIDTH, height: float = PANEL_HEIGHT) -> Figure:
 
 def save(figure: Figure, path: str | Path) -> Path:
     """Write a figure as PNG, PDF or SVG, by the file's ending."""
+    path = Path(path)
     with house_style():
-        figure.savefig(path)
-    return Path(path)
+        if path.suffix == ".png":
+            _save_png(figure, path)
+        else:
+            figure.savefig(path)
+    return path
+
+
+def _save_png(figure: Figure, path: Path) -> None:
+    """Write a PNG as `savefig` does, which would draw the figure once more to no effect."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.image import imsave
+
+    shown_at = figure.dpi
+    figure.dpi = matplotlib.rcParams["savefig.dpi"]
+    try:
+        canvas = FigureCanvasAgg(figure)
+        canvas.draw()
+        imsave(path, canvas.buffer_rgba(), dpi=figure.dpi, pil_kwargs={"compress_level": 4})
+    finally:
+        figure.dpi = shown_at
 
 
 def mark_panel(axes: Axes, letter: str, title: str = "", rows: int = 0) -> None:

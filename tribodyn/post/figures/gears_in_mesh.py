@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.patches import Polygon
 
 from tribodyn.post.style import PALETTE, QUIET
 
@@ -106,7 +107,8 @@ def reach(mesh: GearsInMesh) -> tuple[float, float]:
 def _draw_outlines(axes: Axes, mesh: GearsInMesh) -> None:
     outlines = (mesh.pinion, PINION_FILL), (mesh.gear, GEAR_FILL)
     for (outline, fill), color in zip(outlines, PALETTE, strict=False):
-        axes.fill(*(outline / MILLIMETRE).T, facecolor=fill, edgecolor=color, linewidth=0.9)
+        # the circles below give the limits: to seek those of the outlines takes longer than to draw them
+        axes.add_artist(Polygon(outline / MILLIMETRE, facecolor=fill, edgecolor=color, linewidth=0.9))
     sizes = zip(_centres(mesh), mesh.tip_radii, mesh.pitch_radii, PALETTE, strict=False)
     for centre, tip, pitch, color in sizes:
         circle = _circle()

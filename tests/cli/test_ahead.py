@@ -1,0 +1,63 @@
+"""The process that draws the overview of a run: its picture is the one, and where it fails nothing is missing."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tribodyn.cli import ahead
+
+RUN = """
+import json, sys
+import tribodyn.cli.ahead as ahead
+from tribodyn.cli import main
+if "broken" in sys.argv:
+    ahead.COMMAND = (sys.executable, "-c", sys.argv.pop())
+    sys.argv.pop()
+sys.argv = ["tribodyn", "run", "irefc", "--set", "output.samples_per_cycle=8", "--json", *sys.argv[1:]]
+try:
+    main()
+except SystemExit as end:
+    assert not end.code, end.code
+sys.stderr.write(json.dumps("matplotlib" in sys.modules))
+"""
+
+
+def run(folder: Path, *words: str) -> tuple[list[str], bool]:
+    """Pictures of a run, and whether its own process imported matplotlib."""
+    done = subprocess.run(
+        [sys.executable, "-c", RUN, *words], cwd=folder, capture_output=True, text=True, check=True
+    )
+    return json.loads(done.stdout)["pictures"], json.loads(done.stderr.splitlines()[-1])
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(len(os.sched_getaffinity(0)) < 2, reason="one core: the process that runs draws")
+def test_the_overview_is_drawn_by_another_process_as_by_its_own(tmp_path):
+    assert run(tmp_path, "-o", "one.h5") == (["one-overview.png"], False)
+    assert run(tmp_path, "-o", "two.h5", "broken", "pass") == (["two-overview.png"], True)
+    one, two = ((tmp_path / f"{name}-overview.png").read_bytes() for name in ("one", "two"))
+    assert len(one) > 10_000
+    assert one == two
+
+
+def test_an_answer_that_is_none_is_no_picture(monkeypatch):
+    for program in ("pass", "print('nonsense')", "import sys; sys.exit(3)"):
+        monkeypatch.setattr(ahead, "COMMAND", (sys.executable, "-c", program))
+        drawer = ahead.Drawer()
+        drawer.draw(Path("no-such.h5"))
+        assert drawer.pictures() is None
+        drawer.close()
+
+
+def test_a_process_without_a_record_ends(monkeypatch):
+    monkeypatch.setattr("tribodyn.OWN_PROCESS", True)
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0, 1}, raising=False)
+    with ahead.drawer(wanted=True) as drawer:
+        assert drawer is not None
+    assert drawer._process.returncode is not None
+    with ahead.drawer(wanted=False) as drawer:
+        assert drawer is None

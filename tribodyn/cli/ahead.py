@@ -1,0 +1,103 @@
+"""A second process that gets ready to draw while the first one computes.
+
+To import matplotlib, and to find fonts and read formulas for the first time, takes as long as a run.
+
+It is a convenience: where it cannot be had, or ends without an answer, the first process draws.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+# no folder of the user's among the places of modules
+COMMAND = (sys.executable, "-P", "-c", "from tribodyn.cli.ahead import serve; serve()")
+#: How long it waits for a record, s: of a longer run the drawing takes a small share.
+PATIENCE = 60.0
+
+
+class Drawer:
+    """A process that draws the overview of a record, which is not there yet."""
+
+    def __init__(self) -> None:
+        pipe = subprocess.PIPE
+        self._process = subprocess.Popen(
+            COMMAND, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, text=True
+        )
+
+    def draw(self, record: Path) -> None:
+        """Begin to draw the overview of a record."""
+        with suppress(OSError):
+            print(json.dumps(str(record)), file=self._process.stdin, flush=True)
+
+    def pictures(self) -> list[Path] | None:
+        """Return the pictures as soon as they are drawn; None where the process gives no answer."""
+        with suppress(OSError, ValueError):
+            said, _ = self._process.communicate()
+            return [Path(one) for one in json.loads(said)]
+        return None
+
+    def close(self) -> None:
+        """End the process, which has nothing left to do."""
+        self._process.kill()
+        with suppress(OSError, ValueError):
+            self._process.communicate()
+
+
+@contextmanager
+def drawer(wanted: bool) -> Iterator[Drawer | None]:
+    """Give a process that gets ready to draw, where this is the command line's own and a core is free."""
+    import tribodyn
+
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    made = None
+    if wanted and tribodyn.OWN_PROCESS and cores > 1:
+        with suppress(OSError):
+            made = Drawer()
+    try:
+        yield made
+    finally:
+        if made is not None:
+            made.close()
+
+
+def serve() -> None:
+    """Get ready, wait for the name of a record, draw it, write the names of the pictures."""
+    import gc
+    import signal
+
+    gc.set_threshold(50_000)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the first process ends, and with it the input
+    timer = threading.Timer(PATIENCE, lambda: os._exit(0))
+    timer.daemon = True
+    timer.start()
+    _warm_up()
+    line = sys.stdin.readline()
+    timer.cancel()
+    if not line:
+        return
+    from tribodyn.cli.plot import draw_pictures
+
+    pictures = draw_pictures(Path(json.loads(line)), everything=False)
+    sys.stdout.write(json.dumps([str(path) for path in pictures]))
+
+
+def _warm_up() -> None:
+    """Draw a figure that nobody sees: fonts, formulas and layouts are then known."""
+    import io
+
+    import tribodyn.studies.pictures  # noqa: F401
+    from tribodyn.post.figures import over_mesh  # noqa: F401
+    from tribodyn.post.style import house_style, new_figure
+
+    with house_style():
+        figure = new_figure(2.0, 2.0)
+        axes = figure.subplots()
+        axes.set_title("$B_g$ 0123456789 (a)", fontweight="bold")
+        axes.set_xlabel("Phase (mesh cycles) $C_p$")
+        figure.legend(axes.plot([0.0, 1.0]), ["pair 1"])
+        figure.savefig(io.BytesIO(), format="png")
