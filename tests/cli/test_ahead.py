@@ -1,4 +1,4 @@
-"""The process that draws the overview of a run: its picture is the one, and where it fails nothing is missing."""
+"""The process that draws the overview of a run: its picture is the same, and its failure costs nothing."""
 
 import json
 import os
