@@ -28,15 +28,16 @@ PANELS = (
 
 def comparison(records: list[Record]):
     """Draw both drives in six panels: the first one's path of contact, then quantities of both over phase."""
+    view = View(cycles=1)
     with house_style():
         figure = new_figure(11.0, 6.2)
         axes = figure.subplots(2, 3).ravel()
         draw_path(axes[0], records[0])
         for panel, quantity in zip(axes[1:], PANELS, strict=True):
-            draw(panel, records, quantity, View(cycles=1), first=panel in (axes[1], axes[2]))
+            draw(panel, records, quantity, view, first=panel in (axes[1], axes[2]))
         for letter, panel in zip("abcdef", axes, strict=True):
             mark_panel(panel, letter)
-        legend(figure, axes[1], records)
+        legend(figure, axes[1:], records, view)
     return figure
 
 
