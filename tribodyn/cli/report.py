@@ -15,7 +15,10 @@ EXAMPLES = (
 
 
 def report(
-    records: Annotated[list[str], typer.Argument(metavar="RECORD...", help="Records of tribodyn run.")],
+    records: Annotated[
+        list[str],
+        typer.Argument(metavar="RECORD...", help="Records of tribodyn run, or one of tribodyn sweep."),
+    ],
     output: Annotated[
         Path | None,
         typer.Option("--output", "-o", help="The page; default: the records' names, in this folder."),
@@ -27,12 +30,12 @@ def report(
     from contextlib import ExitStack
 
     from tribodyn.cli.printing import print_json, quoted_path
-    from tribodyn.record.reader import open_record
+    from tribodyn.record.sweep_reader import open_any
     from tribodyn.studies.pages import write_report
 
     target = output or Path(f"{'-'.join(Path(path).stem for path in records)}.html")
     with ExitStack() as stack:
-        written = write_report([stack.enter_context(open_record(path)) for path in records], target)
+        written = write_report([stack.enter_context(open_any(Path(path))) for path in records], target)
     files = {"report": written}
     if pdf:
         from tribodyn.post.page.pdf import print_page

@@ -44,6 +44,10 @@ Lines = Mapping[str, tuple[Line, ...]]
 """Heading -> lines of a summary's table, in order; a line whose name a summary lacks is left out."""
 
 
+#: How a sentence on exceeded limits of a law begins: it is shown in another colour.
+EXCEEDED = "Limits of the"
+
+
 def summary_table(record: Record, lines: Lines, sentences: Sequence[str]) -> Group:
     """Lay out the summary of a record for the terminal (a rich renderable), in engineers' units.
 
@@ -86,7 +90,10 @@ def summary_table(record: Record, lines: Lines, sentences: Sequence[str]) -> Gro
     unfinished = f"The run is {record.status}: {record.samples} samples were written."
     said = [*sentences, *([] if record.status == "complete" else [unfinished])]
     parts += [Text(f"  Warning: {warning}.", style="bold red") for warning in warnings(record.summary)]
-    parts += [Text(f"  {sentence}") for sentence in said or ["The record has no summary."]]
+    parts += [
+        Text(f"  {sentence}", style="yellow" if sentence.startswith(EXCEEDED) else "")
+        for sentence in said or ["The record has no summary."]
+    ]
     return Group(*parts)
 
 
@@ -160,7 +167,7 @@ def exceeded(summary: Mapping[str, Any], name: str, law: str) -> list[str]:
     for one in found.values():
         factor = f" by up to {float(one['factor']):.3g} times" if "factor" in one else ""
         parts.append(f"{one['limit']}{factor} in {_percent(float(one['share']), up=True)}")
-    return [f"Limits of the {law} exceeded: {'; '.join(parts)} of the contact."]
+    return [f"{EXCEEDED} {law} exceeded: {'; '.join(parts)} of the contact."]
 
 
 def on_energy(summary: Mapping[str, Any]) -> list[str]:

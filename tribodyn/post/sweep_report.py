@@ -35,30 +35,55 @@ def sweep_table(record: SweepRecord, lines: Sequence[Line]) -> Group:
     parts: list[Any] = [Text(str(record.scenario.get("title", record.label)), style="bold")]
     if record.status != "complete":
         parts.append(Text(f"{record.status}: {record.message}", style="bold red"))
-    count = record.count()
-    axes = ", ".join(f"{len(one.values)} of {one.key}" for one in record.parameters)
-    both = f", {' and '.join(record.directions)}" if record.directions else ""
-    parts.append(Text(f"{count['cases']} cases ({axes}{both}): {_counted(count)}"))
-    if kinds := _kinds(record):
-        parts.append(Text(f"motion: {kinds}"))
+    head, tail = _head(record), _tail(record)
+    parts += map(Text, head)
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
     for title in ("", "minimum", "at", "maximum", "at", ""):
         table.add_column(title, justify="right" if title in ("minimum", "maximum") else "left", no_wrap=True)
+    for row in sweep_rows(record, columns):
+        table.add_row(*row)
+    parts.append(table)
+    parts += map(Text, tail)
+    parts += [Text(f"Warning: {warning}", style="bold red") for warning in sweep_warnings(record)]
+    return Group(*parts)
+
+
+def sweep_said(record: SweepRecord) -> list[str]:
+    """What a sweep found besides its figures: cases, sorts of motion, ends of branches, failures."""
+    return [*_head(record), *_tail(record)]
+
+
+def sweep_rows(record: SweepRecord, columns: Sequence[Line]) -> list[list[str]]:
+    """Rows of the table: name, minimum and where, maximum and where, unit; of figures with any value."""
+    rows = []
     for column in columns:
         values = np.where(record["status"] == DONE, record[column.name], np.nan)
         if np.isfinite(values).any():
-            table.add_row(*_row(record, column, values))
-    parts.append(table)
+            rows.append(_row(record, column, values))
+    return rows
+
+
+def _head(record: SweepRecord) -> list[str]:
+    count = record.count()
+    axes = ", ".join(f"{len(one.values)} of {one.key}" for one in record.parameters)
+    both = f", {' and '.join(record.directions)}" if record.directions else ""
+    kinds = _kinds(record)
+    return [
+        f"{count['cases']} cases ({axes}{both}): {_counted(count)}",
+        *([f"motion: {kinds}"] if kinds else []),
+    ]
+
+
+def _tail(record: SweepRecord) -> list[str]:
     ends = branch_ends(record)
-    parts += [Text(_end_line(record, end)) for end in ends[:ENDS_SHOWN]]
+    said = [_end_line(record, end) for end in ends[:ENDS_SHOWN]]
     if len(ends) > ENDS_SHOWN:
-        parts.append(Text(f"and {len(ends) - ENDS_SHOWN} more ends of branches, see end_value in the record"))
+        said.append(f"and {len(ends) - ENDS_SHOWN} more ends of branches, see end_value in the record")
     failures = record.failures()
-    parts += [Text(f"failed at {_place(record, at)}: {why}") for at, why in failures[:FAILURES_SHOWN]]
+    said += [f"failed at {_place(record, at)}: {why}" for at, why in failures[:FAILURES_SHOWN]]
     if len(failures) > FAILURES_SHOWN:
-        parts.append(Text(f"and {len(failures) - FAILURES_SHOWN} more, see message in the record"))
-    parts += [Text(f"Warning: {warning}", style="bold red") for warning in sweep_warnings(record)]
-    return Group(*parts)
+        said.append(f"and {len(failures) - FAILURES_SHOWN} more, see message in the record")
+    return said
 
 
 def branch_ends(record: SweepRecord) -> list[dict[str, Any]]:

@@ -1,11 +1,18 @@
-"""Pages of records, as their studies describe them."""
+"""Pages of records and of sweeps, as their studies describe them."""
 
 from collections.abc import Sequence
 from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
 
-from tribodyn.errors import InputError, OutputError
+from tribodyn.errors import InputError, OutputError, SimulationError
 from tribodyn.record.reader import Record
-from tribodyn.studies.pictures import study_of_record
+from tribodyn.record.sweep_reader import SweepRecord
+from tribodyn.studies.load import load
+from tribodyn.studies.pictures import study_of_record, study_of_sweep, sweep_figure, sweep_names
+
+if TYPE_CHECKING:
+    from tribodyn.studies.study import TextTable
 
 #: What every page has near its beginning; a file without it is not replaced.
 MADE_HERE = '<meta name="generator" content="tribodyn">'
@@ -35,15 +42,57 @@ def report(records: Sequence[Record], figures: bool = True) -> str:
             rule = f"of kind {record.kind}, the first of {records[0].kind}"
             raise InputError("record", str(record.path), rule, "make a page of its own")
     told = [
-        Told(one.lines(), one.sentences(record), one.panels())
+        Told(
+            one.lines(),
+            one.sentences(record),
+            one.panels(),
+            one.maps(record),
+            sheet(record) if figures else (),
+        )
         for one, record in zip(studies, records, strict=True)
     ]
     return page(records, told, figures)
 
 
-def write_report(records: Sequence[Record], path: str | Path) -> Path:
-    """Write the page into a file; raises as `report`, and OutputError where it cannot be written."""
-    text = report(records)
+def sheet(record: Record | SweepRecord) -> "Sequence[TextTable]":
+    """What `check` says of the scenario of a record; nothing where this version cannot make its case."""
+    with TemporaryDirectory(prefix="tribodyn-") as folder:
+        scenario = Path(folder) / "scenario.toml"
+        scenario.write_text(str(record.attrs.get("scenario", "")), encoding="utf-8")
+        try:
+            loaded = load(scenario)
+            return loaded.study.check(loaded.case, allow_large=True).tables
+        except (InputError, SimulationError):
+            return ()
+
+
+def sweep_report(record: SweepRecord) -> str:
+    """Write the page of a sweep: its figures over the first varied key, and its pictures."""
+    from tribodyn.post.page.sweep_page import sweep_page
+
+    study = study_of_sweep(record)
+    pictures = []
+    for name in sweep_names([record]):
+        try:
+            pictures.append((name, study.sweep_drawings()[name].about, sweep_figure(name, [record])))
+        except InputError:  # of a sweep that lacks what the picture shows
+            continue
+    return sweep_page(record, study.sweep_lines(), pictures, sheet(record))
+
+
+def write_report(records: Sequence[Record | SweepRecord], path: str | Path) -> Path:
+    """Write the page into a file; raises as `report`, and OutputError where it cannot be written.
+
+    Of sweeps one alone.
+    """
+    sweeps = [record for record in records if isinstance(record, SweepRecord)]
+    if len(sweeps) == 1 == len(records):
+        text = sweep_report(sweeps[0])
+    elif sweeps:
+        rule = "a sweep has a page of its own"
+        raise InputError("record", str(sweeps[0].path), rule, "make a page of each")
+    else:
+        text = report([record for record in records if isinstance(record, Record)])
     target = Path(path)
     if target.suffix.lower() not in (".html", ".htm"):
         raise InputError("output", str(target), "a page is a file that ends in .html", "name it so")

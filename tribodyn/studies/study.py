@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from tribodyn.errors import InputError
     from tribodyn.numerics.variable import Variable
     from tribodyn.post.figures.drawing import Drawing, SweepDrawing
+    from tribodyn.post.page.maps import PageMap
     from tribodyn.post.report import Line, Lines
     from tribodyn.record.reader import Record
     from tribodyn.record.sweep_reader import SweepRecord
@@ -114,7 +115,8 @@ class Study:
                   ``figures(case) -> dict``, its figures without a record (optional: to be swept)
     report        ``LINES``, heading -> lines of the summary; ``sentences(record)``, how far it is to be
                   trusted; ``SWEPT``, figures that a sweep keeps, and ``SWEEP_LINES``, those that it
-                  prints (both optional); ``PANELS``, datasets that a page shows at first (optional)
+                  prints (both optional); ``PANELS``, datasets that a page shows at first (optional);
+                  ``maps(record)``, its maps over the face (optional)
     figures       ``DRAWINGS``, its pictures by name; the one called overview is drawn after a run
     sweep_figures ``SWEEP_DRAWINGS``, pictures of its sweeps (optional: the response of its figures)
     batch         ``BATCH``, how many cases are evaluated together (optional), see `studies.batch.Batch`
@@ -285,6 +287,11 @@ class Study:
     def panels(self) -> tuple[str, ...]:
         """Datasets that a page of its records shows at first; none: the first ones."""
         return self._part("report", "PANELS", optional=True) or ()
+
+    def maps(self, record: "Record") -> "Sequence[PageMap]":
+        """Maps over roll angle and face that a page of a record shows; none: nothing varies over the face."""
+        found = self._part("report", "maps", optional=True)
+        return found(record) if found else ()
 
     def batch(self) -> "Batch | None":
         """How many cases are evaluated together; None: one after the other, by `figures`."""

@@ -21,9 +21,10 @@
         curve.x = curve.i === null ? record.axis : Float64Array.from(curve.i, (i) => record.axis[i]);
       }
     }
+    for (const one of record.maps || []) for (const name of ["x", "y", "z"]) one[name] = numbers(one[name], Float32Array);
     const teeth = record.teeth;
     if (teeth) {
-      teeth.frames = numbers(teeth.frames, Uint32Array);
+      teeth.frames = teeth.frames && numbers(teeth.frames, Uint32Array);
       teeth.roll = numbers(teeth.roll, Float64Array);
       for (const name of ["x", "y", "alpha", "path"]) teeth[name] = numbers(teeth[name], Float32Array);
       for (const name of ["pinion", "gear"]) {
@@ -58,11 +59,14 @@
   // plotly reads tags in its texts
   const plain = (text) => text.replace(/&/g, "&amp;").replace(/</g, "&lt;");
   const several = data.records.length > 1;
-  const colorOf = (number, k) => COLORS[(several ? number : k) % COLORS.length];
+  // of many curves colours along the hues, so that neighbours are alike
+  const colorOf = (number, k, count) => several ? COLORS[number % COLORS.length] : count > COLORS.length ? "hsl(" + Math.round(270 - 270 * k / (count - 1)) + " 75% 45%)" : COLORS[k % COLORS.length];
   function heading(series) {
     const names = several ? data.records.map((one) => one.label) : series.curves.length > 1 ? series.curves.map((one) => one.label) : [];
     if (names.length > 8) return plain(series.title + "   " + names[0] + " … " + names[names.length - 1]);
     const colored = names.map((name, k) => '<span style="color:' + COLORS[k % COLORS.length] + '">' + plain(name) + "</span>");
+    if (data.records.some((one) => (one.outside || {})[series.name])) colored.push("(shaded: its law is extrapolated)");
+    if (data.records.some((one) => one.trust)) colored.push('<span style="color:#b3261e">outside the model</span>');
     return [plain(series.title)].concat(colored).join("   ");
   }
   // ---- figures
@@ -73,7 +77,7 @@
     const layout = {
       height: 90 + 190 * count, margin: { l: 75, r: 20, t: 28, b: 48 }, paper_bgcolor: "rgba(0,0,0,0)",
       plot_bgcolor: "rgba(0,0,0,0)", font: { color: ink, size: 12 }, hovermode: "x unified", showlegend: false,
-      annotations: [],
+      annotations: [], shapes: [],
       xaxis: { title: { text: data.axis }, range: range, gridcolor: grid, zeroline: false, anchor: count > 1 ? "y" + count : "y" },
     };
     shown.forEach((name, row) => {
@@ -89,12 +93,17 @@
       data.records.forEach((record, number) => {
         const one = record.byName[name];
         if (!one) return;
+        for (const [from, to] of (record.outside || {})[name] || [])
+          layout.shapes.push({
+            type: "rect", xref: "x", yref: "y" + key + " domain", x0: record.axis[from], x1: record.axis[to], y0: 0, y1: 1,
+            fillcolor: several ? COLORS[number % COLORS.length] : "#e69f00", opacity: 0.13, line: { width: 0 }, layer: "below",
+          });
         one.curves.forEach((curve, k) => {
           const label = [several ? record.label : "", curve.label || (several ? "" : series.unit)];
           traces.push({
             type: "scatter", mode: "lines", x: curve.x, y: curve.y, xaxis: "x", yaxis: "y" + key, connectgaps: false,
             name: plain(label.filter(Boolean).join(", ")),
-            line: { width: 1.3, color: colorOf(number, k), dash: several ? DASHES[k % DASHES.length] : "solid" },
+            line: { width: 1.3, color: colorOf(number, k, one.curves.length), dash: several ? DASHES[k % DASHES.length] : "solid" },
           });
         });
       });
@@ -110,6 +119,63 @@
     line.style.left = x + "px";
     line.style.height = full.height - 48 + "px";
   }
+  // ---- maps over the face
+  const withMaps = data.records.filter((one) => one.maps && one.maps.length);
+  const mapNames = withMaps.length ? withMaps[0].maps.map((one) => one.name) : [];
+  let mapPairs = [];
+  function drawMaps() {
+    $("maps-section").hidden = !withMaps.length;
+    if (!withMaps.length) return;
+    const ink = getComputedStyle(document.documentElement).getPropertyValue("--ink").trim();
+    const rows = mapNames.length, columns = withMaps.length, traces = [];
+    const layout = {
+      height: 60 + 250 * rows, margin: { l: 60, r: 90, t: 30, b: 45 }, paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)",
+      font: { color: ink, size: 12 }, annotations: [], shapes: [], showlegend: false,
+    };
+    mapPairs = [];
+    mapNames.forEach((name, row) => {
+      let top = 0;
+      for (const record of withMaps) for (const z of record.maps[row].z) if (z > top) top = z;
+      withMaps.forEach((record, column) => {
+        const one = record.maps[row], n = row * columns + column, key = n ? String(n + 1) : "";
+        const z = [];
+        for (let k = 0; k < one.y.length; k++) z.push(one.z.subarray(k * one.x.length, (k + 1) * one.x.length));
+        const left = column / columns, right = (column + 0.9) / columns, high = 1 - row / rows, low = high - 0.72 / rows;
+        layout["xaxis" + key] = { domain: [left, right], anchor: "y" + key, title: { text: row === rows - 1 ? "Roll angle from the pitch point (°)" : "" } };
+        layout["yaxis" + key] = { domain: [low, high], anchor: "x" + key, title: { text: column ? "" : "Place on the face (mm)" } };
+        layout.annotations.push({
+          text: plain(one.title) + (columns > 1 ? ": " + plain(record.label) : ""), x: left, y: high, xref: "paper", yref: "paper",
+          xanchor: "left", yanchor: "bottom", showarrow: false,
+        });
+        traces.push({
+          type: "heatmap", x: one.x, y: one.y, z: z, xaxis: "x" + key, yaxis: "y" + key, zmin: 0, zmax: top, colorscale: "Viridis", zsmooth: one.y.length > 1 ? "best" : false,
+          showscale: column === columns - 1, colorbar: { title: { text: plain(one.unit) }, len: 0.8 / rows, y: (low + high) / 2 },
+          hovertemplate: "%{x:.3g}°, %{y:.3g} mm: %{z:.4g} " + plain(one.unit) + "<extra></extra>",
+        });
+        mapPairs.push([record, key]);
+      });
+    });
+    Plotly.react($("maps"), traces, layout, { responsive: true, displaylogo: false }).then(markMaps);
+  }
+  let waiting = false;
+  function markMaps() {
+    if (!withMaps.length || waiting) return;
+    waiting = true;
+    requestAnimationFrame(() => {
+      waiting = false;
+      const shapes = [];
+      for (const [record, key] of mapPairs) {
+        const roll = record.byName.roll_angle;
+        if (!roll) continue;
+        const ends = $("maps")._fullLayout["xaxis" + key].range;
+        for (const curve of roll.curves) {
+          const x = valueAt(curve);
+          if (x >= ends[0] && x <= ends[1]) shapes.push({ type: "line", xref: "x" + key, yref: "y" + key + " domain", x0: x, x1: x, y0: 0, y1: 1, line: { color: "white", width: 2 } });
+        }
+      }
+      Plotly.relayout($("maps"), { shapes: shapes });
+    });
+  }
   // ---- teeth
   function drawTeeth() {
     const record = data.records[which], teeth = record.teeth, canvas = $("teeth");
@@ -122,7 +188,7 @@
       canvas.height = Math.round(height * ratio);
       canvas.style.height = height + "px";
     }
-    const sample = indexAt(record.axis, at), frame = indexAt(teeth.frames, sample), roll = teeth.roll[frame];
+    const sample = indexAt(record.axis, at), frame = teeth.frames ? indexAt(teeth.frames, sample) : sample, roll = teeth.roll[frame];
     let across = 1e-9;
     for (let k = 0; k < teeth.path.length; k += 2) across = Math.max(across, Math.abs(teeth.path[k]), 1.4 * Math.abs(teeth.path[k + 1]));
     const scale = (canvas.width / 2) / (1.75 * across);
@@ -194,7 +260,7 @@
     const [low, high] = span();
     at = Math.min(high, Math.max(low, value));
     if (!fromSlider) $("cursor").value = String(Math.round(1000 * (at - range[0]) / (range[1] - range[0])));
-    mark(); drawTeeth(); read();
+    mark(); drawTeeth(); read(); markMaps();
     document.body.dataset.at = String(at);
     document.body.dataset.line = $("line").style.left;
   }
@@ -225,7 +291,7 @@
   $("view").onchange = (event) => { range = event.target.value === "all" ? span() : first.window; draw(); move(Math.max(range[0], Math.min(range[1], at))); };
   $("color").onchange = drawTeeth;
   $("which").onchange = (event) => { which = Number(event.target.value); move(at); };
-  $("theme").onclick = () => { const root = document.documentElement; root.dataset.theme = root.dataset.theme === "dark" ? "light" : "dark"; draw(); drawTeeth(); };
+  $("theme").onclick = () => { const root = document.documentElement; root.dataset.theme = root.dataset.theme === "dark" ? "light" : "dark"; draw(); drawTeeth(); drawMaps(); };
   document.addEventListener("keydown", (event) => {
     if (["SELECT", "INPUT"].includes(event.target.tagName) && event.key !== " ") return;
     const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
@@ -242,7 +308,7 @@
   $("teeth-section").hidden = !data.records.some((one) => one.teeth);
   // page.html#at=1.25 opens there
   const asked = Number(new URLSearchParams(location.hash.slice(1)).get("at") || NaN);
-  offer(); draw(); move(isFinite(asked) ? asked : at);
+  offer(); draw(); drawMaps(); move(isFinite(asked) ? asked : at);
   if (data.figures) {
     $("plot").on("plotly_hover", (event) => { if (!playing) move(event.points[0].x); });
     $("plot").on("plotly_relayout", mark);

@@ -10,10 +10,14 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import InputError
+from tribodyn.post.page.maps import PageMap
+from tribodyn.post.page.maps import as_data as map_as_data
 from tribodyn.post.page.rolling_teeth import rolling_teeth
-from tribodyn.post.page.series import as_data, in_engineers_units, packed, series_of
-from tribodyn.post.report import Lines, shown
+from tribodyn.post.page.series import as_data, extrapolated, in_engineers_units, packed, series_of
+from tribodyn.post.report import EXCEEDED, Lines, shown
+from tribodyn.record import trust
 from tribodyn.record.reader import Record
+from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.withheld import reasons, warnings
 
 #: The dataset that is a pair's load.
@@ -25,11 +29,26 @@ CYCLES = 2
 
 
 class Told(NamedTuple):
-    """What a record's study says of it: lines of its summary by heading, how far to trust it, its figures."""
+    """What a record's study says of it.
+
+    Attributes
+    ----------
+    lines : mapping
+        Lines of its summary by heading.
+    sentences : sequence of str
+        How far to trust it.
+    panels : sequence of str
+        Datasets that are shown at first.
+    maps : sequence of PageMap
+    tables : sequence of (title, columns, rows)
+        The sheet of its gears.
+    """
 
     lines: Lines
     sentences: Sequence[str]
     panels: Sequence[str] = ()
+    maps: Sequence[PageMap] = ()
+    tables: Sequence[tuple[str, Sequence[str], Sequence[Sequence[str]]]] = ()
 
 
 def page(records: Sequence[Record], told: Sequence[Told], figures: bool = True) -> str:
@@ -49,7 +68,10 @@ def page(records: Sequence[Record], told: Sequence[Told], figures: bool = True) 
     InputError
         For a record without samples.
     """
-    data = [_record(record) for record in records]
+    data = [_record(record, len(records)) for record in records]
+    if figures:
+        for one, record, what in zip(data, records, told, strict=True):
+            one["maps"] = [map_as_data(record, found) for found in what.maps]
     if not figures:
         panels = (LOAD, *told[0].panels)
         for one in data:
@@ -63,17 +85,28 @@ def page(records: Sequence[Record], told: Sequence[Told], figures: bool = True) 
     for one in data[1:]:
         one.pop("axis_unit")
     payload = {"records": data, "panels": panels, "load": LOAD, "axis": f"{axis.replace('_', ' ')} ({unit})"}
-    payload["figures"] = figures
     title = " · ".join(dict.fromkeys(_title(record) for record in records))
-    parts = {
-        "TITLE": escape(title),
-        "STYLE": _file("page.css"),
+    sections = {
         "WARNINGS": "".join(warnings_of(record, len(records) > 1) for record in records),
         "SUMMARY": summary_tables(records, [one.lines for one in told]) if figures else "",
         "TRUST": "".join(
             _list(record, one.sentences, len(records) > 1) for record, one in zip(records, told, strict=True)
         ),
-        "ORIGIN": "".join(map(_origin, records)) if figures else "",
+        "SHEET": _sheets(records, told) if figures else "",
+        "ORIGIN": "".join(map(origin, records)) if figures else "",
+    }
+    return assembled(title, payload, sections, figures)
+
+
+def assembled(title: str, payload: dict[str, Any], sections: dict[str, str], figures: bool = True) -> str:
+    """Put a page together of its title, its data and the HTML of its sections."""
+    payload["figures"] = figures
+    parts = {
+        **dict.fromkeys(("WARNINGS", "SUMMARY", "TRUST", "SHEET", "PICTURES", "ORIGIN"), ""),
+        "OVER": "Over the run",
+        **sections,
+        "TITLE": escape(title),
+        "STYLE": _file("page.css"),
         # no text of a record can end the element that holds it
         "DATA": json.dumps(payload, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"),
         "PLOTLY": _plotly() if figures else "",
@@ -98,7 +131,7 @@ def _title(record: Record) -> str:
     return title if record.status == "complete" else f"{title} [{record.status}]"
 
 
-def _record(record: Record) -> dict[str, Any]:
+def _record(record: Record, count: int) -> dict[str, Any]:
     """A record as the page reads it."""
     if not record.samples:
         rule = "holds no samples to draw"
@@ -113,7 +146,7 @@ def _record(record: Record) -> dict[str, Any]:
         window[0] = max(window[0], window[1] - CYCLES * cycle)
     elif record.axis == "phase":
         cycle = 1.0
-    series = [as_data(one) for one in series_of(record)]
+    series = [as_data(one) for one in series_of(record, count)]
     for one in series:
         one["short"] = one["name"].replace("_", " ")
     return {
@@ -124,6 +157,8 @@ def _record(record: Record) -> dict[str, Any]:
         "window": window,
         "start": window[0],
         "series": series,
+        "outside": extrapolated(record),
+        "trust": record.trust == trust.OUTSIDE,
         "teeth": teeth,
     }
 
@@ -170,10 +205,33 @@ def _cell(record: Record, line: Any) -> str:
 
 def _list(record: Record, sentences: Sequence[str], named: bool) -> str:
     heading = f"<h3>{escape(record.label)}</h3>" if named else ""
-    return heading + "<ul>" + "".join(f"<li>{escape(one)}</li>" for one in sentences) + "</ul>"
+    marks = [' class="note"' if one.startswith(EXCEEDED) else "" for one in sentences]
+    items = (f"<li{mark}>{escape(one)}</li>" for mark, one in zip(marks, sentences, strict=True))
+    return f"{heading}<ul>{''.join(items)}</ul>"
 
 
-def _origin(record: Record) -> str:
+def _sheets(records: Sequence[Record], told: Sequence[Told]) -> str:
+    """Tables of the gears of every record, equal ones once."""
+    found: dict[str, list[str]] = {}
+    for record, one in zip(records, told, strict=True):
+        if one.tables:
+            found.setdefault("".join(table(*part) for part in one.tables), []).append(record.label)
+    texts = (
+        f"<details{' open' if len(found) == 1 else ''}><summary>{escape(', '.join(names))}</summary>"
+        f'<div class="tables">{text}</div></details>'
+        for text, names in found.items()
+    )
+    return f"<section><h2>Geometry</h2>{''.join(texts)}</section>" if found else ""
+
+
+def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """A table with a heading."""
+    head = "".join(f"<th>{escape(str(one))}</th>" for one in columns)
+    body = "".join("<tr>" + "".join(f"<td>{escape(str(one))}</td>" for one in row) + "</tr>" for row in rows)
+    return f'<div class="wide"><h3>{escape(title)}</h3><table><tr>{head}</tr>{body}</table></div>'
+
+
+def origin(record: Record | SweepRecord) -> str:
     """The scenario and what made the record."""
     known = ("created", "tribodyn_version", "scenario_sha256", "status")
     rows = "".join(

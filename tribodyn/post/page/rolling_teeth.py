@@ -38,7 +38,7 @@ def rolling_teeth(record: Record) -> dict[str, Any] | None:
         at["signed_distance"] * np.sin(at["pressure_angle"]),
     )
     return {
-        "frames": packed(frames, "<u4"),
+        "frames": None if len(frames) == len(phase) else packed(frames, "<u4"),
         "roll": packed(cycle["roll_start"] + phase[frames] * pitch, "<f8"),
         "pairs": len(front),
         "x": packed(np.where(touching, x, np.nan)),

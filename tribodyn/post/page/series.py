@@ -9,6 +9,17 @@ from tribodyn.record.reader import Record
 
 #: Samples of a series above which it is thinned: two of every bucket stay, its minimum and its maximum.
 MOST_SAMPLES = 8000
+#: Points of all series of a page, about: a number takes eleven bytes in the file.
+MOST_POINTS = 500_000
+#: Datasets that only add up another one: rotation, works.
+INTEGRALS = ("pinion_angle", "work_")
+#: Intervals that are shaded, at most.
+MOST_INTERVALS = 300
+#: Datasets by the flag that says where the law behind them is inside its range.
+FLAGS = {
+    "closure_in_range": ("central_film_thickness", "film_parameter", "asperity_load_ratio"),
+    "friction_in_range": ("friction_coefficient", "friction_force"),
+}
 #: SI unit -> units to choose from, with the factor from SI; the first whose largest value is at least 1.
 _UNITS: dict[str, tuple[tuple[str, float], ...]] = {
     "m": (("mm", 1e3), ("µm", 1e6), ("nm", 1e9)),
@@ -51,25 +62,43 @@ def in_engineers_units(values: np.ndarray, unit: str) -> tuple[np.ndarray, str]:
     return values * factor, name
 
 
-def series_of(record: Record) -> list[Series]:
-    """All datasets of numbers along a record's axis, but for the axis: one curve, or one per pair."""
+def series_of(record: Record, records: int = 1) -> list[Series]:
+    """Datasets of numbers along a record's axis, but for the axis: one curve, or one per pair.
+
+    Without those of several units at once, and without those that are integrals of others (`INTEGRALS`).
+
+    Parameters
+    ----------
+    record : Record
+    records : int
+        How many records share the page, and the points that it may have.
+    """
+    names = [
+        name
+        for name in record
+        if name != record.axis
+        and len(record.dims_of(name)) <= 2
+        and record.dims_of(name)[:1] == (record.axis,)
+        and record.units(name)
+        and " or " not in record.units(name)
+        and not name.startswith(INTEGRALS)
+        and np.asarray(record[name]).dtype.kind == "f"
+    ]
+    count = sum(1 if np.ndim(record[name]) == 1 else np.shape(record[name])[1] for name in names)
+    most = min(MOST_SAMPLES, max(1000, MOST_POINTS // max(1, count * records)))
     found = []
-    for name in record:
+    for name in names:
         dims = record.dims_of(name)
-        if name == record.axis or len(dims) > 2 or not record.units(name):
-            continue
-        values = np.asarray(record[name])
-        if values.dtype.kind != "f":
-            continue
-        values, unit = in_engineers_units(values, record.units(name))
+        values, unit = in_engineers_units(np.asarray(record[name]), record.units(name))
         title = record.long_name(name)
-        curves = [Curve("", *thinned(values))] if values.ndim == 1 else []
+        curves = [Curve("", *thinned(values, most))] if values.ndim == 1 else []
         for across in dims[1:]:
             labels = record[across] if across in record else np.arange(values.shape[1])
             word = across.replace("_", " ")
             curves = [
                 Curve(
-                    f"{word} {label}" if np.asarray(label).dtype.kind in "iu" else str(label), *thinned(one)
+                    f"{word} {label}" if np.asarray(label).dtype.kind in "iu" else str(label),
+                    *thinned(one, most),
                 )
                 for label, one in _in_order(across, list(zip(labels, values.T, strict=True)))
             ]
@@ -82,12 +111,34 @@ def _in_order(dim: str, curves: list[Any]) -> list[Any]:
     return curves[::-1] if dim == "pair" else curves
 
 
-def thinned(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Places and values of a series of at most about `MOST_SAMPLES`; extremes of every bucket stay."""
+def extrapolated(record: Record) -> dict[str, list[list[int]]]:
+    """First and last sample of intervals in which a law is outside its range, by dataset that rests on it.
+
+    Where there are more than `MOST_INTERVALS`, the shortest gaps between them are closed.
+    """
+    found = {}
+    for flag, names in FLAGS.items():
+        if flag not in record or "normal_load" not in record:
+            continue
+        outside = np.any((record[flag] == 0) & (record["normal_load"] > 0.0), axis=-1)
+        edges = np.flatnonzero(np.diff(np.concatenate([[0], outside.astype(int), [0]])))
+        starts, ends = edges[::2], edges[1::2] - 1
+        if len(starts) > MOST_INTERVALS:
+            gaps = starts[1:] - ends[:-1]
+            kept = np.sort(np.argsort(-gaps, kind="stable")[: MOST_INTERVALS - 1])
+            starts = np.concatenate([starts[:1], starts[1:][kept]])
+            ends = np.concatenate([ends[:-1][kept], ends[-1:]])
+        if len(starts):
+            found |= dict.fromkeys(names, np.stack([starts, ends], axis=1).tolist())
+    return found
+
+
+def thinned(values: np.ndarray, most: int = MOST_SAMPLES) -> tuple[np.ndarray, np.ndarray]:
+    """Places and values of a series of at most about `most` samples; extremes of every bucket stay."""
     count = len(values)
-    if count <= MOST_SAMPLES:
+    if count <= most:
         return np.arange(count), values
-    size = -(-2 * count // MOST_SAMPLES)
+    size = -(-2 * count // most)
     full = count // size * size
     buckets = values[:full].reshape(-1, size)
     empty = np.all(np.isnan(buckets), axis=1)

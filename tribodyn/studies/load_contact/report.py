@@ -1,9 +1,13 @@
 """Lines and sentences of the summary of a load contact study, and the figures that a sweep of it keeps."""
 
+import numpy as np
+
 from tribodyn.numerics.variable import Variable
+from tribodyn.post.page.maps import PageMap
 from tribodyn.post.report import Line, Lines
 from tribodyn.record.reader import Record
 from tribodyn.studies.gears import CONTACT_RATIO, EFFECTIVE_CONTACT_RATIO, NORMAL_LOAD, SINGLE_PAIR, WALL_TIME
+from tribodyn.studies.load_contact.rolled import face_edges, face_map
 
 LINES: Lines = {
     "Geometry": (CONTACT_RATIO, EFFECTIVE_CONTACT_RATIO, SINGLE_PAIR),
@@ -158,6 +162,22 @@ SWEPT: dict[str, Variable] = {
 }
 
 PANELS = ("loaded_transmission_error", "normal_load", "mesh_stiffness")
+
+
+def maps(record: Record) -> list[PageMap]:
+    """Line load and Hertz pressure of one pair over its roll angle and the face."""
+    names = ("line_load", "hertz_pressure")
+    if record.samples < 2:
+        return []
+    edges = face_edges(record)[[0, -1]]
+    found = []
+    for name in names:
+        over = face_map(record, name)
+        # to the edges of the face with the values of the outermost slices
+        face = np.concatenate([edges[:1], over.face, edges[1:]])
+        values = np.concatenate([over.values[:, :1], over.values, over.values[:, -1:]], axis=1)
+        found.append(PageMap(name, over.roll, face, values))
+    return found
 
 
 def sentences(record: Record) -> list[str]:

@@ -5,17 +5,22 @@ import html
 import json
 import re
 from pathlib import Path
+from typing import Any, cast
 
 import h5py
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 import tribodyn as td
+from tribodyn.cli.app import app
 from tribodyn.interface.run import Run
 from tribodyn.post.page import pdf
 from tribodyn.post.page.rolling_teeth import rolling_teeth
-from tribodyn.post.page.series import MOST_SAMPLES, in_engineers_units, thinned
+from tribodyn.post.page.series import MOST_INTERVALS, MOST_SAMPLES, extrapolated, in_engineers_units, thinned
 from tribodyn.record.reader import open_record
+from tribodyn.record.sweep_reader import open_any
+from tribodyn.studies.pages import write_report
 
 needs_browser = pytest.mark.skipif(
     pdf.browser() is None, reason="no browser: install Chromium (apt-get install chromium)"
@@ -127,6 +132,79 @@ def test_what_is_thinned_keeps_its_extremes_and_its_gaps(rng):
 def test_units_are_those_in_which_the_maximum_reads_best(value, unit, shown):
     scaled, name = in_engineers_units(np.array([0.0, value, np.nan]), unit)
     assert (scaled[1], name) == (pytest.approx(shown[0]), shown[1])
+
+
+def test_extrapolated_intervals_cover_what_the_flags_say(crc):
+    with open_record(crc.path) as record:
+        found = extrapolated(record)
+        outside = np.any((record["closure_in_range"] == 0) & (record["normal_load"] > 0.0), axis=1)
+    covered = np.zeros(len(outside), dtype=bool)
+    for first, last in found.get("film_parameter", []):
+        covered[first : last + 1] = True
+    np.testing.assert_array_equal(covered, outside)
+
+
+def test_of_many_intervals_the_shortest_gaps_are_closed():
+    count = 4 * MOST_INTERVALS
+    flag = np.tile([[0.0], [1.0]], (count, 1))
+    flag[100:200] = 1.0
+    record = {"closure_in_range": flag, "normal_load": np.ones_like(flag)}
+    intervals = extrapolated(cast(Any, record))["film_parameter"]
+    assert len(intervals) == MOST_INTERVALS
+    inside = [
+        interval for interval in intervals if 100 <= interval[0] < 200 or interval[0] < 100 < interval[1]
+    ]
+    assert not inside
+    assert intervals[0][0] == 0
+    assert intervals[-1][1] == 2 * count - 2
+
+
+def test_the_sheet_of_the_gears_and_definitions_are_on_the_page(page):
+    text = page.read_text(encoding="utf-8")
+    assert "<h2>Geometry</h2>" in text
+    assert "centre distance" in text
+    assert "Below 1 mixed to boundary" in text
+
+
+def test_a_load_contact_page_has_maps_to_the_edges_of_the_face(tmp_path: Path):
+    result = td.run("load-contact-18-36")
+    (record,) = data_of(result.report(tmp_path / "map.html"))["records"]
+    load, pressure = record["maps"]
+    assert (load["name"], pressure["name"]) == ("line_load", "hertz_pressure")
+    x, y, z = (unpacked(load[name]) for name in "xyz")
+    assert z.size == x.size * y.size
+    assert load["unit"] == "N/mm"
+    line = result.data["line_load"].to_numpy() * 1e-3
+    assert z.max() == pytest.approx(line.max(), rel=1e-6)
+    with open_record(result.path) as opened:
+        assert y[-1] - y[0] == pytest.approx(1e3 * opened.mesh_cycle["face_width"], rel=1e-6)
+
+
+def test_a_sweep_has_a_page(tmp_path: Path):
+    swept = tmp_path / "sweep.h5"
+    ended = CliRunner().invoke(
+        app,
+        [
+            "sweep",
+            "efficiency-crc-23-47",
+            "--vary",
+            "operating.pinion_speed=100,200,300rpm",
+            "-o",
+            str(swept),
+        ],
+    )
+    assert ended.exit_code == 0, ended.output
+    with open_any(swept) as record:
+        page = write_report([record], tmp_path / "sweep.html")
+        (data,) = data_of(page)["records"]
+        series = {one["name"]: one for one in data["series"]}
+        np.testing.assert_allclose(
+            unpacked(series["efficiency"]["curves"][0]["y"]), 100 * record["efficiency"], rtol=1e-6
+        )
+        np.testing.assert_allclose(unpacked(data["axis"], "<f8"), [100.0, 200.0, 300.0])
+        with pytest.raises(td.InputError, match="a page of its own"):
+            write_report([record, record], tmp_path / "both.html")
+    assert "data:image/png" in page.read_text(encoding="utf-8")
 
 
 def test_a_page_replaces_pages_only(crc, tmp_path: Path):

@@ -1,0 +1,42 @@
+"""Maps of a page: a quantity of one pair over its roll angle and the face."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.post.page.series import in_engineers_units, packed
+from tribodyn.record.reader import Record
+
+
+class PageMap(NamedTuple):
+    """A map as a study describes it.
+
+    Attributes
+    ----------
+    name : str
+        Of the dataset.
+    roll : (positions,)
+        Roll angle of the pair from the pitch point, rad.
+    face : (slices,)
+        Place on the face from its middle, m.
+    values : (positions, slices)
+        SI.
+    """
+
+    name: str
+    roll: np.ndarray
+    face: np.ndarray
+    values: np.ndarray
+
+
+def as_data(record: Record, found: PageMap) -> dict[str, Any]:
+    """A map as the page reads it, in engineers' units."""
+    values, unit = in_engineers_units(found.values, record.units(found.name))
+    return {
+        "name": found.name,
+        "title": f"{record.long_name(found.name)}, of one pair from entry to exit",
+        "unit": unit,
+        "x": packed(np.degrees(found.roll)),
+        "y": packed(found.face * 1e3),
+        "z": packed(values.T),
+    }

@@ -1,0 +1,117 @@
+"""The page of a sweep: figures of its cases over the first varied key, its table and its pictures."""
+
+import base64
+from collections.abc import Sequence
+from html import escape
+from io import BytesIO
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from tribodyn.errors import InputError
+from tribodyn.post.figures.sweep.branch import axis_label, branches
+from tribodyn.post.page.page import assembled, origin, table
+from tribodyn.post.page.series import packed
+from tribodyn.post.report import Line
+from tribodyn.post.style import house_style
+from tribodyn.post.sweep_report import described, sweep_rows, sweep_said, sweep_warnings
+from tribodyn.record.sweep_reader import SweepRecord
+
+#: Figures shown at first.
+FIGURES = 4
+
+
+def sweep_page(
+    record: SweepRecord,
+    lines: Sequence[Line],
+    pictures: Sequence[tuple[str, str, Figure]],
+    tables: Sequence[tuple[str, Sequence[str], Sequence[Sequence[str]]]],
+) -> str:
+    """Write the page.
+
+    Parameters
+    ----------
+    record : SweepRecord
+    lines : sequence of Line
+        Figures that are shown, and their units; none: all, as the record describes them.
+    pictures : sequence of (name, about, figure)
+    tables : sequence of (title, columns, rows)
+        What is known of the scenario that is varied.
+
+    Raises
+    ------
+    InputError
+        If the first key is no number.
+    """
+    known = [line for line in lines if line.name in record]
+    known = known or [described(record, name) for name in record.figures]
+    drawn = branches([record])
+    if not drawn or not len(drawn[0].x):
+        raise InputError("record", str(record.path), "holds no cases to draw", "run the sweep again")
+    order = np.argsort(drawn[0].x)
+    series = [
+        {
+            "name": line.name,
+            "short": line.label,
+            "title": line.label,
+            "unit": line.unit or "–",
+            "curves": [
+                {
+                    "label": ", ".join(filter(None, (branch.label, branch.direction))),
+                    "y": packed(branch.values(line.name)[order] * line.factor),
+                    "i": None,
+                }
+                for branch in drawn
+            ],
+        }
+        for line in known
+    ]
+    axis = drawn[0].x[order]
+    span = [float(axis[0]), float(axis[-1]) if len(axis) > 1 else float(axis[0]) + 1.0]
+    data: dict[str, Any] = {
+        "label": record.label,
+        "axis": packed(axis, "<f8"),
+        "cycle": (span[1] - span[0]) / 4.0,
+        "window": span,
+        "start": span[0],
+        "series": series,
+        "teeth": None,
+    }
+    payload = {
+        "records": [data],
+        "panels": [line.name for line in known[:FIGURES]],
+        "load": "",
+        "axis": axis_label(record.parameters[0]),
+    }
+    columns = ("", "minimum", "at", "maximum", "at", "unit")
+    warnings = [*sweep_warnings(record), *([record.message] if record.message else [])]
+    sheet = "".join(table(*one) for one in tables)
+    said = "".join(f"<li>{escape(one)}</li>" for one in sweep_said(record))
+    title = str(record.scenario.get("title", record.label))
+    return assembled(
+        title if record.status == "complete" else f"{title} [{record.status}]",
+        payload,
+        {
+            "WARNINGS": "".join(f'<p class="warning">{escape(one)}</p>' for one in warnings),
+            "SUMMARY": table("Figures of the cases", columns, sweep_rows(record, known)),
+            "TRUST": f"<ul>{said}</ul>",
+            "OVER": "Over the first varied key",
+            "SHEET": f"<section><h2>The scenario that is varied</h2>{sheet}</section>" if sheet else "",
+            "PICTURES": "".join(_picture(*one) for one in pictures),
+            "ORIGIN": origin(record),
+        },
+    )
+
+
+def _picture(name: str, about: str, figure: Figure) -> str:
+    """A picture within the page."""
+    file = BytesIO()
+    with house_style():
+        figure.savefig(file, format="png", dpi=130)
+    text = base64.b64encode(file.getvalue()).decode("ascii")
+    heading = f"{name[:1].upper()}{name[1:]}: {about}"
+    return (
+        f'<section class="pictures"><h2>{escape(heading)}</h2>'
+        f'<img alt="{escape(about)}" src="data:image/png;base64,{text}"></section>'
+    )
