@@ -121,8 +121,8 @@ class Study:
     sweep_figures ``SWEEP_DRAWINGS``, pictures of its sweeps (optional: the response of its figures)
     batch         ``BATCH``, how many cases are evaluated together (optional), see `studies.batch.Batch`
     estimate      ``estimate(case) -> Estimate``, what a run takes (optional)
-    template      ``template.toml``, a commented scenario in which TITLE stands for its title; of a study
-                  in a single module its attribute ``TEMPLATE``
+    template      ``template.toml``, a commented scenario in which TITLE stands for its title, see
+                  `studies.template.filled`; of a study in a single module its attribute ``TEMPLATE``
     ============= =================================================================================
 
     Parameters
