@@ -69,7 +69,7 @@ durations: $(VENV)/.testing
 	XLA_FLAGS="$(TESTS_XLA)" $(BIN)/python -m pytest $(IN_PARALLEL) --measure-durations --quick -m "not bench and not slow"
 
 docs: $(VENV)/.documenting
-	$(BIN)/python -m sphinx --fail-on-warning --keep-going -b html docs docs/_build/html
+	$(BIN)/python -m sphinx --fail-on-warning --keep-going --fresh-env -b html docs docs/_build/html
 	@echo "Open docs/_build/html/index.html"
 
 wheel: $(VENV)/.testing
