@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, nullcontext
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from tribodyn.interface import datasets, shown
 from tribodyn.interface.animation import Animation, check_teeth
@@ -86,7 +86,7 @@ class Run:
         name: str = "overview",
         *others: "Run",
         ax: "Axes | None" = None,
-        cycles: int | None = 2,
+        cycles: int | Literal["auto"] | None = "auto",
         against: str = "phase",
     ) -> "Figure":
         """Draw one figure.
@@ -99,8 +99,8 @@ class Run:
             Runs to compare with, of the same kind.
         ax : matplotlib axes, optional
             Draw where these stand, in place of them; default: a figure of its own.
-        cycles : int or None
-            How many of the last mesh cycles to show; None: the whole run.
+        cycles : int, None or "auto"
+            How many of the last mesh cycles to show; None: all; "auto": 2, of a transient all.
         against : {"phase", "time"}
             Mesh cycles, or milliseconds.
 
