@@ -95,15 +95,22 @@ class Durations:
 
 def processor_time(process: str = "self") -> float:
     """Processor time that a process and all processes below it have taken, s; the clock's without /proc."""
-    try:
-        fields = Path(f"/proc/{process}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()
-        below = [
-            file.read_text(encoding="utf-8") for file in Path(f"/proc/{process}/task").glob("*/children")
-        ]
-    except FileNotFoundError:
+    stat = _content(Path(f"/proc/{process}/stat"))
+    if not stat:
         return time.monotonic() if process == "self" else 0.0
-    own = sum(map(int, fields[11:15])) / os.sysconf("SC_CLK_TCK")  # with children that have ended
+    own = sum(map(int, stat.rpartition(")")[2].split()[11:15])) / os.sysconf(
+        "SC_CLK_TCK"
+    )  # with ended children
+    below = [_content(file) for file in Path(f"/proc/{process}/task").glob("*/children")]
     return own + sum(processor_time(child) for child in " ".join(below).split())
+
+
+def _content(file: Path) -> str:
+    """Content of a file of /proc, nothing where its process or thread is gone."""
+    try:
+        return file.read_text(encoding="utf-8")
+    except OSError:
+        return ""
 
 
 def _name(nodeid: str) -> str:
