@@ -100,14 +100,14 @@ MISTAKES = {
     "no room": ("drive.elements=80", "drive.element_radius = 2 mm", "overlap", "fewer elements"),
     "on the pitch circle": ("drive.displacement=1.0", "drive.displacement = 1.0", "cusps", "more than 1"),
     "inside it": ("drive.displacement=0.5", "drive.displacement = 0.5", "cusps", "more than 1"),
-    "no unit": ("drive.pitch_radius=20", "drive.pitch_radius = 20", "without a unit", '"3 mm"'),
+    "no unit": ("drive.pitch_radius=20", "drive.pitch_radius = 20", "without a unit", '"20 mm"'),
     "wrong unit": ('operating.input_power="3 N"', "operating.input_power", "not a unit of power", "1500 W"),
     "negative power": ('operating.input_power="-3 W"', "operating.input_power", "greater than zero", "1500"),
     "locked by rolling": ('friction.rolling_arm="2 mm"', "friction.rolling_arm = 2 mm", "locks", "1.04 mm"),
     "locked by sliding": ("friction.sliding_coefficient=90", "friction.sliding_coefficient", "locks", "16.2"),
     "unknown mode": ('mode="as-published"', 'mode = "as-published"', "not one of", '"as_published"'),
     "key of a gear pair": ("solver.cycles=2", "solver", "unknown key", "known keys"),
-    "drive of a gear pair": ('drive="liu-ni-crc-23-47"', "drive.pitch_radius", "missing", "3 mm"),
+    "drive of a gear pair": ('drive="liu-ni-crc-23-47"', "drive.pitch_radius", "missing", "20 mm"),
 }
 
 

@@ -187,8 +187,9 @@ def over_cycle(
             jnp.where(good, steps, carried.steps),
             status,
         )
+        taken = jnp.minimum(accepted, control.max_steps - carried.steps)  # the step too many is counted there
         cost = jnp.where(dead, 0, solution.stats["num_steps"] * method.stages)
-        return went_on, SegmentResult(states[:-1], status, jnp.where(dead, 0, accepted), cost)
+        return went_on, SegmentResult(states[:-1], status, jnp.where(dead, 0, taken), cost)
 
     return jax.lax.scan(one, carried._replace(steps=jnp.zeros_like(carried.steps)), jnp.arange(segments))
 
