@@ -7,8 +7,8 @@ def main() -> None:
     import os
     import sys
 
-    # start-up makes objects that stay: to look for cycles at every 700th would be a tenth of its time
-    gc.set_threshold(50_000)
+    # start-up makes objects that stay: to look through them for cycles would be a tenth of its time
+    gc.set_threshold(300_000)
     # the load contact model solves many small systems: a BLAS's threads spin over them for ten times the work
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     # pydantic would look through all that is installed for plugins of its own

@@ -1,14 +1,16 @@
 """What a followed sweep records of branches beyond the ends of their stable parts."""
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from tribodyn.numerics.variable import Variable
 from tribodyn.record.sweep_schema import FIRST_PARAMETER
 from tribodyn.solve.branch_end import KINDS
-from tribodyn.solve.unstable_branch import UnstableBranch
 from tribodyn.studies.ends import kind_variable
+
+if TYPE_CHECKING:  # the layout of a sweep needs no solver
+    from tribodyn.solve.unstable_branch import UnstableBranch
 
 #: Motions that are kept of each branch, evenly along its arclength where there are more.
 MOTIONS = 80
@@ -37,7 +39,7 @@ VARIABLES: dict[str, Variable] = {
 }
 
 
-def fill_branch(rows: dict[str, Any], i: int, end: int, branch: UnstableBranch) -> None:
+def fill_branch(rows: dict[str, Any], i: int, end: int, branch: "UnstableBranch") -> None:
     """Put a branch, of at most `MOTIONS` motions, into the row of the case behind whose end it goes on."""
     count = len(branch.values)
     rows["unstable_period"][i, end] = branch.period
