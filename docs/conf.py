@@ -41,6 +41,7 @@ CONTENTS = {
     "Explanation": [
         "laws",
         "physics",
+        "standards",
         "families",
         "mesh-stiffness",
         "load-contact",

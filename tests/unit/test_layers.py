@@ -23,6 +23,7 @@ MAY_IMPORT["mesh"] = {"numerics", "geometry", "compliance", "tribology"}
 MAY_IMPORT["dynamics"] = {"numerics", "tribology", "mesh"}
 MAY_IMPORT["kernels"] = {"numerics"}
 MAY_IMPORT["solve"] = {"numerics", "tribology", "mesh", "dynamics", "kernels"}
+MAY_IMPORT["standards"] = {"numerics"}
 PHYSICS = tuple(MAY_IMPORT)
 MAY_IMPORT["record"] = {"numerics"}
 MAY_IMPORT["post"] = {"numerics", "record"}

@@ -1,0 +1,99 @@
+"""FZG tests: gears, load stages, and the strength of an oil that a load stage stands for.
+
+Gears of type A and C have 16 and 24 teeth of module 4.5 mm at a centre distance of 91.5 mm (ISO 14635-1;
+type C: FVA information sheet 54/7). The permissible film follows by recomputing the test with
+`micropitting.method_b`.
+"""
+
+import math
+
+from tribodyn.standards.contact_path import ContactPath
+from tribodyn.standards.micropitting import Flanks, Load, Oil, method_b, permissible_film
+
+_MODULE, _TEETH, _CENTRES, _ANGLE = 4.5e-3, (16.0, 24.0), 91.5e-3, math.radians(20.0)
+#: Tip diameters of type C, m.
+_TIPS = (82.46e-3, 118.36e-3)
+_WIDTH = 14e-3
+#: Ra of the flanks of the micropitting test, m (0.4 to 0.6 µm are allowed), and what they are made of.
+_ROUGHNESS = 0.5e-6
+_STEEL = Flanks(_ROUGHNESS, 226.4e9, (13780.0, 13780.0), 5.0)
+#: Speed at the working pitch circles, m/s, and temperature of the sprayed oil, K, of C-GF/8,3/90.
+_PITCH_SPEED, _OIL = 8.3, 363.15
+#: Pinion's torque by load stage of the micropitting test, N m: FVA information sheet 54/7, from memory.
+MICROPITTING_TORQUES = {5: 70.0, 6: 98.9, 7: 132.5, 8: 171.6, 9: 215.6, 10: 265.1}
+
+
+def test_path() -> ContactPath:
+    """Path of contact of the gears of type C."""
+    base = [z * _MODULE / 2.0 * math.cos(_ANGLE) for z in _TEETH]
+    working = math.acos(sum(base) / _CENTRES)
+    return ContactPath(_TEETH, (base[0], base[1]), (_TIPS[0] / 2.0, _TIPS[1] / 2.0), working)
+
+
+def micropitting_torque(load_stage: float) -> float:
+    """Torque on the pinion at a load stage of the micropitting test, 5 to 10, N m; in between interpolated.
+
+    Below 5 and above 10 the nearest stage counts.
+    """
+    stage = min(max(load_stage, 5.0), 10.0)
+    below = min(int(stage), 9)
+    low, high = MICROPITTING_TORQUES[below], MICROPITTING_TORQUES[below + 1]
+    return low + (stage - below) * (high - low)
+
+
+def permissible_specific_film(load_stage: float, oil: Oil, material_factor: float = 1.0) -> float:
+    """Permissible λ_GFP of an oil that fails the micropitting test C-GF/8,3/90 at a load stage.
+
+    The minimum specific film of the test gears at that stage, oil sprayed at 90 °C, K factors 1, times 1.4:
+    ISO/TR 15144-1:2014, annex A, which shows the same as curves over viscosity for mineral oils.
+    """
+    path = test_path()
+    load = Load(
+        micropitting_torque(load_stage),
+        _PITCH_SPEED / path.pitch_radius[0],
+        _WIDTH,
+        _OIL,
+        lubrication="spray",
+    )
+    return permissible_film(float(min(method_b(path, _STEEL, load, oil).specific_film)), material_factor)
+
+
+def scuffing_torque(load_stage: float) -> float:
+    """T_1T = 3.726 S_FZG², the pinion's torque at a load stage of A/8,3/90, N m: ISO/TS 6336-21, (97)."""
+    return 3.726 * load_stage**2
+
+
+def scuffing_temperature(load_stage: float, lubricant: float, structure: float = 1.0) -> float:
+    """Scuffing temperature θ_S, K, of an oil that fails A/8,3/90 at a load stage: ISO/TS 6336-20:2017, (99).
+
+    80 + (0.85 + 1.4 X_W) X_L S_FZG² in °C.
+
+    Parameters
+    ----------
+    lubricant : float
+        X_L of `flash_temperature`, with the viscosity.
+    structure : float
+        X_W: 1 case-hardened with usual austenite, 1.5 nitrided (table 2).
+    """
+    return 273.15 + 80.0 + (0.85 + 1.4 * structure) * lubricant * load_stage**2
+
+
+def scuffing_integral_temperature(
+    load_stage: float, lubricant: float, viscosity_40: float, structure: float = 1.0
+) -> float:
+    """Scuffing integral temperature θ_intS, K, of such an oil: ISO/TS 6336-21:2017, (94) to (97).
+
+    θ_MT + 1.5 X_W θ_flaintT with θ_MT = 80 + 0.23 T_1T X_L and θ_flaintT = 0.2 T_1T (100/ν_40)^0.02 X_L, in
+    °C, N m and mm²/s.
+
+    Parameters
+    ----------
+    lubricant : float
+        X_L of `integral_temperature`, without the viscosity.
+    viscosity_40 : float
+        Kinematic viscosity at 40 °C, m²/s.
+    """
+    torque = scuffing_torque(load_stage)
+    bulk = 80.0 + 0.23 * torque * lubricant
+    flash = 0.2 * torque * (100.0 / (1e6 * viscosity_40)) ** 0.02 * lubricant
+    return 273.15 + bulk + 1.5 * structure * flash

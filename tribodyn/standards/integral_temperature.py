@@ -1,0 +1,164 @@
+"""Scuffing by the integral temperature: ISO/TS 6336-21:2017, before it ISO/TR 13989-2:2000.
+
+Numbers of equations are those of ISO/TR 13989-2.
+"""
+
+import math
+from typing import NamedTuple
+
+from tribodyn.standards.contact_path import ContactPath, curvature_radii, helical_load_factor
+from tribodyn.standards.micropitting import mean_friction, roughness_factor
+
+#: Line load, N/m, and speeds at the pitch circle, m/s, within which the friction coefficient is fitted (5.1).
+_LINE_LOAD, _FASTEST = 150e3, 50.0
+#: Shares of the mean flash temperature in bulk and integral temperature: C_1 and C_2.
+_BULK, _FLASH = 0.7, 1.5
+
+
+class IntegralTemperature(NamedTuple):
+    """Friction coefficient μ_mC, then temperatures in K.
+
+    Attributes
+    ----------
+    friction_coefficient : μ_mC at the pitch point
+    flash_rise : θ_flaint, mean over the path
+    bulk : θ_M-C
+    integral : θ_int
+    """
+
+    friction_coefficient: float
+    flash_rise: float
+    bulk: float
+    integral: float
+
+
+class Mesh(NamedTuple):
+    """What the integral temperature depends on besides the path.
+
+    Parameters
+    ----------
+    line_load : float
+        w_Bt = K_A K_v K_Bβ K_Bα F_t/b, F_t at the reference circle, N/m.
+    pitch_speed : float
+        v at the reference circle, m/s.
+    viscosity : float
+        η at the oil's temperature, Pa·s.
+    oil_temperature : float
+        K.
+    roughness : float
+        (Ra_1 + Ra_2)/2, m.
+    reduced_modulus : float
+        E_r = 2/Σ(1 − ν²)/E, Pa.
+    thermal_contact : float
+        Mean B_M, W s^½/(m² K).
+    pressure_angle, helix_angle : float
+        α_n and β, rad.
+    lubricant, lubrication, tip_relief : float
+        X_L (without viscosity), X_S, X_Ca.
+    run_in : float
+        φ_E: 1 after running in, 0 of new flanks.
+    overlap_ratio : float
+        ε_β.
+    """
+
+    line_load: float
+    pitch_speed: float
+    viscosity: float
+    oil_temperature: float
+    roughness: float
+    reduced_modulus: float
+    thermal_contact: float
+    pressure_angle: float
+    helix_angle: float = 0.0
+    lubricant: float = 1.0
+    lubrication: float = 1.0
+    tip_relief: float = 1.0
+    run_in: float = 1.0
+    overlap_ratio: float = 0.0
+
+
+def contact_ratio_factor(first: float, second: float) -> float:
+    """X_ε from the tip contact ratios ε_1 and ε_2, up to ε_α = 3: (39) to (44).
+
+    Mean over the path of the flash temperature that the pinion's tip would have under the whole load.
+    """
+    total = first + second
+    if total < 1.0:
+        sharing = first**2 + second**2
+    elif total < 2.0 and max(first, second) < 1.0:
+        sharing = 0.70 * (first**2 + second**2) - 0.22 * total + 0.52 - 0.60 * first * second
+    elif total < 2.0 and first >= 1.0:
+        sharing = 0.18 * first**2 + 0.70 * second**2 + 0.82 * first - 0.52 * second - 0.30 * first * second
+    elif total < 2.0:
+        sharing = 0.70 * first**2 + 0.18 * second**2 - 0.52 * first + 0.82 * second - 0.30 * first * second
+    else:
+        long, short = max(first, second), min(first, second)
+        sharing = 0.44 * long**2 + 0.59 * short**2 + 0.30 * (long - short) - 0.15 * long * short
+    return sharing / (2.0 * total * first)
+
+
+def approach_factor(first: float, second: float) -> float:
+    """X_Q of a driving pinion: 1 up to ε_2/ε_1 = 1.5, 0.6 from 3 on, linear between: (25) to (29)."""
+    return min(max(1.40 - 4.0 / 15.0 * second / first, 0.6), 1.0)
+
+
+def tip_relief_factor(tip_contact_ratios: tuple[float, float], relief: float, effective: float) -> float:
+    """X_Ca of gears of grade 6 or finer: (32), with C_a at most C_eff, both in m.
+
+    1 + (0.06 + 0.18 C_a/C_eff) ε_max + (0.02 + 0.69 C_a/C_eff) ε_max².
+    """
+    longest, share = max(tip_contact_ratios), min(relief / effective, 1.0)
+    return 1.0 + (0.06 + 0.18 * share) * longest + (0.02 + 0.69 * share) * longest**2
+
+
+def pressure_angle_factor(working: float, pressure_angle: float, helix_angle: float) -> float:
+    """X_αβ = 1.22 (sin α_wt cos α_n cos β)^¼/√(cos α_wt cos α_t), α_wt and α_n in rad: (13)."""
+    transverse = math.atan(math.tan(pressure_angle) / math.cos(helix_angle))
+    product = math.sin(working) * math.cos(pressure_angle) * math.cos(helix_angle)
+    return 1.22 * product**0.25 / math.sqrt(math.cos(working) * math.cos(transverse))
+
+
+def thermal_flash_factor(reduced_modulus: float, thermal_contact: float) -> float:
+    """X_M = E_r^¼/B_M, of steel 50 K N^−¾ s^½ m^−½ mm; from Pa and W s^½/(m² K): (11), (12)."""
+    return 1e3 * (1e-6 * reduced_modulus) ** 0.25 / (thermal_contact / math.sqrt(1e3))
+
+
+def integral_temperature(path: ContactPath, mesh: Mesh) -> IntegralTemperature:
+    """Integral temperature of a driving pinion and its gear: (1) to (31).
+
+    θ_int = θ_M + 1.5 θ_flaint, θ_M = θ_oil + 0.7 X_S θ_flaint, θ_flaint = θ_flaE X_ε; θ_flaE of the pinion's
+    tip under the whole load, μ_mC X_M X_BE X_αβ (K_Bγ w_Bt)^¾ √v/a^¼ X_E/(X_Q X_Ca) in N/mm, m/s, mm.
+    """
+    ratio, first, second = path.ratio, *path.tip_contact_ratios
+    helical = helical_load_factor(path.contact_ratio + mesh.overlap_ratio)
+    working, base_helix = path.pressure_angle, path.base_helix_angle
+    transverse = math.atan(math.tan(mesh.pressure_angle) / math.cos(mesh.helix_angle))
+    pitch_radius = (
+        ratio / (1.0 + ratio) ** 2 * path.centre_distance * math.sin(working) / math.cos(base_helix)
+    )
+    speed_sum = 2.0 * min(mesh.pitch_speed, _FASTEST) * math.tan(working) * math.cos(transverse)
+    friction = mean_friction(
+        max(mesh.line_load, _LINE_LOAD) * helical,
+        speed_sum,
+        pitch_radius,
+        mesh.viscosity,
+        roughness_factor(mesh.roughness, pitch_radius),
+        mesh.lubricant,
+    )
+    tip = [1e3 * float(one) for one in curvature_radii(path, path.length)]
+    geometry = 0.51 * math.sqrt(ratio + 1.0) * (math.sqrt(tip[0]) - math.sqrt(abs(tip[1]) / ratio))
+    geometry /= (tip[0] * abs(tip[1])) ** 0.25
+    angles = pressure_angle_factor(working, mesh.pressure_angle, mesh.helix_angle)
+    flash = thermal_flash_factor(mesh.reduced_modulus, mesh.thermal_contact)
+    load = (1e-3 * mesh.line_load * helical) ** 0.75
+    running_in = 1.0 + (1.0 - mesh.run_in) * 30.0 * 1e3 * mesh.roughness / pitch_radius
+    at_tip = friction * flash * geometry * angles * load * math.sqrt(mesh.pitch_speed)
+    at_tip *= running_in / ((1e3 * path.centre_distance) ** 0.25 * approach_factor(first, second))
+    mean = at_tip / mesh.tip_relief * contact_ratio_factor(first, second)
+    bulk = mesh.oil_temperature + _BULK * mesh.lubrication * mean
+    return IntegralTemperature(friction, mean, bulk, bulk + _FLASH * mean)
+
+
+def safety(scuffing: float, integral: float) -> float:
+    """S_intS = θ_intS/θ_int of temperatures in °C (given in K): (14)."""
+    return (scuffing - 273.15) / (integral - 273.15)
