@@ -29,6 +29,7 @@ SCENARIOS = {
     "circular-arc": "circular-arc-23-47",
     "s-gear": "s-gear-23-47",
     "points": "points-23-47",
+    "spline": "spline-23-47",
     "high-contact-ratio": "high-contact-ratio",
 }
 

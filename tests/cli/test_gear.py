@@ -1,12 +1,14 @@
 """`tribodyn gear`: the sheet of a drive by name, of a file or of a scenario; drawings; refusals."""
 
 import json
+import tomllib
 from pathlib import Path
 
 import ezdxf
 import pytest
 from typer.testing import CliRunner
 
+import tribodyn as td
 from tribodyn.cli.app import app
 from tribodyn.scenario.sources import shipped
 
@@ -144,3 +146,32 @@ def test_a_folder_that_cannot_be_made_is_bad_input(tmp_path: Path):
     refused = gear("liu-ni-crc-23-47", "-o", str(tmp_path / "file"))
     assert refused.exit_code == 2
     assert "choose another folder with --output" in refused.stderr
+
+
+def test_a_pair_as_a_free_form_one(tmp_path):
+    """The drive that is written has the teeth of the original, and is not written over."""
+    done = gear("liu-ni-crc-23-47", "--as-spline", "9", "-o", str(tmp_path), "--json")
+    assert done.exit_code == 0, done.stderr
+    printed = json.loads(done.stdout)
+    file = tmp_path / "liu-ni-crc-23-47-spline.toml"
+    assert printed["files"][0] == str(file)
+    assert (tmp_path / "liu-ni-crc-23-47-spline-pair.svg").exists()
+    assert printed["family"] == "spline"
+    original = sheet("liu-ni-crc-23-47")["geometry"]
+    for name in ("contact ratio", "equivalent radius at end of contact"):
+        assert sheet(str(file))["geometry"][name][0] == pytest.approx(original[name][0], rel=1e-4)
+    table = tomllib.loads(file.read_text(encoding="utf-8"))
+    assert table["family"] == "spline"
+    assert len(table["shape"]["angles"]) == 9
+    again = gear("liu-ni-crc-23-47", "--as-spline", "9", "-o", str(tmp_path))
+    assert again.exit_code != 0
+    pair = td.drive("liu-ni-crc-23-47").as_spline(9)
+    assert pair.toml == file.read_text(encoding="utf-8")
+    # an entry of the list, as --set and --vary name it
+    changed = sheet(str(file), "--set", 'drive.shape.angles.4="23 deg"')
+    assert changed["geometry"]["pressure angle at pitch point"][0] == pytest.approx(23.0)
+
+
+def test_too_few_values_for_a_free_form_path():
+    with pytest.raises(td.InputError, match="4 to 100 values"):
+        td.drive("liu-ni-crc-23-47").as_spline(3)

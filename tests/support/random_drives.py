@@ -9,12 +9,21 @@ from hypothesis import strategies as st
 from tribodyn.errors import InputError
 from tribodyn.geometry.checks import check
 from tribodyn.geometry.drive import Drive, GearBody
-from tribodyn.geometry.families import circular_arc, crc, cycloidal, involute, parabolic, points, s_gear
+from tribodyn.geometry.families import (
+    circular_arc,
+    crc,
+    cycloidal,
+    involute,
+    parabolic,
+    points,
+    s_gear,
+    spline,
+)
 from tribodyn.geometry.family import Family
 
 FAMILIES: dict[str, Family] = {
     module.FAMILY.name: module.FAMILY
-    for module in (involute, crc, cycloidal, parabolic, circular_arc, s_gear, points)
+    for module in (involute, crc, cycloidal, parabolic, circular_arc, s_gear, points, spline)
 }
 #: Radii and rolling speeds vanish at the pitch point.
 DEGENERATE = ("cycloidal", "parabolic")
@@ -42,6 +51,12 @@ def shapes(draw, name: str, module: float, teeth: tuple[float, float], angle: fl
         return s_gear.Shape(draw(st.floats(1.4, 1.8)), draw(st.floats(1.6, 1.9)))
     if name == "points":
         return points.Shape(path_points(module, angle, draw(st.floats(-0.06, 0.06))))
+    if name == "spline":
+        count = draw(st.integers(5, 9))
+        trend = draw(st.floats(-0.06, 0.06)) * np.linspace(-1.0, 1.0, count)
+        waves = [draw(st.floats(-0.006, 0.006)) for _ in range(count)]
+        values = draw(st.floats(0.33, 0.42)) + trend + waves
+        return spline.Shape(values, None, draw(st.floats(5.0, 7.0)) * module, draw(st.floats(-0.02, 0.02)))
     return ()
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from tools.soak.draw import Draw, quantity
 
-FAMILIES = ("involute", "crc", "cycloidal", "parabolic", "circular-arc", "s-gear", "points")
+FAMILIES = ("involute", "crc", "cycloidal", "parabolic", "circular-arc", "s-gear", "points", "spline")
 #: Families whose drives are given a pressure angle, and its range in degrees.
 ANGLES = {"involute": (17.0, 28.0), "crc": (19.0, 27.0), "circular-arc": (15.0, 24.0), "points": (19.0, 25.0)}
 STEELS = ("steel-liu-ni-2022", "steel-diez-ibarbia", "steel-jia-2022")
@@ -79,7 +79,23 @@ def _shape(
         return {"form_factor": draw.between(1.3, 1.9), "exponent": draw.between(1.5, 2.0)}
     if family == "points":
         return {"points": _points(module, np.radians(angle), draw.between(-0.06, 0.06))}
+    if family == "spline":
+        return _spline(draw, module)
     return None
+
+
+def _spline(draw: Draw, module: float) -> dict[str, Any]:
+    """A trend of α along the path, waves on it, and in some drives a corner at P."""
+    count = draw.whole_decades(4, 13)
+    middle, trend, wave = draw.between(17.0, 26.0), draw.between(-5.0, 5.0), draw.between(0.0, 0.6)
+    angles = [
+        middle + trend * place + wave * draw.between(-1.0, 1.0) for place in np.linspace(-1.0, 1.0, count)
+    ]
+    return {
+        "angles": [quantity(angle, "deg") for angle in angles],
+        "path_length": quantity(1e3 * module * draw.between(4.0, 8.0), "mm"),
+        "corner": quantity(draw.between(-2.0, 2.0) if draw.chance(0.3) else 0.0, "deg"),
+    }
 
 
 def _points(module: float, angle: float, bend: float) -> dict[str, Any]:

@@ -18,6 +18,7 @@ EXAMPLES = (
     "  tribodyn gear liu-ni-crc-23-47\n"
     "  tribodyn gear liu-ni-involute-23-47 --set drive.pinion.profile_shift=0.3\n"
     "  tribodyn gear my-drive.toml -o drawings\n"
+    "  tribodyn gear liu-ni-crc-23-47 --as-spline 9\n"
     "\b\nWith -o: the pair as SVG, PNG and DXF; each gear and its rack cutter as DXF;\n"
     "the points of each gear's profile as CSV."
 )
@@ -36,6 +37,13 @@ def gear(
     points: Annotated[
         int, typer.Option(help="Points along a flank in the drawings.", min=10, max=100_000)
     ] = 100,
+    as_spline: Annotated[
+        int | None,
+        typer.Option(
+            help="Fit a free-form path of so many values; write it as a drive, MODEL-spline.toml.",
+            metavar="N",
+        ),
+    ] = None,
     json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
     """Print a gear pair's geometry; draw it."""
@@ -48,12 +56,16 @@ def gear(
     from tribodyn.studies.gears import sheet_tables
 
     loaded = load_drive(model, overrides(settings))
+    written: list[Path] = []
+    if as_spline is not None:
+        loaded, file = _fitted(loaded, as_spline, output or Path())
+        written.append(file)
     with loaded.origins.naming():
         assembly = check(family(loaded.family), loaded.drive)
     given = [(one.mass, one.inertia) for one in loaded.masses]
     masses = body_masses(assembly, given, [one.density for one in loaded.materials])
     sheet = geometry_sheet(assembly, masses)
-    files = _draw(loaded, assembly, output, points) if output is not None else []
+    files = written + (_draw(loaded, assembly, output, points) if output is not None else [])
     if json:
         print_json(
             {
@@ -70,6 +82,29 @@ def gear(
         print_text_table(table)
     for file in files:
         typer.echo(f"{file.suffix[1:]:8} {quoted_path(file)}")
+
+
+def _fitted(model: "DriveModel", values: int, folder: Path) -> "tuple[DriveModel, Path]":
+    """The pair with a free-form path, and the drive file that was written of it."""
+    import tomli_w
+
+    from tribodyn.errors import InputError
+    from tribodyn.studies import spline_drive
+    from tribodyn.studies.drive_file import load_drive
+
+    fitted = spline_drive.as_spline(model, values, "--as-spline")
+    if folder != Path():
+        make_folder(folder)
+    file = folder / f"{model.name}-spline.toml"
+    try:
+        with file.open("x", encoding="utf-8") as opened:
+            opened.write(tomli_w.dumps(fitted.table))
+    except FileExistsError:
+        rule, remedy = "the file exists", "remove it, or choose another folder with --output"
+        raise InputError("--as-spline", f'"{file}"', rule, remedy) from None
+    except OSError as error:
+        raise unwritable(file, error) from None
+    return load_drive(str(file)), file
 
 
 def _draw(model: "DriveModel", assembly: "Assembly", folder: Path, points: int) -> list[Path]:

@@ -123,7 +123,7 @@ def cut_tooth(family: Family, drive: Drive, side: Side) -> Tooth:
     pitch_radius = path.pinion_pitch_radius
     # The shifted rack's tooth is thinner on the rolling line by the shift's share of both its flanks; for
     # families whose rack is not straight the shift is zero.
-    widening = shift * tan(drive.pressure_angle)
+    widening = shift * tan(path.pressure_angle(0.0))
     half_angle = (np.pi * drive.module / 4 + widening) / pitch_radius
     depth = drive.module * body.dedendum - shift
     rounding = drive.module * body.fillet_radius

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import tomli_w
 
 from tribodyn.drawing.picture import gears_in_mesh
 from tribodyn.errors import InputError
@@ -22,6 +23,7 @@ from tribodyn.mesh.tabulate import pair_slots, tabulate
 from tribodyn.post.figures.gears_in_mesh import GearsInMesh
 from tribodyn.studies.drive_file import load_drive
 from tribodyn.studies.gears import sheet_tables
+from tribodyn.studies.spline_drive import as_spline
 
 if TYPE_CHECKING:
     import xarray
@@ -47,9 +49,12 @@ class GearPair:
         Theoretical transverse contact ratio.
     """
 
-    def __init__(self, model: str | Path, overrides: Mapping[str, Any] | None = None) -> None:
+    def __init__(
+        self, model: str | Path | Mapping[str, Any], overrides: Mapping[str, Any] | None = None
+    ) -> None:
         changes = {str(key): in_toml(value) for key, value in (overrides or {}).items()}
-        self._model = load_drive(str(model), changes)
+        written = in_toml(model) if isinstance(model, Mapping) else str(model)
+        self._model = load_drive(written, changes)
         self.title, self.family = self._model.title, self._model.family
         with self._model.origins.naming():
             self._assembly = check(family(self.family), self._model.drive)
@@ -115,6 +120,33 @@ class GearPair:
         axis = ("phase", phase, {"units": "1", "long_name": "mesh phase"})
         return xr.DataArray(total, {"phase": axis}, ("phase",), "mesh_stiffness", named)
 
+    @property
+    def toml(self) -> str:
+        """The pair as a drive file, with everything that it refers to."""
+        return tomli_w.dumps(self._model.table)
+
+    @in_python()
+    def as_spline(self, n: int = 9) -> "GearPair":
+        """Fit a free-form path, family ``"spline"``, to the path of contact: teeth to change value by value.
+
+        Parameters
+        ----------
+        n : int
+            Number of pressure angles along the path, 4 … 100.
+
+        Returns
+        -------
+        GearPair
+            Of the same heights and thicknesses; ``toml`` is its drive file, whose source says how far the
+            flanks are from the original's.
+
+        Raises
+        ------
+        InputError
+            For another number of values.
+        """
+        return GearPair(as_spline(self._model, n).table)
+
     @in_python()
     def plot(self, ax: "Axes | None" = None) -> "Figure":
         """Draw the pair: both gears, and the teeth in contact with their path.
@@ -150,13 +182,13 @@ class GearPair:
 
 
 @in_python()
-def drive(model: str | Path, overrides: Mapping[str, Any] | None = None) -> GearPair:
+def drive(model: str | Path | Mapping[str, Any], overrides: Mapping[str, Any] | None = None) -> GearPair:
     """Make a gear pair, without a load or a speed.
 
     Parameters
     ----------
-    model : str or Path
-        Name of a shipped drive or scenario, or a file of either sort.
+    model : str, Path or mapping
+        Name of a shipped drive or scenario, or a file of either sort; or what a drive file holds.
     overrides : mapping, optional
         Dotted key to value: ``{"drive.pinion.profile_shift": 0.3}``.
 

@@ -24,6 +24,12 @@ class Parameter(NamedTuple):
         Signs that are allowed; "": any for a plain number, positive for a quantity with a unit.
     example : str
         A good value as TOML writes it, for messages; "": one that fits the kind.
+    listed : bool
+        Whether the key takes a list of such values; the family or law receives an array.
+    optional : bool
+        Whether the scenario may leave out a key without a default; the family or law then receives None.
+    fixed : bool
+        Whether figures cannot be differentiated by it, because it says where the other values stand.
     """
 
     name: str
@@ -33,3 +39,6 @@ class Parameter(NamedTuple):
     source: str = ""
     allowed: str = ""
     example: str = ""
+    listed: bool = False
+    optional: bool = False
+    fixed: bool = False

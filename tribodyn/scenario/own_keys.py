@@ -56,7 +56,7 @@ def own_key_errors(owner: Owner, given: Mapping[str, Any]) -> list[InputError]:
     for name, parameter in known.items():
         key = f"{owner.table}.{name}"
         if name not in given:
-            if parameter.default is None:
+            if parameter.default is None and not parameter.optional:
                 errors.append(
                     InputError(key, None, f"missing: {parameter.about}", _example(owner, parameter))
                 )
@@ -75,6 +75,8 @@ def key_schema(parameter: Parameter) -> dict[str, Any]:
         about += f"; default: {parameter.default:g} in SI units" + (
             f" ({parameter.source})" if parameter.source else ""
         )
+    if parameter.listed:
+        return {"type": "array", "description": about, "items": key_schema(_of_list(parameter))}
     if parameter.kind == "number":
         lowest = {"not negative": {"minimum": 0}, "positive": {"exclusiveMinimum": 0}}
         return {"type": "number", "description": about, **lowest.get(parameter.allowed, {})}
@@ -89,9 +91,14 @@ def key_schema(parameter: Parameter) -> dict[str, Any]:
 
 
 def value_in_si(parameter: Parameter, value: Any, key: str = "") -> Any:
-    """Return a value as the scenario has it in SI units; points of a path as an array (n, 2)."""
+    """Return a value as the scenario has it in SI units; a list as an array, points as (n, 2)."""
     if parameter.kind == "path":
         return _points(value, key)
+    if parameter.listed:
+        if not isinstance(value, (list, tuple)) or not value:
+            raise InputError(key, quoted(value), "not a list", f"write {example_of(parameter)}")
+        one = _of_list(parameter)
+        return np.array([value_in_si(one, item, f"{key}.{place}") for place, item in enumerate(value)])
     if parameter.kind == "number":
         return _number(parameter, value, key)
     try:
@@ -100,14 +107,21 @@ def value_in_si(parameter: Parameter, value: Any, key: str = "") -> Any:
         raise InputError(key, quoted(value), error.rule, error.remedy) from None
 
 
-def in_toml(parameter: Parameter, value: float) -> Any:
-    """Return a number in SI units as the scenario gives it."""
+def in_toml(parameter: Parameter, value: Any) -> Any:
+    """Return a number in SI units, or a list of them, as the scenario gives it."""
+    if parameter.listed:
+        return [in_toml(_of_list(parameter), item) for item in value]
     return float(value) if parameter.kind == "number" else f"{float(value)!r} {_kind(parameter).si}"
 
 
 def si_unit(parameter: Parameter) -> str:
     """Return the SI unit of a key's number; "1" of a plain one."""
     return "1" if parameter.kind == "number" else _kind(parameter).si
+
+
+def _of_list(parameter: Parameter) -> Parameter:
+    """What stands at one place of a list."""
+    return parameter._replace(listed=False, example="")
 
 
 def _kind(parameter: Parameter) -> units.Kind:

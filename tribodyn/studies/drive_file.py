@@ -1,5 +1,6 @@
 """A gear pair without a scenario: from a drive file, or from any scenario, to what its geometry needs."""
 
+import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -36,6 +37,8 @@ class DriveModel(NamedTuple):
         The file that was named.
     origins : Origins
         Which file each part came from; the drive stands at the key "drive".
+    table : mapping
+        The drive as a drive file has it, with everything that it refers to.
     """
 
     title: str
@@ -46,19 +49,20 @@ class DriveModel(NamedTuple):
     masses: tuple[BodyMass, BodyMass]
     path: Path
     origins: Origins
+    table: Mapping[str, Any]
 
 
 class _DriveAlone(Table):
     drive: DriveTable
 
 
-def load_drive(model: str, overrides: Mapping[str, Any] | None = None) -> DriveModel:
+def load_drive(model: str | Mapping[str, Any], overrides: Mapping[str, Any] | None = None) -> DriveModel:
     """Read the gear pair of a drive file or of a scenario.
 
     Parameters
     ----------
-    model : str
-        Name of a shipped drive or scenario, or the path of a file of either sort.
+    model : str or mapping
+        Name of a shipped drive or scenario, or the path of a file of either sort; or what a drive file holds.
     overrides : mapping, optional
         Dotted key, as in a scenario, to value: ``{"drive.pinion.profile_shift": "0.3"}``.
 
@@ -67,13 +71,17 @@ def load_drive(model: str, overrides: Mapping[str, Any] | None = None) -> DriveM
     InputError
         If there is no such file, it describes no pair of gears, or anything in it is wrong.
     """
+    if isinstance(model, Mapping):
+        return _of_table(dict(model), Path("drive"), overrides or {})
     path = find_drive_or_scenario(model)
     written = read_toml(path)
     if "drive" in written or "kind" in written:
         return _of_scenario(path, overrides or {})
-    data, origins, unresolved = resolve_table(
-        {"drive": written}, path, overrides or {}, lambda _: _DriveAlone
-    )
+    return _of_table(written, path, overrides or {})
+
+
+def _of_table(written: dict[str, Any], path: Path, overrides: Mapping[str, Any]) -> DriveModel:
+    data, origins, unresolved = resolve_table({"drive": written}, path, overrides, lambda _: _DriveAlone)
     try:
         table = _DriveAlone.model_validate({"drive": data["drive"]}).drive
     except ValidationError as error:
@@ -94,6 +102,7 @@ def load_drive(model: str, overrides: Mapping[str, Any] | None = None) -> DriveM
         masses_of(table),
         path,
         origins,
+        data["drive"],
     )
 
 
@@ -103,7 +112,10 @@ def _of_scenario(path: Path, overrides: Mapping[str, Any]) -> DriveModel:
         raise _no_pair(path, f"not a pair of gears, but {study.about}")
     # a quasi-static study needs no masses
     masses = getattr(case, "masses", (BodyMass(), BodyMass()))
-    return DriveModel(case.title, case.name, case.family, case.drive, case.materials, masses, path, origins)
+    table = tomllib.loads(case.toml)["drive"]
+    return DriveModel(
+        case.title, case.name, case.family, case.drive, case.materials, masses, path, origins, table
+    )
 
 
 def _no_pair(path: Path, rule: str) -> InputError:

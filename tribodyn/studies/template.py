@@ -56,6 +56,7 @@ def _own_keys(family: Family) -> list[str]:
     """What else changes in [drive] where this family is chosen."""
     lines = [] if family.pressure_angle else ["#   it has no pressure_angle"]
     if family.parameters:
-        values = ", ".join(f"{one.name} = {example_of(one)}" for one in family.parameters)
+        offered = [one for one in family.parameters if not one.optional or one.example]
+        values = ", ".join(f"{one.name} = {example_of(one)}" for one in offered)
         lines.append(f"#   shape = {{ {values} }}")
     return lines

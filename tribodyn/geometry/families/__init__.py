@@ -13,6 +13,7 @@ FAMILIES: Registry[Family] = Registry(
         "parabolic": "tribodyn.geometry.families.parabolic:FAMILY",
         "s-gear": "tribodyn.geometry.families.s_gear:FAMILY",
         "points": "tribodyn.geometry.families.points:FAMILY",
+        "spline": "tribodyn.geometry.families.spline:FAMILY",
         "circular-arc": "tribodyn.geometry.families.circular_arc:FAMILY",
     },
     "tribodyn.families",

@@ -144,19 +144,18 @@ def working_path(drive: Drive) -> PointsPath:
     angles = xp.concatenate([angles[:at], xp.stack([drive.pressure_angle + 0.0 * r_p]), angles[at + 1 :]])
     before = spline_slopes(knots[: at + 1], angles[: at + 1])
     after = spline_slopes(knots[at:], angles[at:])
-    path = PointsPath(
-        r_p,
-        r_g,
-        knots,
-        angles,
-        xp.concatenate([before[:-1], after[:-1]]),
-        xp.concatenate([before[1:], after[1:]]),
-        0.0 * knots,
-    )
-    interval = np.arange(knots.shape[0] - 1)
-    length = knots[1:] - knots[:-1]
-    angle, _ = path._cubic(knots[:-1, None] + length[:, None] * _NODES, interval[:, None])
-    turned = xp.concatenate([0.0 * knots[:1], xp.cumsum(length / r_p * ((1 / cos(angle)) @ _WEIGHTS))])
+    left, right = xp.concatenate([before[:-1], after[:-1]]), xp.concatenate([before[1:], after[1:]])
+    return turned_from(PointsPath(r_p, r_g, knots, angles, left, right, 0.0 * knots), at)
+
+
+def turned_from(path: PointsPath, at: int) -> PointsPath:
+    """The path with its rotations filled in, counted from the knot `at`, which is P."""
+    xp = namespace(*path)
+    interval = np.arange(path.knots.shape[0] - 1)
+    length = path.knots[1:] - path.knots[:-1]
+    angle, _ = path._cubic(path.knots[:-1, None] + length[:, None] * _NODES, interval[:, None])
+    steps = length / path.pinion_pitch_radius * ((1 / cos(angle)) @ _WEIGHTS)
+    turned = xp.concatenate([0.0 * path.knots[:1], xp.cumsum(steps)])
     return path._replace(rotations=turned - turned[at])
 
 
