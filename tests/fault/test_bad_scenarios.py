@@ -27,7 +27,7 @@ IN_TEXT = {
         TORQUE, TORQUE + "\ngear_torqe = 5", "operating.gear_torqe = 5", "unknown key", '"gear_torque"?'
     ),
     "unknown key, nothing near": Mistake(
-        TORQUE, TORQUE + "\nzzz = 5", "operating.zzz = 5", "unknown key", "known keys: source, pinion_speed"
+        TORQUE, TORQUE + "\nzzz = 5", "operating.zzz = 5", "unknown key", "known keys: pinion_speed"
     ),
     "unknown table": Mistake("[solver]", "[solvr]", "solvr = {cycles = 2}", "unknown key", '"solver"?'),
     "missing key": Mistake(TORQUE, "", "operating.gear_torque", "missing", 'add gear_torque = "500 N*m"'),

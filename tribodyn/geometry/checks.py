@@ -15,14 +15,17 @@ from tribodyn.geometry.assembly import (
     tip_clearance,
     tip_corner_gap,
 )
-from tribodyn.geometry.drive import SIDES, Drive, GearBody, Side, body_of, root_radius
+from tribodyn.geometry.backlash import normal_backlash
+from tribodyn.geometry.drive import SIDES, Drive, GearBody, Side, body_of
 from tribodyn.geometry.family import Family
 from tribodyn.geometry.tooth import Tooth, flank_point
 
 _MAXIMUM_PRESSURE_ANGLE = math.radians(45)
 # An overlap below this share of the module is the chord error of the fillet's points.
 _OVERLAP_TOLERANCE = 1e-5
-_LENGTHS = ("module", "face_width", "bore_radius", "tip_radius")
+_LENGTHS = ("module", "centre_distance", "face_width", "bore_radius", "tip_radius")
+# Overlap of back flanks, in modules, that is rounding.
+_ROUNDING = 1e-9
 
 
 def check(family: Family, drive: Drive) -> Assembly:
@@ -38,6 +41,7 @@ def check(family: Family, drive: Drive) -> Assembly:
     """
     check_sizes(drive, family.pressure_angle)
     with np.errstate(all="ignore"):
+        _check_centre_distance(family, drive)
         family.check(drive)
         assembly = Assembly(family, drive)
         for side in SIDES:
@@ -45,6 +49,7 @@ def check(family: Family, drive: Drive) -> Assembly:
             _check_rack_corners(assembly, side)
             _check_undercut(assembly, side)
             _check_tip(assembly, side)
+        _check_backlash(assembly)
         for side in SIDES:
             _check_clearance(assembly, side)
         _check_contact_ratio(assembly)
@@ -110,8 +115,32 @@ def _millimetres(length: float) -> str:
     return f"{1e3 * length:.4g} mm"
 
 
+def _check_centre_distance(family: Family, drive: Drive) -> None:
+    if drive.centre_distance is None:
+        return
+    given = drive.centre_distance
+    _require("centre_distance", given, given > 0, "must be greater than zero")
+    if not family.involute:
+        rule = f"teeth of the family {family.name} are conjugate at one centre distance only"
+        remedy = "leave centre_distance out, or use involutes, which mesh at any"
+        raise InputError("drive.centre_distance", _millimetres(given), rule, remedy)
+
+
+def _check_backlash(assembly: Assembly) -> None:
+    overlap = -normal_backlash(assembly)
+    if not overlap <= _ROUNDING * assembly.drive.module:
+        thicker = max(SIDES, key=lambda side: body_of(assembly.drive, side).thickness_allowance)
+        given = body_of(assembly.drive, thicker).thickness_allowance
+        raise InputError(
+            f"drive.{thicker}.thickness_allowance",
+            f"{1e6 * given:.4g} um",
+            f"the teeth overlap by {1e6 * overlap:.4g} um along the normal",
+            "use a negative allowance" + (" or a larger centre distance" if assembly.family.involute else ""),
+        )
+
+
 def _check_root(assembly: Assembly, side: Side) -> None:
-    body, root = body_of(assembly.drive, side), root_radius(assembly.drive, side)
+    body, root = body_of(assembly.drive, side), assembly.tooth(side).root_radius
     if not root > 0:
         rule = "the teeth would be cut past the axis"
         raise InputError(f"drive.{side}.dedendum", body.dedendum, rule, "use a smaller one or more teeth")

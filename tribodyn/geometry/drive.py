@@ -28,6 +28,9 @@ class GearBody(NamedTuple):
         Radius of the bore, m; 0 for a solid body.
     tip_radius : float, optional
         Radius of the tip circle, m, where it is not r + (addendum + profile shift) × module.
+    thickness_allowance : float
+        Deviation of the normal tooth thickness on the reference circle from that of teeth which mesh without
+        backlash, m; negative for thinner teeth (A_sn of ISO 21771).
     """
 
     teeth: Number
@@ -38,6 +41,7 @@ class GearBody(NamedTuple):
     face_width: Number
     bore_radius: Number
     tip_radius: Number = None
+    thickness_allowance: Number = 0.0
 
 
 class Drive(NamedTuple):
@@ -53,6 +57,8 @@ class Drive(NamedTuple):
         The driver and the driven gear.
     shape : tuple
         What else the family's path needs: a NamedTuple of numbers and arrays that the family defines.
+    centre_distance : float, optional
+        Between the axes, m, where it is not that of the mesh without backlash (involute only).
     """
 
     module: Number
@@ -60,6 +66,7 @@ class Drive(NamedTuple):
     pinion: GearBody
     gear: GearBody
     shape: Any = ()
+    centre_distance: Number = None
 
 
 def body_of(drive: Drive, side: Side) -> GearBody:
@@ -78,9 +85,3 @@ def tip_radius(drive: Drive, side: Side) -> Number:
     if body.tip_radius is not None:
         return body.tip_radius
     return reference_radius(drive, side) + drive.module * (body.addendum + body.profile_shift)
-
-
-def root_radius(drive: Drive, side: Side) -> Number:
-    """Radius of the root circle that the rack's tip line leaves, m: m (z/2 + x − h_f*)."""
-    body = body_of(drive, side)
-    return reference_radius(drive, side) + drive.module * (body.profile_shift - body.dedendum)

@@ -6,7 +6,7 @@ import numpy as np
 
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import gear_polygon
-from tribodyn.geometry.drive import SIDES, body_of, root_radius, tip_radius
+from tribodyn.geometry.drive import SIDES, body_of, tip_radius
 from tribodyn.geometry.path import position
 
 
@@ -20,7 +20,7 @@ def geometry_arrays(assembly: Assembly) -> dict[str, Any]:
     for side in SIDES:
         arrays[f"{side}_outline"] = np.asarray(gear_polygon(assembly, side))
         arrays[f"{side}_tip_radius"] = float(tip_radius(drive, side))
-        arrays[f"{side}_root_radius"] = float(root_radius(drive, side))
+        arrays[f"{side}_root_radius"] = float(assembly.tooth(side).root_radius)
         arrays[f"{side}_pitch_radius"] = float(getattr(path, f"{side}_pitch_radius"))
         arrays[f"{side}_bore_radius"] = float(body_of(drive, side).bore_radius)
     return arrays

@@ -124,6 +124,8 @@ def cut_tooth(family: Family, drive: Drive, side: Side) -> Tooth:
     # The shifted rack's tooth is thinner on the rolling line by the shift's share of both its flanks; for
     # families whose rack is not straight the shift is zero.
     widening = shift * tan(path.pressure_angle(0.0))
+    if not family.shiftable:  # the tool's own tooth is thicker by what the gear's is thinner
+        widening = widening + body.thickness_allowance / 2
     half_angle = (np.pi * drive.module / 4 + widening) / pitch_radius
     depth = drive.module * body.dedendum - shift
     rounding = drive.module * body.fillet_radius

@@ -3,6 +3,10 @@
 import math
 from typing import cast
 
+import numpy as np
+
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.backlash import normal_backlash
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.material import BodyMass, MaterialData
 from tribodyn.geometry.modification import Modifications, vary_along_lead
@@ -30,7 +34,31 @@ def drive_of(drive: model_files.DriveTable) -> Drive:
     from tribodyn.geometry.families import family
 
     shape = shape_of(drive, family(drive.family))
-    return Drive(drive.module, drive.pressure_angle or 0.0, _body(drive.pinion), _body(drive.gear), shape)
+    return Drive(
+        drive.module,
+        drive.pressure_angle or 0.0,
+        _body(drive.pinion),
+        _body(drive.gear),
+        shape,
+        drive.centre_distance,
+    )
+
+
+def gives_backlash(drive: model_files.DriveTable) -> bool:
+    """Whether a drive says more of its backlash than that its teeth are nominal."""
+    return drive.centre_distance is not None
+
+
+def backlash_of(drive: model_files.DriveTable, given: float | None) -> float | None:
+    """Return the normal backlash (m): as `given`, else of the drive; None where that says nothing."""
+    if given is not None or not gives_backlash(drive):
+        return given
+    from tribodyn.geometry.families import family
+
+    numbers = drive_of(drive)
+    with np.errstate(all="ignore"):  # teeth that cannot be made are refused where they are put together
+        backlash = float(normal_backlash(Assembly(family(drive.family), numbers)))
+    return max(backlash, 0.0)
 
 
 def materials_of(drive: model_files.DriveTable) -> tuple[MaterialData, MaterialData]:

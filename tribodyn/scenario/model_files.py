@@ -81,6 +81,9 @@ class DriveTable(Described):
     pressure_angle: Angle | None = Field(
         None, description="of the rack for involutes; at the pitch point for other families, if they take one"
     )
+    centre_distance: Length | None = Field(
+        None, description="of involutes; default: that of nominal teeth in mesh without backlash"
+    )
     shape: dict[str, Any] | None = Field(None, description="what else the family needs, see `tribodyn list`")
     roughness: Roughness = Field(description="composite rms roughness of the flanks")
     mean_roughness: Roughness | None = Field(

@@ -7,8 +7,11 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, Side, body_of, reference_radius, tip_radius
 from tribodyn.geometry.family import Family
 from tribodyn.geometry.path import Path, PerContact
-from tribodyn.numerics.elementary import cos, namespace, sin, sqrt, tan
+from tribodyn.numerics.elementary import arctan2, cos, maximum, namespace, sin, sqrt, tan
 from tribodyn.numerics.iteration import newton
+
+#: Overlap in modules that is rounding of a tight mesh's centre distance.
+_ROUNDING = 1e-9
 
 
 class InvolutePath(NamedTuple):
@@ -59,7 +62,19 @@ def inverse_involute(value: PerContact) -> PerContact:
 
 
 def working_pressure_angle(drive: Drive) -> Any:
-    """Pressure angle at which the shifted pair works without backlash, rad.
+    """Pressure angle at which the pair works, rad: of its centre distance, or without backlash.
+
+    cos α_w = a_0 cos α/a with the reference centre distance a_0 = m (Z1 + Z2)/2 (ISO 21771).
+    """
+    if drive.centre_distance is None:
+        return tight_pressure_angle(drive)
+    reference = reference_radius(drive, "pinion") + reference_radius(drive, "gear")
+    cosine = reference * cos(drive.pressure_angle) / drive.centre_distance
+    return arctan2(sqrt(maximum(1.0 - cosine**2, 0.0)), cosine)  # closer than the base circles: refused
+
+
+def tight_pressure_angle(drive: Drive) -> Any:
+    """Pressure angle at which the shifted pair of nominal thickness works without backlash, rad.
 
     inv α_w = inv α + 2 tan α (x1 + x2)/(Z1 + Z2) (ISO 21771, DIN 3960); α itself where x1 + x2 = 0.
     """
@@ -85,7 +100,13 @@ def generating_path(drive: Drive, side: Side) -> tuple[Path, Any]:
     """
     other: Side = "gear" if side == "pinion" else "pinion"
     path = InvolutePath(reference_radius(drive, side), reference_radius(drive, other), drive.pressure_angle)
-    return path, drive.module * body_of(drive, side).profile_shift
+    return path, _generating_shift(drive, side)
+
+
+def _generating_shift(drive: Drive, side: Side) -> Any:
+    """Shift of the rack that leaves the tooth its thickness, m: x_E m = x m + A_sn/(2 tan α) (ISO 21771)."""
+    body = body_of(drive, side)
+    return drive.module * body.profile_shift + body.thickness_allowance / (2 * tan(drive.pressure_angle))
 
 
 def closed_form_contact_ratio(drive: Drive) -> Any:
@@ -100,8 +121,32 @@ def closed_form_contact_ratio(drive: Drive) -> Any:
     return length / (math.pi * drive.module * cos(drive.pressure_angle))
 
 
+def normal_backlash(drive: Drive) -> Any:
+    """Distance j_bn between the back flanks along their line of action, m; negative where teeth overlap.
+
+    Base pitch less both base thicknesses, at the working pressure angle (ISO 21771):
+    j_bn = m cos α [(z1 + z2)(inv α_w − inv α) − 2 (x1 + x2) tan α] − (A_sn1 + A_sn2) cos α.
+    """
+    alpha = drive.pressure_angle
+    shift = drive.pinion.profile_shift + drive.gear.profile_shift
+    teeth = drive.pinion.teeth + drive.gear.teeth
+    opened = involute_function(working_pressure_angle(drive)) - involute_function(alpha)
+    allowances = drive.pinion.thickness_allowance + drive.gear.thickness_allowance
+    return cos(alpha) * (drive.module * (teeth * opened - 2 * shift * tan(alpha)) - allowances)
+
+
+def tight_centre_distance(drive: Drive) -> Any:
+    """Centre distance at which the teeth, of the thickness that they have, mesh without backlash, m."""
+    alpha = drive.pressure_angle
+    shift = 2 * drive.module * (drive.pinion.profile_shift + drive.gear.profile_shift) * tan(alpha)
+    thicker = shift + drive.pinion.thickness_allowance + drive.gear.thickness_allowance
+    reference = reference_radius(drive, "pinion") + reference_radius(drive, "gear")
+    tight = inverse_involute(involute_function(alpha) + thicker / (2 * reference))
+    return reference * cos(alpha) / cos(tight)
+
+
 def check(drive: Drive) -> None:
-    """Refuse a sum of profile shifts for which no working pressure angle exists."""
+    """Refuse shifts without a working pressure angle, and a centre distance at which teeth overlap."""
     alpha = drive.pressure_angle
     teeth = drive.pinion.teeth + drive.gear.teeth
     shift = drive.pinion.profile_shift + drive.gear.profile_shift
@@ -114,6 +159,15 @@ def check(drive: Drive) -> None:
             "with this sum of profile shifts the gears would be closer than their base circles allow",
             f"use more than {math.ceil(1000.0 * needed) / 1000.0:g}",
         )
+    if drive.centre_distance is None or normal_backlash(drive) >= -_ROUNDING * drive.module:
+        return
+    tight = float(tight_centre_distance(drive))
+    raise InputError(
+        "drive.centre_distance",
+        f"{1e3 * drive.centre_distance:.7g} mm",
+        f"the teeth overlap: they mesh without backlash at {1e3 * tight:.4f} mm",
+        f"use at least {math.ceil(1e7 * tight) / 1e4:.4f} mm, less profile shift or thinner teeth",
+    )
 
 
 FAMILY = Family(

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from tribodyn.errors import InputError
 from tribodyn.scenario.drive_rules import broken_drive_rules, broken_part_rules
+from tribodyn.scenario.duty import broken_duty_rules, duty_of
 from tribodyn.scenario.modification_rules import Face, broken_face_rules
 from tribodyn.studies.efficiency.scenario import Scenario
 
@@ -15,7 +16,10 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     face = Face(scenario.drive, mesh.misalignment, mesh.slices, mesh.slice_coupling)
     yield from broken_face_rules(face, mesh.compliance)
     yield from broken_part_rules(mesh.hertz, mesh.foundation, mesh.compliance)
-    if scenario.operating.gear_torque == 0:
+    drive, operating = scenario.drive, scenario.operating
+    broken = broken_duty_rules(operating)
+    yield from broken
+    if not broken and duty_of(operating, drive.pinion.teeth, drive.gear.teeth).gear_torque == 0:
         yield InputError(
             "operating.gear_torque",
             "0 N*m",

@@ -7,8 +7,7 @@ from pydantic import Field
 from tribodyn.compliance.foundation import Foundation
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.mesh.data import MeshData
-from tribodyn.scenario import units
-from tribodyn.scenario.common import ScenarioHead, Slices, Torque, head_of
+from tribodyn.scenario.common import ScenarioHead, Slices, head_of
 from tribodyn.scenario.drive_data import (
     drive_of,
     lubricant_of,
@@ -17,11 +16,11 @@ from tribodyn.scenario.drive_data import (
     modifications_of,
     slices_of,
 )
+from tribodyn.scenario.duty import DutyTable, duty_of
 from tribodyn.scenario.law_tables import FilmTable, FrictionTable, film_data, friction_values
 from tribodyn.scenario.model_files import DriveTable, Lubricant
 from tribodyn.scenario.modification import MisalignmentTable
 from tribodyn.scenario.quantity import (
-    Quantity,
     Switch,
     Table,
     model_file,
@@ -31,11 +30,8 @@ from tribodyn.studies.efficiency.case import EfficiencyCase
 from tribodyn.tribology.data import FrictionData
 
 
-class EfficiencyOperating(Table):
-    """Constant speed and torque."""
-
-    pinion_speed: Annotated[float, Quantity(units.positive(units.ANGULAR_SPEED))]
-    gear_torque: Torque = Field(description="against the gear's motion; negative where the gear drives")
+class EfficiencyOperating(DutyTable):
+    """Constant speed and load."""
 
 
 class EfficiencyMesh(Table):
@@ -101,7 +97,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> EfficiencyCase:
         roughness=drive.roughness,
         mean_roughness=mean_roughness(drive),
         lubricant=lubricant_of(scenario.lubricant),
-        operating=OperatingData("speed", operating.pinion_speed, operating.gear_torque),
+        operating=OperatingData("speed", *duty_of(operating, drive.pinion.teeth, drive.gear.teeth)),
         mesh=MeshData(
             mesh.compliance,
             damping_ratio=0.0,

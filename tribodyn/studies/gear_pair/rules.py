@@ -3,7 +3,9 @@
 from collections.abc import Iterator
 
 from tribodyn.errors import InputError, unknown_name
+from tribodyn.scenario.drive_data import gives_backlash
 from tribodyn.scenario.drive_rules import broken_drive_rules, broken_part_rules
+from tribodyn.scenario.duty import broken_duty_rules, duty_of
 from tribodyn.scenario.model_files import Bearing
 from tribodyn.scenario.modification_rules import Face, broken_face_rules
 from tribodyn.solve.methods import SOLVERS
@@ -15,10 +17,10 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     yield from broken_drive_rules(scenario.drive)
     yield from _bearing("bearings.pinion", scenario.bearings.pinion)
     yield from _bearing("bearings.gear", scenario.bearings.gear)
-    yield from _operating(scenario.operating, scenario.mesh.backlash is not None)
+    yield from _operating(scenario.operating)
     yield from _mesh(scenario.mesh)
     yield from broken_face_rules(_face(scenario), scenario.mesh.compliance)
-    yield from _working_flanks(scenario.operating, scenario.mesh)
+    yield from _load(scenario)
     if scenario.solver.method not in SOLVERS:
         yield unknown_name("solver.method", scenario.solver.method, SOLVERS, "solver")
 
@@ -43,7 +45,7 @@ def _bearing(key: str, bearing: Bearing) -> Iterator[InputError]:
         )
 
 
-def _operating(operating: Operating, back_flanks: bool) -> Iterator[InputError]:
+def _operating(operating: Operating) -> Iterator[InputError]:
     key = "operating."
     if operating.source == "speed":
         for name in (
@@ -53,7 +55,7 @@ def _operating(operating: Operating, back_flanks: bool) -> Iterator[InputError]:
             "shaft_damping",
             "speed_regulation",
         ):
-            value = getattr(operating, name)
+            value = operating.motor_torque if name == "pinion_torque" else getattr(operating, name)
             if value:
                 yield InputError(
                     key + name,
@@ -75,25 +77,36 @@ def _operating(operating: Operating, back_flanks: bool) -> Iterator[InputError]:
             "a compliant shaft needs a motor with inertia at its end",
             'add drive_inertia = "0.01 kg*m**2", or leave shaft_stiffness out',
         )
-    if operating.gear_torque <= 0 and not back_flanks:
+
+
+def _load(scenario: Scenario) -> Iterator[InputError]:
+    """Go through the rules of speed and load; without one of each there is nothing else to say."""
+    operating, drive, mesh = scenario.operating, scenario.drive, scenario.mesh
+    if broken := broken_duty_rules(operating.load):
+        yield from broken
+        return
+    torque = duty_of(operating.load, drive.pinion.teeth, drive.gear.teeth).gear_torque
+    back_flanks = mesh.backlash is not None or gives_backlash(drive)
+    if torque <= 0 and not back_flanks:
         yield InputError(
-            key + "gear_torque",
-            f"{operating.gear_torque:g} N*m",
+            "operating.gear_torque",
+            f"{torque:g} N*m",
             "must be greater than zero: without backlash only the driving flanks can carry load",
             'write a torque such as "500 N*m", or add mesh.backlash',
         )
+    yield from _working_flanks(torque, back_flanks, mesh)
 
 
-def _working_flanks(operating: Operating, mesh: Mesh) -> Iterator[InputError]:
+def _working_flanks(torque: float, back_flanks: bool, mesh: Mesh) -> Iterator[InputError]:
     """Refuse what a load on the back flanks leaves without effect, and no load where the mesh needs one."""
     for name in ("harmonics", "table"):
-        if operating.gear_torque < 0 and getattr(mesh.transmission_error, name):
+        if torque < 0 and getattr(mesh.transmission_error, name):
             yield InputError(
                 f"mesh.transmission_error.{name}",
                 rule="is that of the driving flanks, but under a negative gear_torque the back flanks carry",
                 remedy="leave it out, or reverse the load",
             )
-    if operating.gear_torque == 0 and mesh.backlash is not None and mesh.compliance == "fem":
+    if torque == 0 and back_flanks and mesh.compliance == "fem":
         yield InputError(
             "operating.gear_torque",
             "0 N*m",

@@ -25,6 +25,7 @@ from tribodyn.scenario.common import (
 )
 from tribodyn.scenario.curves import ErrorCurve, StiffnessCurve, TorqueCurve
 from tribodyn.scenario.drive_data import (
+    backlash_of,
     drive_of,
     lubricant_of,
     masses_of,
@@ -33,6 +34,7 @@ from tribodyn.scenario.drive_data import (
     modifications_of,
     slices_of,
 )
+from tribodyn.scenario.duty import DutyTable, duty_of
 from tribodyn.scenario.law_tables import FilmTable, FrictionTable, film_data, friction_values
 from tribodyn.scenario.model_files import Bearing, Bearings, DriveTable, Lubricant, Stiffness
 from tribodyn.scenario.modification import MisalignmentTable
@@ -73,16 +75,12 @@ class ErrorHarmonic(Table):
     phase: Angle = written("0 deg")
 
 
-class Operating(Table):
-    """How the drive is driven and loaded."""
+class Operating(DutyTable):
+    """How the drive is driven and loaded: nominal speed, constant part of the load, and more."""
 
     source: Literal["speed", "torque"] = Field(
         "speed", description="speed: the pinion's rotation is prescribed; torque: a motor with inertia"
     )
-    pinion_speed: Annotated[float, Quantity(units.positive(units.ANGULAR_SPEED))] = Field(
-        description="nominal; with a torque source also the speed at the start"
-    )
-    gear_torque: Torque = Field(description="constant part of the load")
     gear_torque_table: Annotated[TorqueCurve, csv_file("time", "torque")] | None = Field(
         None, description="over time, added to the load"
     )
@@ -93,9 +91,6 @@ class Operating(Table):
     load_damping: TorsionalDamping = written(
         "0 N*m*s/rad", description="load that grows with speed above nominal"
     )
-    pinion_torque: Torque | None = Field(
-        None, description="of the motor at nominal speed; default: balances the load without losses"
-    )
     drive_inertia: Inertia = written("0 kg*m**2", description="of the motor")
     shaft_stiffness: Annotated[float, Quantity(units.positive(units.TORSIONAL_STIFFNESS))] | None = Field(
         None, description="between motor and pinion; default: rigid"
@@ -104,6 +99,17 @@ class Operating(Table):
     speed_regulation: TorsionalDamping = written(
         "0 N*m*s/rad", description="the motor's torque falls by this with speed above nominal"
     )
+
+    @property
+    def motor_torque(self) -> float | None:
+        """Torque of the motor, given beside the load; None: it balances the load without losses."""
+        beside = self.gear_torque is not None or self.power is not None
+        return self.pinion_torque if beside else None
+
+    @property
+    def load(self) -> DutyTable:
+        """Speed and load, without the torque of the motor."""
+        return self if self.motor_torque is None else self.model_copy(update={"pinion_torque": None})
 
 
 class TransmissionError(Table):
@@ -144,7 +150,7 @@ class Mesh(Table):
     )
     contact_width: Smoothing = written("0.1 um", description="deflection over which contact sets in")
     backlash: Annotated[float, Quantity(units.not_negative(units.LENGTH), "0.1 mm")] | None = Field(
-        None, description="normal backlash at the pitch point; default: back flanks never touch"
+        None, description="normal backlash at the pitch point; default: the drive's, see there"
     )
     points: Annotated[int, Field(strict=True, ge=5)] = Field(65, description="nodes per segment of the table")
     transmission_error: TransmissionError = written({})
@@ -213,7 +219,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> Case:
         mean_roughness=mean_roughness(drive),
         lubricant=lubricant_of(scenario.lubricant),
         bearings=(_bearing(scenario.bearings.pinion), _bearing(scenario.bearings.gear)),
-        operating=_operating(scenario.operating),
+        operating=_operating(scenario),
         mesh=_mesh(scenario),
         friction=FrictionData(
             scenario.friction.law,
@@ -233,14 +239,19 @@ def _bearing(bearing: Bearing) -> BearingData:
     return BearingData(bearing.stiffness_x, bearing.stiffness_y, cast(float, ratio_x), cast(float, ratio_y))
 
 
-def _operating(operating: Operating) -> OperatingData:
+def _operating(scenario: Scenario) -> OperatingData:
+    operating, drive = scenario.operating, scenario.drive
     curve = operating.gear_torque_table
     return OperatingData(
+        **duty_of(operating.load, drive.pinion.teeth, drive.gear.teeth)._asdict(),
+        pinion_torque=operating.motor_torque,
         torque_table=curve.in_si() if curve else None,
         torque_harmonics=tuple(
             (one.amplitude, one.frequency, one.phase) for one in operating.gear_torque_harmonics
         ),
-        **operating.model_dump(exclude={"gear_torque_table", "gear_torque_harmonics"}),
+        **operating.model_dump(
+            exclude={"gear_torque_table", "gear_torque_harmonics", *DutyTable.model_fields}
+        ),
     )
 
 
@@ -254,5 +265,6 @@ def _mesh(scenario: Scenario) -> MeshData:
         error_table=error.table.in_si() if error.table else None,
         modifications=modifications,
         slices=slices_of(mesh.slices, modifications),
-        **mesh.model_dump(exclude={"table", "transmission_error", "misalignment", "slices"}),
+        backlash=backlash_of(scenario.drive, mesh.backlash),
+        **mesh.model_dump(exclude={"table", "transmission_error", "misalignment", "slices", "backlash"}),
     )

@@ -5,6 +5,7 @@ from itertools import pairwise
 
 from tribodyn.errors import InputError
 from tribodyn.scenario.drive_rules import broken_drive_rules
+from tribodyn.scenario.duty import broken_duty_rules, duty_of
 from tribodyn.scenario.modification_rules import Face, broken_slice_rules
 from tribodyn.studies.load_contact.scenario import Scenario
 
@@ -14,7 +15,19 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     mesh = scenario.mesh
     yield from broken_drive_rules(scenario.drive)
     yield from broken_slice_rules(Face(scenario.drive, mesh.misalignment, mesh.slices, mesh.slice_coupling))
-    torques = scenario.operating.gear_torques
+    drive, operating = scenario.drive, scenario.operating
+    broken = broken_duty_rules(operating, speed_needed=False)
+    yield from broken
+    if not broken:
+        torque = duty_of(operating, drive.pinion.teeth, drive.gear.teeth).gear_torque
+        if not torque > 0:
+            yield InputError(
+                "operating.gear_torque",
+                f"{torque:g} N*m",
+                "must be greater than zero: the driving flanks carry the load",
+                'write a torque such as "500 N*m"',
+            )
+    torques = operating.gear_torques
     if len(torques) == 1:
         rule = "a single torque makes no map"
         yield InputError("operating.gear_torques", f"{torques[0]:g} N*m", rule, "give at least two")

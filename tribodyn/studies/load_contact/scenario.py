@@ -7,6 +7,7 @@ from pydantic import Field
 from tribodyn.scenario import units
 from tribodyn.scenario.common import ScenarioHead, Slices, head_of
 from tribodyn.scenario.drive_data import drive_of, materials_of, modifications_of, slices_of
+from tribodyn.scenario.duty import DutyTable, duty_of
 from tribodyn.scenario.model_files import DriveTable
 from tribodyn.scenario.modification import MisalignmentTable
 from tribodyn.scenario.quantity import (
@@ -23,10 +24,9 @@ from tribodyn.studies.load_contact.case import LoadContactCase
 Load = Annotated[float, Quantity(units.positive(units.TORQUE))]
 
 
-class LoadContactOperating(Table):
-    """The load, against the gear's motion."""
+class LoadContactOperating(DutyTable):
+    """The load, against the gear's motion; a speed only where the load is given as power."""
 
-    gear_torque: Load
     gear_torques: tuple[Load, ...] = Field(
         (), max_length=1000, description="of the Harris map, in increasing order"
     )
@@ -72,7 +72,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> LoadContactCase:
         family=drive.family,
         drive=drive_of(drive),
         materials=materials_of(drive),
-        gear_torque=scenario.operating.gear_torque,
+        gear_torque=duty_of(scenario.operating, drive.pinion.teeth, drive.gear.teeth).gear_torque,
         gear_torques=scenario.operating.gear_torques,
         friction_coefficient=mesh.friction_coefficient,
         modifications=modifications,
