@@ -46,6 +46,7 @@ CONTENTS = {
         "mesh-stiffness",
         "load-contact",
         "efficiency",
+        "oil",
         "solvers",
         "periodic",
         "sweep",

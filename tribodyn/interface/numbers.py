@@ -2,7 +2,7 @@
 
 import tomllib
 from collections.abc import Callable, Iterator
-from dataclasses import fields, replace
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 from tribodyn.geometry.drive import SIDES, Side, body_of
@@ -13,6 +13,8 @@ from tribodyn.scenario.units import Kind
 from tribodyn.scenario.vary import kind_at
 from tribodyn.studies import study_of
 from tribodyn.tribology.closure import laws_of
+from tribodyn.tribology.lubricant import lubricant_at, lubricant_from
+from tribodyn.tribology.oil import UNITS, OilSheet
 
 _OF_BODY = ("profile_shift", "addendum", "dedendum", "fillet_radius", "face_width", "bore_radius")
 _OF_MATERIAL = (
@@ -152,9 +154,30 @@ def _on(name: str, within: str = "") -> Callable[[Any, Any], Any]:
 
 
 def _of_lubricant(case: Any) -> Iterator[tuple[str, Number]]:
-    for one in fields(case.lubricant):
-        value = getattr(case.lubricant, one.name)
-        yield f"lubricant.{one.name}", Number(value, "", _on(one.name, "lubricant"))
+    sheet = case.lubricant.sheet
+    if sheet is None:
+        for name in UNITS:
+            yield f"lubricant.{name}", Number(getattr(case.lubricant, name), "", _on(name, "lubricant"))
+        return
+
+    def on_sheet(change: Callable[[OilSheet, Any], OilSheet]) -> Callable[[Any, Any], Any]:
+        def put(case: Any, value: Any) -> Any:
+            oil = case.lubricant
+            return replace(case, lubricant=lubricant_from(change(oil.sheet, value), oil.temperature, oil.fzg))
+
+        return put
+
+    for name in ("viscosity_40", "viscosity_100", "density_15"):
+        put = on_sheet(lambda sheet, value, name=name: replace(sheet, **{name: value}))
+        yield f"lubricant.{name}", Number(getattr(sheet, name), "", put)
+    for name, value in sheet.given.items():
+        put = on_sheet(lambda sheet, value, name=name: replace(sheet, given={**sheet.given, name: value}))
+        yield f"lubricant.{name}", Number(value, "", put)
+
+    def put_temperature(case: Any, value: Any) -> Any:
+        return replace(case, lubricant=lubricant_at(case.lubricant, value))
+
+    yield "operating.oil_temperature", Number(case.lubricant.temperature, "", put_temperature)
 
 
 def _of_operating(case: Any) -> Iterator[tuple[str, Number]]:

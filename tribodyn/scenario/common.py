@@ -12,6 +12,7 @@ Inertia = Annotated[float, Quantity(units.not_negative(units.INERTIA))]
 TorsionalDamping = Annotated[float, Quantity(units.not_negative(units.TORSIONAL_DAMPING))]
 Angle = Annotated[float, Quantity(units.ANGLE_KIND)]
 Error = Annotated[float, Quantity(units.LENGTH, "2 um")]
+Temperature = Annotated[float, Quantity(units.TEMPERATURE_KIND)]
 Slices = Annotated[int, Field(strict=True, ge=1, le=501)]
 Name = Annotated[str, Field(strict=True, pattern=r"^\w[\w .-]*$")]
 """A scenario's name, which also names its record."""

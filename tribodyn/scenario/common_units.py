@@ -28,6 +28,7 @@ COMMON_UNITS: dict[str, dict[str, float]] = {
     "density": {"kg/m**3": 1.0, "kg/m^3": 1.0, "g/cm**3": 999.9999999999999},
     "thermal conductivity": {"W/(m*K)": 1.0},
     "specific heat": {"J/(kg*K)": 1.0},
+    "kinematic viscosity": {"mm**2/s": 1e-06, "mm^2/s": 1e-06, "mm²/s": 1e-06, "cSt": 1e-06, "m**2/s": 1.0},
     "dynamic viscosity": {"Pa*s": 1.0, "mPa*s": 0.001},
     "pressure-viscosity coefficient": {"1/Pa": 1.0, "1/GPa": 1e-09, "1/MPa": 1e-06},
     "temperature coefficient": {"1/K": 1.0},

@@ -1,7 +1,7 @@
 """From the validated tables of a scenario to the plain data that the physics takes."""
 
 import math
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 
@@ -13,15 +13,38 @@ from tribodyn.geometry.modification import Modifications, vary_along_lead
 from tribodyn.scenario import model_files
 from tribodyn.scenario.modification import MisalignmentTable, flank_of, misalignment_of
 from tribodyn.scenario.shape import shape_of
-from tribodyn.tribology.lubricant import LubricantData
+from tribodyn.tribology.lubricant import FzgStages, LubricantData, lubricant_from
+from tribodyn.tribology.oil import UNITS, OilSheet, by_type
 
 #: Slices along the face where nothing is said and anything varies along it.
 SLICES = 21
 
 
-def lubricant_of(lubricant: model_files.Lubricant) -> LubricantData:
-    """Return the lubricant's numbers."""
-    return LubricantData(**lubricant.model_dump(exclude={"title", "source", "assumptions"}))
+def lubricant_of(lubricant: model_files.Lubricant, oil_temperature: float | None = None) -> LubricantData:
+    """Return the lubricant's numbers, at the oil's temperature (K) where a data sheet gives them.
+
+    Rules as in `lubricant_rules.broken_lubricant_rules`.
+    """
+    given = {name: value for name in UNITS if (value := getattr(lubricant, name)) is not None}
+    stages = FzgStages(
+        lubricant.fzg_scuffing_stage,
+        lubricant.fzg_micropitting_stage,
+        lubricant.fzg_micropitting_temperature,
+    )
+    if (sheet := sheet_of(lubricant)) is not None and oil_temperature is not None:
+        return lubricant_from(sheet, oil_temperature, stages)
+    typical = by_type(lubricant.type) if lubricant.type else {}
+    numbers: dict[str, Any] = {name: one.value for name, one in typical.items()} | given
+    return LubricantData(**numbers, fzg=stages)
+
+
+def sheet_of(lubricant: model_files.Lubricant) -> OilSheet | None:
+    """Return the data sheet of a lubricant; None where it is given by the numbers that the laws read."""
+    if lubricant.type is None or lubricant.viscosity_40 is None:
+        return None
+    given = {name: value for name in UNITS if (value := getattr(lubricant, name)) is not None}
+    viscosity_100, density_15 = cast(float, lubricant.viscosity_100), cast(float, lubricant.density_15)
+    return OilSheet(lubricant.type, lubricant.viscosity_40, viscosity_100, density_15, given)
 
 
 def mean_roughness(drive: model_files.DriveTable) -> float:

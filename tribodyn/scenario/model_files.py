@@ -18,6 +18,7 @@ from tribodyn.scenario.quantity import (
     model_file,
     written,
 )
+from tribodyn.tribology.oil import OilType
 
 Length = Annotated[float, Quantity(units.positive(units.LENGTH))]
 Angle = Annotated[float, Quantity(units.positive(units.ANGLE_KIND))]
@@ -27,6 +28,7 @@ Pressure = Annotated[float, Quantity(units.positive(units.PRESSURE))]
 Stiffness = Annotated[float, Quantity(units.positive(units.STIFFNESS))]
 FaceWidth = Annotated[float, Quantity(units.positive(units.LENGTH), "20 mm")]
 Radius = Annotated[float, Quantity(units.positive(units.LENGTH), "12 mm")]
+KinematicViscosity = Annotated[float, Quantity(units.positive(units.KINEMATIC_VISCOSITY))]
 Roughness = Annotated[float, Quantity(units.positive(units.LENGTH), "0.5 um")]
 
 
@@ -95,18 +97,52 @@ class DriveTable(Described):
 
 
 class Lubricant(Described):
-    """A lubricant as the mixed-EHL friction law sees it (`models/lubricants/`)."""
+    """A lubricant (`models/lubricants/`): by its data sheet, or by the numbers that the laws read."""
 
-    asperity_friction: NotNegative = Field(description="f_c")
-    limiting_shear_coefficient: Positive = Field(description="Λ_lim")
-    inlet_viscosity: Annotated[float, Quantity(units.positive(units.VISCOSITY))]
-    pressure_viscosity: Annotated[float, Quantity(units.positive(units.PRESSURE_VISCOSITY))]
-    viscosity_pressure_index: Positive = Field(description="z of Roelands' law")
-    temperature_viscosity: Annotated[float, Quantity(units.not_negative(units.PER_KELVIN))]
-    density: Annotated[float, Quantity(units.positive(units.DENSITY), "870 kg/m**3")]
-    load_exponent: NotNegative = Field(
-        0.0651,
-        description="d of Niemann's lubricant factor; default: mineral oil 75W90 (Diez-Ibarbia et al.)",
+    type: OilType | None = Field(None, description="base oil; needed with a data sheet")
+    viscosity_40: KinematicViscosity | None = Field(None, description="kinematic, at 40 °C")
+    viscosity_100: (
+        Annotated[float, Quantity(units.positive(units.KINEMATIC_VISCOSITY), "19 mm**2/s")] | None
+    ) = Field(None, description="kinematic, at 100 °C")
+    density_15: Annotated[float, Quantity(units.positive(units.DENSITY), "0.89 g/cm**3")] | None = Field(
+        None, description="at 15 °C"
+    )
+    asperity_friction: NotNegative | None = Field(None, description="f_c; default: by type")
+    limiting_shear_coefficient: Positive | None = Field(None, description="Λ_lim; default: by type")
+    inlet_viscosity: Annotated[float, Quantity(units.positive(units.VISCOSITY))] | None = Field(
+        None, description="dynamic; without a data sheet"
+    )
+    pressure_viscosity: Annotated[float, Quantity(units.positive(units.PRESSURE_VISCOSITY))] | None = Field(
+        None, description="default: by type and viscosity"
+    )
+    viscosity_pressure_index: Positive | None = Field(
+        None, description="z of Roelands' law; default: from pressure_viscosity and viscosity"
+    )
+    temperature_viscosity: Annotated[float, Quantity(units.not_negative(units.PER_KELVIN))] | None = Field(
+        None, description="default: slope of the viscosity over temperature"
+    )
+    density: Annotated[float, Quantity(units.positive(units.DENSITY), "870 kg/m**3")] | None = Field(
+        None, description="at the oil's temperature; default: from density_15"
+    )
+    load_exponent: NotNegative | None = Field(
+        None,
+        description="d of Niemann's lubricant factor; default: 0 with a type, else 0.0651, mineral oil 75W90 "
+        "(Diez-Ibarbia et al.)",
+    )
+    lubricant_factor: Positive | None = Field(
+        None, description="X_L of Niemann and of ISO/TR 15144-1; default: by type, else 1"
+    )
+    schlenk_factor: Positive | None = Field(
+        None, description="X_L of Schlenk; default: by type, else that of mineral oil"
+    )
+    fzg_scuffing_stage: Annotated[int, Field(strict=True, ge=1, le=14)] | None = Field(
+        None, description="failure load stage of the FZG scuffing test A/8.3/90"
+    )
+    fzg_micropitting_stage: Annotated[int, Field(strict=True, ge=5, le=11)] | None = Field(
+        None, description="failure load stage of the FZG micropitting test C-GF/8.3"
+    )
+    fzg_micropitting_temperature: Annotated[float, Quantity(units.TEMPERATURE_KIND, "90 degC")] = written(
+        "90 degC", description="oil temperature of that test"
     )
 
 

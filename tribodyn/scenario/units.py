@@ -59,6 +59,7 @@ EXTREME = f"not between {SMALLEST:g} and {LARGEST:g} in magnitude"
 SPEED = "angular speed"
 FREQUENCY = "frequency"
 ANGLE = "angle"
+TEMPERATURE = "temperature"
 
 
 @cache
@@ -92,8 +93,11 @@ def to_si(value: Any, kind: Kind) -> float:
         raise NotAQuantity(*hint)
     if number is None:
         raise NotAQuantity("not a number and a unit", write)
-    factor = _spelled_factor(number["number"], number["unit"], kind, write)
-    magnitude = _scaled(float(number["number"]), factor)
+    if kind.name == TEMPERATURE:
+        magnitude = _absolute(float(number["number"]), number["unit"], write)
+    else:
+        factor = _spelled_factor(number["number"], number["unit"], kind, write)
+        magnitude = _scaled(float(number["number"]), factor)
     if not isfinite(magnitude):
         raise NotAQuantity("not a finite number", write)
     if is_extreme(magnitude):
@@ -101,6 +105,28 @@ def to_si(value: Any, kind: Kind) -> float:
     if (kind.allowed == "positive" and magnitude <= 0) or (kind.allowed == "not negative" and magnitude < 0):
         raise NotAQuantity(f"must be {_sign(kind.allowed)}", f'write it like "{kind.example}"')
     return magnitude
+
+
+#: Spelling of a scale of temperature -> its degree in K, and its zero.
+_SCALES = {
+    **dict.fromkeys(("K", "kelvin"), (1.0, 0.0)),
+    **dict.fromkeys(("degC", "°C", "℃", "celsius", "degree_Celsius"), (1.0, 273.15)),
+    **dict.fromkeys(("degF", "°F", "fahrenheit", "degree_Fahrenheit"), (5.0 / 9.0, 459.67 * 5.0 / 9.0)),
+}
+
+
+def _absolute(number: float, scale: str, write: str) -> float:
+    """Temperature, K, from its number on a scale, whose zero may be shifted."""
+    if not scale:
+        raise NotAQuantity("a number without a unit", write)
+    if scale == "C":
+        raise NotAQuantity('"C" is the coulomb', f'write "{number:g} degC"')
+    if scale not in _SCALES:
+        raise NotAQuantity(f'"{scale}" is not a unit of {TEMPERATURE}', write)
+    degree, zero = _SCALES[scale]
+    if isfinite(number) and number * degree + zero <= 0.0:
+        raise NotAQuantity("not above absolute zero", write)
+    return number * degree + zero
 
 
 def is_extreme(number: float) -> bool:
@@ -225,9 +251,11 @@ PRESSURE = Kind("pressure", "Pa", "206 GPa")
 DENSITY = Kind("density", "kg/m**3", "7850 kg/m**3")
 CONDUCTIVITY = Kind("thermal conductivity", "W/(m*K)", "60.5 W/(m*K)")
 SPECIFIC_HEAT = Kind("specific heat", "J/(kg*K)", "434 J/(kg*K)")
+KINEMATIC_VISCOSITY = Kind("kinematic viscosity", "m**2/s", "220 mm**2/s")
 VISCOSITY = Kind("dynamic viscosity", "Pa*s", "0.35 Pa*s")
 PRESSURE_VISCOSITY = Kind("pressure-viscosity coefficient", "1/Pa", "25 1/GPa")
 PER_KELVIN = Kind("temperature coefficient", "1/K", "0.045 1/K")
+TEMPERATURE_KIND = Kind(TEMPERATURE, "K", "80 degC")
 VELOCITY = Kind("velocity", "m/s", "2 m/s")
 
 #: Quantities that a tooth family or a law may have a key of, by name: `numerics.parameter.Parameter.kind`.

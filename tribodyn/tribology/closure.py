@@ -198,4 +198,6 @@ def nominal_conditions(case: Lubricated) -> NominalConditions:
         case.lubricant.density,
         case.mean_roughness,
         case.lubricant.load_exponent,
+        case.lubricant.lubricant_factor,
+        case.lubricant.schlenk_factor,
     )

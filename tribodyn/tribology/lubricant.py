@@ -1,6 +1,28 @@
 """What a case says of its lubricant and of the asperities in it, in SI units."""
 
 from dataclasses import dataclass
+from typing import Any
+
+from tribodyn.tribology.oil import GIVEN, UNITS, OilSheet, OilValue
+
+
+@dataclass(frozen=True)
+class FzgStages:
+    """Failure load stages of an oil in FZG's tests; None where the data sheet gives none.
+
+    Parameters
+    ----------
+    scuffing : int or None
+        Test A/8.3/90 (ISO 14635-1).
+    micropitting : int or None
+        Test C-GF/8.3/90 (FVA 54/7).
+    micropitting_temperature : float
+        Oil temperature of the latter, K.
+    """
+
+    scuffing: int | None = None
+    micropitting: int | None = None
+    micropitting_temperature: float = 363.15
 
 
 @dataclass(frozen=True)
@@ -24,7 +46,16 @@ class LubricantData:
     density : float
         kg/m³; used by ISO/TR 14179-1 and by Veciana's variant of the Péclet number.
     load_exponent : float
-        d of Niemann's lubricant factor X_L = w^−d; 0.0651 of mineral oil 75W90 (Diez-Ibarbia et al.).
+        d of Niemann's lubricant factor X_L w^−d; 0.0651 of mineral oil 75W90 (Diez-Ibarbia et al.).
+    lubricant_factor : float
+        X_L of Niemann's mean friction coefficient and of ISO/TR 15144-1.
+    schlenk_factor : float
+        X_L of Schlenk's mean friction coefficient; default: mineral oil.
+    temperature : float or None
+        At which the numbers hold, K; None: not said.
+    sheet : OilSheet or None
+        The data sheet that they come from, where they do.
+    fzg : FzgStages
     """
 
     asperity_friction: float
@@ -35,3 +66,34 @@ class LubricantData:
     temperature_viscosity: float
     density: float
     load_exponent: float = 0.0651
+    lubricant_factor: float = 1.0
+    schlenk_factor: float = 0.846
+    temperature: Any = None
+    sheet: OilSheet | None = None
+    fzg: FzgStages = FzgStages()
+
+
+def lubricant_from(sheet: OilSheet, temperature: Any, fzg: FzgStages = FzgStages()) -> LubricantData:
+    """Return the numbers of an oil at a temperature (K), from its data sheet."""
+    numbers = {name: one.value for name, one in sheet.values(temperature).items()}
+    return LubricantData(**numbers, temperature=temperature, sheet=sheet, fzg=fzg)
+
+
+def lubricant_at(lubricant: LubricantData, temperature: Any) -> LubricantData:
+    """Return the numbers of the same oil at another temperature (K).
+
+    Raises
+    ------
+    ValueError
+        If it has no data sheet: its numbers hold at one temperature only.
+    """
+    if lubricant.sheet is None:
+        raise ValueError("a lubricant without a data sheet is known at one temperature only")
+    return lubricant_from(lubricant.sheet, temperature, lubricant.fzg)
+
+
+def oil_values(lubricant: LubricantData) -> dict[str, OilValue]:
+    """Numbers of a lubricant by name, with their origin, whether from a data sheet or given."""
+    if lubricant.sheet is not None:
+        return lubricant.sheet.values(lubricant.temperature)
+    return {name: OilValue(getattr(lubricant, name), unit, GIVEN) for name, unit in UNITS.items()}

@@ -18,7 +18,8 @@ class NominalConditions(NamedTuple):
     viscosity : η at the temperature of the oil, Pa·s
     density : of the oil, kg/m³
     mean_roughness : Ra, arithmetic mean roughness of the flanks, m
-    load_exponent : d of the lubricant factor X_L = (w mm/N)^−d
+    load_exponent, lubricant_factor : d and X_L of Niemann's factor X_L (w mm/N)^−d
+    schlenk_factor : X_L of Schlenk's formula
     """
 
     tangential_load: Any
@@ -31,6 +32,8 @@ class NominalConditions(NamedTuple):
     density: Any
     mean_roughness: Any
     load_exponent: Any
+    lubricant_factor: Any = 1.0
+    schlenk_factor: Any = 0.846
 
     @property
     def line_load(self) -> Any:

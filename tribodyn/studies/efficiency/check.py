@@ -5,13 +5,15 @@ from tribodyn.mesh.stiffness import single_pair
 from tribodyn.studies.efficiency.case import EfficiencyCase
 from tribodyn.studies.efficiency.run import prepare
 from tribodyn.studies.gears import checked
+from tribodyn.studies.oil import with_oil
 from tribodyn.studies.study import Checked
 
 
 def check(case: EfficiencyCase) -> Checked:
-    """Check a case, tabulate its mesh, and say what gears it describes and how stiff they are."""
+    """Check a case, tabulate its mesh, and say what gears and oil it describes, how stiff the gears are."""
     study = prepare(case)
     pair = single_pair(study.cycle, case.operating.gear_torque)
     method = f'compliance = "{case.mesh.compliance}"'
     remark = compliance_remark(study.assembly, case.materials, case.mesh)
-    return checked(study.assembly, case.materials, method, *pair, remark=remark)
+    gears = checked(study.assembly, case.materials, method, *pair, remark=remark)
+    return with_oil(gears, case.lubricant)

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from tribodyn.errors import InputError
 from tribodyn.scenario.drive_rules import broken_drive_rules, broken_part_rules
 from tribodyn.scenario.duty import broken_duty_rules, duty_of
+from tribodyn.scenario.lubricant_rules import broken_lubricant_rules
 from tribodyn.scenario.modification_rules import Face, broken_face_rules
 from tribodyn.studies.efficiency.scenario import Scenario
 
@@ -13,6 +14,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that tie keys of such a scenario together and that this one breaks."""
     mesh = scenario.mesh
     yield from broken_drive_rules(scenario.drive)
+    yield from broken_lubricant_rules(scenario.lubricant, scenario.operating.oil_temperature)
     face = Face(scenario.drive, mesh.misalignment, mesh.slices, mesh.slice_coupling)
     yield from broken_face_rules(face, mesh.compliance)
     yield from broken_part_rules(mesh.hertz, mesh.foundation, mesh.compliance)

@@ -30,6 +30,7 @@ from tribodyn.studies.efficiency.quadrature import Array
 from tribodyn.studies.efficiency.sampled import Samples, samples
 from tribodyn.studies.efficiency.torque_ratio import path_contact, torque_ratio
 from tribodyn.studies.gears import LAYOUT
+from tribodyn.studies.oil import oil_data
 from tribodyn.studies.recording import target, writer
 from tribodyn.studies.study import Progress, RunResult
 from tribodyn.tribology.closure import closure_of, exceeded_limits, law_figures
@@ -207,6 +208,7 @@ def _figures(study: Prepared, over: Samples, mesh: Places, state: Engagement) ->
         "friction_force_mean": np.sum(np.abs(over.by_pair(state.friction_force)[:-1]), axis=0) * share,
         "compliance_remark": compliance_remark(study.assembly, study.case.materials, study.case.mesh) or None,
         **law_figures(study.case),
+        "lubricant": oil_data(study.case.lubricant),
         **exceeded_limits(study.case, state.closure_shares[loaded], state.friction_shares[loaded]),
         "closure_in_range_fraction": fraction_in_range(state.closure_in_range[loaded]),
         "friction_in_range_fraction": fraction_in_range(state.friction_in_range[loaded]),

@@ -7,7 +7,7 @@ from pydantic import Field
 from tribodyn.compliance.foundation import Foundation
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.mesh.data import MeshData
-from tribodyn.scenario.common import ScenarioHead, Slices, head_of
+from tribodyn.scenario.common import ScenarioHead, Slices, Temperature, head_of
 from tribodyn.scenario.drive_data import (
     drive_of,
     lubricant_of,
@@ -32,6 +32,10 @@ from tribodyn.tribology.data import FrictionData
 
 class EfficiencyOperating(DutyTable):
     """Constant speed and load."""
+
+    oil_temperature: Temperature | None = Field(
+        None, description="where the oil enters the mesh; for a lubricant given by its data sheet"
+    )
 
 
 class EfficiencyMesh(Table):
@@ -96,7 +100,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> EfficiencyCase:
         materials=materials_of(drive),
         roughness=drive.roughness,
         mean_roughness=mean_roughness(drive),
-        lubricant=lubricant_of(scenario.lubricant),
+        lubricant=lubricant_of(scenario.lubricant, operating.oil_temperature),
         operating=OperatingData("speed", *duty_of(operating, drive.pinion.teeth, drive.gear.teeth)),
         mesh=MeshData(
             mesh.compliance,

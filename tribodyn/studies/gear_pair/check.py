@@ -5,13 +5,15 @@ from tribodyn.mesh.stiffness import single_pair
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.gears import checked
+from tribodyn.studies.oil import with_oil
 from tribodyn.studies.study import Checked
 
 
 def check(case: Case) -> Checked:
-    """Check a case, tabulate its mesh, and say what gears it describes and how stiff they are."""
+    """Check a case, tabulate its mesh, and say what gears and oil it describes, how stiff the gears are."""
     prepared = prepare(case)
     pair = single_pair(prepared.cycle, case.operating.gear_torque)
     method = f'compliance = "{case.mesh.compliance}"'
     remark = compliance_remark(prepared.assembly, case.materials, case.mesh)
-    return checked(prepared.assembly, case.materials, method, *pair, prepared.masses, remark)
+    gears = checked(prepared.assembly, case.materials, method, *pair, prepared.masses, remark)
+    return with_oil(gears, case.lubricant)

@@ -6,6 +6,7 @@ from tribodyn.errors import InputError, unknown_name
 from tribodyn.scenario.drive_data import gives_backlash
 from tribodyn.scenario.drive_rules import broken_drive_rules, broken_part_rules
 from tribodyn.scenario.duty import broken_duty_rules, duty_of
+from tribodyn.scenario.lubricant_rules import broken_lubricant_rules
 from tribodyn.scenario.model_files import Bearing
 from tribodyn.scenario.modification_rules import Face, broken_face_rules
 from tribodyn.solve.methods import SOLVERS
@@ -15,6 +16,7 @@ from tribodyn.studies.gear_pair.scenario import Mesh, Operating, Scenario
 def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that the scenario breaks; none: it is consistent."""
     yield from broken_drive_rules(scenario.drive)
+    yield from broken_lubricant_rules(scenario.lubricant, scenario.operating.oil_temperature)
     yield from _bearing("bearings.pinion", scenario.bearings.pinion)
     yield from _bearing("bearings.gear", scenario.bearings.gear)
     yield from _operating(scenario.operating)

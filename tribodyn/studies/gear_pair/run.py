@@ -23,6 +23,7 @@ from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.prepare import Prepared, prepare
 from tribodyn.studies.gear_pair.summary import RunningExtremes, energy_residual, steady_figures, warning_of
 from tribodyn.studies.gears import LAYOUT
+from tribodyn.studies.oil import oil_data
 from tribodyn.studies.recording import target, writer
 from tribodyn.studies.study import Progress, RunResult
 from tribodyn.tribology.closure import exceeded_limits, law_figures
@@ -58,6 +59,7 @@ def run(
         "pitch_point": AVERAGED if model.options.averaged else REGULAR,
         "compliance_remark": compliance_remark(prepared.assembly, case.materials, case.mesh) or None,
         **law_figures(case),
+        "lubricant": oil_data(case.lubricant),
     }
     groups = {
         "mesh_cycle": as_arrays(cycle),

@@ -19,6 +19,7 @@ from tribodyn.scenario.common import (
     Inertia,
     ScenarioHead,
     Slices,
+    Temperature,
     Torque,
     TorsionalDamping,
     head_of,
@@ -80,6 +81,9 @@ class Operating(DutyTable):
 
     source: Literal["speed", "torque"] = Field(
         "speed", description="speed: the pinion's rotation is prescribed; torque: a motor with inertia"
+    )
+    oil_temperature: Temperature | None = Field(
+        None, description="where the oil enters the mesh; for a lubricant given by its data sheet"
     )
     gear_torque_table: Annotated[TorqueCurve, csv_file("time", "torque")] | None = Field(
         None, description="over time, added to the load"
@@ -217,7 +221,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> Case:
         masses=masses_of(drive),
         roughness=drive.roughness,
         mean_roughness=mean_roughness(drive),
-        lubricant=lubricant_of(scenario.lubricant),
+        lubricant=lubricant_of(scenario.lubricant, scenario.operating.oil_temperature),
         bearings=(_bearing(scenario.bearings.pinion), _bearing(scenario.bearings.gear)),
         operating=_operating(scenario),
         mesh=_mesh(scenario),
@@ -250,7 +254,12 @@ def _operating(scenario: Scenario) -> OperatingData:
             (one.amplitude, one.frequency, one.phase) for one in operating.gear_torque_harmonics
         ),
         **operating.model_dump(
-            exclude={"gear_torque_table", "gear_torque_harmonics", *DutyTable.model_fields}
+            exclude={
+                "gear_torque_table",
+                "gear_torque_harmonics",
+                "oil_temperature",
+                *DutyTable.model_fields,
+            }
         ),
     )
 

@@ -19,6 +19,7 @@ FRICTION_LAWS: Registry[FrictionLaw] = Registry(
         "xu": "tribodyn.tribology.friction.xu:LAW",
         "benedict-kelley": "tribodyn.tribology.friction.benedict_kelley:LAW",
         "niemann": "tribodyn.tribology.friction.niemann:LAW",
+        "schlenk": "tribodyn.tribology.friction.schlenk:LAW",
         "iso-14179-1": "tribodyn.tribology.friction.iso_14179_1:LAW",
     },
     "tribodyn.friction_laws",

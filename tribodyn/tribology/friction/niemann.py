@@ -12,20 +12,20 @@ MAXIMUM_SPEED = 50.0
 def niemann(conditions: NominalConditions) -> float:
     """Mean friction coefficient by Niemann, as ISO/TR 14179-2 and Höhn use it.
 
-    μ_m = 0.048 [w/(V_ΣC ρ_C)]^0.2 η^−0.05 Ra^0.25 X_L, X_L = w^−d, with w in N/mm, V in m/s, ρ in mm, η in
-    mPa·s and Ra in µm: Diez-Ibarbia (6), whose print loses the face width in w. Fitted to FZG tests of
-    case-hardened gears, V up to about 50 m/s; d = 0.0651 for mineral oil 75W90.
+    μ_m = 0.048 [w/(V_ΣC ρ_C)]^0.2 η^−0.05 Ra^0.25 X_L w^−d, with w in N/mm, V in m/s, ρ in mm, η in mPa·s and
+    Ra in µm: Diez-Ibarbia (6), whose print loses the face width in w. Fitted to FZG tests of case-hardened
+    gears, V up to about 50 m/s. X_L is that of the oil's type, or 1 with d = 0.0651 for mineral oil 75W90.
     """
-    load = 1e-3 * conditions.line_load
-    group = load * 1e-3 * conditions.curvature / conditions.sum_speed
+    load = log(1e-3 * conditions.line_load)
+    return conditions.lubricant_factor * mean_of_fzg_tests(conditions) * exp(-conditions.load_exponent * load)
+
+
+def mean_of_fzg_tests(conditions: NominalConditions) -> float:
+    """The part of Niemann's coefficient that Schlenk's shares: 0.048 [w/(V_ΣC ρ_C)]^0.2 η^−0.05 Ra^0.25."""
+    group = 1e-3 * conditions.line_load * 1e-3 * conditions.curvature / conditions.sum_speed
     viscosity = 1e3 * conditions.viscosity
     roughness = 1e6 * conditions.mean_roughness
-    return 0.048 * exp(
-        0.2 * log(group)
-        - 0.05 * log(viscosity)
-        + 0.25 * log(roughness)
-        - conditions.load_exponent * log(load)
-    )
+    return 0.048 * exp(0.2 * log(group) - 0.05 * log(viscosity) + 0.25 * log(roughness))
 
 
 def _mean(given: LawInput) -> Constant:

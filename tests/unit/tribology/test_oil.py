@@ -1,0 +1,120 @@
+"""Oil from its data sheet: a published design report, closed forms, limits."""
+
+import math
+
+import pytest
+
+from tribodyn.tribology import oil
+from tribodyn.tribology.friction.niemann import niemann
+from tribodyn.tribology.friction.schlenk import schlenk
+from tribodyn.tribology.lubricant import LubricantData, lubricant_at, lubricant_from, oil_values
+from tribodyn.tribology.nominal import NominalConditions
+from tribodyn.tribology.oil import OIL_TYPES, T_40, T_100, ZERO_CELSIUS, OilSheet
+from tribodyn.tribology.rheology import log_roelands_viscosity
+
+#: Of the KISSsoft report of 2017: ISO VG 220, mineral.
+REPORT = OilSheet("mineral", 220e-6, 19e-6, 890.0)
+T_80 = ZERO_CELSIUS + 80.0
+
+
+def test_a_published_design_report():
+    """Pressure-viscosity at 38 °C and viscosity at a bulk temperature printed as 85.0 °C."""
+    viscosity = REPORT.viscosity(ZERO_CELSIUS + 38.0)
+    assert oil.pressure_viscosity_38("mineral", viscosity) == pytest.approx(2.162e-8, rel=3e-4)
+    warmer, colder = (1e3 * REPORT.viscosity(ZERO_CELSIUS + theta) for theta in (85.05, 84.95))
+    assert warmer < 25.25
+    assert colder > 25.15
+
+
+def test_viscosity_passes_through_the_data_sheet_on_a_straight_line():
+    for temperature, expected in ((T_40, 220e-6), (T_100, 19e-6)):
+        found = oil.kinematic_viscosity(220e-6, 19e-6, temperature)
+        assert found == pytest.approx(expected, rel=1e-12)
+    # the mean of two logarithms lies at the geometric mean of the temperatures
+    middle = oil.kinematic_viscosity(220e-6, 19e-6, math.sqrt(T_40 * T_100))
+    doubled = [math.log10(math.log10(v + 0.7)) for v in (220.0, 19.0)]
+    assert 1e6 * middle == pytest.approx(10**10 ** (sum(doubled) / 2) - 0.7, rel=1e-12)
+
+
+@pytest.mark.parametrize("kind", OIL_TYPES)
+def test_the_temperature_coefficient_is_the_slope_of_the_viscosity(kind):
+    sheet = OilSheet(kind, 220e-6, 25e-6, 860.0)
+    step = 1e-3
+    slope = math.log(sheet.viscosity(T_80 - step) / sheet.viscosity(T_80 + step)) / (2 * step)
+    assert lubricant_from(sheet, T_80).temperature_viscosity == pytest.approx(slope, rel=1e-7)
+
+
+@pytest.mark.parametrize("kind", OIL_TYPES)
+def test_roelands_law_begins_with_the_pressure_viscosity_coefficient(kind):
+    found = lubricant_from(OilSheet(kind, 100e-6, 14e-6, 850.0), T_80)
+    inlet, step = math.log(found.inlet_viscosity), 1e4
+    raised = log_roelands_viscosity(step, 0.0, inlet, found.viscosity_pressure_index, 0.0)
+    assert (raised - inlet) / step == pytest.approx(found.pressure_viscosity, rel=1e-3)
+
+
+def test_density_falls_by_seven_tenths_per_kelvin():
+    assert oil.density_at(890.0, 289.0) == 890.0
+    assert oil.density_at(890.0, 389.0) == pytest.approx(820.0)
+
+
+def test_pressure_viscosity_at_38_degrees_is_that_of_the_formula_there():
+    # the standard's 311 K are 38 °C by its own 273
+    assert oil.pressure_viscosity_at(2e-8, ZERO_CELSIUS + 38.0) == pytest.approx(2e-8, rel=1e-12)
+    assert oil.pressure_viscosity_at(2e-8, ZERO_CELSIUS + 80.0) == pytest.approx(
+        2e-8 * (1 + 516 * (1 / 353 - 1 / 311)), rel=1e-12
+    )
+
+
+def test_given_values_take_the_place_of_derived_ones_at_every_temperature():
+    sheet = OilSheet("pao", 220e-6, 26e-6, 850.0, {"pressure_viscosity": 1.5e-8, "asperity_friction": 0.1})
+    for temperature in (T_40, T_80):
+        found = lubricant_from(sheet, temperature)
+        assert (found.pressure_viscosity, found.asperity_friction) == (1.5e-8, 0.1)
+        index = 1.5e-8 * 1.962e8 / (math.log(found.inlet_viscosity) + 9.67)
+        assert found.viscosity_pressure_index == pytest.approx(index)
+        assert oil_values(found)["pressure_viscosity"].origin == "given"
+    assert "ASTM D341" in oil_values(found)["inlet_viscosity"].origin
+
+
+def test_an_oil_at_another_temperature_is_the_same_oil():
+    warm = lubricant_at(lubricant_from(REPORT, T_40), T_80)
+    assert warm == lubricant_from(REPORT, T_80)
+    with pytest.raises(ValueError, match="data sheet"):
+        lubricant_at(LubricantData(0.11, 0.06, 0.01, 1.5e-8, 0.58, 0.03, 820.0), T_80)
+
+
+def test_niemann_and_schlenk_differ_by_the_lubricant_factor_of_the_type():
+    def conditions(lubricant):
+        return NominalConditions(
+            4000.0, 0.027, 0.054, math.radians(20), 150.0, 0.02, 0.025, 840.0, 8e-7,
+            lubricant.load_exponent, lubricant.lubricant_factor, lubricant.schlenk_factor,
+        )  # fmt: skip
+
+    means = {
+        kind: conditions(lubricant_from(OilSheet(kind, 220e-6, 25e-6, 860.0), T_80)) for kind in OIL_TYPES
+    }
+    for kind, factor in {"mineral": 0.846, "pao": 0.65, "ester": 0.65, "pag": 0.585}.items():
+        assert schlenk(means[kind]) / schlenk(means["mineral"]) == pytest.approx(factor / 0.846)
+    assert niemann(means["pao"]) / niemann(means["mineral"]) == pytest.approx(0.8)
+    assert niemann(means["pag"]) / niemann(means["mineral"]) == pytest.approx(0.7)
+    # by hand, in engineers' units: w 212.8 N/mm, V_ΣC 2.770 m/s, ρ_C 6.156 mm, η 25 mPa s, Ra 0.8 µm
+    load = 4.0 / 20e-3 / math.cos(math.radians(20))
+    speed, radius = 2 * 150 * 0.027 * math.sin(math.radians(20)), 18.0 * math.sin(math.radians(20))
+    by_hand = 0.048 * (load / speed / radius) ** 0.2 * 25**-0.05 * 0.8**0.25
+    assert niemann(means["mineral"]) == pytest.approx(by_hand, rel=1e-9)
+    assert schlenk(means["mineral"]) == pytest.approx(0.846 * by_hand, rel=1e-9)
+
+
+def test_limiting_shear_and_boundary_friction_are_those_measured():
+    """Arana, Larrañaga & Ulacia (2019), twin discs at 1 GPa and 60 °C."""
+    by_type = {kind: lubricant_from(OilSheet(kind, 97e-6, 10e-6, 870.0), T_80) for kind in OIL_TYPES}
+    assert by_type["mineral"].limiting_shear_coefficient == 0.047
+    assert by_type["pao"].limiting_shear_coefficient == 0.035
+    assert {one.asperity_friction for one in by_type.values()} == {0.065}
+    assert oil.LIMITING_SHEAR["mineral"].spread == (0.047, 0.053)
+
+
+def test_heat_of_the_oil_is_of_the_order_of_tables():
+    """Mineral oil at 80 °C: about 2.1 kJ/(kg K) and 0.13 W/(m K) (VDI heat atlas)."""
+    assert oil.specific_heat(870.0, T_80) == pytest.approx(2.1e3, rel=0.02)
+    assert oil.thermal_conductivity(870.0, T_80) == pytest.approx(0.13, rel=0.02)

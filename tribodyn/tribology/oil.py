@@ -1,0 +1,240 @@
+"""From an oil's data sheet to what film and friction laws read, at any temperature.
+
+A data sheet gives the kinematic viscosity at 40 and 100 °C, the density at 15 °C and the type of the base
+oil. Temperatures are absolute, K; the functions take floats, arrays and traced numbers.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Any, Literal, NamedTuple, get_args
+
+from tribodyn.numerics.elementary import exp, log
+
+OilType = Literal["mineral", "pao", "ester", "pag"]
+OIL_TYPES: tuple[OilType, ...] = get_args(OilType)
+
+#: 0 °C, and the temperatures of the data sheet's viscosities, K.
+ZERO_CELSIUS = 273.15
+T_40, T_100 = 313.15, 373.15
+#: Temperatures for which values are derived, K: below, wax and viscosity improvers bend the line of D341;
+#: above, oils decompose. Limits of this package; ASTM D341 itself gives none but the viscosity's.
+TEMPERATURE_RANGE = (ZERO_CELSIUS - 40.0, ZERO_CELSIUS + 180.0)
+#: Smallest kinematic viscosity, m²/s, for which the constant 0.7 of ASTM D341 holds.
+MINIMUM_VISCOSITY = 2e-6
+#: Roelands' constants: pressure p_0, Pa, and −ln of the viscosity at its pole, ln of Pa·s.
+ROELANDS_PRESSURE, ROELANDS_POLE = 1.962e8, 9.67
+
+
+def kinematic_viscosity(viscosity_40: Any, viscosity_100: Any, temperature: Any) -> Any:
+    """Kinematic viscosity ν at a temperature, m²/s, by ASTM D341 (Ubbelohde & Walther).
+
+    lg lg(ν + 0.7) = C − B lg T with ν in mm²/s and T in K, through the viscosities at 40 and 100 °C (m²/s).
+    """
+    level, slope = walther_line(viscosity_40, viscosity_100)
+    return 1e-6 * (exp(exp(level - slope * log(temperature))) - 0.7)
+
+
+def walther_line(viscosity_40: Any, viscosity_100: Any) -> tuple[Any, Any]:
+    """Level C′ and slope B of ln ln(ν + 0.7) = C′ − B ln T, ν in mm²/s; B is the standard's."""
+    at_40 = log(log(1e6 * viscosity_40 + 0.7))
+    slope = (at_40 - log(log(1e6 * viscosity_100 + 0.7))) / (log(T_100) - log(T_40))
+    return at_40 + slope * log(T_40), slope
+
+
+def density_at(density_15: Any, temperature: Any) -> Any:
+    """Density ρ = ρ15 − 0.7 (T − 289), kg/m³ (ISO/TR 15144-1)."""
+    return density_15 - 0.7 * (temperature - 289.0)
+
+
+class PressureViscosity(NamedTuple):
+    """Coefficients of α38 = factor η38^exponent, 1/Pa, with η38 in Pa·s; and where they are from."""
+
+    factor: float
+    exponent: float
+    source: str
+
+
+_STANDARD = "ISO/TR 15144-1"
+PRESSURE_VISCOSITY: dict[OilType, PressureViscosity] = {
+    "mineral": PressureViscosity(2.657e-8, 0.1348, _STANDARD),
+    "pao": PressureViscosity(1.466e-8, 0.0507, _STANDARD),
+    "pag": PressureViscosity(1.392e-8, 0.1572, _STANDARD),
+}
+#: α = s ν^t of saturated esters, 1/Pa, ν in mm²/s at the temperature asked for: Gold et al., J. Synthetic
+#: Lubrication 18 (2001) 51; ISO/TR 15144-1 gives no ester. From memory of the literature, not checked against
+#: the paper: give pressure_viscosity where it is known.
+ESTER = (6.605e-9, 0.1360)
+
+
+def pressure_viscosity_38(kind: OilType, viscosity: Any) -> Any:
+    """Pressure-viscosity coefficient at 38 °C, 1/Pa, from the viscosity η there, Pa·s; not of an ester."""
+    one = PRESSURE_VISCOSITY[kind]
+    return one.factor * exp(one.exponent * log(viscosity))
+
+
+def pressure_viscosity_at(pressure_viscosity: Any, temperature: Any) -> Any:
+    """Coefficient at a temperature from that at 38 °C: α = α38 [1 + 516 (1/T − 1/311)] (ISO/TR 15144-1)."""
+    return pressure_viscosity * (1.0 + 516.0 * (1.0 / (temperature - 0.15) - 1.0 / 311.0))
+
+
+def roelands_index(pressure_viscosity: Any, viscosity: Any) -> Any:
+    """Roelands' z = α p_0/(ln η0 + 9.67): his law then begins with the slope α; α in 1/Pa, η0 in Pa·s."""
+    return pressure_viscosity * ROELANDS_PRESSURE / (log(viscosity) + ROELANDS_POLE)
+
+
+def temperature_viscosity_at(viscosity_40: Any, viscosity_100: Any, density_15: Any, temperature: Any) -> Any:
+    """K_T = −d ln η/dT at a temperature, 1/K: the slopes of ASTM D341 and of the density."""
+    level, slope = walther_line(viscosity_40, viscosity_100)
+    logarithm = exp(level - slope * log(temperature))
+    shifted = exp(logarithm)
+    of_kinematic = shifted / (shifted - 0.7) * logarithm * slope / temperature
+    return of_kinematic + 0.7 / density_at(density_15, temperature)
+
+
+def specific_heat(density_15: Any, temperature: Any) -> Any:
+    """Specific heat of a mineral oil, J/(kg K): (1685 + 3.39 θ)/√d, θ in °C, d relative density.
+
+    C. S. Cragoe, Bureau of Standards Miscellaneous Publication 97 (1929); taken for the other types too.
+    """
+    return (1685.0 + 3.39 * (temperature - ZERO_CELSIUS)) / exp(0.5 * log(1e-3 * density_15))
+
+
+def thermal_conductivity(density_15: Any, temperature: Any) -> Any:
+    """Thermal conductivity of a mineral oil, W/(m K): 0.1172 (1 − 0.00054 θ)/d (Cragoe 1929)."""
+    return 0.1172 * (1.0 - 0.00054 * (temperature - ZERO_CELSIUS)) / (1e-3 * density_15)
+
+
+class Typical(NamedTuple):
+    """A coefficient by the type of the oil: its value, the spread of what is published, where it is from."""
+
+    value: float
+    spread: tuple[float, float]
+    source: str
+
+
+_ARANA = "Arana, Larrañaga & Ulacia (2019)"
+#: Λ_lim, limiting shear stress over pressure: twin discs at 1 GPa and 60 °C (DOI 10.1177/1350650118778655).
+LIMITING_SHEAR: dict[OilType, Typical] = {
+    "mineral": Typical(0.047, (0.047, 0.053), f"{_ARANA}, twin discs, 1 GPa, 60 °C: paraffinic; naphthenic"),
+    "pao": Typical(0.035, (0.030, 0.040), f"{_ARANA}, twin discs, 1 GPa, 60 °C; spread assumed"),
+    "ester": Typical(0.035, (0.030, 0.045), "assumption: as PAO, whose lubricant factor esters share"),
+    "pag": Typical(0.0315, (0.025, 0.035), "assumption: PAO's, by the ratio of Schlenk's lubricant factors"),
+}
+#: f_c, friction coefficient of touching asperities: the same of all types.
+BOUNDARY_FRICTION = Typical(0.065, (0.065, 0.12), f"{_ARANA}, boundary; others use up to 0.12 (Veciana)")
+#: X_L of the mean friction coefficient of ISO/TR 15144-1 and of Niemann. Of esters the standard lists only
+#: the phosphate ester, 1.3; of PAG 0.6 where they dissolve in water.
+LUBRICANT_FACTOR: dict[OilType, Typical] = {
+    "mineral": Typical(1.0, (1.0, 1.0), _STANDARD),
+    "pao": Typical(0.8, (0.8, 0.8), _STANDARD),
+    "ester": Typical(0.8, (0.8, 1.0), "assumption: as PAO; ISO/TR 15144-1 gives none"),
+    "pag": Typical(0.7, (0.6, 0.7), f"{_STANDARD}, not soluble in water; 0.6 soluble"),
+}
+_OPEN = "values of an open program for Schlenk's formula"
+#: X_L of Schlenk's mean friction coefficient.
+SCHLENK_FACTOR: dict[OilType, Typical] = {
+    "mineral": Typical(0.846, (0.846, 0.846), _OPEN),
+    "pao": Typical(0.65, (0.65, 0.65), _OPEN),
+    "ester": Typical(0.65, (0.65, 0.65), _OPEN),
+    "pag": Typical(0.585, (0.585, 0.585), _OPEN),
+}
+
+
+def by_type(kind: OilType) -> dict[str, Typical]:
+    """Numbers of a `LubricantData` that follow from the type of the oil alone."""
+    return {
+        "limiting_shear_coefficient": LIMITING_SHEAR[kind],
+        "asperity_friction": BOUNDARY_FRICTION,
+        "load_exponent": Typical(0.0, (0.0, 0.0), "the lubricant factor stands for it"),
+        "lubricant_factor": LUBRICANT_FACTOR[kind],
+        "schlenk_factor": SCHLENK_FACTOR[kind],
+    }
+
+
+class OilValue(NamedTuple):
+    """A number of a lubricant: value (SI), unit, where it is from, and its spread where one is known."""
+
+    value: Any
+    unit: str
+    origin: str
+    spread: tuple[float, float] | None = None
+
+
+#: Units of the numbers of a `LubricantData`, in the order in which they are shown.
+UNITS = {
+    "inlet_viscosity": "Pa s",
+    "density": "kg/m3",
+    "pressure_viscosity": "1/Pa",
+    "viscosity_pressure_index": "1",
+    "temperature_viscosity": "1/K",
+    "limiting_shear_coefficient": "1",
+    "asperity_friction": "1",
+    "load_exponent": "1",
+    "lubricant_factor": "1",
+    "schlenk_factor": "1",
+}
+GIVEN = "given"
+
+
+@dataclass(frozen=True)
+class OilSheet:
+    """An oil as its data sheet has it.
+
+    Parameters
+    ----------
+    type : {"mineral", "pao", "ester", "pag"}
+    viscosity_40, viscosity_100 : float
+        Kinematic, at 40 and 100 °C, m²/s; the first is the larger.
+    density_15 : float
+        At 15 °C, kg/m³.
+    given : mapping
+        Numbers of `LubricantData` that take the place of derived ones, by name.
+    """
+
+    type: OilType
+    viscosity_40: Any
+    viscosity_100: Any
+    density_15: Any
+    given: Mapping[str, Any] = field(default_factory=lambda: MappingProxyType({}))
+
+    def viscosity(self, temperature: Any) -> Any:
+        """Dynamic viscosity η = ν ρ at a temperature, Pa·s."""
+        kinematic = kinematic_viscosity(self.viscosity_40, self.viscosity_100, temperature)
+        return kinematic * density_at(self.density_15, temperature)
+
+    def pressure_viscosity(self, temperature: Any) -> Any:
+        """Pressure-viscosity coefficient α at a temperature, 1/Pa."""
+        if self.type == "ester":
+            kinematic = kinematic_viscosity(self.viscosity_40, self.viscosity_100, temperature)
+            return ESTER[0] * exp(ESTER[1] * log(1e6 * kinematic))
+        at_38 = pressure_viscosity_38(self.type, self.viscosity(ZERO_CELSIUS + 38.0))
+        return pressure_viscosity_at(at_38, temperature)
+
+    def values(self, temperature: Any) -> dict[str, OilValue]:
+        """All numbers of `LubricantData` at a temperature (K), with their origin."""
+        found: dict[str, OilValue] = {}
+
+        def put(name: str, value: Any, origin: str, spread: tuple[float, float] | None = None) -> Any:
+            if name in self.given:
+                value, origin, spread = self.given[name], GIVEN, None
+            found[name] = OilValue(value, UNITS[name], origin, spread)
+            return value
+
+        at_hand = "ASTM D341 and density over temperature"
+        viscosity = put("inlet_viscosity", self.viscosity(temperature), f"kinematic by {at_hand}")
+        put("density", density_at(self.density_15, temperature), f"density_15 - 0.7 (T - 289 K), {_STANDARD}")
+        source = "Gold et al. (2001)" if self.type == "ester" else PRESSURE_VISCOSITY[self.type].source
+        coefficient = put(
+            "pressure_viscosity", self.pressure_viscosity(temperature), f"{source}, {self.type} oil"
+        )
+        put(
+            "viscosity_pressure_index",
+            roelands_index(coefficient, viscosity),
+            "pressure_viscosity and inlet_viscosity, Roelands",
+        )
+        slope = temperature_viscosity_at(self.viscosity_40, self.viscosity_100, self.density_15, temperature)
+        put("temperature_viscosity", slope, f"slope of {at_hand}")
+        for name, one in by_type(self.type).items():
+            put(name, one.value, one.source, one.spread if one.spread[0] < one.spread[1] else None)
+        return found
