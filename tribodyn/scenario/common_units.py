@@ -19,6 +19,7 @@ COMMON_UNITS: dict[str, dict[str, float]] = {
     "time": {"s": 1.0, "ms": 0.001, "us": 1e-06},
     "power": {"W": 1.0, "kW": 1000.0},
     "torque": {"N*m": 1.0, "Nm": 1.0, "kN*m": 1000.0, "N*mm": 0.001},
+    "force": {"N": 1.0, "kN": 1000.0},
     "mass": {"kg": 1.0, "g": 0.001},
     "moment of inertia": {"kg*m**2": 1.0, "kg*m^2": 1.0},
     "stiffness": {"N/m": 1.0, "N/mm": 1000.0, "N/um": 1000000.0},

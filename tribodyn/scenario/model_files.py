@@ -4,10 +4,12 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
+from tribodyn.dynamics.rolling_bearing import BearingType
 from tribodyn.geometry.families import FAMILIES
 from tribodyn.scenario import units
 from tribodyn.scenario.modification import Modification
 from tribodyn.scenario.quantity import (
+    Count,
     Names,
     NotNegative,
     Number,
@@ -146,11 +148,30 @@ class Lubricant(Described):
     )
 
 
-class Bearing(Table):
-    """Shaft and bearing of one gear."""
+class Rolling(Table):
+    """The rolling bearings of a shaft, from whose type, size and load the stiffness follows."""
 
-    stiffness_x: Stiffness = Field(description="along the pitch tangent")
-    stiffness_y: Stiffness = Field(description="along the line of centres")
+    type: BearingType
+    elements: Annotated[int, Field(strict=True, ge=3, le=1000)] = Field(description="rolling elements")
+    diameter: Annotated[float, Quantity(units.positive(units.LENGTH), "12 mm")] | None = Field(
+        None, description="of a ball"
+    )
+    length: Annotated[float, Quantity(units.positive(units.LENGTH), "12 mm")] | None = Field(
+        None, description="effective, of a roller"
+    )
+    contact_angle: Annotated[float, Quantity(units.not_negative(units.ANGLE_KIND), "15 deg")] = written(
+        "0 deg"
+    )
+    radial_load: Annotated[float, Quantity(units.positive(units.FORCE))] = Field(description="of one bearing")
+    count: Count = Field(2, description="bearings that carry the shaft")
+
+
+class Bearing(Table):
+    """Shaft and bearing of one gear: stiffness given, or from the rolling bearings alone."""
+
+    stiffness_x: Stiffness | None = Field(None, description="along the pitch tangent")
+    stiffness_y: Stiffness | None = Field(None, description="along the line of centres")
+    rolling: Rolling | None = Field(None, description="in place of the stiffness")
     damping_ratio: NotNegative | None = Field(None, description="of both axes")
     damping_ratio_x: NotNegative | None = None
     damping_ratio_y: NotNegative | None = None

@@ -1,16 +1,21 @@
 """Rules that tie several keys of a scenario together: what contradicts, what needs what."""
 
+import math
 from collections.abc import Iterator
 
+from tribodyn.dynamics.rolling_bearing import ROLLERS
 from tribodyn.errors import InputError, unknown_name
 from tribodyn.scenario.drive_data import gives_backlash
 from tribodyn.scenario.drive_rules import broken_drive_rules, broken_part_rules
 from tribodyn.scenario.duty import broken_duty_rules, duty_of
 from tribodyn.scenario.lubricant_rules import broken_lubricant_rules
-from tribodyn.scenario.model_files import Bearing
+from tribodyn.scenario.model_files import Bearing, Rolling
 from tribodyn.scenario.modification_rules import Face, broken_face_rules
 from tribodyn.solve.methods import SOLVERS
 from tribodyn.studies.gear_pair.scenario import Mesh, Operating, Scenario
+
+#: Contact angle from which a bearing carries no radial load to speak of.
+MAXIMUM_CONTACT_ANGLE = math.radians(60.0)
 
 
 def broken_rules(scenario: Scenario) -> Iterator[InputError]:
@@ -33,6 +38,23 @@ def _face(scenario: Scenario) -> Face:
 
 
 def _bearing(key: str, bearing: Bearing) -> Iterator[InputError]:
+    for name in ("stiffness_x", "stiffness_y"):
+        given = getattr(bearing, name)
+        if bearing.rolling is None and given is None:
+            yield InputError(
+                f"{key}.{name}",
+                rule="missing",
+                remedy=f'add {name} = "1e9 N/m", or the table [{key}.rolling]',
+            )
+        elif bearing.rolling is not None and given is not None:
+            yield InputError(
+                f"{key}.{name}",
+                f"{given:g} N/m",
+                f"contradicts [{key}.rolling], from which it follows",
+                "give the one or the other",
+            )
+    if bearing.rolling is not None:
+        yield from _rolling(f"{key}.rolling", bearing.rolling)
     each = (bearing.damping_ratio_x, bearing.damping_ratio_y)
     if bearing.damping_ratio is not None and any(ratio is not None for ratio in each):
         yield InputError(
@@ -44,6 +66,25 @@ def _bearing(key: str, bearing: Bearing) -> Iterator[InputError]:
     elif bearing.damping_ratio is None and any(ratio is None for ratio in each):
         yield InputError(
             f"{key}.damping_ratio", rule="missing", remedy="add damping_ratio = 0.05, for both axes"
+        )
+
+
+def _rolling(key: str, rolling: Rolling) -> Iterator[InputError]:
+    needed, other = ("length", "diameter") if rolling.type in ROLLERS else ("diameter", "length")
+    if getattr(rolling, needed) is None:
+        rule = f'missing: type = "{rolling.type}" needs it'
+        yield InputError(f"{key}.{needed}", rule=rule, remedy=f'add {needed} = "12 mm"')
+    if getattr(rolling, other) is not None:
+        yield InputError(
+            f"{key}.{other}",
+            rule=f'has no effect with type = "{rolling.type}"',
+            remedy=f"leave {other} out",
+        )
+    if rolling.contact_angle >= MAXIMUM_CONTACT_ANGLE:
+        yield InputError(
+            f"{key}.contact_angle",
+            rule="60 deg or more: a thrust bearing",
+            remedy="write a smaller angle, or give stiffness_x and stiffness_y",
         )
 
 

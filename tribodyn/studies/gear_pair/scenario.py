@@ -11,6 +11,7 @@ from pydantic import Field
 
 from tribodyn.compliance.foundation import Foundation
 from tribodyn.dynamics.data import BearingData, OperatingData
+from tribodyn.dynamics.rolling_bearing import RollingBearing, radial_stiffness
 from tribodyn.mesh.data import MeshData
 from tribodyn.scenario import units
 from tribodyn.scenario.common import (
@@ -240,7 +241,13 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> Case:
 def _bearing(bearing: Bearing) -> BearingData:
     ratio_x = bearing.damping_ratio if bearing.damping_ratio_x is None else bearing.damping_ratio_x
     ratio_y = bearing.damping_ratio if bearing.damping_ratio_y is None else bearing.damping_ratio_y
-    return BearingData(bearing.stiffness_x, bearing.stiffness_y, cast(float, ratio_x), cast(float, ratio_y))
+    if bearing.rolling is not None:
+        numbers = bearing.rolling.model_dump()
+        sizes = {name: numbers[name] or 0.0 for name in ("diameter", "length")}
+        both = radial_stiffness(RollingBearing(**{**numbers, **sizes}))
+        return BearingData(both, both, cast(float, ratio_x), cast(float, ratio_y))
+    stiffness = cast(float, bearing.stiffness_x), cast(float, bearing.stiffness_y)
+    return BearingData(*stiffness, cast(float, ratio_x), cast(float, ratio_y))
 
 
 def _operating(scenario: Scenario) -> OperatingData:
