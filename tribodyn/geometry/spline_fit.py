@@ -3,7 +3,7 @@
 import numpy as np
 
 from tribodyn.geometry.assembly import Assembly, lowest_contact_radius
-from tribodyn.geometry.drive import SIDES, Drive, GearBody, Side, body_of, root_radius, tip_radius
+from tribodyn.geometry.drive import SIDES, Drive, GearBody, Side, body_of, tip_radius
 from tribodyn.geometry.families import family
 from tribodyn.geometry.families.spline import FEWEST, Shape, working_path
 from tribodyn.geometry.path import Path, distance_at_radius
@@ -83,8 +83,9 @@ def _body(assembly: Assembly, side: Side, module: float, angle: float) -> GearBo
     return body._replace(
         profile_shift=shift,
         addendum=(float(tip_radius(drive, side)) - radius) / module - shift,
-        dedendum=(radius - float(root_radius(drive, side))) / module + shift,
+        dedendum=(radius - float(tooth.root_radius)) / module + shift,
         fillet_radius=float(body.fillet_radius * drive.module / module),
+        thickness_allowance=0.0,
     )
 
 

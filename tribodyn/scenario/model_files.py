@@ -35,10 +35,10 @@ Roughness = Annotated[float, Quantity(units.positive(units.LENGTH), "0.5 um")]
 
 
 class Described(Table):
-    """What every model file begins with."""
+    """What every model begins with; a table in a scenario may leave it out."""
 
-    title: Text = Field(description="what it is, in a line")
-    source: Text = Field(description="where the numbers come from")
+    title: Text = Field("own values", description="what it is, in a line")
+    source: Text = Field("not stated", description="where the numbers come from")
     assumptions: Text = Field("", description="what the source does not give and was chosen here")
 
 
