@@ -47,6 +47,7 @@ CONTENTS = {
         "load-contact",
         "efficiency",
         "oil",
+        "ehl",
         "solvers",
         "periodic",
         "sweep",

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from tribodyn.geometry.family import Family
     from tribodyn.interface.drive import GearPair, drive
     from tribodyn.interface.gradient import Gradient, gradient
+    from tribodyn.interface.line_contact import line_contact
     from tribodyn.interface.run import Run, run
     from tribodyn.interface.scenario import scenario
     from tribodyn.interface.sweep import Sweep, sweep
@@ -50,6 +51,7 @@ __all__ = [
     "__version__",
     "drive",
     "gradient",
+    "line_contact",
     "open",
     "run",
     "scenario",
@@ -73,6 +75,7 @@ _PLACES = {
     "Sweep": "tribodyn.interface.sweep",
     "drive": "tribodyn.interface.drive",
     "gradient": "tribodyn.interface.gradient",
+    "line_contact": "tribodyn.interface.line_contact",
     "open": "tribodyn.interface.sweep:open_result",
     "run": "tribodyn.interface.run",
     "scenario": "tribodyn.interface.scenario",

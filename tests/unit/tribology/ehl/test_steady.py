@@ -1,0 +1,240 @@
+"""The steady line contact: another solver's films, asymptotes, Hertz, balances, order, bad input."""
+
+import math
+
+import numpy as np
+import pytest
+
+from tests.support.line_contacts import REFERENCES, by_moes
+from tribodyn.errors import InputError
+from tribodyn.tribology.ehl.fluid import Fluid, log_viscosity, relative_density
+from tribodyn.tribology.ehl.grid import made, placed
+from tribodyn.tribology.ehl.reynolds import State, residual
+from tribodyn.tribology.ehl.start import first_state
+from tribodyn.tribology.ehl.steady import converged, reduced_problem, solve_steady
+from tribodyn.tribology.ehl.traction import rolling_traction
+
+
+def moes_films(solution, load):
+    """Central and minimum film in Moes' units √U_Σ R."""
+    problem = solution.problem
+    unit = (
+        problem.radius * math.sqrt(problem.line_load / problem.effective_modulus / problem.radius / load) ** 2
+    )
+    return solution.central_film_thickness / unit, solution.minimum_film_thickness / unit
+
+
+@pytest.mark.parametrize(("problem", "central", "least"), REFERENCES)
+def test_films_of_another_solver(problem, central, least):
+    """Its grid is uniform and its pressure spike coarse: agreement within 0.5 %."""
+    solution = solve_steady(problem)
+    assert solution.central_film_thickness == pytest.approx(central, rel=5e-3)
+    assert solution.minimum_film_thickness == pytest.approx(least, rel=5e-3)
+    assert solution.imbalance <= 1e-10
+
+
+@pytest.mark.parametrize("problem", [one[0] for one in REFERENCES])
+def test_order_of_accuracy_and_error_of_the_default_grid(problem):
+    films = [solve_steady(problem, step=step).flow_film_thickness for step in (0.2, 0.1, 0.05)]
+    limit = solve_steady(problem, step=0.025).flow_film_thickness
+    assert films[1] == pytest.approx(limit, rel=2e-3)
+    problem = REFERENCES[1][0]
+    films = [solve_steady(problem, step=step).central_film_thickness for step in (0.2, 0.1, 0.05)]
+    assert math.log2((films[1] - films[0]) / (films[2] - films[1])) >= 1.9
+
+
+def test_load_and_flow_are_balanced():
+    """Force: pressures carry the load. Mass: ρ h − ρ h³/(12 η u) dp/dx is one number along the film."""
+    problem = REFERENCES[1][0]
+    solution = solve_steady(problem, step=0.02)
+    place, pressure, film = solution.place, solution.pressure, solution.film_thickness
+    assert np.trapezoid(pressure, place) == pytest.approx(problem.line_load, rel=1e-10)
+    half = problem.half_width
+    x, p, h = (0.5 * (one[1:] + one[:-1]) for one in (place / half, pressure, film))
+    viscosity = problem.fluid.viscosity * np.exp(log_viscosity(p, problem.fluid)[0])
+    density = relative_density(p, problem.fluid)[0]
+    slope = np.diff(pressure) / np.diff(place)
+    flow = density * h * (1.0 - h**2 * slope / (12.0 * viscosity * problem.entrainment_speed))
+    spike = (x > 0.8) & (x < 0.9)
+    shown = (x > -2.0) & (x < 1.1) & ~spike
+    np.testing.assert_allclose(flow[shown], solution.flow_film_thickness, rtol=1e-3)
+
+
+@pytest.mark.parametrize(("load", "material"), [(3.0, 0.0), (30.0, 8.0), (2000.0, 10.0)])
+def test_jacobian_is_the_derivative(load, material):
+    problem = by_moes(load, material, index=0.6, compressible=True)
+    reduced = reduced_problem(problem)
+    solution = solve_steady(problem, step=0.3)
+    grid, state = solution.grid, solution.state
+    size = len(grid.node)
+    matrix = residual(state, reduced, grid)[1]
+
+    def moved(column, by):
+        pressure = state.pressure.copy()
+        rest = [state.rigid_film, state.flow, state.end]
+        if column < size - 2:
+            pressure[1 + column] += by
+        else:
+            rest[column - size + 2] += by
+        return residual(State(pressure, *rest), reduced, grid)[0]
+
+    for column in (0, 1, 5, size // 2, size - 8, size - 4, size - 3, size - 2, size - 1, size):
+        by = 1e-6 * (state.pressure[1 + column] if column < size - 2 else state.flow)
+        by = max(by, 1e-10)
+        difference = (moved(column, by) - moved(column, -by)) / (2.0 * by)
+        np.testing.assert_allclose(
+            matrix[:, column], difference, rtol=1e-4, atol=1e-4 * np.abs(difference).max()
+        )
+
+
+def test_martin():
+    """A rigid isoviscous contact: h_0 = 2.449/M on the line of centres, 3/M where the pressure is highest."""
+    load = 0.5
+    reduced = reduced_problem(by_moes(load, 0.0))._replace(compliance=0.0)
+    unit = 8.0 * load / math.pi
+    film = 3.0 / load / unit
+    grid = made(placed(film, 0.1))
+    state, _, imbalance = converged(first_state(reduced, grid, film), reduced, grid, np.zeros(len(grid.node)))
+    assert imbalance <= 1e-10
+    assert state.rigid_film * unit * load == pytest.approx(2.449, rel=2e-3)
+    assert state.flow * unit * load == pytest.approx(3.0, rel=2e-3)
+    # the end of the film of the closed form, ξ_m = 0.4754 in √(2 R h_0)
+    assert state.end / math.sqrt(2.0 * state.rigid_film) == pytest.approx(0.4754, rel=2e-3)
+
+
+def test_blok():
+    """A rigid contact under Barus' law: 1.287 L^(2/3), whatever the load."""
+    load, material = 1.0, 50.0
+    reduced = reduced_problem(by_moes(load, material))._replace(compliance=0.0)
+    unit = 8.0 * load / math.pi
+    film = 1.287 * material ** (2 / 3) / unit
+    grid = made(placed(film, 0.1))
+    state, _, imbalance = converged(first_state(reduced, grid, film), reduced, grid, np.zeros(len(grid.node)))
+    assert imbalance <= 1e-10
+    assert state.flow * unit == pytest.approx(1.287 * material ** (2 / 3), rel=2e-3)
+
+
+def test_herrebrugh():
+    """An isoviscous elastic contact at high load: H ∝ M^(−1/5).
+
+    Its factor: 0.4467 λ^(3/5) b²/R in Hertz's units (Snoeijer, Eggers & Venner 2013, quoted from memory) is
+    2.49 M^(−1/5); Moes' survey has 2.621, 5 % more.
+    """
+    films = {load: moes_films(solve_steady(by_moes(load, 0.0)), load)[0] for load in (5e3, 2e4)}
+    assert math.log(films[2e4] / films[5e3]) / math.log(4.0) == pytest.approx(-0.2, abs=1e-3)
+    hertz = films[2e4] * math.pi / (8.0 * 2e4)
+    assert hertz == pytest.approx(0.4467 * (3.0 * math.pi**2 / (8.0 * 2e4**2)) ** 0.6, rel=3e-3)
+    assert films[2e4] == pytest.approx(2.621 * 2e4**-0.2, rel=0.06)
+
+
+@pytest.mark.parametrize(("load", "material"), [(100.0, 10.0), (100.0, 25.0), (1e3, 10.0), (1e4, 10.0)])
+def test_grubin(load, material):
+    """Elastic and piezoviscous: 1.311 M^(−1/8) L^(3/4), reached slowly."""
+    central, _ = moes_films(solve_steady(by_moes(load, material)), load)
+    assert central == pytest.approx(1.311 * load**-0.125 * material**0.75, rel=0.06)
+
+
+def test_hertz_at_high_load():
+    problem = by_moes(5e3, 10.0, 1.5e9, 0.6, compressible=True)
+    solution = solve_steady(problem)
+    x = solution.place / problem.half_width
+    inside = np.abs(x) < 0.9
+    hertz = problem.hertz_pressure * np.sqrt(1.0 - x[inside] ** 2)
+    np.testing.assert_allclose(solution.pressure[inside], hertz, rtol=0.02)
+    assert solution.state.end == pytest.approx(1.0, abs=0.01)
+
+
+@pytest.mark.parametrize(("load", "material"), [(0.5, 0.0), (20.0, 5.0), (100.0, 0.0), (500.0, 10.0)])
+def test_traction_of_shear_and_of_pressure(load, material):
+    """F_n,x = −2 F_t, by which Biboulet & Houpert (2010) check theirs."""
+    shear, pressure = rolling_traction(solve_steady(by_moes(load, material), step=0.05))
+    assert shear > 0.0
+    assert pressure == pytest.approx(-2.0 * shear, rel=1e-2)
+
+
+def test_rolling_traction_of_biboulet_and_houpert():
+    """T* = 1.4/M rigid and 1.45/M^1.5 elastic, read with T* = F_t/(w √W) and Moes' M.
+
+    Rigid: Martin's pressure gives 1.469/M in closed form, of which theirs is 5 % off. Elastic: one number for
+    every L, which the solution meets within a fifth.
+    """
+
+    def dimensionless(load, material):
+        solution = solve_steady(by_moes(load, material))
+        problem = solution.problem
+        w = problem.line_load / problem.effective_modulus / problem.radius
+        return rolling_traction(solution).shear / problem.line_load / math.sqrt(w)
+
+    assert dimensionless(0.5, 0.0) * 0.5 == pytest.approx(1.4, rel=0.05)
+    for load in (50.0, 200.0):
+        for material in (5.0, 10.0):
+            assert dimensionless(load, material) * load**1.5 == pytest.approx(1.45, rel=0.2)
+
+
+def test_thicker_where_faster_and_thinner_where_heavier():
+    base = REFERENCES[1][0]
+    film = solve_steady(base).central_film_thickness
+    assert solve_steady(base._replace(entrainment_speed=1.1)).central_film_thickness > film
+    assert solve_steady(base._replace(line_load=220e3)).central_film_thickness < film
+
+
+def test_a_similar_contact_as_the_start():
+    problem = REFERENCES[1][0]
+    near = problem._replace(line_load=1.03 * problem.line_load)
+    from_start = solve_steady(near, solve_steady(problem))
+    assert from_start.steps <= 5
+    fresh = solve_steady(near)
+    assert from_start.central_film_thickness == pytest.approx(fresh.central_film_thickness, rel=2e-4)
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("entrainment_speed", 0.0),
+        ("entrainment_speed", -1.0),
+        ("line_load", 0.0),
+        ("radius", -0.01),
+        ("effective_modulus", math.nan),
+        ("line_load", math.inf),
+        ("sliding_speed", math.nan),
+    ],
+)
+def test_values_without_a_meaning(name, value):
+    problem = REFERENCES[0][0]._replace(**{name: value})
+    with pytest.raises(InputError) as caught:
+        solve_steady(problem)
+    assert caught.value.key == name
+
+
+@pytest.mark.parametrize(("name", "value"), [("viscosity", -0.1), ("pressure_viscosity", -1e-9)])
+def test_oils_without_a_meaning(name, value):
+    problem = REFERENCES[0][0]
+    with pytest.raises(InputError) as caught:
+        solve_steady(problem._replace(fluid=problem.fluid._replace(**{name: value})))
+    assert caught.value.key == name
+
+
+def test_cold_oil():
+    """α p_H = 75 under Barus' law: the viscosity in the contact is e⁷⁵ times the inlet's."""
+    problem = REFERENCES[0][0]
+    cold = problem._replace(fluid=Fluid(50.0, 60e-9, 1.0), entrainment_speed=1e-3)
+    solution = solve_steady(cold)
+    assert np.all(np.isfinite(solution.pressure))
+    assert solution.imbalance <= 1e-10
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("index", [0.6, 1.0])
+@pytest.mark.parametrize("pressure", [0.05e9, 0.2e9, 0.7e9, 1.5e9, 3e9])
+def test_map(index, pressure):
+    """M 0.5 … 20000, L 0 … 25: every contact converges, its film grows with L and falls with M."""
+    materials = (0.0, 1.0, 2.5, 5.0, 8.0, 12.0, 16.0, 20.0, 25.0)
+    loads = np.geomspace(0.5, 20000.0, 24)
+    films = np.array(
+        [
+            [moes_films(solve_steady(by_moes(load, material, pressure, index)), load)[0] for load in loads]
+            for material in materials
+        ]
+    )
+    assert np.all(np.diff(films, axis=0) > 0.0)
+    assert np.all(np.diff(films, axis=1) < 0.01 * films[:, 1:])

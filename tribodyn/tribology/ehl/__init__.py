@@ -1,0 +1,1 @@
+"""The lubricated line contact solved: Reynolds' equation, half-space elasticity, rheology and heat."""

@@ -1,0 +1,64 @@
+"""Viscosity and density of the fluid under pressure, with their derivatives; arrays in, arrays out."""
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+Array = Any
+
+#: Reference pressure of Roelands' law, Pa (Roelands 1966).
+ROELANDS_PRESSURE = 1.962e8
+#: Dowson & Higginson (1966): ρ/ρ0 = 1 + 0.6e-9 p/(1 + 1.7e-9 p), p in Pa.
+DENSITY_RISE, DENSITY_SATURATION = 0.6e-9, 1.7e-9
+#: Bound of ln(η/η0): beyond, Reynolds' equation is ρ h = const to more digits than floats have.
+MAXIMUM_LOG_VISCOSITY = 600.0
+
+
+class Fluid(NamedTuple):
+    """How viscosity and density follow pressure.
+
+    Attributes
+    ----------
+    viscosity : η0, Pa·s, at ambient pressure and inlet temperature
+    pressure_viscosity : α, d ln η/dp at ambient pressure, 1/Pa
+    viscosity_pressure_index : z of Roelands' law; 1 is Barus' law, ln(η/η0) = α p
+    compressible : whether density follows Dowson & Higginson; else it is constant
+    """
+
+    viscosity: float
+    pressure_viscosity: float
+    viscosity_pressure_index: float = 1.0
+    compressible: bool = True
+
+
+def log_viscosity(pressure: Array, fluid: Fluid) -> tuple[Array, Array]:
+    """ln(η/η0) and its derivative by pressure, 1/Pa.
+
+    Roelands: ln(η/η0) = α p_r/z [(1 + p/p_r)^z − 1], whose slope at p = 0 is α for every z.
+    """
+    z = fluid.viscosity_pressure_index
+    if z == 1.0:
+        exponent = fluid.pressure_viscosity * pressure
+        slope = np.full_like(pressure, fluid.pressure_viscosity)
+    else:
+        factor = fluid.pressure_viscosity * ROELANDS_PRESSURE / z
+        base = np.log1p(pressure / ROELANDS_PRESSURE)
+        rise = np.expm1(z * base)
+        exponent = factor * rise
+        slope = fluid.pressure_viscosity * (1.0 + rise) / (1.0 + pressure / ROELANDS_PRESSURE)
+    beyond = exponent > MAXIMUM_LOG_VISCOSITY
+    return np.where(beyond, MAXIMUM_LOG_VISCOSITY, exponent), np.where(beyond, 0.0, slope)
+
+
+def relative_density(pressure: Array, fluid: Fluid) -> tuple[Array, Array]:
+    """ρ/ρ0 and its derivative by pressure, 1/Pa."""
+    if not fluid.compressible:
+        return np.ones_like(pressure), np.zeros_like(pressure)
+    below = 1.0 / (1.0 + DENSITY_SATURATION * pressure)
+    return 1.0 + DENSITY_RISE * pressure * below, DENSITY_RISE * below * below
+
+
+def roelands_index(pressure_viscosity: float, viscosity: float) -> float:
+    """Index z at which Roelands' ln η + 9.67 = (ln η0 + 9.67) (1 + p/p_r)^z, has the slope α at 0."""
+    return pressure_viscosity * ROELANDS_PRESSURE / (math.log(viscosity) + 9.67)

@@ -1,0 +1,90 @@
+"""Nodes along the film: refined at the inlet and the outlet of the contact, wide where nothing happens."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.tribology.ehl.elasticity import influence
+
+Array = Any
+
+#: Length of the film before the contact over `film_width`; twice as much raises no film by 0.01 %.
+FLOODED = 60.0
+
+
+class Grid(NamedTuple):
+    """Nodes and what depends on them alone; `nodes` of them, `nodes − 1` faces between.
+
+    Attributes
+    ----------
+    node : places ξ relative to the end of the film, in half widths b; the last is 0
+    step : distances between nodes
+    weight : of the pressures at the nodes in ∫ P dξ
+    upwind : (3, faces) weights of the nodes i − 1, i, i + 1 in the value at face i + ½, third order, upwind
+    deformation : (nodes, nodes) of the pressures in the film at nodes, −influence/π
+    face_deformation : (faces, nodes) the same at the faces, by `upwind`
+    """
+
+    node: Array
+    step: Array
+    weight: Array
+    upwind: Array
+    deformation: Array
+    face_deformation: Array
+
+
+def film_width(film: float) -> float:
+    """Length over which the gap outside the contact rises by the film, in b, of a film in b²/R.
+
+    Beside a Hertz contact the gap is (2√2/3) ΔX^(3/2), under a rigid cylinder X²/2.
+    """
+    return max((1.06 * film) ** (2.0 / 3.0), np.sqrt(2.0 * film) if film > 1.0 else 0.0)
+
+
+def placed(film: float, step: float) -> Array:
+    """Places of the nodes for a central film in b²/R; `step` is the step over the distance from both ends.
+
+    The density of nodes is Σ 1/√(δ² + (ξ − ξ_k)²)/step about the end of the film, ξ = 0, and the inlet two
+    half widths before it, δ = `film_width`. The film begins 60 δ before the contact: where it is `FLOODED`.
+    """
+    width = film_width(film)
+    extent = 3.0 + FLOODED * width
+    near = np.geomspace(1e-3 * min(width, 1.0), 1.0, 400)
+    fine = np.concatenate([-2.0 - near[::-1], [-2.0], -2.0 + near, -near[-2::-1], [0.0]])
+    beyond = np.geomspace(3.0, extent, 400)[1:] * -1.0
+    fine = np.concatenate([beyond[::-1], fine])
+    number = (np.arcsinh(fine / width) + np.arcsinh((fine + 2.0) / width)) / step
+    count = int(np.ceil(number[-1] - number[0]))
+    node = np.interp(np.linspace(number[0], number[-1], count + 1), number, fine)
+    node[-1] = 0.0
+    return node
+
+
+def made(node: Array) -> Grid:
+    """Return the grid of these nodes."""
+    step = np.diff(node)
+    weight = 0.5 * (np.concatenate([step, [0.0]]) + np.concatenate([[0.0], step]))
+    deformation = influence(node, node) / -np.pi
+    upwind = _upwind(node)
+    face = upwind[1][:, None] * deformation[:-1] + upwind[2][:, None] * deformation[1:]
+    face[1:] += upwind[0][1:, None] * deformation[:-2]
+    return Grid(node, step, weight, upwind, deformation, face)
+
+
+def _upwind(node: Array) -> Array:
+    """Weights of the parabola through nodes i − 1, i, i + 1 at face i + ½; of the line at the first face."""
+    weights = np.zeros((3, len(node) - 1))
+    weights[1:, 0] = 0.5
+    a, b, c = node[:-2], node[1:-1], node[2:]
+    at = 0.5 * (b + c)
+    weights[0, 1:] = (at - b) * (at - c) / ((a - b) * (a - c))
+    weights[1, 1:] = (at - a) * (at - c) / ((b - a) * (b - c))
+    weights[2, 1:] = (at - a) * (at - b) / ((c - a) * (c - b))
+    return weights
+
+
+def at_faces(grid: Grid, value: Array) -> Array:
+    """Values at the faces from those at the nodes."""
+    face = grid.upwind[1] * value[:-1] + grid.upwind[2] * value[1:]
+    face[1:] += grid.upwind[0][1:] * value[:-2]
+    return face

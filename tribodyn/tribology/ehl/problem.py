@@ -1,0 +1,105 @@
+"""A line contact between two lubricated cylinders, its Hertz contact and its numbers; SI units."""
+
+import math
+from typing import NamedTuple
+
+from tribodyn.errors import InputError
+from tribodyn.tribology.contact import hertz_half_width
+from tribodyn.tribology.contact import hertz_pressure as maximum_hertz_pressure
+from tribodyn.tribology.ehl.fluid import Fluid
+
+
+class LineContact(NamedTuple):
+    """What is between the surfaces and how they move; x runs in the direction of entrainment.
+
+    Attributes
+    ----------
+    line_load : w, N/m
+    radius : R, 1/R = 1/R_1 + 1/R_2, m
+    entrainment_speed : mean speed u = (u_1 + u_2)/2 of the surfaces relative to the contact, m/s, > 0
+    fluid : Fluid
+    effective_modulus : E', 2/E' = (1 − ν_1²)/E_1 + (1 − ν_2²)/E_2, Pa
+    sliding_speed : u_1 − u_2, m/s, any sign
+    """
+
+    line_load: float
+    radius: float
+    entrainment_speed: float
+    fluid: Fluid
+    effective_modulus: float
+    sliding_speed: float = 0.0
+
+    @property
+    def half_width(self) -> float:
+        """Half width b of the Hertz contact, m."""
+        return hertz_half_width(self.line_load, 1.0 / self.radius, self.effective_modulus)
+
+    @property
+    def hertz_pressure(self) -> float:
+        """Maximum pressure p_H of the Hertz contact, Pa."""
+        return maximum_hertz_pressure(self.line_load, 1.0 / self.radius, self.effective_modulus)
+
+    @property
+    def film_unit(self) -> float:
+        """b²/R, m."""
+        return self.half_width**2 / self.radius
+
+    @property
+    def speed_number(self) -> float:
+        """λ = 12 u η0 R²/(b³ p_H) of Reynolds' equation; = 3π²/(8 M²)."""
+        drawn = 12.0 * self.entrainment_speed * self.fluid.viscosity * self.radius**2
+        return drawn / (self.half_width**3 * self.hertz_pressure)
+
+    @property
+    def moes_load(self) -> float:
+        """Moes' M = W/√U_Σ, W = w/(E' R), U_Σ = 2 η0 u/(E' R)."""
+        return self.line_load / (self.effective_modulus * self.radius) / math.sqrt(self._sum_speed)
+
+    @property
+    def moes_material(self) -> float:
+        """Moes' L = α E' U_Σ^¼."""
+        return self.fluid.pressure_viscosity * self.effective_modulus * self._sum_speed**0.25
+
+    @property
+    def surface_speeds(self) -> tuple[float, float]:
+        """u_1 and u_2, m/s."""
+        half = 0.5 * self.sliding_speed
+        return self.entrainment_speed + half, self.entrainment_speed - half
+
+    @property
+    def _sum_speed(self) -> float:
+        drawn = 2.0 * self.fluid.viscosity * self.entrainment_speed
+        return drawn / (self.effective_modulus * self.radius)
+
+
+#: Argument -> whether zero is allowed, unit, remedy.
+_POSITIVE = {
+    "line_load": ("N/m", "a contact without load has no film to solve; load it"),
+    "radius": ("m", "give the radius of relative curvature"),
+    "entrainment_speed": (
+        "m/s",
+        "count x and both speeds in the direction of entrainment; at rest no film forms",
+    ),
+    "viscosity": ("Pa*s", "give η0 at the inlet's temperature"),
+    "effective_modulus": ("Pa", "give E', 2/E' = Σ(1 − ν²)/E"),
+    "viscosity_pressure_index": ("", "give z of Roelands' law, 0.4 … 0.8 of mineral oils; 1 is Barus' law"),
+}
+
+
+def check(problem: LineContact) -> None:
+    """Raise InputError at the first value that is no number or has the wrong sign."""
+    given = {**problem._asdict(), **problem.fluid._asdict()}
+    for name in (*_POSITIVE, "pressure_viscosity", "sliding_speed"):
+        value = given[name]
+        if isinstance(value, bool) or not math.isfinite(value):
+            raise InputError(name, value, "is not a finite number", "give a number in SI units")
+        if name in _POSITIVE and value <= 0.0:
+            unit, remedy = _POSITIVE[name]
+            raise InputError(name, f"{value} {unit}".strip(), "must be positive", remedy)
+    if problem.fluid.pressure_viscosity < 0.0:
+        raise InputError(
+            "pressure_viscosity", f"{problem.fluid.pressure_viscosity} 1/Pa", "must not be negative"
+        )
+    if problem.fluid.viscosity_pressure_index > 1.0:
+        index = problem.fluid.viscosity_pressure_index
+        raise InputError("viscosity_pressure_index", index, "is above 1, which is Barus' law", "give z ≤ 1")

@@ -1,0 +1,127 @@
+"""Residual of Reynolds' equation, the film and the load of a steady line contact, and its Jacobian.
+
+In units of Hertz's half width b, pressure p_H and film b²/R (Venner & Lubrecht 2000, ch. 2):
+
+    ρ H³/(η λ) dP/dX − ρ H + Q = 0        flow Q constant: mass is conserved at every face
+    H = H_0 + X²/2 + κ (D P)              D P = −1/π ∫ P ln|X − X'| dX'; κ = 0: rigid surfaces
+    ∫ P dX = π/2
+    P = 0 at both ends, ρ H = Q at the last: the film ends where dP/dX = 0 (Swift and Stieber)
+
+λ = 12 u η0 R²/(b³ p_H). The end of the film X_e is an unknown like the pressures: the nodes X = X_e + ξ move
+with it, so that D never changes and the equations stay smooth. Behind it the film is broken and carries Q in
+the share Q/(ρ0 H) of the gap: mass is conserved there as well.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.tribology.ehl.elasticity import HERTZ_LOAD
+from tribodyn.tribology.ehl.fluid import Fluid, log_viscosity, relative_density
+from tribodyn.tribology.ehl.grid import Grid, at_faces
+
+Array = Any
+
+
+class Reduced(NamedTuple):
+    """A contact in Hertz's units.
+
+    Attributes
+    ----------
+    speed : λ
+    hertz_pressure : p_H, Pa, at which `fluid` is evaluated
+    fluid : Fluid
+    compliance : 1; 0: rigid surfaces
+    """
+
+    speed: float
+    hertz_pressure: float
+    fluid: Fluid
+    compliance: float = 1.0
+
+
+class State(NamedTuple):
+    """Unknowns: pressures at the nodes (zero at both ends), rigid film H_0, flow Q, end of the film X_e."""
+
+    pressure: Array
+    rigid_film: float
+    flow: float
+    end: float
+
+
+def film(state: State, reduced: Reduced, grid: Grid) -> Array:
+    """Film H at the nodes."""
+    place = state.end + grid.node
+    bent = grid.deformation[:, 1:-1] @ state.pressure[1:-1]
+    return state.rigid_film + 0.5 * place * place + reduced.compliance * bent
+
+
+def mean_fluidity(exponent: Array) -> tuple[Array, Array, Array]:
+    """Mean of exp(−g) between neighbouring nodes, for g linear between them, and its derivatives by both g.
+
+    The flow through a face is then the difference of the reduced pressure ∫ exp(−g) dP, exact for an
+    exponential viscosity however steep (as Scharfetter & Gummel 1969 discretise currents).
+    """
+    low, high = exponent[:-1], exponent[1:]
+    half = 0.5 * (high - low)
+    middle = np.exp(-0.5 * (high + low))
+    small = np.abs(half) < 1e-2
+    safe = np.where(small, 1.0, half)
+    square = half * half
+    # sinh(h)/h and its derivative; beyond 300 one of both fluidities is nothing beside the other
+    with np.errstate(over="ignore"):
+        ratio = np.where(small, 1.0 + square / 6.0 + square * square / 120.0, np.sinh(safe) / safe)
+        slope = np.where(small, half / 3.0 + half * square / 30.0, (np.cosh(safe) - ratio) / safe)
+    mean = middle * ratio
+    return mean, -0.5 * (mean + middle * slope), -0.5 * (mean - middle * slope)
+
+
+def residual(
+    state: State, reduced: Reduced, grid: Grid, thinning: Array = 0.0, jacobian: bool = True
+) -> tuple[Array, Array]:
+    """Residuals of all equations, and their Jacobian: faces, load, end; by pressures within, H_0, Q, X_e.
+
+    Parameters
+    ----------
+    thinning : array over nodes
+        ln of effective over Newtonian, isothermal viscosity.
+    """
+    pressure, scale = state.pressure, reduced.hertz_pressure
+    place = state.end + grid.node
+    gap = at_faces(grid, 0.5 * place * place)
+    thick = state.rigid_film + gap + reduced.compliance * (grid.face_deformation[:, 1:-1] @ pressure[1:-1])
+    exponent, slope = log_viscosity(scale * pressure, reduced.fluid)
+    fluidity, upstream, downstream = mean_fluidity(exponent + thinning)
+    upstream, downstream = scale * slope[:-1] * upstream, scale * slope[1:] * downstream
+    density, growth = relative_density(scale * pressure, reduced.fluid)
+    growth = scale * growth
+    dense = at_faces(grid, density)
+    volume = dense * thick**3 / reduced.speed
+    mobility = volume * fluidity
+    gradient = np.diff(pressure) / grid.step
+    faces = mobility * gradient - dense * thick + state.flow
+    last = state.rigid_film + 0.5 * state.end**2
+    last += reduced.compliance * (grid.deformation[-1, 1:-1] @ pressure[1:-1])
+    values = np.concatenate([faces, [grid.weight @ pressure - HERTZ_LOAD, state.flow - last]])
+    if not jacobian:
+        return values, None
+    size = len(faces)
+    by_film = 3.0 * mobility * gradient / thick - dense
+    by_density = mobility * gradient / dense - thick
+    matrix = np.empty((size + 2, size + 2))
+    inner = matrix[:size, : size - 1]
+    np.multiply(grid.face_deformation[:, 1:-1], (reduced.compliance * by_film)[:, None], out=inner)
+    through, bulk = mobility / grid.step, volume * gradient
+    w, row = grid.upwind, np.arange(size)
+    # pressures of the nodes i + 1, i, i − 1 of face i + ½; node k is column k − 1
+    inner[row[:-1], row[:-1]] += (through + bulk * downstream + by_density * w[2] * growth[1:])[:-1]
+    inner[row[1:], row[1:] - 1] += (-through + bulk * upstream + by_density * w[1] * growth[:-1])[1:]
+    inner[row[2:], row[2:] - 2] += by_density[2:] * w[0][2:] * growth[1:-2]
+    matrix[:size, size - 1] = by_film
+    matrix[:size, size] = 1.0
+    matrix[:size, size + 1] = by_film * at_faces(grid, place)
+    matrix[size, : size - 1] = grid.weight[1:-1]
+    matrix[size, size - 1 :] = 0.0
+    matrix[size + 1, : size - 1] = -reduced.compliance * grid.deformation[-1, 1:-1]
+    matrix[size + 1, size - 1 :] = (-1.0, 1.0, -state.end)
+    return values, matrix

@@ -1,0 +1,198 @@
+"""The steady line contact, by Newton's method on pressures, films, end of the film and load at once."""
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.errors import SimulationError
+from tribodyn.tribology.ehl.elasticity import HERTZ_LOAD
+from tribodyn.tribology.ehl.grid import Grid, made, placed
+from tribodyn.tribology.ehl.problem import LineContact, check
+from tribodyn.tribology.ehl.reynolds import Reduced, State, film, residual
+from tribodyn.tribology.ehl.start import first_state, survey_film
+
+Array = Any
+
+#: Steps between nodes over the distance from inlet and end of the film: h_c within 0.01 %, h_min 0.2 %.
+STEP = 0.1
+#: Mass and force balance: largest residual of a face over the flow, and of the load over the load.
+TOLERANCE = 1e-10
+#: Newton's method needs 4 to 14 steps over the whole map of Moes.
+MOST_STEPS = 40
+#: Shortest step of a continuation, over the whole pressure-viscosity coefficient.
+_SHORTEST_WAY = 1.0 / 64.0
+#: Share of a pressure, and of the flow, that a step leaves at least, and how far it moves the film's end.
+_KEPT_PRESSURE, _KEPT_FLOW, _LONGEST_WAY = 0.2, 0.3, 0.3
+
+
+class Solution(NamedTuple):
+    """A solved contact.
+
+    Attributes
+    ----------
+    problem : LineContact
+    reduced : Reduced
+    grid : Grid
+    state : State, in Hertz's units
+    film : H at the nodes
+    thinning : ln of effective over Newtonian, isothermal viscosity, at the nodes
+    steps : of Newton's method
+    imbalance : largest residual: of mass flow over the flow, of force over the load
+    """
+
+    problem: LineContact
+    reduced: Reduced
+    grid: Grid
+    state: State
+    film: Array
+    thinning: Array
+    steps: int
+    imbalance: float
+
+    @property
+    def place(self) -> Array:
+        """Place x of the nodes, m; 0 on the line of centres, the film ends at the last."""
+        return (self.state.end + self.grid.node) * self.problem.half_width
+
+    @property
+    def pressure(self) -> Array:
+        """Pa."""
+        return self.state.pressure * self.problem.hertz_pressure
+
+    @property
+    def film_thickness(self) -> Array:
+        """Film thickness, m."""
+        return self.film * self.problem.film_unit
+
+    @property
+    def central_film_thickness(self) -> float:
+        """Film on the line of centres, x = 0, m."""
+        return _parabola(self.place, self.film_thickness, int(np.argmin(np.abs(self.place))))[0]
+
+    @property
+    def minimum_film_thickness(self) -> float:
+        """Minimum film thickness, m."""
+        return _parabola(self.place, self.film_thickness, int(np.argmin(self.film)))[1]
+
+    @property
+    def flow_film_thickness(self) -> float:
+        """Flow per width over u ρ0: film where the pressure is highest, times relative density there, m."""
+        return self.state.flow * self.problem.film_unit
+
+
+def reduced_problem(problem: LineContact) -> Reduced:
+    """Return the contact in Hertz's units."""
+    return Reduced(problem.speed_number, problem.hertz_pressure, problem.fluid)
+
+
+def grid_of(problem: LineContact, step: float = STEP) -> Grid:
+    """Return the grid that suits the film expected of a contact."""
+    return made(placed(survey_film(problem.moes_load, problem.moes_material), step))
+
+
+def solve_steady(
+    problem: LineContact, start: Solution | None = None, step: float = STEP, thinning: Array | None = None
+) -> Solution:
+    """Solve a steady contact.
+
+    Parameters
+    ----------
+    problem : LineContact
+    start : Solution, optional
+        Of a similar contact: its grid and its state are taken. Default: by `first_state`, on a new grid.
+    step : float
+        Of a new grid; the errors of the film are of second order in it.
+    thinning : (nodes,), optional
+        ln of effective over Newtonian, isothermal viscosity; of `start` if that is given.
+
+    Returns
+    -------
+    Solution
+
+    Raises
+    ------
+    InputError
+        If a value has no meaning.
+    SimulationError
+        If Newton's method does not converge.
+    """
+    check(problem)
+    reduced = reduced_problem(problem)
+    if start is not None:
+        grid, state = start.grid, start.state
+        thinning = start.thinning if thinning is None else thinning
+    else:
+        grid = grid_of(problem, step)
+        state = first_state(reduced, grid, survey_film(problem.moes_load, problem.moes_material))
+    thinning = np.zeros(len(grid.node)) if thinning is None else thinning
+    first = state
+    state, steps, imbalance = converged(first, reduced, grid, thinning)
+    if not imbalance <= TOLERANCE:
+        state, more, imbalance = _continued(first, reduced, grid, thinning)
+        steps += more
+    if not imbalance <= TOLERANCE:
+        raise SimulationError(
+            f"the line contact did not converge in {steps} steps (Moes' M {problem.moes_load:.3g}, "
+            f"L {problem.moes_material:.3g}, p_H {problem.hertz_pressure / 1e9:.3g} GPa; imbalance "
+            f"{imbalance:.1e}); start from the solution of a similar contact"
+        )
+    return Solution(problem, reduced, grid, state, film(state, reduced, grid), thinning, steps, imbalance)
+
+
+def converged(state: State, reduced: Reduced, grid: Grid, thinning: Array) -> tuple[State, int, float]:
+    """Take steps of Newton's method; returns the state, the number of steps, the imbalance (NaN: failed)."""
+    imbalance = math.inf
+    for number in range(MOST_STEPS + 1):
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            values, matrix = residual(state, reduced, grid, thinning)
+        imbalance = _imbalance(values, state)
+        if imbalance <= TOLERANCE or not math.isfinite(imbalance) or number == MOST_STEPS:
+            return state, number, imbalance
+        try:
+            change = np.linalg.solve(matrix, -values)
+        except np.linalg.LinAlgError:
+            return state, number, math.nan
+        state = _moved(state, change)
+    return state, MOST_STEPS, imbalance
+
+
+def _continued(state: State, reduced: Reduced, grid: Grid, thinning: Array) -> tuple[State, int, float]:
+    """Raise the pressure-viscosity coefficient from a part of it, in steps that Newton's method takes."""
+    whole = reduced.fluid.pressure_viscosity
+    done, way, total, imbalance = 0.0, 0.5, 0, math.nan
+    while way >= _SHORTEST_WAY and done < 1.0:
+        share = min(done + way, 1.0)
+        fluid = reduced.fluid._replace(pressure_viscosity=share * whole)
+        found, steps, imbalance = converged(state, reduced._replace(fluid=fluid), grid, share * thinning)
+        total += steps
+        if imbalance <= TOLERANCE:
+            state, done, way = found, share, 2.0 * way
+        else:
+            way *= 0.5
+    return state, total, imbalance if done >= 1.0 else math.nan
+
+
+def _imbalance(values: Array, state: State) -> float:
+    return float(max(np.max(np.abs(values[:-2])) / state.flow, abs(values[-2]) / HERTZ_LOAD))
+
+
+def _moved(state: State, change: Array) -> State:
+    """Take a step of Newton's method, held where it would leave the meaning of an unknown."""
+    pressure = state.pressure.copy()
+    pressure[1:-1] = np.maximum(pressure[1:-1] + change[:-3], _KEPT_PRESSURE * pressure[1:-1])
+    rigid_film, flow, end = (float(one) for one in change[-3:])
+    return State(
+        pressure,
+        state.rigid_film + rigid_film,
+        max(state.flow + flow, _KEPT_FLOW * state.flow),
+        state.end + min(max(end, -_LONGEST_WAY), _LONGEST_WAY),
+    )
+
+
+def _parabola(place: Array, value: Array, at: int) -> tuple[float, float]:
+    """Value at x = 0, and extreme value, of the parabola through a node and its neighbours."""
+    at = min(max(at, 1), len(place) - 2)
+    c2, c1, c0 = np.polyfit(place[at - 1 : at + 2] / place[-1], value[at - 1 : at + 2] / value[at], 2)
+    extreme = c0 - c1 * c1 / (4.0 * c2) if c2 > 0.0 else 1.0
+    return float(c0 * value[at]), float(min(extreme, 1.0) * value[at])

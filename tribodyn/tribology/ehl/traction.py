@@ -1,0 +1,48 @@
+"""Forces along the surfaces of a solved contact, per length; positive along x, the direction of entrainment.
+
+Surface 1 is the upper one, z = h, surface 2 the lower, z = 0; the shear stress in the film is
+τ = τ_m + (z − h/2) dp/dx, τ_m of the sign of u_1 − u_2. The film pulls surface 2 by τ(0), surface 1 by −τ(h):
+∫ τ_m dx holds back the faster surface and draws on the slower one, ½ ∫ h dp/dx dx holds back both.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.tribology.ehl.fluid import log_viscosity
+from tribodyn.tribology.ehl.steady import Solution
+
+Array = Any
+
+
+class RollingTraction(NamedTuple):
+    """What rolling alone costs, N/m.
+
+    Attributes
+    ----------
+    shear : F_t = ½ ∫ h dp/dx dx, drag of the pressure flow on each surface
+    pressure : F_n,x = ∫ p dh/dx dx, force along x of the pressure on the gap's slope; −2 F_t, since p h
+        vanishes at both ends (Biboulet & Houpert 2010)
+    """
+
+    shear: float
+    pressure: float
+
+
+def rolling_traction(solution: Solution) -> RollingTraction:
+    """Return both tractions, each by its own integral.
+
+    The elastic part of the slope does not count in F_n,x: the influence of a half space is symmetric, so that
+    ∫ p dh/dx dx = ∫ p x/R dx.
+    """
+    pressure, thick, place = solution.pressure, solution.film_thickness, solution.place
+    shear = 0.25 * float(np.sum((thick[1:] + thick[:-1]) * np.diff(pressure)))
+    return RollingTraction(shear, float(np.trapezoid(pressure * place, place)) / solution.problem.radius)
+
+
+def newtonian_friction(solution: Solution) -> float:
+    """∫ η (u_1 − u_2)/h dx, N/m, of a Newtonian isothermal fluid."""
+    problem = solution.problem
+    viscosity = problem.fluid.viscosity * np.exp(log_viscosity(solution.pressure, problem.fluid)[0])
+    stress = viscosity * problem.sliding_speed / solution.film_thickness
+    return float(np.trapezoid(stress, solution.place))
