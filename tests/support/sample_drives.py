@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tribodyn.geometry.drive import SIDES, Drive, GearBody
+from tribodyn.geometry.drive import SIDES, Drive, GearBody, Side, body_of
 from tribodyn.geometry.families import crc, involute
 
 
@@ -25,3 +25,9 @@ def bodies(drives):
     return pytest.mark.parametrize(
         ("family", "drive", "side"), [(family, drive, side) for family, drive in drives for side in SIDES]
     )
+
+
+def root_radius(drive: Drive, side: Side) -> float:
+    """Radius of the root circle of a tooth of nominal thickness, m: m (z/2 + x − h_f*)."""
+    body = body_of(drive, side)
+    return drive.module * (body.teeth / 2 + body.profile_shift - body.dedendum)

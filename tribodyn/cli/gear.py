@@ -64,7 +64,7 @@ def gear(
         assembly = check(family(loaded.family), loaded.drive)
     given = [(one.mass, one.inertia) for one in loaded.masses]
     masses = body_masses(assembly, given, [one.density for one in loaded.materials])
-    sheet = geometry_sheet(assembly, masses)
+    sheet = geometry_sheet(assembly, masses, loaded.gauges)
     files = written + (_draw(loaded, assembly, output, points) if output is not None else [])
     if json:
         print_json(

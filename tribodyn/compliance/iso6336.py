@@ -11,7 +11,7 @@ import math
 from typing import NamedTuple
 
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.drive import SIDES, body_of, reference_radius, tip_radius
+from tribodyn.geometry.drive import SIDES, body_of, reference_radius, tip_circle_radius
 from tribodyn.geometry.material import MaterialData
 
 _PER_MM_UM = 1e9  # N/(mm µm) in Pa
@@ -237,7 +237,7 @@ def bodies_outside(assembly: Assembly) -> list[str]:
     module = float(drive.module)
     for side in SIDES:
         body = body_of(drive, side)
-        tip, root = float(tip_radius(drive, side)), float(assembly.tooth(side).root_radius)
+        tip, root = float(tip_circle_radius(drive, side)), float(assembly.tooth(side).root_radius)
         addendum = (tip - float(reference_radius(drive, side))) / module - float(body.profile_shift)
         if abs(addendum - _ADDENDUM) > _ADDENDUM_MARGIN:
             said.append(f"addendum of the {side} {addendum:.3g} modules, the series is for {_ADDENDUM:g}")

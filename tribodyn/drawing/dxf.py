@@ -13,7 +13,7 @@ from ezdxf.filemanagement import new
 from tribodyn.drawing.picture import gears_in_mesh
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import gear_polygon
-from tribodyn.geometry.drive import SIDES, Side, body_of, tip_radius
+from tribodyn.geometry.drive import SIDES, Side, body_of, tip_circle_radius
 from tribodyn.geometry.rack import rack_outline
 
 #: Layer -> (AutoCAD colour index, line type).
@@ -88,7 +88,7 @@ def _add_gear(
         "BORE": body_of(drive, side).bore_radius,
         "ROOT_CIRCLE": assembly.tooth(side).root_radius,
         "PITCH_CIRCLE": assembly.path_of(side).pinion_pitch_radius,
-        "TIP_CIRCLE": tip_radius(drive, side),
+        "TIP_CIRCLE": tip_circle_radius(drive, side),
     }
     for layer, radius in circles.items():
         if radius > 0:

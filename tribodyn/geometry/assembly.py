@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.geometry.drive import SIDES, Drive, Side, tip_radius
+from tribodyn.geometry.drive import SIDES, Drive, Side, tip_circle_radius, tip_radius
 from tribodyn.geometry.family import Family
 from tribodyn.geometry.path import Path, contact_limits, contact_ratio, kinematics, radius, seen_from
 from tribodyn.geometry.tooth import Tooth, cut_tooth, fillet_point, thickness_half_angle
@@ -115,7 +115,7 @@ def tip_clearance(assembly: Assembly, side: Side) -> float:
     """Distance between this body's tip circle and its mate's root circle on the line of centres, m."""
     centre_distance = assembly.path.pinion_pitch_radius + assembly.path.gear_pitch_radius
     root = assembly.tooth(mate_of(side)).root_radius
-    return float(centre_distance - tip_radius(assembly.drive, side) - root)
+    return float(centre_distance - tip_circle_radius(assembly.drive, side) - root)
 
 
 def lowest_contact_speed(assembly: Assembly, side: Side) -> float:

@@ -16,9 +16,10 @@ from tribodyn.geometry.assembly import (
     tip_corner_gap,
 )
 from tribodyn.geometry.backlash import normal_backlash
-from tribodyn.geometry.drive import SIDES, Drive, GearBody, Side, body_of
+from tribodyn.geometry.drive import SIDES, Drive, GearBody, Side, body_of, tip_circle_radius
 from tribodyn.geometry.family import Family
-from tribodyn.geometry.tooth import Tooth, flank_point
+from tribodyn.geometry.tip_rounding import flank_angle_at_tip
+from tribodyn.geometry.tooth import Tooth, flank_point, thickness_half_angle
 
 _MAXIMUM_PRESSURE_ANGLE = math.radians(45)
 # An overlap below this share of the module is the chord error of the fillet's points.
@@ -218,6 +219,7 @@ def _check_tip(assembly: Assembly, side: Side) -> None:
         rule = f"nothing is left of the flank, which begins at the radius {_millimetres(tooth.form_radius)}"
         raise InputError(*_tip_key(drive, side), rule, "use a larger one")
     if thickness(tooth) > 0:
+        _check_rounding(assembly, side)
         return
     rule = f"the tip is pointed (thickness {_millimetres(thickness(tooth))})"
     if body.tip_radius is None and family.shiftable and body.profile_shift > 0:
@@ -228,6 +230,20 @@ def _check_tip(assembly: Assembly, side: Side) -> None:
             key = f"drive.{side}.profile_shift"
             raise InputError(key, body.profile_shift, rule, f"use at most {maximum:.7g}")
     _refuse_tip(drive, side, rule, blunt, tooth.form_radius)
+
+
+def _check_rounding(assembly: Assembly, side: Side) -> None:
+    """Refuse roundings of both edges of a tip that meet: along it each takes its height over the cosine."""
+    drive, body = assembly.drive, body_of(assembly.drive, side)
+    sine, cosine = flank_angle_at_tip(assembly.family, drive, side)
+    outer = tip_circle_radius(drive, side)
+    half = outer * thickness_half_angle(assembly.tooth(side), outer)
+    if body.tip_break / cosine > half:
+        largest = half * cosine / (1.0 - sine)
+        rule = "the rounded edges of the tip meet"
+        given = body.tip_break / (1.0 - sine)
+        remedy = f"use at most {_millimetres(largest)}"
+        raise InputError(f"drive.{side}.tip_rounding", _millimetres(given), rule, remedy)
 
 
 def _tip_key(drive: Drive, side: Side) -> tuple[str, Any]:

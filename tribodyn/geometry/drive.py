@@ -31,6 +31,8 @@ class GearBody(NamedTuple):
     thickness_allowance : float
         Deviation of the normal tooth thickness on the reference circle from that of teeth which mesh without
         backlash, m; negative for thinner teeth (A_sn of ISO 21771).
+    tip_break : float
+        Height below the tip circle at which the rounding of the tip leaves the flank, m.
     """
 
     teeth: Number
@@ -42,6 +44,7 @@ class GearBody(NamedTuple):
     bore_radius: Number
     tip_radius: Number = None
     thickness_allowance: Number = 0.0
+    tip_break: Number = 0.0
 
 
 class Drive(NamedTuple):
@@ -80,6 +83,11 @@ def reference_radius(drive: Drive, side: Side) -> Number:
 
 
 def tip_radius(drive: Drive, side: Side) -> Number:
+    """Radius at which the flank ends, m: of the tip circle, less what a rounding of the tip takes."""
+    return tip_circle_radius(drive, side) - body_of(drive, side).tip_break
+
+
+def tip_circle_radius(drive: Drive, side: Side) -> Number:
     """Radius of the tip circle, m: m (z/2 + x + h_a*) unless the body overrides it."""
     body = body_of(drive, side)
     if body.tip_radius is not None:

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from tribodyn.geometry.assembly import Assembly, lowest_contact_radius, tip_clearance
-from tribodyn.geometry.drive import SIDES, Side, body_of, reference_radius
+from tribodyn.geometry.drive import SIDES, Side, body_of, reference_radius, tip_circle_radius
+from tribodyn.geometry.measures import Gauge, backlash_lines, thickness_lines
 from tribodyn.geometry.path import kinematics
 from tribodyn.geometry.tooth import flank_point, thickness_half_angle
 
@@ -16,7 +17,11 @@ Quantity = tuple[float, str]
 _SAMPLES = 400
 
 
-def geometry_sheet(assembly: Assembly, masses: Sequence[tuple[float, float]] | None = None) -> dict[str, Any]:
+def geometry_sheet(
+    assembly: Assembly,
+    masses: Sequence[tuple[float, float]] | None = None,
+    gauges: tuple[Gauge, Gauge] = (Gauge(), Gauge()),
+) -> dict[str, Any]:
     """Summarise a drive that has passed `checks.check`.
 
     Parameters
@@ -25,6 +30,8 @@ def geometry_sheet(assembly: Assembly, masses: Sequence[tuple[float, float]] | N
         Of plain numbers.
     masses : sequence of (mass kg, inertia kg m²), optional
         Of pinion and gear, where they are to stand in the sheet.
+    gauges : (Gauge, Gauge)
+        What the tooth thickness of pinion and gear is measured with.
 
     Returns
     -------
@@ -39,6 +46,7 @@ def geometry_sheet(assembly: Assembly, masses: Sequence[tuple[float, float]] | N
         "module": _millimetres(drive.module),
         "gear ratio": (float(drive.gear.teeth / drive.pinion.teeth), ""),
         "centre distance": _millimetres(path.pinion_pitch_radius + path.gear_pitch_radius),
+        **backlash_lines(assembly),
         "pressure angle of the rack on its rolling line": _degrees(assembly.pinion.path.pressure_angle(0.0)),
         "contact ratio": (assembly.contact_ratio, ""),
         "approach contact ratio": (-assembly.roll_limits[0] / pitch_angle, ""),
@@ -63,7 +71,8 @@ def geometry_sheet(assembly: Assembly, masses: Sequence[tuple[float, float]] | N
             "reference diameter": _millimetres(2 * reference_radius(drive, side)),
             "working pitch diameter": _millimetres(2 * working),
             **_base_diameter(assembly, side),
-            "tip diameter": _millimetres(2 * tooth.tip_radius),
+            "tip diameter": _millimetres(2 * tip_circle_radius(drive, side)),
+            **_tip_form_diameter(assembly, side),
             "lowest contact diameter": _millimetres(2 * lowest_contact_radius(assembly, side)),
             "form diameter": _millimetres(2 * tooth.form_radius),
             "active flank above form circle": _millimetres(
@@ -79,6 +88,7 @@ def geometry_sheet(assembly: Assembly, masses: Sequence[tuple[float, float]] | N
             ),
             "tip thickness": _millimetres(2 * flank_point(tooth, tooth.tip_distance)[1]),
             "tip clearance": _millimetres(tip_clearance(assembly, side)),
+            **thickness_lines(assembly, side, gauges[number]),
             **sliding[side],
         }
         if masses is not None:
@@ -119,6 +129,12 @@ def _base_diameter(assembly: Assembly, side: Side) -> dict[str, Quantity]:
     along = kinematics(assembly.path, np.linspace(assembly.r_start, assembly.r_end, 5))
     arm = getattr(along, f"{side}_normal_arm")
     return {"base diameter": _millimetres(2 * arm[0])} if np.ptp(arm) <= 1e-12 * arm[0] else {}
+
+
+def _tip_form_diameter(assembly: Assembly, side: Side) -> dict[str, Quantity]:
+    """Return the diameter at which the flank ends where a rounding of the tip ends it."""
+    rounded = body_of(assembly.drive, side).tip_break > 0
+    return {"tip form diameter": _millimetres(2 * assembly.tooth(side).tip_radius)} if rounded else {}
 
 
 def _millimetres(length: Any) -> Quantity:

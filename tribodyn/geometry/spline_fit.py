@@ -25,8 +25,8 @@ def fit_spline(assembly: Assembly, values: int) -> Assembly:
     Parameters
     ----------
     assembly : Assembly
-        Of plain numbers and any family. A pair at a centre distance of its own, by profile shift, becomes one
-        of the module 2 r_w/z.
+        Of plain numbers and any family. A pair at a centre distance of its own becomes one of the module
+        2 r_w/z; the thickness of its teeth, and so its backlash, stays.
     values : int
         Number of angles, at least `spline.FEWEST`.
 
@@ -85,7 +85,9 @@ def _body(assembly: Assembly, side: Side, module: float, angle: float) -> GearBo
         addendum=(float(tip_radius(drive, side)) - radius) / module - shift,
         dedendum=(radius - float(tooth.root_radius)) / module + shift,
         fillet_radius=float(body.fillet_radius * drive.module / module),
+        tip_radius=None,
         thickness_allowance=0.0,
+        tip_break=0.0,
     )
 
 

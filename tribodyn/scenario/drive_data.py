@@ -7,12 +7,13 @@ import numpy as np
 
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.backlash import normal_backlash
-from tribodyn.geometry.drive import Drive, GearBody
+from tribodyn.geometry.drive import SIDES, Drive, body_of
 from tribodyn.geometry.material import BodyMass, MaterialData
 from tribodyn.geometry.modification import Modifications, vary_along_lead
 from tribodyn.scenario import model_files
 from tribodyn.scenario.modification import MisalignmentTable, flank_of, misalignment_of
 from tribodyn.scenario.shape import shape_of
+from tribodyn.scenario.tooth_data import gear_body, gives_thickness, pressure_angle_of
 from tribodyn.tribology.lubricant import FzgStages, LubricantData, lubricant_from
 from tribodyn.tribology.oil import UNITS, OilSheet, by_type
 
@@ -48,28 +49,57 @@ def sheet_of(lubricant: model_files.Lubricant) -> OilSheet | None:
 
 
 def mean_roughness(drive: model_files.DriveTable) -> float:
-    """Ra of the flanks, m; σ/√π where it is not given: two equal flanks with normally distributed heights."""
-    return drive.roughness / math.sqrt(math.pi) if drive.mean_roughness is None else drive.mean_roughness
+    """Ra of the flanks, m: the mean of both gears' where they say it.
+
+    σ/√π where only that is given, of two equal flanks with normally distributed heights.
+    """
+    own = _mean_roughnesses(drive)
+    return cast(float, drive.roughness) / math.sqrt(math.pi) if None in own else sum(cast(Any, own)) / 2.0
+
+
+def roughness_of(drive: model_files.DriveTable) -> float:
+    """Composite rms roughness σ of the flanks, m: given, or √(R_q1² + R_q2²).
+
+    R_q = √(π/2) Ra, of normally distributed heights.
+    """
+    if drive.roughness is not None:
+        return drive.roughness
+    return math.sqrt(math.pi / 2.0) * math.hypot(*cast(Any, _mean_roughnesses(drive)))
+
+
+def _mean_roughnesses(drive: model_files.DriveTable) -> list[float | None]:
+    gears = drive.pinion, drive.gear
+    return [drive.mean_roughness if one.mean_roughness is None else one.mean_roughness for one in gears]
 
 
 def drive_of(drive: model_files.DriveTable) -> Drive:
     """Return the geometry of a drive file."""
     from tribodyn.geometry.families import family
+    from tribodyn.geometry.tip_rounding import tip_break
 
-    shape = shape_of(drive, family(drive.family))
-    return Drive(
+    teeth = family(drive.family)
+    sharp = Drive(
         drive.module,
-        drive.pressure_angle or 0.0,
-        _body(drive.pinion),
-        _body(drive.gear),
-        shape,
+        pressure_angle_of(drive) or 0.0,
+        gear_body(drive, drive.pinion),
+        gear_body(drive, drive.gear),
+        shape_of(drive, teeth),
         drive.centre_distance,
     )
+    rounded = sharp
+    for side in SIDES:
+        if rounding := getattr(drive, side).tip_rounding:
+            with np.errstate(all="ignore"):  # refused where the pair is put together
+                height = float(tip_break(teeth, sharp, side, rounding))
+            body = body_of(sharp, side)._replace(tip_break=height)
+            rounded = rounded._replace(**{side: body})
+    return rounded
 
 
 def gives_backlash(drive: model_files.DriveTable) -> bool:
     """Whether a drive says more of its backlash than that its teeth are nominal."""
-    return drive.centre_distance is not None
+    gears = drive.pinion, drive.gear
+    return drive.centre_distance is not None or any(gives_thickness(gear) for gear in gears)
 
 
 def backlash_of(drive: model_files.DriveTable, given: float | None) -> float | None:
@@ -92,19 +122,6 @@ def materials_of(drive: model_files.DriveTable) -> tuple[MaterialData, MaterialD
 def masses_of(drive: model_files.DriveTable) -> tuple[BodyMass, BodyMass]:
     """Return the masses that a drive file gives."""
     return _mass(drive.pinion), _mass(drive.gear)
-
-
-def _body(gear: model_files.Gear) -> GearBody:
-    return GearBody(
-        teeth=float(gear.teeth),
-        profile_shift=gear.profile_shift,
-        addendum=gear.addendum,
-        dedendum=gear.dedendum,
-        fillet_radius=gear.fillet_radius,
-        face_width=gear.face_width,
-        bore_radius=gear.bore_radius,
-        tip_radius=gear.tip_radius,
-    )
 
 
 def _material(drive: model_files.DriveTable, gear: model_files.Gear) -> MaterialData:

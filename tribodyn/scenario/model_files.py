@@ -6,6 +6,7 @@ from pydantic import Field
 
 from tribodyn.dynamics.rolling_bearing import BearingType
 from tribodyn.geometry.families import FAMILIES
+from tribodyn.geometry.rack_profile import PROFILES
 from tribodyn.scenario import units
 from tribodyn.scenario.modification import Modification
 from tribodyn.scenario.quantity import (
@@ -31,6 +32,12 @@ Stiffness = Annotated[float, Quantity(units.positive(units.STIFFNESS))]
 FaceWidth = Annotated[float, Quantity(units.positive(units.LENGTH), "20 mm")]
 Radius = Annotated[float, Quantity(units.positive(units.LENGTH), "12 mm")]
 KinematicViscosity = Annotated[float, Quantity(units.positive(units.KINEMATIC_VISCOSITY))]
+Diameter = Annotated[float, Quantity(units.positive(units.LENGTH), "30 mm")]
+Rounding = Annotated[float, Quantity(units.not_negative(units.LENGTH), "0.03 mm")]
+Allowance = Annotated[float, Quantity(units.DEVIATION, "-60 um")]
+Span = Annotated[float, Quantity(units.positive(units.LENGTH), "32.4 mm")]
+OverPins = Annotated[float, Quantity(units.positive(units.LENGTH), "83.2 mm")]
+Pin = Annotated[float, Quantity(units.positive(units.LENGTH), "5.25 mm")]
 Roughness = Annotated[float, Quantity(units.positive(units.LENGTH), "0.5 um")]
 
 
@@ -63,14 +70,36 @@ class Gear(Table):
 
     teeth: Annotated[int, Field(strict=True, ge=4, le=10_000)]
     face_width: FaceWidth
-    bore_radius: Radius = Field(description="radius of the bore, where the body is held")
+    bore_radius: Radius | None = Field(
+        None, description="where the body is held; default: 0.2 times the reference diameter"
+    )
+    bore_diameter: Diameter | None = Field(None, description="in place of the bore's radius")
     profile_shift: Number = Field(0.0, description="x, times the module")
-    addendum: Positive = Field(1.0, description="h_a*, times the module (ISO 53)")
-    dedendum: Positive = Field(1.25, description="h_f*, times the module (ISO 53)")
-    fillet_radius: NotNegative = Field(
-        0.25, description="radius of the cutter's tip, times the module (Diez-Ibarbia et al.)"
+    addendum: Positive | None = Field(
+        None, description="h_a*, times the module; default: the rack's, else 1 (ISO 53)"
+    )
+    dedendum: Positive | None = Field(
+        None, description="h_f*, times the module; default: the rack's, else 1.25 (ISO 53)"
+    )
+    fillet_radius: NotNegative | None = Field(
+        None, description="of the cutter's tip, times the module; default: the rack's, else 0.25 (ISO 53 C)"
     )
     tip_radius: Radius | None = Field(None, description="takes the place of the addendum")
+    tip_diameter: Diameter | None = Field(None, description="in place of the tip's radius")
+    tip_rounding: Rounding | None = Field(None, description="radius of the tip's rounded edge")
+    thickness_allowance: Allowance | None = Field(
+        None, description="A_sne, upper deviation of the tooth thickness; negative: thinner"
+    )
+    thickness_tolerance: Rounding | None = Field(
+        None, description="T_sn, tolerance of the tooth thickness below its upper deviation"
+    )
+    span: Span | None = Field(None, description="W_k, measured over span_teeth teeth; of involutes")
+    span_teeth: Annotated[int, Field(strict=True, ge=1, le=10_000)] | None = Field(
+        None, description="k, number of teeth of the span"
+    )
+    over_pins: OverPins | None = Field(None, description="M_d, measured over two pins; of involutes")
+    pin_diameter: Pin | None = Field(None, description="D_M of these pins")
+    mean_roughness: Roughness | None = Field(None, description="Ra of its flanks; default: the drive's")
     mass: Mass | None = Field(None, description="default: from outline, bore and width")
     inertia: Inertia | None = Field(None, description="polar; default: from outline, bore and width")
     material: MaterialReference | None = Field(None, description="default: the drive's")
@@ -88,10 +117,15 @@ class DriveTable(Described):
     centre_distance: Length | None = Field(
         None, description="of involutes; default: that of nominal teeth in mesh without backlash"
     )
+    rack: Annotated[Text, Names(PROFILES)] | None = Field(
+        None, description="basic rack, for what the pressure angle and the gears do not say themselves"
+    )
     shape: dict[str, Any] | None = Field(None, description="what else the family needs, see `tribodyn list`")
-    roughness: Roughness = Field(description="composite rms roughness of the flanks")
+    roughness: Roughness | None = Field(
+        None, description="composite rms roughness of the flanks; default: from the mean roughness of both"
+    )
     mean_roughness: Roughness | None = Field(
-        None, description="Ra of the flanks; default: roughness/sqrt(pi), that of two equal Gaussian flanks"
+        None, description="Ra of the flanks; default: the gears' own, or roughness/sqrt(pi)"
     )
     material: MaterialReference | None = None
     pinion: Gear

@@ -23,8 +23,9 @@ def shape_of(drive: DriveTable, family: Family) -> Any:
 def shape_errors(drive: DriveTable, family: Family) -> list[InputError]:
     """Return what is wrong with the keys that depend on the family: ``pressure_angle`` and ``shape``."""
     errors = []
-    if family.pressure_angle and drive.pressure_angle is None:
-        errors.append(InputError("drive.pressure_angle", None, "missing", 'add pressure_angle = "20 deg"'))
+    if family.pressure_angle and drive.pressure_angle is None and not (family.involute and drive.rack):
+        remedy = 'add pressure_angle = "20 deg"' + (', or rack = "ISO 53 A"' if family.involute else "")
+        errors.append(InputError("drive.pressure_angle", None, "missing", remedy))
     if not family.pressure_angle and drive.pressure_angle is not None:
         rule = f'contradicts family = "{family.name}", whose shape alone gives the pressure angle'
         shown = f"{np.degrees(drive.pressure_angle):.4g} deg"

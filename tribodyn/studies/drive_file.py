@@ -10,6 +10,7 @@ from pydantic import ValidationError
 from tribodyn.errors import InputError, InputErrors, quoted
 from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.material import BodyMass, MaterialData
+from tribodyn.geometry.measures import Gauge
 from tribodyn.scenario.drive_data import drive_of, masses_of, materials_of
 from tribodyn.scenario.drive_rules import broken_drive_rules
 from tribodyn.scenario.messages import Origins, explain
@@ -17,6 +18,7 @@ from tribodyn.scenario.model_files import DriveTable
 from tribodyn.scenario.quantity import Table
 from tribodyn.scenario.resolve import resolve_table, unresolved_keys
 from tribodyn.scenario.sources import find_drive_or_scenario, read_toml
+from tribodyn.scenario.tooth_data import gauge_of
 from tribodyn.studies.load import load
 
 
@@ -50,6 +52,12 @@ class DriveModel(NamedTuple):
     path: Path
     origins: Origins
     table: Mapping[str, Any]
+
+    @property
+    def gauges(self) -> tuple[Gauge, Gauge]:
+        """What the tooth thickness of pinion and gear is measured with."""
+        drive = DriveTable.model_validate(self.table)
+        return gauge_of(drive.pinion), gauge_of(drive.gear)
 
 
 class _DriveAlone(Table):

@@ -10,9 +10,13 @@ from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.geometry.families import family
 from tribodyn.geometry.families.spline import FEWEST, MOST
 from tribodyn.geometry.spline_fit import fit_spline, flank_deviation
+from tribodyn.scenario.tooth_data import THICKNESS_KEYS
 from tribodyn.studies.drive_file import DriveModel
 
 _OF_BODY = ("profile_shift", "addendum", "dedendum", "fillet_radius")
+#: Keys whose place those of the body, and the path, take.
+_OF_PATH = ("pressure_angle", "shape", "rack", "centre_distance")
+_OF_TEETH = ("tip_radius", "tip_diameter", "tip_rounding", *THICKNESS_KEYS)
 
 
 class SplineDrive(NamedTuple):
@@ -46,7 +50,7 @@ def as_spline(model: DriveModel, values: int, key: str = "n") -> SplineDrive:
     fitted = fit_spline(assembly, values)
     deviation = flank_deviation(assembly, fitted)
     drive, shape = fitted.drive, fitted.drive.shape
-    table = {name: value for name, value in model.table.items() if name not in ("pressure_angle", "shape")}
+    table = {name: value for name, value in model.table.items() if name not in _OF_PATH}
     table |= {
         "title": f"{model.table['title']}, as a free-form path",
         "source": f"{values} values fitted to the path of contact; flanks within {1e6 * deviation:.2g} um. "
@@ -61,6 +65,7 @@ def as_spline(model: DriveModel, values: int, key: str = "n") -> SplineDrive:
     }
     for side in SIDES:
         body = body_of(drive, side)
-        table[side] = table[side] | {name: float(f"{getattr(body, name):.12g}") for name in _OF_BODY}
+        kept = {name: value for name, value in table[side].items() if name not in _OF_TEETH}
+        table[side] = kept | {name: float(f"{getattr(body, name):.12g}") for name in _OF_BODY}
     check(fitted.family, drive)
     return SplineDrive(table, deviation)

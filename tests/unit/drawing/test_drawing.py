@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 from ezdxf import units
 
-from tests.support.sample_drives import LIU_NI, SHIFTED, SOUND, STANDARD, bodies
+from tests.support.sample_drives import LIU_NI, SHIFTED, SOUND, STANDARD, bodies, root_radius
 from tribodyn.drawing.dxf import RACK_TEETH, write_gear, write_pair, write_rack
 from tribodyn.drawing.picture import gears_in_mesh, pair_figure
 from tribodyn.drawing.profile import HEADER, tooth_profile, write_profile
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.body import section_area_and_inertia
-from tribodyn.geometry.drive import body_of, root_radius, tip_radius
+from tribodyn.geometry.drive import body_of, tip_radius
 from tribodyn.geometry.families import crc, involute
 from tribodyn.geometry.tooth import cut_tooth, tooth_outline
 from tribodyn.post.style import save

@@ -14,6 +14,7 @@ from tribodyn.scenario.drive_data import (
     materials_of,
     mean_roughness,
     modifications_of,
+    roughness_of,
     slices_of,
 )
 from tribodyn.scenario.duty import DutyTable, duty_of
@@ -98,7 +99,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> EfficiencyCase:
         family=drive.family,
         drive=drive_of(drive),
         materials=materials_of(drive),
-        roughness=drive.roughness,
+        roughness=roughness_of(drive),
         mean_roughness=mean_roughness(drive),
         lubricant=lubricant_of(scenario.lubricant, operating.oil_temperature),
         operating=OperatingData("speed", *duty_of(operating, drive.pinion.teeth, drive.gear.teeth)),

@@ -34,6 +34,7 @@ from tribodyn.scenario.drive_data import (
     materials_of,
     mean_roughness,
     modifications_of,
+    roughness_of,
     slices_of,
 )
 from tribodyn.scenario.duty import DutyTable, duty_of
@@ -220,7 +221,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> Case:
         drive=drive_of(drive),
         materials=materials_of(drive),
         masses=masses_of(drive),
-        roughness=drive.roughness,
+        roughness=roughness_of(drive),
         mean_roughness=mean_roughness(drive),
         lubricant=lubricant_of(scenario.lubricant, scenario.operating.oil_temperature),
         bearings=(_bearing(scenario.bearings.pinion), _bearing(scenario.bearings.gear)),

@@ -1,0 +1,103 @@
+"""Span and dimension over pins against the tooth itself, drawn point by point."""
+
+import math
+
+import numpy as np
+import pytest
+
+from tests.support.sample_drives import SHIFTED, STANDARD
+from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.drive import body_of
+from tribodyn.geometry.families import involute
+from tribodyn.geometry.rack_profile import PROFILES
+from tribodyn.geometry.thickness import (
+    Involute,
+    allowance_of_pins,
+    allowance_of_span,
+    over_pins,
+    pin_contact_diameter,
+    span,
+    span_contact_diameter,
+    usual_span_teeth,
+)
+from tribodyn.geometry.tip_rounding import tip_break
+from tribodyn.geometry.tooth import flank_point
+
+ALLOWANCE = -90e-6
+CASES = [(drive, side) for drive in (STANDARD, SHIFTED) for side in ("pinion", "gear")]
+
+
+def flank_of(drive, side):
+    """Half thickness angle (rad) over radius (m) of one flank."""
+    thin = drive._replace(**{side: body_of(drive, side)._replace(thickness_allowance=ALLOWANCE)})
+    tooth = assemble(involute.FAMILY, thin).tooth(side)
+    x, y = flank_point(tooth, np.linspace(float(tooth.form_distance), float(tooth.tip_distance), 20001))
+    return np.hypot(x, y), np.arctan2(y, x)
+
+
+def gear_of(drive, side):
+    body = body_of(drive, side)
+    return Involute(drive.module, drive.pressure_angle, body.teeth, body.profile_shift)
+
+
+@pytest.mark.parametrize(("drive", "side"), CASES)
+def test_span_is_the_widest_distance_of_parallel_tangents(drive, side):
+    gear, (radius, half) = gear_of(drive, side), flank_of(drive, side)
+    count = usual_span_teeth(gear)
+    # the right flank of the last of k teeth, seen along the normal of the anvils
+    angle = half + (count - 1) * math.pi / gear.teeth
+    expected = 2 * np.max(radius * np.sin(angle)) if count == 1 else 2 * (radius * np.sin(angle))
+    measured = span(gear, count, ALLOWANCE)
+    at = np.argmin(np.abs(2 * radius - span_contact_diameter(gear, measured)))
+    assert np.atleast_1d(expected)[at if count > 1 else 0] == pytest.approx(measured, rel=1e-6)
+    # there the flank is parallel to the middle of the span
+    across, along = radius * np.sin(angle), radius * np.cos(angle)
+    slope = np.gradient(across, along)
+    assert abs(slope[at]) < 2e-3
+    assert allowance_of_span(gear, count, measured) == pytest.approx(ALLOWANCE, rel=1e-9)
+
+
+@pytest.mark.parametrize(("drive", "side"), CASES)
+def test_pins_touch_both_flanks_of_their_gap(drive, side):
+    gear, (radius, half) = gear_of(drive, side), flank_of(drive, side)
+    pin = 1.728 * gear.module
+    measured = over_pins(gear, pin, ALLOWANCE)
+    opposite = 1.0 if gear.teeth % 2 == 0 else math.cos(math.pi / (2 * gear.teeth))
+    centre = (measured - pin) / 2 / opposite
+    # distance of the pin's centre, in the middle of the gap, from the flank of the tooth beside
+    gap = math.pi / gear.teeth - half
+    distance = np.hypot(radius * np.cos(gap) - centre, radius * np.sin(gap))
+    assert distance.min() == pytest.approx(pin / 2, rel=1e-6)
+    nearest = 2 * radius[np.argmin(distance)]
+    assert nearest == pytest.approx(pin_contact_diameter(gear, pin, ALLOWANCE), rel=1e-4)
+    assert allowance_of_pins(gear, pin, measured) == pytest.approx(ALLOWANCE, rel=1e-9)
+
+
+def test_a_measure_that_no_gear_has():
+    assert math.isnan(allowance_of_pins(gear_of(STANDARD, "pinion"), 5e-3, 50e-3))
+
+
+def test_a_rounding_touches_tip_circle_and_flank():
+    """A circle of its radius, tangent to the flank at the break's height, reaches the tip circle."""
+    rounding = 0.2e-3
+    sharp = assemble(involute.FAMILY, STANDARD).pinion
+    height = float(tip_break(involute.FAMILY, STANDARD, "pinion", rounding))
+    distance = np.linspace(float(sharp.form_distance), float(sharp.tip_distance), 20001)
+    x, y = flank_point(sharp, distance)
+    at = np.argmin(np.abs(np.hypot(x, y) - (float(sharp.tip_radius) - height)))
+    tangent = np.array([x[at + 1] - x[at - 1], y[at + 1] - y[at - 1]])
+    tangent /= np.hypot(*tangent)
+    inwards = np.array([tangent[1], -tangent[0]])
+    inwards *= -np.sign(inwards[1])
+    centre = np.array([x[at], y[at]]) + rounding * inwards
+    assert np.hypot(*centre) + rounding == pytest.approx(float(sharp.tip_radius), abs=0.02 * rounding)
+
+
+def test_racks_of_iso_53():
+    """Clearance and rounding: 0.25 and 0.38, 0.30, 0.25 of A, B, C; 0.4 and 0.39 of D; 20 degrees."""
+    found = {name[-1]: profile for name, profile in PROFILES.items()}
+    assert {name: round(one.dedendum - one.addendum, 9) for name, one in found.items()} == dict(
+        A=0.25, B=0.25, C=0.25, D=0.4
+    )
+    assert {name: one.fillet_radius for name, one in found.items()} == dict(A=0.38, B=0.3, C=0.25, D=0.39)
+    assert all(one.pressure_angle == math.radians(20) for one in found.values())
