@@ -43,6 +43,17 @@ def test_names_and_files_are_completed(tmp_path):
     assert "crc.h5" not in names
 
 
+def test_keys_are_completed_a_table_at_a_time(tmp_path):
+    offered_keys = offered("tribodyn run crc-23-47 --set oper", tmp_path)
+    assert offered_keys == ["operating."]
+    offered_keys = offered("tribodyn run crc-23-47 --set operating.gear_torq", tmp_path)
+    assert "operating.gear_torque=" in offered_keys
+    (tmp_path / "mine.toml").write_text('kind = "load-contact"\n', encoding="utf-8")
+    varied = offered("tribodyn sweep mine.toml --vary output.", tmp_path)
+    assert "output.positions_per_cycle=" in varied
+    assert "output.samples_per_cycle=" not in varied
+
+
 @pytest.fixture
 def files(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)

@@ -1,7 +1,12 @@
-"""What the shell completes: names of scenarios, drives, kinds, papers, figures, and files of their sort."""
+"""What the shell completes: names of scenarios, drives, kinds, papers, figures, keys and files."""
 
+import tomllib
 from collections.abc import Iterable
 from pathlib import Path
+
+import typer
+
+from tribodyn.errors import InputError
 
 RECORDS = ("*.h5", "*.hdf5")
 
@@ -30,6 +35,25 @@ def kinds(incomplete: str) -> list[str]:
     from tribodyn.studies import STUDIES
 
     return _beginning(STUDIES, incomplete)
+
+
+def keys(context: typer.Context, incomplete: str) -> list[str]:
+    """Keys of the scenario that is on the line already, or of a gear pair; a table's after its dot."""
+    from tribodyn.scenario.messages import keys_in
+    from tribodyn.scenario.sources import find_scenario
+    from tribodyn.studies.load import table_of
+
+    data = {}
+    # words that click could not sort while an option waits for its value
+    words = [context.params.get("scenario"), *(word for word in context.args if not word.startswith("-"))]
+    if scenario := next(filter(None, words), None):
+        try:
+            data = tomllib.loads(find_scenario(scenario).read_text(encoding="utf-8"))
+        except (InputError, OSError, ValueError):  # there is no such file yet
+            data = {}
+    above = incomplete.split(".")[:-1]
+    found = keys_in(table_of(data), above)
+    return _beginning([key if key.endswith(".") else f"{key}=" for key in found], incomplete)
 
 
 def papers(incomplete: str) -> list[str]:

@@ -4,6 +4,7 @@ from typing import Annotated
 
 import typer
 
+from tribodyn.cli import completion
 from tribodyn.errors import InputError, quoted
 
 SetOption = Annotated[
@@ -12,6 +13,7 @@ SetOption = Annotated[
         "--set",
         metavar="KEY=VALUE",
         help='Set a key of the scenario, also inside what it refers to: operating.gear_torque="600 N*m".',
+        autocompletion=completion.keys,
     ),
 ]
 

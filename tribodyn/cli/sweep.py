@@ -57,6 +57,7 @@ def sweep(
             "--vary",
             metavar="KEY=VALUES",
             help="A key of the scenario and its values, see below; several span a grid.",
+            autocompletion=completion.keys,
         ),
     ] = None,
     steady: Annotated[

@@ -127,6 +127,17 @@ def _table_in(annotation: Any) -> type[BaseModel] | None:
     return next((table for table in inner if table), None)
 
 
+def keys_in(model: type[BaseModel], key: Iterable[str]) -> list[str]:
+    """Return the keys of the table that `key` leads to, dotted and whole; those of tables end in a dot."""
+    above = tuple(key)
+    table = _table_at(model, above)
+    fields = table.model_fields if table else {}
+    return [
+        ".".join((*above, name)) + ("." if _table_in(field.annotation) else "")
+        for name, field in fields.items()
+    ]
+
+
 def _near_key(model: type[BaseModel], key: Key) -> str:
     table = _table_at(model, key[:-1])
     known = list(table.model_fields) if table else []

@@ -1,12 +1,14 @@
 """What the page needs to roll the teeth through mesh: outlines, path of contact, contact points, angles."""
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from tribodyn.post.page.series import packed
 from tribodyn.record.reader import Record
 
+#: The dataset that says which pairs carry load.
+LOAD = "normal_load"
 #: Positions of the gears that are kept, evenly over the run.
 MOST_FRAMES = 6000
 
@@ -21,34 +23,91 @@ def rolling_teeth(record: Record) -> dict[str, Any] | None:
     if not {"geometry", "mesh_cycle"} <= set(record.groups):
         return None
     shape, cycle = record.geometry, record.mesh_cycle
-    needed = {"pinion_outline", "gear_outline", "path_of_contact"}
-    if not needed <= set(shape) or not {"phase", "signed_distance", "pressure_angle"} <= set(cycle):
+    if not {"pinion_outline", "gear_outline", "path_of_contact"} <= set(shape):
         return None
-    phase = _phase(record, cycle)
-    if phase is None or not len(phase):
+    tabulated = {"phase", "signed_distance", "pressure_angle"} <= set(cycle)
+    places = _of_the_table(record, cycle) if tabulated else _of_the_roll_angles(record, shape, cycle)
+    if places is None or not len(places.roll):
         return None
-    frames = np.unique(np.linspace(0, len(phase) - 1, min(len(phase), MOST_FRAMES)).round().astype(int))
-    within = phase[frames] % 1.0
-    pitch = 2.0 * np.pi / cycle["pinion_teeth"]
-    front = np.flatnonzero(np.asarray(cycle["side"]) > 0)
-    at = {name: _at(within, cycle, name)[:, front] for name in ("signed_distance", "pressure_angle")}
-    touching = _at(within, cycle, "in_contact")[:, front] > 0.5
-    x, y = (
-        at["signed_distance"] * np.cos(at["pressure_angle"]),
-        at["signed_distance"] * np.sin(at["pressure_angle"]),
+    frames = np.unique(
+        np.linspace(0, len(places.roll) - 1, min(len(places.roll), MOST_FRAMES)).round().astype(int)
     )
+    x, y = places.x[frames], places.y[frames]
     return {
-        "frames": None if len(frames) == len(phase) else packed(frames, "<u4"),
-        "roll": packed(cycle["roll_start"] + phase[frames] * pitch, "<f8"),
-        "pairs": len(front),
-        "x": packed(np.where(touching, x, np.nan)),
-        "y": packed(np.where(touching, y, np.nan)),
-        "alpha": packed(at["pressure_angle"]),
+        "frames": None if len(frames) == len(places.roll) else packed(frames, "<u4"),
+        "roll": packed(places.roll[frames], "<f8"),
+        "pairs": x.shape[1],
+        "x": packed(x),
+        "y": packed(y),
+        "alpha": packed(places.angle[frames]),
         "pinion": packed(shape["pinion_outline"]),
         "gear": packed(shape["gear_outline"]),
         "path": packed(shape["path_of_contact"]),
         "radii": [float(shape["pinion_pitch_radius"]), float(shape["gear_pitch_radius"])],
     }
+
+
+class _Places(NamedTuple):
+    """Roll angle of the pinion over the samples; contact point (NaN: no contact) and α of every pair."""
+
+    roll: np.ndarray
+    x: np.ndarray
+    y: np.ndarray
+    angle: np.ndarray
+
+
+def _of_the_table(record: Record, cycle: dict[str, Any]) -> _Places | None:
+    """Places by the mesh cycle's table."""
+    phase = _phase(record, cycle)
+    if phase is None:
+        return None
+    within = phase % 1.0
+    front = np.flatnonzero(np.asarray(cycle["side"]) > 0)
+    touching = _at(within, cycle, "in_contact")[:, front] > 0.5
+    distance = np.where(touching, _at(within, cycle, "signed_distance")[:, front], np.nan)
+    angle = _at(within, cycle, "pressure_angle")[:, front]
+    roll = cycle["roll_start"] + phase * 2.0 * np.pi / cycle["pinion_teeth"]
+    return _Places(roll, distance * np.cos(angle), distance * np.sin(angle), angle)
+
+
+def _of_the_roll_angles(record: Record, shape: dict[str, Any], cycle: dict[str, Any]) -> _Places | None:
+    """Places by the pairs' roll angles, where the path of contact leads them: dφ = dr/(r_p cos α).
+
+    Beyond its ends a tip's corner touches: the gear's before them, the pinion's behind.
+    """
+    if not {"pinion_angle", "roll_angle", LOAD} <= set(record):
+        return None
+    x, y = np.asarray(shape["path_of_contact"]).T
+    backward = x < 0.0
+    distance = np.where(backward, -1.0, 1.0) * np.hypot(x, y)
+    at_pitch_point = distance == 0.0
+    angle = np.arctan2(np.where(backward, -y, y), np.abs(x))
+    if at_pitch_point.any():
+        order = np.argsort(distance[~at_pitch_point])
+        known = distance[~at_pitch_point][order], angle[~at_pitch_point][order]
+        angle[at_pitch_point] = np.interp(0.0, *known)
+    order = np.argsort(distance)
+    distance, angle = distance[order], angle[order]
+    per_roll = 1.0 / (float(cycle["pinion_pitch_radius"]) * np.cos(angle))
+    travelled = np.concatenate([[0.0], np.cumsum(0.5 * (per_roll[1:] + per_roll[:-1]) * np.diff(distance))])
+    roll = travelled - np.interp(0.0, distance, travelled)
+    rolled = np.asarray(record["roll_angle"])
+    found = np.where(np.asarray(record[LOAD]) > 0.0, np.interp(rolled, roll, distance), np.nan)
+    slope = np.interp(rolled, roll, angle)
+    radii = float(cycle["pinion_pitch_radius"]), float(cycle["gear_pitch_radius"])
+    before, behind = np.minimum(rolled - roll[0], 0.0), np.maximum(rolled - roll[-1], 0.0)
+    x, y = found * np.cos(slope), found * np.sin(slope)
+    x, y = _turned(x, y, 0.0, -radii[0], -behind)
+    x, y = _turned(x, y, 0.0, radii[1], before * radii[0] / radii[1])
+    return _Places(rolled[0, 0] + np.asarray(record["pinion_angle"]), x, y, slope)
+
+
+def _turned(
+    x: np.ndarray, y: np.ndarray, x_axis: float, y_axis: float, by: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Points turned about an axis, anticlockwise."""
+    c, s, dx, dy = np.cos(by), np.sin(by), x - x_axis, y - y_axis
+    return x_axis + c * dx - s * dy, y_axis + s * dx + c * dy
 
 
 def _phase(record: Record, cycle: dict[str, Any]) -> np.ndarray | None:

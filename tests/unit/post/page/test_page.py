@@ -66,7 +66,9 @@ def test_it_holds_what_was_sampled(crc, page):
     np.testing.assert_allclose(unpacked(record["axis"], "<f8"), crc.data["time"] * 1e3)
 
 
-@pytest.mark.parametrize("scenario", ["efficiency-crc-23-47", "efficiency-involute-18-36"])
+@pytest.mark.parametrize(
+    "scenario", ["efficiency-crc-23-47", "efficiency-involute-18-36", "load-contact-18-36"]
+)
 def test_contact_points_lie_on_both_flanks_and_on_the_path(scenario):
     """To a micrometre, at random positions; the flanks as the page has them, turned as it turns them."""
     result = td.run(scenario)
@@ -85,8 +87,12 @@ def test_contact_points_lie_on_both_flanks_and_on_the_path(scenario):
         for point in np.stack([x[frame], y[frame]], axis=1):
             if np.isfinite(point[0]):
                 found += 1
-                for line in (*map(closed, places), path):
-                    assert distance(point, line) < 1e-6
+                flanks = [distance(point, closed(place)) for place in places]
+                assert min(flanks) < 1e-6
+                # elastic teeth touch a little beyond the path: a corner that would stand in the flank
+                corner = scenario.startswith("load-contact") and distance(point, path) > 1e-6
+                assert max(flanks) < (1e-4 if corner else 1e-6)
+                assert corner or distance(point, path) < 1e-6
     assert found > 25
 
 
