@@ -1,15 +1,12 @@
 """`tribodyn validate`: our numbers compared with the published ones."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from tribodyn.cli import completion
 from tribodyn.cli.output import make_folder, unwritable
-
-if TYPE_CHECKING:
-    from tribodyn.validation.rows import Row
 
 EXAMPLES = (
     "\b\nExit status 4 if a value is outside its tolerance. Examples:\n"
@@ -43,6 +40,7 @@ def validate(
     from tribodyn.cli.outcome import OUTSIDE_TOLERANCE, complain
     from tribodyn.cli.printing import print_json, print_table, quoted_path
     from tribodyn.cli.progress import progress_bar
+    from tribodyn.validation.rows import SHOWN
 
     if plots is not None:
         validation.figure_names(paper)
@@ -66,26 +64,10 @@ def validate(
         drawn = {"pictures": [str(picture) for picture in pictures]} if plots is not None else {}
         print_json({"rows": [row._asdict() for row in rows], **drawn})
     else:
-        columns = ("quantity", "unit", "published", "computed", "difference", "tolerance", "verdict", "note")
-        print_table(paper, columns, [[_written(row, name) for name in columns] for row in rows])
+        print_table(paper, SHOWN, [[row.written(name) for name in SHOWN] for row in rows])
         for picture in pictures:
             typer.echo(f"picture  {quoted_path(picture)}")
     failed = [row.id for row in rows if row.verdict == "fail"]
     if failed:
         complain(f"{paper}: outside tolerance: {', '.join(failed)}")
         raise typer.Exit(OUTSIDE_TOLERANCE)
-
-
-def _written(row: "Row", name: str) -> str:
-    value = getattr(row, name)
-    if value is None:
-        return ""
-    if isinstance(value, list):
-        return " ".join(
-            f"{one:.2g}" if name in ("difference", "tolerance") else f"{one:.5g}" for one in value
-        )
-    if isinstance(value, bool):
-        return str(value).lower()
-    if name in ("difference", "tolerance") and row.tolerance_kind == "relative":
-        return f"{100 * value:.3g} %"
-    return f"{value:.5g}" if isinstance(value, float) else str(value)

@@ -5,13 +5,25 @@ from pathlib import Path
 
 from tribodyn import validation
 from tribodyn.interface.words import in_python
-from tribodyn.validation.rows import Row
+from tribodyn.validation.rows import FAIL, PASS, REPORTED, SHOWN, Row
+
+
+class Comparison(list[Row]):
+    """Rows of a comparison with a paper; a notebook shows them as a table."""
+
+    def _repr_html_(self) -> str:
+        from tribodyn.interface import shown
+        from tribodyn.studies.study import TextTable
+
+        rows = [[row.written(name) for name in SHOWN] for row in self]
+        counts = [f"{sum(row.verdict == one for row in self)} {one}" for one in (PASS, FAIL, REPORTED)]
+        return shown.block(shown.tables([TextTable(", ".join(counts), SHOWN, rows)]))
 
 
 @in_python()
 def validate(
     paper: str, progress: Callable[[float], None] | None = None, folder: str | Path | None = None
-) -> list[Row]:
+) -> Comparison:
     """Compare with the numbers of a paper: run what its rows need.
 
     Parameters
@@ -26,8 +38,8 @@ def validate(
     Returns
     -------
     list of Row
-        With `quantity`, `published` and `computed` value, `tolerance`, `verdict` and `note`; the verdict is
-        "pass", "fail" or "reported".
+        Shown as a table in a notebook; each with `quantity`, `published` and `computed` value, `tolerance`,
+        `verdict` and `note`; the verdict is "pass", "fail" or "reported".
 
     Raises
     ------
@@ -36,4 +48,4 @@ def validate(
     SimulationError
         If one of the runs fails.
     """
-    return validation.validate(paper, progress, folder)
+    return Comparison(validation.validate(paper, progress, folder))

@@ -35,6 +35,25 @@ class Row(NamedTuple):
     verdict: str
     note: str
 
+    def written(self, name: str) -> str:
+        """Write a field as a table for people shows it."""
+        value = getattr(self, name)
+        if value is None:
+            return ""
+        if isinstance(value, list):
+            return " ".join(
+                f"{one:.2g}" if name in ("difference", "tolerance") else f"{one:.5g}" for one in value
+            )
+        if isinstance(value, bool):
+            return str(value).lower()
+        if name in ("difference", "tolerance") and self.tolerance_kind == "relative":
+            return f"{100 * value:.3g} %"
+        return f"{value:.5g}" if isinstance(value, float) else str(value)
+
+
+#: Fields of a row that a table for people shows.
+SHOWN = ("quantity", "unit", "published", "computed", "difference", "tolerance", "verdict", "note")
+
 
 def published(paper: str) -> dict[str, dict[str, Any]]:
     """The published rows of a paper by id, in order.

@@ -162,3 +162,6 @@ def test_a_comparison_with_a_paper():
     rows = td.validate("efremenkov-2024")
     assert rows
     assert {row.verdict for row in rows} <= {"pass", "fail", "reported"}
+    shown = rows._repr_html_()
+    assert shown.count("<tr>") == len(rows) + 1
+    assert f"{sum(row.verdict == 'pass' for row in rows)} pass" in shown
