@@ -45,6 +45,7 @@ CONTENTS = {
         "families",
         "mesh-stiffness",
         "load-contact",
+        "quality",
         "efficiency",
         "oil",
         "ehl",

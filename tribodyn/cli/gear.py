@@ -65,6 +65,8 @@ def gear(
     given = [(one.mass, one.inertia) for one in loaded.masses]
     masses = body_masses(assembly, given, [one.density for one in loaded.materials])
     sheet = geometry_sheet(assembly, masses, loaded.gauges)
+    for side, lines in zip(("pinion", "gear"), loaded.tolerances, strict=True):
+        sheet[side] |= lines
     files = written + (_draw(loaded, assembly, output, points) if output is not None else [])
     if json:
         print_json(

@@ -1,5 +1,6 @@
 """The summary of a sweep's record: a table for people, a dictionary for programs."""
 
+import warnings
 from collections.abc import Sequence
 from typing import Any
 
@@ -16,6 +17,8 @@ from tribodyn.record.sweep_schema import DONE
 
 #: Failed cases that are named; the record has them all.
 FAILURES_SHOWN = 5
+#: What is said of the scatter over samples: percentiles.
+SPREAD = {"median": 50.0, "p5": 5.0, "p95": 95.0}
 #: Ends of branches that are named; the record has them all.
 ENDS_SHOWN = 12
 
@@ -43,9 +46,45 @@ def sweep_table(record: SweepRecord, lines: Sequence[Line]) -> Group:
     for row in sweep_rows(record, columns):
         table.add_row(*row)
     parts.append(table)
+    parts += _spread_table(record, columns)
     parts += map(Text, tail)
     parts += [Text(f"Warning: {warning}", style="bold red") for warning in sweep_warnings(record)]
     return Group(*parts)
+
+
+def spread(record: SweepRecord, name: str) -> dict[str, np.ndarray] | None:
+    """Median, 5 and 95 % of a figure over all samples, for every value of the other parameters.
+
+    None where no samples are varied. Failed cases are left out; NaN where none is left.
+    """
+    drawn = record.settings.get("samples", [])
+    over = tuple(number for number, dim in enumerate(record.dims) if dim in drawn)
+    if not over or record[name].dtype.kind not in "fiu" or record[name].ndim != len(record.dims):
+        return None
+    values = np.where(record["status"] == DONE, record[name], np.nan)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)  # none of the samples is done
+        found = np.nanpercentile(values, list(SPREAD.values()), axis=over)
+    return dict(zip(SPREAD, found, strict=True))
+
+
+def _spread_table(record: SweepRecord, columns: Sequence[Line]) -> list[Any]:
+    """Scatter over the samples, where nothing else is varied."""
+    drawn = record.settings.get("samples", [])
+    if not drawn or any(dim not in drawn for dim in record.dims):
+        return []
+    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    table.add_column(f"scatter of {record.count()['done']} samples", no_wrap=True)
+    for name, percentile in SPREAD.items():
+        title = name if name == "median" else f"{percentile:g} %"
+        table.add_column(title, justify="right", no_wrap=True)
+    table.add_column("", no_wrap=True)
+    for column in columns:
+        found = spread(record, column.name)
+        if found is not None and np.isfinite(found["median"]):
+            cells = [written(column, float(found[name])) for name in SPREAD]
+            table.add_row(column.label, *cells, column.unit)
+    return [Text(""), table]
 
 
 def sweep_said(record: SweepRecord) -> list[str]:
@@ -200,6 +239,7 @@ def sweep_as_json(record: SweepRecord) -> dict[str, Any]:
         "directions": list(record.directions),
         "settings": record.settings,
         "figures": {name: {"units": record.units(name), "values": record[name]} for name in names},
+        "spread": {name: found for name in names if (found := spread(record, name)) is not None},
         "ends": branch_ends(record),
         "failures": [{"at": at, "message": why} for at, why in record.failures()],
         "warnings": sweep_warnings(record),

@@ -13,6 +13,7 @@ from tribodyn.geometry.modification import Modifications, vary_along_lead
 from tribodyn.scenario import model_files
 from tribodyn.scenario.modification import MisalignmentTable, flank_of, misalignment_of
 from tribodyn.scenario.shape import shape_of
+from tribodyn.scenario.tolerances import helix_allowance
 from tribodyn.scenario.tooth_data import gear_body, gives_thickness, pressure_angle_of
 from tribodyn.tribology.lubricant import FzgStages, LubricantData, lubricant_from
 from tribodyn.tribology.oil import UNITS, OilSheet, by_type
@@ -132,9 +133,11 @@ def _material(drive: model_files.DriveTable, gear: model_files.Gear) -> Material
 
 def modifications_of(drive: model_files.DriveTable, misalignment: MisalignmentTable) -> Modifications:
     """Return what is taken off the flanks of a drive, and how its axes stand."""
-    return Modifications(
-        flank_of(drive.pinion.modification), flank_of(drive.gear.modification), misalignment_of(misalignment)
-    )
+    stand = misalignment_of(misalignment)
+    if misalignment.from_quality:
+        opened = misalignment.from_quality * helix_allowance(drive)
+        stand = stand._replace(in_plane=stand.in_plane + opened)
+    return Modifications(flank_of(drive.pinion.modification), flank_of(drive.gear.modification), stand)
 
 
 def slices_of(given: int | None, modifications: Modifications) -> int:

@@ -7,6 +7,7 @@ from tribodyn.geometry.families import FAMILIES
 from tribodyn.scenario.model_files import DriveTable
 from tribodyn.scenario.modification_rules import broken_modification_rules
 from tribodyn.scenario.shape import shape_errors
+from tribodyn.scenario.tolerances import broken_quality_rules
 from tribodyn.scenario.tooth_data import broken_tooth_rules
 
 
@@ -22,6 +23,7 @@ def broken_drive_rules(drive: DriveTable) -> Iterator[InputError]:
             )
     yield from broken_tooth_rules(drive)
     yield from broken_modification_rules(drive)
+    yield from broken_quality_rules(drive)
     if drive.family in FAMILIES:
         yield from shape_errors(drive, FAMILIES[drive.family])
     else:

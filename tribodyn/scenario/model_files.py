@@ -38,6 +38,7 @@ Allowance = Annotated[float, Quantity(units.DEVIATION, "-60 um")]
 Span = Annotated[float, Quantity(units.positive(units.LENGTH), "32.4 mm")]
 OverPins = Annotated[float, Quantity(units.positive(units.LENGTH), "83.2 mm")]
 Pin = Annotated[float, Quantity(units.positive(units.LENGTH), "5.25 mm")]
+Grade = Annotated[int, Field(strict=True, ge=1, le=11)]
 Roughness = Annotated[float, Quantity(units.positive(units.LENGTH), "0.5 um")]
 
 
@@ -103,6 +104,7 @@ class Gear(Table):
     mass: Mass | None = Field(None, description="default: from outline, bore and width")
     inertia: Inertia | None = Field(None, description="polar; default: from outline, bore and width")
     material: MaterialReference | None = Field(None, description="default: the drive's")
+    quality: Grade | None = Field(None, description="its tolerance class; default: the drive's")
     modification: Modification = written({})
 
 
@@ -128,6 +130,7 @@ class DriveTable(Described):
         None, description="Ra of the flanks; default: the gears' own, or roughness/sqrt(pi)"
     )
     material: MaterialReference | None = None
+    quality: Grade | None = Field(None, description="tolerance class of both gears by ISO 1328-1")
     pinion: Gear
     gear: Gear
 

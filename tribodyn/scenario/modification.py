@@ -7,7 +7,7 @@ from pydantic import Field
 from tribodyn.geometry.modification import FlankModification, LeadRelief, Misalignment, Relief
 from tribodyn.scenario import units
 from tribodyn.scenario.curves import ErrorCurve
-from tribodyn.scenario.quantity import Quantity, Switch, Table, csv_file, written
+from tribodyn.scenario.quantity import NotNegative, Quantity, Switch, Table, csv_file, written
 
 Amount = Annotated[float, Quantity(units.not_negative(units.RELIEF))]
 Extent = Annotated[float, Quantity(units.positive(units.LENGTH))]
@@ -60,6 +60,9 @@ class MisalignmentTable(Table):
     )
     out_of_plane: Annotated[float, Quantity(units.SMALL_ANGLE)] = written(
         "0 arcmin", description="perpendicular to the plane of action"
+    )
+    from_quality: NotNegative = Field(
+        0.0, description="share of both gears' helix slope tolerances that adds to in_plane"
     )
 
 

@@ -97,7 +97,9 @@ def _pitch_errors(drive: DriveTable) -> Iterator[tuple[str, str | None]]:
 
 
 def _deviations(face: Face) -> Iterator[tuple[str, str | None]]:
-    for name, angle in face.misalignment.model_dump().items():
+    if share := face.misalignment.from_quality:
+        yield "mesh.misalignment.from_quality", f"{share:g}"
+    for name, angle in face.misalignment.model_dump(exclude={"from_quality"}).items():
         if angle:
             yield f"mesh.misalignment.{name}", f"{degrees(angle) * 60:g} arcmin"
     if face.slices is not None:

@@ -96,6 +96,10 @@ def csv_file(*columns: str, as_list: bool = False) -> Reference:
     return Reference(f"CSV file with {counted}", columns=columns, as_list=as_list)
 
 
+class Draws:
+    """Marks a field that numbers samples drawn at random: over many of them figures have a scatter."""
+
+
 class Names:
     """Marks a text that must be one of some names, for the schema; that it is one of them is a rule.
 

@@ -14,7 +14,7 @@ from pydantic import BaseModel
 
 from tribodyn.errors import InputError, quoted
 from tribodyn.scenario.bounds import LONGEST_KEY, broken_bounds
-from tribodyn.scenario.quantity import Quantity, Reference, parts_of
+from tribodyn.scenario.quantity import Draws, Quantity, Reference, parts_of
 from tribodyn.scenario.resolve import toml_value
 from tribodyn.scenario.unit_grammar import is_unit
 from tribodyn.scenario.units import Kind, NotAQuantity, to_si
@@ -54,6 +54,8 @@ class Axis(NamedTuple):
         The values in SI, or the texts where they are no numbers.
     units : str
         SI unit, "1" for plain numbers, "" for texts.
+    drawn : bool
+        Whether the values number samples drawn at random.
     """
 
     key: str
@@ -61,6 +63,7 @@ class Axis(NamedTuple):
     written: tuple[Any, ...]
     values: tuple[float, ...] | tuple[str, ...]
     units: str
+    drawn: bool = False
 
     @property
     def numeric(self) -> bool:
@@ -111,7 +114,7 @@ def _axis(option: str, table: type[BaseModel]) -> Axis:
     values, units = _in_si(option, key, written, leaf)
     if len(set(values)) < len(values):
         raise _refusal(option, "a value comes twice", "list every value once")
-    return Axis(key, key.rpartition(".")[2], written, values, units)
+    return Axis(key, key.rpartition(".")[2], written, values, units, _is_drawn(table, key))
 
 
 def _values(option: str, text: str, leaf: Any) -> list[str]:
@@ -198,6 +201,14 @@ def _base_units(value: Any) -> tuple[float, str] | None:
     number, factor = float(match[1]), float(base.magnitude)
     exact = number / round(1 / factor) if 0 < factor < 1 and abs(1 / factor % 1) < 1e-9 else number * factor
     return exact, f"{base.units:~C}".replace("**", "") or "1"
+
+
+def _is_drawn(table: type[BaseModel], key: str) -> bool:
+    """Whether the field at a key is marked as numbering samples."""
+    above, _, name = key.rpartition(".")
+    place = kind_at(table, above) if above else table
+    field = getattr(place, "model_fields", {}).get(name)
+    return field is not None and any(isinstance(part, Draws) for part in parts_of(field))
 
 
 def kind_at(table: type[BaseModel], key: str) -> Any:

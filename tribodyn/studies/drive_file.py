@@ -18,6 +18,7 @@ from tribodyn.scenario.model_files import DriveTable
 from tribodyn.scenario.quantity import Table
 from tribodyn.scenario.resolve import resolve_table, unresolved_keys
 from tribodyn.scenario.sources import find_drive_or_scenario, read_toml
+from tribodyn.scenario.tolerances import tolerance_lines
 from tribodyn.scenario.tooth_data import gauge_of
 from tribodyn.studies.load import load
 
@@ -58,6 +59,11 @@ class DriveModel(NamedTuple):
         """What the tooth thickness of pinion and gear is measured with."""
         drive = DriveTable.model_validate(self.table)
         return gauge_of(drive.pinion), gauge_of(drive.gear)
+
+    @property
+    def tolerances(self) -> tuple[dict[str, Any], dict[str, Any]]:
+        """Lines of the sheet on the tolerances of pinion and gear, empty where no quality is given."""
+        return tolerance_lines(DriveTable.model_validate(self.table))
 
 
 class _DriveAlone(Table):

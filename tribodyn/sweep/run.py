@@ -139,6 +139,7 @@ def _head(grid: Grid, settings: Any, directions: Sequence[str]) -> SweepHead:
     scales = tuple(ParameterScale(axis.name, axis.key, axis.units, axis.values) for axis in grid.axes)
     described = {
         "vary": {axis.key: list(axis.written) for axis in grid.axes},
+        "samples": [axis.name for axis in grid.axes if axis.drawn],
         "directions": [one for one in DIRECTIONS if one in directions],
         **settings._asdict(),
     }

@@ -7,6 +7,7 @@ from tribodyn.scenario.drive_rules import broken_drive_rules, broken_part_rules
 from tribodyn.scenario.duty import broken_duty_rules, duty_of
 from tribodyn.scenario.lubricant_rules import broken_lubricant_rules
 from tribodyn.scenario.modification_rules import Face, broken_face_rules
+from tribodyn.scenario.quality import broken_sample_rules
 from tribodyn.studies.efficiency.scenario import Scenario
 
 
@@ -17,6 +18,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     yield from broken_lubricant_rules(scenario.lubricant, scenario.operating.oil_temperature)
     face = Face(scenario.drive, mesh.misalignment, mesh.slices, mesh.slice_coupling)
     yield from broken_face_rules(face, mesh.compliance)
+    yield from broken_sample_rules(scenario.drive, mesh.deviation_sample, mesh.misalignment)
     yield from broken_part_rules(mesh.hertz, mesh.foundation, mesh.compliance)
     drive, operating = scenario.drive, scenario.operating
     broken = broken_duty_rules(operating)

@@ -21,6 +21,7 @@ from tribodyn.scenario.duty import DutyTable, duty_of
 from tribodyn.scenario.law_tables import FilmTable, FrictionTable, film_data, friction_values
 from tribodyn.scenario.model_files import DriveTable, Lubricant
 from tribodyn.scenario.modification import MisalignmentTable
+from tribodyn.scenario.quality import DeviationSample, error_with_sample, with_sample
 from tribodyn.scenario.quantity import (
     Switch,
     Table,
@@ -57,6 +58,9 @@ class EfficiencyMesh(Table):
         "sainsot-velex", description="compliance of a gear body: fitted polynomials, or the elastic ring"
     )
     foundation_coupling: Switch = Field(True, description="pairs that share a body share its foundation")
+    deviation_sample: DeviationSample | None = Field(
+        None, description="number of the sample of deviations drawn from the quality; default: none"
+    )
     misalignment: MisalignmentTable = written({})
     slices: Slices | None = Field(
         None, description="of the face; default: 21 where anything varies along it, else 1"
@@ -94,6 +98,11 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> EfficiencyCase:
     """Return the case of a scenario that has passed schema and rules."""
     drive, mesh, operating = scenario.drive, scenario.mesh, scenario.operating
     modifications = modifications_of(drive, mesh.misalignment)
+    error, sample = None, mesh.deviation_sample
+    if mesh.compliance == "fem":
+        modifications = with_sample(drive, modifications, sample, every_tooth=False, slices=mesh.slices)
+    else:
+        error = error_with_sample(drive, None, sample)
     return EfficiencyCase(
         **head_of(scenario, toml, sha256),
         family=drive.family,
@@ -109,6 +118,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> EfficiencyCase:
             hertz=mesh.hertz,
             foundation=mesh.foundation,
             foundation_coupling=mesh.foundation_coupling,
+            error_table=error,
             modifications=modifications,
             slices=slices_of(mesh.slices, modifications),
             slice_coupling=mesh.slice_coupling,

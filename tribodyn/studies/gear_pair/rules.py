@@ -11,6 +11,7 @@ from tribodyn.scenario.duty import broken_duty_rules, duty_of
 from tribodyn.scenario.lubricant_rules import broken_lubricant_rules
 from tribodyn.scenario.model_files import Bearing, Rolling
 from tribodyn.scenario.modification_rules import Face, broken_face_rules
+from tribodyn.scenario.quality import broken_sample_rules
 from tribodyn.solve.methods import SOLVERS
 from tribodyn.studies.gear_pair.scenario import Mesh, Operating, Scenario
 
@@ -27,6 +28,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     yield from _operating(scenario.operating)
     yield from _mesh(scenario.mesh)
     yield from broken_face_rules(_face(scenario), scenario.mesh.compliance)
+    yield from broken_sample_rules(scenario.drive, scenario.mesh.deviation_sample, scenario.mesh.misalignment)
     yield from _load(scenario)
     if scenario.solver.method not in SOLVERS:
         yield unknown_name("solver.method", scenario.solver.method, SOLVERS, "solver")

@@ -41,6 +41,7 @@ from tribodyn.scenario.duty import DutyTable, duty_of
 from tribodyn.scenario.law_tables import FilmTable, FrictionTable, film_data, friction_values
 from tribodyn.scenario.model_files import Bearing, Bearings, DriveTable, Lubricant, Stiffness
 from tribodyn.scenario.modification import MisalignmentTable
+from tribodyn.scenario.quality import DeviationSample, error_with_sample, with_sample
 from tribodyn.scenario.quantity import (
     Count,
     NotNegative,
@@ -160,6 +161,9 @@ class Mesh(Table):
     )
     points: Annotated[int, Field(strict=True, ge=5)] = Field(65, description="nodes per segment of the table")
     transmission_error: TransmissionError = written({})
+    deviation_sample: DeviationSample | None = Field(
+        None, description="number of the sample of deviations drawn from the quality; default: none"
+    )
     misalignment: MisalignmentTable = written({})
     slices: Slices | None = Field(
         None, description="of the face; default: 21 where anything varies along it, else 1"
@@ -276,12 +280,28 @@ def _mesh(scenario: Scenario) -> MeshData:
     mesh = scenario.mesh
     error = mesh.transmission_error
     modifications = modifications_of(scenario.drive, mesh.misalignment)
+    table, sample = error.table.in_si() if error.table else None, mesh.deviation_sample
+    if mesh.compliance == "fem":
+        modifications = with_sample(
+            scenario.drive, modifications, sample, every_tooth=False, slices=mesh.slices
+        )
+    else:
+        table = error_with_sample(scenario.drive, table, sample)
     return MeshData(
         table=mesh.table.in_si() if mesh.table else None,
         error_harmonics=tuple((one.order, one.amplitude, one.phase) for one in error.harmonics),
-        error_table=error.table.in_si() if error.table else None,
+        error_table=table,
         modifications=modifications,
         slices=slices_of(mesh.slices, modifications),
         backlash=backlash_of(scenario.drive, mesh.backlash),
-        **mesh.model_dump(exclude={"table", "transmission_error", "misalignment", "slices", "backlash"}),
+        **mesh.model_dump(
+            exclude={
+                "table",
+                "transmission_error",
+                "misalignment",
+                "slices",
+                "backlash",
+                "deviation_sample",
+            }
+        ),
     )

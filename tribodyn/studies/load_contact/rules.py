@@ -7,6 +7,7 @@ from tribodyn.errors import InputError
 from tribodyn.scenario.drive_rules import broken_drive_rules
 from tribodyn.scenario.duty import broken_duty_rules, duty_of
 from tribodyn.scenario.modification_rules import Face, broken_slice_rules
+from tribodyn.scenario.quality import broken_sample_rules
 from tribodyn.studies.load_contact.scenario import Scenario
 
 
@@ -15,6 +16,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     mesh = scenario.mesh
     yield from broken_drive_rules(scenario.drive)
     yield from broken_slice_rules(Face(scenario.drive, mesh.misalignment, mesh.slices, mesh.slice_coupling))
+    yield from broken_sample_rules(scenario.drive, mesh.deviation_sample, mesh.misalignment)
     drive, operating = scenario.drive, scenario.operating
     broken = broken_duty_rules(operating, speed_needed=False)
     yield from broken

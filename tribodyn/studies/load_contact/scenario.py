@@ -10,6 +10,7 @@ from tribodyn.scenario.drive_data import drive_of, materials_of, modifications_o
 from tribodyn.scenario.duty import DutyTable, duty_of
 from tribodyn.scenario.model_files import DriveTable
 from tribodyn.scenario.modification import MisalignmentTable
+from tribodyn.scenario.quality import DeviationSample, with_sample
 from tribodyn.scenario.quantity import (
     Count,
     NotNegative,
@@ -40,6 +41,9 @@ class LoadContactMesh(Table):
     )
     slice_coupling: Switch = Field(True, description="slices of one tooth hold each other")
     friction_coefficient: NotNegative = Field(0.0, description="of all pairs")
+    deviation_sample: DeviationSample | None = Field(
+        None, description="number of the sample of deviations drawn from the quality; default: none"
+    )
     misalignment: MisalignmentTable = written({})
 
 
@@ -66,7 +70,13 @@ Scenario = LoadContactScenario
 def case_of(scenario: Scenario, toml: str, sha256: str) -> LoadContactCase:
     """Return the case of a scenario that has passed schema and rules."""
     drive, mesh = scenario.drive, scenario.mesh
-    modifications = modifications_of(drive, mesh.misalignment)
+    modifications = with_sample(
+        drive,
+        modifications_of(drive, mesh.misalignment),
+        mesh.deviation_sample,
+        every_tooth=True,
+        slices=mesh.slices,
+    )
     return LoadContactCase(
         **head_of(scenario, toml, sha256),
         family=drive.family,

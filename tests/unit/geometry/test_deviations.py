@@ -1,0 +1,64 @@
+"""Sampled deviations: seeded, within their tolerances, distributed as stated."""
+
+import numpy as np
+import pytest
+
+from tests.support.sample_drives import STANDARD
+from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.deviations import Limits, profile_curve, sampled, summed
+from tribodyn.geometry.families import involute
+
+LIMITS = Limits(8e-6, 30e-6, 7e-6, 9e-6, 8e-6)
+SAMPLES = [sampled(LIMITS, 40, seed, 0) for seed in range(400)]
+
+
+def test_the_same_seed_draws_the_same_gear():
+    one, other = sampled(LIMITS, 40, 7, 1), sampled(LIMITS, 40, 7, 1)
+    assert np.array_equal(one.pitch, other.pitch)
+    assert one._replace(pitch=None) == other._replace(pitch=None)
+    assert not np.array_equal(one.pitch, sampled(LIMITS, 40, 7, 0).pitch)
+
+
+def test_deviations_keep_their_tolerances():
+    for one in SAMPLES:
+        steps = np.diff(np.append(one.pitch, one.pitch[0]))
+        assert np.abs(steps).max() <= LIMITS.single_pitch * (1 + 1e-9)
+        assert np.ptp(one.pitch) <= LIMITS.total_pitch * (1 + 1e-9)
+        assert abs(one.pitch.sum()) < 1e-15 * 40 * 1e6 * 1e-6
+        assert max(abs(one.slope) / 7e-6, one.form / 9e-6, abs(one.helix) / 8e-6) <= 1
+
+
+def test_tolerances_are_three_standard_deviations():
+    for name, tolerance in (("slope", 7e-6), ("helix", 8e-6)):
+        values = np.array([getattr(one, name) for one in SAMPLES])
+        # four standard errors of 400 samples
+        assert abs(values.mean()) < 4 * tolerance / 3 / 20
+        assert values.std() == pytest.approx(tolerance / 3, rel=4 / np.sqrt(800))
+
+
+def test_the_profile_is_the_sum_of_both_gears():
+    pair = assemble(involute.FAMILY, STANDARD)
+    none = SAMPLES[0]._replace(slope=0.0, form=0.0, single_pitch=0.0)
+    sloped = none._replace(slope=5e-6)
+    roll, tip = profile_curve(pair, sloped, none, base_pitch=False)
+    assert (roll[0], roll[-1]) == tuple(float(limit) for limit in pair.roll_limits)
+    # more is missing at the pinion's tip, where contact ends; at the gear's, where it begins
+    assert tip[-1] - tip[0] == pytest.approx(5e-6)
+    _, other = profile_curve(pair, none, sloped, base_pitch=False)
+    assert other == pytest.approx(tip[::-1])
+    assert profile_curve(pair, sloped, sloped, base_pitch=False)[1] == pytest.approx(0.0, abs=1e-18)
+
+
+def test_a_deviation_of_base_pitch_opens_by_itself_from_pair_to_pair():
+    pair = assemble(involute.FAMILY, STANDARD)
+    none = SAMPLES[0]._replace(slope=0.0, form=0.0, single_pitch=0.0)
+    roll, error = profile_curve(pair, none._replace(single_pitch=6e-6), none, base_pitch=True)
+    a_pitch_later = np.interp(roll[0] + pair.pitch_angle, roll, error) - error[0]
+    assert a_pitch_later == pytest.approx(6e-6 * np.cos(STANDARD.pressure_angle), rel=1e-9)
+
+
+def test_curves_are_added_at_the_points_of_both():
+    one = np.array([0.0, 1.0, 2.0]), np.array([0.0, 2.0, 0.0])
+    at, total = summed(one, (np.array([0.5, 3.0]), np.array([1.0, 1.0])))
+    assert at.tolist() == [0.0, 0.5, 1.0, 2.0, 3.0]
+    assert total.tolist() == [1.0, 2.0, 3.0, 1.0, 1.0]

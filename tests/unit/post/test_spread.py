@@ -1,0 +1,32 @@
+"""Scatter of a sweep's figures over samples, against NumPy's percentiles of the recorded values."""
+
+import numpy as np
+import pytest
+
+from tribodyn.post.sweep_report import spread, sweep_as_json
+from tribodyn.record.sweep_reader import SweepRecord
+from tribodyn.sweep.engines import engine_of
+from tribodyn.sweep.grid import Grid
+from tribodyn.sweep.run import run, settings_of
+
+
+@pytest.fixture(scope="module")
+def swept(tmp_path_factory):
+    path = tmp_path_factory.mktemp("sweep") / "scatter.h5"
+    options = ["mesh.deviation_sample=1:5:1", "operating.gear_torque=100,200N*m"]
+    grid = Grid("efficiency-involute-18-36", options, {"drive.quality": 7})
+    with engine_of("native", 1, None) as engine:
+        run(grid, settings_of(grid), engine, path)
+    with SweepRecord(path) as record:
+        yield record
+
+
+def test_percentiles_are_over_the_samples_alone(swept):
+    found = spread(swept, "hertz_pressure_max")
+    values = swept["hertz_pressure_max"]
+    assert values.shape == (5, 2)
+    assert np.ptp(values, axis=0).min() > 0
+    assert found["median"] == pytest.approx(np.median(values, axis=0))
+    assert found["p5"] == pytest.approx(np.percentile(values, 5, axis=0))
+    assert found["p95"] == pytest.approx(np.percentile(values, 95, axis=0))
+    assert set(sweep_as_json(swept)["spread"]) >= {"efficiency", "hertz_pressure_max", "film_min"}

@@ -1,0 +1,42 @@
+"""Flank tolerances of ISO 1328-1:2013: worked by hand for one gear, and the rules that hold for all."""
+
+import math
+
+import pytest
+
+from tribodyn.standards.flank_tolerances import flank_tolerances, outside, rounded
+
+
+def test_a_gear_of_class_5_by_hand():
+    """m 4 mm, d 100 mm, b 25 mm: every root of it is whole."""
+    found = flank_tolerances(5, 4e-3, 100e-3, 25e-3)
+    by_hand = {
+        "single_pitch": 0.1 + 0.8 + 5,
+        "total_pitch": 0.2 + 5.5 + 1.4 + 12,
+        "profile_form": 2.2 + 5,
+        "profile_slope": 1.6 + 0.1 + 4,
+        "helix_form": 0.7 + 2.25 + 4,
+        "helix_slope": 0.5 + 1.75 + 4,
+    }
+    for name, micrometres in by_hand.items():
+        assert getattr(found, name) == pytest.approx(1e-6 * micrometres, rel=1e-12)
+    assert found.total_profile == pytest.approx(1e-6 * math.hypot(7.2, 5.7))
+    assert found.total_helix == pytest.approx(1e-6 * math.hypot(6.95, 6.25))
+    assert found.runout == pytest.approx(0.9 * found.total_pitch)
+
+
+def test_a_factor_of_the_root_of_two_from_class_to_class():
+    for grade in range(1, 11):
+        fine, coarse = (flank_tolerances(one, 3e-3, 75e-3, 30e-3) for one in (grade, grade + 1))
+        assert [b / a for a, b in zip(fine, coarse, strict=True)] == pytest.approx([math.sqrt(2)] * 9)
+
+
+def test_rounding():
+    assert [1e6 * rounded(1e-6 * one) for one in (12.4, 12.6, 9.2, 5.3, 4.87)] == pytest.approx(
+        [12, 13, 9, 5.5, 4.9]
+    )
+
+
+def test_ranges():
+    assert outside(25, 3e-3, 75e-3, 30e-3) == []
+    assert len(outside(4, 0.4e-3, 1.6e-3, 3e-3)) == 4
