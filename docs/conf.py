@@ -52,6 +52,7 @@ CONTENTS = {
         "solvers",
         "periodic",
         "sweep",
+        "design",
         "backlash-oscillator",
         "rolling-elements",
         "performance",

@@ -21,7 +21,8 @@ from tribodyn.studies.study import CaseHead, Checked, RunResult, Study
 
 KINDS = tuple(STUDIES)
 #: Their runs take long even when they are short: finite elements.
-RUNS = [pytest.param(kind, marks=pytest.mark.slow) if kind == "load-contact" else kind for kind in KINDS]
+SLOW = ("load-contact", "design")
+RUNS = [pytest.param(kind, marks=pytest.mark.slow) if kind in SLOW else kind for kind in KINDS]
 
 
 @pytest.fixture(scope="module")
