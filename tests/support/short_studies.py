@@ -13,10 +13,19 @@ SHORT: dict[str, dict[str, Any]] = {
     "load-contact": {"output.positions_per_cycle": 12, "mesh.slices": 7},
     "irefc": {"output.samples_per_cycle": 8},
     "backlash-oscillator": {"frequency.step": 0.2},
-    "design": {
-        "design.evaluations": 3,
-        "design.sensitivities": False,
-        "scenario.output.positions_per_cycle": 12,
+    # the gears of the load contact study's template, whose finite elements are then solved once
+    "assessment": {
+        "drive.pinion.teeth": 18,
+        "drive.gear.teeth": 36,
+        "drive.pinion.profile_shift": 0.0,
+        "drive.gear.profile_shift": 0.0,
+        "drive.centre_distance": "81 mm",
+        "drive.material": "steel-liu-ni-2022",
+        **{f"drive.{side}.face_width": "26.7 mm" for side in ("pinion", "gear")},
+        "drive.pinion.bore_radius": "12 mm",
+        "drive.gear.bore_radius": "25 mm",
+        "assessment.speeds": 8,
+        "assessment.friction_laws": ["masjedi-khonsari", "niemann"],
     },
 }
 

@@ -44,6 +44,7 @@ KINDS = {
     "load-contact": ("load_contact", "LoadContact"),
     "backlash-oscillator": ("backlash_oscillator", "BacklashOscillator"),
     "efficiency": ("efficiency", "Efficiency"),
+    "assessment": ("assessment", "Assessment"),
 }
 #: Style: a file is one idea; lines.
 LONGEST_FILE = 340

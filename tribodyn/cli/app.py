@@ -5,7 +5,20 @@ from typing import Annotated
 
 import typer
 
-from tribodyn.cli import check, compare, design, gear, init, plot, report, run, schema, show, sweep, validate
+from tribodyn.cli import (
+    assess,
+    check,
+    compare,
+    gear,
+    init,
+    plot,
+    report,
+    run,
+    schema,
+    show,
+    sweep,
+    validate,
+)
 from tribodyn.cli import list as list_
 from tribodyn.cli.outcome import verb
 
@@ -26,7 +39,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 
-for module in (run, sweep, design, check, gear, show, plot, report, compare, list_, init, schema, validate):
+for module in (run, assess, sweep, check, gear, show, plot, report, compare, list_, init, schema, validate):
     function = getattr(module, module.__name__.rpartition(".")[2])
     app.command(epilog=module.EXAMPLES)(verb(function))
 

@@ -28,7 +28,7 @@ def init(
     """Write a commented scenario to run and to edit."""
     from tribodyn.cli.printing import command_name, quoted_path
     from tribodyn.errors import InputError
-    from tribodyn.studies import DEFAULT
+    from tribodyn.studies import DEFAULT, STUDIES
     from tribodyn.studies.template import filled
 
     path = Path(name if name.endswith(".toml") else f"{name}.toml")
@@ -45,4 +45,4 @@ def init(
         raise InputError(
             "name", f'"{path}"', f"cannot be written: {reason}", "choose another place"
         ) from None
-    typer.echo(f"{path}\nrun it with: {command_name()} run {quoted_path(path)}")
+    typer.echo(f"{path}\nrun it with: {command_name()} {STUDIES[kind or DEFAULT].verb} {quoted_path(path)}")

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, Protocol
 
-from tribodyn.numerics.work import watched
+from tribodyn.numerics.work import listened, watched
 
 
 class Report(Protocol):
@@ -27,12 +27,17 @@ def progress_bar(label: str) -> Iterator[Report]:
         return
     bar = _bar()
     task = bar.add_task(label, total=1.0)
-    reached = 0.0
+    reached, doing = 0.0, label
+
+    def hear(what: str) -> None:
+        nonlocal doing
+        doing = f"{label}: {what}"
+        bar.update(task, description=doing)
 
     def report(fraction: float) -> None:
         nonlocal reached
         reached = fraction
-        bar.update(task, description=label, completed=fraction)
+        bar.update(task, description=doing, completed=fraction)
 
     def prepare(fraction: float) -> None:
         if fraction < 1.0:
@@ -45,7 +50,7 @@ def progress_bar(label: str) -> Iterator[Report]:
     patience.daemon = True
     patience.start()
     try:
-        with watched(prepare):
+        with watched(prepare), listened(hear):
             yield report
     finally:
         patience.cancel()

@@ -12,6 +12,24 @@ from typing import TypeVar
 Step = TypeVar("Step")
 
 _watcher: ContextVar[Callable[[float], None] | None] = ContextVar("watcher", default=None)
+_listener: ContextVar[Callable[[str], None] | None] = ContextVar("listener", default=None)
+
+
+@contextmanager
+def listened(hear: Callable[[str], None]) -> Iterator[None]:
+    """Call `hear` with what the work inside the block is at, in a few words."""
+    token = _listener.set(hear)
+    try:
+        yield
+    finally:
+        _listener.reset(token)
+
+
+def announce(what: str) -> None:
+    """Say what is done next."""
+    hear = _listener.get()
+    if hear is not None:
+        hear(what)
 
 
 @contextmanager

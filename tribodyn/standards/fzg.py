@@ -41,18 +41,21 @@ def micropitting_torque(load_stage: float) -> float:
     return low + (stage - below) * (high - low)
 
 
-def permissible_specific_film(load_stage: float, oil: Oil, material_factor: float = 1.0) -> float:
+def permissible_specific_film(
+    load_stage: float, oil: Oil, material_factor: float = 1.0, oil_temperature: float = _OIL
+) -> float:
     """Permissible λ_GFP of an oil that fails the micropitting test C-GF/8,3/90 at a load stage.
 
-    The minimum specific film of the test gears at that stage, oil sprayed at 90 °C, K factors 1, times 1.4:
-    ISO/TR 15144-1:2014, annex A, which shows the same as curves over viscosity for mineral oils.
+    `oil_temperature` is that of the test, K. The minimum specific film of the test gears at that stage, oil
+    sprayed, K factors 1, times 1.4: ISO/TR 15144-1:2014, annex A, which shows the same as curves over the
+    viscosity of mineral oils.
     """
     path = test_path()
     load = Load(
         micropitting_torque(load_stage),
         _PITCH_SPEED / path.pitch_radius[0],
         _WIDTH,
-        _OIL,
+        oil_temperature,
         lubrication="spray",
     )
     return permissible_film(float(min(method_b(path, _STEEL, load, oil).specific_film)), material_factor)

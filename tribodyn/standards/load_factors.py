@@ -32,3 +32,33 @@ def transverse_load_factor(share: Any, standard_share: Any) -> float:
     if not np.any(both):
         return 1.0
     return max(1.0, float(np.max(np.asarray(share)[both]) / np.max(np.asarray(standard_share)[both])))
+
+
+def transverse_factor_b(
+    contact_ratios: tuple[float, float], mesh_stiffness: float, pitch_deviation: float, line_load: float
+) -> float:
+    """K_Hα by method B: 1 where the deflection exceeds the deviations by far: (73) to (77).
+
+    0.9 + 0.4 c_γα (f_pb − y_α)/(F_tH/b), times ε_γ/2 up to ε_γ = 2, the second term times √(2 (ε_γ − 1)/ε_γ)
+    above; at least 1, at most ε_γ/(ε_α Z_ε²).
+
+    Parameters
+    ----------
+    contact_ratios : (ε_α, ε_β)
+    mesh_stiffness : float
+        c_γα per face width, Pa.
+    pitch_deviation : float
+        f_pb − y_α, m.
+    line_load : float
+        F_tH/b = F_t K_A K_v K_Hβ/b, N/m.
+    """
+    transverse, overlap = contact_ratios
+    total = transverse + overlap
+    excess = 0.4 * mesh_stiffness * pitch_deviation / line_load
+    if total <= 2.0:
+        factor = total / 2.0 * (0.9 + excess)
+    else:
+        factor = 0.9 + excess * float(np.sqrt(2.0 * (total - 1.0) / total))
+    part = min(overlap, 1.0)
+    squared = (4.0 - transverse) / 3.0 * (1.0 - part) + part / transverse
+    return float(min(max(factor, 1.0), max(total / (transverse * squared), 1.0)))

@@ -41,6 +41,9 @@ def report(records: Sequence[Record], figures: bool = True) -> str:
         if study.quantities != studies[0].quantities:
             rule = f"of kind {record.kind}, the first of {records[0].kind}"
             raise InputError("record", str(record.path), rule, "make a page of its own")
+    own = studies[0].own_page()
+    if own and figures and len(records) == 1:
+        return own(records[0])
     told = [
         Told(
             one.lines(),

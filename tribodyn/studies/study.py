@@ -5,31 +5,35 @@ from dataclasses import dataclass
 from importlib import import_module, resources
 from inspect import ismodule
 from pathlib import Path
-from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from tribodyn.numerics.registry import cannot_be_loaded
-from tribodyn.record import trust
 from tribodyn.record.withheld import withheld
 from tribodyn.studies.estimate import (
     WORTH_SAYING,
     Estimate,
     as_data,
     described,
-    not_resumed,
     refuse_large,
     share_of_limits,
 )
+from tribodyn.studies.results import Checked as Checked
+from tribodyn.studies.results import RunResult as RunResult
+from tribodyn.studies.results import TextTable as TextTable
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from tribodyn.errors import InputError
     from tribodyn.numerics.variable import Variable
     from tribodyn.post.figures.drawing import Drawing, SweepDrawing
     from tribodyn.post.page.maps import PageMap
     from tribodyn.post.report import Line, Lines
     from tribodyn.record.reader import Record
+    from tribodyn.record.sweep_reader import SweepRecord
     from tribodyn.scenario.quantity import Table
     from tribodyn.studies.batch import Batch
+    from tribodyn.studies.part import Role
 
 Progress = Callable[[float], None]
 """Called with the share done, 0 … 1."""
@@ -61,41 +65,6 @@ class CaseHead:
     sha256: str
 
 
-class RunResult(NamedTuple):
-    """How a run ended: the record's path, "complete" or "failed", why, and its figures."""
-
-    path: Path
-    status: str
-    message: str
-    summary: dict[str, Any]
-
-    @property
-    def trust(self) -> str:
-        """Whether the result lies within its model: "inside the model", "outside the model", or ""."""
-        return trust.verdict(self.summary)
-
-    @property
-    def reasons(self) -> list[str]:
-        """What lies outside the model, in words; the numbers are in ``summary["trust_reasons"]``."""
-        return trust.reasons(self.summary)
-
-
-class TextTable(NamedTuple):
-    """A table as `check` prints it."""
-
-    title: str
-    columns: tuple[str, ...]
-    rows: Sequence[Sequence[str]]
-
-
-class Checked(NamedTuple):
-    """What `check` says of a sound case: data for programs, tables and remarks for people."""
-
-    data: dict[str, Any]
-    tables: Sequence[TextTable]
-    remarks: Sequence[str] = ()
-
-
 @dataclass(frozen=True)
 class Study:
     """A kind of study: what it is, and where its parts are.
@@ -106,22 +75,22 @@ class Study:
     ============= =================================================================================
     part          what it holds
     ============= =================================================================================
-    scenario      ``Scenario``, the schema of a file; ``table_for(data)``, that of a file with these data
-                  (optional); ``case_of(scenario, toml, sha256)``, its case, a `CaseHead` and more
+    scenario      ``Scenario``, the schema of a file; ``case_of(scenario, toml, sha256)``, its case, a
+                  `CaseHead` and more
     rules         ``broken_rules(scenario)``, errors for the rules that tie keys together (optional)
     check         ``check(case) -> Checked``; raises InputError where the case cannot be run
     run           ``run(case, output, *, force, progress) -> RunResult``, see `run`; and
                   ``figures(case) -> dict``, its figures without a record (optional: to be swept)
     report        ``LINES``, heading -> lines of the summary; ``sentences(record)``, how far it is to be
                   trusted; ``SWEPT``, figures that a sweep keeps, and ``SWEEP_LINES``, those that it
-                  prints (both optional); ``SHORT``, short names of figures (optional); ``PANELS``,
-                  datasets that a page shows at first (optional); ``TOP``, figures at the top of what is
-                  printed as JSON (optional);
+                  prints (both optional); ``PANELS``, datasets that a page shows at first (optional);
                   ``maps(record)``, its maps over the face (optional)
     figures       ``DRAWINGS``, its pictures by name; the one called overview is drawn after a run
     sweep_figures ``SWEEP_DRAWINGS``, pictures of its sweeps (optional: the response of its figures)
     batch         ``BATCH``, how many cases are evaluated together (optional), see `studies.batch.Batch`
     estimate      ``estimate(case) -> Estimate``, what a run takes (optional)
+    assess        ``ROLE``, the part that it plays in an assessment of a drive (optional), see `studies.part`
+    page          ``page(record) -> str``, the HTML of a page of its own for a record (optional)
     template      ``template.toml``, a commented scenario in which TITLE stands for its title, see
                   `studies.template.filled`; of a study in a single module its attribute ``TEMPLATE``
     ============= =================================================================================
@@ -139,8 +108,10 @@ class Study:
         together.
     compared : tuple of str
         Headings of its summary that a comparison shows; none: its records cannot be compared in a table.
-    has_gears, resumes : bool
-        Whether its cases have a gear pair's `family`, `drive` and `materials`; whether a run can be resumed.
+    has_gears : bool
+        Whether its cases have a gear pair's `family`, `drive` and `materials`.
+    verb : str
+        Verb of the command line that runs its scenarios.
     """
 
     kind: str
@@ -149,12 +120,11 @@ class Study:
     quantities: str
     compared: tuple[str, ...] = ()
     has_gears: bool = False
-    resumes: bool = False
+    verb: str = "run"
 
-    def table(self, data: Mapping[str, Any] = MappingProxyType({})) -> "type[Table]":
-        """The schema of a scenario file, of one with these data where it depends on them."""
-        of_data = self._part("scenario", "table_for", optional=True)
-        return of_data(data) if of_data else self._part("scenario", "Scenario")
+    def table(self) -> "type[Table]":
+        """The schema of a scenario file."""
+        return self._part("scenario", "Scenario")
 
     def broken_rules(self, scenario: Any) -> "Iterable[InputError]":
         """Go through the rules that tie keys of a scenario together and that this one breaks."""
@@ -201,7 +171,6 @@ class Study:
         force: bool = False,
         progress: Progress | None = None,
         allow_large: bool = False,
-        resume: bool = False,
     ) -> RunResult:
         """Run a case and write its record.
 
@@ -216,8 +185,6 @@ class Study:
         progress : callable, optional
         allow_large : bool
             Run what takes more than `estimate.LIMITS`, too.
-        resume : bool
-            Go on from what an unfinished run left, if there is anything.
 
         Returns
         -------
@@ -230,11 +197,8 @@ class Study:
         InputError
             Before anything is written.
         """
-        if resume and not self.resumes:
-            raise not_resumed(self.about)
         refuse_large(self.estimate(case), allow_large)
-        how = {"resume": resume} if self.resumes else {}
-        result = self._part("run", "run")(case, output, force=force, progress=progress, **how)
+        result = self._part("run", "run")(case, output, force=force, progress=progress)
         return result._replace(summary=withheld(result.summary))
 
     def figures(self, case: Any) -> dict[str, Any]:
@@ -265,10 +229,6 @@ class Study:
         """Figures that a sweep keeps of every case, by name; none: such a study cannot be swept."""
         return self._part("report", "SWEPT", optional=True) or {}
 
-    def short_names(self) -> "Mapping[str, str]":
-        """Short names of figures to their full ones."""
-        return self._part("report", "SHORT", optional=True) or {}
-
     def sweep_lines(self) -> "Sequence[Line]":
         """Figures that a sweep prints: the study's own choice, or the summary's lines of those it keeps.
 
@@ -284,17 +244,21 @@ class Study:
 
     def sweep_drawings(self) -> "Mapping[str, SweepDrawing]":
         """Pictures of its sweeps by name; the first is drawn where none is named."""
-        from tribodyn.post.figures.sweep.response import response_drawings
-
         own = self._part("sweep_figures", "SWEEP_DRAWINGS", optional=True)
-        return own or response_drawings(self.sweep_lines())
+        if own:
+            return own
+        from tribodyn.post.figures.drawing import SweepDrawing
+        from tribodyn.post.figures.sweep.response import panels_of, response_figure
 
-    def top(self) -> tuple[str, ...]:
-        """Figures of its summary that stand at the top of what `run --json` prints, too."""
-        return self._part("report", "TOP", optional=True) or ()
+        about = "figures of the cases over the first varied key"
+
+        def draw(records: "Sequence[SweepRecord]", _: "Mapping[str, float | str]") -> "Figure":
+            return response_figure(records, panels_of(records, self.sweep_lines()))
+
+        return {"response": SweepDrawing(about, draw)}
 
     def panels(self) -> tuple[str, ...]:
-        """Datasets that a page shows at first; none: the first ones."""
+        """Datasets that a page of its records shows at first; none: the first ones."""
         return self._part("report", "PANELS", optional=True) or ()
 
     def maps(self, record: "Record") -> "Sequence[PageMap]":
@@ -305,6 +269,14 @@ class Study:
     def batch(self) -> "Batch | None":
         """How many cases are evaluated together; None: one after the other, by `figures`."""
         return self._part("batch", "BATCH", optional=True)
+
+    def role(self) -> "Role | None":
+        """The part that it plays in an assessment of a drive; None: it plays none."""
+        return self._part("assess", "ROLE", optional=True)
+
+    def own_page(self) -> "Callable[[Record], str] | None":
+        """What writes a page of its own for a record; None: it has the page that all studies share."""
+        return self._part("page", "page", optional=True)
 
     def _part(self, part: str, name: str, optional: bool = False) -> Any:
         """What a part of the study holds; None where it is optional and not there.

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tribodyn.standards.load_factors import face_load_factor, transverse_load_factor
+from tribodyn.standards.load_factors import face_load_factor, transverse_factor_b, transverse_load_factor
 
 
 def test_even_loads_have_factors_of_one():
@@ -22,3 +22,13 @@ def test_the_excess_counts_where_pairs_share():
     accurate, real = np.array([0.5, 0.5, 1.0]), np.array([0.6, 0.4, 1.0])
     assert transverse_load_factor(real, accurate) == pytest.approx(1.2)
     assert transverse_load_factor(np.ones(3), np.ones(3)) == 1.0
+
+
+def test_method_b_of_example_1_of_iso_tr_6336_30_and_its_ends():
+    # printed: K_Hα 1.0
+    deviation = 0.925 * 8.5e-6
+    assert transverse_factor_b((1.55, 1.083), 17.465e9, deviation, 1273.5e3 * 1.003 * 1.16) == 1.0
+    # one pair carries all at no load: ε_γ/(ε_α Z_ε²), Z_ε² = (4 − ε_α)/3
+    assert transverse_factor_b((1.5, 0.0), 20e9, 20e-6, 1.0) == pytest.approx(1.0 / (2.5 / 3.0))
+    light, heavy = (transverse_factor_b((1.6, 0.0), 20e9, 10e-6, load) for load in (150e3, 160e3))
+    assert light > heavy > 1.0

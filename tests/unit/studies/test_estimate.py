@@ -126,6 +126,7 @@ LARGE = {
     "load-contact": [("output.positions_per_cycle", 10**9), ("output.cycles", 10**9)],
     "irefc": [("output.samples_per_cycle", 10**9)],
     "backlash-oscillator": [("frequency.from", 1e-29)],
+    "assessment": [("assessment.speeds", 10**9)],
 }
 
 

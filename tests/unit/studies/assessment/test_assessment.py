@@ -1,0 +1,191 @@
+"""An assessment: its figures beside formulas written out, its folder, its limits, what is refused."""
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from tests.support.short_studies import SHORT, short_case, written_template
+from tribodyn.cli.app import app
+from tribodyn.errors import InputError
+from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.drive import Drive, GearBody
+from tribodyn.geometry.families import involute
+from tribodyn.standards.contact_path import POINTS, ContactPath, point_distances
+from tribodyn.studies.assessment.local import point_angles
+from tribodyn.studies.assessment.standard import path_of
+from tribodyn.studies.gear_pair.assess import maxima
+from tribodyn.studies.load import load_scenario
+
+KIND = "assessment"
+ISO = {"theta_M", "mu_m", "h_Y", "lambda_GF", "c_prime", "c_gamma_alpha", "K_v", "H_v", "loss"}
+
+
+def invoked(*words: object, status: int = 0) -> str:
+    ended = CliRunner().invoke(app, [str(word) for word in words])
+    assert ended.exit_code == status, f"{ended.output}\n{ended.exception}"
+    return ended.stderr if status else ended.stdout
+
+
+def settings() -> list[str]:
+    """Options that make the template short."""
+    written = {
+        key: json.dumps(value) if isinstance(value, list) else value for key, value in SHORT[KIND].items()
+    }
+    return [word for key, value in written.items() for word in ("--set", f"{key}={value}")]
+
+
+def assess(folder: Path, *more: str) -> dict:
+    scenario = written_template(KIND, folder)
+    return json.loads(invoked("assess", scenario, *settings(), *more, "-o", folder / "out", "--json"))
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("assessed")
+
+
+@pytest.fixture(scope="module")
+def assessed(folder: Path) -> dict:
+    return assess(folder)
+
+
+def test_iso_part_is_the_standards_formulas_written_out(assessed: dict):
+    # 18/36, m 3 mm, α 20°, b 26.7 mm, a 81 mm; 20 kW at 1800 rpm; Ra 0.8 µm; VG 220 at 80 °C, dip
+    iso, factors = assessed["iso"], assessed["load_factors"]
+    assert set(iso) == ISO
+    assert all(set(iso[name]) == {"worst", *POINTS} for name in ("theta_M", "mu_m", "h_Y", "lambda_GF"))
+    angle, base = (
+        math.radians(20.0),
+        (27.0 * math.cos(math.radians(20.0)), 54.0 * math.cos(math.radians(20.0))),
+    )
+    tips = [math.sqrt(tip**2 - r**2) for tip, r in zip((30.0, 57.0), base, strict=True)]
+    pitch = 2.0 * math.pi * base[0] / 18.0
+    first, second = ((tip - r * math.tan(angle)) / pitch for tip, r in zip(tips, base, strict=True))
+    losses = (first**2 + second**2 + 1.0 - first - second) * (1 / 18 + 1 / 36) * math.pi
+    assert iso["H_v"] == pytest.approx(losses, rel=1e-9)
+
+    def viscosity(celsius: float) -> float:
+        def double(value: float) -> float:
+            return math.log10(math.log10(value + 0.7))
+
+        slope = (double(220.0) - double(19.0)) / math.log10(373.15 / 313.15)
+        at = double(220.0) - slope * math.log10((celsius + 273.15) / 313.15)
+        return (10.0 ** (10.0**at) - 0.7) * 1e-6 * (890.0 - 0.7 * (celsius + 273.15 - 289.0))
+
+    speed = 1800.0 * math.pi / 30.0
+    load = 20e3 / speed / (base[0] * 1e-3) / 26.7  # F_bt/b, N/mm
+    load *= factors["K_A"] * factors["K_v"] * factors["K_Halpha"] * factors["K_Hbeta"]
+    radius = 18.0 * math.sin(angle)  # of 27 and 54 mm
+    speeds = 2.0 * speed * 27e-3 * math.sin(angle)
+    roughness = 2.2 * (0.8 / radius) ** 0.25
+    friction = 0.045 * (load / (speeds * radius)) ** 0.2 * (1e3 * viscosity(80.0)) ** -0.05 * roughness
+    assert iso["mu_m"]["C"] == pytest.approx(friction, rel=1e-6)
+    bulk = 80.0 + 7400.0 * (20.0 * friction * losses / (81.0 * 26.7)) ** 0.72 / 1.2
+    assert iso["theta_M"]["worst"] == pytest.approx(bulk, abs=1e-6)
+    assert iso["loss"] == pytest.approx(20e3 * friction * losses, rel=1e-6)
+    assert iso["h_Y"]["worst"] == min(iso["h_Y"][name] for name in POINTS)
+    assert iso["lambda_GF"]["A"] == pytest.approx(iso["h_Y"]["A"] / 0.8e-6)
+
+
+def test_the_simulation_stands_beside_it(assessed: dict):
+    own, iso = assessed["simulated"], assessed["iso"]
+    assert set(own) >= ISO
+    # one model against another: the same order, not the same number
+    for name in ("c_prime", "c_gamma_alpha", "K_v", "H_v", "loss"):
+        assert 0.5 < own[name] / iso[name] < 2.0, name
+    for name in ("h_Y", "lambda_GF", "mu_m", "theta_M"):
+        assert 0.5 < own[name]["C"] / iso[name]["C"] < 2.0, name
+    assert own["loss"] == pytest.approx(
+        (1.0 - assessed["efficiency"]) / assessed["efficiency"] * 20e3, rel=1e-6
+    )
+    assert set(assessed["loss_by_law"]) == {"masjedi-khonsari", "niemann"}
+    assert assessed["margins"]["iso"]["S_lambda"] == pytest.approx(
+        iso["lambda_GF"]["worst"] / assessed["margins"]["iso"]["lambda_GFP"]
+    )
+
+
+def test_points_of_the_path_are_those_of_the_standard():
+    bodies = [GearBody(z, 0.2, 1.0, 1.25, 0.25, 0.03, 0.01) for z in (25.0, 60.0)]
+    assembly = assemble(involute.FAMILY, Drive(3e-3, math.radians(20.0), *bodies))
+    path = path_of(assembly)
+    assert isinstance(path, ContactPath)
+    assert path.contact_ratio == pytest.approx(float(assembly.contact_ratio))
+    distance = point_distances(path)
+    np.testing.assert_allclose(
+        point_angles(assembly), (distance - distance[POINTS.index("C")]) / path.base_radius[0], atol=1e-12
+    )
+
+
+def test_a_stopped_call_goes_on_and_limits_are_judged(assessed: dict, folder: Path):
+    parts = folder / "out" / "assessment-parts"
+    before = {one.name: one.stat().st_mtime_ns for one in parts.iterdir()}
+    (parts / "efficiency-niemann.h5").unlink()  # as if the call had been stopped before it
+    (folder / "out" / "assessment.h5").unlink()
+    limits = {"dynamic_factor": 1.001, "hertz_pressure": "9 GPa", "micropitting": 1e-6}
+    options = [word for name, value in limits.items() for word in ("--set", f"limits.{name}={value}")]
+    again = assess(folder, *options)
+    after = {one.name: one.stat().st_mtime_ns for one in parts.iterdir()}
+    assert {name for name in after if after[name] != before[name]} == {"efficiency-niemann.h5"}
+    assert again["iso"] == assessed["iso"]
+    assert again["simulated"] == assessed["simulated"]
+    kept = {name: one["kept"] for name, one in again["limits"].items()}
+    assert (kept["dynamic_factor"], kept["hertz_pressure"], kept["micropitting"]) == (False, True, True)
+    page = (folder / "out" / "report.html").read_text(encoding="utf-8")
+    assert "Limits exceeded: " in page
+    assert '<tr class="bad"><td>Dynamic factor' in page
+    assert "<tr><td>Hertz pressure" in page
+
+
+def test_a_change_runs_only_what_it_concerns(assessed: dict, folder: Path):
+    loaded = folder / "out" / "assessment-parts" / "loaded-contact.h5"
+    before = loaded.stat().st_mtime_ns
+    warm = assess(folder, "--force", "--set", "operating.oil_temperature=90 degC")
+    assert loaded.stat().st_mtime_ns == before
+    assert warm["simulated"]["h_Y"]["C"] < assessed["simulated"]["h_Y"]["C"]
+
+
+def test_a_complete_record_is_not_replaced_unasked(assessed: dict, folder: Path):
+    scenario = written_template(KIND, folder)
+    said = invoked("assess", scenario, *settings(), "-o", folder / "out", status=2)
+    assert "--force" in said
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "named"),
+    [
+        ("assessment.friction_laws", ["masjedi-khonsary"], 'did you mean "masjedi-khonsari"'),
+        ("assessment.friction_laws", ["coulomb"], "leave it out"),
+        ("assessment.torque_shares", [1.0, 0.5], "increasing"),
+        ("assessment.speed_range", [2.0, 1.0], "above the first"),
+        ("operating.power", "-20 kW", "driving pinion"),
+        ("lubricant.viscosity_40", "15 mm**2/s", "viscosity_40"),
+        ("quality", 0, "quality"),
+    ],
+)
+def test_what_contradicts_is_refused_with_the_remedy(key: str, value: object, named: str, tmp_path: Path):
+    with pytest.raises(InputError, match=named):
+        short_case(KIND, tmp_path, **{key.replace(".", "__"): value})
+
+
+def test_an_oil_without_its_data_sheet_is_refused(tmp_path: Path):
+    text = written_template(KIND, tmp_path).read_text(encoding="utf-8")
+    begin, end = text.index("[lubricant]"), text.index("[operating]")
+    bare = tmp_path / "bare.toml"
+    bare.write_text(text[:begin] + text[end:].replace("[operating]", "[operating]", 1), encoding="utf-8")
+    with pytest.raises(InputError, match="data sheet"):
+        load_scenario(bare, {"lubricant": "liu-ni-2022"})
+
+
+def test_another_kind_is_run_and_not_assessed():
+    said = invoked("assess", "crc-23-47", status=2)
+    assert "--kind assessment" in said
+
+
+def test_maxima_stand_out_on_both_sides():
+    values = np.array([1.0, 1.1, 1.0, 1.005, 1.0, 2.0, 1.0, np.nan, 1.0])
+    assert maxima(values) == [5, 1]
+    assert maxima(np.array([1.0, 2.0, 3.0])) == []

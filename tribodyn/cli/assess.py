@@ -1,0 +1,102 @@
+"""`tribodyn assess`: a drive from a data sheet to one page, into a folder."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from tribodyn.cli import completion
+from tribodyn.cli.overrides import LargeOption, SetOption, overrides
+
+if TYPE_CHECKING:
+    from tribodyn.studies.study import Study
+
+EXAMPLES = (
+    "\b\nExamples:\n"
+    "  tribodyn init my-drive --kind assessment\n"
+    "  tribodyn assess my-drive.toml -o my-drive/\n"
+    '  tribodyn assess my-drive.toml -o warm/ --set operating.oil_temperature="95 degC" --json\n'
+    "\b\nThe folder has the record, the report to be opened in a browser, and the parts. A call that was\n"
+    "stopped goes on where it was."
+)
+RECORD, PAGE, DATA = "assessment.h5", "report.html", "assessment.json"
+
+
+def assess(
+    scenario: Annotated[
+        str,
+        typer.Argument(
+            help="A scenario file, or the name of a shipped scenario.", autocompletion=completion.scenarios
+        ),
+    ],
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", help="The folder; default: the scenario's name, in this folder."),
+    ] = None,
+    settings: SetOption = None,
+    force: Annotated[
+        bool, typer.Option("--force", help="Replace the record of that folder; parts that fit are kept.")
+    ] = False,
+    allow_large: LargeOption = False,
+    json: Annotated[bool, typer.Option("--json", help="Print everything as JSON.")] = False,
+) -> None:
+    """Assess a drive: loads, vibration, film, temperatures, losses, margins; one folder, one report."""
+    from tribodyn.cli.outcome import SIMULATION_FAILED, complain
+    from tribodyn.cli.output import make_folder
+    from tribodyn.cli.printing import print_json, quoted_path
+    from tribodyn.cli.progress import progress_bar
+    from tribodyn.cli.show import print_summary
+    from tribodyn.post.report import as_json
+    from tribodyn.record.reader import open_record
+    from tribodyn.studies.load import load
+    from tribodyn.studies.pages import write_report
+
+    loaded = load(scenario, overrides(settings))
+    _require(loaded.study)
+    folder = output or Path(loaded.case.name)
+    make_folder(folder)
+    with loaded.naming(), progress_bar(loaded.case.name) as progress:
+        result = loaded.study.run(
+            loaded.case, folder / RECORD, force=force, progress=progress, allow_large=allow_large
+        )
+    if result.status != "complete":
+        complain(f"{loaded.path}: the simulation failed: {result.message}; partial record: {result.path}")
+        raise typer.Exit(SIMULATION_FAILED)
+    with open_record(result.path) as record:
+        page = write_report([record], folder / PAGE)
+        head = as_json(record)
+        data: dict[str, Any] = {**head.pop("summary"), **head, "report": str(page)}
+        _write(folder / DATA, data)
+        if json:
+            print_json(data)
+            return
+        print_summary(record)
+    typer.echo(f"record   {quoted_path(result.path)}")
+    typer.echo(f"data     {quoted_path(folder / DATA)}")
+    typer.echo(f"report   {quoted_path(page)}")
+    missed = [name for name, one in data.get("limits", {}).items() if not one["kept"]]
+    if missed:
+        typer.echo(f"limits exceeded: {', '.join(missed)}")
+
+
+def _require(study: "Study") -> None:
+    """Refuse a scenario that is not to be assessed."""
+    from tribodyn.errors import InputError
+    from tribodyn.studies import STUDIES
+
+    if study.verb == "assess":
+        return
+    kinds = [name for name, one in STUDIES.items() if one.verb == "assess"]
+    rule = "is run, not assessed"
+    remedy = f"tribodyn {study.verb} it, or begin with: tribodyn init NAME --kind {kinds[0]}"
+    raise InputError("kind", f'"{study.kind}"', rule, remedy)
+
+
+def _write(path: Path, data: dict[str, Any]) -> None:
+    import json
+
+    from tribodyn.cli.printing import plain
+    from tribodyn.numerics.cache import replacing
+
+    with replacing(path) as scratch:
+        scratch.write_text(json.dumps(plain(data), indent=2, ensure_ascii=False) + "\n", encoding="utf-8")

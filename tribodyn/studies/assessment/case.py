@@ -1,0 +1,79 @@
+"""A case of an assessment: everything that it needs to know, in SI units."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from tribodyn.geometry.drive import Drive
+from tribodyn.geometry.material import BodyMass, MaterialData
+from tribodyn.studies.study import CaseHead
+from tribodyn.tribology.lubricant import LubricantData
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What is asked beyond the drive and its duty, and what the standards need to know.
+
+    Parameters
+    ----------
+    application_factor : float
+        K_A.
+    lubrication : {"dip", "spray", "submerged"}
+    structure_factor : float
+        X_W of ISO/TS 6336-20.
+    adequate_tip_relief : bool
+        Whether the standards may count on the tip relief that the flanks have.
+    torque_shares : tuple of float
+        Torques of the loaded error, over the duty's.
+    speed_range : (float, float)
+        First and last speed of the steady states, over the duty's.
+    speeds : int
+        How many, besides the duty's.
+    friction_laws : tuple of str
+        The first is that of everything but the spread of the losses.
+    damping_ratio : float
+        ζ of the mesh.
+    """
+
+    application_factor: float
+    lubrication: str
+    structure_factor: float
+    adequate_tip_relief: bool
+    torque_shares: tuple[float, ...]
+    speed_range: tuple[float, float]
+    speeds: int
+    friction_laws: tuple[str, ...]
+    damping_ratio: float
+
+
+@dataclass(frozen=True)
+class AssessmentCase(CaseHead):
+    """One assessment, complete.
+
+    Parameters
+    ----------
+    title, name, kind, toml, sha256, family, drive, materials, masses, mean_roughness
+        As in `tribodyn.studies.gear_pair.case.Case`.
+    lubricant : LubricantData
+        With its data sheet.
+    pinion_speed, gear_torque, oil_temperature : float
+        The duty: rad/s, N m, K.
+    quality : float
+        Grade by ISO 1328-1 of both gears.
+    settings : Settings
+    limits : mapping
+        Name of a limit -> its value, SI units.
+    """
+
+    family: str
+    drive: Drive
+    materials: tuple[MaterialData, MaterialData]
+    masses: tuple[BodyMass, BodyMass]
+    mean_roughness: float
+    lubricant: LubricantData
+    pinion_speed: float
+    gear_torque: float
+    oil_temperature: float
+    quality: float
+    settings: Settings
+    limits: Mapping[str, Any]

@@ -1,0 +1,111 @@
+"""Margins by the standards and by the simulation, and which limits of the scenario hold."""
+
+import math
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.standards import flash_temperature, integral_temperature
+from tribodyn.studies.assessment.case import AssessmentCase
+from tribodyn.studies.assessment.local import Local
+from tribodyn.studies.assessment.standard import ZERO_CELSIUS, Standard, Strength
+
+
+class Limit(NamedTuple):
+    """A limit of the scenario: what is compared with it, and in which unit that is shown."""
+
+    label: str
+    least: bool
+    factor: float = 1.0
+    unit: str = ""
+
+
+#: Name of a limit -> what it is; `least`: the value must be at least the limit.
+LIMITS: dict[str, Limit] = {
+    "scuffing_flash": Limit("Scuffing S_B, flash temperature", True),
+    "scuffing_integral": Limit("Scuffing S_intS, integral temp.", True),
+    "micropitting": Limit("Micropitting S_λ", True),
+    "dynamic_factor": Limit("Dynamic factor K_v", False),
+    "hertz_pressure": Limit("Hertz pressure with K_v", False, 1e-9, "GPa"),
+    "root_tension": Limit("Root tension", False, 1e-6, "MPa"),
+    "loaded_error": Limit("Loaded error, peak to peak", False, 1e6, "µm"),
+}
+
+
+def judged(
+    case: AssessmentCase,
+    found: Standard | None,
+    strength: Strength,
+    local: Local,
+    figures: Mapping[str, Any],
+) -> dict[str, Any]:
+    """Return ``margins`` by ``iso`` and ``simulated``, ``load_factors`` and ``limits``; temperatures in °C.
+
+    The worse of both safeties is compared with a limit. NaN: not known, because the oil's data sheet gives no
+    load stage.
+    """
+    by_standard = _by_standard(case, found, strength) if found else {}
+    own = _by_simulation(case, strength, local)
+    values = {
+        "scuffing_flash": _worse(by_standard.get("S_B"), own["S_B"]),
+        "scuffing_integral": by_standard.get("S_intS", math.nan),
+        "micropitting": _worse(by_standard.get("S_lambda"), own["S_lambda"]),
+        "dynamic_factor": figures["dynamic_factor"],
+        "hertz_pressure": float(np.max(local.films.pressure)),
+        "root_tension": max(figures["pinion_root_tension_max"], figures["gear_root_tension_max"]),
+        "loaded_error": figures["loaded_transmission_error_peak_to_peak"],
+    }
+    limits = {}
+    for name, limit in case.limits.items():
+        if limit is None or not math.isfinite(values[name]):
+            continue
+        kept = values[name] >= limit if LIMITS[name].least else values[name] <= limit
+        limits[name] = {"value": float(values[name]), "limit": float(limit), "kept": bool(kept)}
+    factors = {"K_A": case.settings.application_factor, "K_Hbeta": figures["face_load_factor"]}
+    if found:
+        factors |= {
+            "K_v": found.dynamic.factor,
+            "K_Halpha": found.transverse,
+            "N": found.dynamic.resonance_ratio,
+            "resonance_speed": found.dynamic.resonance_speed,
+            "range": found.dynamic.range,
+            "c_gamma_beta": found.mesh_stiffness_face,
+        }
+    margins = {"simulated": own} | ({"iso": by_standard} if by_standard else {})
+    return {"margins": margins, "load_factors": factors, "limits": limits}
+
+
+def _by_standard(case: AssessmentCase, found: Standard, strength: Strength) -> dict[str, float]:
+    margins = {
+        "theta_M_flash": found.flash_bulk - ZERO_CELSIUS,
+        "theta_B": found.flash_contact - ZERO_CELSIUS,
+        "theta_int": found.integral - ZERO_CELSIUS,
+    }
+    if strength.scuffing is not None and strength.scuffing_integral is not None:
+        margins |= {
+            "theta_S": strength.scuffing - ZERO_CELSIUS,
+            "theta_intS": strength.scuffing_integral - ZERO_CELSIUS,
+            "S_B": flash_temperature.safety(strength.scuffing, found.flash_contact, case.oil_temperature),
+            "S_intS": integral_temperature.safety(strength.scuffing_integral, found.integral),
+        }
+    if strength.specific_film is not None:
+        worst = float(np.min(found.films.specific_film))
+        margins |= {"lambda_GFP": strength.specific_film, "S_lambda": worst / strength.specific_film}
+    return margins
+
+
+def _by_simulation(case: AssessmentCase, strength: Strength, local: Local) -> dict[str, float]:
+    films = local.films
+    contact = films.bulk_temperature + float(np.max(films.flash_rise))
+    margins = {"theta_B": contact - ZERO_CELSIUS, "S_B": math.nan, "S_lambda": math.nan}
+    if strength.scuffing is not None:
+        margins["S_B"] = flash_temperature.safety(strength.scuffing, contact, case.oil_temperature)
+    if strength.specific_film is not None:
+        margins["S_lambda"] = float(np.min(films.specific_film)) / strength.specific_film
+    return margins
+
+
+def _worse(one: float | None, other: float) -> float:
+    known = [value for value in (one, other) if value is not None and math.isfinite(value)]
+    return min(known, default=math.nan)

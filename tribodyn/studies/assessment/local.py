@@ -1,0 +1,98 @@
+"""Film and temperature along the path of contact from the simulation's loads: method A of ISO/TS 6336-22."""
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.path import kinematics
+from tribodyn.numerics.shapes import Array, Float
+from tribodyn.standards import micropitting
+from tribodyn.standards.micropitting import Films
+from tribodyn.studies.assessment.case import AssessmentCase
+from tribodyn.studies.assessment.standard import flanks_of, oil_of
+
+
+class Local(NamedTuple):
+    """Values along the path of contact, and those at the points A to E.
+
+    Attributes
+    ----------
+    roll_angle : (places,)
+        Rotation of the pinion since the pair met at the pitch point, rad, increasing.
+    normal_load : (places,)
+        Of the pair, slow rotation, N.
+    radius, sliding : (places,)
+        Equivalent radius, m, and sliding speed, m/s.
+    films : Films
+        Arrays over the places; the pressure with the dynamic and the application factor.
+    points : (7,)
+        Roll angles of the points, rad.
+    """
+
+    roll_angle: Float[Array, " place"]
+    normal_load: Float[Array, " place"]
+    radius: Float[Array, " place"]
+    sliding: Float[Array, " place"]
+    films: Films
+    points: Float[Array, " point"]
+
+    def at_points(self, values: Any) -> Float[Array, " point"]:
+        """Values (places,) at the points."""
+        return np.interp(self.points, self.roll_angle, values)
+
+
+def point_angles(assembly: Assembly) -> Float[Array, " point"]:
+    """Roll angles of A, AB, B, C, D, DE, E: ends, a pitch from them, between, and the pitch point."""
+    start, end = map(float, assembly.roll_limits)
+    pitch = float(assembly.pitch_angle)
+    first, last = end - pitch, start + pitch
+    return np.array([start, (start + first) / 2.0, first, 0.0, last, (last + end) / 2.0, end])
+
+
+def local_of(
+    case: AssessmentCase, assembly: Assembly, along: Mapping[str, Any], figures: Mapping[str, Any]
+) -> Local:
+    """Evaluate method A.
+
+    Parameters
+    ----------
+    along : mapping
+        ``roll_angle``, ``hertz_pressure`` (maximum over the face) and ``normal_load`` of one pair.
+    figures : mapping
+        ``dynamic_factor``, ``friction_coefficient_mean`` and ``power_friction_mean`` of the simulation.
+    """
+    settings = case.settings
+    start, end = map(float, assembly.roll_limits)
+    inside = (along["roll_angle"] >= start) & (along["roll_angle"] <= end)
+    # the ends themselves, by interpolation between positions inside and beyond
+    roll = np.unique(np.concatenate([[start], along["roll_angle"][inside], [end]]))
+    load, pressure = (
+        np.interp(roll, along["roll_angle"], along[name]) for name in ("normal_load", "hertz_pressure")
+    )
+    motion = kinematics(assembly.path, assembly.path.signed_distance(roll))
+    speeds = motion.pinion_speed * case.pinion_speed, motion.gear_speed * case.pinion_speed
+    raised = pressure * np.sqrt(settings.application_factor * max(figures["dynamic_factor"], 1.0))
+    films = micropitting.at_places(
+        np.maximum(raised, 1.0),  # a place without load has no film to speak of, and no logarithm of zero
+        1.0 / motion.relative_curvature,
+        speeds,
+        figures["friction_coefficient_mean"],
+        bulk_of(case, assembly, figures),
+        flanks_of(case),
+        oil_of(case),
+    )
+    sliding = np.abs(speeds[0] - speeds[1])
+    return Local(roll, load, 1.0 / motion.relative_curvature, sliding, films, point_angles(assembly))
+
+
+def bulk_of(case: AssessmentCase, assembly: Assembly, figures: Mapping[str, Any]) -> float:
+    """Bulk temperature of the simulation, K: its own if it has one, else by its loss as in ISO/TR 15144-1."""
+    if figures.get("bulk_temperature") is not None:
+        return float(figures["bulk_temperature"])
+    path = assembly.path
+    centre = float(path.pinion_pitch_radius + path.gear_pitch_radius)
+    supply = micropitting.LUBRICATION_FACTORS[case.settings.lubrication]
+    loss, width = float(figures["power_friction_mean"]), float(assembly.common_width)
+    return case.oil_temperature + micropitting.bulk_rise(loss, 1.0, 1.0, centre, width, supply)

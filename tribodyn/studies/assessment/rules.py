@@ -1,0 +1,61 @@
+"""Rules that tie keys of an assessment together."""
+
+from collections.abc import Iterator
+from itertools import pairwise
+
+from tribodyn.errors import InputError, unknown_name
+from tribodyn.scenario.drive_rules import broken_drive_rules
+from tribodyn.scenario.duty import broken_duty_rules, duty_of
+from tribodyn.scenario.lubricant_rules import broken_lubricant_rules
+from tribodyn.scenario.modification_rules import Face, broken_slice_rules
+from tribodyn.studies.assessment.scenario import Scenario
+from tribodyn.tribology.friction import FRICTION_LAWS
+
+
+def broken_rules(scenario: Scenario) -> Iterator[InputError]:
+    """Go through the rules that the scenario breaks."""
+    drive, operating, mesh = scenario.drive, scenario.operating, scenario.mesh
+    yield from broken_drive_rules(drive)
+    yield from broken_slice_rules(Face(drive, mesh.misalignment, mesh.slices, True))
+    if scenario.lubricant.viscosity_40 is None:
+        yield InputError(
+            "lubricant.viscosity_40",
+            rule="missing: temperatures and margins need the oil over temperature, by its data sheet",
+            remedy="give type, viscosity_40, viscosity_100 and density_15",
+        )
+    else:
+        yield from broken_lubricant_rules(scenario.lubricant, operating.oil_temperature)
+    broken = broken_duty_rules(operating)
+    yield from broken
+    if not broken:
+        torque = duty_of(operating, drive.pinion.teeth, drive.gear.teeth).gear_torque
+        if not torque > 0.0:
+            yield InputError(
+                "operating.gear_torque",
+                f"{torque:g} N*m",
+                "must be greater than zero: the standards' formulas are those of a driving pinion",
+                'write a torque such as "500 N*m", or call the driving gear the pinion',
+            )
+    yield from _asked(scenario)
+
+
+def _asked(scenario: Scenario) -> Iterator[InputError]:
+    asked = scenario.assessment
+    for lower, higher in pairwise(asked.torque_shares):
+        if not lower < higher:
+            rule = f"must increase: {higher:g} follows {lower:g}"
+            yield InputError(
+                "assessment.torque_shares", f"{higher:g}", rule, "write them in increasing order"
+            )
+    first, last = asked.speed_range
+    if not first < last:
+        rule = "the last speed must be above the first"
+        yield InputError("assessment.speed_range", f"[{first:g}, {last:g}]", rule, "write [0.2, 2.5]")
+    for name in asked.friction_laws:
+        if name not in FRICTION_LAWS:
+            yield unknown_name("assessment.friction_laws", name, FRICTION_LAWS, FRICTION_LAWS.what)
+            continue
+        needed = [key.name for key in FRICTION_LAWS[name].keys if key.default is None]
+        if name == "none" or needed:
+            rule = f"has keys of its own ({', '.join(needed)})" if needed else "has no losses"
+            yield InputError("assessment.friction_laws", f'"{name}"', rule, "leave it out")

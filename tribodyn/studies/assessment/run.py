@@ -1,0 +1,145 @@
+"""From a case of an assessment to its record: the other studies' parts, then the standards beside them."""
+
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from time import perf_counter
+from typing import Any
+
+from tribodyn.errors import SimulationError
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.families import family
+from tribodyn.geometry.outlines import geometry_arrays
+from tribodyn.record.trust import INSIDE, OUTSIDE, REASONS, TRUST
+from tribodyn.standards.contact_path import POINTS
+from tribodyn.studies.assessment import parts
+from tribodyn.studies.assessment.case import AssessmentCase
+from tribodyn.studies.assessment.judged import judged
+from tribodyn.studies.assessment.layout import LAYOUT
+from tribodyn.studies.assessment.local import Local, local_of
+from tribodyn.studies.assessment.said import assumed, extrapolated
+from tribodyn.studies.assessment.simulated import simulated_part
+from tribodyn.studies.assessment.standard import iso_part, standard_of, strength_of
+from tribodyn.studies.recording import target, writer
+from tribodyn.studies.study import Progress, RunResult
+
+
+def prepare(case: AssessmentCase) -> Assembly:
+    """Put the gears together.
+
+    Raises
+    ------
+    InputError
+        Where the teeth cannot be made or cannot run together.
+    """
+    from tribodyn.geometry.checks import check
+
+    return check(family(case.family), case.drive)
+
+
+def run(
+    case: AssessmentCase,
+    output: str | Path | None = None,
+    *,
+    force: bool = False,
+    progress: Progress | None = None,
+) -> RunResult:
+    """Run a case and write its record; see `study.Study.run`.
+
+    The parts lie in a folder beside the record and are not run again where their scenarios are the same.
+    """
+    path = target(case, output, force)
+    try:
+        local, summary = assessed(case, parts.folder_of(path), progress)
+    except SimulationError as error:
+        return _failed(case, path, str(error), force)
+    groups = {"geometry": geometry_arrays(prepare(case))}
+    with writer(case, path, LAYOUT, len(local.roll_angle), groups=groups, force=force) as record:
+        record.write(0, _arrays(local))
+        return RunResult(record.finish(summary), "complete", "", summary)
+
+
+def figures(case: AssessmentCase) -> dict[str, Any]:
+    """Figures of a case without a record; nothing is kept of its parts."""
+    with TemporaryDirectory(prefix="tribodyn-") as folder:
+        _, summary = assessed(case, Path(folder))
+    return summary
+
+
+def assessed(
+    case: AssessmentCase, folder: Path, progress: Progress | None = None
+) -> tuple[Local, dict[str, Any]]:
+    """Run the parts into a folder and put them together: values along the path, and the summary.
+
+    Raises
+    ------
+    InputError, SimulationError
+        If a part that is needed cannot be run.
+    """
+    begun = perf_counter()
+    assembly = prepare(case)
+    asked = parts.asked_of(case)
+    taking_part = parts.parts(asked)
+    done = parts.results(taking_part, folder, progress)
+    found_there: dict[str, Any] = {}
+    along: dict[str, Any] = {}
+    for _, answer in parts.answers(taking_part, asked, done):
+        found_there |= answer.figures
+        along |= answer.along
+    local = local_of(case, assembly, along, found_there)
+    involute = assembly.family.involute
+    found = standard_of(case, assembly, found_there["face_load_factor"]) if involute else None
+    own = simulated_part(case, assembly, local, found_there)
+    iso = iso_part(case, found) if found else {}
+    summary: dict[str, Any] = {
+        "duty": {
+            "pinion_speed": case.pinion_speed,
+            "gear_torque": case.gear_torque,
+            "oil_temperature": case.oil_temperature,
+        },
+        **found_there,
+        "contact_temperature_max": float(local.films.bulk_temperature + max(local.films.flash_rise)),
+        "specific_film_min": own["lambda_GF"]["worst"],
+        "iso": iso,
+        "simulated": own,
+        "point_angles": dict(zip(POINTS, map(float, local.points), strict=True)),
+        **judged(case, found, strength_of(case), local, found_there),
+        "assumed": _numbered(assumed(case, found is not None)),
+        "extrapolated": _numbered(extrapolated(taking_part, done)),
+        **_trust(done),
+        "wall_time": perf_counter() - begun,
+    }
+    return local, {name: value for name, value in summary.items() if value not in ({}, [])}
+
+
+def _failed(case: AssessmentCase, path: Path, message: str, force: bool) -> RunResult:
+    with writer(case, path, LAYOUT, 0, force=force) as record:
+        return RunResult(record.fail(message, {}), "failed", message, {})
+
+
+def _arrays(local: Local) -> dict[str, Any]:
+    films = local.films
+    return {
+        "roll_angle": local.roll_angle,
+        "normal_load": local.normal_load,
+        "hertz_pressure": films.pressure,
+        "equivalent_radius": local.radius,
+        "sliding_speed": local.sliding,
+        "flash_temperature_rise": films.flash_rise,
+        "contact_temperature": films.bulk_temperature + films.flash_rise,
+        "film_thickness": films.film_thickness,
+        "specific_film": films.specific_film,
+    }
+
+
+def _trust(done: dict[str, parts.Done]) -> dict[str, Any]:
+    """Outside the model where any part is."""
+    judged = [one.summary for one in done.values() if TRUST in one.summary]
+    outside = [one for one in judged if one[TRUST] == OUTSIDE]
+    if not outside:
+        return {TRUST: INSIDE} if judged else {}
+    reasons = {name: value for one in outside for name, value in one[REASONS].items()}
+    return {TRUST: OUTSIDE, REASONS: reasons}
+
+
+def _numbered(sentences: list[str]) -> dict[str, str]:
+    return {f"{number:02d}": one for number, one in enumerate(sentences, 1)}

@@ -1,0 +1,255 @@
+"""Load capacity by the standards for a case: method B, with the face load factor of the contact analysis."""
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.compliance.iso6336 import pair_of, reference_stiffness
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.body import body_masses
+from tribodyn.geometry.drive import reference_radius, tip_radius
+from tribodyn.geometry.material import MaterialData
+from tribodyn.standards import accuracy, flash_temperature, fzg, integral_temperature, micropitting
+from tribodyn.standards.contact_path import (
+    POINTS,
+    ContactPath,
+    equivalent_radius,
+    load_share,
+    loss_factor,
+    point_distances,
+    rolling_speeds,
+)
+from tribodyn.standards.dynamic_factor import DynamicFactor, DynamicMesh, dynamic_factor, reduced_mass
+from tribodyn.standards.load_factors import transverse_factor_b
+from tribodyn.standards.micropitting import Films, Flanks, Load, Oil
+from tribodyn.studies.assessment.case import AssessmentCase
+
+#: Places along the path over which the flash temperature is looked at.
+_PLACES = 201
+ZERO_CELSIUS = 273.15
+
+
+class Strength(NamedTuple):
+    """What the oil stands, from its FZG load stages; None where there is none. Temperatures in K."""
+
+    scuffing: float | None
+    scuffing_integral: float | None
+    specific_film: float | None
+
+
+class Standard(NamedTuple):
+    """Results by the standards.
+
+    Attributes
+    ----------
+    path : ContactPath
+    films : Films
+        Of method B at the `POINTS`.
+    dynamic : DynamicFactor
+    single_stiffness, mesh_stiffness, mesh_stiffness_face : float
+        c', c_γα, c_γβ, Pa.
+    transverse, face : float
+        K_Hα by method B, K_Hβ of the contact analysis.
+    losses : float
+        H_v.
+    flash_bulk, flash_contact : float
+        θ_M and θ_Bmax of ISO/TS 6336-20, K.
+    integral : float
+        θ_int of ISO/TS 6336-21, K.
+    """
+
+    path: ContactPath
+    films: Films
+    dynamic: DynamicFactor
+    single_stiffness: float
+    mesh_stiffness: float
+    mesh_stiffness_face: float
+    transverse: float
+    face: float
+    losses: float
+    flash_bulk: float
+    flash_contact: float
+    integral: float
+
+
+def oil_of(case: AssessmentCase) -> Oil:
+    """The oil over temperature."""
+    sheet = case.lubricant.sheet
+    assert sheet is not None  # a rule of the scenario
+    return Oil(sheet.viscosity, sheet.pressure_viscosity, case.lubricant.lubricant_factor)
+
+
+def flanks_of(case: AssessmentCase) -> Flanks:
+    """What the flanks are of."""
+    pinion, gear = case.materials
+    reduced = 2.0 / sum((1.0 - one.poisson_ratio**2) / one.youngs_modulus for one in (pinion, gear))
+    return Flanks(case.mean_roughness, reduced, (_contact(pinion), _contact(gear)), case.quality)
+
+
+def _contact(material: MaterialData) -> float:
+    return math.sqrt(material.thermal_conductivity * material.density * material.specific_heat)
+
+
+def strength_of(case: AssessmentCase) -> Strength:
+    """Scuffing temperatures and permissible film of the oil."""
+    stages, sheet = case.lubricant.fzg, case.lubricant.sheet
+    assert sheet is not None
+    settings, factor = case.settings, case.lubricant.lubricant_factor
+    scuffing = integral = film = None
+    if stages.scuffing is not None:
+        of_flash = flash_temperature.lubricant_factor(factor, float(sheet.viscosity(case.oil_temperature)))
+        scuffing = fzg.scuffing_temperature(stages.scuffing, of_flash, settings.structure_factor)
+        integral = fzg.scuffing_integral_temperature(
+            stages.scuffing, factor, float(sheet.viscosity_40), settings.structure_factor
+        )
+    if stages.micropitting is not None:
+        film = fzg.permissible_specific_film(
+            stages.micropitting, oil_of(case), oil_temperature=stages.micropitting_temperature
+        )
+    return Strength(scuffing, integral, film)
+
+
+def standard_of(case: AssessmentCase, assembly: Assembly, face: float) -> Standard:
+    """Evaluate the standards for an involute drive; `face` is K_Hβ."""
+    drive, settings = case.drive, case.settings
+    path = path_of(assembly)
+    ratio, width = path.ratio, float(assembly.common_width)
+    torque = case.gear_torque / ratio
+    normal_load = torque / path.base_radius[0]
+    pair = pair_of(assembly, case.materials, normal_load)
+    pair = pair._replace(line_load=pair.line_load * settings.application_factor)
+    stiffness = reference_stiffness(pair)
+    bodies = body_masses(
+        assembly, [(one.mass, one.inertia) for one in case.masses], [one.density for one in case.materials]
+    )
+    mass = reduced_mass((float(bodies[0][1]), float(bodies[1][1])), path.base_radius, width)
+    module = float(drive.module)
+    transverse_angle = math.acos(path.base_radius[0] / float(reference_radius(drive, "pinion")))
+    pitch = max(
+        accuracy.single_pitch(2.0 * float(reference_radius(drive, side)), module, case.quality)
+        for side in ("pinion", "gear")
+    ) * math.cos(transverse_angle)
+    dynamic = dynamic_factor(
+        DynamicMesh(
+            path.teeth[0],
+            case.pinion_speed,
+            mass,
+            stiffness.single_pair,
+            stiffness.mesh,
+            pair.line_load,
+            pitch,
+            accuracy.profile_form(module, case.quality),
+            path.contact_ratio,
+            0.0,
+            max(case.quality, 6.0),  # no tip relief is credited
+        )
+    )
+    load = pair.line_load * dynamic.factor * face
+    transverse = transverse_factor_b(
+        (path.contact_ratio, 0.0), stiffness.mesh, pitch - min(0.075 * pitch, 3e-6), load
+    )
+    duty = Load(
+        torque,
+        case.pinion_speed,
+        width,
+        case.oil_temperature,
+        settings.application_factor,
+        dynamic.factor,
+        transverse,
+        face,
+        settings.lubrication,
+        micropitting.tip_relief_factor(path.tip_contact_ratios, settings.adequate_tip_relief),
+    )
+    flanks, oil = flanks_of(case), oil_of(case)
+    films = micropitting.method_b(path, flanks, duty, oil)
+    bulk, contact = _flash(case, path, duty, flanks, oil)
+    integral = integral_temperature.integral_temperature(
+        path,
+        integral_temperature.Mesh(
+            load * transverse,
+            case.pinion_speed * float(reference_radius(drive, "pinion")),
+            float(oil.viscosity(case.oil_temperature)),
+            case.oil_temperature,
+            case.mean_roughness,
+            flanks.reduced_modulus,
+            sum(flanks.thermal_contact) / 2.0,
+            float(drive.pressure_angle),
+            lubricant=oil.lubricant_factor,
+            lubrication=micropitting.LUBRICATION_FACTORS[settings.lubrication],
+            tip_relief=duty.tip_relief,
+        ),
+    )
+    return Standard(
+        path,
+        films,
+        dynamic,
+        stiffness.single_pair,
+        stiffness.mesh,
+        stiffness.mesh_face,
+        transverse,
+        face,
+        loss_factor(path),
+        bulk,
+        contact,
+        integral.integral,
+    )
+
+
+def _flash(
+    case: AssessmentCase, path: ContactPath, load: Load, flanks: Flanks, oil: Oil
+) -> tuple[float, float]:
+    """Bulk and maximum contact temperature of ISO/TS 6336-20, K."""
+    distance = np.linspace(0.0, path.length, _PLACES)
+    radius, speeds = equivalent_radius(path, distance), rolling_speeds(path, distance, load.pinion_speed)
+    line_load = load.factor * load.pinion_torque / path.base_radius[0] / load.face_width
+    at_pitch = path.base_radius[0] * math.tan(path.pressure_angle)
+    friction = flash_temperature.mean_friction(
+        load.factor * load.pinion_torque / float(reference_radius(case.drive, "pinion")) / load.face_width,
+        2.0 * load.pinion_speed * at_pitch,
+        float(equivalent_radius(path, point_distances(path)[POINTS.index("C")])),
+        flash_temperature.lubricant_factor(oil.lubricant_factor, float(oil.viscosity(load.oil_temperature))),
+        flanks.mean_roughness,
+    )
+    normal = line_load * load_share(path, distance, flanks.quality)
+    width = np.sqrt(8.0 * normal * radius / (np.pi * flanks.reduced_modulus))
+    rise = flash_temperature.flash_rise(friction, normal, width, speeds, flanks.thermal_contact)
+    supply = micropitting.LUBRICATION_FACTORS[load.lubrication]
+    bulk = flash_temperature.bulk_temperature(load.oil_temperature, float(np.mean(rise)), supply)
+    return bulk, bulk + float(np.max(rise))
+
+
+def path_of(assembly: Assembly) -> ContactPath:
+    """The path of contact of an involute drive as the standards have it."""
+    drive, path = assembly.drive, assembly.path
+    angle = float(path.pressure_angle(0.0))
+    cosine = math.cos(angle)
+    return ContactPath(
+        (float(drive.pinion.teeth), float(drive.gear.teeth)),
+        (float(path.pinion_pitch_radius) * cosine, float(path.gear_pitch_radius) * cosine),
+        (float(tip_radius(drive, "pinion")), float(tip_radius(drive, "gear"))),
+        angle,
+    )
+
+
+def iso_part(case: AssessmentCase, found: Standard) -> dict[str, Any]:
+    """What a program reads of it; temperatures in °C, everything else in SI units."""
+    films, count = found.films, len(POINTS)
+    power = case.gear_torque / found.path.ratio * case.pinion_speed
+    return {
+        "theta_M": by_point(np.full(count, films.bulk_temperature - ZERO_CELSIUS), max),
+        "mu_m": by_point(np.full(count, films.friction_coefficient), max),
+        "h_Y": by_point(films.film_thickness, min),
+        "lambda_GF": by_point(films.specific_film, min),
+        "c_prime": found.single_stiffness,
+        "c_gamma_alpha": found.mesh_stiffness,
+        "K_v": found.dynamic.factor,
+        "H_v": found.losses,
+        "loss": power * films.friction_coefficient * found.losses,
+    }
+
+
+def by_point(values: Any, worst: Any) -> dict[str, float]:
+    """Values at the `POINTS` by name, and the worst of them."""
+    named = {name: float(value) for name, value in zip(POINTS, values, strict=True)}
+    return {"worst": float(worst(named.values())), **named}

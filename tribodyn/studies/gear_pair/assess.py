@@ -1,0 +1,88 @@
+"""The part in an assessment: steady states over the speed."""
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from tribodyn.studies.gear_pair import STUDY
+from tribodyn.studies.part import Answer, Asked, Curve, Done, Role, Task
+
+_TASK = "steady-states"
+#: Rise of the dynamic factor over both neighbours' minimum from which a maximum counts as a resonance.
+_RISE = 0.02
+#: Share of the time without contact that counts.
+_LOST = 1e-6
+
+
+def tasks(asked: Asked) -> tuple[Task, ...]:
+    """A steady state at every speed."""
+    tables = asked.tables
+    scenario = {
+        "title": asked.title,
+        "kind": STUDY.kind,
+        "drive": tables["drive"],
+        "lubricant": tables["lubricant"],
+        "bearings": tables["bearings"],
+        "operating": asked.operating(),
+        "mesh": {"compliance": "fem", "damping_ratio": tables["damping_ratio"], **tables.get("mesh", {})},
+        "friction": {"law": asked.laws[0]},
+    }
+    speeds = [f"{speed!r} rad/s" for speed in asked.speeds]
+    return (Task(_TASK, "steady states over the speed", scenario, "operating.pinion_speed", speeds),)
+
+
+def answer(asked: Asked, done: Mapping[str, Done]) -> Answer:
+    """Dynamic factor at the duty and over the speed, its maxima, and where contact is lost."""
+    rows = done[_TASK].rows
+    speeds, factor = np.asarray(asked.speeds), rows["dynamic_factor"]
+    at_duty = int(np.argmin(np.abs(speeds - asked.pinion_speed)))
+    lost = np.nan_to_num(rows["contact_loss_fraction"]) > _LOST
+    figures: dict[str, Any] = {
+        "dynamic_factor": float(factor[at_duty]),
+        "contact_loss_fraction": float(rows["contact_loss_fraction"][at_duty]),
+        "transmission_error_peak_to_peak": float(rows["transmission_error_peak_to_peak"][at_duty]),
+        "resonance_speeds": [float(speeds[i]) for i in maxima(factor)],
+        "speeds_without_result": int(np.sum(~np.isfinite(factor))),
+    }
+    if np.any(np.isfinite(factor)):
+        worst = int(np.nanargmax(factor))
+        figures |= {
+            "dynamic_factor_max": float(factor[worst]),
+            "dynamic_factor_max_speed": float(speeds[worst]),
+        }
+    if np.any(lost):
+        figures |= {
+            "contact_loss_from": float(speeds[lost][0]),
+            "contact_loss_to": float(speeds[lost][-1]),
+            "contact_loss_fraction_max": float(np.nanmax(rows["contact_loss_fraction"])),
+        }
+    rpm = 30.0 / math.pi
+    curve = Curve(
+        "Dynamic factor over the speed",
+        "Speed of the pinion (rpm)",
+        "K_v",
+        speeds * rpm,
+        {"": factor},
+        asked.pinion_speed * rpm,
+    )
+    return Answer(figures, curves=(curve,))
+
+
+def maxima(values: np.ndarray) -> list[int]:
+    """Places of local maxima that stand out on both sides, the highest first."""
+    found = []
+    for i in range(1, len(values) - 1):
+        here = values[i]
+        if not (here >= values[i - 1] and here > values[i + 1]):
+            continue
+        higher = np.flatnonzero(values > here)
+        left = max((j for j in higher if j < i), default=0)
+        right = min((j for j in higher if j > i), default=len(values) - 1)
+        if here - max(np.nanmin(values[left : i + 1]), np.nanmin(values[i : right + 1])) > _RISE:
+            found.append(i)
+    return sorted(found, key=lambda i: -values[i])
+
+
+ROLE = Role(2, "Steady states over the speed", tasks, answer)

@@ -1,0 +1,143 @@
+"""The part that a study plays in an assessment of a drive: what it runs, and what comes out of it.
+
+A study that takes part has a module ``assess`` with ``ROLE``. An assessment goes through the registry, runs
+the tasks of every role and puts their answers together; it knows no study by name.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+import numpy as np
+
+
+class Asked(NamedTuple):
+    """What an assessment is asked.
+
+    Attributes
+    ----------
+    title : str
+    tables : mapping
+        Tables ``drive``, ``lubricant``, ``bearings`` and ``mesh`` as a scenario has them, and
+        ``oil_temperature``, a quantity as text.
+    pinion_speed, gear_torque : float
+        rad/s and N m.
+    torques : sequence of float
+        Over which the loaded error is asked for, N m, increasing.
+    speeds : sequence of float
+        Over which steady states are asked for, rad/s, increasing; that of the duty is one of them.
+    laws : sequence of str
+        Friction laws, the first of them for everything but the spread of the losses.
+    """
+
+    title: str
+    tables: Mapping[str, Any]
+    pinion_speed: float
+    gear_torque: float
+    torques: Sequence[float]
+    speeds: Sequence[float]
+    laws: Sequence[str]
+
+    def operating(self) -> dict[str, Any]:
+        """Table ``operating`` of a scenario at the duty."""
+        return {
+            "pinion_speed": f"{self.pinion_speed!r} rad/s",
+            "gear_torque": f"{self.gear_torque!r} N*m",
+            "oil_temperature": self.tables["oil_temperature"],
+        }
+
+
+class Task(NamedTuple):
+    """A scenario to be run.
+
+    Attributes
+    ----------
+    name : str
+        Of its file.
+    about : str
+        What it finds, in a few words: shown while it runs.
+    scenario : mapping
+        As a file has it, with its kind.
+    key, values : str and sequence of str
+        What is varied: then only figures are kept, one row per value. None: one run, with its record.
+    needed : bool
+        Whether the assessment ends where this cannot be run.
+    """
+
+    name: str
+    about: str
+    scenario: Mapping[str, Any]
+    key: str = ""
+    values: Sequence[str] = ()
+    needed: bool = True
+
+
+class Done(NamedTuple):
+    """What a task gave.
+
+    Attributes
+    ----------
+    path : Path
+        The record of a run, or the file with the rows.
+    summary : mapping
+        Of a run.
+    rows : mapping
+        Figure -> values (n,) over what was varied; NaN where a case failed.
+    failures : sequence of str
+        What could not be computed, and why; of a run that is not needed there is no summary then.
+    """
+
+    path: Path
+    summary: Mapping[str, Any] = MappingProxyType({})
+    rows: Mapping[str, np.ndarray] = MappingProxyType({})
+    failures: Sequence[str] = ()
+
+
+class Curve(NamedTuple):
+    """A picture for the report: named lines over an axis, in the units that the labels say."""
+
+    title: str
+    x_label: str
+    y_label: str
+    x: Any
+    lines: Mapping[str, Any]
+    mark: float | None = None
+
+
+class Answer(NamedTuple):
+    """What a study found.
+
+    Attributes
+    ----------
+    figures : mapping
+        Numbers by name, SI units, see `docs/assessment.md`.
+    along : mapping
+        Arrays along the path of contact, among them ``roll_angle`` (rad, increasing, 0 at the pitch point).
+    curves : sequence of Curve
+    """
+
+    figures: Mapping[str, Any]
+    along: Mapping[str, Any] = MappingProxyType({})
+    curves: Sequence[Curve] = ()
+
+
+class Role(NamedTuple):
+    """The part that a study plays.
+
+    Attributes
+    ----------
+    order : int
+        Tasks of lower order run first.
+    title : str
+        Heading of its results.
+    tasks : callable
+        Asked -> its tasks.
+    answer : callable
+        (Asked, results of its tasks by name) -> Answer.
+    """
+
+    order: int
+    title: str
+    tasks: Callable[[Asked], Sequence[Task]]
+    answer: Callable[[Asked, Mapping[str, Done]], Answer]

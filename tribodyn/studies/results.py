@@ -1,0 +1,42 @@
+"""How a run ends, and what a check says."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from tribodyn.record import trust
+
+
+class RunResult(NamedTuple):
+    """How a run ended: the record's path, "complete" or "failed", why, and its figures."""
+
+    path: Path
+    status: str
+    message: str
+    summary: dict[str, Any]
+
+    @property
+    def trust(self) -> str:
+        """Whether the result lies within its model: "inside the model", "outside the model", or ""."""
+        return trust.verdict(self.summary)
+
+    @property
+    def reasons(self) -> list[str]:
+        """What lies outside the model, in words; the numbers are in ``summary["trust_reasons"]``."""
+        return trust.reasons(self.summary)
+
+
+class TextTable(NamedTuple):
+    """A table as `check` prints it."""
+
+    title: str
+    columns: tuple[str, ...]
+    rows: Sequence[Sequence[str]]
+
+
+class Checked(NamedTuple):
+    """What `check` says of a sound case: data for programs, tables and remarks for people."""
+
+    data: dict[str, Any]
+    tables: Sequence[TextTable]
+    remarks: Sequence[str] = ()
