@@ -53,6 +53,7 @@ CONTENTS = {
         "solvers",
         "periodic",
         "sweep",
+        "design",
         "backlash-oscillator",
         "rolling-elements",
         "performance",

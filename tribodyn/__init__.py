@@ -23,6 +23,7 @@ OWN_PROCESS = False
 if TYPE_CHECKING:
     from tribodyn.errors import InputError, OutputError, SimulationError
     from tribodyn.geometry.family import Family
+    from tribodyn.interface.design import Design, design
     from tribodyn.interface.drive import GearPair, drive
     from tribodyn.interface.gradient import Gradient, gradient
     from tribodyn.interface.line_contact import line_contact
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
     from tribodyn.tribology.law import FilmLaw, FrictionLaw
 
 __all__ = [
+    "Design",
     "Family",
     "FilmLaw",
     "FrictionLaw",
@@ -49,6 +51,7 @@ __all__ = [
     "Study",
     "Sweep",
     "__version__",
+    "design",
     "drive",
     "gradient",
     "line_contact",
@@ -61,6 +64,7 @@ __all__ = [
 
 # imported when asked for, so that `tribodyn --help` needs none of it
 _PLACES = {
+    "Design": "tribodyn.interface.design",
     "Family": "tribodyn.geometry.family",
     "FilmLaw": "tribodyn.tribology.law",
     "FrictionLaw": "tribodyn.tribology.law",
@@ -73,6 +77,7 @@ _PLACES = {
     "SimulationError": "tribodyn.errors",
     "Study": "tribodyn.studies.study",
     "Sweep": "tribodyn.interface.sweep",
+    "design": "tribodyn.interface.design",
     "drive": "tribodyn.interface.drive",
     "gradient": "tribodyn.interface.gradient",
     "line_contact": "tribodyn.interface.line_contact",

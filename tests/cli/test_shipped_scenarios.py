@@ -36,7 +36,22 @@ DRAWN = {"crc-23-47", "rattle", "high-contact-ratio", "run-up"} | STUDIES
 OUTSIDE_THE_MODEL = {"jia-parabolic-17-29"}
 
 
-@pytest.mark.parametrize("name", names(shipped("scenarios")))
+SEARCHES = [name for name in names(shipped("scenarios")) if name.startswith("design-")]
+#: The cost of a search: a few candidates show that it runs.
+FEW = ("design.evaluations=3", "design.sensitivities=false", "design.confirm={}")
+
+
+@pytest.mark.parametrize("name", SEARCHES)
+def test_a_search_runs(name: str, tmp_path: Path, forked: ForkedVerbs):
+    few = [word for setting in FEW for word in ("--set", setting)]
+    ended = forked("run", name, *few, "--json", "--no-plot", folder=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    result = json.loads(ended.stdout)
+    assert (result["status"], result["evaluations"]) == ("complete", 3)
+    assert load_scenario(tmp_path / f"{name}-best.toml").kind == load_scenario(name).base_kind
+
+
+@pytest.mark.parametrize("name", [name for name in names(shipped("scenarios")) if name not in SEARCHES])
 def test_it_runs(name: str, tmp_path: Path, forked: ForkedVerbs):
     still = load_scenario(name).kind != "gear-pair"  # solves no equation of motion and takes no time
     shorter = () if still else ("--set", "solver.cycles=2")

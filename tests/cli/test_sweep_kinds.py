@@ -25,10 +25,11 @@ VARIED = {
     "load-contact": ("drive.pinion.modification.tip_relief", ("0 um", "10 um")),
     "irefc": ("friction.sliding_coefficient", ("0.05", "0.1")),
     "backlash-oscillator": ("damping", ("0.05", "0.1")),
+    "design": ("scenario.drive.module", ("3 mm", "3.1 mm")),
     "assessment": ("operating.oil_temperature", ("70 degC", "80 degC")),
 }
-LONG = ("load-contact", "assessment")
-KINDS = [pytest.param(kind, marks=pytest.mark.soak) if kind in LONG else kind for kind in VARIED]
+FINITE_ELEMENTS = ("load-contact", "design", "assessment")
+KINDS = [pytest.param(kind, marks=pytest.mark.soak) if kind in FINITE_ELEMENTS else kind for kind in VARIED]
 
 
 def invoked(*words: object, status: int = 0) -> str:

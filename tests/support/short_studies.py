@@ -13,6 +13,11 @@ SHORT: dict[str, dict[str, Any]] = {
     "load-contact": {"output.positions_per_cycle": 12, "mesh.slices": 7},
     "irefc": {"output.samples_per_cycle": 8},
     "backlash-oscillator": {"frequency.step": 0.2},
+    "design": {
+        "design.evaluations": 3,
+        "design.sensitivities": False,
+        "scenario.output.positions_per_cycle": 12,
+    },
     # the gears of the load contact study's template, whose finite elements are then solved once
     "assessment": {
         "drive.pinion.teeth": 18,

@@ -9,6 +9,7 @@ from tribodyn.cli import (
     assess,
     check,
     compare,
+    design,
     gear,
     init,
     plot,
@@ -39,7 +40,22 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 
-for module in (run, assess, sweep, check, gear, show, plot, report, compare, list_, init, schema, validate):
+for module in (
+    run,
+    assess,
+    sweep,
+    design,
+    check,
+    gear,
+    show,
+    plot,
+    report,
+    compare,
+    list_,
+    init,
+    schema,
+    validate,
+):
     function = getattr(module, module.__name__.rpartition(".")[2])
     app.command(epilog=module.EXAMPLES)(verb(function))
 

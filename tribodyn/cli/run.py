@@ -1,12 +1,16 @@
 """`tribodyn run`: from a scenario to a record, a summary and pictures."""
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
 from tribodyn.cli import completion
 from tribodyn.cli.overrides import LargeOption, SetOption, overrides
+
+if TYPE_CHECKING:
+    from tribodyn.studies.load import Loaded
 
 EXAMPLES = (
     "\b\nExamples:\n"
@@ -30,6 +34,9 @@ def run(
     ] = None,
     settings: SetOption = None,
     force: Annotated[bool, typer.Option("--force", help="Replace a record of that name.")] = False,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Continue a stopped search of that name (kind design).")
+    ] = False,
     allow_large: LargeOption = False,
     plot: Annotated[
         bool | None,
@@ -41,35 +48,70 @@ def run(
     json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
 ) -> None:
     """Run a scenario: record, summary, picture."""
+    from tribodyn.errors import InputError
+    from tribodyn.studies.load import load
+
+    if resume and force:
+        raise InputError("--resume", None, "contradicts --force", "give one of them")
+    how = {"output": output, "force": force, "resume": resume, "allow_large": allow_large}
+    run_loaded(lambda: load(scenario, overrides(settings)), Shown(plot, report, json), **how)
+
+
+class Shown(NamedTuple):
+    """What is shown of a run: pictures (all, none or one), a page, JSON."""
+
+    plot: bool | None = None
+    report: bool = False
+    json: bool = False
+
+
+def run_loaded(made: "Callable[[], Loaded]", shown: Shown, *, output: Path | None, **how: bool) -> None:
+    """Run a case and show what became of it.
+
+    Parameters
+    ----------
+    made : callable
+        Gives the case.
+    shown : Shown
+    output : Path or None
+    **how
+        Further arguments of `studies.run.run`.
+    """
     from tribodyn.cli.ahead import drawer
     from tribodyn.cli.outcome import SIMULATION_FAILED, complain
     from tribodyn.cli.plot import draw_pictures
     from tribodyn.cli.printing import print_json, quoted_path
     from tribodyn.cli.progress import progress_bar
     from tribodyn.record.withheld import warnings
-    from tribodyn.studies.load import load
     from tribodyn.studies.run import run as run_case
 
-    with drawer(wanted=plot is None) as ahead:
-        loaded = load(scenario, overrides(settings))
+    with drawer(wanted=shown.plot is None) as ahead:
+        loaded = made()
         case = loaded.case
         record = output or Path(f"{case.name}.h5")
         with loaded.naming(), progress_bar(case.name) as progress:
-            result = run_case(case, record, force=force, progress=progress, allow_large=allow_large)
+            result = run_case(case, record, progress=progress, **how)
         failed = result.status != "complete"
         if ahead and not failed:
             ahead.draw(result.path)
-        if not json:
+        if not shown.json:
             _print_summary(result.path)
         drawn = ahead.pictures() if ahead and not failed else None
     if drawn is None:
-        drawn = [] if failed or plot is False else draw_pictures(result.path, everything=plot is True)
-    page = None if failed or not report else _report(result.path)
-    if json:
-        shown = {"pictures": [str(path) for path in drawn], **({"report": str(page)} if page else {})}
-        print_json({**_as_json(result.path), **shown})
+        drawn = (
+            [] if failed or shown.plot is False else draw_pictures(result.path, everything=shown.plot is True)
+        )
+    page = None if failed or not shown.report else _report(result.path)
+    files = result.summary.get("files", {}).values()
+    if shown.json:
+        more = {"pictures": [str(path) for path in drawn], **({"report": str(page)} if page else {})}
+        said = _as_json(result.path)
+        top = {name: said["summary"].get(name) for name in loaded.study.top()}
+        print_json({**said, **top, **more})
     else:
         typer.echo(f"record   {quoted_path(result.path)}")
+        for file in files:
+            typer.echo(f"{Path(file).suffix[1:]:8} {quoted_path(Path(file))}")
         for picture in drawn:
             typer.echo(f"picture  {quoted_path(picture)}")
         if page:

@@ -7,13 +7,13 @@ last. What ends the run (summary, status) goes into a copy that replaces the rec
 """
 
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType, TracebackType
-from typing import Any, BinaryIO, Self
+from typing import Any, Self
 
 import h5py
 import numpy as np
@@ -24,6 +24,7 @@ from tribodyn.record import disk, trust
 from tribodyn.record import layout as file_layout
 from tribodyn.record.schema import COMPLETE, FAILED, FORMAT, STATUS_NOTES, Layout, partial_path
 from tribodyn.record.soundness import remember_own
+from tribodyn.record.trimmed import write_trimmed
 from tribodyn.record.withheld import samples_withheld
 from tribodyn.record.writing_lock import WritingLock, refuse_if_written, remove_orphans, scratch_path
 
@@ -235,8 +236,14 @@ class RecordWriter:
             pieces.append((place.offset + row * place.stride, array))
         self._put_all(pieces)
 
-    def finish(self, summary: Mapping[str, Any]) -> Path:
+    def finish(self, summary: Mapping[str, Any], trim: bool = False) -> Path:
         """Add the summary, mark the record complete and give it its final name, which is returned.
+
+        Parameters
+        ----------
+        summary : dict
+        trim : bool
+            Whether it may have fewer samples than it has room for.
 
         Raises
         ------
@@ -245,13 +252,16 @@ class RecordWriter:
         OutputError
             If there is no room for the copy with the summary: the samples are kept under the temporary name.
         """
-        if self.written != self.samples:
+        if self.written != self.samples and not trim:
             raise ValueError(f"{self.written} of {self.samples} samples written")
         self._close()
+        change = partial(conclude, COMPLETE, STATUS_NOTES[COMPLETE], summary)
         try:
             with replacing(self.path, scratch_path(self.path)) as scratch:
-                change = partial(conclude, COMPLETE, STATUS_NOTES[COMPLETE], summary)
-                disk.write_amended(self.partial, scratch, change)
+                if self.written == self.samples:
+                    disk.write_amended(self.partial, scratch, change)
+                else:
+                    self._write_trimmed(scratch, change)
             self.partial.unlink()
             remember_own(self.path)
         except OSError as error:
@@ -270,19 +280,19 @@ class RecordWriter:
             What can be said of the part that was done.
         """
         self._close()
-        trimmed = file_layout.create(self._head, self.written)
-        disk.amend(trimmed.content, partial(conclude, FAILED, message, summary or {}))
         try:
             with replacing(self.partial, scratch_path(self.path)) as scratch:
-                disk.write_new(scratch, trimmed.content, trimmed.blanks)
-                with self.partial.open("rb") as source, disk.open_existing(scratch) as target:
-                    for blank, (name, place) in zip(trimmed.blanks, trimmed.places.items(), strict=True):
-                        _copy(source, self._place[name].offset, target, place.offset, blank.size)
+                self._write_trimmed(scratch, partial(conclude, FAILED, message, summary or {}))
             remember_own(self.partial)
         except OSError as error:
             raise unwritable(self.partial, error, f"{self._so_far()}; {message}") from error
         self._unlock()
         return self.partial
+
+    def _write_trimmed(self, scratch: Path, change: Callable[[h5py.File], None]) -> None:
+        """Write a copy with the samples written, and with what concludes it."""
+        with self.partial.open("rb") as source:
+            write_trimmed(self._head, self.written, (source, self._place), scratch, change)
 
     def _so_far(self) -> str:
         return f"the first {self.written} of {self.samples} samples: {self.partial}"
@@ -318,16 +328,3 @@ def conclude(status: str, message: str, summary: Mapping[str, Any], file: h5py.F
     file.attrs["message"] = message
     for name, text in trust.attributes(summary).items():
         file.attrs[name] = text
-
-
-def _copy(source: BinaryIO, start: int, target: BinaryIO, offset: int, size: int) -> None:
-    """Copy bytes from one file's place to another's."""
-    source.seek(start)
-    target.seek(offset)
-    while size:
-        rest = memoryview(source.read(min(size, disk.BLOCK)))
-        if not rest:
-            raise OSError(f"{source.name} ends too early")
-        size -= len(rest)
-        while rest:
-            rest = rest[target.write(rest) :]

@@ -90,6 +90,11 @@ def model_file(folder: str) -> Reference:
     return Reference(f"name of a file in models/{folder}, or a path", folder)
 
 
+def scenario_file() -> Reference:
+    """A field that may name a scenario: a shipped one, or a file beside this one."""
+    return Reference("name of a scenario, or a path", "scenarios")
+
+
 def csv_file(*columns: str, as_list: bool = False) -> Reference:
     """A field that may name a CSV file with these columns."""
     counted = ("columns " if len(columns) > 1 else "a column ") + " and ".join(columns)

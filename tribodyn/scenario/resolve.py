@@ -15,7 +15,7 @@ from tribodyn.geometry.families import FAMILIES
 from tribodyn.scenario.bounds import TooMuch, broken_bounds, parsed
 from tribodyn.scenario.messages import Key, Origins
 from tribodyn.scenario.quantity import Reference, Table, csv_file, defaults_written_out, references
-from tribodyn.scenario.sources import find_model, is_file, read_curve, read_toml
+from tribodyn.scenario.sources import SCENARIOS, find_model, is_file, read_curve, read_toml
 
 #: In the table of a model: the name of a file that says everything which the table does not.
 LIKE = "like"
@@ -56,14 +56,17 @@ def resolve_table(
     """Return a scenario's data as `resolve` does; what it names is looked for as from a file at `path`."""
     data = defaults_written_out(written, table_of(written))
     origins = Origins(str(path))
-    known = _References(data, origins, path, dict(references(table_of(data))))
-    for dotted, value in sorted(overrides.items(), key=lambda item: item[0].count(".")):
-        try:
+    known = _References(data, origins, path, {})
+    try:
+        known = _marked(known, table_of)
+        for dotted, value in sorted(overrides.items(), key=lambda item: item[0].count(".")):
             _override(known, dotted, value)
-        except InputError as error:
-            raise origins.locate(error) from None
+            if any(mark.folder == SCENARIOS for mark in known.marks.values()):
+                known = _marked(known, table_of)
+    except InputError as error:
+        raise origins.locate(error) from None
     errors: list[InputError] = []
-    known = known._replace(marks=dict(references(table_of(data))))
+    known = _marked(known, table_of)
     for key in known.keys():
         try:
             _put_content(known, key)
@@ -98,6 +101,17 @@ class _References(NamedTuple):
             return {}
         paths = [one.name for one in FAMILIES[name].parameters if one.kind == "path"]
         return {("drive", "shape", one): csv_file("x", "y") for one in paths}
+
+
+def _marked(known: _References, table_of: TableOf) -> _References:
+    """Say which keys may name files; a scenario within this one is opened first, for it has such keys too."""
+    marks = dict(references(table_of(known.data)))
+    inner = [key for key, mark in marks.items() if mark.folder == SCENARIOS]
+    if not inner:
+        return known._replace(marks=marks)
+    for key in inner:
+        _put_content(known._replace(marks=marks), key)
+    return known._replace(marks=dict(references(table_of(known.data))))
 
 
 def unresolved_keys(errors: Iterable[InputError]) -> set[str]:

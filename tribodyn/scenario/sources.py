@@ -11,6 +11,8 @@ from tribodyn.errors import InputError, near_name, printable_path, quoted
 from tribodyn.scenario.bounds import MOST_CSV, MOST_POINTS, MOST_TOML, TooMuch, parsed
 
 _PACKAGE = Path(__file__).resolve().parents[1]
+#: Folder of `Reference`s that name a whole scenario.
+SCENARIOS = "scenarios"
 _HEADER = re.compile(r"\s*(?P<name>\w+)\s*\[(?P<unit>[^\]]*)\]\s*$")
 
 
@@ -67,7 +69,7 @@ def find_model(name: str, kind: str, key: str, referring: Path) -> Path:
     name : str
         A path (it ends in .toml) relative to the referring file, or a name.
     kind : str
-        Folder of `models/`: "drives", "materials", …
+        Folder of `models/`: "drives", "materials", …; or `SCENARIOS`.
     key : str
         Where the name stands, for messages.
     referring : Path
@@ -80,6 +82,12 @@ def find_model(name: str, kind: str, key: str, referring: Path) -> Path:
         near = near_name(path.stem, names(path.parent))
         remedy = f'did you mean "{Path(name).with_name(near + ".toml")}"?' if near else "check the path"
         raise InputError(key, quoted(name), f"no such file: {printable_path(path)}", remedy)
+    if kind == SCENARIOS:
+        folders = [referring.resolve().parent, shipped(SCENARIOS)]
+        for folder in folders:
+            if is_file(folder / f"{name}.toml"):
+                return folder / f"{name}.toml"
+        raise _not_found(key, name, "scenario", folders)
     above = referring.resolve().parent.parent
     # beside a scenario's folder there is models/, beside a model's own folder the other kinds
     folders = [above / "models" / kind, above / kind, shipped("models") / kind]

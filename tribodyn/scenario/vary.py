@@ -181,13 +181,13 @@ def _in_si(
         return tuple(float(value) for value in written), "1"
     if any(isinstance(value, (dict, list)) for value in written):
         raise _refusal(option, "tables and lists cannot be varied", "vary one number in them")
-    quantities = [base for base in map(_base_units, written) if base]
+    quantities = [base for base in map(base_units, written) if base]
     if len(quantities) == len(written) and len({unit for _, unit in quantities}) == 1:  # of a family's shape
         return tuple(magnitude for magnitude, _ in quantities), quantities[0][1]
     return tuple(str(value).lower() if isinstance(value, bool) else str(value) for value in written), ""
 
 
-def _base_units(value: Any) -> tuple[float, str] | None:
+def base_units(value: Any) -> tuple[float, str] | None:
     """Magnitude and SI base units of a quantity whose kind only a family of teeth knows; None if none."""
     from tribodyn.scenario.units import registry
 
@@ -209,6 +209,19 @@ def _is_drawn(table: type[BaseModel], key: str) -> bool:
     place = kind_at(table, above) if above else table
     field = getattr(place, "model_fields", {}).get(name)
     return field is not None and any(isinstance(part, Draws) for part in parts_of(field))
+
+
+def is_whole(table: type[BaseModel], key: str) -> bool:
+    """Whether a whole number is due at a key."""
+    place: Any = table
+    field = None
+    for part in key.split("."):
+        field = getattr(place, "model_fields", {}).get(part)
+        if field is None:
+            return False
+        tables = (one for one in parts_of(field) if isinstance(one, type) and issubclass(one, BaseModel))
+        place = next(tables, None)
+    return field is not None and int in set(parts_of(field))
 
 
 def kind_at(table: type[BaseModel], key: str) -> Any:

@@ -15,6 +15,7 @@ STUDIES: Registry[Study] = Registry(
         "load-contact": "tribodyn.studies.load_contact:STUDY",
         "irefc": "tribodyn.studies.rolling:STUDY",
         "backlash-oscillator": "tribodyn.studies.backlash_oscillator:STUDY",
+        "design": "tribodyn.studies.design:STUDY",
         "assessment": "tribodyn.studies.assessment:STUDY",
     },
     "tribodyn.studies",

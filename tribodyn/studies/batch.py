@@ -5,7 +5,7 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from tribodyn.record.sweep_schema import SweepLayout
+from tribodyn.record.sweep_schema import DONE, SweepLayout
 from tribodyn.studies.estimate import Estimate
 
 
@@ -123,3 +123,28 @@ class Batch(Protocol):
     def evaluate(self, chunk: Chunk, settings: Any, workers: int | None) -> dict[str, np.ndarray]:
         """Evaluate; rows (n, …) of every variable of the layout."""
         ...
+
+
+def batched(batch: Batch, cases: Sequence[Any], workers: int | None = None) -> list[dict[str, Any] | str]:
+    """Figures of cases that are evaluated together; a text instead where one fails: why.
+
+    Parameters
+    ----------
+    batch : Batch
+    cases : sequence of cases or str
+        A text where the case could not even be made.
+    workers : int, optional
+        Threads; default: one per core.
+    """
+    made = [case for case in cases if not isinstance(case, str)]
+    if not made:
+        return list(cases)
+    settings = batch.settings(made, None, "native")
+    rows = batch.evaluate(Chunk(np.arange(len(cases)), tuple(cases)), settings, workers)
+    names = batch.layout(settings).figures
+    return [
+        {name: rows[name][i].item() for name in names if np.ndim(rows[name][i]) == 0}
+        if rows["status"][i] == DONE
+        else str(rows["message"][i])
+        for i in range(len(cases))
+    ]

@@ -59,7 +59,7 @@ def load(scenario: str | Path, overrides: Mapping[str, Any] | None = None) -> Lo
 
 def table_of(data: Mapping[str, Any]) -> Any:
     """Return the schema of a scenario's data."""
-    return study_of(data).table()
+    return study_of(data).table(data)
 
 
 def loaded_from(resolved: Resolved, path: Path) -> Loaded:
@@ -75,7 +75,7 @@ def loaded_from(resolved: Resolved, path: Path) -> Loaded:
     data, origins, unresolved = resolved
     data.setdefault("name", re.sub(r"[^\w .-]", "-", path.stem).lstrip(" .-") or "scenario")
     study, kind = study_of(data), data.get("kind")
-    model = study.table()
+    model = study.table(data)
     try:
         if isinstance(kind, str) and kind not in STUDIES:
             raise unknown_name("kind", kind, STUDIES, STUDIES.what)

@@ -28,6 +28,7 @@ def run(
     force: bool = False,
     progress: Progress | None = None,
     allow_large: bool = False,
+    resume: bool = False,
 ) -> RunResult:
     """Run a case and write its record.
 
@@ -48,6 +49,8 @@ def run(
         Called with the share done, 0 … 1.
     allow_large : bool
         Run what takes more memory, disk or time than is done unasked, too (`studies.estimate.LIMITS`).
+    resume : bool
+        Go on from what an unfinished run left, where the study can.
 
     Returns
     -------
@@ -62,7 +65,8 @@ def run(
     for table, law in (("film", film), ("friction", friction)):
         if law is not None:
             case = with_law(case, table, law)
-    return STUDIES[case.kind].run(case, output, force=force, progress=progress, allow_large=allow_large)
+    how: dict[str, Any] = {"force": force, "allow_large": allow_large, "resume": resume}
+    return STUDIES[case.kind].run(case, output, progress=progress, **how)
 
 
 def with_law(case: CaseHead, table: str, law: FilmLaw | FrictionLaw) -> CaseHead:

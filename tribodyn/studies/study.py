@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from importlib import import_module, resources
 from inspect import ismodule
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from tribodyn.numerics.registry import cannot_be_loaded
@@ -14,6 +15,7 @@ from tribodyn.studies.estimate import (
     Estimate,
     as_data,
     described,
+    not_resumed,
     refuse_large,
     share_of_limits,
 )
@@ -22,15 +24,12 @@ from tribodyn.studies.results import RunResult as RunResult
 from tribodyn.studies.results import TextTable as TextTable
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from tribodyn.errors import InputError
     from tribodyn.numerics.variable import Variable
     from tribodyn.post.figures.drawing import Drawing, SweepDrawing
     from tribodyn.post.page.maps import PageMap
     from tribodyn.post.report import Line, Lines
     from tribodyn.record.reader import Record
-    from tribodyn.record.sweep_reader import SweepRecord
     from tribodyn.scenario.quantity import Table
     from tribodyn.studies.batch import Batch
     from tribodyn.studies.part import Role
@@ -75,15 +74,17 @@ class Study:
     ============= =================================================================================
     part          what it holds
     ============= =================================================================================
-    scenario      ``Scenario``, the schema of a file; ``case_of(scenario, toml, sha256)``, its case, a
-                  `CaseHead` and more
+    scenario      ``Scenario``, the schema of a file; ``table_for(data)``, that of a file with these data
+                  (optional); ``case_of(scenario, toml, sha256)``, its case, a `CaseHead` and more
     rules         ``broken_rules(scenario)``, errors for the rules that tie keys together (optional)
     check         ``check(case) -> Checked``; raises InputError where the case cannot be run
     run           ``run(case, output, *, force, progress) -> RunResult``, see `run`; and
                   ``figures(case) -> dict``, its figures without a record (optional: to be swept)
     report        ``LINES``, heading -> lines of the summary; ``sentences(record)``, how far it is to be
                   trusted; ``SWEPT``, figures that a sweep keeps, and ``SWEEP_LINES``, those that it
-                  prints (both optional); ``PANELS``, datasets that a page shows at first (optional);
+                  prints (both optional); ``SHORT``, short names of figures (optional); ``PANELS``,
+                  datasets that a page shows at first (optional); ``TOP``, figures at the top of what is
+                  printed as JSON (optional);
                   ``maps(record)``, its maps over the face (optional)
     figures       ``DRAWINGS``, its pictures by name; the one called overview is drawn after a run
     sweep_figures ``SWEEP_DRAWINGS``, pictures of its sweeps (optional: the response of its figures)
@@ -108,8 +109,8 @@ class Study:
         together.
     compared : tuple of str
         Headings of its summary that a comparison shows; none: its records cannot be compared in a table.
-    has_gears : bool
-        Whether its cases have a gear pair's `family`, `drive` and `materials`.
+    has_gears, resumes : bool
+        Whether its cases have a gear pair's `family`, `drive` and `materials`; whether a run can be resumed.
     verb : str
         Verb of the command line that runs its scenarios.
     """
@@ -120,11 +121,13 @@ class Study:
     quantities: str
     compared: tuple[str, ...] = ()
     has_gears: bool = False
+    resumes: bool = False
     verb: str = "run"
 
-    def table(self) -> "type[Table]":
-        """The schema of a scenario file."""
-        return self._part("scenario", "Scenario")
+    def table(self, data: Mapping[str, Any] = MappingProxyType({})) -> "type[Table]":
+        """The schema of a scenario file, of one with these data where it depends on them."""
+        of_data = self._part("scenario", "table_for", optional=True)
+        return of_data(data) if of_data else self._part("scenario", "Scenario")
 
     def broken_rules(self, scenario: Any) -> "Iterable[InputError]":
         """Go through the rules that tie keys of a scenario together and that this one breaks."""
@@ -171,6 +174,7 @@ class Study:
         force: bool = False,
         progress: Progress | None = None,
         allow_large: bool = False,
+        resume: bool = False,
     ) -> RunResult:
         """Run a case and write its record.
 
@@ -185,6 +189,8 @@ class Study:
         progress : callable, optional
         allow_large : bool
             Run what takes more than `estimate.LIMITS`, too.
+        resume : bool
+            Go on from what an unfinished run left, if there is anything.
 
         Returns
         -------
@@ -197,8 +203,11 @@ class Study:
         InputError
             Before anything is written.
         """
+        if resume and not self.resumes:
+            raise not_resumed(self.about)
         refuse_large(self.estimate(case), allow_large)
-        result = self._part("run", "run")(case, output, force=force, progress=progress)
+        how = {"resume": resume} if self.resumes else {}
+        result = self._part("run", "run")(case, output, force=force, progress=progress, **how)
         return result._replace(summary=withheld(result.summary))
 
     def figures(self, case: Any) -> dict[str, Any]:
@@ -229,6 +238,10 @@ class Study:
         """Figures that a sweep keeps of every case, by name; none: such a study cannot be swept."""
         return self._part("report", "SWEPT", optional=True) or {}
 
+    def short_names(self) -> "Mapping[str, str]":
+        """Short names of figures to their full ones."""
+        return self._part("report", "SHORT", optional=True) or {}
+
     def sweep_lines(self) -> "Sequence[Line]":
         """Figures that a sweep prints: the study's own choice, or the summary's lines of those it keeps.
 
@@ -244,21 +257,17 @@ class Study:
 
     def sweep_drawings(self) -> "Mapping[str, SweepDrawing]":
         """Pictures of its sweeps by name; the first is drawn where none is named."""
+        from tribodyn.post.figures.sweep.response import response_drawings
+
         own = self._part("sweep_figures", "SWEEP_DRAWINGS", optional=True)
-        if own:
-            return own
-        from tribodyn.post.figures.drawing import SweepDrawing
-        from tribodyn.post.figures.sweep.response import panels_of, response_figure
+        return own or response_drawings(self.sweep_lines())
 
-        about = "figures of the cases over the first varied key"
-
-        def draw(records: "Sequence[SweepRecord]", _: "Mapping[str, float | str]") -> "Figure":
-            return response_figure(records, panels_of(records, self.sweep_lines()))
-
-        return {"response": SweepDrawing(about, draw)}
+    def top(self) -> tuple[str, ...]:
+        """Figures of its summary that stand at the top of what `run --json` prints, too."""
+        return self._part("report", "TOP", optional=True) or ()
 
     def panels(self) -> tuple[str, ...]:
-        """Datasets that a page of its records shows at first; none: the first ones."""
+        """Datasets that a page shows at first; none: the first ones."""
         return self._part("report", "PANELS", optional=True) or ()
 
     def maps(self, record: "Record") -> "Sequence[PageMap]":

@@ -21,8 +21,8 @@ from tribodyn.studies.study import CaseHead, Checked, RunResult, Study
 
 KINDS = tuple(STUDIES)
 #: Their runs take long even when they are short: finite elements.
-LONG = ("load-contact", "assessment")
-RUNS = [pytest.param(kind, marks=pytest.mark.slow) if kind in LONG else kind for kind in KINDS]
+SLOW = ("load-contact", "design", "assessment")
+RUNS = [pytest.param(kind, marks=pytest.mark.slow) if kind in SLOW else kind for kind in KINDS]
 
 
 @pytest.fixture(scope="module")

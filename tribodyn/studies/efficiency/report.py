@@ -101,6 +101,8 @@ SWEPT: dict[str, Variable] = {
     ),
 }
 
+SHORT = {"loss": "power_friction_mean"}
+
 PANELS = ("normal_load", "friction_coefficient", "hertz_pressure", "power_friction", "efficiency")
 
 

@@ -113,6 +113,8 @@ SWEEP_LINES = (
 #: Relative difference between the extremes of the whole run and those of its last cycles that is said.
 DIFFERENT = 0.005
 
+SHORT = {"peak_to_peak": "transmission_error_peak_to_peak", "loss": "power_friction_mean"}
+
 PANELS = (
     "transmission_error_rotational",
     "normal_load",

@@ -161,6 +161,8 @@ SWEPT: dict[str, Variable] = {
     "torque_residual": Variable((), "1", "torque of the loads over the gear's torque, less 1, at most"),
 }
 
+SHORT = {"peak_to_peak": "loaded_transmission_error_peak_to_peak"}
+
 PANELS = ("loaded_transmission_error", "normal_load", "mesh_stiffness")
 
 

@@ -1,5 +1,6 @@
 """From a case of the load contact study to its record: teeth in slow rotation at one torque or several."""
 
+from functools import lru_cache
 from pathlib import Path
 from time import perf_counter
 from typing import Any, NamedTuple
@@ -11,7 +12,9 @@ from tribodyn.compliance.loaded_contact import LoadedContact, loaded_error, roll
 from tribodyn.compliance.pair_flexibility import PairFlexibility
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.corner_contact import pair_geometry
+from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.families import family
+from tribodyn.geometry.material import MaterialData
 from tribodyn.geometry.outlines import geometry_arrays
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.record.trust import Judge
@@ -37,11 +40,18 @@ def prepare(case: LoadContactCase) -> Prepared:
         Where the teeth cannot be made, or cannot run together as they are modified.
     """
     from tribodyn.compliance.flank_gap import check_modifications
+
+    flexible = _flexible(case.family, case.drive, case.materials)
+    check_modifications(flexible.assembly, case.modifications)
+    return Prepared(case, flexible)
+
+
+@lru_cache(maxsize=2)
+def _flexible(name: str, drive: Drive, materials: tuple[MaterialData, MaterialData]) -> PairFlexibility:
+    """The pair as it is without modifications: cases that differ in those, or in their load, share it."""
     from tribodyn.geometry.checks import check
 
-    assembly = check(family(case.family), case.drive)
-    check_modifications(assembly, case.modifications)
-    return Prepared(case, flexibility(assembly, case.materials, lead=True))
+    return flexibility(check(family(name), drive), materials, lead=True)
 
 
 def roll(study: Prepared, gear_torque: float) -> LoadedContact:

@@ -1,12 +1,13 @@
 """The response to a parameter: figures of the cases over the first of them."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from textwrap import wrap
 from typing import NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
 
+from tribodyn.post.figures.drawing import SweepDrawing
 from tribodyn.post.figures.sweep.branch import (
     MOST_COLORS,
     axis_label,
@@ -163,3 +164,12 @@ def _maps(record: SweepRecord, panels: Sequence[Panel]) -> Figure:
     said = "; white dots: cases that lose contact" if dots else ""
     figure.suptitle(sweep_title([record]) + said, x=0.01, ha="left", fontsize=9)
     return figure
+
+
+def response_drawings(lines: Sequence[Line]) -> dict[str, SweepDrawing]:
+    """The drawing of a study that has none of its own: its figures over the first key."""
+
+    def draw(records: Sequence[SweepRecord], _: Mapping[str, float | str]) -> Figure:
+        return response_figure(records, panels_of(records, lines))
+
+    return {"response": SweepDrawing("figures of the cases over the first varied key", draw)}

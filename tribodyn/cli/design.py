@@ -1,0 +1,89 @@
+"""`tribodyn design`: search for the values of a scenario's keys that minimise its figures."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from tribodyn.cli import completion
+from tribodyn.cli.overrides import LargeOption, SetOption, overrides
+
+EXAMPLES = (
+    "\b\nValues of --free, the unit at least once, at the end:\n"
+    '  KEY="0 um:40 um"   between these bounds\n'
+    "  KEY=17:25          whole numbers, where the key takes those\n"
+    "  KEY=linear,parabolic    one of these\n"
+    "\b\nExamples:\n"
+    "  tribodyn design load-contact-18-36 "
+    '--free drive.pinion.modification.tip_relief="0 um:40 um" '
+    '--free drive.pinion.modification.tip_relief_length="1 mm:6 mm" --minimise peak_to_peak\n'
+    "  tribodyn design efficiency-involute-18-36 --free drive.pinion.profile_shift=-0.2:0.4 "
+    '--minimise loss --subject-to "contact_ratio >= 1.4"\n'
+    "  tribodyn design design-tip-relief-18-36 --method differential-evolution"
+)
+
+
+def design(
+    scenario: Annotated[
+        str,
+        typer.Argument(
+            help="The scenario to search through, or a search (kind design): a file, or a shipped one.",
+            autocompletion=completion.scenarios,
+        ),
+    ],
+    *,
+    free: Annotated[
+        list[str] | None,
+        typer.Option("--free", metavar="KEY=FROM:TO", help="A key that the search may change, see below."),
+    ] = None,
+    minimise: Annotated[
+        list[str] | None,
+        typer.Option("--minimise", metavar="FIGURE", help="A figure of the summary; two make a front."),
+    ] = None,
+    maximise: Annotated[
+        str | None, typer.Option("--maximise", metavar="FIGURE", help="A figure, in place of --minimise.")
+    ] = None,
+    subject_to: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--subject-to",
+            metavar="CONSTRAINT",
+            help='What must hold: "contact_ratio >= 1.3", or "… >= start".',
+        ),
+    ] = None,
+    method: Annotated[
+        str | None, typer.Option("--method", help="As design.method; default: chosen by the problem.")
+    ] = None,
+    evaluations: Annotated[
+        int | None, typer.Option("--evaluations", min=2, max=10**6, help="At most; default: 200.")
+    ] = None,
+    resume: Annotated[bool, typer.Option("--resume", help="Continue a stopped search of that name.")] = False,
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", help="The record; default: the scenario's name and -design."),
+    ] = None,
+    settings: SetOption = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace a record of that name.")] = False,
+    allow_large: LargeOption = False,
+    plot: Annotated[
+        bool | None,
+        typer.Option("--plot/--no-plot", help="All pictures, or none; default: one overview picture."),
+    ] = None,
+    report: Annotated[
+        bool, typer.Option("--report", help="Also write a page for the browser, beside the record.")
+    ] = False,
+    json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
+) -> None:
+    """Search for the best values of a scenario's keys."""
+    from tribodyn.cli.run import Shown, run_loaded
+    from tribodyn.errors import InputError
+    from tribodyn.studies.design.short_form import as_options, loaded_search
+
+    if resume and force:
+        raise InputError("--resume", None, "contradicts --force", "give one of them")
+    more = {"method": method, "evaluations": evaluations}
+    options = as_options(free or [], minimise or [], maximise, subject_to or [], more)
+    how = {"output": output, "force": force, "resume": resume, "allow_large": allow_large}
+    run_loaded(
+        lambda: loaded_search(scenario, options, overrides(settings)), Shown(plot, report, json), **how
+    )

@@ -1,0 +1,135 @@
+"""Every candidate that was evaluated, each once: asked for by the methods, kept in the record."""
+
+import json
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Future
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.studies.design.candidates import Overrides, cases_of, chosen, number_of
+from tribodyn.studies.design.case import DesignCase
+from tribodyn.studies.design.judged import Judge, Judged
+from tribodyn.studies.design.pool import Figures, Pool
+
+Keep = Callable[["Evaluation"], None]
+"""Called with every evaluation as soon as it is there, in their order."""
+
+
+class Evaluation(NamedTuple):
+    """A candidate and what it is worth.
+
+    Attributes
+    ----------
+    values : mapping
+        Of the free keys, as TOML has them.
+    numbers : (free,) tuple of float
+        The same as the record has them.
+    found : list
+        Figures of its cases.
+    judged : Judged
+    """
+
+    values: Overrides
+    numbers: tuple[float, ...]
+    found: Figures
+    judged: Judged
+
+
+class SpentError(Exception):
+    """As many candidates were evaluated as may be."""
+
+
+class Archive:
+    """Evaluates candidates of a search; what comes again is not evaluated again.
+
+    Parameters
+    ----------
+    case : DesignCase
+    judge : Judge
+    pool : Pool
+    keep : callable
+        See `Keep`.
+    known : mapping
+        Identity -> figures of candidates that were evaluated before.
+    """
+
+    def __init__(
+        self, case: DesignCase, judge: Judge, pool: Pool, keep: Keep, known: Mapping[str, Figures]
+    ) -> None:
+        self.case = case
+        self.judge = judge
+        self.evaluations: list[Evaluation] = []
+        self._pool = pool
+        self._keep = keep
+        self._known = dict(known)
+        self._asked: dict[str, Future[Any]] = {}
+        self._done: dict[str, Evaluation] = {}
+        self._lock = threading.Lock()
+        self._closed = False
+
+    @property
+    def spent(self) -> int:
+        """Candidates that were asked for."""
+        return len(self._asked)
+
+    def ask(self, shares: Sequence[float] | np.ndarray) -> Judged:
+        """Judge a candidate at shares of the free keys' ranges; raises `SpentError`."""
+        return self.ask_all([shares])[0]
+
+    def ask_all(self, several: Sequence[Any]) -> list[Judged]:
+        """Judge candidates side by side; raises `SpentError` where there is no room for all of them."""
+        values = [chosen(self.case, shares) for shares in several]
+        names = [identity(one) for one in values]
+        with self._lock:
+            if self._closed:
+                raise SpentError
+            fresh = [name for name in dict.fromkeys(names) if name not in self._asked]
+            room = self.case.search.evaluations - len(self._asked)
+            for name in fresh[:room]:
+                self._asked[name] = self._submit(name, values[names.index(name)])
+        for name in dict.fromkeys(names):
+            if name in self._asked:
+                self._take(name, values[names.index(name)])
+        if len(fresh) > room:
+            raise SpentError
+        return [self._done[name].judged for name in names]
+
+    def close(self) -> None:
+        """Let no further candidate be asked for: the threads of the methods end."""
+        with self._lock:
+            self._closed = True
+
+    def best(self, objective: int = 0) -> Evaluation | None:
+        """The feasible candidate with the least objective; None where there is none."""
+        feasible = [one for one in self.evaluations if one.judged.feasible]
+        return min(feasible, key=lambda one: one.judged.objectives[objective], default=None)
+
+    def nearest(self) -> Evaluation | None:
+        """The candidate that misses the constraints by least, of those that have figures."""
+        some = [one for one in self.evaluations if not one.judged.message]
+        return min(some, key=lambda one: one.judged.violation, default=None)
+
+    def _submit(self, name: str, values: Overrides) -> "Future[Any]":
+        if name in self._known:
+            ready: Future[Any] = Future()
+            ready.set_result(self._known[name])
+            return ready
+        return self._pool.submit(cases_of(self.case, values))
+
+    def _take(self, name: str, values: Overrides) -> None:
+        found = self._asked[name].result()
+        with self._lock:
+            if name in self._done:
+                return
+            numbers = tuple(number_of(one, values[one.keys[0]]) for one in self.case.free)
+            self._done[name] = Evaluation(values, numbers, found, self.judge.judged(found))
+            self.evaluations.append(self._done[name])
+            if not self._closed:
+                self._keep(self._done[name])
+
+
+def identity(values: Mapping[str, Any]) -> str:
+    """What tells candidates apart."""
+    return json.dumps(values, sort_keys=True)

@@ -1,0 +1,163 @@
+"""A case of a search: everything that one run needs to know."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from tribodyn.studies.study import CaseHead
+
+#: What stands for the value of a figure at the start, as the limit of a constraint.
+START = "start"
+
+
+class Free(NamedTuple):
+    """A free key.
+
+    Attributes
+    ----------
+    keys : tuple of str
+        Dotted keys of the base scenario that take the same value.
+    name : str
+        Of its dataset in the record.
+    low, high : float
+        Bounds in its unit; of choices their numbers.
+    unit : str
+        As it is written; "" for a plain number.
+    si, units : float, str
+        Factor to SI, and the SI unit.
+    whole : bool
+        Whether its values are whole numbers.
+    choices : tuple
+        The values as TOML has them, where it is a choice; else none.
+    """
+
+    keys: tuple[str, ...]
+    name: str
+    low: float
+    high: float
+    unit: str = ""
+    si: float = 1.0
+    units: str = "1"
+    whole: bool = False
+    choices: tuple[Any, ...] = ()
+
+    @property
+    def continuous(self) -> bool:
+        """Whether it takes all values between its bounds."""
+        return not (self.whole or self.choices)
+
+
+class Objective(NamedTuple):
+    """A sum of figures to be minimised: (figure, weight) each; weights are negative where more is better.
+
+    The figures of a sum of several count relative to their values at the start.
+    """
+
+    name: str
+    terms: tuple[tuple[str, float], ...]
+
+    @property
+    def relative(self) -> bool:
+        """Whether its figures are divided by their values at the start."""
+        return len(self.terms) > 1
+
+
+class Constraint(NamedTuple):
+    """A figure that must not be above (sign 1) or below (sign −1) its limit, SI or `START`."""
+
+    text: str
+    figure: str
+    sign: float
+    limit: float | str
+
+
+class Duty(NamedTuple):
+    """One of the duties that the figures are means over."""
+
+    weight: float
+    set: Mapping[str, Any]
+    name: str
+
+
+class Tolerance(NamedTuple):
+    """What varies beyond the designer's reach.
+
+    Attributes
+    ----------
+    key : str
+    name : str
+    plus_minus : float
+        In its unit.
+    unit : str
+    distribution : str
+        "uniform", "normal" (`plus_minus` is three standard deviations) or "ends" (both ends alone).
+    """
+
+    key: str
+    name: str
+    plus_minus: float
+    unit: str
+    distribution: str
+
+
+class Robust(NamedTuple):
+    """How figures are taken over the samples of the tolerances: "mean", "worst" or "quantile"."""
+
+    over: str = "mean"
+    quantile: float = 0.9
+    samples: int = 8
+    seed: int = 0
+
+
+class Search(NamedTuple):
+    """How to search: the method, the maximum number of evaluations, local searches, points of a front."""
+
+    method: str = "auto"
+    evaluations: int = 200
+    starts: int = 2
+    seed: int = 0
+    points: int = 7
+    accuracy: float = 1e-3
+
+
+@dataclass(frozen=True)
+class DesignCase(CaseHead):
+    """A search, complete.
+
+    Parameters
+    ----------
+    title, name, kind, toml, sha256
+        As in `tribodyn.studies.study.CaseHead`; `kind` is "design".
+    base : mapping
+        The scenario that is searched through, resolved, as TOML has it.
+    base_kind : str
+        Its kind.
+    free : tuple of Free
+    objectives : tuple of Objective
+        One, or two for a front.
+    constraints : tuple of Constraint
+    duties : tuple of Duty
+        At least one.
+    over_duties : str
+        "mean" or "worst".
+    tolerances : tuple of Tolerance
+    robust : Robust
+    search : Search
+    confirm : mapping
+        Key to value, under which start and best are evaluated once more; empty: they are not.
+    sensitivities : bool
+        Whether each key and each tolerance is moved alone about the best.
+    """
+
+    base: Mapping[str, Any]
+    base_kind: str
+    free: tuple[Free, ...]
+    objectives: tuple[Objective, ...]
+    constraints: tuple[Constraint, ...]
+    duties: tuple[Duty, ...]
+    over_duties: str
+    tolerances: tuple[Tolerance, ...]
+    robust: Robust
+    search: Search
+    confirm: Mapping[str, Any]
+    sensitivities: bool

@@ -1,0 +1,73 @@
+"""Evaluates cases of a base scenario: in this process, or as the program of a worker process."""
+
+import copy
+import json
+import signal
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from tribodyn.errors import InputError
+from tribodyn.scenario.resolve import resolve_table
+from tribodyn.studies import study_of
+from tribodyn.studies.evaluated import evaluated
+from tribodyn.studies.load import Loaded, loaded_from, table_of
+
+#: Stands for the file of a base scenario: what choices name is looked for from here.
+FILE = Path("scenario")
+
+
+def loaded_case(base: Mapping[str, Any], overrides: Mapping[str, Any]) -> Loaded:
+    """Load the base scenario with some keys set; raises as `studies.load.load`."""
+    return loaded_from(resolve_table(copy.deepcopy(dict(base)), FILE, overrides, table_of), FILE)
+
+
+def evaluate(
+    base: Mapping[str, Any], several: Sequence[Mapping[str, Any]], workers: int | None = None
+) -> list[dict[str, Any] | str]:
+    """Figures of cases of a base scenario, numbers alone; a text instead where one fails: why.
+
+    Parameters
+    ----------
+    base : mapping
+        The base scenario's data, resolved.
+    several : sequence of mapping
+        Overrides of each case.
+    workers : int, optional
+        Threads of a study that evaluates cases together.
+    """
+    cases: list[Any] = []
+    for overrides in several:
+        try:
+            cases.append(loaded_case(base, overrides).case)
+        except InputError as error:
+            cases.append(str(error))
+    try:
+        found = evaluated(study_of(base), cases, workers)
+    except InputError as error:  # of all cases together
+        found = [str(error)] * len(cases)
+    return [one if isinstance(one, str) else numbers(one) for one in found]
+
+
+def numbers(figures: Mapping[str, Any]) -> dict[str, float]:
+    """The figures that are single numbers."""
+    return {
+        name: float(value)
+        for name, value in figures.items()
+        if isinstance(value, (int, float)) and not isinstance(value, bool)
+    }
+
+
+def serve() -> None:
+    """Evaluate what comes in as lines of JSON: first the base scenario, then lists of overrides."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the first process ends, and with it the input
+    answers, sys.stdout = sys.stdout, sys.stderr  # what a library prints is no answer
+    base = json.loads(sys.stdin.readline())
+    for line in sys.stdin:
+        answers.write(json.dumps(evaluate(base, json.loads(line), workers=1)) + "\n")
+        answers.flush()
+
+
+if __name__ == "__main__":
+    serve()

@@ -1,0 +1,286 @@
+"""Pictures of a search: history, start and best, what the best depends on, the front of two objectives."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from tribodyn.errors import InputError
+from tribodyn.post.figures.drawing import Drawing
+from tribodyn.post.figures.panel import View, record_label, record_title
+from tribodyn.post.report import Line
+from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, QUIET, WIDTH, new_figure
+from tribodyn.record.reader import Record
+from tribodyn.studies.design.layout import LOWER, OBJECTIVES, UPPER
+from tribodyn.studies.design.parts import apart, flat
+from tribodyn.studies.design.report import line_of
+
+#: Characters of a line beside an axis.
+LONGEST = 28
+START, BEST = QUIET, PALETTE[1]
+
+
+class _Shown:
+    """An objective of a record in engineers' units."""
+
+    def __init__(self, record: Record, place: int = 0) -> None:
+        name = OBJECTIVES[place]
+        about = record.long_name(name).removeprefix("objective: ")
+        line = line_of(record.scenario.get("scenario", {}), about)
+        self.line = line or Line(about, about.replace("_", " "), unit=_unit(record.units(name)))
+        value = record.summary.get("objective")
+        down = value is not None and float(np.atleast_1d(value)[place]) * _least(record, name) < 0
+        self.factor = -self.line.factor if down else self.line.factor
+        self.values = self.factor * record[name]
+
+    @property
+    def label(self) -> str:
+        """Label of an axis, over two lines where it is long."""
+        words, lines = self.line.label.split(), [""]
+        for word in words:
+            if len(lines[-1]) + len(word) > LONGEST:
+                lines.append("")
+            lines[-1] = f"{lines[-1]} {word}".strip()
+        return "\n".join(lines) + (f" ({self.line.unit})" if self.line.unit else "")
+
+
+def _least(record: Record, name: str) -> float:
+    values = record[name][record["feasible"] == 1]
+    return float(np.nanmin(values)) if values.size else np.nan
+
+
+def _unit(units: str) -> str:
+    return "" if units == "1" else units
+
+
+def _required(record: Record) -> None:
+    if not record.samples or "objective" not in record.summary:
+        raise InputError("record", str(record.path), "holds no design to draw", "run the scenario again")
+
+
+def _overview(records: Sequence[Record], view: View) -> Figure:
+    record = records[0]
+    _required(record)
+    drawn = new_figure(WIDTH, 2.0 * PANEL_HEIGHT)
+    (upper_left, upper_right), (lower_left, lower_right) = drawn.subplots(2, 2)
+    _draw_history(upper_left, [record])
+    if "objective_2" in record:
+        _draw_front(upper_right, [record])
+    else:
+        _draw_duties(upper_right, record)
+    _draw_values(lower_left, record)
+    _draw_sensitivities(lower_right, record)
+    drawn.suptitle(record_title(record), fontsize=8.5, fontweight="bold")
+    return drawn
+
+
+def _history(records: Sequence[Record], _view: View) -> Figure:
+    drawn = new_figure(WIDTH, 1.4 * PANEL_HEIGHT)
+    axes = drawn.subplots()
+    for record in records:
+        _required(record)
+    _draw_history(axes, records)
+    return drawn
+
+
+def _draw_history(axes: Axes, records: Sequence[Record]) -> None:
+    """Objective of every candidate in their order, and the best so far."""
+    shown = _Shown(records[0])
+    seen = []
+    for number, record in enumerate(records):
+        values, feasible = shown.factor * record["objective"], record["feasible"] == 1
+        count = np.arange(1, len(values) + 1)
+        down = np.sign(shown.factor)
+        best = down * np.fmin.accumulate(np.where(feasible, down * values, np.nan))
+        color = PALETTE[number % len(PALETTE)]
+        axes.plot(count[feasible], values[feasible], ".", color=color, markersize=3, alpha=0.6)
+        other = ~feasible & np.isfinite(values)
+        axes.plot(count[other], values[other], "x", color=QUIET, markersize=3, markeredgewidth=0.7)
+        label = record_label(record) if len(records) > 1 else "best so far"
+        axes.step(count, best, where="post", color=color, label=label)
+        seen += [values[np.isfinite(values)], best[np.isfinite(best)]]
+    start = records[0].summary.get("objective_start")
+    if start is not None:
+        level = abs(shown.factor) * float(np.atleast_1d(start)[0])
+        axes.axhline(level, color=START, linestyle=":", label="start")
+        seen.append(np.array([level]))
+    every = np.concatenate(seen)
+    low, high = np.min(every), np.quantile(every, 0.95)
+    axes.set_ylim(low - 0.08 * (high - low), high + 0.1 * (high - low))
+    axes.set_xlabel("Evaluation (× not feasible)")
+    axes.set_ylabel(shown.label)
+    axes.set_title("History", loc="left")
+    axes.legend(loc="upper right")
+
+
+def _draw_duties(axes: Axes, record: Record) -> None:
+    """First objective at each duty, at the start and at the best."""
+    shown, duties = _Shown(record), record.summary.get("duties")
+    names = duty_names(record.scenario["design"])
+    if duties is None:
+        start, best = record.summary.get("objective_start"), record.summary["objective"]
+        heights = [[np.nan if start is None else abs(shown.factor) * start], [abs(shown.factor) * best]]
+        names = [""]
+    else:
+        heights = [shown.factor * np.asarray(duties[one]) for one in ("start", "best")]
+    place = np.arange(len(names))
+    for number, (values, color, label) in enumerate(
+        zip(heights, (START, BEST), ("start", "best"), strict=True)
+    ):
+        axes.bar(place + 0.4 * number - 0.2, values, 0.36, color=color, label=label)
+    axes.set_xticks(place, [name.replace("*", " ") for name in names], fontsize=6.5)
+    axes.set_ylabel(shown.label)
+    axes.set_title("Before and after" + ", by duty" * (len(names) > 1), loc="left")
+    axes.margins(y=0.25)
+    axes.set_xlim(-0.6, len(names) - 0.4)
+    axes.legend(ncols=2)
+
+
+def duty_names(design: Mapping[str, Any]) -> list[str]:
+    """A name for each duty: the values of the keys in which duties differ."""
+    sets = [flat(one.get("set", {})) for one in design.get("duty", ())]
+    keys = list(dict.fromkeys(key for one in sets for key in one))
+    different = [key for key in keys if len({str(one.get(key)) for one in sets}) > 1]
+    return ["\n".join(str(one.get(key, "")) for key in different) for one in sets]
+
+
+def _draw_values(axes: Axes, record: Record) -> None:
+    """Free keys over their ranges: start, best, and those candidates that come within a tenth of it."""
+    entries = record.scenario["design"]["free"]
+    names = [name for name in record if name.startswith("free_")]
+    values = _Shown(record).values * np.sign(_Shown(record).factor)
+    best = int(np.nanargmin(np.where(record["feasible"] == 1, values, np.nan)))
+    span = abs(float(np.atleast_1d(record.summary.get("objective_start") or 0.0)[0]) * _Shown(record).factor)
+    near = (record["feasible"] == 1) & (values <= values[best] + 0.1 * abs(values[best] or span))
+    keys = [one["key"] if isinstance(one["key"], str) else one["key"][0] for one in entries]
+    labels = []
+    for row, (name, entry, key) in enumerate(zip(names, entries, keys, strict=True)):
+        low, high = _bounds(record, name, entry)
+        shares = (record[name] - low) / ((high - low) or 1.0)
+        axes.plot(shares[near], np.full(near.sum(), row), "|", color=PALETTE[0], markersize=7, alpha=0.5)
+        axes.plot(shares[best], row, "o", color=BEST, markersize=5, zorder=3)
+        written = record.summary["best"].get(key, "")
+        labels.append(f"{apart(keys)[row].replace('_', ' ')}\n{_short(written)}")
+    axes.set_yticks(range(len(names)), labels, fontsize=6.5)
+    axes.set_ylim(len(names) - 0.4, -0.6)
+    axes.set_xlim(-0.03, 1.03)
+    axes.set_xlabel("Share of the range (● best, | within a tenth of it)")
+    axes.set_title("Free keys", loc="left")
+
+
+def _short(value: Any) -> str:
+    number, _, unit = str(value).partition(" ")
+    try:
+        return f"{float(number):.4g} {unit}".rstrip()
+    except ValueError:
+        return str(value)
+
+
+def _bounds(record: Record, name: str, entry: Mapping[str, Any]) -> tuple[float, float]:
+    """Bounds of a free key in the units of its dataset."""
+    from tribodyn.scenario.vary import base_units
+
+    if "choices" in entry:
+        return 0.0, len(entry["choices"]) - 1.0
+    ends = []
+    for end in ("from", "to"):
+        base = base_units(entry[end])
+        ends.append(float(entry[end]) if base is None else base[0])
+    return ends[0], ends[1]
+
+
+def _draw_sensitivities(axes: Axes, record: Record) -> None:
+    """Change of the objective with one key or tolerance moved about the best."""
+    shown, design = _Shown(record), record.scenario["design"]
+    keys = [one["key"] if isinstance(one["key"], str) else one["key"][0] for one in design["free"]]
+    names = [f"{name.replace('_', ' ')} ± 2 %" for name in apart(keys)]
+    tolerances = design.get("tolerance", ())
+    names += [
+        f"{name.replace('_', ' ')} ± {one['plus_minus']}"
+        for name, one in zip(apart([one["key"] for one in tolerances]), tolerances, strict=True)
+    ]
+    best = float(np.atleast_1d(record.summary["objective"])[0]) * abs(shown.factor)
+    place = np.arange(len(names))
+    for moved, color, label in ((LOWER, PALETTE[5], "down"), (UPPER, PALETTE[2], "up")):
+        offset = 0.2 if moved == UPPER else -0.2
+        axes.barh(place + offset, shown.factor * record[moved] - best, 0.36, color=color, label=label)
+    axes.axvline(0.0, color=INK, linewidth=0.7)
+    axes.set_yticks(place, names, fontsize=6.5)
+    axes.set_ylim(len(names) - 0.4, -0.6)
+    unit = f" ({shown.line.unit})" if shown.line.unit else ""
+    axes.set_xlabel(f"Change of the objective{unit}")
+    axes.set_title("What the best depends on", loc="left")
+    axes.margins(x=0.1)
+    axes.legend()
+
+
+def _front(records: Sequence[Record], _view: View) -> Figure:
+    drawn = new_figure(WIDTH, 1.6 * PANEL_HEIGHT)
+    axes = drawn.subplots()
+    for record in records:
+        _required(record)
+    _draw_front(axes, records)
+    return drawn
+
+
+def _draw_front(axes: Axes, records: Sequence[Record]) -> None:
+    """All feasible candidates, and those that no other is better than in both objectives."""
+    first, second = (_Shown(records[0], place) for place in (0, 1))
+    for number, record in enumerate(records):
+        color = PALETTE[number % len(PALETTE)]
+        one, two = _Shown(record, 0), _Shown(record, 1)
+        feasible = record["feasible"] == 1
+        axes.plot(one.values[feasible], two.values[feasible], ".", color=color, markersize=3, alpha=0.35)
+        found = record.summary.get("front", {})
+        x, y = (
+            view.factor * np.atleast_1d(found[name])
+            for view, name in zip((one, two), OBJECTIVES, strict=True)
+        )
+        label = record_label(record) if len(records) > 1 else "front"
+        axes.plot(x, y, "o-", color=color, markersize=3.5, label=label)
+        start = record.summary.get("objective_start")
+        if start is not None:
+            axes.plot(abs(one.factor) * start[0], abs(two.factor) * start[1], "s", color=START, label="start")
+        best = record.summary["objective"]
+        axes.plot(abs(one.factor) * best[0], abs(two.factor) * best[1], "D", color=BEST, label="compromise")
+    axes.set_xlabel(first.label)
+    axes.set_ylabel(second.label)
+    axes.margins(x=0.05)
+    axes.set_title("Front", loc="left")
+    axes.legend()
+
+
+def _alone(draw: Any, height: float = 1.3) -> Any:
+    """A figure with one panel."""
+
+    def figure(records: Sequence[Record], _view: View) -> Figure:
+        _required(records[0])
+        drawn = new_figure(WIDTH, height * PANEL_HEIGHT)
+        draw(drawn.subplots(), records[0])
+        return drawn
+
+    return figure
+
+
+def _found(record: Record) -> bool:
+    return record.samples > 0 and "objective" in record.summary
+
+
+def _two(record: Record) -> bool:
+    return _found(record) and "objective_2" in record
+
+
+DRAWINGS: Mapping[str, Drawing] = {
+    "overview": Drawing("history, start and best, free keys, what the best depends on", _overview, _found),
+    "history": Drawing("objective of every candidate, and the best so far", _history, _found),
+    "duties": Drawing(
+        "first objective at each duty, at the start and at the best", _alone(_draw_duties), _found
+    ),
+    "free-keys": Drawing("where in their ranges good values lie", _alone(_draw_values), _found),
+    "sensitivities": Drawing(
+        "change of the objective with one key or tolerance moved", _alone(_draw_sensitivities), _found
+    ),
+    "front": Drawing("the front of two objectives", _front, _two),
+}

@@ -1,0 +1,157 @@
+"""From the figures of a candidate's cases to what it is worth: objectives, constraints, distances."""
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.studies.design.case import START, Constraint, DesignCase, Objective
+
+#: What a candidate without figures misses its constraints by: more than any other.
+NO_FIGURES = 10.0
+
+
+class Judged(NamedTuple):
+    """What a candidate is worth.
+
+    Attributes
+    ----------
+    objectives : tuple of float
+        NaN where it has no figures.
+    margins : tuple of float
+        Of the constraints, over their limits: not negative where they hold.
+    by_duty : (duties,) tuple of float
+        The first objective at each duty.
+    figures : dict
+        Figures over all duties, as the objectives take them.
+    message : str
+        Why it has no figures.
+    """
+
+    objectives: tuple[float, ...]
+    margins: tuple[float, ...]
+    by_duty: tuple[float, ...]
+    figures: dict[str, float]
+    message: str = ""
+
+    @property
+    def violation(self) -> float:
+        """Sum of what the constraints are missed by; 0 where all hold."""
+        if self.message:
+            return NO_FIGURES
+        return -sum(min(0.0, one) for one in self.margins)
+
+    @property
+    def feasible(self) -> bool:
+        """Whether it has figures and all constraints hold."""
+        return not self.message and self.violation <= 1e-9
+
+
+class Judge:
+    """Judges candidates of a search, once it knows the figures at the start.
+
+    Parameters
+    ----------
+    case : DesignCase
+    start : sequence
+        Figures of the base scenario's cases, as `evaluation.evaluate` gives them.
+    """
+
+    def __init__(self, case: DesignCase, start: Sequence[dict[str, Any] | str]) -> None:
+        self.case = case
+        self.start = list(start)
+        self.scales: dict[str, float] = {}
+        self.at_start: dict[str, float] = {}
+        self._start = self._rows(start)
+        if self._start is not None:
+            self.at_start = {name: self._over_all(name, self._start, 1.0) for name in self._start[0][0]}
+        for one in case.constraints:
+            limit = self.limit(one)
+            self.scales[one.text] = abs(limit) if limit and math.isfinite(limit) else 1.0
+
+    def limit(self, one: Constraint) -> float:
+        """Limit of a constraint, SI; infinite where it is that of a start without figures."""
+        if one.limit != START:
+            return float(one.limit)
+        if self._start is None or one.figure not in self.at_start:
+            return one.sign * math.inf
+        return one.sign * self._worst(one, self._start)
+
+    def judged(self, found: Sequence[dict[str, Any] | str]) -> Judged:
+        """Judge the figures of a candidate's cases, in the order of `candidates.cases_of`."""
+        case = self.case
+        none = math.nan
+        rows = self._rows(found)
+        wanted = {name for one in case.objectives for name, _ in one.terms}
+        wanted |= {one.figure for one in case.constraints}
+        missing = sorted(wanted - set(rows[0][0])) if rows else []
+        if rows is None or missing:
+            message = next((one for one in found if isinstance(one, str)), "")
+            message = message or f"it has no {missing[0]}"
+            gone = tuple(none for _ in case.objectives)
+            return Judged(
+                gone,
+                tuple(-NO_FIGURES for _ in case.constraints),
+                tuple(none for _ in case.duties),
+                {},
+                message,
+            )
+        objectives = tuple(self._objective(one, rows) for one in case.objectives)
+        by_duty = tuple(self._objective(case.objectives[0], [row], 1.0) for row in rows)
+        margins = tuple(self._margin(one, rows) for one in case.constraints)
+        figures = {name: self._over_all(name, rows, 1.0) for name in rows[0][0]}
+        return Judged(objectives, margins, by_duty, figures)
+
+    def _rows(self, found: Sequence[dict[str, Any] | str]) -> list[list[Mapping[str, float]]] | None:
+        """Figures by duty and sample, those that all cases have; None where a case has none."""
+        if any(isinstance(one, str) for one in found):
+            return None
+        some: list[Any] = list(found)
+        shared = set(some[0]).intersection(*some[1:])
+        names = [name for name in some[0] if name in shared]
+        plain = [{name: one[name] for name in names} for one in some]
+        count = len(some) // len(self.case.duties)
+        return [plain[i : i + count] for i in range(0, len(plain), count)]
+
+    def _objective(
+        self, one: Objective, rows: Sequence[Sequence[Mapping[str, float]]], weight: float | None = None
+    ) -> float:
+        total = 0.0
+        for name, factor in one.terms:
+            value = self._over_all(name, rows, math.copysign(1.0, factor), alone=weight is not None)
+            reference = abs(self.at_start.get(name, 1.0)) or 1.0
+            total += factor * (value / reference if one.relative else value)
+        return total
+
+    def _over_all(
+        self, name: str, rows: Sequence[Sequence[Mapping[str, float]]], sign: float, alone: bool = False
+    ) -> float:
+        """A figure over samples, then over duties; larger is worse for a positive sign."""
+        values = [sign * self._over_samples([sign * one[name] for one in row]) for row in rows]
+        if alone:
+            return values[0]
+        if self.case.over_duties == "worst":
+            return sign * max(sign * value for value in values)
+        weights = [duty.weight for duty in self.case.duties]
+        return float(np.average(values, weights=weights))
+
+    def _over_samples(self, values: Sequence[float]) -> float:
+        robust = self.case.robust
+        if robust.over == "worst":
+            return max(values)
+        if robust.over == "quantile":
+            return float(np.quantile(values, robust.quantile))
+        return float(np.mean(values))
+
+    def _margin(self, one: Constraint, rows: Sequence[Sequence[Mapping[str, float]]]) -> float:
+        limit = self.limit(one) * one.sign
+        return (limit - self._worst(one, rows)) / self.scales[one.text] if math.isfinite(limit) else 1.0
+
+    def _worst(self, one: Constraint, rows: Sequence[Sequence[Mapping[str, float]]]) -> float:
+        """A figure times its sign at the worst duty, and the worst or the quantile of its samples."""
+        robust = self.case.robust
+        return max(
+            float(np.quantile(values, robust.quantile)) if robust.over == "quantile" else max(values)
+            for values in ([case[one.figure] * one.sign for case in row] for row in rows)
+        )

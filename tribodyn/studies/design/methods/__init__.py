@@ -1,0 +1,63 @@
+"""The methods of a search, one sort a file; all of them ask the archive and return nothing."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from tribodyn.errors import InputError
+from tribodyn.studies.design.archive import Archive
+from tribodyn.studies.design.case import DesignCase
+from tribodyn.studies.design.methods.every import count_of_all, every
+from tribodyn.studies.design.methods.front import epsilon_constraint, nsga2
+from tribodyn.studies.design.methods.local import local
+from tribodyn.studies.design.methods.population import cma_es, differential_evolution
+
+Method = Callable[[Archive, np.ndarray], None]
+"""Searches from the shares at which the base scenario stands."""
+
+METHODS: dict[str, Method] = {
+    "cobyqa": local("cobyqa"),
+    "slsqp": local("slsqp"),
+    "trust-constr": local("trust-constr"),
+    "differential-evolution": differential_evolution,
+    "cma-es": cma_es,
+    "epsilon-constraint": epsilon_constraint,
+    "nsga2": nsga2,
+    "every": every,
+}
+FRONTS = ("epsilon-constraint", "nsga2")
+#: Those that need values between which there are others.
+SMOOTH = ("cobyqa", "slsqp", "trust-constr", "epsilon-constraint")
+
+
+def method_of(case: DesignCase) -> tuple[str, str]:
+    """Name of the method for a search, and why it is that one.
+
+    Raises
+    ------
+    InputError
+        For a method that does not fit what is searched.
+    """
+    wanted = case.search.method
+    smooth = all(one.continuous for one in case.free)
+    two = len(case.objectives) == 2
+    if wanted == "auto":
+        if not smooth and not two and count_of_all(case) <= case.search.evaluations:
+            return "every", "few enough values to evaluate every one"
+        if two:
+            name = "epsilon-constraint" if smooth else "nsga2"
+            return name, "two objectives" + ("" if smooth else ", and whole numbers or choices")
+        if not smooth:
+            return "differential-evolution", "whole numbers or choices"
+        return "cobyqa", "continuous values, figures without derivatives"
+    if two != (wanted in FRONTS) and wanted != "every":
+        rule = "needs two objectives" if not two else "takes one objective"
+        remedy = "choose auto, or " + ("another method" if not two else " or ".join(FRONTS))
+        raise InputError("design.method", f'"{wanted}"', rule, remedy)
+    if wanted in SMOOTH and not smooth:
+        rule = "whole numbers and choices are free, which it cannot search"
+        raise InputError("design.method", f'"{wanted}"', rule, "choose differential-evolution or nsga2")
+    if wanted == "every" and not count_of_all(case) <= case.search.evaluations:
+        rule = "there are more values than design.evaluations"
+        raise InputError("design.method", f'"{wanted}"', rule, "choose another method, or more evaluations")
+    return wanted, "chosen by the scenario"

@@ -1,0 +1,91 @@
+"""Two objectives: the front of candidates of which no other is better in both."""
+
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from tribodyn.studies.design.archive import Archive, Evaluation
+from tribodyn.studies.design.methods.local import ended_when_spent, first_look, minimise, together
+from tribodyn.studies.design.methods.population import PER_KEY, missing
+from tribodyn.studies.design.methods.views import Scalar
+
+
+def front(evaluations: list[Evaluation]) -> list[Evaluation]:
+    """The feasible candidates that no other is better than in both objectives, by the first objective."""
+    some = [one for one in evaluations if one.judged.feasible]
+    some.sort(key=lambda one: one.judged.objectives)
+    found: list[Evaluation] = []
+    for one in some:
+        if not found or one.judged.objectives[1] < found[-1].judged.objectives[1]:
+            found.append(one)
+    return found
+
+
+def epsilon_constraint(archive: Archive, start: np.ndarray) -> None:
+    """Minimise each objective alone, then the first under bounds of the second between, by COBYQA."""
+    case = archive.case
+    share = case.search.evaluations // (case.search.points + 1)
+
+    def search() -> None:
+        ends = [Scalar(archive, place) for place in (0, 1)]
+        places = [first_look(view, start)[0] for view in ends]
+        together(
+            archive,
+            [
+                partial(minimise, "cobyqa", view, place, share)
+                for view, place in zip(ends, places, strict=True)
+            ],
+        )
+        found = front(archive.evaluations)
+        if len(found) < 2:
+            return
+        high, low = found[0].judged.objectives[1], found[-1].judged.objectives[1]
+        bounds = np.linspace(high, low, case.search.points)[1:-1]
+        together(archive, [partial(_under, archive, float(bound), share) for bound in bounds])
+
+    ended_when_spent(search)
+
+
+def _under(archive: Archive, bound: float, most: int) -> None:
+    """Minimise the first objective from the best candidate that keeps a bound of the second."""
+    from tribodyn.studies.design.candidates import share_of
+
+    keeping = [one for one in front(archive.evaluations) if one.judged.objectives[1] <= bound]
+    if keeping:
+        best = min(keeping, key=lambda one: one.judged.objectives[0])
+        start = [share_of(one, best.values[one.keys[0]]) for one in archive.case.free]
+        minimise("cobyqa", Scalar(archive, 0, bound), np.array(start), most)
+
+
+def nsga2(archive: Archive, start: np.ndarray) -> None:
+    """Search by NSGA-II, of the package pymoo."""
+    try:
+        from pymoo.algorithms.moo.nsga2 import NSGA2
+        from pymoo.core.problem import Problem
+        from pymoo.optimize import minimize
+    except ImportError:
+        raise missing("nsga2", "pymoo") from None
+    case, count = archive.case, len(start)
+    views = [Scalar(archive, place) for place in (0, 1)]
+
+    class Wanted(Problem):  # pyright: ignore[reportGeneralTypeIssues, reportUntypedBaseClass]
+        def __init__(self) -> None:
+            super().__init__(n_var=count, n_obj=2, n_ieq_constr=len(case.constraints) + 1, xl=0.0, xu=1.0)
+
+        def _evaluate(self, x: np.ndarray, out: dict[str, np.ndarray], *_: Any, **__: Any) -> None:
+            judged = archive.ask_all(list(x))
+            out["F"] = np.array([[view.value(one) for view in views] for one in judged])
+            out["G"] = np.array([[*(-m for m in one.margins), float(bool(one.message))] for one in judged])
+
+    size = max(16, PER_KEY * count)
+
+    def search() -> None:
+        minimize(
+            Wanted(),
+            NSGA2(pop_size=size),
+            ("n_gen", max(2, case.search.evaluations // size)),
+            seed=case.search.seed,
+        )
+
+    ended_when_spent(search)

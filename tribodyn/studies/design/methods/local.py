@@ -1,0 +1,151 @@
+"""Local searches by SciPy, side by side from the best of a Sobol sequence."""
+
+import warnings
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+import numpy as np
+
+from tribodyn.studies.design.archive import Archive, SpentError
+from tribodyn.studies.design.candidates import share_of
+from tribodyn.studies.design.methods.views import Scalar
+
+#: Share of the evaluations that go into the first look, and how many of them a free key is worth at most.
+FIRST_LOOK, LOOK_PER_KEY = 0.3, 10
+#: Relative gain that another search from the best is worth.
+GAIN = 1e-3
+#: First radius of the trust region, and step of differences, as shares of the ranges.
+RADIUS, STEP = 0.15, 2e-3
+
+
+def local(name: str) -> Callable[[Archive, np.ndarray], None]:
+    """Return the method that searches locally by one of SciPy's minimisers."""
+
+    def search(archive: Archive, start: np.ndarray) -> None:
+        view = Scalar(archive)
+        places = first_look(view, start)
+        together(archive, [lambda place=place: minimise(name, view, place) for place in places])
+        ended_when_spent(lambda: rounds(name, view))
+
+    return search
+
+
+def rounds(name: str, view: Scalar) -> None:
+    """Search again from the best, each time nearer about it, as long as that finds a better one.
+
+    A figure such as a maximum has kinks, on which a local search may end too early.
+    """
+    archive, radius, before = view.archive, RADIUS / 2, np.inf
+    best = archive.best()
+    finest = archive.case.search.accuracy
+    while best is not None and radius > finest and view.value(best.judged) < before - GAIN:
+        before = view.value(best.judged)
+        place = [share_of(one, best.values[one.keys[0]]) for one in archive.case.free]
+        minimise(name, view, np.array(place), radius=radius)
+        best, radius = archive.best(), radius / 2
+
+
+def first_look(view: Scalar, start: np.ndarray) -> list[np.ndarray]:
+    """Evaluate points of a Sobol sequence and the start; the best of them that are apart from each other."""
+    search, count = view.archive.case.search, len(start)
+    room = min(int(FIRST_LOOK * search.evaluations), LOOK_PER_KEY * count)
+    points = [np.clip(start, 0.0, 1.0), *sobol(count, max(1, room - 1), search.seed)]
+    order = np.argsort(view.merits(points), kind="stable")
+    places: list[np.ndarray] = []
+    for i in order:
+        if all(np.max(np.abs(points[i] - other)) > 1.5 * RADIUS for other in places):
+            places.append(points[i])
+        if len(places) == search.starts:
+            break
+    return places
+
+
+def sobol(dimensions: int, count: int, seed: int) -> np.ndarray:
+    """Points (count, dimensions) of a scrambled Sobol sequence in 0 … 1."""
+    from scipy.stats import qmc
+
+    power = int(np.ceil(np.log2(max(2, count))))
+    return qmc.Sobol(dimensions, rng=np.random.default_rng(seed)).random_base2(power)[:count]
+
+
+def together(archive: Archive, searches: Sequence[Callable[[], None]]) -> None:
+    """Run searches side by side; each waits for its own evaluations."""
+    with ThreadPoolExecutor(len(searches) or 1) as threads:
+        try:
+            for one in [threads.submit(ended_when_spent, search) for search in searches]:
+                one.result()
+        except BaseException:
+            archive.close()
+            raise
+
+
+def ended_when_spent(search: Callable[[], None]) -> None:
+    """Run a search until it ends or the evaluations are spent."""
+    try:
+        search()
+    except SpentError:
+        return
+
+
+def minimise(
+    name: str, view: Scalar, start: np.ndarray, most: int | None = None, radius: float = RADIUS
+) -> None:
+    """Search from shares of the free keys' ranges, with at most so many evaluations."""
+    from scipy.optimize import NonlinearConstraint, minimize
+
+    search, count = view.archive.case.search, len(start)
+    margins = len(view.margins(view.archive.ask(start)))
+
+    def function(shares: np.ndarray) -> float:
+        return view.value(view.archive.ask(shares))
+
+    def constraint(shares: np.ndarray) -> np.ndarray:
+        return np.array(view.margins(view.archive.ask(shares)))
+
+    gradient, jacobian = differences(view)
+    derivatives: dict[str, Any] = {} if name == "cobyqa" else {"jac": gradient}
+    constraints: Any = ()
+    if margins:
+        slopes = {} if name == "cobyqa" else {"jac": jacobian}
+        constraints = (NonlinearConstraint(constraint, 0.0, np.inf, **slopes),)
+    options: dict[str, Any] = {
+        "cobyqa": {
+            "initial_tr_radius": radius,
+            "final_tr_radius": search.accuracy,
+            "maxfev": most or search.evaluations,
+        },
+        "slsqp": {"ftol": 1e-6, "maxiter": most or search.evaluations},
+        "trust-constr": {
+            "initial_tr_radius": radius,
+            "xtol": search.accuracy,
+            "maxiter": most or search.evaluations,
+        },
+    }[name]
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "delta_grad == 0.0", UserWarning)  # of slopes that are constant
+        minimize(
+            function,
+            np.clip(start, 0.0, 1.0),
+            method=name.upper() if name != "trust-constr" else name,
+            bounds=[(0.0, 1.0)] * count,
+            constraints=constraints,
+            options=options,
+            **derivatives,
+        )
+
+
+def differences(view: Scalar) -> tuple[Callable[[np.ndarray], Any], Callable[[np.ndarray], Any]]:
+    """Slopes of value and margins by differences inwards, whose candidates are evaluated side by side."""
+
+    def slopes(shares: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        shares = np.clip(shares, 0.0, 1.0)
+        steps = np.where(shares + STEP <= 1.0, STEP, -STEP)
+        around = shares + np.diag(steps)
+        middle, *others = view.archive.ask_all([shares, *around])
+        value = np.array([view.value(one) - view.value(middle) for one in others]) / steps
+        held = np.array(view.margins(middle))
+        margins = np.array([np.array(view.margins(one)) - held for one in others]).T / steps
+        return value, margins
+
+    return lambda shares: slopes(shares)[0], lambda shares: slopes(shares)[1]

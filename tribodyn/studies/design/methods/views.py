@@ -1,0 +1,59 @@
+"""A search with one objective as numbers that minimisers take."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from tribodyn.studies.design.archive import Archive
+from tribodyn.studies.design.judged import NO_FIGURES, Judged
+
+#: Stands for the objective of a candidate without figures, over that of the start.
+POOR = 3.0
+
+
+class Scalar:
+    """One objective, relative to the start, and margins that must not be negative.
+
+    Parameters
+    ----------
+    archive : Archive
+    objective : int
+    bound : float, optional
+        Upper bound of the other objective.
+    """
+
+    def __init__(self, archive: Archive, objective: int = 0, bound: float | None = None) -> None:
+        self.archive = archive
+        self.objective = objective
+        self.bound = bound
+        self.scales = [self._scale(place) for place in range(len(archive.case.objectives))]
+
+    def _scale(self, place: int) -> float:
+        values = [one.judged.objectives[place] for one in self.archive.evaluations]
+        known = [abs(value) for value in values if math.isfinite(value) and value]
+        return known[0] if known else 1.0
+
+    def value(self, judged: Judged) -> float:
+        """The objective over its scale; a poor one where there is none."""
+        value = judged.objectives[self.objective] / self.scales[self.objective]
+        return value if math.isfinite(value) else POOR
+
+    def margins(self, judged: Judged) -> list[float]:
+        """Margins of the constraints, that of the bound last."""
+        if self.bound is None:
+            return list(judged.margins)
+        other = judged.objectives[1 - self.objective]
+        room = (self.bound - other) / self.scales[1 - self.objective]
+        return [*judged.margins, room if math.isfinite(room) else -NO_FIGURES]
+
+    def merit(self, judged: Judged) -> float:
+        """Objective of a feasible candidate; of others above all those, growing with what they miss."""
+        missed = -sum(min(0.0, one) for one in self.margins(judged))
+        if judged.message:
+            return 1e6 + NO_FIGURES
+        return 1e6 + missed if missed > 1e-9 else self.value(judged)
+
+    def merits(self, several: Sequence[np.ndarray]) -> np.ndarray:
+        """Merits of candidates that are evaluated side by side."""
+        return np.array([self.merit(one) for one in self.archive.ask_all(several)])

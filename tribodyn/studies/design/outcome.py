@@ -1,0 +1,127 @@
+"""What a search leaves beside its record: the best scenario as TOML, its drive as DXF; and its summary."""
+
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import tomli_w
+
+from tribodyn.errors import InputError, OutputError
+from tribodyn.studies.design.archive import Archive, Evaluation
+from tribodyn.studies.design.candidates import at
+from tribodyn.studies.design.case import DesignCase
+from tribodyn.studies.design.evaluation import loaded_case
+from tribodyn.studies.design.methods.front import front
+
+#: First line of a file with the best scenario; a file without it is not replaced.
+HEAD = "# The best of the search of tribodyn: "
+
+
+def best_path(record: Path, ending: str) -> Path:
+    """Name of a file with the best candidate of a search, beside its record."""
+    return record.with_name(f"{record.stem}-best.{ending}")
+
+
+def check_targets(record: Path) -> None:
+    """Raise InputError where a file is in the way that no search wrote."""
+    path = best_path(record, "toml")
+    if path.exists() and not _is_ours(path):
+        raise InputError("output", str(path), "exists, and no search wrote it", "choose another record")
+
+
+def _is_ours(path: Path) -> bool:
+    try:
+        return path.is_file() and path.read_text(encoding="utf-8", errors="replace").startswith(HEAD)
+    except OSError:
+        return False
+
+
+def write_best(case: DesignCase, values: Mapping[str, Any], record: Path) -> list[Path]:
+    """Write the best scenario, and the drawing of its gears where it has some; return the files."""
+    loaded = loaded_case(case.base, values)
+    data = tomllib.loads(loaded.case.toml)
+    data |= {"title": f"{data['title']}: best of {case.name}", "name": f"{case.name}-best"}
+    files = [best_path(record, "toml")]
+    try:
+        files[0].write_text(f"{HEAD}{case.title}\n{tomli_w.dumps(data)}", encoding="utf-8")
+        if loaded.study.has_gears:
+            from tribodyn.drawing.dxf import write_pair
+            from tribodyn.geometry.checks import check
+            from tribodyn.geometry.families import family
+
+            assembly = check(family(loaded.case.family), loaded.case.drive)
+            files.append(write_pair(best_path(record, "dxf"), assembly))
+    except OSError as error:
+        raise OutputError(str(files[0]), error.strerror or str(error)) from None
+    return files
+
+
+def headline(case: DesignCase, archive: Archive) -> dict[str, Any]:
+    """Figures of the summary that say what was found: at the start and at the best."""
+    judge, best = archive.judge, chosen_best(case, archive)
+    judged = judge.judged(judge.start)
+    single = len(case.objectives) == 1
+
+    def shown(objectives: tuple[float, ...]) -> Any:
+        signed = [
+            -one if aim.name.startswith("-") else one
+            for one, aim in zip(objectives, case.objectives, strict=True)
+        ]
+        return signed[0] if single else signed
+
+    summary: dict[str, Any] = {
+        "objective_name": " and ".join(one.name.removeprefix("-") for one in case.objectives),
+        "objective_start": None if judged.message else shown(judged.objectives),
+        "start_feasible": judged.feasible,
+        "evaluations": len(archive.evaluations),
+        "evaluations_without_figures": sum(bool(one.judged.message) for one in archive.evaluations),
+        "evaluations_feasible": sum(one.judged.feasible for one in archive.evaluations),
+    }
+    if judged.message:
+        summary["start_message"] = judged.message
+    if best is None:
+        return summary
+    summary["objective"] = shown(best.judged.objectives)
+    summary["best"] = {
+        key: value if isinstance(value, (int, float)) else str(value) for key, value in best.values.items()
+    }
+    summary["start"] = {
+        key: value for key in best.values if (value := at(case.base, key)) is not None and _plain(value)
+    }
+    if len(case.duties) > 1:
+        summary["duties"] = {
+            "start": [float(one) for one in judged.by_duty],
+            "best": [float(one) for one in best.judged.by_duty],
+        }
+    summary["figures_start"] = dict(judge.at_start)
+    summary["figures_best"] = dict(best.judged.figures)
+    if not single:
+        points = front(archive.evaluations)
+        summary["front"] = {
+            "points": len(points),
+            "objective": [one.judged.objectives[0] for one in points],
+            "objective_2": [one.judged.objectives[1] for one in points],
+        }
+    return summary
+
+
+def _plain(value: Any) -> bool:
+    return isinstance(value, (int, float, str))
+
+
+def chosen_best(case: DesignCase, archive: Archive) -> Evaluation | None:
+    """The best candidate; of a front the one that is nearest to the best of both objectives."""
+    if len(case.objectives) == 1:
+        return archive.best()
+    points = front(archive.evaluations)
+    if not points:
+        return None
+    columns = list(zip(*(one.judged.objectives for one in points), strict=True))
+    lows, spans = [min(column) for column in columns], [max(column) - min(column) for column in columns]
+
+    def distance(one: Evaluation) -> float:
+        parts = zip(one.judged.objectives, lows, spans, strict=True)
+        return sum(((value - low) / (span or 1.0)) ** 2 for value, low, span in parts)
+
+    return min(points, key=distance)

@@ -1,0 +1,328 @@
+"""From the table `[design]` to free keys, objectives, constraints, duties and tolerances."""
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple, TypeVar
+
+from tribodyn.errors import InputError, near_name, quoted, unknown_name
+from tribodyn.scenario.quantity import Table
+from tribodyn.scenario.resolve import toml_value
+from tribodyn.scenario.units import Kind, NotAQuantity, factor_to_si, to_si
+from tribodyn.scenario.vary import base_units, is_whole, kind_at
+from tribodyn.studies import study_of
+from tribodyn.studies.design.case import START, Constraint, Duty, Free, Objective, Tolerance
+from tribodyn.studies.evaluated import figure_units
+
+T = TypeVar("T")
+_NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(\S.*?)?\s*$", re.ASCII)
+_CONSTRAINT = re.compile(r"\s*([A-Za-z]\w*)\s*(<=|>=|≤|≥|<|>)\s*(\S.*?)\s*$")
+#: Name at the end of a tolerance's key whose value is a list, one per tooth.
+PITCH_ERRORS = "pitch_errors"
+
+
+class Parts(NamedTuple):
+    """What the table says, and what is wrong with it."""
+
+    free: tuple[Free, ...]
+    objectives: tuple[Objective, ...]
+    constraints: tuple[Constraint, ...]
+    duties: tuple[Duty, ...]
+    tolerances: tuple[Tolerance, ...]
+    errors: tuple[InputError, ...]
+
+
+def parts_of_design(table: Any, schema: type[Table], base: Mapping[str, Any]) -> Parts:
+    """Read the table `[design]`.
+
+    Parameters
+    ----------
+    table : DesignTable
+    schema : type of Table
+        Of the base scenario.
+    base : mapping
+        The base scenario's data, resolved; its kind alone where the rest is not known.
+    """
+    errors: list[InputError] = []
+    units = figure_units(study_of(base))
+
+    def collect(some: Sequence[T], read: Callable[[int, T], Any]) -> list[Any]:
+        found = []
+        for number, one in enumerate(some):
+            try:
+                found.append(read(number, one))
+            except InputError as error:
+                errors.append(error)
+        return found
+
+    free = collect(table.free, lambda number, one: _free(f"design.free.{number}", one, schema))
+    if not table.free:
+        rule, remedy = "nothing is free", 'add { key = "…", from = "…", to = "…" }'
+        errors.append(InputError("design.free", "[]", rule, remedy))
+    errors += _twice(free)
+    objectives = collect([None], lambda _, __: _objectives(table, base))
+    constraints = collect(
+        table.subject_to, lambda number, text: _constraint(f"design.subject_to.{number}", text, base, units)
+    )
+    errors += _contradictions(constraints)
+    duties = collect(table.duty, lambda number, one: _duty(number, one, free))
+    tolerances = collect(
+        table.tolerance, lambda number, one: _tolerance(f"design.tolerance.{number}", one, schema)
+    )
+    return Parts(
+        _named_apart(free),
+        objectives[0] if objectives else (),
+        tuple(constraints),
+        tuple(duties) or (Duty(1.0, {}, ""),),
+        _tolerances_apart(tolerances),
+        tuple(errors),
+    )
+
+
+def _free(place: str, one: Any, schema: type[Table]) -> Free:
+    keys = (one.key,) if isinstance(one.key, str) else one.key
+    if not isinstance(keys, (list, tuple)) or not keys or not all(isinstance(key, str) for key in keys):
+        raise InputError(f"{place}.key", quoted(one.key), "not a key", 'write key = "drive.module"')
+    for key in keys:
+        _known_key(f"{place}.key", key, schema)
+    low, high = getattr(one, "from"), one.to
+    if one.choices is not None:
+        if low is not None or high is not None:
+            raise InputError(place, None, "has both choices and from or to", "give one of them")
+        if len(one.choices) < 2:
+            raise InputError(f"{place}.choices", quoted(list(one.choices)), "nothing to choose", "give two")
+        return Free(tuple(keys), "", 0.0, len(one.choices) - 1.0, choices=tuple(one.choices))
+    for name, value in (("from", low), ("to", high)):
+        if value is None:
+            raise InputError(f"{place}.{name}", None, "missing", f'add {name} = "…" with its unit')
+    kind = kind_at(schema, keys[0])
+    kind = kind if isinstance(kind, Kind) else None
+    numbers = [_number(f"{place}.{name}", value, kind) for name, value in (("from", low), ("to", high))]
+    (first, _, units), (last, unit, other) = numbers
+    if units != other:
+        raise InputError(
+            f"{place}.to", quoted(high), f"not of the same kind as {quoted(low)}", "use one unit"
+        )
+    if first >= last:
+        rule = "the bounds are reversed" if first > last else "the bounds are equal: nothing is free"
+        raise InputError(place, f"{quoted(low)} … {quoted(high)}", rule, "let from be less than to")
+    si = _factor(unit, kind)
+    whole = is_whole(schema, keys[0])
+    if whole and not all(isinstance(value, int) for value in (low, high)):
+        raise InputError(place, f"{quoted(low)} … {quoted(high)}", "not whole numbers", "write such as 17")
+    return Free(tuple(keys), "", first / si, last / si, unit, si, units, whole)
+
+
+def _known_key(place: str, key: str, schema: type[Table]) -> None:
+    """Raise InputError for a key that the base scenario's schema does not know."""
+    if key in ("title", "name", "kind") or key.startswith("output.") or not all(key.split(".")):
+        raise InputError(place, quoted(key), "cannot be free", "name a key that the physics depends on")
+    at: Any = schema
+    above: list[str] = []
+    for part in key.split("."):
+        fields = getattr(at, "model_fields", None)
+        if fields is None or part.isdecimal():
+            return  # keys of a family or of a law: the scenario's own rules look after them
+        if part not in fields:
+            if "law" in fields or "shape" in above:
+                return
+            near = near_name(part, fields)
+            mean = f'did you mean "{".".join((*above, near))}"?' if near else f"there is: {', '.join(fields)}"
+            raise InputError(place, quoted(key), "unknown key", mean)
+        at = _table_in(fields[part])
+        above.append(part)
+
+
+def _table_in(field: Any) -> Any:
+    from tribodyn.scenario.quantity import parts_of
+
+    return next((one for one in parts_of(field) if isinstance(one, type) and issubclass(one, Table)), None)
+
+
+def _number(place: str, value: Any, kind: Kind | None) -> tuple[float, str, str]:
+    """Number in SI, unit as written, SI unit."""
+    if kind is not None:
+        try:
+            magnitude = to_si(value, kind)
+        except NotAQuantity as error:
+            raise InputError(place, quoted(value), error.rule, error.remedy) from None
+        return magnitude, _unit_of(value), kind.si.replace("**", "")
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        return float(value), "", "1"
+    if (base := base_units(value)) is not None:
+        return base[0], _unit_of(value), base[1]
+    raise InputError(place, quoted(value), "neither a number nor a quantity", 'write 0.3 or "3 mm"')
+
+
+def _unit_of(value: str) -> str:
+    match = _NUMBER_AND_UNIT.match(value)
+    return (match[2] or "") if match else ""
+
+
+def _factor(unit: str, kind: Kind | None) -> float:
+    if not unit:
+        return 1.0
+    if kind is not None:
+        return factor_to_si(unit, kind)
+    base = base_units(f"1 {unit}")
+    return base[0] if base else 1.0
+
+
+def _twice(free: Sequence[Free]) -> list[InputError]:
+    seen: set[str] = set()
+    errors = []
+    for number, one in enumerate(free):
+        for key in one.keys:
+            if key in seen:
+                place = f"design.free.{number}.key"
+                errors.append(InputError(place, quoted(key), "is free twice", "give it once"))
+            seen.add(key)
+    return errors
+
+
+def _objectives(table: Any, base: Mapping[str, Any]) -> tuple[Objective, ...]:
+    if (table.minimise is None) == (table.maximise is None):
+        rule = "missing" if table.minimise is None else "contradicts maximise"
+        remedy = 'add minimise = "…", the name of a figure' if table.minimise is None else "give one of them"
+        raise InputError("design.minimise", None, rule, remedy)
+    if table.maximise is not None:
+        name = figure_name("design.maximise", table.maximise, base)
+        return (Objective(f"-{name}", ((name, -1.0),)),)
+    given = table.minimise
+    if isinstance(given, str):
+        name = figure_name("design.minimise", given, base)
+        return (Objective(name, ((name, 1.0),)),)
+    if isinstance(given, (list, tuple)) and given and all(isinstance(one, str) for one in given):
+        if len(given) > 2:
+            rule = f"{len(given)} objectives; a front has two"
+            raise InputError("design.minimise", quoted(list(given)), rule, "bound the others: subject_to")
+        names = [figure_name(f"design.minimise.{i}", one, base) for i, one in enumerate(given)]
+        if len(set(names)) < len(names):
+            raise InputError("design.minimise", quoted(list(given)), "the same twice", "name another figure")
+        return tuple(Objective(name, ((name, 1.0),)) for name in names)
+    if isinstance(given, (list, tuple)) and given:
+        return (_weighted(given, base),)
+    remedy = 'write minimise = "peak_to_peak", a list of two, or [{ figure = "…", weight = 1.0 }, …]'
+    raise InputError("design.minimise", quoted(given), "not the name of a figure", remedy)
+
+
+def _weighted(given: Sequence[Any], base: Mapping[str, Any]) -> Objective:
+    terms = []
+    for number, one in enumerate(given):
+        place = f"design.minimise.{number}"
+        if not isinstance(one, Mapping) or set(one) - {"figure", "weight"} or "figure" not in one:
+            remedy = 'write { figure = "peak_to_peak", weight = 0.5 }'
+            raise InputError(place, quoted(one), "not a figure and its weight", remedy)
+        weight = one.get("weight", 1.0)
+        if isinstance(weight, bool) or not isinstance(weight, (int, float)) or weight == 0:
+            raise InputError(f"{place}.weight", quoted(weight), "not a weight", "write a number such as 0.5")
+        terms.append((figure_name(f"{place}.figure", one["figure"], base), float(weight)))
+    return Objective(" + ".join(f"{weight:g} {name}" for name, weight in terms), tuple(terms))
+
+
+def figure_name(place: str, name: Any, base: Mapping[str, Any]) -> str:
+    """Return the full name of a figure of the base scenario's study.
+
+    Raises
+    ------
+    InputError
+        For a name that is none; it suggests another.
+    """
+    study = study_of(base)
+    known = figure_units(study)
+    if not isinstance(name, str):
+        raise InputError(place, quoted(name), "not the name of a figure", f"such as {next(iter(known), '')}")
+    full = study.short_names().get(name, name)
+    if full not in known:
+        what = f"figure of a {study.kind} study"
+        raise unknown_name(place, name, [*study.short_names(), *known], what)
+    return full
+
+
+def _constraint(place: str, text: str, base: Mapping[str, Any], units: Mapping[str, str]) -> Constraint:
+    match = _CONSTRAINT.match(text)
+    if match is None:
+        remedy = 'write "contact_ratio >= 1.3" or "hertz_pressure_max <= 1.5 GPa"'
+        raise InputError(place, quoted(text), "not FIGURE <= LIMIT or FIGURE >= LIMIT", remedy)
+    name = figure_name(place, match[1], base)
+    sign = 1.0 if match[2] in ("<=", "≤", "<") else -1.0
+    if match[3] == START:
+        return Constraint(text, name, sign, START)
+    unit = units[name]
+    value = toml_value(match[3])
+    if unit == "1":
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            raise InputError(place, quoted(text), f"{name} is a plain number", "write the limit without unit")
+        return Constraint(text, name, sign, float(value))
+    kind = Kind(f"{name} ({unit})", unit, f"1 {unit}")
+    try:
+        return Constraint(text, name, sign, to_si(value, kind))
+    except NotAQuantity as error:
+        raise InputError(
+            place, quoted(text), error.rule, f"write the limit in {unit} or a multiple"
+        ) from None
+
+
+def _contradictions(constraints: Sequence[Constraint]) -> list[InputError]:
+    errors = []
+    for lower in constraints:
+        for upper in constraints:
+            if lower.figure != upper.figure or lower.sign > 0 or upper.sign < 0:
+                continue
+            if isinstance(lower.limit, str) or isinstance(upper.limit, str) or lower.limit <= upper.limit:
+                continue
+            rule = f"contradict each other: {quoted(lower.text)} and {quoted(upper.text)}"
+            errors.append(InputError("design.subject_to", None, rule, "remove one, or move its limit"))
+    return errors
+
+
+def flat(table: Mapping[str, Any], above: str = "") -> dict[str, Any]:
+    """Nested tables as dotted keys."""
+    keys: dict[str, Any] = {}
+    for name, value in table.items():
+        key = f"{above}{name}"
+        keys |= flat(value, f"{key}.") if isinstance(value, Mapping) else {key: value}
+    return keys
+
+
+def _duty(number: int, one: Any, free: Sequence[Free]) -> Duty:
+    keys = flat(one.set)
+    for key in keys:
+        if any(key in other.keys for other in free):
+            raise InputError(f"design.duty.{number}.set", quoted(key), "is free too", "choose one of them")
+    name = ", ".join(f"{key.rpartition('.')[2]} {value}" for key, value in keys.items())
+    return Duty(one.weight, keys, name)
+
+
+def _tolerance(place: str, one: Any, schema: type[Table]) -> Tolerance:
+    _known_key(f"{place}.key", one.key, schema)
+    kind = kind_at(schema, one.key)
+    kind = kind._replace(allowed="any") if isinstance(kind, Kind) else None
+    size, unit, _ = _number(f"{place}.plus_minus", one.plus_minus, kind)
+    if size <= 0:
+        raise InputError(f"{place}.plus_minus", quoted(one.plus_minus), "not positive", "write such as 1 um")
+    return Tolerance(one.key, one.key.rpartition(".")[2], size / _factor(unit, kind), unit, one.distribution)
+
+
+def _named_apart(free: Sequence[Free]) -> tuple[Free, ...]:
+    """Give every free key the shortest end of its key that no other has."""
+    names = apart([one.keys[0] for one in free])
+    return tuple(one._replace(name=name) for one, name in zip(free, names, strict=True))
+
+
+def _tolerances_apart(some: Sequence[Tolerance]) -> tuple[Tolerance, ...]:
+    names = apart([one.key for one in some])
+    return tuple(one._replace(name=name) for one, name in zip(some, names, strict=True))
+
+
+def apart(keys: Sequence[str]) -> list[str]:
+    """Shortest names for keys: their last parts, of such length that all differ; gears are always named."""
+    for length in range(1, 12):
+        ends = [key.split(".")[-length:] for key in keys]
+        gears = [next((one for one in key.split(".") if one in ("pinion", "gear")), "") for key in keys]
+        names = [
+            "_".join(([gear] if gear and gear not in end else []) + end)
+            for gear, end in zip(gears, ends, strict=True)
+        ]
+        if len(set(names)) == len(names):
+            return names
+    return [key.replace(".", "_") for key in keys]

@@ -1,0 +1,91 @@
+"""Evaluates candidates side by side: one in this process, the others in processes of their own.
+
+The others are programs that are handed lines of text. They import nothing of the user's program, which a
+process of `multiprocessing` would run again.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import threading
+from collections.abc import Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import suppress
+from typing import Any, Self
+
+from tribodyn.errors import SimulationError
+from tribodyn.studies.design.evaluation import evaluate
+
+COMMAND = (sys.executable, "-m", "tribodyn.studies.design.evaluation")
+#: Evaluations that a process of its own is worth.
+WORTH = 24
+
+Figures = list[dict[str, Any] | str]
+
+
+def workers_for(evaluations: int) -> int:
+    """How many evaluate side by side: one per core, fewer where there is little to do."""
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    return max(1, min(cores, evaluations // WORTH))
+
+
+class Pool:
+    """Evaluates lists of overrides of a base scenario; a context manager.
+
+    Parameters
+    ----------
+    base : mapping
+    workers : int
+        How many at a time.
+    """
+
+    def __init__(self, base: Mapping[str, Any], workers: int) -> None:
+        self.base = base
+        self.workers = workers
+        self._own = threading.local()
+        self._processes: list[subprocess.Popen[str]] = []
+        self._seats = list(range(workers))
+        self._lock = threading.Lock()
+        self._threads = ThreadPoolExecutor(workers, initializer=self._seat)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._threads.shutdown(wait=False, cancel_futures=True)
+        for process in self._processes:
+            process.kill()
+        for process in self._processes:
+            with suppress(OSError, ValueError):
+                process.communicate()
+
+    def submit(self, several: Sequence[Mapping[str, Any]]) -> "Future[Figures]":
+        """Evaluate cases by their overrides, as `evaluation.evaluate` does."""
+        return self._threads.submit(self._evaluate, list(several))
+
+    def _seat(self) -> None:
+        """Give the first thread this process, every other one a process of its own."""
+        with self._lock:
+            seat = self._seats.pop(0)
+        self._own.process = None
+        if seat:
+            pipe = subprocess.PIPE
+            process = subprocess.Popen(COMMAND, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, text=True)
+            with self._lock:
+                self._processes.append(process)
+            self._own.process = process
+            print(json.dumps(self.base), file=process.stdin, flush=True)
+
+    def _evaluate(self, several: list[Mapping[str, Any]]) -> Figures:
+        process = self._own.process
+        if process is None:
+            return evaluate(self.base, several, None if self.workers == 1 else 1)
+        try:
+            print(json.dumps(several), file=process.stdin, flush=True)
+            answer = process.stdout.readline()
+        except OSError:
+            answer = ""
+        if not answer:
+            raise SimulationError("a process that evaluates designs ended: out of memory, or killed")
+        return json.loads(answer)

@@ -1,0 +1,101 @@
+"""Lines and sentences of the summary of a search."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from tribodyn.numerics.variable import Variable
+from tribodyn.post.report import Line, Lines, shown
+from tribodyn.record.reader import Record
+from tribodyn.studies import study_of
+from tribodyn.studies.gears import WALL_TIME
+
+LINES: Lines = {
+    "Search": (
+        Line("objective_name", "Objective", definition="Figure, or sum of figures, that was sought."),
+        Line("method", "Method", definition="Method of the search, see method_reason in the summary."),
+        Line("evaluations", "Evaluations", form=",d", definition="Candidates that were evaluated."),
+        Line(
+            "evaluations_feasible",
+            "of these feasible",
+            form=",d",
+            definition="Candidates that satisfy all constraints.",
+        ),
+        Line(
+            "evaluations_without_figures",
+            "of these without figures",
+            form=",d",
+            definition="Candidates that cannot be made, or for which no state was found; `message` says why.",
+        ),
+    ),
+    "Solver": (WALL_TIME,),
+}
+
+SWEPT: dict[str, Variable] = {
+    "objective": Variable((), "1", "objective at the best, in SI units of its own"),
+    "objective_start": Variable((), "1", "objective at the start, in SI units of its own"),
+    "evaluations": Variable((), "1", "candidates that were evaluated"),
+    "evaluations_feasible": Variable((), "1", "candidates that satisfy all constraints"),
+    "evaluations_without_figures": Variable((), "1", "candidates without figures"),
+}
+SWEEP_LINES = (
+    Line("objective", "Objective at the best"),
+    Line("objective_start", "Objective at the start"),
+    Line("evaluations", "Evaluations", form=",d"),
+)
+
+PANELS = ("objective",)
+#: Figures that stand at the top of what `run --json` prints.
+TOP = ("objective_start", "objective", "best", "evaluations")
+
+
+def sentences(record: Record) -> list[str]:
+    """Say what changed from the start to the best, and how the best was confirmed."""
+    summary = record.summary
+    if "objective" not in summary:
+        return []
+    base = record.scenario.get("scenario", {})
+    names = str(summary["objective_name"]).split(" and ")
+    start, best = (np.atleast_1d(summary.get(f"objective{one}", np.nan)) for one in ("_start", ""))
+    said = []
+    for place, name in enumerate(names):
+        before = start[place] if place < len(start) and start[place] is not None else np.nan
+        said.append(f"{_named(base, name)}: {_change(base, name, before, best[place])}.")
+    said += [
+        f"{key}: {summary.get('start', {}).get(key, 'not set')} at the start, {value} at the best."
+        for key, value in summary.get("best", {}).items()
+    ]
+    before, after = summary.get("figures_start", {}), summary.get("figures_best", {})
+    constrained = [str(text) for text in record.scenario["design"].get("subject_to", ())]
+    for text in constrained:
+        name = _figure_in(text, after)
+        if name:
+            said.append(f"{text}: {_named(base, name)} {_change(base, name, before.get(name), after[name])}.")
+    if "objective_confirmed" in summary:
+        change = _change(base, names[0], summary["objective_start_confirmed"], summary["objective_confirmed"])
+        said.append(f"Evaluated once more as design.confirm says: {change}.")
+    return said
+
+
+def _figure_in(text: str, figures: Mapping[str, Any]) -> str:
+    name = text.split()[0].split("<")[0].split(">")[0]
+    return name if name in figures else ""
+
+
+def line_of(base: Mapping[str, Any], name: str) -> Line | None:
+    """The line of the base scenario's summary for a figure."""
+    lines = (line for some in study_of(base).lines().values() for line in some)
+    return next((line for line in lines if line.name == name), None)
+
+
+def _named(base: Mapping[str, Any], name: str) -> str:
+    line = line_of(base, name)
+    return line.label if line else name
+
+
+def _change(base: Mapping[str, Any], name: str, before: Any, after: Any) -> str:
+    line = line_of(base, name) or Line(name, name)
+    known = before is not None and not (isinstance(before, float) and np.isnan(before))
+    first = f"{shown(line, float(before))} {line.unit}".rstrip() if known else "no figure"
+    return f"{first} at the start, {shown(line, float(after))} {line.unit}".rstrip() + " at the best"

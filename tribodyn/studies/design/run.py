@@ -1,0 +1,172 @@
+"""From a case of a search to its record: every evaluation, the best, and what was evaluated about it."""
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from tribodyn.errors import InputError, SimulationError
+from tribodyn.record.reader import open_record
+from tribodyn.record.schema import partial_path
+from tribodyn.record.writer import RecordWriter, check_target
+from tribodyn.studies.design.archive import Archive, Evaluation, SpentError
+from tribodyn.studies.design.candidates import cases_of, chosen, share_of, start_of
+from tribodyn.studies.design.case import DesignCase
+from tribodyn.studies.design.judged import Judge
+from tribodyn.studies.design.layout import LOWER, MOVED, UPPER, known_of, layout_of, rows_of, scales_of
+from tribodyn.studies.design.methods import METHODS, method_of
+from tribodyn.studies.design.outcome import check_targets, chosen_best, headline, write_best
+from tribodyn.studies.design.pool import Figures, Pool, workers_for
+from tribodyn.studies.recording import target, writer
+from tribodyn.studies.study import Progress, RunResult
+
+
+def run(
+    case: DesignCase,
+    output: str | Path | None = None,
+    *,
+    force: bool = False,
+    progress: Progress | None = None,
+    resume: bool = False,
+) -> RunResult:
+    """Run a search and write its record; see `study.Study.run`.
+
+    It fails where no candidate satisfies all constraints. Interrupted, it keeps the evaluations and the best
+    so far.
+    """
+    name, reason = method_of(case)
+    path = Path(output) if output is not None else Path(f"{case.name}.h5")
+    known = _left(case, path) if resume and not force else {}
+    force = force or bool(known)
+    path = target(case, path, force)
+    check_targets(path)
+    begun = perf_counter()
+    scales = scales_of(case)
+    room = case.search.evaluations
+    with (
+        _started(case) as (pool, judge),
+        writer(case, path, layout_of(case), room, scales=scales, force=force) as record,
+    ):
+        archive = Archive(case, judge, pool, _keeper(case, record, progress), known)
+
+        def so_far(**more: Any) -> dict[str, Any]:
+            figures = {"method": name, "method_reason": reason, "workers": pool.workers}
+            return headline(case, archive) | figures | more | {"wall_time": perf_counter() - begun}
+
+        try:
+            _search(case, archive, name)
+            best = chosen_best(case, archive)
+            if best is None:
+                message = _why_none(case, archive)
+                return RunResult(record.fail(message, so_far()), "failed", message, so_far())
+            summary = so_far(**_about(case, archive, pool, best, record))
+        except KeyboardInterrupt as error:
+            archive.close()
+            best = chosen_best(case, archive)
+            kept = record.fail(str(error) or "interrupted by the user", so_far())
+            if best is not None:
+                error.add_note(f"the best so far: {write_best(case, best.values, path)[0]}")
+            error.add_note(f"the {record.written} evaluations so far: {kept}, --resume goes on")
+            raise
+        files = write_best(case, best.values, path)
+        summary["files"] = {one.suffix[1:]: str(one) for one in files}
+        return RunResult(record.finish(summary, trim=True), "complete", "", summary)
+
+
+def figures(case: DesignCase) -> dict[str, Any]:
+    """Figures of a search without a record; raises SimulationError where nothing is feasible."""
+    name, _ = method_of(case)
+    with _started(case) as (pool, judge):
+        archive = Archive(case, judge, pool, lambda _: None, {})
+        _search(case, archive, name)
+        found = headline(case, archive)
+        if "objective" not in found:
+            raise SimulationError(_why_none(case, archive))
+        return found
+
+
+@contextmanager
+def _started(case: DesignCase) -> Iterator[tuple[Pool, Judge]]:
+    """Give what evaluates candidates, and what judges them: it knows the base scenario as it stands."""
+    asked = cases_of(case, {})
+    with Pool(case.base, workers_for(case.search.evaluations * len(asked))) as pool:
+        yield pool, Judge(case, pool.submit(asked).result())
+
+
+def _search(case: DesignCase, archive: Archive, name: str) -> None:
+    start = start_of(case)
+    with suppress(SpentError):
+        archive.ask(start)
+        METHODS[name](archive, start)
+
+
+def _keeper(case: DesignCase, record: RecordWriter, progress: Progress | None) -> Any:
+    def keep(one: Evaluation) -> None:
+        record.write(record.written, rows_of(case, [one], record.written))
+        if progress:
+            progress(record.written / case.search.evaluations)
+
+    return keep
+
+
+def _left(case: DesignCase, path: Path) -> dict[str, Figures]:
+    """What an unfinished search left; nothing, where there is nothing."""
+    left = partial_path(path)
+    if not left.exists():
+        return {}
+    check_target(path, force=True)
+    other = "move it away, or --force to begin anew"
+    with open_record(left) as record:
+        if record.kind != case.kind or record.attrs["scenario_sha256"] != case.sha256:
+            raise InputError("--resume", str(left), "made from another scenario", other)
+        return known_of(case, record)
+
+
+def _why_none(case: DesignCase, archive: Archive) -> str:
+    """Why there is no best: what the nearest candidate misses, or why none has figures."""
+    nearest = archive.nearest()
+    if nearest is None:
+        reason = archive.evaluations[-1].judged.message if archive.evaluations else "none was evaluated"
+        return f"no candidate has figures: {reason}"
+    missed = [
+        f"{one.text} by {-100 * margin:.3g} %"
+        for one, margin in zip(case.constraints, nearest.judged.margins, strict=True)
+        if margin < -1e-9
+    ]
+    values = ", ".join(f"{key} = {value}" for key, value in nearest.values.items())
+    return f"no candidate satisfies all constraints; the nearest, {values}, misses {' and '.join(missed)}"
+
+
+def _about(
+    case: DesignCase, archive: Archive, pool: Pool, best: Evaluation, record: RecordWriter
+) -> dict[str, Any]:
+    """Evaluate about the best: each key and each tolerance moved alone; and once more as `confirm` says."""
+    shares = np.array([share_of(one, best.values[one.keys[0]]) for one in case.free])
+    asked: list[Mapping[str, Any]] = []
+    moved_keys = case.free if case.sensitivities else ()
+    for place, one in enumerate(moved_keys):
+        for step in (-MOVED, MOVED):
+            moved = shares.copy()
+            moved[place] = np.clip(moved[place] + step, 0.0, 1.0)
+            asked.append(chosen(case, moved) if one.continuous else best.values)
+    waiting = [pool.submit(cases_of(case, values)) for values in asked]
+    alone = [
+        cases_of(case, best.values, alone=(place, side))
+        for place in range(len(case.tolerances) if case.sensitivities else 0)
+        for side in (-1.0, 1.0)
+    ]
+    waiting += [pool.submit(one) for one in alone]
+    ends = [{}, best.values] if case.confirm else []
+    confirming = [pool.submit(cases_of(case, values, case.confirm)) for values in ends]
+    found = [_objective(archive.judge, one.result()) for one in waiting]
+    for row in range(len(found) // 2):
+        record.put(row, {LOWER: found[2 * row], UPPER: found[2 * row + 1]})
+    confirmed = [_objective(archive.judge, one.result()) for one in confirming]
+    return {"objective_start_confirmed": confirmed[0], "objective_confirmed": confirmed[1]} if ends else {}
+
+
+def _objective(judge: Judge, found: Figures) -> float:
+    return judge.judged(found).objectives[0]

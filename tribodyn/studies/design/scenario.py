@@ -1,0 +1,165 @@
+"""The tables of a scenario of ``kind = "design"``."""
+
+import tomllib
+from collections.abc import Mapping
+from functools import lru_cache
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, create_model
+
+from tribodyn.scenario.common import ScenarioHead, head_of
+from tribodyn.scenario.quantity import Count, Positive, Switch, Table, Text, scenario_file, written
+from tribodyn.studies import DEFAULT, STUDIES, study_of
+from tribodyn.studies.design.case import DesignCase, Robust, Search
+from tribodyn.studies.design.parts import flat, parts_of_design
+
+METHODS = (
+    "auto",
+    "cobyqa",
+    "slsqp",
+    "trust-constr",
+    "differential-evolution",
+    "cma-es",
+    "epsilon-constraint",
+    "nsga2",
+    "every",
+)
+
+_Bounds = create_model(
+    "FreeBounds",
+    __base__=Table,
+    __doc__="Bounds of a free key; words that Python has for itself.",
+    **{  # pyright: ignore[reportArgumentType, reportCallIssue]
+        "from": (Any, Field(None, description="lower bound, with its unit", examples=["0 um"])),
+        "to": (Any, Field(None, description="upper bound", examples=["40 um"])),
+    },
+)
+
+
+class FreeKey(_Bounds):
+    """A key of the scenario that the search may change."""
+
+    key: Any = Field(
+        description="dotted key, or a list of keys that take the same value",
+        examples=["drive.pinion.modification.tip_relief"],
+    )
+    choices: tuple[Any, ...] | None = Field(
+        None, description="values to choose among, in place of from and to"
+    )
+
+
+class DutyTable(Table):
+    """One of several duties."""
+
+    weight: Positive = 1.0
+    set: dict[str, Any] = Field(description='keys and their values: { "operating.gear_torque" = "100 N*m" }')
+
+
+class ToleranceTable(Table):
+    """A deviation that the designer cannot choose."""
+
+    key: Text = Field(
+        description="a key with a number, or pitch_errors", examples=["mesh.misalignment.in_plane"]
+    )
+    plus_minus: Any = Field(description="how far it goes to either side", examples=["1 arcmin"])
+    distribution: Literal["uniform", "normal", "ends"] = Field(
+        "uniform", description="normal: plus_minus is three standard deviations; ends: both ends alone"
+    )
+
+
+class RobustTable(Table):
+    """How figures are taken over the samples of the tolerances."""
+
+    over: Literal["mean", "worst", "quantile"] = "mean"
+    quantile: Annotated[float, Field(strict=True, gt=0, lt=1)] = 0.9
+    samples: Annotated[int, Field(strict=True, ge=1, le=10_000)] = 8
+    seed: Annotated[int, Field(strict=True, ge=0)] = 0
+
+
+class DesignTable(Table):
+    """What is free, what is sought, what must hold, and how it is searched."""
+
+    free: tuple[FreeKey, ...] = Field(description="keys that the search may change", min_length=0)
+    minimise: Any = Field(
+        None, description="a figure; a list of { figure, weight }; or two figures for a front"
+    )
+    maximise: Text | None = Field(None, description="a figure, in place of minimise")
+    subject_to: tuple[Text, ...] = Field(
+        (), description="what must hold", examples=[["contact_ratio >= 1.3"]]
+    )
+    duty: tuple[DutyTable, ...] = Field((), description="figures are means over these")
+    over_duties: Literal["mean", "worst"] = "mean"
+    tolerance: tuple[ToleranceTable, ...] = ()
+    robust: RobustTable = written({})
+    method: Literal[METHODS] = "auto"  # pyright: ignore[reportInvalidTypeForm]
+    evaluations: Annotated[int, Field(strict=True, ge=2, le=1_000_000)] = Field(
+        200, description="of the duties and samples together, at most"
+    )
+    starts: Count = Field(2, description="local searches, from the best of the first evaluations")
+    seed: Annotated[int, Field(strict=True, ge=0)] = 0
+    points: Annotated[int, Field(strict=True, ge=3, le=1000)] = Field(7, description="of a front")
+    accuracy: Annotated[float, Field(strict=True, gt=0, lt=0.5)] = Field(
+        1e-3, description="of the values at the best, as a share of their ranges"
+    )
+    confirm: dict[str, Any] = Field(
+        default_factory=dict, description="keys and values of an evaluation of start and best on their own"
+    )
+    sensitivities: Switch = Field(True, description="whether each key is moved alone about the best")
+
+
+class DesignScenario(ScenarioHead):
+    """A scenario file of a search."""
+
+    kind: Literal["design"]
+    scenario: Annotated[dict[str, Any], scenario_file()] = Field(
+        description="the scenario to search through: its name, or its tables"
+    )
+    design: DesignTable
+
+
+Scenario = DesignScenario
+
+
+def table_for(data: Mapping[str, Any]) -> type[Table]:
+    """Return the schema for data whose base scenario is of a known kind."""
+    base = data.get("scenario")
+    if not isinstance(base, Mapping) or "like" in base:  # not opened yet
+        return DesignScenario
+    kind = base.get("kind", DEFAULT)
+    if not isinstance(kind, str) or kind not in STUDIES or kind == "design":
+        return DesignScenario
+    return _around(study_of(base).table(base))
+
+
+@lru_cache(maxsize=16)
+def _around(base: type[Table]) -> type[Table]:
+    return create_model(
+        "DesignScenario",
+        __base__=DesignScenario,
+        __doc__=DesignScenario.__doc__,
+        scenario=(Annotated[base, scenario_file()], Field(description="the scenario to search through")),
+    )
+
+
+def case_of(scenario: Scenario, toml: str, sha256: str) -> DesignCase:
+    """Return the case of a scenario that has passed schema and rules."""
+    base = tomllib.loads(toml)["scenario"]
+    table = scenario.design
+    parts = parts_of_design(table, type(scenario.scenario), base)
+    return DesignCase(
+        **head_of(scenario, toml, sha256),
+        base=base,
+        base_kind=study_of(base).kind,
+        free=parts.free,
+        objectives=parts.objectives,
+        constraints=parts.constraints,
+        duties=parts.duties,
+        over_duties=table.over_duties,
+        tolerances=parts.tolerances,
+        robust=Robust(**table.robust.model_dump()),
+        search=Search(
+            table.method, table.evaluations, table.starts, table.seed, table.points, table.accuracy
+        ),
+        confirm=flat(table.confirm),
+        sensitivities=table.sensitivities,
+    )
