@@ -29,6 +29,8 @@ class Line(NamedTuple):
         What it is, in a sentence or two: over which part of the run, of which pairs, by which formula.
     listed : bool
         Whether an array is a list to be shown in its order; else its entries belong to pairs.
+    offset : float
+        Added to the number in SI: −273.15 from K to °C.
     """
 
     name: str
@@ -38,6 +40,7 @@ class Line(NamedTuple):
     form: str = ".4g"
     definition: str = ""
     listed: bool = False
+    offset: float = 0.0
 
 
 Lines = Mapping[str, tuple[Line, ...]]
@@ -106,7 +109,8 @@ def shown(line: Line, value: Any) -> str:
         return " / ".join(shown(line, item) for item in (items if line.listed else reversed(items)))
     if isinstance(value, float) and not math.isfinite(value):
         return "–"
-    number = value * line.factor if line.factor != 1.0 else value
+    number = value + line.offset if line.offset else value
+    number = number * line.factor if line.factor != 1.0 else number
     return format(int(number) if line.form.endswith("d") else number, line.form)
 
 

@@ -94,9 +94,8 @@ TRIBOLOGY = (
         1.0,
         "K",
         ".3g",
-        "Maximum rise of the contact's temperature above that of the gear bodies. Their own temperature "
-        "is not "
-        "modelled.",
+        "Maximum rise of the contact's temperature above the bulk of the teeth, which is as warm as the oil "
+        "where [temperature] does not say otherwise.",
     ),
     Line(
         "friction_coefficient_mean",
@@ -134,9 +133,7 @@ ENERGY = (
         1.0,
         "W",
         ".3g",
-        "Mean power of the friction forces, from their integrated work. Churning, windage and bearing "
-        "losses are "
-        "not modelled.",
+        "Mean power of the friction forces, from their integrated work.",
     ),
     Line(
         "power_damping_mean",
@@ -163,6 +160,50 @@ ENERGY = (
         "%",
         ".2f",
         "Mean power out over mean power in, by energy over whole mesh cycles; withheld outside 0 … 100 %.",
+    ),
+)
+THERMAL = (
+    Line(
+        "bulk_temperature",
+        "Bulk temperature of the teeth",
+        form=".1f",
+        unit="°C",
+        offset=-273.15,
+        definition="Mean of both gears, from the losses by [temperature]; film and friction are taken at it.",
+    ),
+    Line(
+        "oil_temperature",
+        "Temperature of the oil around the gears",
+        form=".1f",
+        unit="°C",
+        offset=-273.15,
+        definition="Given, or that of the network of [temperature].",
+    ),
+    Line("power_churning", "Loss to churning", 1.0, "W", ".3g", "By the formula of losses.churning."),
+    Line("power_windage", "Loss to windage", 1.0, "W", ".3g", "By the formula of losses.windage."),
+    Line(
+        "power_bearings",
+        "Loss to bearings without load",
+        1.0,
+        "W",
+        ".3g",
+        "By the formula of losses.bearings.",
+    ),
+    Line(
+        "power_load_independent",
+        "Load-independent losses",
+        1.0,
+        "W",
+        ".3g",
+        "Churning, windage and bearings by the formulas of [losses]; not in the lines above.",
+    ),
+    Line(
+        "efficiency_with_losses",
+        "Efficiency, load-independent losses included",
+        100.0,
+        "%",
+        ".2f",
+        "Power out over power in, to which the load-independent losses are added.",
     ),
 )
 WALL_TIME = Line(

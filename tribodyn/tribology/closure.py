@@ -13,7 +13,7 @@ from tribodyn.tribology.data import FilmData, FrictionData
 from tribodyn.tribology.film import film_law
 from tribodyn.tribology.friction import friction_law
 from tribodyn.tribology.law import ActiveFilm, ActiveFriction, Closure, FilmLaw, FrictionLaw, LawInput
-from tribodyn.tribology.lubricant import LubricantData
+from tribodyn.tribology.lubricant import LubricantData, lubricant_around
 from tribodyn.tribology.nominal import NominalConditions
 from tribodyn.tribology.surface_state import exceeded
 from tribodyn.tribology.trial import try_laws
@@ -187,6 +187,7 @@ def nominal_conditions(case: Lubricated) -> NominalConditions:
             "is a mean over the mesh from radius, speed and load at the pitch point, which vanish here",
             "use a law of the local contact, such as masjedi-khonsari or xu",
         )
+    oil = lubricant_around(case.lubricant)
     return NominalConditions(
         as_float(abs(torque) / path.gear_pitch_radius),
         as_float(path.pinion_pitch_radius),
@@ -194,10 +195,10 @@ def nominal_conditions(case: Lubricated) -> NominalConditions:
         as_float(angle),
         case.operating.pinion_speed,
         minimum(case.drive.pinion.face_width, case.drive.gear.face_width),
-        case.lubricant.inlet_viscosity,
-        case.lubricant.density,
+        oil.inlet_viscosity,
+        oil.density,
         case.mean_roughness,
-        case.lubricant.load_exponent,
-        case.lubricant.lubricant_factor,
-        case.lubricant.schlenk_factor,
+        oil.load_exponent,
+        oil.lubricant_factor,
+        oil.schlenk_factor,
     )

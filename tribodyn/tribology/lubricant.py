@@ -56,6 +56,9 @@ class LubricantData:
     sheet : OilSheet or None
         The data sheet that they come from, where they do.
     fzg : FzgStages
+    supply : float or None
+        Temperature of the oil around the gears, K, where the numbers are those at the teeth's bulk
+        temperature: mean friction coefficients read the viscosity there.
     """
 
     asperity_friction: float
@@ -71,6 +74,7 @@ class LubricantData:
     temperature: Any = None
     sheet: OilSheet | None = None
     fzg: FzgStages = FzgStages()
+    supply: Any = None
 
 
 def lubricant_from(sheet: OilSheet, temperature: Any, fzg: FzgStages = FzgStages()) -> LubricantData:
@@ -90,6 +94,11 @@ def lubricant_at(lubricant: LubricantData, temperature: Any) -> LubricantData:
     if lubricant.sheet is None:
         raise ValueError("a lubricant without a data sheet is known at one temperature only")
     return lubricant_from(lubricant.sheet, temperature, lubricant.fzg)
+
+
+def lubricant_around(lubricant: LubricantData) -> LubricantData:
+    """Return the numbers of the oil around the gears, where the teeth are warmer than it."""
+    return lubricant if lubricant.supply is None else lubricant_at(lubricant, lubricant.supply)
 
 
 def oil_values(lubricant: LubricantData) -> dict[str, OilValue]:

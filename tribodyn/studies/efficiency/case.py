@@ -8,7 +8,9 @@ from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.material import MaterialData
 from tribodyn.mesh.data import MeshData
 from tribodyn.studies.study import CaseHead
+from tribodyn.tribology.bulk_temperature import TemperatureData
 from tribodyn.tribology.data import FilmData, FrictionData
+from tribodyn.tribology.losses.of_pair import LossData
 from tribodyn.tribology.lubricant import LubricantData
 
 if TYPE_CHECKING:  # the study's array code, and SciPy with it, is for the run
@@ -46,3 +48,5 @@ class EfficiencyCase(CaseHead):
     load_sharing: "Sharing" = "elastic"
     samples_per_cycle: int = 200
     film: FilmData = field(default_factory=FilmData)
+    temperature: TemperatureData | None = None
+    losses: LossData | None = None

@@ -16,4 +16,4 @@ def check(case: EfficiencyCase) -> Checked:
     method = f'compliance = "{case.mesh.compliance}"'
     remark = compliance_remark(study.assembly, case.materials, case.mesh)
     gears = checked(study.assembly, case.materials, method, *pair, remark=remark)
-    return with_oil(gears, case.lubricant)
+    return with_oil(gears, study.lubricant)

@@ -9,9 +9,11 @@ from tribodyn.studies.gears import (
     ENERGY,
     MESH_FREQUENCY,
     NORMAL_LOAD,
+    THERMAL,
     TRIBOLOGY,
     WALL_TIME,
 )
+from tribodyn.studies.temperature import THERMAL_FIGURES
 
 LINES: Lines = {
     "Geometry": (CONTACT_RATIO, EFFECTIVE_CONTACT_RATIO),
@@ -76,6 +78,7 @@ LINES: Lines = {
             definition="The same with the closed form of H_v by Höhn, for contact ratios from 1 to 2.",
         ),
     ),
+    "Temperature": THERMAL,
     "Solver": (WALL_TIME,),
 }
 
@@ -93,6 +96,7 @@ SWEPT: dict[str, Variable] = {
     "efficiency_uniform": Variable((), "1", "efficiency, equal loads"),
     "efficiency_single_pair": Variable((), "1", "efficiency, one pair at a time"),
     "efficiency_torque_ratio": Variable((), "1", "efficiency, torque ratio of one pair"),
+    **THERMAL_FIGURES,
     "friction_in_range_fraction": Variable(
         (), "1", "share of the contact in which the friction law is in its range"
     ),

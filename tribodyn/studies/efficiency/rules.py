@@ -5,9 +5,11 @@ from collections.abc import Iterator
 from tribodyn.errors import InputError
 from tribodyn.scenario.drive_rules import broken_drive_rules, broken_part_rules
 from tribodyn.scenario.duty import broken_duty_rules, duty_of
+from tribodyn.scenario.losses import broken_loss_rules
 from tribodyn.scenario.lubricant_rules import broken_lubricant_rules
 from tribodyn.scenario.modification_rules import Face, broken_face_rules
 from tribodyn.scenario.quality import broken_sample_rules
+from tribodyn.scenario.temperature import broken_temperature_rules
 from tribodyn.studies.efficiency.scenario import Scenario
 
 
@@ -16,6 +18,8 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     mesh = scenario.mesh
     yield from broken_drive_rules(scenario.drive)
     yield from broken_lubricant_rules(scenario.lubricant, scenario.operating.oil_temperature)
+    yield from broken_temperature_rules(scenario.temperature, scenario.lubricant)
+    yield from broken_loss_rules(scenario.losses)
     face = Face(scenario.drive, mesh.misalignment, mesh.slices, mesh.slice_coupling)
     yield from broken_face_rules(face, mesh.compliance)
     yield from broken_sample_rules(scenario.drive, mesh.deviation_sample, mesh.misalignment)

@@ -33,8 +33,10 @@ from tribodyn.studies.gears import LAYOUT
 from tribodyn.studies.oil import oil_data
 from tribodyn.studies.recording import target, writer
 from tribodyn.studies.study import Progress, RunResult
+from tribodyn.studies.temperature import Thermal, thermal_figures, thermal_state
 from tribodyn.tribology.closure import closure_of, exceeded_limits, law_figures
 from tribodyn.tribology.friction.coulomb import constant
+from tribodyn.tribology.lubricant import LubricantData
 from tribodyn.tribology.surface_state import fraction_in_range
 
 
@@ -49,6 +51,12 @@ class Prepared(NamedTuple):
     assembly: Assembly
     duty: Duty
     flanks: LoadedFlanks | None = None
+    thermal: Thermal | None = None
+
+    @property
+    def lubricant(self) -> LubricantData:
+        """The lubricant at the bulk temperature of the teeth, at which film and friction are taken."""
+        return self.case.lubricant if self.thermal is None else self.thermal.lubricant
 
     @property
     def path(self) -> PathOfContact:
@@ -74,13 +82,17 @@ def prepare(case: EfficiencyCase) -> Prepared:
         mesh = replace(mesh, modifications=behind)
     cycle = mesh_cycle_of(assembly, case.materials, mesh, case.operating.gear_torque)
     flanks = loaded_flanks_of(assembly, case.materials, mesh)
-    duty = Duty(
-        case.operating.gear_torque,
-        case.operating.pinion_speed,
-        closure_of(case),
-        case.load_sharing,
-    )
-    return Prepared(case, cycle, assembly, duty, flanks)
+
+    def duty_of(case: EfficiencyCase) -> Duty:
+        operating = case.operating
+        return Duty(operating.gear_torque, operating.pinion_speed, closure_of(case), case.load_sharing)
+
+    def lost(case: EfficiencyCase) -> float:
+        return cycle_efficiency(cycle, assembly.path, duty_of(case), flanks=flanks).power_friction
+
+    thermal = thermal_state(case, assembly, lost)
+    warm = case if thermal is None else replace(case, lubricant=thermal.lubricant)
+    return Prepared(case, cycle, assembly, duty_of(warm), flanks, thermal)
 
 
 def run(
@@ -208,7 +220,7 @@ def _figures(study: Prepared, over: Samples, mesh: Places, state: Engagement) ->
         "friction_force_mean": np.sum(np.abs(over.by_pair(state.friction_force)[:-1]), axis=0) * share,
         "compliance_remark": compliance_remark(study.assembly, study.case.materials, study.case.mesh) or None,
         **law_figures(study.case),
-        "lubricant": oil_data(study.case.lubricant),
+        "lubricant": oil_data(study.lubricant),
         **exceeded_limits(study.case, state.closure_shares[loaded], state.friction_shares[loaded]),
         "closure_in_range_fraction": fraction_in_range(state.closure_in_range[loaded]),
         "friction_in_range_fraction": fraction_in_range(state.friction_in_range[loaded]),
@@ -216,6 +228,7 @@ def _figures(study: Prepared, over: Samples, mesh: Places, state: Engagement) ->
         "power_in_mean": put_in,
         "power_friction_mean": means.power_friction,
         "efficiency": means.efficiency,
+        **thermal_figures(study.thermal, put_in, means.efficiency),
         "energy_residual": balance / put_in,
         "averaging_cycles": 1,
         **efficiencies(study, {duty.sharing: means}),

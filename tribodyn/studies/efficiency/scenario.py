@@ -19,6 +19,7 @@ from tribodyn.scenario.drive_data import (
 )
 from tribodyn.scenario.duty import DutyTable, duty_of
 from tribodyn.scenario.law_tables import FilmTable, FrictionTable, film_data, friction_values
+from tribodyn.scenario.losses import LossesTable, losses_of
 from tribodyn.scenario.model_files import DriveTable, Lubricant
 from tribodyn.scenario.modification import MisalignmentTable
 from tribodyn.scenario.quality import DeviationSample, error_with_sample, with_sample
@@ -28,6 +29,7 @@ from tribodyn.scenario.quantity import (
     model_file,
     written,
 )
+from tribodyn.scenario.temperature import TemperatureTable, temperature_of
 from tribodyn.studies.efficiency.case import EfficiencyCase
 from tribodyn.tribology.data import FrictionData
 
@@ -86,6 +88,8 @@ class EfficiencyScenario(ScenarioHead):
     lubricant: Annotated[Lubricant, model_file("lubricants")]
     operating: EfficiencyOperating
     mesh: EfficiencyMesh = written({})
+    temperature: TemperatureTable | None = Field(None, description="bulk temperature of the teeth")
+    losses: LossesTable | None = Field(None, description="load-independent losses")
     film: FilmTable | None = Field(None, description="which law gives the film")
     friction: EfficiencyFriction
     output: EfficiencyOutput = written({})
@@ -127,4 +131,6 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> EfficiencyCase:
         load_sharing=mesh.load_sharing,
         samples_per_cycle=scenario.output.samples_per_cycle,
         film=film_data(scenario),
+        temperature=temperature_of(scenario.temperature),
+        losses=losses_of(scenario.losses),
     )

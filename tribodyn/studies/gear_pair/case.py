@@ -12,7 +12,9 @@ from tribodyn.geometry.material import BodyMass, MaterialData
 from tribodyn.mesh.data import MeshData
 from tribodyn.solve.data import SolverData
 from tribodyn.studies.study import CaseHead
+from tribodyn.tribology.bulk_temperature import TemperatureData
 from tribodyn.tribology.data import FilmData, FrictionData
+from tribodyn.tribology.losses.of_pair import LossData
 from tribodyn.tribology.lubricant import LubricantData
 
 
@@ -70,3 +72,5 @@ class Case(CaseHead):
     solver: SolverData
     output: OutputData
     film: FilmData = field(default_factory=FilmData)
+    temperature: TemperatureData | None = None
+    losses: LossData | None = None

@@ -16,4 +16,4 @@ def check(case: Case) -> Checked:
     method = f'compliance = "{case.mesh.compliance}"'
     remark = compliance_remark(prepared.assembly, case.materials, case.mesh)
     gears = checked(prepared.assembly, case.materials, method, *pair, prepared.masses, remark)
-    return with_oil(gears, case.lubricant)
+    return with_oil(gears, prepared.lubricant)

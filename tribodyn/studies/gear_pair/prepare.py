@@ -1,7 +1,8 @@
 """From a case to a model ready to integrate: geometry checked, mesh cycle tabulated, numbers assembled."""
 
 import dataclasses
-from collections.abc import Hashable, Mapping
+from collections.abc import Callable, Hashable, Mapping
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -22,8 +23,11 @@ from tribodyn.dynamics.parameters import (
 )
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.mesh.cycle import MeshCycle, Polynomials, polynomials
+from tribodyn.mesh.friction_loss import engaged, friction_loss
 from tribodyn.studies.gear_pair.case import Case
+from tribodyn.studies.temperature import Thermal, thermal_state
 from tribodyn.tribology.closure import Closure, closure_of
+from tribodyn.tribology.lubricant import LubricantData
 
 #: Gauss-Seidel sweeps from the tabulated inverse: only pairs about to separate need more than one. Each
 #: reduces the error by the square of the coupling between two pairs over what each deflects alone.
@@ -45,6 +49,8 @@ class Prepared(NamedTuple):
     masses : tuple of (mass kg, inertia kg m²)
         Of pinion and gear alone, without what is attached to them.
     assembly : Assembly
+    thermal : Thermal or None
+        Bulk temperature and load-independent losses, where the case asks for them.
     """
 
     case: Case
@@ -52,6 +58,12 @@ class Prepared(NamedTuple):
     model: Model
     masses: tuple[tuple[float, float], tuple[float, float]]
     assembly: Assembly
+    thermal: Thermal | None = None
+
+    @property
+    def lubricant(self) -> LubricantData:
+        """The lubricant at the bulk temperature of the teeth, at which the model was made."""
+        return self.case.lubricant if self.thermal is None else self.thermal.lubricant
 
 
 class Tabulated(NamedTuple):
@@ -86,6 +98,8 @@ _NOT_IN_TABLE = (
     "operating",
     "film",
     "friction",
+    "temperature",
+    "losses",
     "solver",
     "output",
 )
@@ -131,10 +145,34 @@ def prepare(case: Case, tabulated: Tabulated | None = None) -> Prepared:
         Where the teeth cannot be made or cannot run together, or a table does not cover the contact.
     """
     cycle, table, (pinion, gear), assembly = tabulated or tables(case)
-    surfaces, film, friction = closure = closure_of(case)
+    thermal = thermal_state(case, assembly, _quasi_static_loss(case, assembly))
+    warm = case if thermal is None else dataclasses.replace(case, lubricant=thermal.lubricant)
+    surfaces, film, friction = closure = closure_of(warm)
     mechanics, options = _mechanics(case, pinion, gear, cycle), _options(case, cycle, closure)
     model = Model(table, mechanics, surfaces, film.parameters, friction.parameters, options)
-    return Prepared(case, cycle, model, (pinion, gear), assembly)
+    return Prepared(case, cycle, model, (pinion, gear), assembly, thermal)
+
+
+def _quasi_static_loss(case: Case, assembly: Assembly) -> Callable[[Case], float]:
+    """Return what gives the mean loss to tooth friction in slow rotation at the constant torque, W."""
+    operating = case.operating
+
+    @cache
+    def cycle() -> MeshCycle:
+        from tribodyn.mesh.by_compliance import mesh_cycle_of
+
+        # a segment begins where friction turns
+        split = Assembly(assembly.family._replace(corner=True), assembly.drive)
+        return mesh_cycle_of(split, case.materials, case.mesh, operating.gear_torque)
+
+    def lost(at: Case) -> float:
+        if operating.gear_torque == 0.0:
+            return 0.0
+        vanishing, speed = float(cycle().pitch_point_length) > 0.0, operating.pinion_speed
+        loads = engaged(cycle(), operating.gear_torque, speed, closure_of(at), vanishing)
+        return speed * float(friction_loss(cycle(), *loads))
+
+    return lost
 
 
 def tables(case: Case) -> Tabulated:

@@ -12,6 +12,7 @@ from tribodyn.studies.gears import (
     MESH_FREQUENCY,
     NORMAL_LOAD,
     SINGLE_PAIR,
+    THERMAL,
     TRIBOLOGY,
     WALL_TIME,
 )
@@ -80,6 +81,7 @@ LINES: Lines = {
     ),
     "Tribology": TRIBOLOGY,
     "Energy": ENERGY,
+    "Temperature": THERMAL,
     "Solver": (
         Line("solver", "Method", definition="Method of integration, chosen or by solver.method."),
         Line("steps", "Steps", form=",d", definition="Steps of the integration."),

@@ -8,10 +8,12 @@ from tribodyn.errors import InputError, unknown_name
 from tribodyn.scenario.drive_data import gives_backlash
 from tribodyn.scenario.drive_rules import broken_drive_rules, broken_part_rules
 from tribodyn.scenario.duty import broken_duty_rules, duty_of
+from tribodyn.scenario.losses import broken_loss_rules
 from tribodyn.scenario.lubricant_rules import broken_lubricant_rules
 from tribodyn.scenario.model_files import Bearing, Rolling
 from tribodyn.scenario.modification_rules import Face, broken_face_rules
 from tribodyn.scenario.quality import broken_sample_rules
+from tribodyn.scenario.temperature import broken_temperature_rules
 from tribodyn.solve.methods import SOLVERS
 from tribodyn.studies.gear_pair.scenario import Mesh, Operating, Scenario
 
@@ -23,6 +25,8 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that the scenario breaks; none: it is consistent."""
     yield from broken_drive_rules(scenario.drive)
     yield from broken_lubricant_rules(scenario.lubricant, scenario.operating.oil_temperature)
+    yield from broken_temperature_rules(scenario.temperature, scenario.lubricant)
+    yield from broken_loss_rules(scenario.losses)
     yield from _bearing("bearings.pinion", scenario.bearings.pinion)
     yield from _bearing("bearings.gear", scenario.bearings.gear)
     yield from _operating(scenario.operating)

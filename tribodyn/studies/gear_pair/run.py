@@ -21,11 +21,13 @@ from tribodyn.solve.transient import SampledStates, Stop, TransientSettings, tra
 from tribodyn.studies.gear_pair.assumptions import judge_balance, judge_block
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.prepare import Prepared, prepare
+from tribodyn.studies.gear_pair.settled import MOST, at_own_temperature
 from tribodyn.studies.gear_pair.summary import RunningExtremes, energy_residual, steady_figures, warning_of
 from tribodyn.studies.gears import LAYOUT
 from tribodyn.studies.oil import oil_data
 from tribodyn.studies.recording import target, writer
 from tribodyn.studies.study import Progress, RunResult
+from tribodyn.studies.temperature import thermal_figures
 from tribodyn.tribology.closure import exceeded_limits, law_figures
 
 #: Mesh cycles at the end of a run that its means and its spectrum are of, at most: they are held in memory,
@@ -43,8 +45,26 @@ def run(
     force: bool = False,
     progress: Progress | None = None,
 ) -> RunResult:
-    """Run a case and write its record; see `study.Study.run`."""
+    """Run a case and write its record; see `study.Study.run`.
+
+    Where the case asks for a bulk temperature, it is run again until its own loss gives that temperature.
+    """
     path = target(case, output, force)
+    result = _run(case, path, force, progress)
+    for _ in range(MOST - 1):
+        if result.status != "complete":
+            break
+        warm, lost = result.summary.get("bulk_temperature"), result.summary["power_friction_mean"]
+        again = at_own_temperature(case, warm, lost)
+        if again is None:
+            break
+        case = again
+        result = _run(case, path, True, progress)
+    return result
+
+
+def _run(case: Case, path: Path, force: bool, progress: Progress | None) -> RunResult:
+    """Run a case once."""
     prepared = prepare(case)
     model, cycle = prepared.model, prepared.cycle
     samples, cycles = case.output.samples_per_cycle, case.solver.cycles
@@ -59,7 +79,7 @@ def run(
         "pitch_point": AVERAGED if model.options.averaged else REGULAR,
         "compliance_remark": compliance_remark(prepared.assembly, case.materials, case.mesh) or None,
         **law_figures(case),
-        "lubricant": oil_data(case.lubricant),
+        "lubricant": oil_data(prepared.lubricant),
     }
     groups = {
         "mesh_cycle": as_arrays(cycle),
@@ -115,6 +135,7 @@ def run(
             case.operating.pinion_speed,
             statistics.in_window,
         )
+        summary |= thermal_figures(prepared.thermal, summary["power_in_mean"], summary["efficiency"])
         summary["warning"] = warning_of(summary["friction_work_on_vibration"], case.friction.sliding)
         statistics.judge.take({"efficiency": summary["efficiency"]})
         summary |= statistics.judge.figures()

@@ -39,6 +39,7 @@ from tribodyn.scenario.drive_data import (
 )
 from tribodyn.scenario.duty import DutyTable, duty_of
 from tribodyn.scenario.law_tables import FilmTable, FrictionTable, film_data, friction_values
+from tribodyn.scenario.losses import LossesTable, losses_of
 from tribodyn.scenario.model_files import Bearing, Bearings, DriveTable, Lubricant, Stiffness
 from tribodyn.scenario.modification import MisalignmentTable
 from tribodyn.scenario.quality import DeviationSample, error_with_sample, with_sample
@@ -53,6 +54,7 @@ from tribodyn.scenario.quantity import (
     model_file,
     written,
 )
+from tribodyn.scenario.temperature import TemperatureTable, temperature_of
 from tribodyn.solve.data import SolverData
 from tribodyn.studies.gear_pair.case import Case, OutputData
 from tribodyn.tribology.data import FrictionData
@@ -207,6 +209,8 @@ class GearPairScenario(ScenarioHead):
     bearings: Annotated[Bearings, model_file("bearings")] = written("rigid-1e9")
     operating: Operating
     mesh: Mesh
+    temperature: TemperatureTable | None = Field(None, description="bulk temperature of the teeth")
+    losses: LossesTable | None = Field(None, description="load-independent losses")
     film: FilmTable | None = Field(None, description="which law gives the film")
     friction: Friction
     solver: Solver = written({})
@@ -240,6 +244,8 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> Case:
         solver=SolverData(**scenario.solver.model_dump()),
         output=OutputData(**scenario.output.model_dump()),
         film=film_data(scenario),
+        temperature=temperature_of(scenario.temperature),
+        losses=losses_of(scenario.losses),
     )
 
 

@@ -9,6 +9,7 @@ from tribodyn.record.sweep_schema import OF_EVERY_SWEEP, WORD, SweepLayout
 from tribodyn.solve.recurrence import MAX_PERIOD
 from tribodyn.studies import ends, unstable
 from tribodyn.studies.estimate import variable_bytes
+from tribodyn.studies.temperature import THERMAL_FIGURES
 
 #: `stable`, where the linearised motion was not looked at.
 UNKNOWN = -1
@@ -39,6 +40,7 @@ FIGURES: dict[str, Variable] = {
     "friction_work_on_vibration": _figure(
         "1", "work of friction on the vibration over the loss that the rotation alone has; > 0: fed"
     ),
+    **THERMAL_FIGURES,
     "contact_loss_fraction": _figure("1", "share of the time without any contact"),
     "closure_in_range_fraction": _figure("1", "share of the contact in which the film law is in its range"),
     "friction_in_range_fraction": _figure(

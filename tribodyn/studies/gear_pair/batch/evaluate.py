@@ -27,6 +27,7 @@ from tribodyn.studies.gear_pair.batch.outcome import Outcome
 from tribodyn.studies.gear_pair.batch.ways import PreparedAt, legs_of, prepared_between
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.prepare import Prepared, Tabulated, prepare, table_key, tables
+from tribodyn.studies.gear_pair.settled import MOST, at_own_temperature
 from tribodyn.studies.gear_pair.summary import warning_of
 from tribodyn.studies.gear_pair.sweep_layout import layout_of
 from tribodyn.studies.unstable import MOTIONS
@@ -82,6 +83,40 @@ def evaluate(chunk: Chunk, settings: Settings, workers: int | None = None) -> di
     workers : int, optional
         Threads; by default one per core.
     """
+    rows = _evaluate(chunk, settings, workers)
+    for _ in range(MOST - 1):
+        again = _at_own_temperature(chunk, rows)
+        if not again:
+            break
+        places = np.array(list(again))
+        cases = tuple(again.get(i, case) for i, case in enumerate(chunk.cases))
+        chunk = chunk._replace(cases=cases)
+        states = None if chunk.states is None else chunk.states[places]
+        part = _evaluate(Chunk(chunk.numbers[places], tuple(again.values()), states), settings, workers)
+        for name, values in part.items():
+            rows[name][places] = values
+    return rows
+
+
+def _at_own_temperature(chunk: Chunk, rows: dict[str, np.ndarray]) -> dict[int, Case]:
+    """Cases, by their place, that are to be solved again at the bulk temperature of their own motion.
+
+    Those that follow a branch stay at the temperature of the quasi-static loss, which their neighbours have.
+    """
+    found: dict[int, Case] = {}
+    for i, case in enumerate(chunk.cases):
+        followed = chunk.ways is not None and chunk.ways[i] is not None
+        if isinstance(case, str) or case.temperature is None or followed or rows["status"][i] != DONE:
+            continue
+        warm, lost = float(rows["bulk_temperature"][i]), float(rows["power_friction_mean"][i])
+        again = at_own_temperature(case, warm, lost)
+        if again is not None:
+            found[i] = again
+    return found
+
+
+def _evaluate(chunk: Chunk, settings: Settings, workers: int | None) -> dict[str, np.ndarray]:
+    """Evaluate every case once."""
     rows = layout_of(settings).empty_rows(len(chunk.cases))
     ready: dict[int, tuple[Prepared, np.ndarray]] = {}
     for i, case in enumerate(chunk.cases):

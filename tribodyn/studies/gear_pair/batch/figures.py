@@ -12,6 +12,7 @@ from tribodyn.studies.gear_pair.batch.outcome import Passage
 from tribodyn.studies.gear_pair.prepare import Prepared
 from tribodyn.studies.gear_pair.summary import RunningExtremes, steady_figures
 from tribodyn.studies.gear_pair.sweep_layout import FIGURES
+from tribodyn.studies.temperature import thermal_figures
 
 
 def window_figures(
@@ -41,6 +42,7 @@ def window_figures(
         "transmission_error_peak_to_peak": figures["transmission_error_rotational_peak_to_peak"],
         "transmission_error_mean": float(np.mean(error)),
     }
+    figures |= thermal_figures(prepared.thermal, figures["power_in_mean"], figures["efficiency"])
     judge = Judge()
     judge_block(judge, cycles, block, prepared)
     judge_block(judge, at, extreme, prepared, between_samples=True)

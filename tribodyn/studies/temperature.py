@@ -1,0 +1,228 @@
+"""Teeth as hot as their losses make them: oil, film and friction at the bulk temperature of a case.
+
+The bulk temperature follows from the losses, the losses from the film, and the film from the oil at the bulk
+temperature: a fixed point. Load-independent losses are those at the oil's temperature.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+from tribodyn.errors import InputError
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.drive import body_of, tip_radius
+from tribodyn.numerics.variable import Variable
+from tribodyn.standards.micropitting import LUBRICATION_FACTORS, bulk_rise
+from tribodyn.tribology.bulk_temperature import (
+    Heat,
+    Network,
+    TemperatureData,
+    Temperatures,
+    fixed_point,
+    heat_given_off,
+    network_temperatures,
+)
+from tribodyn.tribology.losses.of_pair import LossData, losses_of_pair
+from tribodyn.tribology.losses.wheel import Loss, Wheel
+from tribodyn.tribology.lubricant import LubricantData, lubricant_at
+from tribodyn.tribology.oil import TEMPERATURE_RANGE, ZERO_CELSIUS, specific_heat
+
+#: What sweeps keep of a case that asks for them.
+THERMAL_FIGURES = {
+    "bulk_temperature": Variable((), "K", "bulk temperature of the teeth"),
+    "power_load_independent": Variable((), "W", "losses to churning, windage and bearings"),
+    "efficiency_with_losses": Variable((), "1", "efficiency with load-independent losses"),
+}
+#: Share of the heat of tooth friction that either gear takes.
+SHARE = 0.5
+
+
+class Thermal(NamedTuple):
+    """Where temperature, film and friction have settled.
+
+    Attributes
+    ----------
+    lubricant : LubricantData
+        At the bulk temperature.
+    mesh_loss : float
+        Mean loss to tooth friction, W.
+    losses : dict of Loss
+        Load-independent ones by name.
+    temperatures : Temperatures or None
+        None: the teeth are taken to be as warm as the oil.
+    heat : Heat
+    given_off : float or None
+        Heat that leaves the network, W; None without a network.
+    """
+
+    lubricant: LubricantData
+    mesh_loss: float
+    losses: dict[str, Loss]
+    temperatures: Temperatures | None
+    heat: Heat
+    given_off: float | None
+
+
+def thermal_state(case: Any, assembly: Assembly, mesh_loss: Callable[[Any], float]) -> Thermal | None:
+    """Return bulk temperature and losses of a case; None where it asks for neither.
+
+    Parameters
+    ----------
+    case : case
+        With `lubricant`, `operating`, `temperature` and `losses`.
+    assembly : Assembly
+        Its gears.
+    mesh_loss : callable
+        (case, its lubricant at some temperature) -> mean loss to tooth friction, W.
+
+    Raises
+    ------
+    InputError
+        If the teeth get hotter than the oil is known.
+    SimulationError
+        If the temperature does not settle.
+    """
+    asked: TemperatureData | None = case.temperature
+    if asked is None:
+        if case.losses is None:
+            return None
+        losses = idle_losses(case, assembly, case.lubricant)
+        lost = mesh_loss(case)
+        return Thermal(case.lubricant, lost, losses, None, _heat(lost, losses, housing=False), None)
+    oil: LubricantData = case.lubricant
+    supplied = float(oil.temperature)
+    latest: list[Thermal] = []
+
+    def step(here: tuple[float, float]) -> tuple[float, float]:
+        bulk, around = (_known(one, asked) for one in here)
+        lubricant = replace(lubricant_at(oil, bulk), supply=around)
+        lost = asked.mesh_loss
+        if lost is None:
+            lost = mesh_loss(replace(case, lubricant=lubricant))
+        losses = idle_losses(case, assembly, lubricant_at(oil, around))
+        heat = _heat(lost, losses, asked.housing_ambient > 0.0)
+        found, given_off = _temperatures(case, assembly, asked, heat, lost, supplied)
+        latest[:] = [Thermal(lubricant, lost, losses, found, heat, given_off)]
+        return found.bulk, found.oil
+
+    fixed_point(step, (supplied, supplied))
+    return latest[0]
+
+
+def bulk_temperature_of_loss(case: Any, assembly: Assembly, mesh_loss: float) -> float:
+    """Bulk temperature, K, of a case with a known mean loss to tooth friction, W."""
+    known = replace(case, temperature=replace(case.temperature, mesh_loss=mesh_loss))
+    thermal = thermal_state(known, assembly, lambda _: mesh_loss)
+    assert thermal is not None
+    assert thermal.temperatures is not None
+    return thermal.temperatures.bulk
+
+
+def idle_losses(case: Any, assembly: Assembly, oil: LubricantData) -> dict[str, Loss]:
+    """Return the load-independent losses that a case asks for, in the oil at its own temperature."""
+    asked: LossData | None = case.losses
+    if asked is None:
+        return {}
+    drive, path = case.drive, assembly.path
+    ratio = drive.pinion.teeth / drive.gear.teeth
+    of_sides = (
+        ("pinion", case.operating.pinion_speed, path.pinion_pitch_radius, asked.pinion_immersion),
+        ("gear", case.operating.pinion_speed * ratio, path.gear_pitch_radius, asked.gear_immersion),
+    )
+    pinion, gear = (
+        Wheel(
+            float(speed),
+            float(radius),
+            float(tip_radius(drive, side)),
+            float(assembly.tooth(side).root_radius),
+            float(body_of(drive, side).face_width),
+            float(drive.module),
+            float(body_of(drive, side).teeth),
+            depth,
+        )
+        for side, speed, radius, depth in of_sides
+    )
+    return losses_of_pair(asked, (pinion, gear), float(oil.inlet_viscosity), float(oil.density))
+
+
+def thermal_figures(thermal: Thermal | None, power_in: float, efficiency: float) -> dict[str, Any]:
+    """Figures of temperatures and load-independent losses for a summary; SI, temperatures in K.
+
+    Parameters
+    ----------
+    thermal : Thermal or None
+    power_in : float
+        That the driving gear puts in, without load-independent losses, W.
+    efficiency : float
+        Of the mesh.
+    """
+    if thermal is None:
+        return {}
+    figures: dict[str, Any] = {}
+    if (found := thermal.temperatures) is not None:
+        figures |= {
+            "bulk_temperature": found.bulk,
+            "bulk_temperature_pinion": found.pinion,
+            "bulk_temperature_gear": found.gear,
+            "oil_temperature": found.oil,
+            "heat_generated": thermal.heat.total,
+        }
+        if thermal.given_off is not None:
+            figures |= {"housing_temperature": found.housing, "heat_given_off": thermal.given_off}
+    if thermal.losses:
+        idle = sum(one.power for one in thermal.losses.values())
+        figures |= {f"power_{name}": one.power for name, one in thermal.losses.items()}
+        figures |= {
+            "power_load_independent": idle,
+            "efficiency_with_losses": efficiency * power_in / (power_in + idle),
+        }
+        outside = [f"{name}: {limit}" for name, one in thermal.losses.items() for limit in one.exceeded]
+        if outside:
+            figures["losses_outside"] = "; ".join(outside)
+    return figures
+
+
+def _heat(mesh_loss: float, losses: dict[str, Loss], housing: bool) -> Heat:
+    """Heat by where it arises: that of bearings in the housing, where there is one."""
+    power = {name: one.power for name, one in losses.items()}
+    bearings = power.get("bearings", 0.0)
+    in_oil = power.get("churning", 0.0) + power.get("windage", 0.0)
+    to_oil, to_housing = (in_oil, bearings) if housing else (in_oil + bearings, 0.0)
+    return Heat(SHARE * mesh_loss, (1.0 - SHARE) * mesh_loss, to_oil, to_housing)
+
+
+def _temperatures(
+    case: Any, assembly: Assembly, asked: TemperatureData, heat: Heat, lost: float, supplied: float
+) -> tuple[Temperatures, float | None]:
+    if asked.model == "iso":
+        centre = float(assembly.path.pinion_pitch_radius + assembly.path.gear_pitch_radius)
+        width = float(min(case.drive.pinion.face_width, case.drive.gear.face_width))
+        supply = LUBRICATION_FACTORS[asked.lubrication] / asked.tip_relief_factor
+        bulk = supplied + bulk_rise(lost, 1.0, 1.0, centre, width, supply)
+        return Temperatures(bulk, bulk, supplied, supplied), None
+    sheet = case.lubricant.sheet
+    flow = asked.oil_flow * float(case.lubricant.density) * float(specific_heat(sheet.density_15, supplied))
+    network = Network(
+        asked.pinion_oil,
+        asked.gear_oil,
+        flow,
+        asked.oil_housing,
+        asked.housing_ambient,
+        asked.ambient_temperature,
+    )
+    found = network_temperatures(network, heat, supplied)
+    return found, heat_given_off(network, found, supplied)
+
+
+def _known(temperature: float, asked: TemperatureData) -> float:
+    """Refuse a temperature for which the oil's data sheet gives no numbers."""
+    low, high = TEMPERATURE_RANGE
+    if low <= temperature <= high:
+        return temperature
+    raise InputError(
+        "temperature.model",
+        f'"{asked.model}"',
+        f"teeth or oil reach {temperature - ZERO_CELSIUS:.0f} degC, and the oil is known up to "
+        f"{high - ZERO_CELSIUS:.0f} degC",
+        "let more heat off (oil_flow, conductances), lower the load, or leave the table out",
+    )

@@ -1,0 +1,52 @@
+"""Drag of rolling bearings that does not depend on their load."""
+
+import math
+from typing import NamedTuple
+
+from tribodyn.tribology.losses.wheel import Loss
+
+#: f_0 in an oil bath by type: Harris, Rolling Bearing Analysis, 4th edition, chapter 14 (from memory).
+DRAG_FACTORS = {
+    "deep-groove-ball": 2.0,
+    "angular-contact-ball": 3.3,
+    "cylindrical-roller": 3.0,
+    "tapered-roller": 6.0,
+    "needle-roller": 12.0,
+}
+#: ν n, mm²/s times rpm, below which the moment no longer depends on it.
+SLOW = 2000.0
+
+
+class ShaftBearings(NamedTuple):
+    """Bearings of a shaft, alike.
+
+    Attributes
+    ----------
+    speed : rad/s, > 0
+    mean_diameter : d_m = (bore + outside)/2, m
+    drag_factor : f_0
+    count : number of bearings
+    """
+
+    speed: float
+    mean_diameter: float
+    drag_factor: float
+    count: int
+
+
+def palmgren(bearings: ShaftBearings, viscosity: float, density: float) -> Loss:
+    """Loss of the load-independent moment by Palmgren, as Harris gives it.
+
+    M_0 = 10^−7 f_0 (ν n)^⅔ d_m³ N mm for ν n ≥ 2000, else 160 · 10^−7 f_0 d_m³, with ν in mm²/s, n in rpm and
+    d_m in mm.
+
+    Parameters
+    ----------
+    bearings : ShaftBearings
+    viscosity, density : float
+        Dynamic, of the oil, Pa·s; kg/m³.
+    """
+    flow = 1e6 * viscosity / density * bearings.speed * 30.0 / math.pi
+    size = bearings.drag_factor * (1e3 * bearings.mean_diameter) ** 3
+    moment = 1e-7 * size * flow ** (2.0 / 3.0) if flow >= SLOW else 160e-7 * size
+    return Loss(bearings.count * 1e-3 * moment * bearings.speed)
