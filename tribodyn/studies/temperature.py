@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.drive import body_of, tip_radius
+from tribodyn.geometry.drive import SIDES, Side, body_of, tip_radius
 from tribodyn.numerics.variable import Variable
 from tribodyn.standards.micropitting import LUBRICATION_FACTORS, bulk_rise
 from tribodyn.tribology.bulk_temperature import (
@@ -123,25 +123,26 @@ def idle_losses(case: Any, assembly: Assembly, oil: LubricantData) -> dict[str, 
     asked: LossData | None = case.losses
     if asked is None:
         return {}
-    drive, path = case.drive, assembly.path
-    ratio = drive.pinion.teeth / drive.gear.teeth
-    of_sides = (
-        ("pinion", case.operating.pinion_speed, path.pinion_pitch_radius, asked.pinion_immersion),
-        ("gear", case.operating.pinion_speed * ratio, path.gear_pitch_radius, asked.gear_immersion),
+    drive, path, speed = case.drive, assembly.path, case.operating.pinion_speed
+    radii, depths = (
+        (path.pinion_pitch_radius, path.gear_pitch_radius),
+        (asked.pinion_immersion, asked.gear_immersion),
     )
-    pinion, gear = (
-        Wheel(
-            float(speed),
-            float(radius),
+
+    def wheel(side: Side) -> Wheel:
+        body, place = body_of(drive, side), SIDES.index(side)
+        return Wheel(
+            float(speed * drive.pinion.teeth / body.teeth),
+            float(radii[place]),
             float(tip_radius(drive, side)),
             float(assembly.tooth(side).root_radius),
-            float(body_of(drive, side).face_width),
+            float(body.face_width),
             float(drive.module),
-            float(body_of(drive, side).teeth),
-            depth,
+            float(body.teeth),
+            depths[place],
         )
-        for side, speed, radius, depth in of_sides
-    )
+
+    pinion, gear = wheel("pinion"), wheel("gear")
     return losses_of_pair(asked, (pinion, gear), float(oil.inlet_viscosity), float(oil.density))
 
 

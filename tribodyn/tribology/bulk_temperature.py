@@ -165,7 +165,7 @@ def fixed_point(
     SimulationError
         If there are none: the loss grows with the temperature faster than the heat leaves.
     """
-    here = start
+    here, change = start, 0.0
     for _ in range(STEPS):
         there = step(here)
         change = max(abs(new - old) for new, old in zip(there, here, strict=True))

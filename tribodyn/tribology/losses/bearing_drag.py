@@ -1,7 +1,7 @@
 """Drag of rolling bearings that does not depend on their load."""
 
 import math
-from typing import NamedTuple
+from dataclasses import dataclass
 
 from tribodyn.tribology.losses.wheel import Loss
 
@@ -17,7 +17,8 @@ DRAG_FACTORS = {
 SLOW = 2000.0
 
 
-class ShaftBearings(NamedTuple):
+@dataclass(frozen=True)
+class ShaftBearings:
     """Bearings of a shaft, alike.
 
     Attributes

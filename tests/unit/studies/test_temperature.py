@@ -1,0 +1,166 @@
+"""Temperature, film and friction of a case settled together; losses by the scenario's tables."""
+
+import tomllib
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from tribodyn.errors import InputError
+from tribodyn.interface.scenario import scenario
+from tribodyn.studies.efficiency.run import figures, prepare
+from tribodyn.studies.gear_pair.prepare import prepare as prepare_motion
+from tribodyn.studies.gear_pair.settled import at_own_temperature
+from tribodyn.tribology.oil import TEMPERATURE_RANGE
+
+SCENARIO = tomllib.loads(
+    """
+    title = "warm teeth"
+    kind = "efficiency"
+    drive = "diez-ibarbia-18-36"
+    lubricant = "iso-vg-220-mineral"
+    [operating]
+    pinion_speed = "1800 rpm"
+    gear_torque = "200 N*m"
+    oil_temperature = "80 degC"
+    [friction]
+    law = "masjedi-khonsari"
+    [temperature]
+    model = "iso"
+    """
+)
+NETWORK = {
+    "temperature.model": "network",
+    "temperature.pinion_oil": "20 W/K",
+    "temperature.gear_oil": "40 W/K",
+    "temperature.oil_flow": "2 l/min",
+}
+LOSSES = {
+    "losses.churning": "changenet-velex",
+    "losses.gear_immersion": "20 mm",
+    "losses.oil_volume": "1.5 l",
+    "losses.windage": "dawson",
+    "losses.bearings": "palmgren",
+    "losses.pinion_bearings.type": "deep-groove-ball",
+    "losses.pinion_bearings.mean_diameter": "40 mm",
+}
+MOTION = SCENARIO | {"kind": "gear-pair", "mesh": {"damping_ratio": 0.05}}
+
+
+def case(changes=None, source=SCENARIO):
+    return scenario(source, changes or {})
+
+
+def warm_of(prepared: Any) -> Any:
+    return prepared.thermal
+
+
+def test_the_estimate_of_the_standard_holds_at_its_own_temperature():
+    """ISO/TR 15144-1 with the loss that the film at that temperature has: 7400 (P_v/(a b))^0.72/1.2."""
+    found = figures(case())
+    loss, centre, width = found["power_friction_mean"], 81.0, 26.7
+    rise = 7400 * (1e-3 * loss / (centre * width)) ** 0.72 / 1.2
+    assert found["bulk_temperature"] == pytest.approx(353.15 + rise, abs=0.1)
+    # and the film is that of the oil at the bulk temperature
+    at_bulk = case(
+        {"operating.oil_temperature": f"{found['bulk_temperature']!r} K", "temperature.model": "oil"}
+    )
+    assert figures(at_bulk)["film_min"] == pytest.approx(found["film_min"], rel=1e-4)
+    assert found["lubricant"]["inlet_viscosity"]["value"] == pytest.approx(
+        at_bulk.lubricant.inlet_viscosity, rel=1e-4
+    )
+
+
+def test_how_the_oil_reaches_the_mesh():
+    dip, spray, submerged = (
+        figures(case({"temperature.lubrication": one}))["bulk_temperature"] - 353.15
+        for one in ("dip", "spray", "submerged")
+    )
+    assert spray / dip == pytest.approx(1.2, rel=0.02)
+    assert submerged / dip == pytest.approx(0.2, rel=0.05)
+
+
+def test_a_network_gives_off_all_heat_of_friction_and_losses():
+    found = figures(case(NETWORK | LOSSES))
+    losses = sum(found[f"power_{name}"] for name in ("churning", "windage", "bearings"))
+    assert found["power_load_independent"] == pytest.approx(losses)
+    heat = found["power_friction_mean"] + losses
+    assert found["heat_given_off"] == pytest.approx(heat, rel=1e-3)
+    share = found["power_in_mean"] / (found["power_in_mean"] + losses)
+    assert found["efficiency_with_losses"] == pytest.approx(found["efficiency"] * share)
+    # 2 l/min of oil at 80 °C: the density and Cragoe's specific heat there
+    flow = 2e-3 / 60 * (890 - 0.7 * 64.15) * (1685 + 3.39 * 80) / 0.89**0.5
+    assert found["oil_temperature"] == pytest.approx(353.15 + heat / flow, abs=0.1)
+
+
+def test_losses_are_off_unless_asked_for():
+    found = figures(case({"temperature.model": "oil"}))
+    assert not {"power_load_independent", "bulk_temperature", "power_churning"} & set(found)
+
+
+def test_mean_friction_reads_the_oil_around_the_gears():
+    """Schlenk's and Niemann's coefficients are of the viscosity at the oil's temperature."""
+    warm, cold = (
+        figures(case({"friction.law": "schlenk", "temperature.model": one})) for one in ("iso", "oil")
+    )
+    assert warm["friction_coefficient_mean"] == pytest.approx(cold["friction_coefficient_mean"], rel=1e-12)
+    assert warm["bulk_temperature"] > 353.15
+    assert warm["film_min"] < cold["film_min"]
+
+
+@pytest.mark.parametrize("changes", [{}, NETWORK | LOSSES])
+def test_dynamics_and_efficiency_find_the_same_temperature(changes):
+    motion, still = (warm_of(one) for one in (prepare_motion(case(changes, MOTION)), prepare(case(changes))))
+    assert motion.temperatures.bulk == pytest.approx(still.temperatures.bulk, abs=0.05)
+    assert motion.lubricant.supply == pytest.approx(still.lubricant.supply, abs=0.05)
+
+
+def test_a_motion_with_another_loss_is_run_again_until_its_own_temperature():
+    asked = case(source=MOTION)
+    prepared = prepare_motion(asked)
+    warm, lost = warm_of(prepared).temperatures.bulk, warm_of(prepared).mesh_loss
+    assert at_own_temperature(asked, warm, lost) is None
+    again: Any = at_own_temperature(asked, warm, 1.2 * lost)
+    hotter = warm_of(prepare_motion(again)).temperatures.bulk
+    assert hotter - 353.15 == pytest.approx((warm - 353.15) * 1.2**0.72, rel=1e-3)
+    assert at_own_temperature(again, hotter, 1.2 * lost) is None
+    assert at_own_temperature(replace(asked, temperature=None), None, lost) is None
+
+
+@pytest.mark.parametrize(
+    ("changes", "key", "rule"),
+    [
+        ({"temperature.oil_flow": "2 l/min"}, "temperature.oil_flow", 'no effect with model = "iso"'),
+        (NETWORK | {"temperature.pinion_oil": "0 W/K"}, "temperature.pinion_oil", "greater than zero"),
+        (NETWORK | {"temperature.oil_housing": "9 W/K"}, "temperature.housing_ambient", "missing"),
+        (NETWORK | {"temperature.lubrication": "spray"}, "temperature.lubrication", "no effect"),
+        (LOSSES | {"losses.gear_immersion": "0 mm"}, "losses.gear_immersion", "dips into the oil"),
+        (
+            {"losses.churning": "changenet-velex", "losses.gear_immersion": "9 mm"},
+            "losses.oil_volume",
+            "needs",
+        ),
+        ({"losses.gear_immersion": "9 mm"}, "losses.gear_immersion", "no effect"),
+        ({"losses.bearings": "palmgren"}, "losses.pinion_bearings", "missing"),
+        ({"losses.churning": "stirring"}, "losses.churning", "not one of the choices"),
+    ],
+)
+def test_what_contradicts_is_refused(changes, key, rule):
+    with pytest.raises(InputError) as refused:
+        case(changes)
+    assert refused.value.key == key
+    assert rule in refused.value.rule
+
+
+def test_a_temperature_needs_the_oil_at_others():
+    direct = {"operating": {"pinion_speed": "1800 rpm", "gear_torque": "200 N*m"}}
+    with pytest.raises(InputError, match="data sheet") as refused:
+        scenario(SCENARIO | direct | {"lubricant": "liu-ni-2022"})
+    assert refused.value.key == "temperature.model"
+
+
+def test_teeth_hotter_than_the_oil_is_known_are_refused():
+    hot = {"temperature.pinion_oil": "1 W/K", "temperature.gear_oil": "1 W/K"}
+    with pytest.raises(InputError, match="known up to 180 degC"):
+        figures(case(NETWORK | hot))
+    assert TEMPERATURE_RANGE[1] == 453.15
