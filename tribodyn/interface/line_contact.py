@@ -6,10 +6,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from tribodyn.interface.words import in_python
+from tribodyn.tribology.ehl.coupled import solve_coupled
 from tribodyn.tribology.ehl.fluid import Fluid, roelands_index
+from tribodyn.tribology.ehl.heat import Thermal
 from tribodyn.tribology.ehl.problem import LineContact, check
-from tribodyn.tribology.ehl.steady import STEP, Solution, solve_steady
-from tribodyn.tribology.ehl.traction import newtonian_friction, rolling_traction
+from tribodyn.tribology.ehl.rheology import Rheology
+from tribodyn.tribology.ehl.steady import STEP, Solution
+from tribodyn.tribology.ehl.traction import rolling_traction
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -28,6 +31,8 @@ class SolvedContact:
     pressure : Pa
     film_thickness : m
     temperature : mean over the film, K above the inlet's
+    surface_temperatures : of surfaces 1 and 2, K above the inlet's; (2, nodes)
+    shear_stress : τ_m, mean over the film, Pa
     central_film_thickness : at x = 0, m
     minimum_film_thickness : m
     friction_coefficient
@@ -43,6 +48,8 @@ class SolvedContact:
     pressure: Array
     film_thickness: Array
     temperature: Array
+    surface_temperatures: Array
+    shear_stress: Array
     central_film_thickness: float
     minimum_film_thickness: float
     friction_coefficient: float
@@ -100,6 +107,17 @@ def line_contact(
     viscosity_pressure_index: float | None = None,
     effective_modulus: float,
     compressible: bool = True,
+    rheology: str = "newtonian",
+    eyring_stress: float = Rheology().eyring_stress,
+    limiting_coefficient: float = Rheology().limiting_coefficient,
+    limiting_floor: float = Rheology().limiting_floor,
+    carreau_modulus: float = Rheology().carreau_modulus,
+    carreau_index: float = Rheology().carreau_index,
+    temperature_viscosity: float | None = None,
+    oil_conductivity: float = 0.14,
+    oil_heat_capacity: float = 1.7e6,
+    solid_conductivity: tuple[float, float] = (46.0, 46.0),
+    solid_heat_capacity: tuple[float, float] = (3.6e6, 3.6e6),
     step: float = STEP,
     start: SolvedContact | None = None,
 ) -> SolvedContact:
@@ -126,6 +144,20 @@ def line_contact(
         E', 2/E' = (1 − ν_1²)/E_1 + (1 − ν_2²)/E_2, Pa.
     compressible : bool
         Density by Dowson & Higginson; else constant.
+    rheology : {"newtonian", "eyring", "limiting", "carreau"}
+        Law of shear; a Newtonian fluid gives no credible friction where α p exceeds ten.
+    eyring_stress : float
+        τ_0 of γ' = τ_0/η sinh(τ/τ_0), Pa.
+    limiting_coefficient, limiting_floor : float
+        Λ and τ_00 (Pa) of the limiting shear stress τ_00 + Λ p.
+    carreau_modulus, carreau_index : float
+        G (Pa) and n of τ = η γ' [1 + (η γ'/G)²]^((n − 1)/2).
+    temperature_viscosity : float, optional
+        K_T = −d ln η/dT at ambient pressure, 1/K. Default: an isothermal contact.
+    oil_conductivity, oil_heat_capacity : float
+        W/(m K), and J/(m³ K) per volume; of mineral oil by default.
+    solid_conductivity, solid_heat_capacity : (float, float)
+        Of surfaces 1 and 2, W/(m K) and J/(m³ K) per volume; of steel by default.
     step : float
         Steps of the grid over the distance from inlet and end of the film.
     start : SolvedContact, optional
@@ -152,15 +184,31 @@ def line_contact(
         index = min(max(roelands_index(pressure_viscosity, viscosity), 1e-3), 1.0)
     fluid = Fluid(viscosity, pressure_viscosity, index, compressible)
     problem = LineContact(line_load, radius, entrainment_speed, fluid, effective_modulus, sliding_speed)
-    solution = solve_steady(problem, start.solution if start is not None else None, step)
+    shear = Rheology(
+        rheology, eyring_stress, limiting_coefficient, limiting_floor, carreau_modulus, carreau_index
+    )
+    thermal = None
+    if temperature_viscosity is not None:
+        thermal = Thermal(
+            temperature_viscosity,
+            oil_conductivity,
+            oil_heat_capacity,
+            solid_conductivity,
+            solid_heat_capacity,
+        )
+    solved = solve_coupled(problem, shear, thermal, start.solution if start is not None else None, step)
+    solution, heat = solved.solution, solved.heat
+    cold = np.zeros_like(solution.film)
     return SolvedContact(
         x=solution.place,
         pressure=solution.pressure,
         film_thickness=solution.film_thickness,
-        temperature=np.zeros_like(solution.film),
+        temperature=solved.temperature,
+        surface_temperatures=np.array([heat.surface_1, heat.surface_2] if heat is not None else [cold, cold]),
+        shear_stress=solved.shear.stress,
         central_film_thickness=solution.central_film_thickness,
         minimum_film_thickness=solution.minimum_film_thickness,
-        friction_coefficient=newtonian_friction(solution) / line_load,
+        friction_coefficient=solved.friction / line_load,
         rolling_coefficient=rolling_traction(solution).shear / line_load,
         hertz_pressure=problem.hertz_pressure,
         half_width=problem.half_width,

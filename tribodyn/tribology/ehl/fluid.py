@@ -51,6 +51,21 @@ def log_viscosity(pressure: Array, fluid: Fluid) -> tuple[Array, Array]:
     return np.where(beyond, MAXIMUM_LOG_VISCOSITY, exponent), np.where(beyond, 0.0, slope)
 
 
+def hot_log_viscosity(pressure: Array, rise: Array, fluid: Fluid, coefficient: float) -> tuple[Array, Array]:
+    """ln(η/η0) at temperatures above the inlet's (K), and its derivative by them, −1/K.
+
+    Roelands' law over pressure and temperature, ln(η/η0) = A [(1 + p/p_r)^z exp(−K_T Θ/A) − 1] with
+    A = α p_r/z: the coefficient K_T = −d ln η/dT at ambient pressure grows with pressure, and no heat thins
+    the oil below exp(−A). Barus' law: ln(η/η0) = α p − K_T Θ.
+    """
+    cold, _ = log_viscosity(pressure, fluid)
+    if fluid.viscosity_pressure_index == 1.0 or fluid.pressure_viscosity == 0.0:
+        return cold - coefficient * rise, np.full_like(cold + rise, -coefficient)
+    factor = fluid.pressure_viscosity * ROELANDS_PRESSURE / fluid.viscosity_pressure_index
+    thicker = (cold + factor) * np.exp(-coefficient / factor * rise)
+    return thicker - factor, -coefficient / factor * thicker
+
+
 def relative_density(pressure: Array, fluid: Fluid) -> tuple[Array, Array]:
     """ρ/ρ0 and its derivative by pressure, 1/Pa."""
     if not fluid.compressible:

@@ -49,6 +49,28 @@ class State(NamedTuple):
     end: float
 
 
+class Closure(NamedTuple):
+    """What shear and heat make of the flow, at the nodes.
+
+    Attributes
+    ----------
+    thinning, response
+        ln(η_effective/η0) is thinning + response · ln(η/η0), η the Newtonian isothermal viscosity, as the
+        pressure varies about that at which they were made.
+    drift : flow that layers of unequal viscosity add, over ρ u h
+    """
+
+    thinning: Array
+    response: Array
+    drift: Array
+
+
+def newtonian(grid: Grid) -> Closure:
+    """Return the closure of a Newtonian isothermal fluid."""
+    zero = np.zeros(len(grid.node))
+    return Closure(zero, zero + 1.0, zero)
+
+
 def film(state: State, reduced: Reduced, grid: Grid) -> Array:
     """Film H at the nodes."""
     place = state.end + grid.node
@@ -76,38 +98,34 @@ def mean_fluidity(exponent: Array) -> tuple[Array, Array, Array]:
     return mean, -0.5 * (mean + middle * slope), -0.5 * (mean - middle * slope)
 
 
-def residual(
-    state: State, reduced: Reduced, grid: Grid, thinning: Array = 0.0, jacobian: bool = True
-) -> tuple[Array, Array]:
+def residual(state: State, reduced: Reduced, grid: Grid, closure: Closure) -> tuple[Array, Array]:
     """Residuals of all equations, and their Jacobian: faces, load, end; by pressures within, H_0, Q, X_e.
 
-    Parameters
-    ----------
-    thinning : array over nodes
-        ln of effective over Newtonian, isothermal viscosity.
+    `closure` says how the fluid departs from a Newtonian isothermal one.
     """
     pressure, scale = state.pressure, reduced.hertz_pressure
     place = state.end + grid.node
     gap = at_faces(grid, 0.5 * place * place)
     thick = state.rigid_film + gap + reduced.compliance * (grid.face_deformation[:, 1:-1] @ pressure[1:-1])
     exponent, slope = log_viscosity(scale * pressure, reduced.fluid)
-    fluidity, upstream, downstream = mean_fluidity(exponent + thinning)
-    upstream, downstream = scale * slope[:-1] * upstream, scale * slope[1:] * downstream
+    effective = closure.thinning + closure.response * exponent
+    fluidity, upstream, downstream = mean_fluidity(effective)
+    slope = scale * closure.response * slope
+    upstream, downstream = slope[:-1] * upstream, slope[1:] * downstream
     density, growth = relative_density(scale * pressure, reduced.fluid)
     growth = scale * growth
     dense = at_faces(grid, density)
+    share = 1.0 + at_faces(grid, closure.drift)
     volume = dense * thick**3 / reduced.speed
     mobility = volume * fluidity
     gradient = np.diff(pressure) / grid.step
-    faces = mobility * gradient - dense * thick + state.flow
+    faces = mobility * gradient - share * dense * thick + state.flow
     last = state.rigid_film + 0.5 * state.end**2
     last += reduced.compliance * (grid.deformation[-1, 1:-1] @ pressure[1:-1])
     values = np.concatenate([faces, [grid.weight @ pressure - HERTZ_LOAD, state.flow - last]])
-    if not jacobian:
-        return values, None
     size = len(faces)
-    by_film = 3.0 * mobility * gradient / thick - dense
-    by_density = mobility * gradient / dense - thick
+    by_film = 3.0 * mobility * gradient / thick - share * dense
+    by_density = mobility * gradient / dense - share * thick
     matrix = np.empty((size + 2, size + 2))
     inner = matrix[:size, : size - 1]
     np.multiply(grid.face_deformation[:, 1:-1], (reduced.compliance * by_film)[:, None], out=inner)

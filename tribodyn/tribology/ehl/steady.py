@@ -9,7 +9,7 @@ from tribodyn.errors import SimulationError
 from tribodyn.tribology.ehl.elasticity import HERTZ_LOAD
 from tribodyn.tribology.ehl.grid import Grid, made, placed
 from tribodyn.tribology.ehl.problem import LineContact, check
-from tribodyn.tribology.ehl.reynolds import Reduced, State, film, residual
+from tribodyn.tribology.ehl.reynolds import Closure, Reduced, State, film, newtonian, residual
 from tribodyn.tribology.ehl.start import first_state, survey_film
 
 Array = Any
@@ -36,7 +36,7 @@ class Solution(NamedTuple):
     grid : Grid
     state : State, in Hertz's units
     film : H at the nodes
-    thinning : ln of effective over Newtonian, isothermal viscosity, at the nodes
+    closure : what shear and heat make of the flow
     steps : of Newton's method
     imbalance : largest residual: of mass flow over the flow, of force over the load
     """
@@ -46,7 +46,7 @@ class Solution(NamedTuple):
     grid: Grid
     state: State
     film: Array
-    thinning: Array
+    closure: Closure
     steps: int
     imbalance: float
 
@@ -92,7 +92,7 @@ def grid_of(problem: LineContact, step: float = STEP) -> Grid:
 
 
 def solve_steady(
-    problem: LineContact, start: Solution | None = None, step: float = STEP, thinning: Array | None = None
+    problem: LineContact, start: Solution | None = None, step: float = STEP, closure: Closure | None = None
 ) -> Solution:
     """Solve a steady contact.
 
@@ -103,8 +103,8 @@ def solve_steady(
         Of a similar contact: its grid and its state are taken. Default: by `first_state`, on a new grid.
     step : float
         Of a new grid; the errors of the film are of second order in it.
-    thinning : (nodes,), optional
-        ln of effective over Newtonian, isothermal viscosity; of `start` if that is given.
+    closure : Closure, optional
+        On the nodes of `start`. Default: that of `start`, or a Newtonian isothermal fluid.
 
     Returns
     -------
@@ -121,15 +121,15 @@ def solve_steady(
     reduced = reduced_problem(problem)
     if start is not None:
         grid, state = start.grid, start.state
-        thinning = start.thinning if thinning is None else thinning
+        closure = start.closure if closure is None else closure
     else:
         grid = grid_of(problem, step)
         state = first_state(reduced, grid, survey_film(problem.moes_load, problem.moes_material))
-    thinning = np.zeros(len(grid.node)) if thinning is None else thinning
+    closure = newtonian(grid) if closure is None else closure
     first = state
-    state, steps, imbalance = converged(first, reduced, grid, thinning)
-    if not imbalance <= TOLERANCE:
-        state, more, imbalance = _continued(first, reduced, grid, thinning)
+    state, steps, imbalance = converged(first, reduced, grid, closure)
+    if not imbalance <= TOLERANCE and start is None:
+        state, more, imbalance = _continued(first, reduced, grid, closure)
         steps += more
     if not imbalance <= TOLERANCE:
         raise SimulationError(
@@ -137,15 +137,15 @@ def solve_steady(
             f"L {problem.moes_material:.3g}, p_H {problem.hertz_pressure / 1e9:.3g} GPa; imbalance "
             f"{imbalance:.1e}); start from the solution of a similar contact"
         )
-    return Solution(problem, reduced, grid, state, film(state, reduced, grid), thinning, steps, imbalance)
+    return Solution(problem, reduced, grid, state, film(state, reduced, grid), closure, steps, imbalance)
 
 
-def converged(state: State, reduced: Reduced, grid: Grid, thinning: Array) -> tuple[State, int, float]:
+def converged(state: State, reduced: Reduced, grid: Grid, closure: Closure) -> tuple[State, int, float]:
     """Take steps of Newton's method; returns the state, the number of steps, the imbalance (NaN: failed)."""
     imbalance = math.inf
     for number in range(MOST_STEPS + 1):
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            values, matrix = residual(state, reduced, grid, thinning)
+            values, matrix = residual(state, reduced, grid, closure)
         imbalance = _imbalance(values, state)
         if imbalance <= TOLERANCE or not math.isfinite(imbalance) or number == MOST_STEPS:
             return state, number, imbalance
@@ -157,14 +157,14 @@ def converged(state: State, reduced: Reduced, grid: Grid, thinning: Array) -> tu
     return state, MOST_STEPS, imbalance
 
 
-def _continued(state: State, reduced: Reduced, grid: Grid, thinning: Array) -> tuple[State, int, float]:
+def _continued(state: State, reduced: Reduced, grid: Grid, closure: Closure) -> tuple[State, int, float]:
     """Raise the pressure-viscosity coefficient from a part of it, in steps that Newton's method takes."""
     whole = reduced.fluid.pressure_viscosity
     done, way, total, imbalance = 0.0, 0.5, 0, math.nan
     while way >= _SHORTEST_WAY and done < 1.0:
         share = min(done + way, 1.0)
         fluid = reduced.fluid._replace(pressure_viscosity=share * whole)
-        found, steps, imbalance = converged(state, reduced._replace(fluid=fluid), grid, share * thinning)
+        found, steps, imbalance = converged(state, reduced._replace(fluid=fluid), grid, closure)
         total += steps
         if imbalance <= TOLERANCE:
             state, done, way = found, share, 2.0 * way

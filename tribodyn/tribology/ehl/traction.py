@@ -9,7 +9,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.tribology.ehl.fluid import log_viscosity
 from tribodyn.tribology.ehl.steady import Solution
 
 Array = Any
@@ -38,11 +37,3 @@ def rolling_traction(solution: Solution) -> RollingTraction:
     pressure, thick, place = solution.pressure, solution.film_thickness, solution.place
     shear = 0.25 * float(np.sum((thick[1:] + thick[:-1]) * np.diff(pressure)))
     return RollingTraction(shear, float(np.trapezoid(pressure * place, place)) / solution.problem.radius)
-
-
-def newtonian_friction(solution: Solution) -> float:
-    """∫ η (u_1 − u_2)/h dx, N/m, of a Newtonian isothermal fluid."""
-    problem = solution.problem
-    viscosity = problem.fluid.viscosity * np.exp(log_viscosity(solution.pressure, problem.fluid)[0])
-    stress = viscosity * problem.sliding_speed / solution.film_thickness
-    return float(np.trapezoid(stress, solution.place))

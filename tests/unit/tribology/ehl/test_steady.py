@@ -9,7 +9,7 @@ from tests.support.line_contacts import REFERENCES, by_moes
 from tribodyn.errors import InputError
 from tribodyn.tribology.ehl.fluid import Fluid, log_viscosity, relative_density
 from tribodyn.tribology.ehl.grid import made, placed
-from tribodyn.tribology.ehl.reynolds import State, residual
+from tribodyn.tribology.ehl.reynolds import State, newtonian, residual
 from tribodyn.tribology.ehl.start import first_state
 from tribodyn.tribology.ehl.steady import converged, reduced_problem, solve_steady
 from tribodyn.tribology.ehl.traction import rolling_traction
@@ -67,7 +67,7 @@ def test_jacobian_is_the_derivative(load, material):
     solution = solve_steady(problem, step=0.3)
     grid, state = solution.grid, solution.state
     size = len(grid.node)
-    matrix = residual(state, reduced, grid)[1]
+    matrix = residual(state, reduced, grid, newtonian(grid))[1]
 
     def moved(column, by):
         pressure = state.pressure.copy()
@@ -76,7 +76,7 @@ def test_jacobian_is_the_derivative(load, material):
             pressure[1 + column] += by
         else:
             rest[column - size + 2] += by
-        return residual(State(pressure, *rest), reduced, grid)[0]
+        return residual(State(pressure, *rest), reduced, grid, newtonian(grid))[0]
 
     for column in (0, 1, 5, size // 2, size - 8, size - 4, size - 3, size - 2, size - 1, size):
         by = 1e-6 * (state.pressure[1 + column] if column < size - 2 else state.flow)
@@ -94,7 +94,7 @@ def test_martin():
     unit = 8.0 * load / math.pi
     film = 3.0 / load / unit
     grid = made(placed(film, 0.1))
-    state, _, imbalance = converged(first_state(reduced, grid, film), reduced, grid, np.zeros(len(grid.node)))
+    state, _, imbalance = converged(first_state(reduced, grid, film), reduced, grid, newtonian(grid))
     assert imbalance <= 1e-10
     assert state.rigid_film * unit * load == pytest.approx(2.449, rel=2e-3)
     assert state.flow * unit * load == pytest.approx(3.0, rel=2e-3)
@@ -109,7 +109,7 @@ def test_blok():
     unit = 8.0 * load / math.pi
     film = 1.287 * material ** (2 / 3) / unit
     grid = made(placed(film, 0.1))
-    state, _, imbalance = converged(first_state(reduced, grid, film), reduced, grid, np.zeros(len(grid.node)))
+    state, _, imbalance = converged(first_state(reduced, grid, film), reduced, grid, newtonian(grid))
     assert imbalance <= 1e-10
     assert state.flow * unit == pytest.approx(1.287 * material ** (2 / 3), rel=2e-3)
 

@@ -1,0 +1,118 @@
+"""Pressure, shear and heat together: closed forms of friction, balance of energy, symmetry."""
+
+import numpy as np
+import pytest
+
+from tests.support.line_contacts import REFERENCES
+from tribodyn.tribology.ehl.coupled import solve_coupled
+from tribodyn.tribology.ehl.fluid import log_viscosity
+from tribodyn.tribology.ehl.heat import Thermal
+from tribodyn.tribology.ehl.rheology import Rheology
+from tribodyn.tribology.ehl.steady import solve_steady
+
+PROBLEM = REFERENCES[1][0]
+OIL = Thermal(0.035)
+
+
+def newtonian(solution):
+    """η Δu/h at the nodes."""
+    problem = solution.problem
+    viscosity = problem.fluid.viscosity * np.exp(log_viscosity(solution.pressure, problem.fluid)[0])
+    return viscosity * problem.sliding_speed / solution.film_thickness
+
+
+def slid(share, law="eyring", thermal=None):
+    return solve_coupled(PROBLEM._replace(sliding_speed=share), Rheology(law), thermal)
+
+
+def test_eyring_at_small_sliding_is_newtonian():
+    found = slid(1e-6)
+    expected = np.trapezoid(newtonian(found.solution), found.solution.place)
+    # the pressure gradient alone shears the oil past τ_0 at the spike
+    assert found.friction == pytest.approx(expected, rel=5e-3)
+
+
+@pytest.mark.parametrize("sliding", [0.1, 0.5, 1.5])
+def test_eyring_at_large_sliding(sliding):
+    """τ_0 arsinh(η Δu/(τ_0 h)), and by its logarithm where that is large."""
+    found = slid(sliding)
+    stress = newtonian(found.solution)
+    expected = np.trapezoid(5e6 * np.arcsinh(stress / 5e6), found.solution.place)
+    assert found.friction == pytest.approx(expected, rel=2e-3)
+    loaded = stress > 1e9
+    np.testing.assert_allclose(found.shear.stress[loaded], 5e6 * np.log(2 * stress[loaded] / 5e6), rtol=2e-3)
+
+
+def test_limiting_stress_bounds_friction():
+    """Below ∫ τ_00 + Λ p, and near it over the Hertz contact."""
+    found = slid(0.5, "limiting")
+    most = np.trapezoid(2e6 + 0.05 * found.solution.pressure, found.solution.place)
+    contact = np.abs(found.solution.place) < found.solution.problem.half_width
+    inside = np.trapezoid((2e6 + 0.05 * found.solution.pressure) * contact, found.solution.place)
+    assert 0.9 * inside < found.friction < most
+
+
+def test_newtonian_without_heat_is_the_steady_solution():
+    found = slid(0.1, "newtonian")
+    assert found.solution.central_film_thickness == pytest.approx(
+        solve_steady(PROBLEM).central_film_thickness, rel=1e-9
+    )
+
+
+@pytest.mark.parametrize(
+    ("law", "sliding"),
+    [
+        ("newtonian", 0.0),
+        ("newtonian", 0.1),
+        ("eyring", 0.1),
+        ("eyring", 1.5),
+        ("limiting", 0.5),
+        ("carreau", 0.5),
+    ],
+)
+def test_energy(law, sliding):
+    """Heat of friction = heat into both surfaces + heat carried away; it is at least the sliding's work."""
+    found = slid(sliding, law, OIL)
+    heat = found.heat
+    assert heat is not None
+    assert heat.into_1 + heat.into_2 + heat.carried == pytest.approx(heat.made, rel=1e-6)
+    width = np.gradient(found.solution.place)
+    width[[0, -1]] *= 0.5
+    assert np.sum(found.shear.heat * width[:, None]) == pytest.approx(heat.made, rel=1e-6)
+    assert heat.made > found.friction * sliding
+    assert found.solution.imbalance <= 1e-10
+
+
+def test_heat_lowers_friction_and_film():
+    cold, warm = slid(0.5), slid(0.5, thermal=OIL)
+    assert warm.friction < 0.95 * cold.friction
+    assert warm.solution.central_film_thickness < cold.solution.central_film_thickness
+    same = slid(0.5, thermal=Thermal(0.0))
+    assert same.friction == pytest.approx(cold.friction, rel=1e-6)
+
+
+def test_surfaces_exchanged():
+    """The faster surface above or below: friction turns its sign, temperatures change places."""
+    unlike = Thermal(0.035, solid_conductivity=(46.0, 20.0), solid_heat_capacity=(3.6e6, 2e6))
+    swapped = unlike._replace(solid_conductivity=(20.0, 46.0), solid_heat_capacity=(2e6, 3.6e6))
+    one, other = slid(0.4, thermal=unlike), slid(-0.4, thermal=swapped)
+    assert one.friction > 0.0
+    assert other.friction == pytest.approx(-one.friction, rel=1e-7)
+    assert one.heat is not None
+    assert other.heat is not None
+    np.testing.assert_allclose(one.heat.layers, other.heat.layers[:, ::-1], rtol=1e-4, atol=1e-5)
+    np.testing.assert_allclose(one.heat.surface_1, other.heat.surface_2, rtol=1e-4, atol=1e-5)
+    assert one.solution.central_film_thickness == pytest.approx(
+        other.solution.central_film_thickness, rel=1e-7
+    )
+
+
+def test_flash_temperature_of_the_surfaces():
+    """Blok's estimate of equal surfaces, 1.11 μ w Δu/(√(k ρc) (√u_1 + √u_2) √(2b)), within a third."""
+    found = slid(0.3, thermal=OIL)
+    assert found.heat is not None
+    problem = found.solution.problem
+    root = np.sqrt(46.0 * 3.6e6)
+    speeds = sum(np.sqrt(one) for one in problem.surface_speeds)
+    blok = 1.11 * found.friction * 0.3 / (root * speeds * np.sqrt(2 * problem.half_width))
+    assert max(found.heat.surface_1.max(), found.heat.surface_2.max()) == pytest.approx(blok, rel=0.35)

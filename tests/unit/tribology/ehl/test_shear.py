@@ -1,0 +1,98 @@
+"""Laws of shear and what they make of the flow: closed forms for one fluid between two plates."""
+
+import numpy as np
+import pytest
+
+from tribodyn.errors import InputError
+from tribodyn.tribology.ehl.rheology import Rheology, check, newtonian_stress, stress_scale, thinned
+from tribodyn.tribology.ehl.shear import LAYERS, sheared
+
+LAWS = ("newtonian", "eyring", "limiting", "carreau")
+
+
+def between_plates(law, sliding=0.2, gradient=0.0, viscosity=20.0, profile=0.0, film=2e-7):
+    """Shear at one place, ln η rising by `profile` from surface 2 to surface 1."""
+    layers = np.log(viscosity) + profile * ((np.arange(LAYERS) + 0.5) / LAYERS - 0.5)
+    given = (np.array([film]), np.array([3e8]), np.array([gradient]), layers[None, :])
+    return sheared(*given, (1.0 + sliding / 2, 1.0 - sliding / 2), Rheology(law))
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_stress_and_rate_are_inverse(law):
+    stress = np.array([-1.4e7, -3e5, 0.0, 1e3, 2e6, 1.6e7])
+    rheology = Rheology(law)
+    scale = stress_scale(np.full_like(stress, 3e8), rheology)
+    equal, slope = newtonian_stress(stress, scale, rheology)
+    np.testing.assert_allclose(thinned(equal, scale, rheology), stress, rtol=1e-9)
+    above, _ = newtonian_stress(stress + 10.0, scale, rheology)
+    below, _ = newtonian_stress(stress - 10.0, scale, rheology)
+    np.testing.assert_allclose(slope, (above - below) / 20.0, rtol=1e-5)
+    small, _ = newtonian_stress(np.array([1.0]), scale[:1], rheology)
+    assert small[0] == pytest.approx(1.0, rel=1e-6)
+
+
+def test_mean_stress_of_each_law():
+    equal = 20.0 * 0.2 / 2e-7
+    assert between_plates("newtonian").stress[0] == pytest.approx(equal)
+    assert between_plates("eyring").stress[0] == pytest.approx(5e6 * np.arcsinh(equal / 5e6), rel=1e-8)
+    limit = 2e6 + 0.05 * 3e8
+    assert between_plates("limiting").stress[0] == pytest.approx(
+        limit * (1 - np.exp(-equal / limit)), rel=1e-8
+    )
+    thinner = (1 + (equal / 5e6) ** 2) ** -0.25
+    assert between_plates("carreau").stress[0] == pytest.approx(equal * thinner, rel=1e-8)
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_poiseuille_where_shear_is_slow(law):
+    """Small stresses: h³/(12 η), no drift, and heat that is the work of the sliding."""
+    found = between_plates(law, sliding=1e-5, gradient=1e6)
+    assert found.fluidity[0] == pytest.approx(1.0 / 20.0, rel=1e-3)
+    assert abs(found.drift[0]) < 1e-9
+    assert found.response[0] == pytest.approx(1.0, abs=1e-3)
+
+
+@pytest.mark.parametrize("sliding", [0.0, 0.02, 0.5])
+@pytest.mark.parametrize("gradient", [2e12, 3e13, 1e14])
+def test_eyring_flow_of_conry(sliding, gradient):
+    """Conry, Wang & Cusano (1987): 3 (Σ cosh Σ − sinh Σ)/Σ³ √(1 + (η Δu/(τ_0 h))² Σ²/sinh² Σ)."""
+    film, viscosity, stress = 2e-7, 20.0, 5e6
+    s = 0.5 * film * gradient / stress
+    sheared_by = viscosity * sliding / (stress * film)
+    factor = 3 * (s * np.cosh(s) - np.sinh(s)) / s**3 * np.sqrt(1 + (sheared_by * s / np.sinh(s)) ** 2)
+    found = between_plates("eyring", sliding, gradient)
+    assert found.fluidity[0] * viscosity == pytest.approx(factor, rel=0.01)
+
+
+def test_unequal_layers_drift():
+    """η from e^a to e^−a over the film: u by quadrature; more oil goes with the surface that it sticks to."""
+    found = between_plates("newtonian", sliding=0.4, profile=-2.0)
+    z = np.linspace(-0.5, 0.5, 20001)
+    rate = np.exp(2.0 * z)
+    rate *= 0.4 / np.trapezoid(rate, z)
+    velocity = 0.8 + np.concatenate([[0.0], np.cumsum(0.5 * (rate[1:] + rate[:-1]) * np.diff(z))])
+    assert found.drift[0] == pytest.approx(np.trapezoid(velocity, z) - 1.0, rel=0.02)
+    assert found.drift[0] < 0.0
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_heat_is_the_work_on_the_film(law):
+    """∫ τ γ' dz = τ_m Δu + dp/dx ∫ s γ' dz."""
+    found = between_plates(law, sliding=0.3)
+    assert np.sum(found.heat) == pytest.approx(found.stress[0] * 0.3, rel=1e-9)
+    assert np.all(found.heat >= 0.0)
+
+
+@pytest.mark.parametrize(
+    ("rheology", "key"),
+    [
+        (Rheology("plastic"), "rheology"),
+        (Rheology("eyring", eyring_stress=0.0), "eyring_stress"),
+        (Rheology("limiting", limiting_coefficient=-0.1), "limiting_coefficient"),
+        (Rheology("carreau", carreau_index=1.5), "carreau_index"),
+    ],
+)
+def test_bad_laws(rheology, key):
+    with pytest.raises(InputError) as caught:
+        check(rheology)
+    assert caught.value.key == key
