@@ -65,7 +65,7 @@ class Shown(NamedTuple):
     json: bool = False
 
 
-def run_loaded(made: "Callable[[], Loaded]", shown: Shown, *, output: Path | None, **how: bool) -> None:
+def run_loaded(made: "Callable[[], Loaded]", shown: Shown, *, output: Path | None, **how: Any) -> None:
     """Run a case and show what became of it.
 
     Parameters

@@ -97,6 +97,13 @@ def geometry_sheet(
     return pair
 
 
+def specific_sliding_max(assembly: Assembly) -> float:
+    """Largest magnitude of both flanks' specific sliding along the path of contact."""
+    found = _sliding(assembly)
+    ends = (f"{end} specific sliding" for end in ("minimum", "maximum"))
+    return max(abs(found[side][end][0]) for end in ends for side in SIDES)
+
+
 def _sliding(assembly: Assembly) -> dict[str, dict[str, Quantity]]:
     """Maximum sliding in approach and recess, and each flank's extremes of specific sliding.
 

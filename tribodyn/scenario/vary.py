@@ -114,7 +114,7 @@ def _axis(option: str, table: type[BaseModel]) -> Axis:
     values, units = _in_si(option, key, written, leaf)
     if len(set(values)) < len(values):
         raise _refusal(option, "a value comes twice", "list every value once")
-    return Axis(key, key.rpartition(".")[2], written, values, units, _is_drawn(table, key))
+    return Axis(key, key.rpartition(".")[2], written, values, units, is_drawn(table, key))
 
 
 def _values(option: str, text: str, leaf: Any) -> list[str]:
@@ -203,7 +203,7 @@ def base_units(value: Any) -> tuple[float, str] | None:
     return exact, f"{base.units:~C}".replace("**", "") or "1"
 
 
-def _is_drawn(table: type[BaseModel], key: str) -> bool:
+def is_drawn(table: type[BaseModel], key: str) -> bool:
     """Whether the field at a key is marked as numbering samples."""
     above, _, name = key.rpartition(".")
     place = kind_at(table, above) if above else table

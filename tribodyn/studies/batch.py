@@ -1,6 +1,6 @@
 """How many cases of a study are evaluated together, for sweeps."""
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Collection, Hashable, Sequence
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
@@ -125,7 +125,9 @@ class Batch(Protocol):
         ...
 
 
-def batched(batch: Batch, cases: Sequence[Any], workers: int | None = None) -> list[dict[str, Any] | str]:
+def batched(
+    batch: Batch, cases: Sequence[Any], names: Collection[str], workers: int | None = None
+) -> list[dict[str, Any] | str]:
     """Figures of cases that are evaluated together; a text instead where one fails: why.
 
     Parameters
@@ -133,6 +135,8 @@ def batched(batch: Batch, cases: Sequence[Any], workers: int | None = None) -> l
     batch : Batch
     cases : sequence of cases or str
         A text where the case could not even be made.
+    names : collection of str
+        Of the figures.
     workers : int, optional
         Threads; default: one per core.
     """
@@ -141,9 +145,8 @@ def batched(batch: Batch, cases: Sequence[Any], workers: int | None = None) -> l
         return list(cases)
     settings = batch.settings(made, None, "native")
     rows = batch.evaluate(Chunk(np.arange(len(cases)), tuple(cases)), settings, workers)
-    names = batch.layout(settings).figures
     return [
-        {name: rows[name][i].item() for name in names if np.ndim(rows[name][i]) == 0}
+        {name: float(rows[name][i]) for name in names}
         if rows["status"][i] == DONE
         else str(rows["message"][i])
         for i in range(len(cases))

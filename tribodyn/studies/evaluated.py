@@ -37,7 +37,7 @@ def evaluated(study: Study, cases: Sequence[Any], workers: int | None = None) ->
     if batch:
         from tribodyn.studies.batch import batched
 
-        return batched(batch, cases, workers)
+        return batched(batch, cases, study.swept(), workers)
     found: list[dict[str, Any] | str] = []
     for case in cases:
         try:

@@ -7,7 +7,7 @@ import numpy as np
 
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.scenario.vary import base_units
-from tribodyn.studies.design.case import DesignCase, Free, Tolerance
+from tribodyn.studies.design.case import DRAWN, DesignCase, Free, Tolerance
 from tribodyn.studies.design.parts import PITCH_ERRORS
 
 #: Values are written to this share of their range, so that what is written is what was evaluated.
@@ -116,6 +116,8 @@ def samples_of(case: DesignCase) -> list[Float[Array, "..."]]:
 
 
 def _deviated(one: Tolerance, deviation: float, nominal: Mapping[str, Any], base: Mapping[str, Any]) -> Any:
+    if one.distribution == DRAWN:
+        return {one.key: int(abs(deviation) * 2**20)}
     if one.name.endswith(PITCH_ERRORS):
         teeth_key = one.key.replace(f"modification.{PITCH_ERRORS}", "teeth")
         teeth = int(nominal.get(teeth_key, at(base, teeth_key)))

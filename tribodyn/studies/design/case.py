@@ -8,6 +8,8 @@ from tribodyn.studies.study import CaseHead
 
 #: What stands for the value of a figure at the start, as the limit of a constraint.
 START = "start"
+#: Distribution of a tolerance whose key numbers samples.
+DRAWN = "drawn"
 
 
 class Free(NamedTuple):
@@ -90,7 +92,7 @@ class Tolerance(NamedTuple):
         In its unit.
     unit : str
     distribution : str
-        "uniform", "normal" (`plus_minus` is three standard deviations) or "ends" (both ends alone).
+        "uniform", "normal" (`plus_minus` is three standard deviations), "ends" (both ends alone), `DRAWN`.
     """
 
     key: str

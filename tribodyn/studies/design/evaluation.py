@@ -9,18 +9,26 @@ from pathlib import Path
 from typing import Any
 
 from tribodyn.errors import InputError
+from tribodyn.scenario.duty import LOADS, SPEEDS
 from tribodyn.scenario.resolve import resolve_table
 from tribodyn.studies import study_of
 from tribodyn.studies.evaluated import evaluated
 from tribodyn.studies.load import Loaded, loaded_from, table_of
 
+#: Keys of `operating` of which one is given.
+ALTERNATIVES = (SPEEDS, LOADS)
 #: Stands for the file of a base scenario: what choices name is looked for from here.
 FILE = Path("scenario")
 
 
 def loaded_case(base: Mapping[str, Any], overrides: Mapping[str, Any]) -> Loaded:
     """Load the base scenario with some keys set; raises as `studies.load.load`."""
-    return loaded_from(resolve_table(copy.deepcopy(dict(base)), FILE, overrides, table_of), FILE)
+    data = copy.deepcopy(dict(base))
+    for group in ALTERNATIVES:
+        if any(f"operating.{name}" in overrides for name in group):
+            for name in group:  # what is given takes the place of what stands there
+                data.get("operating", {}).pop(name, None)
+    return loaded_from(resolve_table(data, FILE, overrides, table_of), FILE)
 
 
 def evaluate(

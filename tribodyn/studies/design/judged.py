@@ -110,7 +110,7 @@ class Judge:
         some: list[Any] = list(found)
         shared = set(some[0]).intersection(*some[1:])
         names = [name for name in some[0] if name in shared]
-        plain = [{name: one[name] for name in names} for one in some]
+        plain: list[Mapping[str, float]] = [{name: one[name] for name in names} for one in some]
         count = len(some) // len(self.case.duties)
         return [plain[i : i + count] for i in range(0, len(plain), count)]
 

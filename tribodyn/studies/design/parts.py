@@ -8,9 +8,9 @@ from tribodyn.errors import InputError, near_name, quoted, unknown_name
 from tribodyn.scenario.quantity import Table
 from tribodyn.scenario.resolve import toml_value
 from tribodyn.scenario.units import Kind, NotAQuantity, factor_to_si, to_si
-from tribodyn.scenario.vary import base_units, is_whole, kind_at
+from tribodyn.scenario.vary import base_units, is_drawn, is_whole, kind_at
 from tribodyn.studies import study_of
-from tribodyn.studies.design.case import START, Constraint, Duty, Free, Objective, Tolerance
+from tribodyn.studies.design.case import DRAWN, START, Constraint, Duty, Free, Objective, Tolerance
 from tribodyn.studies.evaluated import figure_units
 
 T = TypeVar("T")
@@ -149,7 +149,7 @@ def _number(place: str, value: Any, kind: Kind | None) -> tuple[float, str, str]
     if isinstance(value, (int, float)) and not isinstance(value, bool):
         return float(value), "", "1"
     if (base := base_units(value)) is not None:
-        return base[0], _unit_of(value), base[1]
+        return base[0], _unit_of(str(value)), base[1]
     raise InputError(place, quoted(value), "neither a number nor a quantity", 'write 0.3 or "3 mm"')
 
 
@@ -295,6 +295,12 @@ def _duty(number: int, one: Any, free: Sequence[Free]) -> Duty:
 
 def _tolerance(place: str, one: Any, schema: type[Table]) -> Tolerance:
     _known_key(f"{place}.key", one.key, schema)
+    if is_drawn(schema, one.key):
+        if one.plus_minus is not None:
+            raise InputError(f"{place}.plus_minus", quoted(one.plus_minus), "counts samples", "omit it")
+        return Tolerance(one.key, "", 0.0, "", DRAWN)
+    if one.plus_minus is None:
+        raise InputError(f"{place}.plus_minus", None, "missing", 'add plus_minus = "…" with its unit')
     kind = kind_at(schema, one.key)
     kind = kind._replace(allowed="any") if isinstance(kind, Kind) else None
     size, unit, _ = _number(f"{place}.plus_minus", one.plus_minus, kind)

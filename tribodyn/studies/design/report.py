@@ -96,6 +96,7 @@ def _named(base: Mapping[str, Any], name: str) -> str:
 
 def _change(base: Mapping[str, Any], name: str, before: Any, after: Any) -> str:
     line = line_of(base, name) or Line(name, name)
-    known = before is not None and not (isinstance(before, float) and np.isnan(before))
-    first = f"{shown(line, float(before))} {line.unit}".rstrip() if known else "no figure"
+    first = "no figure"
+    if before is not None and not np.isnan(before):
+        first = f"{shown(line, float(before))} {line.unit}".rstrip()
     return f"{first} at the start, {shown(line, float(after))} {line.unit}".rstrip() + " at the best"

@@ -48,7 +48,7 @@ class FreeKey(_Bounds):
     )
 
 
-class DutyTable(Table):
+class DesignDuty(Table):
     """One of several duties."""
 
     weight: Positive = 1.0
@@ -61,7 +61,11 @@ class ToleranceTable(Table):
     key: Text = Field(
         description="a key with a number, or pitch_errors", examples=["mesh.misalignment.in_plane"]
     )
-    plus_minus: Any = Field(description="how far it goes to either side", examples=["1 arcmin"])
+    plus_minus: Any = Field(
+        None,
+        description="how far it goes to either side; none for a number of samples",
+        examples=["1 arcmin"],
+    )
     distribution: Literal["uniform", "normal", "ends"] = Field(
         "uniform", description="normal: plus_minus is three standard deviations; ends: both ends alone"
     )
@@ -87,7 +91,7 @@ class DesignTable(Table):
     subject_to: tuple[Text, ...] = Field(
         (), description="what must hold", examples=[["contact_ratio >= 1.3"]]
     )
-    duty: tuple[DutyTable, ...] = Field((), description="figures are means over these")
+    duty: tuple[DesignDuty, ...] = Field((), description="figures are means over these")
     over_duties: Literal["mean", "worst"] = "mean"
     tolerance: tuple[ToleranceTable, ...] = ()
     robust: RobustTable = written({})
@@ -133,19 +137,24 @@ def table_for(data: Mapping[str, Any]) -> type[Table]:
 
 @lru_cache(maxsize=16)
 def _around(base: type[Table]) -> type[Table]:
-    return create_model(
+    made: Any = create_model(
         "DesignScenario",
         __base__=DesignScenario,
         __doc__=DesignScenario.__doc__,
-        scenario=(Annotated[base, scenario_file()], Field(description="the scenario to search through")),
+        scenario=(  # pyright: ignore[reportArgumentType, reportCallIssue]
+            Annotated[base, scenario_file()],
+            Field(description="the scenario to search through"),
+        ),
     )
+    return made
 
 
 def case_of(scenario: Scenario, toml: str, sha256: str) -> DesignCase:
     """Return the case of a scenario that has passed schema and rules."""
     base = tomllib.loads(toml)["scenario"]
     table = scenario.design
-    parts = parts_of_design(table, type(scenario.scenario), base)
+    schema: Any = type(scenario.scenario)
+    parts = parts_of_design(table, schema, base)
     return DesignCase(
         **head_of(scenario, toml, sha256),
         base=base,

@@ -16,7 +16,17 @@ from tribodyn.studies.gears import (
 from tribodyn.studies.temperature import THERMAL_FIGURES
 
 LINES: Lines = {
-    "Geometry": (CONTACT_RATIO, EFFECTIVE_CONTACT_RATIO),
+    "Geometry": (
+        CONTACT_RATIO,
+        EFFECTIVE_CONTACT_RATIO,
+        Line(
+            "specific_sliding_max",
+            "Specific sliding, maximum",
+            form=".3f",
+            definition="Largest magnitude along the path of contact of a flank's speed less its mate's, over "
+            "the flank's own.",
+        ),
+    ),
     "Dynamics": (MESH_FREQUENCY, NORMAL_LOAD),
     "Tribology": TRIBOLOGY,
     "Energy": (
@@ -92,6 +102,7 @@ SWEPT: dict[str, Variable] = {
     "film_parameter_min": Variable((), "1", "minimum film parameter"),
     "normal_load_max": Variable((), "N", "maximum normal load of a pair"),
     "contact_ratio": Variable((), "1", "contact ratio"),
+    "specific_sliding_max": Variable((), "1", "largest magnitude of specific sliding of both flanks"),
     "efficiency_elastic": Variable((), "1", "efficiency, elastic load sharing"),
     "efficiency_uniform": Variable((), "1", "efficiency, equal loads"),
     "efficiency_single_pair": Variable((), "1", "efficiency, one pair at a time"),

@@ -18,6 +18,7 @@ from tribodyn.geometry.families import family
 from tribodyn.geometry.modification import back_flanks
 from tribodyn.geometry.outlines import geometry_arrays
 from tribodyn.geometry.path import Path as PathOfContact
+from tribodyn.geometry.sheet import specific_sliding_max
 from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.cycle import MeshCycle, as_arrays
 from tribodyn.mesh.power_flow import driving_gear, efficiency, power_put_in
@@ -205,6 +206,7 @@ def _figures(study: Prepared, over: Samples, mesh: Places, state: Engagement) ->
     return {
         **_judged(study, mesh, state, means.efficiency),
         "contact_ratio": float(cycle.contact_ratio),
+        "specific_sliding_max": specific_sliding_max(study.assembly),
         **_effective_contact_ratio(mesh, state, duty),
         "load_sharing": duty.sharing,
         "mesh_frequency": duty.pinion_speed / float(cycle.pitch_angle),

@@ -61,9 +61,9 @@ def _under(archive: Archive, bound: float, most: int) -> None:
 def nsga2(archive: Archive, start: np.ndarray) -> None:
     """Search by NSGA-II, of the package pymoo."""
     try:
-        from pymoo.algorithms.moo.nsga2 import NSGA2
-        from pymoo.core.problem import Problem
-        from pymoo.optimize import minimize
+        from pymoo.algorithms.moo.nsga2 import NSGA2  # pyright: ignore[reportMissingImports]
+        from pymoo.core.problem import Problem  # pyright: ignore[reportMissingImports]
+        from pymoo.optimize import minimize  # pyright: ignore[reportMissingImports]
     except ImportError:
         raise missing("nsga2", "pymoo") from None
     case, count = archive.case, len(start)

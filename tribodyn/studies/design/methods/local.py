@@ -107,7 +107,7 @@ def minimise(
     derivatives: dict[str, Any] = {} if name == "cobyqa" else {"jac": gradient}
     constraints: Any = ()
     if margins:
-        slopes = {} if name == "cobyqa" else {"jac": jacobian}
+        slopes: dict[str, Any] = {} if name == "cobyqa" else {"jac": jacobian}
         constraints = (NonlinearConstraint(constraint, 0.0, np.inf, **slopes),)
     options: dict[str, Any] = {
         "cobyqa": {

@@ -25,10 +25,9 @@ def differential_evolution(archive: Archive, start: np.ndarray) -> None:
         evolve(
             lambda shares: view.merits(list(np.atleast_2d(shares.T))),
             bounds=[(0.0, 1.0)] * count,
-            init=first,
+            init=first,  # pyright: ignore[reportArgumentType]
             maxiter=case.search.evaluations,
             tol=case.search.accuracy,
-            atol=1e-9,
             rng=np.random.default_rng(case.search.seed),
             polish=False,
             updating="deferred",
@@ -41,7 +40,7 @@ def differential_evolution(archive: Archive, start: np.ndarray) -> None:
 def cma_es(archive: Archive, start: np.ndarray) -> None:
     """Search by CMA-ES, of the package cma."""
     try:
-        import cma
+        import cma  # pyright: ignore[reportMissingImports]
     except ImportError:
         raise missing("cma-es", "cma") from None
     case, count = archive.case, len(start)
