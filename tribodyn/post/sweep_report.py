@@ -47,6 +47,7 @@ def sweep_table(record: SweepRecord, lines: Sequence[Line]) -> Group:
         table.add_row(*row)
     parts.append(table)
     parts += _spread_table(record, columns)
+    parts += _mean_table(record, columns)
     parts += map(Text, tail)
     parts += [Text(f"Warning: {warning}", style="bold red") for warning in sweep_warnings(record)]
     return Group(*parts)
@@ -57,7 +58,7 @@ def spread(record: SweepRecord, name: str) -> dict[str, np.ndarray] | None:
 
     None where no samples are varied. Failed cases are left out; NaN where none is left.
     """
-    drawn = record.settings.get("samples", [])
+    drawn = record.settings.get("drawn", [])
     over = tuple(number for number, dim in enumerate(record.dims) if dim in drawn)
     if not over or record[name].dtype.kind not in "fiu" or record[name].ndim != len(record.dims):
         return None
@@ -70,7 +71,7 @@ def spread(record: SweepRecord, name: str) -> dict[str, np.ndarray] | None:
 
 def _spread_table(record: SweepRecord, columns: Sequence[Line]) -> list[Any]:
     """Scatter over the samples, where nothing else is varied."""
-    drawn = record.settings.get("samples", [])
+    drawn = record.settings.get("drawn", [])
     if not drawn or any(dim not in drawn for dim in record.dims):
         return []
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
@@ -84,6 +85,45 @@ def _spread_table(record: SweepRecord, columns: Sequence[Line]) -> list[Any]:
         if found is not None and np.isfinite(found["median"]):
             cells = [written(column, float(found[name])) for name in SPREAD]
             table.add_row(column.label, *cells, column.unit)
+    return [Text(""), table]
+
+
+def weighted_mean(record: SweepRecord, name: str) -> np.ndarray | None:
+    """Mean of a figure over weighed cases, such as duties by their time, for every value of the others.
+
+    None where nothing weighed is varied. Failed cases are left out; NaN where none is left.
+    """
+    weights = record.settings.get("weights", {})
+    if not weights or record[name].dtype.kind not in "fiu" or record[name].ndim != len(record.dims):
+        return None
+    values = np.where(record["status"] == DONE, record[name], np.nan)
+    weight = np.ones(values.shape)
+    for number, dim in enumerate(record.dims):
+        if dim in weights:
+            weight = weight * np.expand_dims(
+                np.asarray(weights[dim], dtype=float),
+                tuple(i for i in range(values.ndim) if i != number),
+            )
+    over = tuple(number for number, dim in enumerate(record.dims) if dim in weights)
+    weight = np.where(np.isfinite(values), weight, 0.0)
+    total = weight.sum(axis=over)
+    mean = np.where(weight > 0.0, weight * values, 0.0).sum(axis=over)
+    return np.where(total > 0.0, mean / np.where(total > 0.0, total, 1.0), np.nan)
+
+
+def _mean_table(record: SweepRecord, columns: Sequence[Line]) -> list[Any]:
+    """Means over weighed cases, where nothing else is varied."""
+    weights = record.settings.get("weights", {})
+    if not weights or any(dim not in weights for dim in record.dims):
+        return []
+    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 0))
+    table.add_column(f"weighted mean of {record.count()['done']} cases", no_wrap=True)
+    table.add_column("", justify="right", no_wrap=True)
+    table.add_column("", no_wrap=True)
+    for column in columns:
+        found = weighted_mean(record, column.name)
+        if found is not None and np.isfinite(found):
+            table.add_row(column.label, written(column, float(found)), column.unit)
     return [Text(""), table]
 
 
@@ -240,6 +280,9 @@ def sweep_as_json(record: SweepRecord) -> dict[str, Any]:
         "settings": record.settings,
         "figures": {name: {"units": record.units(name), "values": record[name]} for name in names},
         "spread": {name: found for name in names if (found := spread(record, name)) is not None},
+        "weighted_mean": {
+            name: found for name in names if (found := weighted_mean(record, name)) is not None
+        },
         "ends": branch_ends(record),
         "failures": [{"at": at, "message": why} for at, why in record.failures()],
         "warnings": sweep_warnings(record),

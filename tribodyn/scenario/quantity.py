@@ -105,6 +105,20 @@ class Draws:
     """Marks a field that numbers samples drawn at random: over many of them figures have a scatter."""
 
 
+class Weighed:
+    """Marks a field that numbers the tables of a list, each of which has a weight: figures have a mean.
+
+    Parameters
+    ----------
+    tables, weight : str
+        Key of the list in a scenario, and of the weight in its tables.
+    """
+
+    def __init__(self, tables: str, weight: str) -> None:
+        self.tables = tables
+        self.weight = weight
+
+
 class Names:
     """Marks a text that must be one of some names, for the schema; that it is one of them is a rule.
 

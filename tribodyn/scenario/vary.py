@@ -14,7 +14,7 @@ from pydantic import BaseModel
 
 from tribodyn.errors import InputError, quoted
 from tribodyn.scenario.bounds import LONGEST_KEY, broken_bounds
-from tribodyn.scenario.quantity import Draws, Quantity, Reference, parts_of
+from tribodyn.scenario.quantity import Draws, Quantity, Reference, Weighed, parts_of
 from tribodyn.scenario.resolve import toml_value
 from tribodyn.scenario.unit_grammar import is_unit
 from tribodyn.scenario.units import Kind, NotAQuantity, to_si
@@ -56,6 +56,8 @@ class Axis(NamedTuple):
         SI unit, "1" for plain numbers, "" for texts.
     drawn : bool
         Whether the values number samples drawn at random.
+    weighed : Weighed or None
+        Where the weights stand of tables that the values number.
     """
 
     key: str
@@ -64,6 +66,7 @@ class Axis(NamedTuple):
     values: tuple[float, ...] | tuple[str, ...]
     units: str
     drawn: bool = False
+    weighed: Weighed | None = None
 
     @property
     def numeric(self) -> bool:
@@ -114,7 +117,9 @@ def _axis(option: str, table: type[BaseModel]) -> Axis:
     values, units = _in_si(option, key, written, leaf)
     if len(set(values)) < len(values):
         raise _refusal(option, "a value comes twice", "list every value once")
-    return Axis(key, key.rpartition(".")[2], written, values, units, is_drawn(table, key))
+    marks = _marks(table, key)
+    weighed = next((one for one in marks if isinstance(one, Weighed)), None)
+    return Axis(key, key.rpartition(".")[2], written, values, units, is_drawn(table, key), weighed)
 
 
 def _values(option: str, text: str, leaf: Any) -> list[str]:
@@ -205,10 +210,15 @@ def base_units(value: Any) -> tuple[float, str] | None:
 
 def is_drawn(table: type[BaseModel], key: str) -> bool:
     """Whether the field at a key is marked as numbering samples."""
+    return any(isinstance(one, Draws) for one in _marks(table, key))
+
+
+def _marks(table: type[BaseModel], key: str) -> list[Any]:
+    """Everything that stands in the annotation of the field at a key."""
     above, _, name = key.rpartition(".")
     place = kind_at(table, above) if above else table
     field = getattr(place, "model_fields", {}).get(name)
-    return field is not None and any(isinstance(part, Draws) for part in parts_of(field))
+    return [] if field is None else list(parts_of(field))
 
 
 def is_whole(table: type[BaseModel], key: str) -> bool:

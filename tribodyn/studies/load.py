@@ -14,6 +14,7 @@ from tribodyn.errors import InputError, InputErrors, unknown_name
 from tribodyn.scenario.messages import Origins, explain
 from tribodyn.scenario.resolve import Resolved, resolve, unresolved_keys
 from tribodyn.scenario.sources import find_scenario
+from tribodyn.scenario.spectrum import broken_spectrum_rules, in_force, of_duty, spectrum_of
 from tribodyn.studies import STUDIES, study_of
 from tribodyn.studies.study import CaseHead, Study
 
@@ -88,11 +89,26 @@ def loaded_from(resolved: Resolved, path: Path) -> Loaded:
         mistakes = [one for one in explain(error, model) if one.key not in known]
         raise _located([*unresolved, *mistakes], origins) from None
     # of a key whose value only its family knows to be a file
-    if errors := unresolved or list(study.broken_rules(scenario)):
+    if errors := unresolved or list(_broken_rules(study, scenario)):
         raise _located(errors, origins)
     toml = tomli_w.dumps(data)
-    case: CaseHead = study.case(scenario, toml, hashlib.sha256(toml.encode()).hexdigest())
+    case: CaseHead = study.case(in_force(scenario), toml, hashlib.sha256(toml.encode()).hexdigest())
     return Loaded(case, study, path, origins)
+
+
+def _broken_rules(study: Study, scenario: Any) -> Iterator[InputError]:
+    """Go through the rules that a scenario breaks, with each duty of its load spectrum."""
+    if broken := list(broken_spectrum_rules(scenario)):
+        yield from broken
+        return
+    known: set[str] = set()
+    for number, (_, one) in enumerate(spectrum_of(scenario), start=1):
+        for error in study.broken_rules(one):
+            if str(error) not in known:
+                known.add(str(error))
+                yield of_duty(error, number)
+    if not known:
+        yield from study.broken_rules(in_force(scenario))
 
 
 def _located(errors: list[InputError], origins: Origins) -> InputError:

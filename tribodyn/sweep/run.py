@@ -1,5 +1,6 @@
 """A sweep from its grid to its record."""
 
+import tomllib
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from time import perf_counter
@@ -12,6 +13,7 @@ from tribodyn.errors import InputError
 from tribodyn.record.sweep_schema import DIRECTIONS, FAILED, WAITING
 from tribodyn.record.sweep_writer import ParameterScale, SweepHead, SweepWriter
 from tribodyn.record.writer import check_target
+from tribodyn.scenario.vary import Axis
 from tribodyn.sweep.engines import Engine
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.plan import chained_steps, single_steps
@@ -139,7 +141,8 @@ def _head(grid: Grid, settings: Any, directions: Sequence[str]) -> SweepHead:
     scales = tuple(ParameterScale(axis.name, axis.key, axis.units, axis.values) for axis in grid.axes)
     described = {
         "vary": {axis.key: list(axis.written) for axis in grid.axes},
-        "samples": [axis.name for axis in grid.axes if axis.drawn],
+        "weights": {axis.name: _weights(grid, axis) for axis in grid.axes if axis.weighed},
+        "drawn": [axis.name for axis in grid.axes if axis.drawn],
         "directions": [one for one in DIRECTIONS if one in directions],
         **settings._asdict(),
     }
@@ -151,6 +154,14 @@ def _head(grid: Grid, settings: Any, directions: Sequence[str]) -> SweepHead:
         directions=tuple(directions),
         layout=grid.batch.layout(settings),
     )
+
+
+def _weights(grid: Grid, axis: Axis) -> list[float]:
+    """Weights of the tables that an axis numbers, as the scenario has them."""
+    if axis.weighed is None:
+        return []
+    tables = tomllib.loads(grid.base.toml)[axis.weighed.tables]
+    return [float(tables[int(number) - 1][axis.weighed.weight]) for number in axis.values]
 
 
 def _sound_somewhere(grid: Grid, settings: Any) -> None:

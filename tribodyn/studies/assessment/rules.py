@@ -8,6 +8,7 @@ from tribodyn.scenario.drive_rules import broken_drive_rules
 from tribodyn.scenario.duty import broken_duty_rules, duty_of
 from tribodyn.scenario.lubricant_rules import broken_lubricant_rules
 from tribodyn.scenario.modification_rules import Face, broken_slice_rules
+from tribodyn.scenario.quality import broken_sample_rules
 from tribodyn.studies.assessment.scenario import Scenario
 from tribodyn.tribology.friction import FRICTION_LAWS
 
@@ -17,6 +18,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     drive, operating, mesh = scenario.drive, scenario.operating, scenario.mesh
     yield from broken_drive_rules(drive)
     yield from broken_slice_rules(Face(drive, mesh.misalignment, mesh.slices, True))
+    yield from broken_sample_rules(drive, None, mesh.misalignment)
     if scenario.lubricant.viscosity_40 is None:
         yield InputError(
             "lubricant.viscosity_40",

@@ -34,6 +34,8 @@ class EfficiencyCase(CaseHead):
         That of the samples recorded; the summary has all three.
     samples_per_cycle : int
         Samples over the one mesh cycle recorded.
+    spectrum : tuple of (float, EfficiencyCase)
+        Share of time and case of every duty of a load spectrum; empty: there is none.
     """
 
     family: str
@@ -50,3 +52,4 @@ class EfficiencyCase(CaseHead):
     film: FilmData = field(default_factory=FilmData)
     temperature: TemperatureData | None = None
     losses: LossData | None = None
+    spectrum: tuple[tuple[float, "EfficiencyCase"], ...] = ()

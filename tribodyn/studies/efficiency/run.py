@@ -40,6 +40,17 @@ from tribodyn.tribology.friction.coulomb import constant
 from tribodyn.tribology.lubricant import LubricantData
 from tribodyn.tribology.surface_state import fraction_in_range
 
+#: Figures of every duty of a load spectrum that the summary has.
+SPECTRUM = (
+    "efficiency",
+    "power_in_mean",
+    "power_friction_mean",
+    "friction_coefficient_mean",
+    "film_parameter_min",
+    "hertz_pressure_max",
+    "flash_temperature_max",
+)
+
 
 class Prepared(NamedTuple):
     """A case made ready: the table of the mesh, the gears it was made from, and what the mesh has to do.
@@ -111,7 +122,8 @@ def run(
     begun = perf_counter()
     study = prepare(case)
     over, mesh, state = _sampled(study)
-    summary = _figures(study, over, mesh, state) | {"wall_time": perf_counter() - begun}
+    summary = _figures(study, over, mesh, state) | spectrum_figures(case)
+    summary["wall_time"] = perf_counter() - begun
     groups = {
         "mesh_cycle": as_arrays(study.cycle),
         "geometry": geometry_arrays(study.assembly),
@@ -127,7 +139,27 @@ def run(
 def figures(case: EfficiencyCase) -> dict[str, Any]:
     """Figures of a case without a record."""
     study = prepare(case)
-    return _figures(study, *_sampled(study))
+    return _figures(study, *_sampled(study)) | spectrum_figures(case)
+
+
+def spectrum_figures(case: EfficiencyCase) -> dict[str, Any]:
+    """Figures of every duty of a load spectrum, by number, and their means over time; none without one.
+
+    Efficiency over the spectrum is the energy put out over the energy put in.
+    """
+    if not case.spectrum:
+        return {}
+    shares = np.array([share for share, _ in case.spectrum])
+    every = [figures(one) for _, one in case.spectrum]
+    each = {name: np.array([one[name] for one in every]) for name in SPECTRUM}
+    means = {name: float(shares @ each[name]) for name in ("power_in_mean", "power_friction_mean")}
+    return {
+        "duty_share": shares,
+        **{f"duty_{name}": values for name, values in each.items()},
+        **{f"spectrum_{name}": mean for name, mean in means.items()},
+        "spectrum_efficiency": float(shares @ (each["efficiency"] * each["power_in_mean"]))
+        / means["power_in_mean"],
+    }
 
 
 def _sampled(study: Prepared) -> tuple[Samples, Places, Engagement]:

@@ -7,7 +7,7 @@ from pydantic import Field
 from tribodyn.compliance.foundation import Foundation
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.mesh.data import MeshData
-from tribodyn.scenario.common import ScenarioHead, Slices, Temperature, head_of
+from tribodyn.scenario.common import Slices, Temperature, head_of
 from tribodyn.scenario.drive_data import (
     drive_of,
     lubricant_of,
@@ -17,7 +17,7 @@ from tribodyn.scenario.drive_data import (
     roughness_of,
     slices_of,
 )
-from tribodyn.scenario.duty import DutyTable, duty_of
+from tribodyn.scenario.duty import duty_of
 from tribodyn.scenario.law_tables import FilmTable, FrictionTable, film_data, friction_values
 from tribodyn.scenario.losses import LossesTable, losses_of
 from tribodyn.scenario.model_files import DriveTable, Lubricant
@@ -29,12 +29,13 @@ from tribodyn.scenario.quantity import (
     model_file,
     written,
 )
+from tribodyn.scenario.spectrum import OperatingTable, SpectrumScenario, spectrum_of
 from tribodyn.scenario.temperature import TemperatureTable, temperature_of
 from tribodyn.studies.efficiency.case import EfficiencyCase
 from tribodyn.tribology.data import FrictionData
 
 
-class EfficiencyOperating(DutyTable):
+class EfficiencyOperating(OperatingTable):
     """Constant speed and load."""
 
     oil_temperature: Temperature | None = Field(
@@ -80,7 +81,7 @@ class EfficiencyOutput(Table):
     samples_per_cycle: Annotated[int, Field(strict=True, ge=8)] = 200
 
 
-class EfficiencyScenario(ScenarioHead):
+class EfficiencyScenario(SpectrumScenario):
     """A scenario file of an efficiency study."""
 
     kind: Literal["efficiency"]
@@ -133,4 +134,8 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> EfficiencyCase:
         film=film_data(scenario),
         temperature=temperature_of(scenario.temperature),
         losses=losses_of(scenario.losses),
+        spectrum=tuple(
+            (share, case_of(one, toml, sha256))
+            for share, one in (spectrum_of(scenario) if operating.duty is None else ())
+        ),
     )

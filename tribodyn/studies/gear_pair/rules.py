@@ -13,6 +13,7 @@ from tribodyn.scenario.lubricant_rules import broken_lubricant_rules
 from tribodyn.scenario.model_files import Bearing, Rolling
 from tribodyn.scenario.modification_rules import Face, broken_face_rules
 from tribodyn.scenario.quality import broken_sample_rules
+from tribodyn.scenario.spectrum import unnamed_duty
 from tribodyn.scenario.temperature import broken_temperature_rules
 from tribodyn.solve.methods import SOLVERS
 from tribodyn.studies.gear_pair.scenario import Mesh, Operating, Scenario
@@ -24,6 +25,7 @@ MAXIMUM_CONTACT_ANGLE = math.radians(60.0)
 def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that the scenario breaks; none: it is consistent."""
     yield from broken_drive_rules(scenario.drive)
+    yield from unnamed_duty(scenario)
     yield from broken_lubricant_rules(scenario.lubricant, scenario.operating.oil_temperature)
     yield from broken_temperature_rules(scenario.temperature, scenario.lubricant)
     yield from broken_loss_rules(scenario.losses)

@@ -18,7 +18,6 @@ from tribodyn.scenario.common import (
     Angle,
     Error,
     Inertia,
-    ScenarioHead,
     Slices,
     Temperature,
     Torque,
@@ -54,6 +53,7 @@ from tribodyn.scenario.quantity import (
     model_file,
     written,
 )
+from tribodyn.scenario.spectrum import OperatingTable, SpectrumScenario
 from tribodyn.scenario.temperature import TemperatureTable, temperature_of
 from tribodyn.solve.data import SolverData
 from tribodyn.studies.gear_pair.case import Case, OutputData
@@ -81,7 +81,7 @@ class ErrorHarmonic(Table):
     phase: Angle = written("0 deg")
 
 
-class Operating(DutyTable):
+class Operating(OperatingTable):
     """How the drive is driven and loaded: nominal speed, constant part of the load, and more."""
 
     source: Literal["speed", "torque"] = Field(
@@ -200,7 +200,7 @@ class Output(Table):
     samples_per_cycle: Annotated[int, Field(strict=True, ge=8)] = 200
 
 
-class GearPairScenario(ScenarioHead):
+class GearPairScenario(SpectrumScenario):
     """A scenario file."""
 
     kind: Literal["gear-pair"] = "gear-pair"
@@ -276,7 +276,7 @@ def _operating(scenario: Scenario) -> OperatingData:
                 "gear_torque_table",
                 "gear_torque_harmonics",
                 "oil_temperature",
-                *DutyTable.model_fields,
+                *OperatingTable.model_fields,
             }
         ),
     )

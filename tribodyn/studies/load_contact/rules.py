@@ -8,6 +8,7 @@ from tribodyn.scenario.drive_rules import broken_drive_rules
 from tribodyn.scenario.duty import broken_duty_rules, duty_of
 from tribodyn.scenario.modification_rules import Face, broken_slice_rules
 from tribodyn.scenario.quality import broken_sample_rules
+from tribodyn.scenario.spectrum import unnamed_duty
 from tribodyn.studies.load_contact.scenario import Scenario
 
 
@@ -15,6 +16,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that tie keys of such a scenario together."""
     mesh = scenario.mesh
     yield from broken_drive_rules(scenario.drive)
+    yield from unnamed_duty(scenario)
     yield from broken_slice_rules(Face(scenario.drive, mesh.misalignment, mesh.slices, mesh.slice_coupling))
     yield from broken_sample_rules(scenario.drive, mesh.deviation_sample, mesh.misalignment)
     drive, operating = scenario.drive, scenario.operating

@@ -5,9 +5,9 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from tribodyn.scenario import units
-from tribodyn.scenario.common import ScenarioHead, Slices, head_of
+from tribodyn.scenario.common import Slices, head_of
 from tribodyn.scenario.drive_data import drive_of, materials_of, modifications_of, slices_of
-from tribodyn.scenario.duty import DutyTable, duty_of
+from tribodyn.scenario.duty import duty_of
 from tribodyn.scenario.model_files import DriveTable
 from tribodyn.scenario.modification import MisalignmentTable
 from tribodyn.scenario.quality import DeviationSample, with_sample
@@ -20,12 +20,13 @@ from tribodyn.scenario.quantity import (
     model_file,
     written,
 )
+from tribodyn.scenario.spectrum import OperatingTable, SpectrumScenario
 from tribodyn.studies.load_contact.case import LoadContactCase
 
 Load = Annotated[float, Quantity(units.positive(units.TORQUE))]
 
 
-class LoadContactOperating(DutyTable):
+class LoadContactOperating(OperatingTable):
     """The load, against the gear's motion; a speed only where the load is given as power."""
 
     gear_torques: tuple[Load, ...] = Field(
@@ -54,7 +55,7 @@ class LoadContactOutput(Table):
     cycles: Count = Field(1, description="mesh cycles; more than one where teeth differ")
 
 
-class LoadContactScenario(ScenarioHead):
+class LoadContactScenario(SpectrumScenario):
     """A scenario file of a load contact study."""
 
     kind: Literal["load-contact"]
