@@ -168,6 +168,10 @@ def _checked(case: Any, of: str) -> tuple[Quantity, Fixed]:
         rule = f"{of} has no meaning: curvature is infinite at the pitch point of this family"
         raise InputError("drive.family", quoted(case.family), rule, "differentiate another figure")
     if "friction" in quantity.needs:
+        if (temperature := getattr(case, "temperature", None)) is not None:
+            rule = f"{of} is differentiated at a temperature that does not move"
+            remedy = 'overrides={"temperature.model": "oil"}, and operating.oil_temperature that of the teeth'
+            raise InputError("temperature.model", quoted(temperature.model), rule, remedy)
         closure_of(case)  # raises where the laws do not fit
     return quantity, Fixed(pair_slots(gears), vanishing)
 

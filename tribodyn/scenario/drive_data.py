@@ -37,7 +37,7 @@ def lubricant_of(lubricant: model_files.Lubricant, oil_temperature: float | None
         return lubricant_from(sheet, oil_temperature, stages)
     typical = by_type(lubricant.type) if lubricant.type else {}
     numbers: dict[str, Any] = {name: one.value for name, one in typical.items()} | given
-    return LubricantData(**numbers, fzg=stages)
+    return LubricantData(**numbers, type=lubricant.type, given=frozenset(given), fzg=stages)
 
 
 def sheet_of(lubricant: model_files.Lubricant) -> OilSheet | None:

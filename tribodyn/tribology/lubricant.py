@@ -3,7 +3,14 @@
 from dataclasses import dataclass
 from typing import Any
 
-from tribodyn.tribology.oil import GIVEN, UNITS, OilSheet, OilValue
+from tribodyn.tribology.oil import GIVEN, UNITS, OilSheet, OilType, OilValue, by_type
+
+#: Where the defaults of `LubricantData` are from.
+DEFAULTS = {
+    "load_exponent": "default: mineral oil 75W90 (Diez-Ibarbia et al.)",
+    "lubricant_factor": "default: the load exponent stands for it",
+    "schlenk_factor": "default: mineral oil",
+}
 
 
 @dataclass(frozen=True)
@@ -53,6 +60,10 @@ class LubricantData:
         X_L of Schlenk's mean friction coefficient; default: mineral oil.
     temperature : float or None
         At which the numbers hold, K; None: not said.
+    type : OilType or None
+        Of an oil without a data sheet, where it is given.
+    given : set of str or None
+        Numbers that are neither of the type nor defaults; None: all.
     sheet : OilSheet or None
         The data sheet that they come from, where they do.
     fzg : FzgStages
@@ -72,6 +83,8 @@ class LubricantData:
     lubricant_factor: float = 1.0
     schlenk_factor: float = 0.846
     temperature: Any = None
+    type: OilType | None = None
+    given: frozenset[str] | None = None
     sheet: OilSheet | None = None
     fzg: FzgStages = FzgStages()
     supply: Any = None
@@ -105,4 +118,14 @@ def oil_values(lubricant: LubricantData) -> dict[str, OilValue]:
     """Numbers of a lubricant by name, with their origin, whether from a data sheet or given."""
     if lubricant.sheet is not None:
         return lubricant.sheet.values(lubricant.temperature)
-    return {name: OilValue(getattr(lubricant, name), unit, GIVEN) for name, unit in UNITS.items()}
+    typical = by_type(lubricant.type) if lubricant.type is not None else {}
+    found = {}
+    for name, unit in UNITS.items():
+        value, one = getattr(lubricant, name), typical.get(name)
+        if lubricant.given is None or name in lubricant.given:
+            found[name] = OilValue(value, unit, GIVEN)
+        elif one is not None:
+            found[name] = OilValue(value, unit, one.source, one.real_spread)
+        else:
+            found[name] = OilValue(value, unit, DEFAULTS[name])
+    return found

@@ -112,6 +112,11 @@ class Typical(NamedTuple):
     spread: tuple[float, float]
     source: str
 
+    @property
+    def real_spread(self) -> tuple[float, float] | None:
+        """The spread; None where there is none."""
+        return self.spread if self.spread[0] < self.spread[1] else None
+
 
 _ARANA = "Arana, Larrañaga & Ulacia (2019)"
 #: Λ_lim, limiting shear stress over pressure: twin discs at 1 GPa and 60 °C (DOI 10.1177/1350650118778655).
@@ -236,5 +241,5 @@ class OilSheet:
         slope = temperature_viscosity_at(self.viscosity_40, self.viscosity_100, self.density_15, temperature)
         put("temperature_viscosity", slope, f"slope of {at_hand}")
         for name, one in by_type(self.type).items():
-            put(name, one.value, one.source, one.spread if one.spread[0] < one.spread[1] else None)
+            put(name, one.value, one.source, one.real_spread)
         return found

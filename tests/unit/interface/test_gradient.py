@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import tribodyn as td
+from tribodyn.errors import InputError
 from tribodyn.interface.gradient import _checked
 from tribodyn.interface.numbers import numbers_of
 from tribodyn.interface.quantities import QUANTITIES
@@ -138,3 +139,8 @@ def test_every_figure_and_key_of_every_family(name, of):
         ends = [quantity.function(number.put(case, number.value + s * step), fixed) for s in (1, -1)]
         difference = (ends[0] - ends[1]) / (2 * step)
         assert found[key] == pytest.approx(difference, rel=2e-5, abs=1e-6 * abs(found.value) / scale), key
+
+
+def test_a_temperature_that_moves_with_the_losses_is_not_differentiated():
+    with pytest.raises(InputError, match="temperature that does not move"):
+        td.gradient("efficiency-oil-18-36", "efficiency", "operating.oil_temperature")

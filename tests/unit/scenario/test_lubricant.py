@@ -114,6 +114,11 @@ def test_an_oil_without_a_data_sheet_is_as_given():
     data = oil_data(scenario(SCENARIO | {"lubricant": "liu-ni-2022", "operating": direct}).lubricant)
     assert data["inlet_viscosity"] == {"value": 0.35, "unit": "Pa s", "origin": "given"}
     assert "oil_temperature" not in data
+    assert "Diez-Ibarbia" in data["load_exponent"]["origin"]
+    changes = {"lubricant": {"like": "liu-ni-2022", "type": "pao"}, "operating": direct}
+    typed = oil_data(scenario(SCENARIO | changes).lubricant)
+    assert typed["lubricant_factor"] == {"value": 0.8, "unit": "1", "origin": "ISO/TR 15144-1"}
+    assert typed["limiting_shear_coefficient"] == {"value": 0.091, "unit": "1", "origin": "given"}
 
 
 def test_numbers_of_the_data_sheet_can_be_varied():
