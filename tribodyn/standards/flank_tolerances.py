@@ -40,21 +40,21 @@ class Tolerances(NamedTuple):
     runout: float
 
 
-def flank_tolerances(grade: int, module: float, diameter: float, face_width: float) -> Tolerances:
+def flank_tolerances(grade: float, module: float, diameter: float, face_width: float) -> Tolerances:
     """Tolerances of a gear of a tolerance class, from m_n, d and b (m).
 
-    f_pT = 0.001 d + 0.4 √m_n + 5, F_pT = 0.002 d + 0.55 √d + 0.7 √m_n + 12, f_HαT = 0.4 m_n + 0.001 d + 4,
+    f_pT = 0.001 d + 0.4 m_n + 5, F_pT = 0.002 d + 0.55 √d + 0.7 m_n + 12, f_HαT = 0.4 m_n + 0.001 d + 4,
     f_fαT = 0.55 m_n + 5, f_HβT = 0.05 √d + 0.35 √b + 4, f_fβT = 0.07 √d + 0.45 √b + 4, times (√2)^(A − 5);
     F_αT and F_βT are the roots of the sums of squares, F_rT = 0.9 F_pT.
     """
     m, d, b = 1e3 * module, 1e3 * diameter, 1e3 * face_width
     step = 1e-6 * math.sqrt(2.0) ** (grade - 5)
-    total_pitch = step * (0.002 * d + 0.55 * math.sqrt(d) + 0.7 * math.sqrt(m) + 12.0)
+    total_pitch = step * (0.002 * d + 0.55 * math.sqrt(d) + 0.7 * m + 12.0)
     profile_form, profile_slope = step * (0.55 * m + 5.0), step * (0.4 * m + 0.001 * d + 4.0)
     helix_form = step * (0.07 * math.sqrt(d) + 0.45 * math.sqrt(b) + 4.0)
     helix_slope = step * (0.05 * math.sqrt(d) + 0.35 * math.sqrt(b) + 4.0)
     return Tolerances(
-        single_pitch=step * (0.001 * d + 0.4 * math.sqrt(m) + 5.0),
+        single_pitch=step * (0.001 * d + 0.4 * m + 5.0),
         total_pitch=total_pitch,
         profile_form=profile_form,
         profile_slope=profile_slope,

@@ -20,8 +20,11 @@ from tribodyn.scenario.quantity import (
     model_file,
     written,
 )
+from tribodyn.scenario.tolerances import coarser_grade
 from tribodyn.studies.assessment.case import AssessmentCase, Settings
 
+#: Grade where neither the drive nor the scenario says one.
+USUAL_GRADE = 6
 Speeds = Annotated[int, Field(strict=True, ge=8)]
 Grade = Annotated[int, Field(strict=True, ge=1, le=11)]
 Pressure = Annotated[float, Quantity(units.positive(units.PRESSURE), "1.5 GPa")]
@@ -96,7 +99,9 @@ class AssessmentScenario(ScenarioHead):
     drive: Annotated[DriveTable, model_file("drives")]
     lubricant: Annotated[Lubricant, model_file("lubricants")]
     bearings: Annotated[Bearings, model_file("bearings")] = written("rigid-1e9")
-    quality: Grade = Field(6, description="grade by ISO 1328-1 of both gears")
+    quality: Grade | None = Field(
+        None, description="grade by ISO 1328-1 of the coarser gear; default: the drive's, else 6"
+    )
     operating: AssessmentOperating
     mesh: AssessmentMesh = written({})
     assessment: AssessmentAsked = written({})
@@ -121,7 +126,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> AssessmentCase:
         pinion_speed=duty.pinion_speed,
         gear_torque=duty.gear_torque,
         oil_temperature=operating.oil_temperature,
-        quality=float(scenario.quality),
+        quality=float(scenario.quality or coarser_grade(drive) or USUAL_GRADE),
         settings=Settings(**scenario.assessment.model_dump()),
         limits=scenario.limits.model_dump(),
     )

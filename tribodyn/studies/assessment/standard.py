@@ -10,7 +10,7 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import body_masses
 from tribodyn.geometry.drive import reference_radius, tip_radius
 from tribodyn.geometry.material import MaterialData
-from tribodyn.standards import accuracy, flash_temperature, fzg, integral_temperature, micropitting
+from tribodyn.standards import flash_temperature, fzg, integral_temperature, micropitting
 from tribodyn.standards.contact_path import (
     POINTS,
     ContactPath,
@@ -21,6 +21,7 @@ from tribodyn.standards.contact_path import (
     rolling_speeds,
 )
 from tribodyn.standards.dynamic_factor import DynamicFactor, DynamicMesh, dynamic_factor, reduced_mass
+from tribodyn.standards.flank_tolerances import flank_tolerances
 from tribodyn.standards.load_factors import transverse_factor_b
 from tribodyn.standards.micropitting import Films, Flanks, Load, Oil
 from tribodyn.studies.assessment.case import AssessmentCase
@@ -126,10 +127,11 @@ def standard_of(case: AssessmentCase, assembly: Assembly, face: float) -> Standa
     mass = reduced_mass((float(bodies[0][1]), float(bodies[1][1])), path.base_radius, width)
     module = float(drive.module)
     transverse_angle = math.acos(path.base_radius[0] / float(reference_radius(drive, "pinion")))
-    pitch = max(
-        accuracy.single_pitch(2.0 * float(reference_radius(drive, side)), module, case.quality)
+    allowed = [
+        flank_tolerances(case.quality, module, 2.0 * float(reference_radius(drive, side)), width)
         for side in ("pinion", "gear")
-    ) * math.cos(transverse_angle)
+    ]
+    pitch = max(one.single_pitch for one in allowed) * math.cos(transverse_angle)
     dynamic = dynamic_factor(
         DynamicMesh(
             path.teeth[0],
@@ -139,7 +141,7 @@ def standard_of(case: AssessmentCase, assembly: Assembly, face: float) -> Standa
             stiffness.mesh,
             pair.line_load,
             pitch,
-            accuracy.profile_form(module, case.quality),
+            allowed[0].profile_form,
             path.contact_ratio,
             0.0,
             max(case.quality, 6.0),  # no tip relief is credited
