@@ -77,12 +77,16 @@ class Tabulated(NamedTuple):
     masses : tuple of (mass kg, inertia kg m²)
         Of pinion and gear alone.
     assembly : Assembly
+    split : callable
+        () -> the cycle of the driving flanks alone, in which a segment begins where friction turns; made at
+        the first call.
     """
 
     cycle: MeshCycle
     table: Polynomials
     masses: tuple[tuple[float, float], tuple[float, float]]
     assembly: Assembly
+    split: Callable[[], MeshCycle]
 
 
 #: Fields of a case that its table does not depend on. Whatever is not named here is taken to matter.
@@ -144,8 +148,8 @@ def prepare(case: Case, tabulated: Tabulated | None = None) -> Prepared:
     InputError
         Where the teeth cannot be made or cannot run together, or a table does not cover the contact.
     """
-    cycle, table, (pinion, gear), assembly = tabulated or tables(case)
-    thermal = thermal_state(case, assembly, _quasi_static_loss(case, assembly))
+    cycle, table, (pinion, gear), assembly, _ = made = tabulated or tables(case)
+    thermal = thermal_state(case, assembly, _quasi_static_loss(made))
     warm = case if thermal is None else dataclasses.replace(case, lubricant=thermal.lubricant)
     surfaces, film, friction = closure = closure_of(warm)
     mechanics, options = _mechanics(case, pinion, gear, cycle), _options(case, cycle, closure)
@@ -153,24 +157,16 @@ def prepare(case: Case, tabulated: Tabulated | None = None) -> Prepared:
     return Prepared(case, cycle, model, (pinion, gear), assembly, thermal)
 
 
-def _quasi_static_loss(case: Case, assembly: Assembly) -> Callable[[Case], float]:
+def _quasi_static_loss(made: Tabulated) -> Callable[[Case], float]:
     """Return what gives the mean loss to tooth friction in slow rotation at the constant torque, W."""
-    operating = case.operating
 
-    @cache
-    def cycle() -> MeshCycle:
-        from tribodyn.mesh.by_compliance import mesh_cycle_of
-
-        # a segment begins where friction turns
-        split = Assembly(assembly.family._replace(corner=True), assembly.drive)
-        return mesh_cycle_of(split, case.materials, case.mesh, operating.gear_torque)
-
-    def lost(at: Case) -> float:
-        if operating.gear_torque == 0.0:
+    def lost(case: Case) -> float:
+        torque, speed = case.operating.gear_torque, case.operating.pinion_speed
+        if torque == 0.0:
             return 0.0
-        vanishing, speed = float(cycle().pitch_point_length) > 0.0, operating.pinion_speed
-        loads = engaged(cycle(), operating.gear_torque, speed, closure_of(at), vanishing)
-        return speed * float(friction_loss(cycle(), *loads))
+        cycle = made.split()
+        loads = engaged(cycle, torque, speed, closure_of(case), float(cycle.pitch_point_length) > 0.0)
+        return speed * float(friction_loss(cycle, *loads))
 
     return lost
 
@@ -187,7 +183,13 @@ def tables(case: Case) -> Tabulated:
     cycle = mesh_cycle_of(assembly, case.materials, case.mesh, torque, back)
     given = [(one.mass, one.inertia) for one in case.masses]
     pinion, gear = body_masses(assembly, given, [one.density for one in case.materials])
-    return Tabulated(cycle, polynomials(cycle), (pinion, gear), assembly)
+
+    @cache
+    def split() -> MeshCycle:
+        turning = Assembly(assembly.family._replace(corner=True), assembly.drive)
+        return mesh_cycle_of(turning, case.materials, case.mesh, torque)
+
+    return Tabulated(cycle, polynomials(cycle), (pinion, gear), assembly, split)
 
 
 def _options(case: Case, cycle: MeshCycle, closure: Closure) -> Options:
