@@ -132,10 +132,10 @@ def test_fragments_load(block: Block, folder: Path):
 
 
 def flat(table: dict[str, Any], above: str = "") -> dict[str, Any]:
-    """Dotted keys; a drive that is written out, or a model with changes, replaces the other as a whole."""
+    """Dotted keys; what is written out as a whole, or a model with changes, replaces the other."""
     found: dict[str, Any] = {}
     for key, value in table.items():
-        if isinstance(value, dict) and above + key != "drive" and "like" not in value:
+        if isinstance(value, dict) and above + key not in ("drive", "lubricant") and "like" not in value:
             found |= flat(value, f"{above}{key}.")
         else:
             found[above + key] = value
