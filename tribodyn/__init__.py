@@ -21,11 +21,12 @@ __version__ = "0.1.0"
 OWN_PROCESS = False
 
 if TYPE_CHECKING:
+    from tribodyn.derivatives.differentiable import Differentiable
     from tribodyn.errors import InputError, OutputError, SimulationError
     from tribodyn.geometry.family import Family
     from tribodyn.interface.design import Design, design
-    from tribodyn.interface.drive import GearPair, drive
-    from tribodyn.interface.gradient import Gradient, gradient
+    from tribodyn.interface.drive import GearPair, constraints, drive
+    from tribodyn.interface.gradient import Gradient, differentiable, gradient
     from tribodyn.interface.line_contact import line_contact
     from tribodyn.interface.run import Run, run
     from tribodyn.interface.scenario import scenario
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Design",
+    "Differentiable",
     "Family",
     "FilmLaw",
     "FrictionLaw",
@@ -51,7 +53,9 @@ __all__ = [
     "Study",
     "Sweep",
     "__version__",
+    "constraints",
     "design",
+    "differentiable",
     "drive",
     "gradient",
     "line_contact",
@@ -65,6 +69,7 @@ __all__ = [
 # imported when asked for, so that `tribodyn --help` needs none of it
 _PLACES = {
     "Design": "tribodyn.interface.design",
+    "Differentiable": "tribodyn.derivatives.differentiable",
     "Family": "tribodyn.geometry.family",
     "FilmLaw": "tribodyn.tribology.law",
     "FrictionLaw": "tribodyn.tribology.law",
@@ -77,7 +82,9 @@ _PLACES = {
     "SimulationError": "tribodyn.errors",
     "Study": "tribodyn.studies.study",
     "Sweep": "tribodyn.interface.sweep",
+    "constraints": "tribodyn.interface.drive",
     "design": "tribodyn.interface.design",
+    "differentiable": "tribodyn.interface.gradient",
     "drive": "tribodyn.interface.drive",
     "gradient": "tribodyn.interface.gradient",
     "line_contact": "tribodyn.interface.line_contact",

@@ -29,6 +29,15 @@ MAY_IMPORT["record"] = {"numerics"}
 MAY_IMPORT["post"] = {"numerics", "record"}
 MAY_IMPORT["drawing"] = {"numerics", "geometry", "post"}
 MAY_IMPORT["scenario"] = {"numerics", "geometry", "tribology", "mesh", "dynamics", "solve", "standards"}
+MAY_IMPORT["derivatives"] = {
+    "numerics",
+    "geometry",
+    "tribology",
+    "compliance",
+    "mesh",
+    "solve",
+    "scenario",
+}
 MAY_IMPORT["studies"] = set(MAY_IMPORT) - {"studies"}
 MAY_IMPORT["sweep"] = set(MAY_IMPORT) - {"sweep"}
 MAY_IMPORT["validation"] = set(MAY_IMPORT) - {"validation"}

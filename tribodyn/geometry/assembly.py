@@ -87,7 +87,7 @@ class Assembly:
         """Return the tooth of one body."""
         return self.pinion if side == "pinion" else self.gear
 
-    def lowest_contact(self, side: Side) -> float:
+    def lowest_contact(self, side: Side) -> Any:
         """Signed distance (m), in the body's own view, where the mate's tip touches this body's flank."""
         return self.r_start if side == "pinion" else -self.r_end
 
@@ -111,45 +111,47 @@ def assemble(family: Family, drive: Drive) -> Assembly:
     return Assembly(family, drive)
 
 
-def tip_clearance(assembly: Assembly, side: Side) -> float:
+def tip_clearance(assembly: Assembly, side: Side) -> Any:
     """Distance between this body's tip circle and its mate's root circle on the line of centres, m."""
     centre_distance = assembly.path.pinion_pitch_radius + assembly.path.gear_pitch_radius
     root = assembly.tooth(mate_of(side)).root_radius
-    return float(centre_distance - tip_circle_radius(assembly.drive, side) - root)
+    return as_float(centre_distance - tip_circle_radius(assembly.drive, side) - root)
 
 
-def lowest_contact_speed(assembly: Assembly, side: Side) -> float:
+def lowest_contact_speed(assembly: Assembly, side: Side) -> Any:
     """Speed of the lowest contact along this body's flank, m per rad; no flank is there unless > 0."""
     path = assembly.path_of(side)
-    return float(kinematics(path, assembly.lowest_contact(side)).pinion_speed)
+    return as_float(kinematics(path, assembly.lowest_contact(side)).pinion_speed)
 
 
-def lowest_contact_radius(assembly: Assembly, side: Side) -> float:
+def lowest_contact_radius(assembly: Assembly, side: Side) -> Any:
     """Radius on this body at which the mate's tip touches its flank, m."""
-    return float(radius(assembly.path_of(side), assembly.lowest_contact(side)))
+    return as_float(radius(assembly.path_of(side), assembly.lowest_contact(side)))
 
 
-def tip_corner_gap(assembly: Assembly, side: Side) -> float:
+def tip_corner_gap(assembly: Assembly, side: Side) -> Any:
     """Minimum gap (m) from this body's fillet to the corner of the mate's tip; infinite if they never meet.
 
     The corner is followed in the tooth's frame from the lowest contact to the line of centres, where it is
     deepest, and compared with the fillet at the same radius.
     """
     tooth, path = assembly.tooth(side), assembly.path_of(side)
+    xp = namespace(assembly.drive)
     r_p, r_g = path.pinion_pitch_radius, path.gear_pitch_radius
     lowest = assembly.lowest_contact(side)
     alpha = path.pressure_angle(lowest)
-    tip, mate_angle = _polar(r_g - lowest * np.sin(alpha), lowest * np.cos(alpha))
+    tip, mate_angle = _polar(r_g - lowest * xp.sin(alpha), lowest * xp.cos(alpha))
     mate_turn = -mate_angle * np.linspace(0.0, 1.0, _SAMPLES)
-    corner_x, corner_y = tip * np.sin(mate_angle + mate_turn), r_g - tip * np.cos(mate_angle + mate_turn)
+    corner_x, corner_y = tip * xp.sin(mate_angle + mate_turn), r_g - tip * xp.cos(mate_angle + mate_turn)
     distance, angle = _polar(r_p + corner_y, corner_x)
     rotation = path.rotation(lowest) + mate_turn * r_g / r_p
     corner_angle = thickness_half_angle(tooth, r_p) + angle - rotation
-    normal_angle = np.linspace(np.pi / 2, tooth.form_angle, _SAMPLES)
+    normal_angle = xp.linspace(np.pi / 2, tooth.form_angle, _SAMPLES)
     fillet_radius, fillet_angle = _polar(*fillet_point(tooth, normal_angle))
-    gap = (corner_angle - np.interp(distance, fillet_radius, fillet_angle)) * distance
-    return float(np.min(np.where(distance < tooth.form_radius, gap, np.inf)))
+    gap = (corner_angle - xp.interp(distance, fillet_radius, fillet_angle)) * distance
+    return as_float(xp.min(xp.where(distance < tooth.form_radius, gap, np.inf)))
 
 
 def _polar(x: Any, y: Any) -> tuple[Any, Any]:
-    return np.hypot(x, y), np.arctan2(y, x)
+    xp = namespace(x, y)
+    return xp.hypot(x, y), xp.arctan2(y, x)

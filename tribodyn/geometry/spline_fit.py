@@ -46,7 +46,7 @@ def fit_spline(assembly: Assembly, values: int) -> Assembly:
     )
     knots *= _MARGIN
     angle = float(path.pressure_angle(0.0))
-    bodies = [_body(assembly, side, module, angle) for side in SIDES]
+    bodies = _bodies(assembly, module, angle)
     shape = Shape(np.zeros(len(knots)), knots, None, 0.0)
     drive = Drive(module, 0.0, bodies[0], bodies[1], shape)
 
@@ -73,20 +73,36 @@ def _angle(drive: Drive, shape: Shape, r: np.ndarray) -> np.ndarray:
     return working_path(drive._replace(shape=shape)).pressure_angle(r)
 
 
-def _body(assembly: Assembly, side: Side, module: float, angle: float) -> GearBody:
-    """A body of the same tip, root and thickness, whose reference circle is the working pitch circle."""
+def _bodies(assembly: Assembly, module: float, angle: float) -> list[GearBody]:
+    """Bodies of the same tips, roots and thicknesses, whose reference circles are the working pitch circles.
+
+    What one tooth is thicker and the other thinner is a shift, what both are is an allowance.
+    """
+    surplus = []
+    for side in SIDES:
+        radius = module * body_of(assembly.drive, side).teeth / 2
+        half = float(thickness_half_angle(assembly.tooth(side), radius)) * radius
+        surplus.append(0.0 if abs(half / module - np.pi / 4) < 1e-9 else half - np.pi / 4 * module)
+    if angle < 1e-9:
+        return [_body(assembly, side, module, 0.0, 2 * one) for side, one in zip(SIDES, surplus, strict=True)]
+    shift = (surplus[0] - surplus[1]) / (2 * module * np.tan(angle))
+    allowance = surplus[0] + surplus[1]
+    return [
+        _body(assembly, side, module, sign * shift, allowance)
+        for side, sign in zip(SIDES, (1.0, -1.0), strict=True)
+    ]
+
+
+def _body(assembly: Assembly, side: Side, module: float, shift: float, allowance: float) -> GearBody:
     body, drive, tooth = body_of(assembly.drive, side), assembly.drive, assembly.tooth(side)
     radius = module * body.teeth / 2
-    half = float(thickness_half_angle(tooth, radius)) * radius
-    shift = (half / module - np.pi / 4) / np.tan(angle) if angle > 1e-9 else 0.0
-    shift = 0.0 if abs(shift) < 1e-9 else shift
     return body._replace(
         profile_shift=shift,
         addendum=(float(tip_radius(drive, side)) - radius) / module - shift,
         dedendum=(radius - float(tooth.root_radius)) / module + shift,
         fillet_radius=float(body.fillet_radius * drive.module / module),
         tip_radius=None,
-        thickness_allowance=0.0,
+        thickness_allowance=allowance,
         tip_break=0.0,
     )
 

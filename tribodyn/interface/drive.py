@@ -10,9 +10,11 @@ import tomli_w
 
 from tribodyn.drawing.picture import gears_in_mesh
 from tribodyn.errors import InputError
+from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.body import body_masses
 from tribodyn.geometry.checks import check
 from tribodyn.geometry.families import family
+from tribodyn.geometry.limits import plain_distances
 from tribodyn.geometry.sheet import geometry_sheet
 from tribodyn.interface import shown
 from tribodyn.interface.scenario import in_toml
@@ -123,6 +125,11 @@ class GearPair:
         axis = ("phase", phase, {"units": "1", "long_name": "mesh phase"})
         return xr.DataArray(total, {"phase": axis}, ("phase",), "mesh_stiffness", named)
 
+    @cached_property
+    def constraints(self) -> dict[str, float]:
+        """Distances from the limits of existence by name, as `constraints` gives them."""
+        return plain_distances(self._assembly)
+
     @property
     def toml(self) -> str:
         """The pair as a drive file, with everything that it refers to."""
@@ -205,3 +212,38 @@ def drive(model: str | Path | Mapping[str, Any], overrides: Mapping[str, Any] | 
         If there is none, or no such gears can be made.
     """
     return GearPair(model, overrides)
+
+
+@in_python()
+def constraints(
+    model: str | Path | Mapping[str, Any] | GearPair, overrides: Mapping[str, Any] | None = None
+) -> dict[str, float]:
+    """How far a pair is from the limits of its existence: signed distances, positive where gears exist.
+
+    They are continuous in the numbers of the pair; `gradient` and `differentiable` know them by name.
+
+    Parameters
+    ----------
+    model, overrides
+        As `drive` takes them, or a gear pair; its teeth need not exist.
+
+    Returns
+    -------
+    dict
+        For pinion and gear each, m: ``undercut_…`` (speed of the contact along the flank per speed of the
+        pinion, zero at a singular point), ``interference_…`` (flank left below the lowest contact),
+        ``tip_corner_…`` (gap between fillet and the mate's tip), ``tip_thickness_…``, ``clearance_…`` (of the
+        tip from the mate's root), ``rack_tip_…`` (width left at the rack's tip); and
+        ``contact_ratio_above_1``. What does not exist, because the path ends before the teeth do, counts as a
+        module (or 1) beyond the limit.
+
+    Raises
+    ------
+    InputError
+        If there is no such model, or its keys are wrong; never because of its shape.
+    """
+    if isinstance(model, GearPair):
+        return model.constraints
+    changes = {str(key): in_toml(value) for key, value in (overrides or {}).items()}
+    loaded = load_drive(in_toml(model) if isinstance(model, Mapping) else str(model), changes)
+    return plain_distances(assemble(family(loaded.family), loaded.drive))

@@ -1,31 +1,20 @@
 """Derivatives of a gear pair's figures by the numbers of its scenario, through JAX."""
 
-import tomllib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from html import escape
 from typing import Any
 
-import numpy as np
-import tomli_w
-
-from tribodyn.errors import InputError, near_name, quoted, unknown_name
+from tribodyn.derivatives.differentiable import Differentiable
+from tribodyn.derivatives.quantities import quantity_of
+from tribodyn.errors import InputError, quoted
 from tribodyn.geometry.checks import check
 from tribodyn.geometry.families import family
 from tribodyn.interface import shown
-from tribodyn.interface.numbers import Number, numbers_of
-from tribodyn.interface.quantities import QUANTITIES, Fixed, Quantity
 from tribodyn.interface.scenario import Source, scenario
 from tribodyn.interface.words import in_python
-from tribodyn.mesh.tabulate import pair_slots
 from tribodyn.studies import study_of
 from tribodyn.tribology.closure import closure_of
-
-#: XLA takes a fraction of the time to make a program that it hardly optimises; it runs in milliseconds.
-_HARDLY_OPTIMISED = {"xla_backend_optimization_level": 0}
-#: Tables of a scenario on which no quasi-static figure depends.
-_OF_NO_INFLUENCE = ("title", "name", "output", "solver", "bearings")
 
 
 @dataclass(frozen=True)
@@ -104,10 +93,15 @@ def gradient(
     of : str
         "contact_ratio", "centre_distance", "pressure_angle", "equivalent_radius", "hertz_pressure",
         "mean_stiffness", "stiffness_swing", "transmission_error_swing", "loss_factor", "efficiency",
-        "friction_power". All are quasi-static, of elastic load sharing.
+        "friction_power", "normal_load_max", "hertz_pressure_max", "film_min", "film_parameter_min",
+        "flash_temperature_max"; or a distance of `constraints`. All are quasi-static, of elastic load
+        sharing.
+        "mesh_stiffness_mean", "mesh_stiffness_peak_to_peak", "transmission_error_rotational_peak_to_peak" and
+        "power_friction_mean" of a summary are understood too.
     wrt : str or sequence of str
         Dotted keys of real numbers: geometry (``"drive.module"``, ``"drive.pinion.addendum"``,
-        ``"drive.shape.…"``), materials, roughness, lubricant, speed and torque, keys of the laws.
+        ``"drive.shape.…"``, entries of a list by their index, ``"drive.shape.angles.3"``), materials,
+        roughness, lubricant, speed and torque, keys of the laws.
 
     Returns
     -------
@@ -127,44 +121,56 @@ def gradient(
     """
     keys = [wrt] if isinstance(wrt, str) else list(wrt)
     case = scenario(source, overrides)
-    quantity, fixed = _checked(case, of)
-    numbers = numbers_of(case)
-    _check_keys(case, keys, numbers)
-    value = float(quantity.function(case, fixed))
-    slopes = _slopes(case, of, fixed, numbers, keys)
+    _check(case, of)
+    function = differentiable(case, of, keys)
+    value, slopes = function.gradient(function.at)
+    quantity = quantity_of(case, of)
     return Gradient(
         of,
         quantity.about,
         quantity.unit,
         value,
-        dict(zip(keys, slopes, strict=True)),
-        {key: float(numbers[key].value) for key in keys},
-        {key: numbers[key].unit for key in keys},
+        dict(zip(keys, slopes.tolist(), strict=True)),
+        dict(zip(keys, function.at.tolist(), strict=True)),
+        dict(zip(keys, function.key_units, strict=True)),
     )
 
 
-def _checked(case: Any, of: str) -> tuple[Quantity, Fixed]:
-    """The figure, and what is fixed about the gears; raises InputError where the case does not have it."""
-    if of not in QUANTITIES:
-        raise unknown_name("of", str(of), QUANTITIES, "figure that can be differentiated")
-    quantity = QUANTITIES[of]
-    if not study_of({"kind": case.kind}).has_gears:
-        raise InputError(
-            "kind", quoted(case.kind), "has no gear pair to differentiate", "use another scenario"
-        )
-    for table in quantity.needs:
-        if not hasattr(case, table):
-            rule = f"{of} depends on [{table}], which a scenario of this kind does not have"
-            raise InputError("kind", quoted(case.kind), rule, "use a scenario that has it")
-    if "mesh" in quantity.needs and case.mesh.at_load:
-        rule = f"{of} cannot be differentiated with compliances by finite elements"
-        remedy = 'use the energy method: overrides={"mesh.compliance": "energy"}'
-        raise InputError("mesh.compliance", quoted(case.mesh.compliance), rule, remedy)
-    if "operating" in quantity.needs and not case.operating.gear_torque:
-        raise InputError("operating.gear_torque", 0, f"{of} is one of loaded teeth", "give a torque")
+@in_python()
+def differentiable(
+    source: Source,
+    of: str | Sequence[str],
+    wrt: str | Sequence[str],
+    overrides: Mapping[str, Any] | None = None,
+) -> Differentiable:
+    """Make figures of a gear pair a differentiable function of numbers of its scenario: what a search calls.
+
+    Parameters
+    ----------
+    source, overrides, of, wrt
+        As `gradient` takes them; `of` may be several figures, which one program then evaluates together.
+
+    Returns
+    -------
+    Differentiable
+        With ``at``, the numbers of the scenario, ``values(x)``, ``jacobian(x)`` and ``gradient(x)``, all in
+        SI units. None of them raises for gears that cannot be made.
+
+    Raises
+    ------
+    InputError
+        As `gradient`, but not for gears that cannot be made.
+    """
+    case = scenario(source, overrides)
+    of, wrt = ([one] if isinstance(one, str) else list(one) for one in (of, wrt))
+    return Differentiable(case, study_of({"kind": case.kind}).table(), of, wrt)
+
+
+def _check(case: Any, of: str) -> None:
+    """Refuse figures that the case does not have, gears that cannot be made, laws that do not fit."""
+    quantity = quantity_of(case, of)
     gears = check(family(case.family), case.drive)
-    vanishing = float(gears.path.pressure_angle(0.0)) < 1e-9
-    if vanishing and quantity.at_pitch_point:
+    if quantity.at_pitch_point and float(gears.path.pressure_angle(0.0)) < 1e-9:
         rule = f"{of} has no meaning: curvature is infinite at the pitch point of this family"
         raise InputError("drive.family", quoted(case.family), rule, "differentiate another figure")
     if "friction" in quantity.needs:
@@ -173,81 +179,3 @@ def _checked(case: Any, of: str) -> tuple[Quantity, Fixed]:
             remedy = 'overrides={"temperature.model": "oil"}, and operating.oil_temperature that of the teeth'
             raise InputError("temperature.model", quoted(temperature.model), rule, remedy)
         closure_of(case)  # raises where the laws do not fit
-    return quantity, Fixed(pair_slots(gears), vanishing)
-
-
-def _check_keys(case: Any, keys: Sequence[str], numbers: Mapping[str, Number]) -> None:
-    there = "; there is: " + ", ".join(numbers)
-    if not keys:
-        raise InputError("wrt", None, "nothing to differentiate by", "name at least one key" + there)
-    for key in keys:
-        if key not in numbers:
-            near = near_name(str(key), numbers)
-            mean = f'did you mean "{near}"?' if near else "use another"
-            raise InputError("wrt", quoted(str(key)), "no key to differentiate by", mean + there)
-
-
-def _slopes(
-    case: Any, of: str, fixed: Fixed, numbers: Mapping[str, Number], keys: Sequence[str]
-) -> list[float]:
-    """Directional derivatives along each key, by one program for all of them."""
-    import jax
-
-    from tribodyn.solve.diffrax_integrator import use_compilation_cache
-
-    use_compilation_cache()
-    program = _program(_Structure(_without(case, numbers), case), of, fixed, tuple(numbers))
-    at = np.array([float(one.value) for one in numbers.values()])
-    along = np.eye(len(at))
-    names = list(numbers)
-    with jax.enable_x64(True):
-        return [float(program(at, along[names.index(key)])) for key in keys]
-
-
-class _Structure:
-    """A case, equal to all others that differ in their numbers alone."""
-
-    def __init__(self, text: str, case: Any) -> None:
-        self.text, self.case = text, case
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Structure) and self.text == other.text
-
-    def __hash__(self) -> int:
-        return hash(self.text)
-
-
-def _without(case: Any, numbers: Mapping[str, Number]) -> str:
-    """The scenario without the numbers, and without what has no influence."""
-    table = tomllib.loads(case.toml)
-    for name in _OF_NO_INFLUENCE:
-        table.pop(name, None)
-    for key in numbers:
-        *above, last = key.split(".")
-        place: Any = table
-        for part in above:
-            place = place.get(part, {})
-        place.pop(last, None)
-    return tomli_w.dumps(table)
-
-
-@lru_cache(maxsize=32)
-def _program(
-    structure: _Structure, of: str, fixed: Fixed, keys: tuple[str, ...]
-) -> Callable[[np.ndarray, np.ndarray], Any]:
-    """(values of all keys, direction) -> derivative of the figure in that direction."""
-    import jax
-
-    case, function = structure.case, QUANTITIES[of].function
-    numbers = numbers_of(case)
-
-    def figure(values: Any) -> Any:
-        traced = case
-        for i, key in enumerate(keys):
-            traced = numbers[key].put(traced, values[i])
-        return function(traced, fixed)
-
-    def along(values: Any, direction: Any) -> Any:
-        return jax.jvp(figure, (values,), (direction,))[1]
-
-    return jax.jit(along, compiler_options=_HARDLY_OPTIMISED)

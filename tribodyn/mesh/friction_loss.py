@@ -8,11 +8,11 @@ from tribodyn.mesh.quasi_static import cycle_integral, cycle_mean, quasi_static
 from tribodyn.numerics.elementary import namespace
 from tribodyn.numerics.iteration import iterate
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.tribology.contact_friction import contact_friction
+from tribodyn.tribology.contact_friction import ContactFriction, contact_friction
 from tribodyn.tribology.law import Closure
 
 # Loads follow friction through μ tan α only: each step shrinks the error tenfold or more.
-_STEPS = 12
+_STEPS, _DIFFERENTIATED = 12, 6
 
 
 class Engaged(NamedTuple):
@@ -22,9 +22,53 @@ class Engaged(NamedTuple):
     friction_coefficient: Float[Array, "segment node pair"]
 
 
-def engaged(
-    cycle: MeshCycle, gear_torque: float, pinion_speed: Any, closure: Closure, averaged: bool = False
-) -> Engaged:
+class Contacts(NamedTuple):
+    """Speeds and radii of the pairs' contacts at the nodes, and the laws in use on them; `contacts` makes it.
+
+    Parameters
+    ----------
+    closure : Closure
+    face_width : float
+        m.
+    radius, pinion_speed, gear_speed : array, (S, N, Q)
+        m, and rolling speeds in m/s.
+    side : array
+        Sign of the sliding of each pair in each segment.
+    vanishing : tuple
+        As `contact_friction` takes them.
+    """
+
+    closure: Closure
+    face_width: Any
+    radius: Any
+    pinion_speed: Any
+    gear_speed: Any
+    side: Any
+    vanishing: tuple[Any, Any]
+
+    def under(self, normal_load: Any) -> ContactFriction:
+        """What the laws give under these loads (N)."""
+        rolling = self.pinion_speed, self.gear_speed
+        line_load = normal_load / self.face_width
+        return contact_friction(self.closure, line_load, self.radius, *rolling, *self.vanishing)
+
+
+def contacts(
+    cycle: MeshCycle, gear_torque: Any, pinion_speed: Any, closure: Closure, averaged: bool = False
+) -> Contacts:
+    """What the laws in use see of the mesh; parameters as those of `engaged`."""
+    xp = namespace(*cycle, gear_torque, pinion_speed, *closure.surfaces)
+    way = xp.sign(gear_torque)
+    middle = cycle.signed_distance.shape[1] // 2
+    speed, side = way * pinion_speed, way * xp.sign(cycle.signed_distance[:, middle, None])
+    vanishing = (cycle.pitch_point_length, speed * cycle.pitch_point_rate) if averaged else (0.0, 0.0)
+    # at the pitch point itself the laws are evaluated beside it: there the radius may be zero
+    radius = xp.maximum(cycle.equivalent_radius, 1e-9)
+    rolling = speed * cycle.pinion_speed, speed * cycle.gear_speed
+    return Contacts(closure, cycle.face_width, radius, *rolling, side, vanishing)
+
+
+def engaged(cycle: MeshCycle, gear_torque: Any, seen: Contacts) -> Engaged:
     """Solve elastic load sharing and friction together at the nodes of the table.
 
     Parameters
@@ -34,28 +78,19 @@ def engaged(
         as for a family with a corner there; may be traced.
     gear_torque : float
         N m; negative where the gear drives, on back flanks that are like the driving ones.
-    pinion_speed : float
-        rad/s.
-    closure : Closure
-    averaged : bool
-        Whether radius and entrainment vanish at the pitch point, and are averaged over the contact there.
+    seen : Contacts
+        Of the same table and torque; `contacts` takes pinion speed (rad/s), closure, and whether radius and
+        entrainment vanish at the pitch point and are averaged over the contact there.
     """
-    xp = namespace(*cycle, gear_torque, pinion_speed, *closure.surfaces)
-    way = xp.sign(gear_torque)
-    middle = cycle.signed_distance.shape[1] // 2
-    speed, side = way * pinion_speed, way * xp.sign(cycle.signed_distance[:, middle, None])
-    rolling = speed * cycle.pinion_speed, speed * cycle.gear_speed
-    vanishing = (cycle.pitch_point_length, speed * cycle.pitch_point_rate) if averaged else (0.0, 0.0)
-    # at the pitch point itself the laws are evaluated beside it: there the radius may be zero
-    radius = xp.maximum(cycle.equivalent_radius, 1e-9)
+    xp = namespace(*cycle, gear_torque)
 
     def step(state: Engaged) -> Engaged:
-        load = quasi_static(cycle, xp.abs(gear_torque), side * state.friction_coefficient).normal_load
-        contact = contact_friction(closure, load / cycle.face_width, radius, *rolling, *vanishing)
-        return Engaged(load, contact.surface.friction_coefficient + 0.0 * load)
+        friction = seen.side * state.friction_coefficient
+        load = quasi_static(cycle, xp.abs(gear_torque), friction).normal_load
+        return Engaged(load, seen.under(load).surface.friction_coefficient + 0.0 * load)
 
-    nothing = 0.0 * cycle.compliance * speed
-    return iterate(step, Engaged(nothing, nothing), _STEPS)
+    nothing = 0.0 * cycle.compliance * seen.pinion_speed
+    return iterate(step, Engaged(nothing, nothing), _STEPS, _DIFFERENTIATED)
 
 
 def friction_loss(

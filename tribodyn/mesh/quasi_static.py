@@ -11,7 +11,7 @@ from tribodyn.numerics.shapes import Array, Float
 
 # The contact part of a load-dependent compliance goes like F^−0.1, so that each step of the secant iteration
 # shrinks its error at least tenfold; the set of loaded pairs settles on the way.
-_STEPS = 14
+_STEPS, _DIFFERENTIATED = 14, 6
 
 
 class QuasiStatic(NamedTuple):
@@ -90,7 +90,8 @@ def quasi_static(
         return load, active, total, stiffness
 
     equal = present * force / (present * torque_arms).sum(axis=-1, keepdims=True)
-    load, _, deflection, stiffness = iterate(share, (equal, present, equal[..., 0], equal[..., 0]), _STEPS)
+    start = (equal, present, equal[..., 0], equal[..., 0])
+    load, _, deflection, stiffness = iterate(share, start, _STEPS, _DIFFERENTIATED)
     return QuasiStatic(load, deflection, stiffness)
 
 

@@ -67,5 +67,7 @@ def as_spline(model: DriveModel, values: int, key: str = "n") -> SplineDrive:
         body = body_of(drive, side)
         kept = {name: value for name, value in table[side].items() if name not in _OF_TEETH}
         table[side] = kept | {name: float(f"{getattr(body, name):.12g}") for name in _OF_BODY}
+        if body.thickness_allowance:
+            table[side]["thickness_allowance"] = f"{1e6 * body.thickness_allowance:.10g} um"
     check(fitted.family, drive)
     return SplineDrive(table, deviation)

@@ -170,6 +170,15 @@ def test_a_pair_at_its_own_centre_distance_becomes_one_of_another_module():
     assert sum(getattr(fitted.drive, side).profile_shift for side in SIDES) == pytest.approx(0.0, abs=1e-12)
 
 
+@pytest.mark.parametrize("name", ["involute-23-47", "cycloidal-23-47", "crc-23-47"])
+def test_thinner_teeth_stay_thinner(name):
+    model = load_drive(name, {"drive.pinion.thickness_allowance": "-60 um"})
+    original = assemble(family(model.family), model.drive)
+    fitted = check(FAMILY, fit_spline(original, 7).drive)
+    assert flank_deviation(original, fitted) < 0.1e-6
+
+
+@pytest.mark.soak
 def test_geometry_differentiates_by_every_value():
     """Contact ratio, tip thickness, form radius and curvature at the end, against central differences."""
     at = np.concatenate([ANGLES, [LENGTH, np.radians(0.5)]])

@@ -1,16 +1,20 @@
 """Derivatives of figures by a scenario's numbers: closed forms, and central differences of other runs."""
 
 import math
+import tomllib
+from time import perf_counter
 
 import jax
 import numpy as np
 import pytest
 
 import tribodyn as td
+from tribodyn.derivatives import numbers
+from tribodyn.derivatives.differentiable import FORWARDS, fixed_of, value_of
+from tribodyn.derivatives.quantities import QUANTITIES, Evaluation, quantity_of
 from tribodyn.errors import InputError
-from tribodyn.interface.gradient import _checked
-from tribodyn.interface.numbers import numbers_of
-from tribodyn.interface.quantities import QUANTITIES
+from tribodyn.geometry.limits import LIMITS
+from tribodyn.studies import study_of
 
 #: One scenario of every family, and the number that shapes its teeth.
 FAMILIES = {
@@ -21,8 +25,18 @@ FAMILIES = {
     "parabolic-23-47": "drive.shape.k1",
     "points-23-47": "drive.pressure_angle",
     "s-gear-23-47": "drive.shape.form_factor",
+    "spline-23-47": "drive.shape.angles.2",
 }
 INVOLUTE = "efficiency-involute-18-36"
+
+
+def numbers_of(case):
+    return numbers.numbers_of(case, study_of({"kind": case.kind}).table())
+
+
+def figure(case, of):
+    """Without a compiled program."""
+    return value_of(case, quantity_of(case, of), fixed_of(case))
 
 
 @pytest.mark.slow
@@ -66,10 +80,13 @@ def test_closed_forms():
 )
 def test_efficiency_is_that_of_the_efficiency_study(name):
     case = td.scenario(name)
-    quantity, fixed = _checked(case, "efficiency")
-    assert quantity.function(case, fixed) == pytest.approx(
-        td.run(name).summary["efficiency_elastic"], abs=2e-7
-    )
+    summary = td.run(name).summary
+    assert figure(case, "efficiency") == pytest.approx(summary["efficiency_elastic"], abs=2e-7)
+    # extremes at nodes of the table, and in samples
+    if name == "efficiency-crc-23-47":
+        for of in ("hertz_pressure_max", "film_min", "film_parameter_min", "flash_temperature_max"):
+            assert figure(case, of) == pytest.approx(summary[of], rel=2e-3), of
+        assert figure(case, "power_friction_mean") == pytest.approx(summary["power_friction_mean"], rel=1e-5)
 
 
 @pytest.mark.slow
@@ -77,17 +94,17 @@ def test_efficiency_is_that_of_the_efficiency_study(name):
 def test_losses_can_be_traced(name):
     """With all numbers traced, mean and local laws: what the compiled programs are made of."""
     case = td.scenario(name)
-    quantity, fixed = _checked(case, "efficiency")
-    numbers = numbers_of(case)
+    quantity, fixed = quantity_of(case, "efficiency"), fixed_of(case)
+    known = numbers_of(case)
 
     def traced(values):
         changed = case
-        for number, value in zip(numbers.values(), values, strict=True):
+        for number, value in zip(known.values(), values, strict=True):
             changed = number.put(changed, value)
-        return quantity.function(changed, fixed)
+        return quantity.function(Evaluation(changed, fixed))
 
     with jax.enable_x64(True):
-        found = jax.eval_shape(traced, [float(number.value) for number in numbers.values()])
+        found = jax.eval_shape(traced, [float(number.value) for number in known.values()])
     assert (found.shape, found.dtype) == ((), np.float64)
 
 
@@ -121,22 +138,132 @@ def test_what_cannot_be_differentiated(arguments, said):
     assert said in str(error.value)
 
 
+def differences(case, of, keys):
+    """Central differences of figures that are evaluated without a compiled program."""
+    known = numbers_of(case)
+    found = np.empty((len(of), len(keys)))
+    for column, key in enumerate(keys):
+        step = 1e-5 * (abs(known[key].value) or 1.0)
+        ends = [known[key].put(case, known[key].value + sign * step) for sign in (1, -1)]
+        for row, name in enumerate(of):
+            found[row, column] = (figure(ends[0], name) - figure(ends[1], name)) / (2 * step)
+    return found
+
+
+@pytest.mark.parametrize("keys", [3, pytest.param(FORWARDS + 1, marks=pytest.mark.soak)])
+def test_distances_and_their_slopes_of_a_free_form_path(keys):
+    """Forwards and backwards, of one program for all keys."""
+    of = ["interference_gear"] if keys > FORWARDS else ["undercut_pinion", "tip_thickness_gear"]
+    function = td.differentiable("spline-23-47", of, [f"drive.shape.angles.{i}" for i in range(keys)])
+    values, slopes = function.jacobian(function.at)
+    case = td.scenario("spline-23-47")
+    assert values == pytest.approx([td.constraints("spline-23-47")[name] for name in of], rel=1e-12)
+    expected = differences(case, of, function.wrt)
+    np.testing.assert_allclose(slopes, expected, rtol=1e-5, atol=1e-7 * np.abs(expected).max())
+    # values of no tooth: distances all the same
+    beyond = function.at + np.radians([60.0, -50.0] + [0.0] * (keys - 2))
+    values, slopes = function.jacobian(beyond)
+    assert np.all(np.isfinite(values))
+    assert np.all(np.isfinite(slopes))
+
+
+def test_a_differentiable_function_says_what_it_is_of():
+    function = td.differentiable("spline-23-47", ["film_min", "contact_ratio"], ["drive.shape.path_length"])
+    assert function.of == ("film_min", "contact_ratio")
+    assert function.units == ("m", "1")
+    assert function.key_units == ("m",)
+    assert function.at == pytest.approx([0.018])
+    with pytest.raises(td.InputError, match="no key to differentiate by"):
+        td.differentiable("spline-23-47", "film_min", "drive.shape.angles.7")
+    with pytest.raises(td.InputError, match=r"drive.shape.angles.6"):
+        td.differentiable("spline-23-47", "film_min", "drive.shape.angles")
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_distances_of_every_family_that_can_be_made_are_positive(name):
+    found = td.constraints(name)
+    assert list(found) == list(LIMITS)
+    assert min(found.values()) > 0.0
+    assert found == td.constraints(td.drive(name))
+
+
+#: Overrides that `check` refuses, and the distances that say so.
+BEYOND = {
+    "undercut": ("involute-18-36", {"drive.pinion.profile_shift": -0.6}, "undercut_pinion"),
+    "in the fillet": ("involute-18-36", {"drive.pinion.profile_shift": -0.2}, "interference_pinion"),
+    "pointed": ("involute-18-36", {"drive.pinion.profile_shift": 1.2}, "tip_thickness_pinion"),
+    "tip in root": ("crc-23-47", {"drive.gear.addendum": 1.3}, "clearance_gear"),
+    "parts": (
+        "crc-23-47",
+        {"drive.gear.addendum": 0.4, "drive.pinion.addendum": 0.4},
+        "contact_ratio_above_1",
+    ),
+    "singular": ("parabolic-23-47", {"drive.shape.k1": 0.49}, "undercut_gear"),
+    "ends": ("cycloidal-23-47", {"drive.shape.recess_circle": "2 mm"}, "contact_ratio_above_1"),
+    "corners": ("crc-23-47", {"drive.pinion.fillet_radius": 0.5}, "rack_tip_pinion"),
+    "free form": (
+        "spline-23-47",
+        {"drive.shape.angles.0": "8 deg", "drive.shape.angles.1": "12 deg"},
+        "undercut_pinion",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", BEYOND)
+def test_what_check_refuses_has_a_negative_distance(name):
+    scenario, overrides, distance = BEYOND[name]
+    with pytest.raises(td.InputError):
+        td.drive(scenario, overrides)
+    assert td.constraints(scenario, overrides)[distance] < 0.0
+
+
+@pytest.mark.soak
+def test_twelve_slopes_of_the_efficiency_take_less_than_three_evaluations():
+    path = {"drive": tomllib.loads(td.drive("crc-23-47").as_spline(12).toml)}
+    keys = [f"drive.shape.angles.{i}" for i in range(12)]
+    function = td.differentiable("efficiency-crc-23-47", "efficiency", keys, path)
+
+    def time(call):
+        call(function.at)
+        times = []
+        for _ in range(30):
+            begun = perf_counter()
+            call(function.at)
+            times.append(perf_counter() - begun)
+        return min(times)
+
+    assert time(function.gradient) < 3 * time(function.values)
+
+
+@pytest.mark.soak
+def test_slopes_of_a_search_over_a_free_form_path():
+    """Figures of quasi-static contact by all values of the path, in the time of a few evaluations."""
+    keys = [f"drive.shape.angles.{i}" for i in range(7)]
+    of = ["efficiency", "hertz_pressure_max", "film_min", "contact_ratio", "mesh_stiffness_mean"]
+    function = td.differentiable("spline-23-47", of, keys)
+    values, slopes = function.jacobian(function.at)
+    case = td.scenario("spline-23-47")
+    assert values == pytest.approx([figure(case, name) for name in of], rel=1e-9)
+    expected = differences(case, of, keys)
+    np.testing.assert_allclose(slopes, expected, atol=2e-6 * np.abs(expected).max(axis=1).max(), rtol=2e-5)
+
+
 @pytest.mark.soak
 @pytest.mark.parametrize("of", QUANTITIES)
 @pytest.mark.parametrize("name", FAMILIES)
 def test_every_figure_and_key_of_every_family(name, of):
     """Against central differences; what hardly depends on a key is compared with the figure itself."""
     case = td.scenario(name)
+    known = numbers_of(case)
     try:
-        quantity, fixed = _checked(case, of)
+        found = td.gradient(case, of, list(known))
     except td.InputError as error:
         pytest.skip(str(error))
-    numbers = numbers_of(case)
-    found = td.gradient(case, of, list(numbers))
-    for key, number in numbers.items():
+    quantity, fixed = quantity_of(case, of), fixed_of(case)
+    for key, number in known.items():
         scale = abs(number.value) or 1.0
         step = 1e-5 * scale
-        ends = [quantity.function(number.put(case, number.value + s * step), fixed) for s in (1, -1)]
+        ends = [value_of(number.put(case, number.value + s * step), quantity, fixed) for s in (1, -1)]
         difference = (ends[0] - ends[1]) / (2 * step)
         assert found[key] == pytest.approx(difference, rel=2e-5, abs=1e-6 * abs(found.value) / scale), key
 

@@ -5,9 +5,10 @@ import tomllib
 
 import pytest
 
+from tribodyn.derivatives.numbers import numbers_of
 from tribodyn.errors import InputError
-from tribodyn.interface.numbers import numbers_of
 from tribodyn.interface.scenario import scenario
+from tribodyn.studies import study_of
 from tribodyn.studies.oil import oil_data, oil_remarks, oil_table
 
 SCENARIO = tomllib.loads(
@@ -123,7 +124,7 @@ def test_an_oil_without_a_data_sheet_is_as_given():
 
 def test_numbers_of_the_data_sheet_can_be_varied():
     case = scenario(SCENARIO)
-    numbers = numbers_of(case)
+    numbers = numbers_of(case, study_of({"kind": case.kind}).table())
     assert numbers["operating.oil_temperature"].unit == "K"
     assert "lubricant.inlet_viscosity" not in numbers
     warmer = numbers["operating.oil_temperature"].put(case, 373.15)

@@ -56,13 +56,33 @@ class PointsPath(NamedTuple):
         interval = xp.searchsorted(self.knots, r, side="right") - 1
         return xp.clip(interval, 0, self.knots.shape[0] - 2)
 
+    def _at(self, interval: Int[Array, "..."]) -> PerContact:
+        """Start, length, angle, rise, and the slopes at both ends of the intervals, along a new last axis."""
+        xp = namespace(self, interval)
+        table = xp.stack(
+            [
+                self.knots[:-1],
+                self.knots[1:] - self.knots[:-1],
+                self.angles[:-1],
+                self.angles[1:] - self.angles[:-1],
+                self.left_slopes,
+                self.right_slopes,
+                self.rotations[:-1],
+            ],
+            axis=-1,
+        )
+        if xp is np:
+            return table[interval]
+        # a product and no selection: its derivative in reverse is a product again, not a loop
+        return (interval[..., None] == np.arange(table.shape[0])) @ table
+
     def _cubic(self, r: PerContact, interval: Int[Array, "..."]) -> tuple[PerContact, PerContact]:
         """Angle and slope; held at the ends."""
         xp = namespace(self, r)
-        start, length = self.knots[interval], self.knots[interval + 1] - self.knots[interval]
+        at = self._at(interval)
+        start, length, a, rise = at[..., 0], at[..., 1], at[..., 2], at[..., 3]
         u = xp.clip((r - start) / length, 0.0, 1.0)
-        a, rise = self.angles[interval], self.angles[interval + 1] - self.angles[interval]
-        m, n = length * self.left_slopes[interval], length * self.right_slopes[interval]
+        m, n = length * at[..., 4], length * at[..., 5]
         square, cube = 3 * rise - 2 * m - n, m + n - 2 * rise
         inside = 1.0 * ((r >= self.knots[0]) & (r <= self.knots[-1]))
         slope = inside * (m + u * (2 * square + 3 * u * cube)) / length
@@ -82,12 +102,11 @@ class PointsPath(NamedTuple):
         """Pinion angle φ, rad: the knot's, and the integral of dr/(r_p cos α) from there."""
         r = namespace(self, r).asarray(r, dtype=float)
         interval = self._interval(r)
-        start = self.knots[interval]
+        at = self._at(interval)
+        start = at[..., 0]
         between = start[..., None] + (r - start)[..., None] * _NODES
         angle, _ = self._cubic(between, interval[..., None])
-        return self.rotations[interval] + (r - start) / self.pinion_pitch_radius * (
-            (1 / cos(angle)) @ _WEIGHTS
-        )
+        return at[..., 6] + (r - start) / self.pinion_pitch_radius * ((1 / cos(angle)) @ _WEIGHTS)
 
     def signed_distance(self, rotation: PerContact) -> PerContact:
         """Signed distance r (m) at the pinion angle φ."""

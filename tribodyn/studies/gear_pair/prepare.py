@@ -23,7 +23,7 @@ from tribodyn.dynamics.parameters import (
 )
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.mesh.cycle import MeshCycle, Polynomials, polynomials
-from tribodyn.mesh.friction_loss import engaged, friction_loss
+from tribodyn.mesh.friction_loss import contacts, engaged, friction_loss
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.temperature import Thermal, thermal_state
 from tribodyn.tribology.closure import Closure, closure_of
@@ -165,7 +165,8 @@ def _quasi_static_loss(made: Tabulated) -> Callable[[Case], float]:
         if torque == 0.0:
             return 0.0
         cycle = made.split()
-        loads = engaged(cycle, torque, speed, closure_of(case), float(cycle.pitch_point_length) > 0.0)
+        vanishing = float(cycle.pitch_point_length) > 0.0
+        loads = engaged(cycle, torque, contacts(cycle, torque, speed, closure_of(case), vanishing))
         return speed * float(friction_loss(cycle, *loads))
 
     return lost

@@ -5,13 +5,16 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any, NamedTuple
 
+import numpy as np
+from pydantic import BaseModel
+
 from tribodyn.geometry.drive import SIDES, Side, body_of
 from tribodyn.geometry.families import family
+from tribodyn.numerics.elementary import namespace
 from tribodyn.numerics.parameter import Parameter
 from tribodyn.scenario.own_keys import si_unit
 from tribodyn.scenario.units import Kind
 from tribodyn.scenario.vary import kind_at
-from tribodyn.studies import study_of
 from tribodyn.tribology.closure import laws_of
 from tribodyn.tribology.lubricant import lubricant_at, lubricant_from
 from tribodyn.tribology.oil import UNITS, OilSheet
@@ -45,10 +48,9 @@ class Number(NamedTuple):
     put: Callable[[Any, Any], Any]
 
 
-def numbers_of(case: Any) -> dict[str, Number]:
-    """Numbers of a case with gears by their dotted keys, as overrides have them."""
+def numbers_of(case: Any, schema: type[BaseModel]) -> dict[str, Number]:
+    """Numbers of a case with gears by their dotted keys, as overrides have them; `schema` of its scenario."""
     table = tomllib.loads(case.toml)
-    schema = study_of(table).table()
 
     def numbers() -> Iterator[tuple[str, Number]]:
         yield from _of_drive(case)
@@ -91,8 +93,14 @@ def _of_drive(case: Any) -> Iterator[tuple[str, Number]]:
     if teeth.pressure_angle:
         yield "drive.pressure_angle", Number(drive.pressure_angle, "", on_drive("pressure_angle"))
     for one in teeth.parameters:
-        if one.kind != "path" and hasattr(drive.shape, one.name):
-            value = getattr(drive.shape, one.name)
+        value = getattr(drive.shape, one.name, None)
+        if one.kind == "path" or one.fixed or value is None:
+            continue
+        if one.listed:
+            for place, item in enumerate(value):
+                put = _on_entry(one.name, place)
+                yield f"drive.shape.{one.name}.{place}", Number(item, si_unit(one), put)
+        else:
             yield f"drive.shape.{one.name}", Number(value, si_unit(one), on_shape(one.name))
     for side in SIDES:
         body = body_of(drive, side)
@@ -101,6 +109,16 @@ def _of_drive(case: Any) -> Iterator[tuple[str, Number]]:
             names = ["tip_radius" if name == "addendum" else name for name in names]
         for name in names:
             yield f"drive.{side}.{name}", Number(getattr(body, name), "", on_body(side, name))
+
+
+def _on_entry(name: str, place: int) -> Callable[[Any, Any], Any]:
+    def put(case: Any, value: Any) -> Any:
+        values = getattr(case.drive.shape, name)
+        xp = namespace(values, value)
+        changed = xp.where(np.arange(len(values)) == place, value, values)
+        return replace(case, drive=case.drive._replace(shape=case.drive.shape._replace(**{name: changed})))
+
+    return put
 
 
 def _of_materials(case: Any, table: dict[str, Any]) -> Iterator[tuple[str, Number]]:

@@ -1,0 +1,232 @@
+"""Figures of a case as a differentiable function of some of its numbers: what a search calls.
+
+    function = Differentiable(case, schema, ["efficiency", "contact_ratio"], ["drive.shape.angles.3"])
+    values, slopes = function.jacobian(function.at)
+
+One compiled program serves all cases that differ in numbers alone; it is kept in the cache folder.
+"""
+
+import tomllib
+from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property, lru_cache
+from typing import Any, NamedTuple
+
+import numpy as np
+import tomli_w
+from pydantic import BaseModel
+
+from tribodyn.derivatives.numbers import Number, numbers_of
+from tribodyn.derivatives.quantities import ALSO, QUANTITIES, Evaluation, Fixed, Quantity, quantity_of
+from tribodyn.errors import InputError, near_name, quoted
+from tribodyn.geometry.limits import beyond
+from tribodyn.mesh.tabulate import pair_slots
+from tribodyn.numerics.shapes import Array, Float
+
+#: XLA takes a fraction of the time to make a program that it hardly optimises; it runs in milliseconds.
+_HARDLY_OPTIMISED = {"xla_backend_optimization_level": 0}
+#: Tables of a scenario on which no quasi-static figure depends.
+_OF_NO_INFLUENCE = ("title", "name", "output", "solver", "bearings")
+#: One figure by more keys than this is differentiated backwards: in a time that does not depend on their
+#: number, by a program that takes longer to make.
+FORWARDS = 6
+#: Keys by which several figures are differentiated at once.
+_TOGETHER = 8
+
+
+class Differentiable:
+    """Figures of a case as a function of some of its numbers.
+
+    Parameters
+    ----------
+    case
+        Of a gear pair; its gears need not exist.
+    schema : type
+        Of its scenario: ``study_of(table).table()``.
+    of : sequence of str
+        Names of `QUANTITIES` or `ALSO`; one program evaluates all together.
+    wrt : sequence of str
+        Dotted keys of `numbers_of`; entries of lists by their index from 0, ``drive.shape.angles.3``.
+
+    Raises
+    ------
+    InputError
+        For an unknown figure or key, and a figure that this case does not have.
+
+    Attributes
+    ----------
+    of, wrt : tuple of str
+        Names of the figures, and keys.
+    at : array, (key,)
+        The numbers of the case, SI.
+    units, key_units : tuple of str
+        SI units of figures and keys.
+    """
+
+    def __init__(self, case: Any, schema: type[BaseModel], of: Sequence[str], wrt: Sequence[str]) -> None:
+        self.of, self.wrt = tuple(of), tuple(wrt)
+        self._case, self._names = case, tuple(ALSO.get(name, name) for name in of)
+        self._quantities = [quantity_of(case, name) for name in of]
+        self._numbers = numbers_of(case, schema)
+        check_keys(self.wrt, self._numbers)
+        self.units = tuple(one.unit for one in self._quantities)
+        self.key_units = tuple(self._numbers[key].unit for key in self.wrt)
+        self.at = np.array([float(self._numbers[key].value) for key in self.wrt])
+        self._all = np.array([float(one.value) for one in self._numbers.values()])
+        places = {key: place for place, key in enumerate(self._numbers)}
+        self._places = np.array([places[key] for key in self.wrt])
+
+    def values(self, x: Float[Array, " key"]) -> Float[Array, " figure"]:
+        """Figures where the keys have the values x (SI); NaN where there is no such mesh."""
+        values = self._values(x)
+        return self._finite(self._run("values", values))[0]
+
+    def jacobian(self, x: Float[Array, " key"]) -> tuple[Float[Array, " figure"], Float[Array, "figure key"]]:
+        """Figures, and their derivatives by the keys, SI, where the keys have the values x.
+
+        Beyond the limits of existence figures of the mesh may be NaN; distances from the limits never are.
+        """
+        values = self._values(x)
+        keys = len(self.wrt)
+        if len(self.of) == 1 and keys > FORWARDS:
+            found, slopes = self._run("backwards", values)
+            return self._finite((found, slopes[None, self._places]))
+        # one program for any number of keys: one key at a time, or some together
+        together = _TOGETHER if keys > 1 and len(self.of) > 1 else 1
+        directions = np.zeros((-(-keys // together) * together, len(values)))
+        directions[np.arange(keys), self._places] = 1.0
+        parts = [
+            self._run("forwards", values, directions[first : first + together])
+            for first in range(0, len(directions), together)
+        ]
+        return self._finite((parts[0][0], np.concatenate([part[1] for part in parts], axis=1)[:, :keys]))
+
+    def gradient(self, x: Float[Array, " key"]) -> tuple[float, Float[Array, " key"]]:
+        """The first figure and its derivatives by the keys, SI."""
+        values, slopes = self.jacobian(x)
+        return float(values[0]), slopes[0]
+
+    def _values(self, x: Any) -> Float[Array, " number"]:
+        values = self._all.copy()
+        values[self._places] = x
+        return values
+
+    def _run(self, how: str, values: Any, *more: Any) -> Any:
+        import jax
+
+        from tribodyn.solve.diffrax_integrator import use_compilation_cache
+
+        use_compilation_cache()
+        meshes = any("mesh" in one.needs for one in self._quantities)
+        fixed = fixed_of(_put(self._case, self._numbers, values)) if meshes else Fixed(0, False)
+        program = _program(self._structure, self._names, fixed)
+        with jax.enable_x64(True):
+            return jax.tree.map(np.array, getattr(program, how)(values, *more))
+
+    @cached_property
+    def _structure(self) -> "_Structure":
+        return _Structure(_without(self._case, self._numbers), self._case, self._numbers)
+
+    def _finite(self, found: Any) -> Any:
+        """Distances that do not exist are a whole module, or one, beyond the limit, and of no slope."""
+        values, slopes = found if isinstance(found, tuple) else (found, None)
+        for place, one in enumerate(self._quantities):
+            if one.limit and not np.isfinite(values[place]):
+                values[place] = beyond(one.unit, self._case.drive)
+            if one.limit and slopes is not None:
+                slopes[place] = np.where(np.isfinite(slopes[place]), slopes[place], 0.0)
+        return values, slopes
+
+
+def fixed_of(case: Any) -> Fixed:
+    """What the programs of a case's mesh depend on beside its numbers."""
+    gears = Evaluation(case, Fixed(0, False)).gears
+    with np.errstate(all="ignore"):
+        ratio = float(gears.contact_ratio)
+        pairs = pair_slots(gears) if np.isfinite(ratio) and ratio > 0.0 else 1
+        return Fixed(pairs, bool(float(gears.path.pressure_angle(0.0)) < 1e-9))
+
+
+def value_of(case: Any, quantity: Quantity, fixed: Fixed) -> float:
+    """A figure of a case of plain numbers, without a compiled program."""
+    return float(quantity.function(Evaluation(case, fixed)))
+
+
+def check_keys(keys: Sequence[str], numbers: Mapping[str, Number]) -> None:
+    """Refuse keys by which nothing can be differentiated, and none at all."""
+    there = "; there is: " + ", ".join(numbers)
+    if not keys:
+        raise InputError("wrt", None, "nothing to differentiate by", "name at least one key" + there)
+    for key in keys:
+        if key not in numbers:
+            near = near_name(str(key), numbers)
+            mean = f'did you mean "{near}"?' if near else "use another"
+            raise InputError("wrt", quoted(str(key)), "no key to differentiate by", mean + there)
+
+
+class _Structure:
+    """A case, equal to all others that differ in their numbers alone."""
+
+    def __init__(self, text: str, case: Any, numbers: Mapping[str, Number]) -> None:
+        self.text, self.case, self.numbers = text, case, numbers
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Structure) and self.text == other.text
+
+    def __hash__(self) -> int:
+        return hash(self.text)
+
+
+def _without(case: Any, numbers: Mapping[str, Number]) -> str:
+    """The scenario without the numbers, and without what has no influence."""
+    table = tomllib.loads(case.toml)
+    for name in _OF_NO_INFLUENCE:
+        table.pop(name, None)
+    for key in numbers:
+        *above, last = key.split(".")
+        place: Any = table
+        for part in above:
+            place = place[int(part)] if isinstance(place, list) else place.get(part, {})
+        if isinstance(place, list):
+            place[int(last)] = ""
+        else:
+            place.pop(last, None)
+    return tomli_w.dumps(table)
+
+
+def _put(case: Any, numbers: Mapping[str, Number], values: Any) -> Any:
+    for number, value in zip(numbers.values(), values, strict=True):
+        case = number.put(case, value)
+    return case
+
+
+class _Program(NamedTuple):
+    """Compiled functions of all numbers of a case."""
+
+    values: Callable[..., Any]
+    forwards: Callable[..., Any]
+    backwards: Callable[..., Any]
+
+
+@lru_cache(maxsize=64)
+def _program(structure: _Structure, of: tuple[str, ...], fixed: Fixed) -> _Program:
+    import jax
+    import jax.numpy as jnp
+
+    def figures(values: Any) -> Any:
+        at = Evaluation(_put(structure.case, structure.numbers, list(values)), fixed)
+        return jnp.stack([QUANTITIES[name].function(at) for name in of])
+
+    def forwards(values: Any, directions: Any) -> Any:
+        def along(direction: Any) -> Any:
+            return jax.jvp(figures, (values,), (direction,))
+
+        found, slopes = jax.vmap(along, out_axes=(None, 1))(directions)
+        return found, slopes
+
+    def backwards(values: Any) -> Any:
+        found, slopes = jax.value_and_grad(lambda x: figures(x)[0])(values)
+        return found[None], slopes
+
+    return _Program(
+        *(jax.jit(one, compiler_options=_HARDLY_OPTIMISED) for one in (figures, forwards, backwards))
+    )

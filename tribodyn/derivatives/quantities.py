@@ -1,0 +1,281 @@
+"""Figures of a gear pair as functions of its case, whose numbers may be traced: what can be differentiated.
+
+They are quasi-static: of the teeth alone, or of the mesh in slow rotation under the gear's torque, of elastic
+load sharing.
+"""
+
+from collections.abc import Callable
+from functools import cached_property
+from typing import Any, NamedTuple
+
+from tribodyn.errors import InputError, quoted, unknown_name
+from tribodyn.geometry.assembly import Assembly, assemble
+from tribodyn.geometry.drive import Drive
+from tribodyn.geometry.families import family
+from tribodyn.geometry.limits import LIMITS, distances
+from tribodyn.geometry.path import kinematics
+from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.mesh.friction_loss import Engaged, contacts, engaged, friction_loss, mean_efficiency
+from tribodyn.mesh.quasi_static import QuasiStatic, cycle_mean, quasi_static
+from tribodyn.mesh.tabulate import tabulate
+from tribodyn.numerics.elementary import absolute, cos, minimum, namespace
+from tribodyn.tribology.closure import surfaces_of, untried_closure_of
+from tribodyn.tribology.contact import hertz_pressure
+from tribodyn.tribology.surface_state import SurfaceState
+
+
+class Fixed(NamedTuple):
+    """What does not change with the numbers.
+
+    Parameters
+    ----------
+    pairs : int
+        Pairs in contact at most.
+    vanishing : bool
+        Whether radius and rolling speeds are zero at the pitch point.
+    """
+
+    pairs: int
+    vanishing: bool
+
+
+class Evaluation:
+    """A case on the way to its figures; each step is made once, when a figure needs it.
+
+    Parameters
+    ----------
+    case
+        With gears; its numbers may be traced.
+    fixed : Fixed
+    """
+
+    def __init__(self, case: Any, fixed: Fixed) -> None:
+        self.case, self.fixed = case, fixed
+
+    @cached_property
+    def gears(self) -> Assembly:
+        """The pair put together."""
+        return assemble(family(self.case.family), self.case.drive)
+
+    @cached_property
+    def limits(self) -> dict[str, Any]:
+        """Distances from the limits of existence."""
+        return distances(self.gears)
+
+    @cached_property
+    def cycle(self) -> MeshCycle:
+        """Table of the mesh."""
+        return self._table(self.gears)
+
+    @cached_property
+    def state(self) -> QuasiStatic:
+        """Loads and deflection without friction."""
+        return quasi_static(self.cycle, absolute(self.case.operating.gear_torque))
+
+    @cached_property
+    def rubbing_cycle(self) -> MeshCycle:
+        """Table with a segment wherever a pair passes the pitch point: there friction turns."""
+        gears = self.gears
+        if gears.family.corner:
+            return self.cycle
+        return self._table(Assembly(gears.family._replace(corner=True), gears.drive))
+
+    @cached_property
+    def rubbing(self) -> Engaged:
+        """Loads and friction together."""
+        return self._rubbing[0]
+
+    @cached_property
+    def surface(self) -> SurfaceState:
+        """Film, pressure and temperature of all contacts."""
+        return self._rubbing[1].under(self.rubbing.normal_load).surface
+
+    @cached_property
+    def _rubbing(self) -> tuple[Engaged, Any]:
+        operating, cycle = self.case.operating, self.rubbing_cycle
+        closure = untried_closure_of(self.case)
+        seen = contacts(cycle, operating.gear_torque, operating.pinion_speed, closure, self.fixed.vanishing)
+        return engaged(cycle, operating.gear_torque, seen), seen
+
+    def _table(self, gears: Assembly) -> MeshCycle:
+        return tabulate(gears, self.case.materials, self.case.mesh, self.fixed.pairs)
+
+
+class Quantity(NamedTuple):
+    """A figure.
+
+    Parameters
+    ----------
+    about : str
+        What it is.
+    unit : str
+        SI.
+    function : callable
+        Evaluation -> its value.
+    needs : tuple of str
+        What the case must have beside its gears: "mesh", "operating", "friction".
+    at_pitch_point : bool
+        Whether it is a figure of the contact at the pitch point, which must then be a contact.
+    limit : bool
+        Whether it is a distance from a limit of existence, positive where gears exist.
+    """
+
+    about: str
+    unit: str
+    function: Callable[[Evaluation], Any]
+    needs: tuple[str, ...] = ()
+    at_pitch_point: bool = False
+    limit: bool = False
+
+
+def _centre_distance(at: Evaluation) -> Any:
+    return at.gears.path.pinion_pitch_radius + at.gears.path.gear_pitch_radius
+
+
+def _equivalent_radius(at: Evaluation) -> Any:
+    return 1.0 / kinematics(at.gears.path, 0.0).relative_curvature
+
+
+def _hertz_pressure(at: Evaluation) -> Any:
+    path, case = at.gears.path, at.case
+    load = absolute(case.operating.gear_torque) / path.gear_pitch_radius / cos(path.pressure_angle(0.0))
+    width = minimum(case.drive.pinion.face_width, case.drive.gear.face_width)
+    curvature = kinematics(path, 0.0).relative_curvature
+    return hertz_pressure(load / width, curvature, surfaces_of(case).effective_modulus)
+
+
+def _mean_stiffness(at: Evaluation) -> Any:
+    return cycle_mean(at.cycle, at.state.mesh_stiffness)
+
+
+def _swing(values: Any) -> Any:
+    return _maximum(values) + _maximum(-values)
+
+
+def _maximum(values: Any) -> Any:
+    # by its place: where a program computes values twice, none may equal the maximum to the last digit
+    flat = values.ravel()
+    return flat[namespace(flat).argmax(flat)]
+
+
+def _loss_factor(at: Evaluation) -> Any:
+    cycle = at.cycle
+    torque = absolute(at.case.operating.gear_torque) * cycle.pinion_pitch_radius / cycle.gear_pitch_radius
+    return friction_loss(cycle, at.state.normal_load, 1.0) / torque
+
+
+def _efficiency(at: Evaluation) -> Any:
+    load, coefficient = at.rubbing
+    return mean_efficiency(at.rubbing_cycle, at.case.operating.gear_torque, coefficient, load)
+
+
+def _friction_power(at: Evaluation) -> Any:
+    load, coefficient = at.rubbing
+    return friction_loss(at.rubbing_cycle, load, coefficient) * absolute(at.case.operating.pinion_speed)
+
+
+def _largest(name: str, sign: float = 1.0) -> Callable[[Evaluation], Any]:
+    """Maximum, or for sign −1 minimum, of a part of the surface state over the loaded contacts."""
+
+    def function(at: Evaluation) -> Any:
+        load = at.rubbing.normal_load
+        xp = namespace(load)
+        return sign * _maximum(xp.where(load > 0, sign * getattr(at.surface, name), -1e300))
+
+    return function
+
+
+def _film_parameter_min(at: Evaluation) -> Any:
+    return _largest("central_film_thickness", -1.0)(at) / at.case.roughness
+
+
+def _limit(name: str) -> Callable[[Evaluation], Any]:
+    return lambda at: at.limits[name]
+
+
+_LOADED = ("mesh", "operating")
+_RUBBING = ("mesh", "operating", "friction")
+#: Names that they have in the summary of a run, where it holds the same of quasi-static contact.
+ALSO = {
+    "mesh_stiffness_mean": "mean_stiffness",
+    "mesh_stiffness_peak_to_peak": "stiffness_swing",
+    "transmission_error_rotational_peak_to_peak": "transmission_error_swing",
+    "power_friction_mean": "friction_power",
+    "efficiency_elastic": "efficiency",
+}
+QUANTITIES: dict[str, Quantity] = {
+    "contact_ratio": Quantity("transverse contact ratio", "1", lambda at: at.gears.contact_ratio),
+    "centre_distance": Quantity("working centre distance", "m", _centre_distance),
+    "pressure_angle": Quantity(
+        "working pressure angle at the pitch point", "rad", lambda at: at.gears.path.pressure_angle(0.0)
+    ),
+    "equivalent_radius": Quantity(
+        "equivalent radius of curvature at the pitch point", "m", _equivalent_radius, at_pitch_point=True
+    ),
+    "hertz_pressure": Quantity(
+        "maximum Hertz pressure of one pair at the pitch point",
+        "Pa",
+        _hertz_pressure,
+        ("operating",),
+        at_pitch_point=True,
+    ),
+    "mean_stiffness": Quantity("mesh stiffness, mean over a mesh cycle", "N/m", _mean_stiffness, _LOADED),
+    "stiffness_swing": Quantity(
+        "mesh stiffness, peak to peak", "N/m", lambda at: _swing(at.state.mesh_stiffness), _LOADED
+    ),
+    "transmission_error_swing": Quantity(
+        "quasi-static transmission error r_p θ_p − r_g θ_g, peak to peak",
+        "m",
+        lambda at: _swing(at.state.deflection),
+        _LOADED,
+    ),
+    "loss_factor": Quantity(
+        "loss factor H_v: loss over power, per friction coefficient", "1", _loss_factor, _LOADED
+    ),
+    "efficiency": Quantity("quasi-static efficiency, elastic load sharing", "1", _efficiency, _RUBBING),
+    "friction_power": Quantity("quasi-static friction loss", "W", _friction_power, _RUBBING),
+    "normal_load_max": Quantity(
+        "maximum normal load of a pair", "N", lambda at: _maximum(at.rubbing.normal_load), _RUBBING
+    ),
+    "hertz_pressure_max": Quantity(
+        "maximum Hertz pressure over a mesh cycle", "Pa", _largest("hertz_pressure"), _RUBBING
+    ),
+    "film_min": Quantity(
+        "minimum film thickness over a mesh cycle", "m", _largest("central_film_thickness", -1.0), _RUBBING
+    ),
+    "film_parameter_min": Quantity("minimum film parameter λ", "1", _film_parameter_min, _RUBBING),
+    "flash_temperature_max": Quantity(
+        "maximum flash temperature rise", "K", _largest("flash_temperature_rise"), _RUBBING
+    ),
+} | {name: Quantity(one.about, one.unit, _limit(name), limit=True) for name, one in LIMITS.items()}
+
+
+def quantity_of(case: Any, name: str) -> Quantity:
+    """The figure of that name; raises InputError where there is none, or the case lacks what it depends on.
+
+    Whether the gears can be made is not looked at.
+    """
+    name = ALSO.get(name, name)
+    if name not in QUANTITIES:
+        raise unknown_name("of", name, QUANTITIES, "figure that can be differentiated")
+    quantity = QUANTITIES[name]
+    if not isinstance(getattr(case, "drive", None), Drive):
+        raise InputError(
+            "kind", quoted(case.kind), "has no gear pair to differentiate", "use another scenario"
+        )
+    for table in quantity.needs:
+        if not hasattr(case, table):
+            rule = f"{name} depends on [{table}], which a scenario of this kind does not have"
+            raise InputError("kind", quoted(case.kind), rule, "use a scenario that has it")
+    if "mesh" in quantity.needs and case.mesh.at_load:
+        rule = f"{name} cannot be differentiated with compliances by finite elements"
+        remedy = 'use the energy method: overrides={"mesh.compliance": "energy"}'
+        raise InputError("mesh.compliance", quoted(case.mesh.compliance), rule, remedy)
+    if "operating" in quantity.needs and not case.operating.gear_torque:
+        raise InputError("operating.gear_torque", 0, f"{name} is one of loaded teeth", "give a torque")
+    temperature = getattr(case, "temperature", None)
+    if "friction" in quantity.needs and temperature is not None:
+        rule = f"{name} is differentiated at a temperature that does not move"
+        remedy = 'overrides={"temperature.model": "oil"}, and operating.oil_temperature that of the teeth'
+        raise InputError("temperature.model", quoted(temperature.model), rule, remedy)
+    return quantity
