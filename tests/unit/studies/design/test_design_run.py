@@ -1,0 +1,125 @@
+"""Runs of searches: the record, the best file, what is kept and gone on from, what fails clearly."""
+
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import tribodyn as td
+from tribodyn.errors import InputError
+from tribodyn.record.reader import open_record
+from tribodyn.studies.design import archive
+from tribodyn.studies.load import load_scenario
+from tribodyn.studies.run import run
+
+#: A case of it takes milliseconds.
+BASE = {
+    "title": "an efficiency",
+    "kind": "efficiency",
+    "drive": "liu-ni-involute-23-47",
+    "lubricant": "liu-ni-2022",
+    "operating": {"pinion_speed": "10 rad/s", "gear_torque": "500 N*m"},
+    "mesh": {"load_sharing": "uniform"},
+    "friction": {"law": "coulomb", "coefficient": 0.05},
+    "output": {"samples_per_cycle": 8},
+}
+FREE = {"drive.pinion.profile_shift": (-0.2, 0.5), "drive.gear.profile_shift": (-0.2, 0.5)}
+
+
+def search(output: Path, **more: Any) -> td.Design:
+    given: dict[str, Any] = {"free": FREE, "minimise": "loss", "evaluations": 10, **more}
+    return td.design(BASE, output=output, **given)
+
+
+def test_what_a_search_leaves(tmp_path: Path):
+    found = search(tmp_path / "a.h5", subject_to=["contact_ratio >= 1.6"])
+    assert found.status == "complete"
+    assert found.objective < found.objective_start
+    assert set(found.best) == set(FREE)
+    assert found.evaluations == found.data.sizes["evaluation"] <= 10
+    feasible = found.data.feasible == 1
+    assert found.objective == float(found.data.objective.where(feasible).min())
+    # the best file runs as it stands, to the same figure
+    again = td.run(str(tmp_path / "a-best.toml"))
+    assert again.summary["power_friction_mean"] == pytest.approx(found.objective, rel=1e-12)
+    assert again.summary["contact_ratio"] >= 1.6
+    assert (tmp_path / "a-best.dxf").stat().st_size > 1000
+    # what stands in the record is what the scenario gives with those values
+    row = int(found.data.objective.values.argmax())
+    values = {key: float(found.data[f"free_{key.split('.')[1]}_profile_shift"][row]) for key in FREE}
+    assert td.run(BASE, values).summary["power_friction_mean"] == pytest.approx(
+        float(found.data.objective[row]), rel=1e-9
+    )
+
+
+def test_an_interrupted_search_keeps_its_best_and_goes_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    whole = search(tmp_path / "whole.h5")
+
+    class Interrupted(archive.Archive):
+        def ask_all(self, several: Any) -> Any:
+            if len(self.evaluations) > 3:
+                raise KeyboardInterrupt
+            return super().ask_all(several)
+
+    with monkeypatch.context() as patch:
+        patch.setattr("tribodyn.studies.design.run.Archive", Interrupted)
+        with pytest.raises(KeyboardInterrupt) as stopped:
+            search(tmp_path / "stopped.h5")
+    assert any("the best so far" in note for note in stopped.value.__notes__)
+    assert any("--resume goes on" in note for note in stopped.value.__notes__)
+    with open_record(tmp_path / "stopped.partial.h5") as record:
+        assert record.status == "failed"
+        done = record.samples
+        assert 3 < done < whole.evaluations
+        assert record.summary["objective"] == min(record["objective"])
+        best = tomllib.loads((tmp_path / "stopped-best.toml").read_text(encoding="utf-8"))
+        shift = record.summary["best"]["drive.pinion.profile_shift"]
+        assert best["drive"]["pinion"]["profile_shift"] == shift
+    with pytest.raises(InputError, match="unfinished"):
+        search(tmp_path / "stopped.h5")
+    with pytest.raises(InputError, match="another scenario"):
+        search(tmp_path / "stopped.h5", resume=True, seed=5)
+
+    evaluated: list[Any] = []
+
+    class Counted(archive.Pool):
+        def submit(self, several: Any) -> Any:
+            evaluated.append(several)
+            return super().submit(several)
+
+    monkeypatch.setattr("tribodyn.studies.design.run.Pool", Counted)
+    gone_on = search(tmp_path / "stopped.h5", resume=True)
+    assert gone_on.status == "complete"
+    assert gone_on.best == whole.best
+    assert (gone_on.data.objective.values == whole.data.objective.values).all()
+    about = 1 + 2 * len(FREE)  # the start, and each key moved about the best
+    assert len(evaluated) == whole.evaluations - done + about
+
+
+def test_constraints_that_cannot_be_kept_are_named(tmp_path: Path):
+    failed = search(tmp_path / "a.h5", subject_to=["contact_ratio >= 3"], evaluations=5)
+    assert failed.status == "failed"
+    assert failed.message.startswith("no candidate satisfies all constraints; the nearest, ")
+    assert "misses contact_ratio >= 3 by" in failed.message
+    assert not (tmp_path / "a-best.toml").exists()
+
+
+def test_a_start_that_cannot_be_made_is_said_and_left(tmp_path: Path):
+    undercut = {"drive.pinion.profile_shift": -0.9}
+    found = search(tmp_path / "a.h5", overrides=undercut)
+    assert found.status == "complete"
+    assert found.objective_start is None
+    assert "undercut" in found.summary["start_message"]
+
+
+def test_nothing_of_the_users_is_replaced(tmp_path: Path):
+    (tmp_path / "a-best.toml").write_text("mine", encoding="utf-8")
+    with pytest.raises(InputError, match="no search wrote it"):
+        search(tmp_path / "a.h5")
+
+
+def test_only_a_search_can_go_on(tmp_path: Path):
+    case = load_scenario("efficiency-involute-18-36")
+    with pytest.raises(InputError, match="such a run cannot go on"):
+        run(case, tmp_path / "a.h5", resume=True)
