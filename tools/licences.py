@@ -118,7 +118,7 @@ def is_known(name: str) -> bool:
 
 def rows() -> list[Row]:
     """A row for every package of constraints.txt whose licence is known here, see `is_known`."""
-    default, optional = needed(), needed(("xarray", "cluster"))
+    default, optional = needed(), needed(("xarray", "cluster", "design"))
     return [
         Row(
             name,

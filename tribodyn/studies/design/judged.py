@@ -8,6 +8,8 @@ import numpy as np
 
 from tribodyn.studies.design.case import START, Constraint, DesignCase, Objective
 
+#: Share of its limit within which a constraint holds.
+HELD = 1e-6
 #: What a candidate without figures misses its constraints by: more than any other.
 NO_FIGURES = 10.0
 
@@ -45,7 +47,7 @@ class Judged(NamedTuple):
     @property
     def feasible(self) -> bool:
         """Whether it has figures and all constraints hold."""
-        return not self.message and self.violation <= 1e-9
+        return not self.message and self.violation <= HELD
 
 
 class Judge:

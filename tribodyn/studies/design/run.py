@@ -15,7 +15,7 @@ from tribodyn.record.writer import RecordWriter, check_target
 from tribodyn.studies.design.archive import Archive, Evaluation, SpentError
 from tribodyn.studies.design.candidates import cases_of, chosen, share_of, start_of
 from tribodyn.studies.design.case import DesignCase
-from tribodyn.studies.design.judged import Judge
+from tribodyn.studies.design.judged import HELD, Judge
 from tribodyn.studies.design.layout import LOWER, MOVED, UPPER, known_of, layout_of, rows_of, scales_of
 from tribodyn.studies.design.methods import METHODS, method_of
 from tribodyn.studies.design.outcome import check_targets, chosen_best, headline, write_best
@@ -134,7 +134,7 @@ def _why_none(case: DesignCase, archive: Archive) -> str:
     missed = [
         f"{one.text} by {-100 * margin:.3g} %"
         for one, margin in zip(case.constraints, nearest.judged.margins, strict=True)
-        if margin < -1e-9
+        if margin < -HELD
     ]
     values = ", ".join(f"{key} = {value}" for key, value in nearest.values.items())
     return f"no candidate satisfies all constraints; the nearest, {values}, misses {' and '.join(missed)}"

@@ -1,6 +1,7 @@
 """Methods on functions whose minima are known; nothing is evaluated twice."""
 
 from concurrent.futures import Future
+from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
@@ -157,3 +158,31 @@ def test_a_method_that_does_not_fit(design: dict[str, Any], said: str):
     case = loaded_search("load-contact-18-36", {"free": free, "minimise": F, **design}, {}).case
     with pytest.raises(InputError, match=said):
         method_of(case)
+
+
+def test_the_minimum_of_a_bowl_by_cma_es():
+    pytest.importorskip("cma")
+    archive, _ = search(Formulas(**{F: bowl}), method="cma-es", evaluations=300)
+    best = archive.best()
+    assert best is not None
+    np.testing.assert_allclose(values_of(best), [0.3, -0.4], atol=0.05)
+
+
+def test_a_front_by_nsga2():
+    pytest.importorskip("pymoo")
+    formulas = Formulas(
+        **{F: lambda x, y: 1e-3 + x * x + y * y, H: lambda x, y: 1e-3 + (x - 1.0) ** 2 + y * y}
+    )
+    archive, _ = search(formulas, minimise=[F, H], method="nsga2", evaluations=400)
+    objectives = np.array([one.judged.objectives for one in front(archive.evaluations)]) - 1e-3
+    assert len(objectives) > 10
+    np.testing.assert_allclose(np.sqrt(objectives).sum(axis=1), 1.0, atol=0.15)
+
+
+@pytest.mark.parametrize(("method", "package"), [("cma-es", "cma"), ("nsga2", "pymoo")])
+def test_a_package_that_is_not_installed_is_named(method: str, package: str):
+    if find_spec(package):
+        pytest.skip("it is installed")
+    figures = [F, H] if method == "nsga2" else F
+    with pytest.raises(InputError, match=f"the package {package} is not installed"):
+        search(Formulas(**{F: bowl, H: bowl}), method=method, minimise=figures)

@@ -1,6 +1,5 @@
 """Local searches by SciPy, side by side from the best of a Sobol sequence."""
 
-import warnings
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
@@ -15,6 +14,8 @@ from tribodyn.studies.design.methods.views import Scalar
 FIRST_LOOK, LOOK_PER_KEY = 0.3, 10
 #: Relative gain that another search from the best is worth.
 GAIN = 1e-3
+#: Share of its limit that is kept to a constraint: a search that comes from outside ends inside.
+INSIDE = 1e-4
 #: First radius of the trust region, and step of differences, as shares of the ranges.
 RADIUS, STEP = 0.15, 2e-3
 
@@ -107,8 +108,10 @@ def minimise(
     derivatives: dict[str, Any] = {} if name == "cobyqa" else {"jac": gradient}
     constraints: Any = ()
     if margins:
-        slopes: dict[str, Any] = {} if name == "cobyqa" else {"jac": jacobian}
-        constraints = (NonlinearConstraint(constraint, 0.0, np.inf, **slopes),)
+        slopes: dict[str, Any] = {} if name == "cobyqa" else {"jac": jacobian, "hess": _curvature()}
+        constraints = (NonlinearConstraint(constraint, INSIDE, np.inf, **slopes),)
+    if name == "trust-constr":
+        derivatives["hess"] = _curvature()
     options: dict[str, Any] = {
         "cobyqa": {
             "initial_tr_radius": radius,
@@ -122,17 +125,27 @@ def minimise(
             "maxiter": most or search.evaluations,
         },
     }[name]
-    with warnings.catch_warnings():
-        warnings.filterwarnings("ignore", "delta_grad == 0.0", UserWarning)  # of slopes that are constant
-        minimize(
-            function,
-            np.clip(start, 0.0, 1.0),
-            method=name.upper() if name != "trust-constr" else name,
-            bounds=[(0.0, 1.0)] * count,
-            constraints=constraints,
-            options=options,
-            **derivatives,
-        )
+    minimize(
+        function,
+        np.clip(start, 0.0, 1.0),
+        method=name.upper() if name != "trust-constr" else name,
+        bounds=[(0.0, 1.0)] * count,
+        constraints=constraints,
+        options=options,
+        **derivatives,
+    )
+
+
+def _curvature() -> Any:
+    """An approximation of the curvature from slopes, which takes those that do not change without a word."""
+    from scipy.optimize import BFGS
+
+    class Curvature(BFGS):
+        def update(self, delta_x: np.ndarray, delta_grad: np.ndarray) -> None:
+            if np.any(delta_grad):
+                super().update(delta_x, delta_grad)
+
+    return Curvature()
 
 
 def differences(view: Scalar) -> tuple[Callable[[np.ndarray], Any], Callable[[np.ndarray], Any]]:

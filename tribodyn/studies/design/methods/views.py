@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from tribodyn.studies.design.archive import Archive
-from tribodyn.studies.design.judged import NO_FIGURES, Judged
+from tribodyn.studies.design.judged import HELD, NO_FIGURES, Judged
 
 #: Stands for the objective of a candidate without figures, over that of the start.
 POOR = 3.0
@@ -52,7 +52,7 @@ class Scalar:
         missed = -sum(min(0.0, one) for one in self.margins(judged))
         if judged.message:
             return 1e6 + NO_FIGURES
-        return 1e6 + missed if missed > 1e-9 else self.value(judged)
+        return 1e6 + missed if missed > HELD else self.value(judged)
 
     def merits(self, several: Sequence[np.ndarray]) -> np.ndarray:
         """Merits of candidates that are evaluated side by side."""
