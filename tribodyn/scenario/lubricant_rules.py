@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from tribodyn.errors import InputError
 from tribodyn.scenario.model_files import Lubricant
 from tribodyn.tribology.oil import (
+    MAXIMUM_VISCOSITY,
     MINIMUM_VISCOSITY,
     OIL_TYPES,
     TEMPERATURE_RANGE,
@@ -13,6 +14,8 @@ from tribodyn.tribology.oil import (
     kinematic_viscosity,
 )
 
+#: What is taken for an oil: densities at 15 °C, kg/m³, and the kinematic viscosity at 40 °C at most, m²/s.
+DENSITIES, THICKEST = (650.0, 1300.0), 0.1
 _SHEET = ("viscosity_40", "viscosity_100", "density_15")
 #: What the laws read, with an example; the last two follow from the type.
 _DIRECT = {
@@ -80,7 +83,22 @@ def _sheet(lubricant: Lubricant) -> Iterator[InputError]:
             "contradicts viscosity_40 and viscosity_100, from which it follows at operating.oil_temperature",
             "leave it out, or leave out viscosity_40, viscosity_100 and density_15",
         )
+    density = lubricant.density_15
+    if density is not None and not DENSITIES[0] <= density <= DENSITIES[1]:
+        yield InputError(
+            "lubricant.density_15",
+            f"{density:g} kg/m**3",
+            f"oils have {DENSITIES[0]:g} to {DENSITIES[1]:g} kg/m**3",
+            'check the unit: "0.89 g/cm**3"',
+        )
     at_40, at_100 = lubricant.viscosity_40, lubricant.viscosity_100
+    if at_40 is not None and at_40 > THICKEST:
+        yield InputError(
+            "lubricant.viscosity_40",
+            f"{1e6 * at_40:g} mm**2/s",
+            f"more than {1e6 * THICKEST:g} mm**2/s, which is no oil",
+            'check the unit: "220 mm**2/s"',
+        )
     if at_40 is None or at_100 is None:
         return
     if at_100 >= at_40:
@@ -111,11 +129,12 @@ def _temperature(lubricant: Lubricant, temperature: float) -> Iterator[InputErro
         )
     elif lubricant.viscosity_40 and lubricant.viscosity_100:
         viscosity = kinematic_viscosity(lubricant.viscosity_40, lubricant.viscosity_100, temperature)
-        if viscosity < MINIMUM_VISCOSITY:
+        limits = f"{1e6 * MINIMUM_VISCOSITY:g} to {1e6 * MAXIMUM_VISCOSITY:g} mm**2/s"
+        if not MINIMUM_VISCOSITY <= viscosity <= MAXIMUM_VISCOSITY:
+            thin = viscosity < MINIMUM_VISCOSITY
             yield InputError(
                 key,
                 given,
-                f"the oil has {1e6 * viscosity:.2g} mm**2/s there, and ASTM D341 holds from "
-                f"{1e6 * MINIMUM_VISCOSITY:g} mm**2/s on",
-                "write a lower temperature, or take an oil of a higher grade",
+                f"the oil has {1e6 * viscosity:.2g} mm**2/s there, and ASTM D341 holds from {limits}",
+                f"write a {'lower' if thin else 'higher'} temperature, or take another oil",
             )

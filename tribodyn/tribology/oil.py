@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any, Literal, NamedTuple, get_args
 
-from tribodyn.numerics.elementary import exp, log
+from tribodyn.numerics.elementary import exp, log, minimum
 
 OilType = Literal["mineral", "pao", "ester", "pag"]
 OIL_TYPES: tuple[OilType, ...] = get_args(OilType)
@@ -20,8 +20,10 @@ T_40, T_100 = 313.15, 373.15
 #: Temperatures for which values are derived, K: below, wax and viscosity improvers bend the line of D341;
 #: above, oils decompose. Limits of this package; ASTM D341 itself gives none but the viscosity's.
 TEMPERATURE_RANGE = (ZERO_CELSIUS - 40.0, ZERO_CELSIUS + 180.0)
-#: Smallest kinematic viscosity, m²/s, for which the constant 0.7 of ASTM D341 holds.
-MINIMUM_VISCOSITY = 2e-6
+#: Kinematic viscosities, m²/s, for which the constant 0.7 of ASTM D341 holds.
+MINIMUM_VISCOSITY, MAXIMUM_VISCOSITY = 2e-6, 20.0
+#: ln ln(ν + 0.7) at which viscosities are held, far above the last: a power of a power stays a number.
+_HELD = 4.0
 #: Roelands' constants: pressure p_0, Pa, and −ln of the viscosity at its pole, ln of Pa·s.
 ROELANDS_PRESSURE, ROELANDS_POLE = 1.962e8, 9.67
 
@@ -32,7 +34,7 @@ def kinematic_viscosity(viscosity_40: Any, viscosity_100: Any, temperature: Any)
     lg lg(ν + 0.7) = C − B lg T with ν in mm²/s and T in K, through the viscosities at 40 and 100 °C (m²/s).
     """
     level, slope = walther_line(viscosity_40, viscosity_100)
-    return 1e-6 * (exp(exp(level - slope * log(temperature))) - 0.7)
+    return 1e-6 * (exp(exp(minimum(level - slope * log(temperature), _HELD))) - 0.7)
 
 
 def walther_line(viscosity_40: Any, viscosity_100: Any) -> tuple[Any, Any]:
@@ -86,7 +88,7 @@ def roelands_index(pressure_viscosity: Any, viscosity: Any) -> Any:
 def temperature_viscosity_at(viscosity_40: Any, viscosity_100: Any, density_15: Any, temperature: Any) -> Any:
     """K_T = −d ln η/dT at a temperature, 1/K: the slopes of ASTM D341 and of the density."""
     level, slope = walther_line(viscosity_40, viscosity_100)
-    logarithm = exp(level - slope * log(temperature))
+    logarithm = exp(minimum(level - slope * log(temperature), _HELD))
     shifted = exp(logarithm)
     of_kinematic = shifted / (shifted - 0.7) * logarithm * slope / temperature
     return of_kinematic + 0.7 / density_at(density_15, temperature)

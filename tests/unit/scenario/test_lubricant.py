@@ -61,6 +61,8 @@ def test_viscosity_at_the_temperature_of_the_oil():
     [
         ("lubricant.viscosity_100", "250 mm**2/s", "lubricant.viscosity_100", "below viscosity_40", "swap"),
         ("lubricant.viscosity_100", "1 mm**2/s", "lubricant.viscosity_100", "D341 holds from 2", "give"),
+        ("lubricant.density_15", "0.89 kg/m**3", "lubricant.density_15", "oils have 650", "g/cm**3"),
+        ("lubricant.viscosity_40", "220 m**2/s", "lubricant.viscosity_40", "no oil", "mm**2/s"),
         ("lubricant.inlet_viscosity", "0.3 Pa*s", "lubricant.inlet_viscosity", "contradicts", "leave it out"),
         ("operating.oil_temperature", "200 degC", "operating.oil_temperature", "outside -40 to 180", "write"),
         ("operating.oil_temperature", "-60 °C", "operating.oil_temperature", "outside -40 to 180", "write"),
@@ -131,3 +133,10 @@ def test_numbers_of_the_data_sheet_can_be_varied():
     assert warmer.lubricant.inlet_viscosity == pytest.approx(19e-6 * (890 - 0.7 * 84.15))
     thicker = numbers["lubricant.viscosity_40"].put(case, 320e-6)
     assert thicker.lubricant.inlet_viscosity > case.lubricant.inlet_viscosity
+
+
+def test_an_oil_that_would_be_stone_is_refused_and_no_number_overflows():
+    changes = {"lubricant.viscosity_40": "9e4 mm**2/s", "lubricant.viscosity_100": "2 mm**2/s"}
+    with pytest.raises(InputError, match="higher temperature"):
+        scenario(SCENARIO, changes | {"operating.oil_temperature": "-40 degC"})
+    assert scenario(SCENARIO, changes).lubricant.temperature_viscosity > 0.0

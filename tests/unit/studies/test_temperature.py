@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 
+import tribodyn as td
 from tribodyn.errors import InputError
 from tribodyn.interface.scenario import scenario
 from tribodyn.studies.efficiency.run import figures, prepare
@@ -164,3 +165,19 @@ def test_teeth_hotter_than_the_oil_is_known_are_refused():
     with pytest.raises(InputError, match="known up to 180 degC"):
         figures(case(NETWORK | hot))
     assert TEMPERATURE_RANGE[1] == 453.15
+
+
+@pytest.mark.soak
+def test_steady_states_and_runs_settle_at_the_temperature_of_their_own_loss(tmp_path):
+    """Vibration changes the loss: that of the motion gives the temperature at which it was computed."""
+
+    def off(bulk, loss):
+        return bulk - 353.15 - 7400 * (1e-3 * loss / (81.0 * 26.7)) ** 0.72 / 1.2
+
+    vary = {"operating.pinion_speed": "2000:10000:2000rpm"}
+    swept = td.sweep(MOTION, vary, output=tmp_path / "sweep.h5")
+    for bulk, loss in zip(swept["bulk_temperature"].values, swept["power_friction_mean"].values, strict=True):
+        assert abs(off(bulk, loss)) < 0.11
+    fast = {"operating.pinion_speed": "6000 rpm", "solver.cycles": 60}
+    summary = td.run(MOTION, fast, output=tmp_path / "run.h5").summary
+    assert abs(off(summary["bulk_temperature"], summary["power_friction_mean"])) < 0.11
