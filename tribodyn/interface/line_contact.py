@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from tribodyn.interface.words import in_python
+from tribodyn.tribology.ehl.asperities import Roughness
 from tribodyn.tribology.ehl.coupled import solve_coupled
 from tribodyn.tribology.ehl.fluid import Fluid, roelands_index
 from tribodyn.tribology.ehl.heat import Thermal
@@ -27,17 +28,20 @@ class SolvedContact:
 
     Attributes
     ----------
-    x : along the direction of entrainment, m; 0 on the line of centres, the film ends at the last
-    pressure : Pa
-    film_thickness : m
+    x : along the direction of entrainment, m; 0 on the line of centres. The film ends at the last,
+        between rough surfaces before it
+    pressure : of fluid and asperities together, Pa
+    asperity_pressure : mean pressure of the asperities, Pa; 0 between smooth surfaces
+    film_thickness : distance of the mean planes of the surfaces, m
     temperature : mean over the film, K above the inlet's
     surface_temperatures : of surfaces 1 and 2, K above the inlet's; (2, nodes)
     shear_stress : τ_m, mean over the film, Pa
     central_film_thickness : at x = 0, m
     minimum_film_thickness : m
+    asperity_load_ratio : share of the load that the asperities carry
     friction_coefficient
-        ∫ τ_m dx over the load, τ_m the mean shear stress over the film; of the sign of `sliding_speed`: where
-        surface 1 is the faster one, the film holds it back and draws on surface 2.
+        ∫ τ_m + f_c p_a dx over the load, τ_m the mean shear stress over the film; of the sign of
+        `sliding_speed`: where surface 1 is the faster one, the film holds it back and draws on surface 2.
     rolling_coefficient : drag of the pressure flow on each surface over the load, ½ ∫ h dp/dx dx/w
     hertz_pressure, half_width : of the dry contact, Pa, m
     moes_load, moes_material : Moes' M and L, with the sum of the speeds
@@ -46,12 +50,14 @@ class SolvedContact:
 
     x: Array
     pressure: Array
+    asperity_pressure: Array
     film_thickness: Array
     temperature: Array
     surface_temperatures: Array
     shear_stress: Array
     central_film_thickness: float
     minimum_film_thickness: float
+    asperity_load_ratio: float
     friction_coefficient: float
     rolling_coefficient: float
     hertz_pressure: float
@@ -107,6 +113,10 @@ def line_contact(
     viscosity_pressure_index: float | None = None,
     effective_modulus: float,
     compressible: bool = True,
+    roughness: float | None = None,
+    asperity_density: float = 0.05,
+    asperity_slope: float = 0.01,
+    asperity_friction: float = 0.12,
     rheology: str = "newtonian",
     eyring_stress: float = Rheology().eyring_stress,
     limiting_coefficient: float = Rheology().limiting_coefficient,
@@ -121,7 +131,7 @@ def line_contact(
     step: float = STEP,
     start: SolvedContact | None = None,
 ) -> SolvedContact:
-    """Solve a lubricated line contact of smooth surfaces; SI.
+    """Solve a lubricated line contact; SI.
 
     Parameters
     ----------
@@ -144,6 +154,12 @@ def line_contact(
         E', 2/E' = (1 − ν_1²)/E_1 + (1 − ν_2²)/E_2, Pa.
     compressible : bool
         Density by Dowson & Higginson; else constant.
+    roughness : float, optional
+        σ, rms of both surfaces together, m. Default: smooth surfaces.
+    asperity_density, asperity_slope : float
+        σ β n and σ/β of Greenwood & Tripp's asperities: height, radius β and number per area n.
+    asperity_friction : float
+        Friction coefficient f_c of the asperities.
     rheology : {"newtonian", "eyring", "limiting", "carreau"}
         Law of shear; a Newtonian fluid gives no credible friction where α p exceeds ten.
     eyring_stress : float
@@ -183,7 +199,12 @@ def line_contact(
         )
         index = min(max(roelands_index(pressure_viscosity, viscosity), 1e-3), 1.0)
     fluid = Fluid(viscosity, pressure_viscosity, index, compressible)
-    problem = LineContact(line_load, radius, entrainment_speed, fluid, effective_modulus, sliding_speed)
+    rough = None
+    if roughness is not None:
+        rough = Roughness(roughness, asperity_density, asperity_slope, asperity_friction)
+    problem = LineContact(
+        line_load, radius, entrainment_speed, fluid, effective_modulus, sliding_speed, rough
+    )
     shear = Rheology(
         rheology, eyring_stress, limiting_coefficient, limiting_floor, carreau_modulus, carreau_index
     )
@@ -202,12 +223,14 @@ def line_contact(
     return SolvedContact(
         x=solution.place,
         pressure=solution.pressure,
+        asperity_pressure=solution.asperity_pressure,
         film_thickness=solution.film_thickness,
         temperature=solved.temperature,
         surface_temperatures=np.array([heat.surface_1, heat.surface_2] if heat is not None else [cold, cold]),
         shear_stress=solved.shear.stress,
         central_film_thickness=solution.central_film_thickness,
         minimum_film_thickness=solution.minimum_film_thickness,
+        asperity_load_ratio=solution.asperity_load_ratio,
         friction_coefficient=solved.friction / line_load,
         rolling_coefficient=rolling_traction(solution).shear / line_load,
         hertz_pressure=problem.hertz_pressure,

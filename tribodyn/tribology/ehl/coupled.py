@@ -36,7 +36,7 @@ class CoupledSolution(NamedTuple):
     solution : pressures and films, under the closure that shear and heat make
     shear : Shear
     heat : Heat, or None of an isothermal contact
-    friction : ∫ τ_m dx, N/m, of the sign of the sliding speed
+    friction : ∫ τ_m + f_c p_a dx, N/m, of the sign of the sliding speed
     rounds : of shear, heat and pressures
     """
 
@@ -94,7 +94,7 @@ def solve_coupled(
                 if share < _LEAST_SHARE:
                     raise
                 wished = mixing.shorter(share)
-        friction = float(np.trapezoid(shear.stress, solution.place))
+        friction = float(np.trapezoid(shear.stress, solution.place)) + _by_asperities(solution)
         known = (solution.central_film_thickness, friction, float(np.max(warmed)))
         least = (0.0, 1e-3 * problem.line_load, 1e-2)
         if all(abs(a - b) <= TOLERANCE * max(abs(a), c) for a, b, c in zip(known, last, least, strict=True)):
@@ -104,6 +104,17 @@ def solve_coupled(
         f"pressure, shear and heat of the line contact did not converge in {MOST_ROUNDS} rounds (p_H "
         f"{problem.hertz_pressure / 1e9:.3g} GPa, sliding {problem.sliding_speed:.3g} m/s)"
     )
+
+
+def _rubbing(problem: LineContact) -> float:
+    return problem.roughness.friction if problem.roughness is not None else 0.0
+
+
+def _by_asperities(solution: Solution) -> float:
+    """Friction of the asperities, N/m."""
+    problem = solution.problem
+    load = solution.asperity_load_ratio * problem.line_load
+    return math.copysign(_rubbing(problem) * load, problem.sliding_speed) if problem.sliding_speed else 0.0
 
 
 def _packed(closure: Closure, rise: Array) -> Array:
@@ -121,18 +132,22 @@ def _closed(
 ) -> tuple[Shear, Heat | None, Closure]:
     """Shear and heat under given pressures, films and temperatures of the layers."""
     problem, fluid = solution.problem, solution.problem.fluid
-    pressure, film, place = solution.pressure, solution.film_thickness, solution.place
+    pressure, film, place = solution.fluid_pressure, solution.mean_gap, solution.place
     gradient = np.gradient(pressure, place)
     coefficient = surfaces.thermal.temperature_viscosity if surfaces is not None else 0.0
     thickening, by_heat = hot_log_viscosity(pressure[:, None], rise, fluid, coefficient)
     log_eta = math.log(fluid.viscosity) + thickening
     shear = sheared(film, pressure, gradient, log_eta, problem.surface_speeds, rheology)
+    # the film behind its end is broken: it shears, but in shreds
+    shear.stress[solution.grid.end + 1 :] = 0.0
+    shear.heat[solution.grid.end + 1 :] = 0.0
     if surfaces is not None:
         flow = relative_density(pressure, fluid)[0][:, None] * shear.velocity * film[:, None] / LAYERS
         through = solution.flow_film_thickness * problem.entrainment_speed
         flow = flow + (through - np.sum(flow, axis=1, keepdims=True)) / LAYERS
         feedback = -by_heat * shear.response[:, None] * shear.heat
-        heat = heated(surfaces, film, flow, shear.heat, feedback, rise, heat)
+        rubbed = _rubbing(problem) * abs(problem.sliding_speed) / LAYERS * solution.asperity_pressure
+        heat = heated(surfaces, film, flow, shear.heat + rubbed[:, None], feedback, rise, heat)
     cold = log_viscosity(pressure, fluid)[0]
     effective = -np.log(shear.fluidity * fluid.viscosity)
     return shear, heat, Closure(effective - shear.response * cold, shear.response, shear.drift)

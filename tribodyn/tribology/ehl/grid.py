@@ -1,5 +1,6 @@
 """Nodes along the film: refined at the inlet and the outlet of the contact, wide where nothing happens."""
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,11 +14,12 @@ FLOODED = 60.0
 
 
 class Grid(NamedTuple):
-    """Nodes and what depends on them alone; `nodes` of them, `nodes − 1` faces between.
+    """Nodes and what depends on them alone; faces are those between the nodes of the film.
 
     Attributes
     ----------
-    node : places ξ relative to the end of the film, in half widths b; the last is 0
+    node : places ξ relative to the end of the film, in half widths b
+    end : number of the node where the film ends, ξ = 0: the last one between smooth surfaces
     step : distances between nodes
     weight : of the pressures at the nodes in ∫ P dξ
     upwind : (3, faces) weights of the nodes i − 1, i, i + 1 in the value at face i + ½, third order, upwind
@@ -26,6 +28,7 @@ class Grid(NamedTuple):
     """
 
     node: Array
+    end: int
     step: Array
     weight: Array
     upwind: Array
@@ -41,23 +44,33 @@ def film_width(film: float) -> float:
     return max((1.06 * film) ** (2.0 / 3.0), np.sqrt(2.0 * film) if film > 1.0 else 0.0)
 
 
-def placed(film: float, step: float) -> Array:
+def placed(film: float, step: float, beyond: float = 0.0) -> Array:
     """Places of the nodes for a central film in b²/R; `step` is the step over the distance from both ends.
 
     The density of nodes is Σ 1/√(δ² + (ξ − ξ_k)²)/step about the end of the film, ξ = 0, and the inlet two
     half widths before it, δ = `film_width`. The film begins 60 δ before the contact: where it is `FLOODED`.
+    Nodes go on for `beyond` behind the film.
     """
     width = film_width(film)
     extent = 3.0 + FLOODED * width
+
+    def number(place: Array) -> Array:
+        return (np.arcsinh(place / width) + np.arcsinh((place + 2.0) / width)) / step
+
     near = np.geomspace(1e-3 * min(width, 1.0), 1.0, 400)
     fine = np.concatenate([-2.0 - near[::-1], [-2.0], -2.0 + near, -near[-2::-1], [0.0]])
-    beyond = np.geomspace(3.0, extent, 400)[1:] * -1.0
-    fine = np.concatenate([beyond[::-1], fine])
-    number = (np.arcsinh(fine / width) + np.arcsinh((fine + 2.0) / width)) / step
-    count = int(np.ceil(number[-1] - number[0]))
-    node = np.interp(np.linspace(number[0], number[-1], count + 1), number, fine)
+    far = np.geomspace(3.0, extent, 400)[1:] * -1.0
+    node = _spaced(np.concatenate([far[::-1], fine]), number)
     node[-1] = 0.0
-    return node
+    if beyond == 0.0:
+        return node
+    return np.concatenate([node, _spaced(np.concatenate([[0.0], near * beyond]), number)[1:]])
+
+
+def _spaced(fine: Array, number: Callable[[Array], Array]) -> Array:
+    """Places from the first to the last of `fine` at which `number` has gone on by equal parts, 1 at most."""
+    known = number(fine)
+    return np.interp(np.linspace(known[0], known[-1], int(np.ceil(known[-1] - known[0])) + 1), known, fine)
 
 
 def made(node: Array) -> Grid:
@@ -65,10 +78,11 @@ def made(node: Array) -> Grid:
     step = np.diff(node)
     weight = 0.5 * (np.concatenate([step, [0.0]]) + np.concatenate([[0.0], step]))
     deformation = influence(node, node) / -np.pi
-    upwind = _upwind(node)
-    face = upwind[1][:, None] * deformation[:-1] + upwind[2][:, None] * deformation[1:]
-    face[1:] += upwind[0][1:, None] * deformation[:-2]
-    return Grid(node, step, weight, upwind, deformation, face)
+    end = int(np.argmin(np.abs(node)))
+    upwind, filled = _upwind(node[: end + 1]), deformation[: end + 1]
+    face = upwind[1][:, None] * filled[:-1] + upwind[2][:, None] * filled[1:]
+    face[1:] += upwind[0][1:, None] * filled[:-2]
+    return Grid(node, end, step, weight, upwind, deformation, face)
 
 
 def _upwind(node: Array) -> Array:

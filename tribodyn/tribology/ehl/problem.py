@@ -6,6 +6,8 @@ from typing import NamedTuple
 from tribodyn.errors import InputError
 from tribodyn.tribology.contact import hertz_half_width
 from tribodyn.tribology.contact import hertz_pressure as maximum_hertz_pressure
+from tribodyn.tribology.ehl import asperities
+from tribodyn.tribology.ehl.asperities import Roughness
 from tribodyn.tribology.ehl.fluid import Fluid
 
 
@@ -20,6 +22,7 @@ class LineContact(NamedTuple):
     fluid : Fluid
     effective_modulus : E', 2/E' = (1 − ν_1²)/E_1 + (1 − ν_2²)/E_2, Pa
     sliding_speed : u_1 − u_2, m/s, any sign
+    roughness : Roughness, or None of smooth surfaces
     """
 
     line_load: float
@@ -28,6 +31,7 @@ class LineContact(NamedTuple):
     fluid: Fluid
     effective_modulus: float
     sliding_speed: float = 0.0
+    roughness: Roughness | None = None
 
     @property
     def half_width(self) -> float:
@@ -96,6 +100,8 @@ def check(problem: LineContact) -> None:
         if name in _POSITIVE and value <= 0.0:
             unit, remedy = _POSITIVE[name]
             raise InputError(name, f"{value} {unit}".strip(), "must be positive", remedy)
+    if problem.roughness is not None:
+        asperities.check(problem.roughness)
     if problem.fluid.pressure_viscosity < 0.0:
         raise InputError(
             "pressure_viscosity", f"{problem.fluid.pressure_viscosity} 1/Pa", "must not be negative"

@@ -12,7 +12,7 @@ with it, so that D never changes and the equations stay smooth. Behind it the fi
 the share Q/(ρ0 H) of the gap: mass is conserved there as well.
 """
 
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -21,6 +21,9 @@ from tribodyn.tribology.ehl.fluid import Fluid, log_viscosity, relative_density
 from tribodyn.tribology.ehl.grid import Grid, at_faces
 
 Array = Any
+
+#: Share of a pressure and of the flow that a step of Newton's method leaves, and how far the end may move.
+KEPT_PRESSURE, KEPT_FLOW, LONGEST_WAY = 0.2, 0.3, 0.3
 
 
 class Reduced(NamedTuple):
@@ -41,12 +44,16 @@ class Reduced(NamedTuple):
 
 
 class State(NamedTuple):
-    """Unknowns: pressures at the nodes (zero at both ends), rigid film H_0, flow Q, end of the film X_e."""
+    """Unknowns: pressures at the nodes (zero at both ends), rigid film H_0, flow Q, end of the film X_e.
+
+    Between rough surfaces the pressures are the fluid's, and the films H at the nodes are unknowns too.
+    """
 
     pressure: Array
     rigid_film: float
     flow: float
     end: float
+    film: Array = None
 
 
 class Closure(NamedTuple):
@@ -71,7 +78,14 @@ def newtonian(grid: Grid) -> Closure:
     return Closure(zero, zero + 1.0, zero)
 
 
-def film(state: State, reduced: Reduced, grid: Grid) -> Array:
+class Elastic(Protocol):
+    """What says how stiff the surfaces are."""
+
+    @property
+    def compliance(self) -> float: ...  # noqa: D102
+
+
+def film(state: State, reduced: Elastic, grid: Grid) -> Array:
     """Film H at the nodes."""
     place = state.end + grid.node
     bent = grid.deformation[:, 1:-1] @ state.pressure[1:-1]
@@ -143,3 +157,16 @@ def residual(state: State, reduced: Reduced, grid: Grid, closure: Closure) -> tu
     matrix[size + 1, : size - 1] = -reduced.compliance * grid.deformation[-1, 1:-1]
     matrix[size + 1, size - 1 :] = (-1.0, 1.0, -state.end)
     return values, matrix
+
+
+def moved(state: State, change: Array) -> State:
+    """Take a step of Newton's method, held where it would leave the meaning of an unknown."""
+    pressure = state.pressure.copy()
+    pressure[1:-1] = np.maximum(pressure[1:-1] + change[:-3], KEPT_PRESSURE * pressure[1:-1])
+    rigid_film, flow, end = (float(one) for one in change[-3:])
+    return State(
+        pressure,
+        state.rigid_film + rigid_film,
+        max(state.flow + flow, KEPT_FLOW * state.flow),
+        state.end + min(max(end, -LONGEST_WAY), LONGEST_WAY),
+    )

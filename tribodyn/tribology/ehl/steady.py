@@ -7,9 +7,17 @@ import numpy as np
 
 from tribodyn.errors import SimulationError
 from tribodyn.tribology.ehl.elasticity import HERTZ_LOAD
-from tribodyn.tribology.ehl.grid import Grid, made, placed
+from tribodyn.tribology.ehl.grid import Grid, film_width, made, placed
 from tribodyn.tribology.ehl.problem import LineContact, check
-from tribodyn.tribology.ehl.reynolds import Closure, Reduced, State, film, newtonian, residual
+from tribodyn.tribology.ehl.reynolds import Closure, Reduced, State, film, moved, newtonian, residual
+from tribodyn.tribology.ehl.rough import (
+    RoughReduced,
+    asperities,
+    gap,
+    rough_moved,
+    rough_residual,
+    with_films,
+)
 from tribodyn.tribology.ehl.start import first_state, survey_film
 
 Array = Any
@@ -22,8 +30,6 @@ TOLERANCE = 1e-10
 MOST_STEPS = 40
 #: Shortest step of a continuation, over the whole pressure-viscosity coefficient.
 _SHORTEST_WAY = 1.0 / 64.0
-#: Share of a pressure, and of the flow, that a step leaves at least, and how far it moves the film's end.
-_KEPT_PRESSURE, _KEPT_FLOW, _LONGEST_WAY = 0.2, 0.3, 0.3
 
 
 class Solution(NamedTuple):
@@ -42,7 +48,7 @@ class Solution(NamedTuple):
     """
 
     problem: LineContact
-    reduced: Reduced
+    reduced: Reduced | RoughReduced
     grid: Grid
     state: State
     film: Array
@@ -57,8 +63,36 @@ class Solution(NamedTuple):
 
     @property
     def pressure(self) -> Array:
-        """Pa."""
+        """Of fluid and asperities together, Pa."""
+        return self.fluid_pressure + self.asperity_pressure
+
+    @property
+    def asperity_pressure(self) -> Array:
+        """Mean pressure of the asperities, Pa; 0 between smooth surfaces."""
+        if not isinstance(self.reduced, RoughReduced):
+            return np.zeros_like(self.film)
+        return asperities(self.film, self.reduced)[0] * self.problem.hertz_pressure
+
+    @property
+    def fluid_pressure(self) -> Array:
+        """Pa; 0 behind the film."""
         return self.state.pressure * self.problem.hertz_pressure
+
+    @property
+    def mean_gap(self) -> Array:
+        """Mean distance of the surfaces, m: the film thickness of smooth ones, never zero between rough ones."""
+        if not isinstance(self.reduced, RoughReduced):
+            return self.film_thickness
+        return gap(self.film, self.reduced)[0] * self.problem.film_unit
+
+    @property
+    def asperity_load_ratio(self) -> float:
+        """Share of the load that the asperities carry."""
+        return (
+            float(self.grid.weight @ self.asperity_pressure)
+            / self.problem.line_load
+            * self.problem.half_width
+        )
 
     @property
     def film_thickness(self) -> Array:
@@ -81,14 +115,26 @@ class Solution(NamedTuple):
         return self.state.flow * self.problem.film_unit
 
 
-def reduced_problem(problem: LineContact) -> Reduced:
+def reduced_problem(problem: LineContact) -> Reduced | RoughReduced:
     """Return the contact in Hertz's units."""
-    return Reduced(problem.speed_number, problem.hertz_pressure, problem.fluid)
+    numbers = problem.speed_number, problem.hertz_pressure, problem.fluid
+    if problem.roughness is None:
+        return Reduced(*numbers)
+    return RoughReduced(*numbers, problem.roughness, problem.effective_modulus, problem.film_unit)
+
+
+def expected_film(problem: LineContact) -> float:
+    """Central film in b²/R by Moes' survey formula, and σ with it where the surfaces are rough."""
+    height = problem.roughness.height if problem.roughness is not None else 0.0
+    return survey_film(problem.moes_load, problem.moes_material) + height / problem.film_unit
 
 
 def grid_of(problem: LineContact, step: float = STEP) -> Grid:
-    """Return the grid that suits the film expected of a contact."""
-    return made(placed(survey_film(problem.moes_load, problem.moes_material), step))
+    """Return the grid that suits the film expected of a contact; behind it as far as asperities may touch."""
+    beyond = 0.0
+    if problem.roughness is not None:
+        beyond = 1.5 + 2.0 * film_width(4.0 * problem.roughness.height / problem.film_unit)
+    return made(placed(expected_film(problem), step, beyond))
 
 
 def solve_steady(
@@ -124,12 +170,16 @@ def solve_steady(
         closure = start.closure if closure is None else closure
     else:
         grid = grid_of(problem, step)
-        state = first_state(reduced, grid, survey_film(problem.moes_load, problem.moes_material))
+        state = first_state(reduced, grid, expected_film(problem))
+        if isinstance(reduced, RoughReduced):
+            state = with_films(state, reduced, grid)
     closure = newtonian(grid) if closure is None else closure
     first = state
     state, steps, imbalance = converged(first, reduced, grid, closure)
     if not imbalance <= TOLERANCE and start is None:
-        state, more, imbalance = _continued(first, reduced, grid, closure)
+        state, more, imbalance = (_stiffened if isinstance(reduced, RoughReduced) else _continued)(
+            first, reduced, grid, closure
+        )
         steps += more
     if not imbalance <= TOLERANCE:
         raise SimulationError(
@@ -137,15 +187,18 @@ def solve_steady(
             f"L {problem.moes_material:.3g}, p_H {problem.hertz_pressure / 1e9:.3g} GPa; imbalance "
             f"{imbalance:.1e}); start from the solution of a similar contact"
         )
-    return Solution(problem, reduced, grid, state, film(state, reduced, grid), closure, steps, imbalance)
+    films = film(state, reduced, grid) if state.film is None else state.film
+    return Solution(problem, reduced, grid, state, films, closure, steps, imbalance)
 
 
-def converged(state: State, reduced: Reduced, grid: Grid, closure: Closure) -> tuple[State, int, float]:
+def converged(
+    state: State, reduced: Reduced | RoughReduced, grid: Grid, closure: Closure
+) -> tuple[State, int, float]:
     """Take steps of Newton's method; returns the state, the number of steps, the imbalance (NaN: failed)."""
     imbalance = math.inf
     for number in range(MOST_STEPS + 1):
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            values, matrix = residual(state, reduced, grid, closure)
+            values, matrix = _residual(state, reduced, grid, closure)
         imbalance = _imbalance(values, state)
         if imbalance <= TOLERANCE or not math.isfinite(imbalance) or number == MOST_STEPS:
             return state, number, imbalance
@@ -153,11 +206,33 @@ def converged(state: State, reduced: Reduced, grid: Grid, closure: Closure) -> t
             change = np.linalg.solve(matrix, -values)
         except np.linalg.LinAlgError:
             return state, number, math.nan
-        state = _moved(state, change)
+        state = _moved(state, change, grid, reduced)
     return state, MOST_STEPS, imbalance
 
 
-def _continued(state: State, reduced: Reduced, grid: Grid, closure: Closure) -> tuple[State, int, float]:
+def _stiffened(state: State, reduced: RoughReduced, grid: Grid, closure: Closure) -> tuple[State, int, float]:
+    """Raise the density of the asperities from nearly none, by factors that Newton's method takes."""
+    whole = reduced.roughness
+    share, factor, total, imbalance = 1e-3, 10.0, 0, math.nan
+    found = state
+    done = 0.0
+    while factor > 1.02 and done < 1.0:
+        part = reduced._replace(roughness=whole._replace(density=share * whole.density))
+        found, steps, imbalance = converged(state, part, grid, closure)
+        total += steps
+        if imbalance <= TOLERANCE:
+            state, done, factor = found, share, factor**1.5
+        elif done == 0.0:
+            break
+        else:
+            factor **= 0.4
+        share = min(done * factor, 1.0)
+    return state, total, imbalance if done >= 1.0 else math.nan
+
+
+def _continued(
+    state: State, reduced: Reduced | RoughReduced, grid: Grid, closure: Closure
+) -> tuple[State, int, float]:
     """Raise the pressure-viscosity coefficient from a part of it, in steps that Newton's method takes."""
     whole = reduced.fluid.pressure_viscosity
     done, way, total, imbalance = 0.0, 0.5, 0, math.nan
@@ -173,21 +248,22 @@ def _continued(state: State, reduced: Reduced, grid: Grid, closure: Closure) -> 
     return state, total, imbalance if done >= 1.0 else math.nan
 
 
+def _residual(
+    state: State, reduced: Reduced | RoughReduced, grid: Grid, closure: Closure
+) -> tuple[Array, Array]:
+    if isinstance(reduced, RoughReduced):
+        return rough_residual(state, reduced, grid, closure)
+    return residual(state, reduced, grid, closure)
+
+
+def _moved(state: State, change: Array, grid: Grid, reduced: Reduced | RoughReduced) -> State:
+    if isinstance(reduced, RoughReduced):
+        return rough_moved(state, change, grid, reduced)
+    return moved(state, change)
+
+
 def _imbalance(values: Array, state: State) -> float:
     return float(max(np.max(np.abs(values[:-2])) / state.flow, abs(values[-2]) / HERTZ_LOAD))
-
-
-def _moved(state: State, change: Array) -> State:
-    """Take a step of Newton's method, held where it would leave the meaning of an unknown."""
-    pressure = state.pressure.copy()
-    pressure[1:-1] = np.maximum(pressure[1:-1] + change[:-3], _KEPT_PRESSURE * pressure[1:-1])
-    rigid_film, flow, end = (float(one) for one in change[-3:])
-    return State(
-        pressure,
-        state.rigid_film + rigid_film,
-        max(state.flow + flow, _KEPT_FLOW * state.flow),
-        state.end + min(max(end, -_LONGEST_WAY), _LONGEST_WAY),
-    )
 
 
 def _parabola(place: Array, value: Array, at: int) -> tuple[float, float]:

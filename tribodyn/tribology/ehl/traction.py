@@ -34,6 +34,6 @@ def rolling_traction(solution: Solution) -> RollingTraction:
     The elastic part of the slope does not count in F_n,x: the influence of a half space is symmetric, so that
     ∫ p dh/dx dx = ∫ p x/R dx.
     """
-    pressure, thick, place = solution.pressure, solution.film_thickness, solution.place
+    pressure, thick, place = solution.fluid_pressure, solution.mean_gap, solution.place
     shear = 0.25 * float(np.sum((thick[1:] + thick[:-1]) * np.diff(pressure)))
     return RollingTraction(shear, float(np.trapezoid(pressure * place, place)) / solution.problem.radius)
