@@ -9,6 +9,7 @@ from tribodyn.tribology.ehl.elasticity import HERTZ_LOAD, hertz_gap
 from tribodyn.tribology.ehl.fluid import Fluid, log_viscosity
 from tribodyn.tribology.ehl.grid import Grid
 from tribodyn.tribology.ehl.reynolds import Reduced, State, film
+from tribodyn.tribology.ehl.rough import RoughReduced
 from tribodyn.tribology.film.moes import log_survey
 
 Array = Any
@@ -25,14 +26,14 @@ def survey_film(load: float, material: float) -> float:
     return math.exp(log_survey(math.log(load), math.log(max(material, 1e-9)))) * math.pi / (8.0 * load)
 
 
-def first_state(reduced: Reduced, grid: Grid, central: float) -> State:
+def first_state(reduced: Reduced | RoughReduced, grid: Grid, central: float) -> State:
     """Return pressures, films and end of the film near the solution, for a central film from the survey."""
     if central < THIN:
         return _elastic(reduced, grid, central)
     return _rigid(reduced, grid, central)
 
 
-def _elastic(reduced: Reduced, grid: Grid, central: float) -> State:
+def _elastic(reduced: Reduced | RoughReduced, grid: Grid, central: float) -> State:
     width = (1.06 * central) ** (2.0 / 3.0)
     end = 1.0 + 0.5 * width
     place = end + grid.node
@@ -43,7 +44,7 @@ def _elastic(reduced: Reduced, grid: Grid, central: float) -> State:
     return _loaded(reduced, grid, pressure, end, central, central)
 
 
-def _rigid(reduced: Reduced, grid: Grid, central: float) -> State:
+def _rigid(reduced: Reduced | RoughReduced, grid: Grid, central: float) -> State:
     least = central / MARTIN_CENTRAL
     end = MARTIN_END * math.sqrt(2.0 * least)
     place = end + grid.node
@@ -51,7 +52,9 @@ def _rigid(reduced: Reduced, grid: Grid, central: float) -> State:
     return _loaded(reduced, grid, pressure, end, central, least)
 
 
-def _drawn_in(reduced: Reduced, grid: Grid, central: float, thick: Array, most: float) -> Array:
+def _drawn_in(
+    reduced: Reduced | RoughReduced, grid: Grid, central: float, thick: Array, most: float
+) -> Array:
     """Pressures of an incompressible fluid drawn into a given gap, up to a share of the reduced pressure."""
     thick = np.maximum(thick, 0.1 * central)
     rise = reduced.speed * (thick - central) / thick**3
@@ -68,7 +71,9 @@ def _reduced_pressure(scale: float, fluid: Fluid) -> tuple[Array, Array]:
     return known, np.concatenate([[0.0], np.cumsum(steps)])
 
 
-def _loaded(reduced: Reduced, grid: Grid, pressure: Array, end: float, flow: float, middle: float) -> State:
+def _loaded(
+    reduced: Reduced | RoughReduced, grid: Grid, pressure: Array, end: float, flow: float, middle: float
+) -> State:
     """Give pressures the contact's load, and the rigid film that leaves `middle` at X = 0."""
     pressure[0] = pressure[-1] = 0.0
     pressure = pressure * (HERTZ_LOAD / (grid.weight @ pressure))

@@ -80,7 +80,7 @@ class Solution(NamedTuple):
 
     @property
     def mean_gap(self) -> Array:
-        """Mean distance of the surfaces, m: the film thickness of smooth ones, never zero between rough ones."""
+        """Mean distance of the surfaces, m: the film of smooth ones, never zero between rough ones."""
         if not isinstance(self.reduced, RoughReduced):
             return self.film_thickness
         return gap(self.film, self.reduced)[0] * self.problem.film_unit
@@ -177,9 +177,10 @@ def solve_steady(
     first = state
     state, steps, imbalance = converged(first, reduced, grid, closure)
     if not imbalance <= TOLERANCE and start is None:
-        state, more, imbalance = (_stiffened if isinstance(reduced, RoughReduced) else _continued)(
-            first, reduced, grid, closure
-        )
+        if isinstance(reduced, RoughReduced):
+            state, more, imbalance = _stiffened(first, reduced, grid, closure)
+        else:
+            state, more, imbalance = _continued(first, reduced, grid, closure)
         steps += more
     if not imbalance <= TOLERANCE:
         raise SimulationError(
