@@ -92,6 +92,8 @@ def _of_drive(case: Any) -> Iterator[tuple[str, Number]]:
     yield "drive.module", Number(drive.module, "", on_drive("module"))
     if teeth.pressure_angle:
         yield "drive.pressure_angle", Number(drive.pressure_angle, "", on_drive("pressure_angle"))
+    if drive.centre_distance is not None:
+        yield "drive.centre_distance", Number(drive.centre_distance, "", on_drive("centre_distance"))
     for one in teeth.parameters:
         value = getattr(drive.shape, one.name, None)
         if one.kind == "path" or one.fixed or value is None:
@@ -149,7 +151,11 @@ def _on_materials(places: tuple[int, ...], name: str) -> Callable[[Any, Any], An
 
 
 def _of_roughness(case: Any, table: dict[str, Any]) -> Iterator[tuple[str, Number]]:
-    given = table["drive"].get("mean_roughness") is not None
+    drive = table["drive"]
+    if drive.get("roughness") is None:
+        yield from _of_mean_roughness(case, drive)
+        return
+    given = drive.get("mean_roughness") is not None
     share = case.mean_roughness / case.roughness
 
     def put(case: Any, value: Any) -> Any:
@@ -160,6 +166,18 @@ def _of_roughness(case: Any, table: dict[str, Any]) -> Iterator[tuple[str, Numbe
     if given:
         on_mean = _on("mean_roughness")
         yield "drive.mean_roughness", Number(case.mean_roughness, "", on_mean)
+
+
+def _of_mean_roughness(case: Any, drive: dict[str, Any]) -> Iterator[tuple[str, Number]]:
+    """Ra of both flanks where the composite roughness follows from it; none where each gear has its own."""
+    if any(drive[side].get("mean_roughness") is not None for side in SIDES):
+        return
+    share = case.roughness / case.mean_roughness
+
+    def put(case: Any, value: Any) -> Any:
+        return replace(case, mean_roughness=value, roughness=share * value)
+
+    yield "drive.mean_roughness", Number(case.mean_roughness, "", put)
 
 
 def _on(name: str, within: str = "") -> Callable[[Any, Any], Any]:

@@ -22,8 +22,8 @@ def gear_polygon(assembly: Assembly, side: Side, flank_points: int = 40) -> Floa
 
     The frame is the body's own: origin on its axis, x and y parallel to the drive's frame (`path`) while a
     pair touches at the pitch point. At a pinion angle φ the pinion's polygon is turned clockwise by φ and
-    carried to (0, −r_p), the gear's counter-clockwise by φ r_p/r_g and carried to (0, r_g). The teeth have
-    no backlash. The number of teeth must be a plain number.
+    carried to (0, −r_p), the gear's counter-clockwise by φ r_p/r_g and carried to (0, r_g).
+    The number of teeth must be a plain number.
     """
     tooth, teeth = assembly.tooth(side), body_of(assembly.drive, side).teeth
     shape = tooth_outline(tooth, flank_points, max(flank_points // 2, 8))
