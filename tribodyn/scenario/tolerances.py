@@ -63,12 +63,6 @@ def grade_of(drive: DriveTable, gear: Gear) -> int | None:
     return drive.quality if gear.quality is None else gear.quality
 
 
-def coarser_grade(drive: DriveTable) -> int | None:
-    """Return the coarser class of both gears; None where neither has one."""
-    grades = [grade for gear in (drive.pinion, drive.gear) if (grade := grade_of(drive, gear)) is not None]
-    return max(grades, default=None)
-
-
 def _tolerances(drive: DriveTable, gear: Gear) -> Tolerances | None:
     grade = grade_of(drive, gear)
     if grade is None:

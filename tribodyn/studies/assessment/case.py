@@ -6,6 +6,7 @@ from typing import Any
 
 from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.material import BodyMass, MaterialData
+from tribodyn.studies.by_standard import Quality
 from tribodyn.studies.study import CaseHead
 from tribodyn.tribology.lubricant import LubricantData
 
@@ -58,8 +59,8 @@ class AssessmentCase(CaseHead):
         With its data sheet.
     pinion_speed, gear_torque, oil_temperature : float
         The duty: rad/s, N m, K.
-    quality : float
-        Grade by ISO 1328-1 of both gears.
+    quality : Quality
+        Deviations of the gears by ISO 1328-1.
     settings : Settings
     limits : mapping
         Name of a limit -> its value, SI units.
@@ -74,6 +75,6 @@ class AssessmentCase(CaseHead):
     pinion_speed: float
     gear_torque: float
     oil_temperature: float
-    quality: float
+    quality: Quality
     settings: Settings
     limits: Mapping[str, Any]

@@ -116,7 +116,7 @@ def _asked(case: AssessmentCase) -> str:
         f"{case.family} {drive.pinion.teeth:.0f}/{drive.gear.teeth:.0f}, module {drive.module * 1e3:.4g} mm, "
         f"x {drive.pinion.profile_shift:g}/{drive.gear.profile_shift:g}{centre}, "
         f"b {drive.pinion.face_width * 1e3:.4g}/{drive.gear.face_width * 1e3:.4g} mm, "
-        f"grade {case.quality:g}, Ra {case.mean_roughness * 1e6:.3g} µm"
+        f"grade {case.quality.grade:g}, Ra {case.mean_roughness * 1e6:.3g} µm"
     )
     torque = case.gear_torque / ratio
     duty = (

@@ -9,6 +9,7 @@ from tribodyn.scenario.duty import broken_duty_rules, duty_of
 from tribodyn.scenario.lubricant_rules import broken_lubricant_rules
 from tribodyn.scenario.modification_rules import Face, broken_slice_rules
 from tribodyn.scenario.quality import broken_sample_rules
+from tribodyn.scenario.tolerances import tolerances_of
 from tribodyn.studies.assessment.scenario import Scenario
 from tribodyn.tribology.friction import FRICTION_LAWS
 
@@ -19,6 +20,12 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     yield from broken_drive_rules(drive)
     yield from broken_slice_rules(Face(drive, mesh.misalignment, mesh.slices, True))
     yield from broken_sample_rules(drive, None, mesh.misalignment)
+    if None in tolerances_of(drive):
+        yield InputError(
+            "drive.quality",
+            rule="missing: the standards reckon with the deviations of a tolerance class by ISO 1328-1",
+            remedy="add quality = 6 to [drive]",
+        )
     if scenario.lubricant.viscosity_40 is None:
         yield InputError(
             "lubricant.viscosity_40",

@@ -39,7 +39,7 @@ def assumed(case: AssessmentCase, by_standard: bool) -> list[str]:
     said.append("The simulation has accurate teeth but for modifications and misalignment of the scenario.")
     if by_standard:
         said.append(
-            f"The standards: deviations of grade {case.quality:g} by ISO 1328-1, K_v and K_Hα by method B, "
+            f"Standards: deviations of class {case.quality.grade:g} by ISO 1328-1, K_v and K_Hα by method B, "
             "flanks without credited tip relief, case-hardened running-in, new oil."
         )
     else:

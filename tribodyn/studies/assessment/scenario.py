@@ -1,6 +1,6 @@
 """The tables of a scenario of ``kind = "assessment"``."""
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, cast
 
 from pydantic import Field
 
@@ -20,13 +20,11 @@ from tribodyn.scenario.quantity import (
     model_file,
     written,
 )
-from tribodyn.scenario.tolerances import coarser_grade
+from tribodyn.scenario.tolerances import grade_of, tolerances_of
 from tribodyn.studies.assessment.case import AssessmentCase, Settings
+from tribodyn.studies.by_standard import Quality, quality_of
 
-#: Grade where neither the drive nor the scenario says one.
-USUAL_GRADE = 6
 Speeds = Annotated[int, Field(strict=True, ge=8)]
-Grade = Annotated[int, Field(strict=True, ge=1, le=11)]
 Pressure = Annotated[float, Quantity(units.positive(units.PRESSURE), "1.5 GPa")]
 Length = Annotated[float, Quantity(units.positive(units.LENGTH), "5 um")]
 
@@ -99,9 +97,6 @@ class AssessmentScenario(ScenarioHead):
     drive: Annotated[DriveTable, model_file("drives")]
     lubricant: Annotated[Lubricant, model_file("lubricants")]
     bearings: Annotated[Bearings, model_file("bearings")] = written("rigid-1e9")
-    quality: Grade | None = Field(
-        None, description="grade by ISO 1328-1 of the coarser gear; default: the drive's, else 6"
-    )
     operating: AssessmentOperating
     mesh: AssessmentMesh = written({})
     assessment: AssessmentAsked = written({})
@@ -126,7 +121,10 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> AssessmentCase:
         pinion_speed=duty.pinion_speed,
         gear_torque=duty.gear_torque,
         oil_temperature=operating.oil_temperature,
-        quality=float(scenario.quality or coarser_grade(drive) or USUAL_GRADE),
+        quality=cast(
+            Quality,
+            quality_of([grade_of(drive, one) for one in (drive.pinion, drive.gear)], tolerances_of(drive)),
+        ),
         settings=Settings(**scenario.assessment.model_dump()),
         limits=scenario.limits.model_dump(),
     )

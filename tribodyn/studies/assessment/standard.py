@@ -5,7 +5,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.compliance.iso6336 import pair_of, reference_stiffness
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import body_masses
 from tribodyn.geometry.drive import reference_radius, tip_radius
@@ -20,11 +19,11 @@ from tribodyn.standards.contact_path import (
     point_distances,
     rolling_speeds,
 )
-from tribodyn.standards.dynamic_factor import DynamicFactor, DynamicMesh, dynamic_factor, reduced_mass
-from tribodyn.standards.flank_tolerances import flank_tolerances
+from tribodyn.standards.dynamic_factor import DynamicFactor
 from tribodyn.standards.load_factors import transverse_factor_b
 from tribodyn.standards.micropitting import Films, Flanks, Load, Oil
 from tribodyn.studies.assessment.case import AssessmentCase
+from tribodyn.studies.by_standard import rated
 
 #: Places along the path over which the flash temperature is looked at.
 _PLACES = 201
@@ -85,7 +84,7 @@ def flanks_of(case: AssessmentCase) -> Flanks:
     """What the flanks are of."""
     pinion, gear = case.materials
     reduced = 2.0 / sum((1.0 - one.poisson_ratio**2) / one.youngs_modulus for one in (pinion, gear))
-    return Flanks(case.mean_roughness, reduced, (_contact(pinion), _contact(gear)), case.quality)
+    return Flanks(case.mean_roughness, reduced, (_contact(pinion), _contact(gear)), case.quality.grade)
 
 
 def _contact(material: MaterialData) -> float:
@@ -115,42 +114,21 @@ def standard_of(case: AssessmentCase, assembly: Assembly, face: float) -> Standa
     """Evaluate the standards for an involute drive; `face` is K_Hβ."""
     drive, settings = case.drive, case.settings
     path = path_of(assembly)
-    ratio, width = path.ratio, float(assembly.common_width)
-    torque = case.gear_torque / ratio
-    normal_load = torque / path.base_radius[0]
-    pair = pair_of(assembly, case.materials, normal_load)
-    pair = pair._replace(line_load=pair.line_load * settings.application_factor)
-    stiffness = reference_stiffness(pair)
+    width, torque = float(assembly.common_width), case.gear_torque / path.ratio
     bodies = body_masses(
         assembly, [(one.mass, one.inertia) for one in case.masses], [one.density for one in case.materials]
     )
-    mass = reduced_mass((float(bodies[0][1]), float(bodies[1][1])), path.base_radius, width)
-    module = float(drive.module)
-    transverse_angle = math.acos(path.base_radius[0] / float(reference_radius(drive, "pinion")))
-    allowed = [
-        flank_tolerances(case.quality, module, 2.0 * float(reference_radius(drive, side)), width)
-        for side in ("pinion", "gear")
-    ]
-    pitch = max(one.single_pitch for one in allowed) * math.cos(transverse_angle)
-    dynamic = dynamic_factor(
-        DynamicMesh(
-            path.teeth[0],
-            case.pinion_speed,
-            mass,
-            stiffness.single_pair,
-            stiffness.mesh,
-            pair.line_load,
-            pitch,
-            allowed[0].profile_form,
-            path.contact_ratio,
-            0.0,
-            max(case.quality, 6.0),  # no tip relief is credited
-        )
+    by = rated(
+        assembly,
+        case.materials,
+        bodies,
+        case.quality,
+        (case.pinion_speed, case.gear_torque),
+        settings.application_factor,
     )
-    load = pair.line_load * dynamic.factor * face
-    transverse = transverse_factor_b(
-        (path.contact_ratio, 0.0), stiffness.mesh, pitch - min(0.075 * pitch, 3e-6), load
-    )
+    dynamic, stiffness = by.dynamic, by.stiffness
+    load = by.line_load * dynamic.factor * face
+    transverse = transverse_factor_b((path.contact_ratio, 0.0), stiffness.mesh, by.base_pitch_deviation, load)
     duty = Load(
         torque,
         case.pinion_speed,

@@ -11,6 +11,7 @@ from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.material import BodyMass, MaterialData
 from tribodyn.mesh.data import MeshData
 from tribodyn.solve.data import SolverData
+from tribodyn.studies.by_standard import Quality
 from tribodyn.studies.study import CaseHead
 from tribodyn.tribology.bulk_temperature import TemperatureData
 from tribodyn.tribology.data import FilmData, FrictionData
@@ -56,6 +57,8 @@ class Case(CaseHead):
         Arithmetic mean roughness Ra of the flanks, m.
     lubricant, bearings, operating, mesh, friction, solver, output, film
         See the classes.
+    quality : Quality or None
+        Deviations of the gears by ISO 1328-1, for the standard's dynamic factor; None: not said.
     """
 
     family: str
@@ -74,3 +77,4 @@ class Case(CaseHead):
     film: FilmData = field(default_factory=FilmData)
     temperature: TemperatureData | None = None
     losses: LossData | None = None
+    quality: Quality | None = None

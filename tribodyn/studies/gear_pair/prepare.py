@@ -106,6 +106,7 @@ _NOT_IN_TABLE = (
     "losses",
     "solver",
     "output",
+    "quality",
 )
 _MESH_NOT_IN_TABLE = {"damping_ratio": 0.0, "formulation": "classical", "contact_width": 0.0}
 

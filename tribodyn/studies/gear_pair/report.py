@@ -66,9 +66,21 @@ LINES: Lines = {
             "dynamic_factor",
             "Dynamic factor K_v",
             form=".3f",
-            definition="Maximum of the loads' moment over that of the mean load, from the motion. ISO "
-            "6336-1 estimates "
-            "the same ratio from formulas.",
+            definition="Maximum of the loads' moment over that of the mean load, from the motion.",
+        ),
+        Line(
+            "dynamic_factor_iso",
+            "Dynamic factor K_v by ISO 6336-1, method B",
+            form=".3f",
+            definition="From formulas for the deviations of the drive's quality, K_A = 1, no tip relief "
+            "credited; involutes with a quality only.",
+        ),
+        Line(
+            "resonance_ratio_iso",
+            "at the resonance ratio N",
+            form=".3f",
+            definition="Speed over the resonance speed of the standard, rigid bearings; 0.85 to 1.15 is the "
+            "main resonance.",
         ),
         Line(
             "contact_loss_fraction",

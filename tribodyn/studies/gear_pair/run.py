@@ -18,6 +18,7 @@ from tribodyn.record.trust import Judge
 from tribodyn.solve.choice import choose
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.transient import SampledStates, Stop, TransientSettings, transient
+from tribodyn.studies.by_standard import rated
 from tribodyn.studies.gear_pair.assumptions import judge_balance, judge_block
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.prepare import Prepared, prepare
@@ -78,6 +79,7 @@ def _run(case: Case, path: Path, force: bool, progress: Progress | None) -> RunR
         "mode_frequencies": natural_frequencies(model, cycle),
         "pitch_point": AVERAGED if model.options.averaged else REGULAR,
         "compliance_remark": compliance_remark(prepared.assembly, case.materials, case.mesh) or None,
+        **_by_standard(prepared),
         **law_figures(case),
         "lubricant": oil_data(prepared.lubricant),
     }
@@ -140,6 +142,16 @@ def _run(case: Case, path: Path, force: bool, progress: Progress | None) -> RunR
         statistics.judge.take({"efficiency": summary["efficiency"]})
         summary |= statistics.judge.figures()
         return RunResult(record.finish(summary), "complete", "", summary)
+
+
+def _by_standard(prepared: Prepared) -> dict[str, float]:
+    """K_v by ISO 6336-1 of a drive with a quality whose involute pinion drives; nothing of others."""
+    case, operating = prepared.case, prepared.case.operating
+    if case.quality is None or not prepared.assembly.family.involute or operating.gear_torque <= 0.0:
+        return {}
+    duty = operating.pinion_speed, operating.gear_torque
+    found = rated(prepared.assembly, case.materials, prepared.masses, case.quality, duty)
+    return {"dynamic_factor_iso": found.dynamic.factor, "resonance_ratio_iso": found.dynamic.resonance_ratio}
 
 
 def window_of(cycles: int) -> int:

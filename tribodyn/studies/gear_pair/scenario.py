@@ -55,7 +55,9 @@ from tribodyn.scenario.quantity import (
 )
 from tribodyn.scenario.spectrum import OperatingTable, SpectrumScenario
 from tribodyn.scenario.temperature import TemperatureTable, temperature_of
+from tribodyn.scenario.tolerances import grade_of, tolerances_of
 from tribodyn.solve.data import SolverData
+from tribodyn.studies.by_standard import quality_of
 from tribodyn.studies.gear_pair.case import Case, OutputData
 from tribodyn.tribology.data import FrictionData
 
@@ -246,6 +248,9 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> Case:
         film=film_data(scenario),
         temperature=temperature_of(scenario.temperature),
         losses=losses_of(scenario.losses),
+        quality=quality_of(
+            [grade_of(drive, one) for one in (drive.pinion, drive.gear)], tolerances_of(drive)
+        ),
     )
 
 

@@ -163,7 +163,7 @@ def test_a_complete_record_is_not_replaced_unasked(assessed: dict, folder: Path)
         ("assessment.speed_range", [2.0, 1.0], "above the first"),
         ("operating.power", "-20 kW", "driving pinion"),
         ("lubricant.viscosity_40", "15 mm**2/s", "viscosity_40"),
-        ("quality", 0, "quality"),
+        ("drive.quality", 0, "quality"),
     ],
 )
 def test_what_contradicts_is_refused_with_the_remedy(key: str, value: object, named: str, tmp_path: Path):

@@ -1,0 +1,108 @@
+"""Stiffness and dynamic factor of an involute drive by ISO 6336-1, method B."""
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from tribodyn.compliance.iso6336 import ReferenceStiffness, pair_of, reference_stiffness
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.drive import reference_radius
+from tribodyn.geometry.material import MaterialData
+from tribodyn.standards.dynamic_factor import DynamicFactor, DynamicMesh, dynamic_factor, reduced_mass
+from tribodyn.standards.flank_tolerances import Tolerances
+
+
+class Quality(NamedTuple):
+    """Deviations that the standard reckons with, of the gear that has the larger ones.
+
+    Attributes
+    ----------
+    grade : float
+        By ISO 1328-1.
+    single_pitch, profile_form : float
+        f_pT and f_fαT, m.
+    """
+
+    grade: float
+    single_pitch: float
+    profile_form: float
+
+
+class Rated(NamedTuple):
+    """Results of ISO 6336-1.
+
+    Attributes
+    ----------
+    dynamic : DynamicFactor
+    stiffness : ReferenceStiffness
+    line_load : float
+        F_t K_A/b at the reference circle, N/m.
+    base_pitch_deviation : float
+        f_pb − y_α after running in, m.
+    """
+
+    dynamic: DynamicFactor
+    stiffness: ReferenceStiffness
+    line_load: float
+    base_pitch_deviation: float
+
+
+def quality_of(grades: Sequence[float | None], tolerances: Sequence[Tolerances | None]) -> Quality | None:
+    """Return the quality of both gears; None where one has none."""
+    known = [one for one in tolerances if one is not None]
+    if len(known) < len(tolerances):
+        return None
+    return Quality(
+        max(float(grade) for grade in grades if grade is not None),
+        max(one.single_pitch for one in known),
+        max(one.profile_form for one in known),
+    )
+
+
+def rated(
+    assembly: Assembly,
+    materials: tuple[MaterialData, MaterialData],
+    bodies: Sequence[tuple[float, float]],
+    quality: Quality,
+    duty: tuple[float, float],
+    application_factor: float = 1.0,
+) -> Rated:
+    """Rate a drive whose pinion drives; no tip relief is credited.
+
+    Parameters
+    ----------
+    assembly : Assembly
+        Of an involute drive.
+    materials : (MaterialData, MaterialData)
+    bodies : ((mass kg, inertia kg m²), …)
+        Of pinion and gear alone.
+    quality : Quality
+    duty : (pinion speed rad/s, gear torque N m)
+    application_factor : float
+        K_A.
+    """
+    drive, path = assembly.drive, assembly.path
+    speed, torque = duty
+    cosine = math.cos(float(path.pressure_angle(0.0)))
+    base = float(path.pinion_pitch_radius) * cosine, float(path.gear_pitch_radius) * cosine
+    pair = pair_of(assembly, materials, torque / base[1])
+    pair = pair._replace(line_load=pair.line_load * application_factor)
+    stiffness = reference_stiffness(pair)
+    inertias = float(bodies[0][1]), float(bodies[1][1])
+    pitch = quality.single_pitch * base[0] / float(reference_radius(drive, "pinion"))
+    dynamic = dynamic_factor(
+        DynamicMesh(
+            float(drive.pinion.teeth),
+            speed,
+            reduced_mass(inertias, base, float(assembly.common_width)),
+            stiffness.single_pair,
+            stiffness.mesh,
+            pair.line_load,
+            pitch,
+            quality.profile_form,
+            float(assembly.contact_ratio),
+            0.0,
+            max(quality.grade, 6.0),
+        )
+    )
+    return Rated(dynamic, stiffness, pair.line_load, pitch - min(0.075 * pitch, 3e-6))
