@@ -172,6 +172,15 @@ THERMAL = (
         definition="Mean of both gears, from the losses by [temperature]; film and friction are taken at it.",
     ),
     Line(
+        "contact_temperature_max",
+        "Maximum contact temperature",
+        form=".1f",
+        unit="°C",
+        offset=-273.15,
+        definition="Bulk temperature of the teeth, or that of the oil where [temperature] does not say "
+        "otherwise, and the maximum flash temperature rise.",
+    ),
+    Line(
         "oil_temperature",
         "Temperature of the oil around the gears",
         form=".1f",

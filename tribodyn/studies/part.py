@@ -19,8 +19,8 @@ class Asked(NamedTuple):
     ----------
     title : str
     tables : mapping
-        Tables ``drive``, ``lubricant``, ``bearings`` and ``mesh`` as a scenario has them, and
-        ``oil_temperature``, a quantity as text.
+        Tables ``drive``, ``lubricant``, ``bearings``, ``mesh``, ``temperature`` and ``losses`` as a scenario
+        has them, the last only where given; ``oil_temperature``, a quantity as text; ``damping_ratio``.
     pinion_speed, gear_torque : float
         rad/s and N m.
     torques : sequence of float

@@ -4,7 +4,7 @@ The bulk temperature follows from the losses, the losses from the film, and the 
 temperature: a fixed point. Load-independent losses are those at the oil's temperature.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -181,6 +181,15 @@ def thermal_figures(thermal: Thermal | None, power_in: float, efficiency: float)
         if outside:
             figures["losses_outside"] = "; ".join(outside)
     return figures
+
+
+def contact_figures(lubricant: LubricantData, figures: Mapping[str, Any]) -> dict[str, float]:
+    """Maximum contact temperature, K: bulk of the teeth, else of the oil, and the maximum flash temperature.
+
+    Nothing where neither temperature is known.
+    """
+    warm = figures.get("bulk_temperature", lubricant.temperature)
+    return {} if warm is None else {"contact_temperature_max": float(warm + figures["flash_temperature_max"])}
 
 
 def _heat(mesh_loss: float, losses: dict[str, Loss], housing: bool) -> Heat:

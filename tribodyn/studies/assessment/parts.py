@@ -40,9 +40,11 @@ def asked_of(case: AssessmentCase) -> Asked:
     data, settings = tomllib.loads(case.toml), case.settings
     first, last = settings.speed_range
     speeds = np.linspace(first, last, settings.speeds) * case.pinion_speed
-    tables = {name: data[name] for name in ("drive", "lubricant", "bearings", "mesh") if name in data}
+    names = ("drive", "lubricant", "bearings", "mesh", "losses")
+    tables = {name: data[name] for name in names if name in data}
     tables |= {
         "oil_temperature": data["operating"]["oil_temperature"],
+        "temperature": data.get("temperature", {"model": "iso", "lubrication": settings.lubrication}),
         "damping_ratio": settings.damping_ratio,
     }
     return Asked(

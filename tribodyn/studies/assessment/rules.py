@@ -6,9 +6,11 @@ from itertools import pairwise
 from tribodyn.errors import InputError, unknown_name
 from tribodyn.scenario.drive_rules import broken_drive_rules
 from tribodyn.scenario.duty import broken_duty_rules, duty_of
+from tribodyn.scenario.losses import broken_loss_rules
 from tribodyn.scenario.lubricant_rules import broken_lubricant_rules
 from tribodyn.scenario.modification_rules import Face, broken_slice_rules
 from tribodyn.scenario.quality import broken_sample_rules
+from tribodyn.scenario.temperature import broken_temperature_rules
 from tribodyn.scenario.tolerances import tolerances_of
 from tribodyn.studies.assessment.scenario import Scenario
 from tribodyn.tribology.friction import FRICTION_LAWS
@@ -34,6 +36,8 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
         )
     else:
         yield from broken_lubricant_rules(scenario.lubricant, operating.oil_temperature)
+    yield from broken_temperature_rules(scenario.temperature, scenario.lubricant)
+    yield from broken_loss_rules(scenario.losses)
     broken = broken_duty_rules(operating)
     yield from broken
     if not broken:

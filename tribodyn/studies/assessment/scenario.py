@@ -8,6 +8,7 @@ from tribodyn.scenario import units
 from tribodyn.scenario.common import ScenarioHead, Slices, Temperature, head_of
 from tribodyn.scenario.drive_data import drive_of, lubricant_of, masses_of, materials_of, mean_roughness
 from tribodyn.scenario.duty import DutyTable, duty_of
+from tribodyn.scenario.losses import LossesTable
 from tribodyn.scenario.model_files import Bearings, DriveTable, Lubricant
 from tribodyn.scenario.modification import MisalignmentTable
 from tribodyn.scenario.quantity import (
@@ -20,6 +21,7 @@ from tribodyn.scenario.quantity import (
     model_file,
     written,
 )
+from tribodyn.scenario.temperature import TemperatureTable
 from tribodyn.scenario.tolerances import grade_of, tolerances_of
 from tribodyn.studies.assessment.case import AssessmentCase, Settings
 from tribodyn.studies.by_standard import Quality, quality_of
@@ -99,6 +101,10 @@ class AssessmentScenario(ScenarioHead):
     bearings: Annotated[Bearings, model_file("bearings")] = written("rigid-1e9")
     operating: AssessmentOperating
     mesh: AssessmentMesh = written({})
+    temperature: TemperatureTable | None = Field(
+        None, description="bulk temperature of the teeth; default: the estimate of ISO/TR 15144-1"
+    )
+    losses: LossesTable | None = Field(None, description="load-independent losses; default: none")
     assessment: AssessmentAsked = written({})
     limits: AssessmentLimits = written({})
 

@@ -17,6 +17,8 @@ _FIGURES = (
     "film_parameter_min",
     "flash_temperature_max",
     "bulk_temperature",
+    "power_load_independent",
+    "efficiency_with_losses",
 )
 
 
@@ -30,6 +32,7 @@ def tasks(asked: Asked) -> tuple[Task, ...]:
         "lubricant": tables["lubricant"],
         "operating": asked.operating(),
         "mesh": {"compliance": "fem", **tables.get("mesh", {})},
+        **{name: tables[name] for name in ("temperature", "losses") if name in tables},
     }
     return tuple(
         Task(

@@ -34,7 +34,7 @@ from tribodyn.studies.gears import LAYOUT
 from tribodyn.studies.oil import oil_data
 from tribodyn.studies.recording import target, writer
 from tribodyn.studies.study import Progress, RunResult
-from tribodyn.studies.temperature import Thermal, thermal_figures, thermal_state
+from tribodyn.studies.temperature import Thermal, contact_figures, thermal_figures, thermal_state
 from tribodyn.tribology.closure import closure_of, exceeded_limits, law_figures
 from tribodyn.tribology.friction.coulomb import constant
 from tribodyn.tribology.lubricant import LubricantData
@@ -235,6 +235,8 @@ def _figures(study: Prepared, over: Samples, mesh: Places, state: Engagement) ->
     def minimum(values: np.ndarray) -> float:
         return float(np.min(values[loaded]))
 
+    flash = maximum(state.flash_temperature_rise)
+    thermal = thermal_figures(study.thermal, put_in, means.efficiency)
     return {
         **_judged(study, mesh, state, means.efficiency),
         "contact_ratio": float(cycle.contact_ratio),
@@ -249,7 +251,7 @@ def _figures(study: Prepared, over: Samples, mesh: Places, state: Engagement) ->
             mesh.roll.ravel()[np.argmin(np.where(loaded, state.central_film_thickness, np.inf))]
         ),
         "hertz_pressure_max": maximum(state.hertz_pressure),
-        "flash_temperature_max": maximum(state.flash_temperature_rise),
+        "flash_temperature_max": flash,
         "friction_coefficient_mean": means.friction_coefficient,
         "friction_force_mean": np.sum(np.abs(over.by_pair(state.friction_force)[:-1]), axis=0) * share,
         "compliance_remark": compliance_remark(study.assembly, study.case.materials, study.case.mesh) or None,
@@ -262,7 +264,8 @@ def _figures(study: Prepared, over: Samples, mesh: Places, state: Engagement) ->
         "power_in_mean": put_in,
         "power_friction_mean": means.power_friction,
         "efficiency": means.efficiency,
-        **thermal_figures(study.thermal, put_in, means.efficiency),
+        **thermal,
+        **contact_figures(study.case.lubricant, {"flash_temperature_max": flash, **thermal}),
         "energy_residual": balance / put_in,
         "averaging_cycles": 1,
         **efficiencies(study, {duty.sharing: means}),

@@ -17,7 +17,7 @@ _LOST = 1e-6
 
 
 def tasks(asked: Asked) -> tuple[Task, ...]:
-    """A steady state at every speed."""
+    """A steady state at every speed; the oil as it enters, for friction hardly moves the loads."""
     tables = asked.tables
     scenario = {
         "title": asked.title,

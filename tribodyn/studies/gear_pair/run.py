@@ -28,7 +28,7 @@ from tribodyn.studies.gears import LAYOUT
 from tribodyn.studies.oil import oil_data
 from tribodyn.studies.recording import target, writer
 from tribodyn.studies.study import Progress, RunResult
-from tribodyn.studies.temperature import thermal_figures
+from tribodyn.studies.temperature import contact_figures, thermal_figures
 from tribodyn.tribology.closure import exceeded_limits, law_figures
 
 #: Mesh cycles at the end of a run that its means and its spectrum are of, at most: they are held in memory,
@@ -138,6 +138,7 @@ def _run(case: Case, path: Path, force: bool, progress: Progress | None) -> RunR
             statistics.in_window,
         )
         summary |= thermal_figures(prepared.thermal, summary["power_in_mean"], summary["efficiency"])
+        summary |= contact_figures(case.lubricant, summary)
         summary["warning"] = warning_of(summary["friction_work_on_vibration"], case.friction.sliding)
         statistics.judge.take({"efficiency": summary["efficiency"]})
         summary |= statistics.judge.figures()

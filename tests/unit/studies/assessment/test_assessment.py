@@ -16,6 +16,7 @@ from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import involute
 from tribodyn.standards.contact_path import POINTS, ContactPath, point_distances
 from tribodyn.studies.assessment.local import point_angles
+from tribodyn.studies.assessment.parts import asked_of
 from tribodyn.studies.assessment.standard import path_of
 from tribodyn.studies.gear_pair.assess import maxima
 from tribodyn.studies.load import load_scenario
@@ -189,3 +190,14 @@ def test_maxima_stand_out_on_both_sides():
     values = np.array([1.0, 1.1, 1.0, 1.005, 1.0, 2.0, 1.0, np.nan, 1.0])
     assert maxima(values) == [5, 1]
     assert maxima(np.array([1.0, 2.0, 3.0])) == []
+
+
+def test_the_temperature_of_the_teeth_can_be_asked_for_otherwise(tmp_path: Path):
+    given = asked_of(short_case(KIND, tmp_path, temperature__model="oil"))
+    absent = asked_of(short_case(KIND, tmp_path, assessment__lubrication="spray"))
+    assert given.tables["temperature"]["model"] == "oil"
+    assert absent.tables["temperature"] == {"model": "iso", "lubrication": "spray"}
+    assert absent.pinion_speed in absent.speeds
+    assert list(absent.speeds) == sorted(absent.speeds)
+    with pytest.raises(InputError, match="pinion_oil"):
+        short_case(KIND, tmp_path, temperature__model="network")
