@@ -94,7 +94,7 @@ def thermal_state(case: Any, assembly: Assembly, mesh_loss: Callable[[Any], floa
     latest: list[Thermal] = []
 
     def step(here: tuple[float, float]) -> tuple[float, float]:
-        bulk, around = (_known(one, asked) for one in here)
+        bulk, around = here
         lubricant = replace(lubricant_at(oil, bulk), supply=around)
         lost = asked.mesh_loss
         if lost is None:
@@ -105,7 +105,8 @@ def thermal_state(case: Any, assembly: Assembly, mesh_loss: Callable[[Any], floa
         latest[:] = [Thermal(lubricant, lost, losses, found, heat, given_off)]
         return found.bulk, found.oil
 
-    fixed_point(step, (supplied, supplied))
+    for one in fixed_point(step, (supplied, supplied), TEMPERATURE_RANGE):
+        _refuse_unknown(one, asked)
     return latest[0]
 
 
@@ -224,15 +225,16 @@ def _temperatures(
     return found, heat_given_off(network, found, supplied)
 
 
-def _known(temperature: float, asked: TemperatureData) -> float:
+def _refuse_unknown(temperature: float, asked: TemperatureData) -> None:
     """Refuse a temperature for which the oil's data sheet gives no numbers."""
-    low, high = TEMPERATURE_RANGE
-    if low <= temperature <= high:
-        return temperature
-    raise InputError(
-        "temperature.model",
-        f'"{asked.model}"',
-        f"teeth or oil reach {temperature - ZERO_CELSIUS:.0f} degC, and the oil is known up to "
-        f"{high - ZERO_CELSIUS:.0f} degC",
-        "let more heat off (oil_flow, conductances), lower the load, or leave the table out",
-    )
+    low, high = (round(one - ZERO_CELSIUS) for one in TEMPERATURE_RANGE)
+    theta = temperature - ZERO_CELSIUS
+    if not low <= theta <= high:
+        raise InputError(
+            "temperature.model",
+            f'"{asked.model}"',
+            f"teeth or oil would reach {theta:.0f} degC, and the oil is known from {low} to {high} degC",
+            "let more heat off (oil_flow, conductances), lower the load, or leave the table out"
+            if theta > high
+            else "write a higher ambient_temperature",
+        )

@@ -11,8 +11,8 @@ from tribodyn.errors import SimulationError
 
 #: Change from which a fixed point counts as found, K: a tenth of what is promised.
 TOLERANCE = 0.01
-#: The loss follows the temperature weakly: each step shrinks the error about fivefold.
-STEPS = 60
+#: Steps at most, the farthest that one goes, K, and the smallest share of the way that is taken.
+STEPS, FARTHEST, LEAST_WEIGHT = 100, 40.0, 0.02
 
 
 BulkModel = Literal["oil", "iso", "network"]
@@ -156,20 +156,47 @@ def heat_given_off(network: Network, found: Temperatures, oil_temperature: float
 
 
 def fixed_point(
-    step: Callable[[tuple[float, float]], tuple[float, float]], start: tuple[float, float]
+    step: Callable[[tuple[float, float]], tuple[float, float]],
+    start: tuple[float, float],
+    bounds: tuple[float, float] = (0.0, float("inf")),
 ) -> tuple[float, float]:
     """Return the temperatures (bulk, oil) that a step maps to themselves, within `TOLERANCE`.
+
+    By successive substitution, relaxed by Aitken's rule (Irons & Tuck 1969): thick oil that churns itself
+    warm would else swing between cold and hot. Where the way turns back, the next step is half as long.
+
+    Parameters
+    ----------
+    step : callable
+        Is called within the bounds only.
+    start : (float, float)
+    bounds : (float, float)
+        Of both, K. Where the step leads out of them from their edge, its result is returned as it is.
 
     Raises
     ------
     SimulationError
         If there are none: the loss grows with the temperature faster than the heat leaves.
     """
-    here, change = start, 0.0
-    for _ in range(STEPS):
+    here, last, weight, worst, reach = start, (0.0, 0.0), 1.0, 0.0, FARTHEST
+    for number in range(STEPS):
         there = step(here)
-        change = max(abs(new - old) for new, old in zip(there, here, strict=True))
-        here = there
-        if change < TOLERANCE:
-            return here
-    raise SimulationError(f"the bulk temperature does not settle: still moving by {change:.2g} K")
+        change = (there[0] - here[0], there[1] - here[1])
+        worst = max(map(abs, change))
+        if worst < TOLERANCE:
+            return there
+        if number:
+            turned = (change[0] - last[0], change[1] - last[1])
+            length = turned[0] ** 2 + turned[1] ** 2
+            along = last[0] * turned[0] + last[1] * turned[1]
+            back = change[0] * last[0] + change[1] * last[1] < 0.0
+            reach = 0.5 * reach if back else min(1.5 * reach, FARTHEST)
+            weight = min(max(-weight * along / length, LEAST_WEIGHT), 1.0) if length else 1.0
+        moved = tuple(
+            min(max(old + min(max(weight * one, -reach), reach), bounds[0]), bounds[1])
+            for old, one in zip(here, change, strict=True)
+        )
+        if max(abs(new - old) for new, old in zip(moved, here, strict=True)) < LEAST_WEIGHT * TOLERANCE:
+            return there  # held by a bound
+        here, last = (moved[0], moved[1]), change
+    raise SimulationError(f"the bulk temperature does not settle: still moving by {worst:.2g} K")

@@ -162,7 +162,7 @@ def test_a_temperature_needs_the_oil_at_others():
 
 def test_teeth_hotter_than_the_oil_is_known_are_refused():
     hot = {"temperature.pinion_oil": "1 W/K", "temperature.gear_oil": "1 W/K"}
-    with pytest.raises(InputError, match="known up to 180 degC"):
+    with pytest.raises(InputError, match="known from -40 to 180 degC"):
         figures(case(NETWORK | hot))
     assert TEMPERATURE_RANGE[1] == 453.15
 

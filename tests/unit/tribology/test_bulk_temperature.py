@@ -1,5 +1,7 @@
 """Lumped network of gears, oil and housing: heat in is heat out, limits, closed forms; fixed points."""
 
+import math
+
 import pytest
 
 from tribodyn.errors import SimulationError
@@ -62,6 +64,23 @@ def test_a_fixed_point_is_found_to_a_tenth_of_a_kelvin():
     bulk, oil = fixed_point(step, (350.0, 350.0))
     assert bulk == pytest.approx(350.0 + 20.0 / 1.4, abs=0.1)
     assert oil == 350.0
+
+
+def test_a_swing_between_cold_and_hot_is_damped():
+    """Thick oil that churns itself warm: a steep falling step, T = 300 + 500 exp(−(T − 300)/20)."""
+
+    def step(here):
+        assert 230.0 <= here[1] <= 450.0
+        warm = 300.0 + 500.0 * math.exp(-(here[1] - 300.0) / 20.0)
+        return warm + 5.0, warm
+
+    bulk, oil = fixed_point(step, (300.0, 300.0), (230.0, 450.0))
+    assert oil == pytest.approx(step((bulk, oil))[1], abs=0.1)
+    assert bulk == pytest.approx(oil + 5.0)
+
+
+def test_what_leads_out_of_the_bounds_is_given_back():
+    assert fixed_point(lambda here: (500.0, 350.0), (350.0, 350.0), (230.0, 450.0)) == (500.0, 350.0)
 
 
 def test_a_runaway_is_said():
