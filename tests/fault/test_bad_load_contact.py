@@ -48,12 +48,6 @@ MISTAKES = {
         "path of contact",
         "give",
     ),
-    "relief without length": (
-        (f"{PINION}.root_relief=20 um",),
-        f"{PINION}.root_relief = 20 um",
-        "how far it reaches",
-        "add root_relief_length",
-    ),
     "negative relief": (
         (f"{PINION}.tip_relief=-20 um",),
         f'{PINION}.tip_relief = "-20 um"',
@@ -142,9 +136,9 @@ MISTAKES = {
         "must be at least 0",
         "0 or more",
     ),
-    "speed of a rest": (
-        ("operating.pinion_speed=10 rad/s",),
-        'operating.pinion_speed = "10 rad/s"',
+    "motor of a rest": (
+        ("operating.drive_inertia=1 kg*m**2",),
+        'operating.drive_inertia = "1 kg*m**2"',
         "unknown key",
         "gear_torque",
     ),

@@ -137,7 +137,8 @@ def modifications_of(drive: model_files.DriveTable, misalignment: MisalignmentTa
     if misalignment.from_quality:
         opened = misalignment.from_quality * helix_allowance(drive)
         stand = stand._replace(in_plane=stand.in_plane + opened)
-    return Modifications(flank_of(drive.pinion.modification), flank_of(drive.gear.modification), stand)
+    flanks = (flank_of(gear.modification, drive.module) for gear in (drive.pinion, drive.gear))
+    return Modifications(*flanks, stand)
 
 
 def slices_of(given: int | None, modifications: Modifications) -> int:

@@ -21,12 +21,12 @@ class Modification(Table):
 
     tip_relief: Amount = written("0 um", description="at the end of the active profile")
     tip_relief_length: Extent | None = Field(
-        None, description="along the line of action, from the end of the active path"
+        None, description="along the line of action, from the end of the active path; default: the module"
     )
     tip_relief_shape: Shape = "linear"
     root_relief: Amount = written("0 um", description="at the beginning of the active profile")
     root_relief_length: Extent | None = Field(
-        None, description="along the line of action, from the end of the active path"
+        None, description="along the line of action, from the end of the active path; default: the module"
     )
     root_relief_shape: Shape = "linear"
     lead_relief_start: Amount = written("0 um", description="at one end of the face, parabolic")
@@ -66,11 +66,11 @@ class MisalignmentTable(Table):
     )
 
 
-def flank_of(table: Modification) -> FlankModification:
-    """Return the modification of a gear's flanks."""
+def flank_of(table: Modification, module: float) -> FlankModification:
+    """Return the modification of a gear's flanks; `module` in m is the length of reliefs without one."""
     return FlankModification(
-        tip=_relief(table, "tip"),
-        root=_relief(table, "root"),
+        tip=_relief(table, "tip", module),
+        root=_relief(table, "root", module),
         lead=LeadRelief(
             table.lead_relief_start, table.lead_relief_end, table.lead_unmodified, table.crowning or 0.0
         ),
@@ -85,6 +85,8 @@ def misalignment_of(table: MisalignmentTable) -> Misalignment:
     return Misalignment(table.in_plane, table.out_of_plane)
 
 
-def _relief(table: Modification, end: str) -> Relief:
+def _relief(table: Modification, end: str, module: float) -> Relief:
     amount, length = getattr(table, f"{end}_relief"), getattr(table, f"{end}_relief_length")
-    return Relief(amount, length or 0.0, _EXPONENT[getattr(table, f"{end}_relief_shape")])
+    if length is None:
+        length = module if amount else 0.0
+    return Relief(amount, length, _EXPONENT[getattr(table, f"{end}_relief_shape")])

@@ -32,7 +32,7 @@ def broken_modification_rules(drive: DriveTable) -> Iterator[InputError]:
     for name in ("pinion", "gear"):
         gear = getattr(drive, name)
         table = gear.modification
-        yield from broken_flank_rules(name, flank_of(table), gear.teeth, gear.face_width)
+        yield from broken_flank_rules(name, flank_of(table, drive.module), gear.teeth, gear.face_width)
         if table.crowning is not None:
             yield from _contradicted_by_crowning(f"drive.{name}.modification", table)
 

@@ -36,6 +36,16 @@ def test_nothing_is_modified_unless_said():
     assert load_scenario("involute-18-36-fem").mesh.modifications == UNMODIFIED
 
 
+def test_a_relief_without_a_length_reaches_a_module():
+    case = load_scenario(
+        STUDY, {PINION + "tip_relief": "20 um", "drive.gear.modification.root_relief": "5 um"}
+    )
+    pinion, gear, _ = case.modifications
+    assert case.drive.module == 3e-3
+    assert pinion.tip == Relief(20e-6, 3e-3, 1.0)
+    assert gear.root == Relief(5e-6, 3e-3, 1.0)
+
+
 def test_quantities_in_si():
     case = load_scenario(
         STUDY,
