@@ -137,8 +137,8 @@ def modifications_of(drive: model_files.DriveTable, misalignment: MisalignmentTa
     if misalignment.from_quality:
         opened = misalignment.from_quality * helix_allowance(drive)
         stand = stand._replace(in_plane=stand.in_plane + opened)
-    flanks = (flank_of(gear.modification, drive.module) for gear in (drive.pinion, drive.gear))
-    return Modifications(*flanks, stand)
+    pinion, gear = (flank_of(gear.modification, drive.module) for gear in (drive.pinion, drive.gear))
+    return Modifications(pinion, gear, stand)
 
 
 def slices_of(given: int | None, modifications: Modifications) -> int:
