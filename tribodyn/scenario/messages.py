@@ -141,8 +141,15 @@ def keys_in(model: type[BaseModel], key: Iterable[str]) -> list[str]:
 def _near_key(model: type[BaseModel], key: Key) -> str:
     table = _table_at(model, key[:-1])
     known = list(table.model_fields) if table else []
-    near = near_name(str(key[-1]), known)
+    near = _of_symbol(table, str(key[-1])) or near_name(str(key[-1]), known)
     return f'did you mean "{near}"?' if near else f"known keys: {', '.join(known)}"
+
+
+def _of_symbol(table: type[BaseModel] | None, symbol: str) -> str:
+    """Return the key whose description begins with a symbol, as on a drawing: "A_sne, upper deviation …"."""
+    fields = table.model_fields if table else {}
+    described = ((name, field.description or "") for name, field in fields.items())
+    return next((name for name, text in described if text.startswith(f"{symbol},")), "")
 
 
 def _how_to_write(model: type[BaseModel], key: Key) -> str:
