@@ -71,7 +71,7 @@ def page(record: Record) -> str:
         f"<div>{_limits(summary)}{_list('Assumed', summary.get('assumed', {}))}</div>",
         f"<div>{_by_standard(summary)}{_list('Extrapolated', summary.get('extrapolated', {}))}</div>",
         "</div>",
-        _image(pictures(record, curves), "dynamic factor, loaded error, film, losses"),
+        f'<div class="pictures">{_image(pictures(record, curves), "error, vibration, film, losses")}</div>',
         _points(summary),
         '<div class="break"></div>',
         *(

@@ -80,10 +80,10 @@ LINES: Lines = {
         Line(
             "contact_temperature_max",
             "Maximum contact temperature",
-            1.0,
-            "K",
-            ".1f",
-            "Bulk temperature and flash temperature rise, maximum along the path of contact.",
+            form=".1f",
+            unit="°C",
+            offset=-273.15,
+            definition="Bulk temperature and flash temperature rise, maximum along the path of contact.",
         ),
         Line(
             "power_friction_mean",

@@ -60,7 +60,7 @@ def _models(tables: Mapping[str, Any]) -> list[tuple[str, str]]:
 
 def extrapolated(taking_part: tuple[Part, ...], done: Mapping[str, Done]) -> list[str]:
     """Where laws are used outside their range, and what could not be computed."""
-    said = []
+    said, beside = [], []
     for part in taking_part:
         for task in part.tasks:
             one = done[task.name]
@@ -69,16 +69,13 @@ def extrapolated(taking_part: tuple[Part, ...], done: Mapping[str, Done]) -> lis
                 continue
             if not task.needed:
                 inside = one.summary.get("friction_in_range_fraction")
-                if inside is not None and inside < 1.0:
-                    said.append(
-                        f"{task.about.capitalize()}: inside its range in {100 * inside:.0f} % of the contact."
-                    )
+                beside += [task.about] if inside is not None and inside < 1.0 else []
                 continue
             with open_record(one.path) as record:
                 sentences = part.study.sentences(record)
-            said += [
-                f"{task.about.capitalize()}: {sentence}"
-                for sentence in sentences
-                if _BEYOND in sentence or sentence.startswith(EXCEEDED)
-            ]
+            exceeded = [sentence for sentence in sentences if sentence.startswith(EXCEEDED)]
+            found = exceeded or [sentence for sentence in sentences if _BEYOND in sentence]
+            said += [f"{task.about.capitalize()}: {sentence}" for sentence in found]
+    if beside:
+        said.append(f"For comparison only, outside the range of the law in part or all: {'; '.join(beside)}.")
     return list(dict.fromkeys(said))
