@@ -23,6 +23,7 @@ def swept(tmp_path_factory):
 
 def test_percentiles_are_over_the_samples_alone(swept):
     found = spread(swept, "hertz_pressure_max")
+    assert found is not None
     values = swept["hertz_pressure_max"]
     assert values.shape == (5, 2)
     assert np.ptp(values, axis=0).min() > 0

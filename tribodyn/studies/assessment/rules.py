@@ -10,6 +10,7 @@ from tribodyn.scenario.losses import broken_loss_rules
 from tribodyn.scenario.lubricant_rules import broken_lubricant_rules
 from tribodyn.scenario.modification_rules import Face, broken_slice_rules
 from tribodyn.scenario.quality import broken_sample_rules
+from tribodyn.scenario.spectrum import unnamed_duty
 from tribodyn.scenario.temperature import broken_temperature_rules
 from tribodyn.scenario.tolerances import tolerances_of
 from tribodyn.studies.assessment.scenario import Scenario
@@ -20,6 +21,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     """Go through the rules that the scenario breaks."""
     drive, operating, mesh = scenario.drive, scenario.operating, scenario.mesh
     yield from broken_drive_rules(drive)
+    yield from unnamed_duty(scenario)
     yield from broken_slice_rules(Face(drive, mesh.misalignment, mesh.slices, True))
     yield from broken_sample_rules(drive, None, mesh.misalignment)
     if None in tolerances_of(drive):

@@ -5,9 +5,9 @@ from typing import Annotated, Literal, cast
 from pydantic import Field
 
 from tribodyn.scenario import units
-from tribodyn.scenario.common import ScenarioHead, Slices, Temperature, head_of
+from tribodyn.scenario.common import Slices, Temperature, head_of
 from tribodyn.scenario.drive_data import drive_of, lubricant_of, masses_of, materials_of, mean_roughness
-from tribodyn.scenario.duty import DutyTable, duty_of
+from tribodyn.scenario.duty import duty_of
 from tribodyn.scenario.losses import LossesTable
 from tribodyn.scenario.model_files import Bearings, DriveTable, Lubricant
 from tribodyn.scenario.modification import MisalignmentTable
@@ -21,6 +21,7 @@ from tribodyn.scenario.quantity import (
     model_file,
     written,
 )
+from tribodyn.scenario.spectrum import OperatingTable, SpectrumScenario
 from tribodyn.scenario.temperature import TemperatureTable
 from tribodyn.scenario.tolerances import grade_of, tolerances_of
 from tribodyn.studies.assessment.case import AssessmentCase, Settings
@@ -31,7 +32,7 @@ Pressure = Annotated[float, Quantity(units.positive(units.PRESSURE), "1.5 GPa")]
 Length = Annotated[float, Quantity(units.positive(units.LENGTH), "5 um")]
 
 
-class AssessmentOperating(DutyTable):
+class AssessmentOperating(OperatingTable):
     """Speed, load, and the oil's temperature."""
 
     oil_temperature: Temperature = Field(description="where the oil enters the mesh")
@@ -92,7 +93,7 @@ class AssessmentLimits(Table):
     )
 
 
-class AssessmentScenario(ScenarioHead):
+class AssessmentScenario(SpectrumScenario):
     """A scenario file of an assessment."""
 
     kind: Literal["assessment"]

@@ -18,7 +18,18 @@ from tribodyn.studies.gears import (
 )
 
 LINES: Lines = {
-    "Geometry": (CONTACT_RATIO, SINGLE_PAIR),
+    "Geometry": (
+        CONTACT_RATIO,
+        Line(
+            "normal_backlash",
+            "Normal backlash",
+            1e3,
+            "mm",
+            definition="Between the back flanks at the pitch point: of mesh.backlash, or of centre distance "
+            "and tooth thickness.",
+        ),
+        SINGLE_PAIR,
+    ),
     "Dynamics": (
         MESH_FREQUENCY,
         Line(

@@ -71,6 +71,7 @@ def _run(case: Case, path: Path, force: bool, progress: Progress | None) -> RunR
     samples, cycles = case.output.samples_per_cycle, case.solver.cycles
     summary: dict[str, Any] = {
         "contact_ratio": float(cycle.contact_ratio),
+        **({} if case.mesh.backlash is None else {"normal_backlash": case.mesh.backlash}),
         "stiffness_single_pair_at_pitch_point": single_pair(cycle, case.operating.gear_torque).stiffness,
         "pinion_mass": prepared.masses[0][0],
         "gear_mass": prepared.masses[1][0],
