@@ -7,7 +7,7 @@ from tribodyn.dynamics.contact_forces import ELASTIC_LOAD, XI
 from tribodyn.dynamics.equations import strain_energy
 from tribodyn.dynamics.parameters import STATES
 from tribodyn.mesh.cycle import polynomials
-from tribodyn.studies.gear_pair.prepare import prepare
+from tribodyn.studies.gear_pair.prepare import prepare, tables
 
 
 @pytest.mark.parametrize(("factor", "sweeps"), [(0.0, 1), (1.0, 4), (1.8, 8)])
@@ -16,8 +16,7 @@ def test_loads_settle_where_one_pair_separates(prepared, factor: float, sweeps: 
     given = prepared("crc-23-47")
     cycle = given.cycle._replace(coupling=given.cycle.coupling * factor)
     lifted = cycle._replace(gap=cycle.gap + np.array([0.0, 10e-6]))
-    table = polynomials(lifted)
-    tabulated = (lifted, table, given.masses, given.assembly)
+    tabulated = tables(given.case)._replace(cycle=lifted, table=polynomials(lifted))
     model = prepare(given.case, tabulated).model
     assert model.options.sweeps == sweeps
     y = np.zeros(STATES)
