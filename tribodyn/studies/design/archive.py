@@ -8,8 +8,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.studies.design.candidates import Overrides, cases_of, chosen, number_of
+from tribodyn.studies import study_of
+from tribodyn.studies.design.candidates import Overrides, cases_of, chosen, number_of, shapes_gears
 from tribodyn.studies.design.case import DesignCase
+from tribodyn.studies.design.evaluation import distance_from_limits
 from tribodyn.studies.design.judged import Judge, Judged
 from tribodyn.studies.design.pool import Figures, Pool
 
@@ -68,6 +70,7 @@ class Archive:
         self._done: dict[str, Evaluation] = {}
         self._lock = threading.Lock()
         self._closed = False
+        self._shaped = study_of({"kind": case.base_kind}).has_gears and shapes_gears(case)
 
     @property
     def spent(self) -> int:
@@ -96,6 +99,17 @@ class Archive:
             raise SpentError
         return [self._done[name].judged for name in names]
 
+    def figures_of(self, shares: Sequence[float] | np.ndarray) -> Figures:
+        """Figures of a candidate's cases, evaluated if they are not known."""
+        self.ask(shares)
+        return self._done[identity(chosen(self.case, shares))].found
+
+    def shape_of(self, values: Mapping[str, Any]) -> float | None:
+        """See `Judged.shape`; of the first duty, whose gears are those of the others."""
+        if not self._shaped:
+            return None
+        return distance_from_limits(self.case.base, cases_of(self.case, values)[0])
+
     def close(self) -> None:
         """Let no further candidate be asked for: the threads of the methods end."""
         with self._lock:
@@ -123,8 +137,9 @@ class Archive:
         with self._lock:
             if name in self._done:
                 return
+            shape = self.shape_of(values)
             numbers = tuple(number_of(one, values[one.keys[0]]) for one in self.case.free)
-            self._done[name] = Evaluation(values, numbers, found, self.judge.judged(found))
+            self._done[name] = Evaluation(values, numbers, found, self.judge.judged(found, shape))
             self.evaluations.append(self._done[name])
             if not self._closed:
                 self._keep(self._done[name])

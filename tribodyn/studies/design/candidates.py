@@ -143,6 +143,12 @@ def _in_unit(value: Any, unit: str, si: float) -> float | None:
     return base[0] / si if base else None
 
 
+def shapes_gears(case: DesignCase) -> bool:
+    """Whether free keys change the gears, not what is taken off their flanks alone."""
+    keys = (key for one in case.free for key in one.keys)
+    return any(key.startswith("drive.") and ".modification." not in key for key in keys)
+
+
 def at(data: Any, key: str) -> Any:
     """What stands at a dotted key; None where nothing does."""
     for part in key.split("."):

@@ -5,6 +5,7 @@ import json
 import signal
 import sys
 from collections.abc import Mapping, Sequence
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -58,12 +59,29 @@ def evaluate(
     return [one if isinstance(one, str) else numbers(one) for one in found]
 
 
+def distance_from_limits(base: Mapping[str, Any], overrides: Mapping[str, Any]) -> float:
+    """The least distance of a case's gears from the limits of their existence, in modules.
+
+    Negative where they cannot be made or cannot run together; −1 where there is no case.
+    """
+    from tribodyn.geometry.assembly import assemble
+    from tribodyn.geometry.families import family
+    from tribodyn.geometry.limits import LIMITS, plain_distances
+
+    try:
+        case = loaded_case(base, overrides).case
+    except InputError:
+        return -1.0
+    found = plain_distances(assemble(family(case.family), case.drive))
+    return min(one / (case.drive.module if LIMITS[name].unit == "m" else 1.0) for name, one in found.items())
+
+
 def numbers(figures: Mapping[str, Any]) -> dict[str, float]:
-    """The figures that are single numbers."""
+    """The figures that are single finite numbers."""
     return {
         name: float(value)
         for name, value in figures.items()
-        if isinstance(value, (int, float)) and not isinstance(value, bool)
+        if isinstance(value, (int, float)) and not isinstance(value, bool) and isfinite(value)
     }
 
 

@@ -14,9 +14,11 @@ from tribodyn.post.report import Line
 from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, QUIET, WIDTH, new_figure
 from tribodyn.record.reader import Record
 from tribodyn.studies.design.layout import LOWER, OBJECTIVES, UPPER
-from tribodyn.studies.design.parts import apart, flat
+from tribodyn.studies.design.parts import apart, flat, naming_key
 from tribodyn.studies.design.report import line_of
 
+#: Duties that are drawn as bars, at most; and labels of more.
+MOST_BARS = 6
 #: Characters of a line beside an axis.
 LONGEST = 28
 START, BEST = QUIET, PALETTE[1]
@@ -108,6 +110,8 @@ def _draw_history(axes: Axes, records: Sequence[Record]) -> None:
         seen.append(np.array([level]))
     every = np.concatenate(seen)
     low, high = np.min(every), np.quantile(every, 0.95)
+    if start is not None:
+        high = max(high, level)
     axes.set_ylim(low - 0.08 * (high - low), high + 0.1 * (high - low))
     axes.set_xlabel("Evaluation (× not feasible)")
     axes.set_ylabel(shown.label)
@@ -126,11 +130,17 @@ def _draw_duties(axes: Axes, record: Record) -> None:
     else:
         heights = [shown.factor * np.asarray(duties[one]) for one in ("start", "best")]
     place = np.arange(len(names))
+    bars = len(names) <= MOST_BARS
     for number, (values, color, label) in enumerate(
         zip(heights, (START, BEST), ("start", "best"), strict=True)
     ):
-        axes.bar(place + 0.4 * number - 0.2, values, 0.36, color=color, label=label)
-    axes.set_xticks(place, [name.replace("*", " ") for name in names], fontsize=6.5)
+        if bars:
+            axes.bar(place + 0.4 * number - 0.2, values, 0.36, color=color, label=label)
+        else:
+            axes.plot(place, values, ".-", color=color, label=label)
+    labels = [name.replace("*", " ") for name in names]
+    every = 1 if bars else -(-len(names) // MOST_BARS)
+    axes.set_xticks(place[::every], labels[::every], fontsize=6.5)
     axes.set_ylabel(shown.label)
     axes.set_title("Before and after" + ", by duty" * (len(names) > 1), loc="left")
     axes.margins(y=0.25)
@@ -154,9 +164,10 @@ def _draw_values(axes: Axes, record: Record) -> None:
     best = int(np.nanargmin(np.where(record["feasible"] == 1, values, np.nan)))
     span = abs(float(np.atleast_1d(record.summary.get("objective_start") or 0.0)[0]) * _Shown(record).factor)
     near = (record["feasible"] == 1) & (values <= values[best] + 0.1 * abs(values[best] or span))
-    keys = [one["key"] if isinstance(one["key"], str) else one["key"][0] for one in entries]
+    keys = [naming_key(one["key"]) for one in entries]
     labels = []
-    for row, (name, entry, key) in enumerate(zip(names, entries, keys, strict=True)):
+    for row, (name, entry) in enumerate(zip(names, entries, strict=True)):
+        key = entry["key"] if isinstance(entry["key"], str) else entry["key"][0]
         low, high = _bounds(record, name, entry)
         shares = (record[name] - low) / ((high - low) or 1.0)
         axes.plot(shares[near], np.full(near.sum(), row), "|", color=PALETTE[0], markersize=7, alpha=0.5)
@@ -194,7 +205,7 @@ def _bounds(record: Record, name: str, entry: Mapping[str, Any]) -> tuple[float,
 def _draw_sensitivities(axes: Axes, record: Record) -> None:
     """Change of the objective with one key or tolerance moved about the best."""
     shown, design = _Shown(record), record.scenario["design"]
-    keys = [one["key"] if isinstance(one["key"], str) else one["key"][0] for one in design["free"]]
+    keys = [naming_key(one["key"]) for one in design["free"]]
     names = [f"{name.replace('_', ' ')} ± 2 %" for name in apart(keys)]
     tolerances = design.get("tolerance", ())
     names += [

@@ -29,6 +29,9 @@ class Judged(NamedTuple):
         Figures over all duties, as the objectives take them.
     message : str
         Why it has no figures.
+    shape : float or None
+        The least distance of its gears from the limits of their existence, in modules; None where the free
+        keys do not change them.
     """
 
     objectives: tuple[float, ...]
@@ -36,12 +39,13 @@ class Judged(NamedTuple):
     by_duty: tuple[float, ...]
     figures: dict[str, float]
     message: str = ""
+    shape: float | None = None
 
     @property
     def violation(self) -> float:
         """Sum of what the constraints are missed by; 0 where all hold."""
         if self.message:
-            return NO_FIGURES
+            return NO_FIGURES - min(0.0, self.shape or 0.0)
         return -sum(min(0.0, one) for one in self.margins)
 
     @property
@@ -65,7 +69,7 @@ class Judge:
         self.start = list(start)
         self.scales: dict[str, float] = {}
         self.at_start: dict[str, float] = {}
-        self._start = self._rows(start)
+        self._start = self.rows(start)
         if self._start is not None:
             self.at_start = {name: self._over_all(name, self._start, 1.0) for name in self._start[0][0]}
         for one in case.constraints:
@@ -80,11 +84,11 @@ class Judge:
             return one.sign * math.inf
         return one.sign * self._worst(one, self._start)
 
-    def judged(self, found: Sequence[dict[str, Any] | str]) -> Judged:
+    def judged(self, found: Sequence[dict[str, Any] | str], shape: float | None = None) -> Judged:
         """Judge the figures of a candidate's cases, in the order of `candidates.cases_of`."""
         case = self.case
         none = math.nan
-        rows = self._rows(found)
+        rows = self.rows(found)
         wanted = {name for one in case.objectives for name, _ in one.terms}
         wanted |= {one.figure for one in case.constraints}
         missing = sorted(wanted - set(rows[0][0])) if rows else []
@@ -98,14 +102,15 @@ class Judge:
                 tuple(none for _ in case.duties),
                 {},
                 message,
+                shape,
             )
         objectives = tuple(self._objective(one, rows) for one in case.objectives)
         by_duty = tuple(self._objective(case.objectives[0], [row], 1.0) for row in rows)
         margins = tuple(self._margin(one, rows) for one in case.constraints)
         figures = {name: self._over_all(name, rows, 1.0) for name in rows[0][0]}
-        return Judged(objectives, margins, by_duty, figures)
+        return Judged(objectives, margins, by_duty, figures, shape=shape)
 
-    def _rows(self, found: Sequence[dict[str, Any] | str]) -> list[list[Mapping[str, float]]] | None:
+    def rows(self, found: Sequence[dict[str, Any] | str]) -> list[list[Mapping[str, float]]] | None:
         """Figures by duty and sample, those that all cases have; None where a case has none."""
         if any(isinstance(one, str) for one in found):
             return None

@@ -10,7 +10,7 @@ from tribodyn.record.reader import Record
 from tribodyn.record.schema import Layout
 from tribodyn.studies import study_of
 from tribodyn.studies.design.archive import Evaluation, identity
-from tribodyn.studies.design.candidates import samples_of, value_at
+from tribodyn.studies.design.candidates import samples_of, shapes_gears, value_at
 from tribodyn.studies.design.case import DesignCase, Objective
 from tribodyn.studies.design.pool import Figures
 from tribodyn.studies.evaluated import figure_units
@@ -59,6 +59,9 @@ def layout_of(case: DesignCase) -> Layout:
         "1",
         "figures of every duty and sample, SI; names in the attribute figures",
     )
+    if shapes_gears(case):
+        about = "least distance of the gears from the limits of their existence, in modules"
+        samples["shape"] = Variable(along, "1", about)
     samples["feasible"] = flag(along, "whether all constraints hold", "not_judged no yes")
     samples["message"] = Variable(along, "1", "why a candidate has no figures", f"S{MESSAGE}", b"")
     scales = {
@@ -108,6 +111,8 @@ def rows_of(case: DesignCase, some: Sequence[Evaluation], start: int) -> dict[st
             for one in some
         ]
     )
+    if shapes_gears(case):
+        rows["shape"] = np.array([np.nan if one.judged.shape is None else one.judged.shape for one in some])
     rows["feasible"] = np.array([float(one.judged.feasible) for one in some])
     rows["message"] = np.array([_cut(one.judged.message) for one in some], dtype=f"S{MESSAGE}")
     return rows

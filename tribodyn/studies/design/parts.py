@@ -311,13 +311,21 @@ def _tolerance(place: str, one: Any, schema: type[Table]) -> Tolerance:
 
 def _named_apart(free: Sequence[Free]) -> tuple[Free, ...]:
     """Give every free key the shortest end of its key that no other has."""
-    names = apart([one.keys[0] for one in free])
+    names = apart([naming_key(one.keys) for one in free])
     return tuple(one._replace(name=name) for one, name in zip(free, names, strict=True))
 
 
 def _tolerances_apart(some: Sequence[Tolerance]) -> tuple[Tolerance, ...]:
     names = apart([one.key for one in some])
     return tuple(one._replace(name=name) for one, name in zip(some, names, strict=True))
+
+
+def naming_key(keys: str | Sequence[str]) -> str:
+    """The key that names a free key: of several its parts that all of them have."""
+    if isinstance(keys, str):
+        return keys
+    shared = set(keys[0].split(".")).intersection(*(key.split(".") for key in keys[1:]))
+    return ".".join(part for part in keys[0].split(".") if part in shared) or keys[0]
 
 
 def apart(keys: Sequence[str]) -> list[str]:

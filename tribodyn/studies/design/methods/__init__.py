@@ -9,7 +9,7 @@ from tribodyn.studies.design.archive import Archive
 from tribodyn.studies.design.case import DesignCase
 from tribodyn.studies.design.methods.every import count_of_all, every
 from tribodyn.studies.design.methods.front import epsilon_constraint, nsga2
-from tribodyn.studies.design.methods.local import local
+from tribodyn.studies.design.methods.local import derivatives_of, local
 from tribodyn.studies.design.methods.population import cma_es, differential_evolution
 
 Method = Callable[[Archive, np.ndarray], None]
@@ -26,6 +26,8 @@ METHODS: dict[str, Method] = {
     "every": every,
 }
 FRONTS = ("epsilon-constraint", "nsga2")
+#: Free keys above which derivatives are worth their program.
+MANY = 6
 #: Those that need values between which there are others.
 SMOOTH = ("cobyqa", "slsqp", "trust-constr", "epsilon-constraint")
 
@@ -49,7 +51,9 @@ def method_of(case: DesignCase) -> tuple[str, str]:
             return name, "two objectives" + ("" if smooth else ", and whole numbers or choices")
         if not smooth:
             return "differential-evolution", "whole numbers or choices"
-        return "cobyqa", "continuous values, figures without derivatives"
+        if len(case.free) > MANY and derivatives_of(case):
+            return "slsqp", "many continuous values, derivatives through JAX"
+        return "cobyqa", "continuous values, figures that may have kinks"
     if two != (wanted in FRONTS) and wanted != "every":
         rule = "needs two objectives" if not two else "takes one objective"
         remedy = "choose auto, or " + ("another method" if not two else " or ".join(FRONTS))

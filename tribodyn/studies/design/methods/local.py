@@ -6,9 +6,12 @@ from typing import Any
 
 import numpy as np
 
+from tribodyn.errors import InputError
 from tribodyn.studies.design.archive import Archive, SpentError
-from tribodyn.studies.design.candidates import share_of
+from tribodyn.studies.design.candidates import chosen, share_of
+from tribodyn.studies.design.case import DesignCase
 from tribodyn.studies.design.methods.views import Scalar
+from tribodyn.studies.design.slopes import Derivatives, margin_slope, objective_slope
 
 #: Share of the evaluations that go into the first look, and how many of them a free key is worth at most.
 FIRST_LOOK, LOOK_PER_KEY = 0.3, 10
@@ -104,7 +107,7 @@ def minimise(
     def constraint(shares: np.ndarray) -> np.ndarray:
         return np.array(view.margins(view.archive.ask(shares)))
 
-    gradient, jacobian = differences(view)
+    gradient, jacobian = slopes_of(view, derivatives_of(view.archive.case) if name != "cobyqa" else None)
     derivatives: dict[str, Any] = {} if name == "cobyqa" else {"jac": gradient}
     constraints: Any = ()
     if margins:
@@ -148,11 +151,39 @@ def _curvature() -> Any:
     return Curvature()
 
 
-def differences(view: Scalar) -> tuple[Callable[[np.ndarray], Any], Callable[[np.ndarray], Any]]:
-    """Slopes of value and margins by differences inwards, whose candidates are evaluated side by side."""
+def derivatives_of(case: DesignCase) -> Derivatives | None:
+    """Derivatives of a search's figures through JAX; None where they cannot be differentiated."""
+    try:
+        return Derivatives(case)
+    except InputError:
+        return None
+
+
+def slopes_of(
+    view: Scalar, derivatives: Derivatives | None
+) -> tuple[Callable[[np.ndarray], Any], Callable[[np.ndarray], Any]]:
+    """Slopes of value and of margins: through JAX, or by differences whose candidates are side by side."""
+    archive = view.archive
+    aim = archive.case.objectives[view.objective]
+
+    def exact(shares: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        shares = np.clip(shares, 0.0, 1.0)
+        found = archive.figures_of(shares)
+        assert derivatives is not None
+        slopes = derivatives.at(shares)
+        value = objective_slope(archive.judge, aim, found, slopes) / view.scales[view.objective]
+        margins = [margin_slope(archive.judge, one, found, slopes) for one in archive.case.constraints]
+        middle = archive.ask(shares).shape
+        if middle is not None:
+            steps = np.where(shares + STEP <= 1.0, STEP, -STEP)
+            around = [archive.shape_of(chosen(archive.case, one)) for one in shares + np.diag(steps)]
+            margins.append(np.array([(one or 0.0) - middle for one in around]) / steps)
+        return value, np.array(margins).reshape(-1, len(shares))
 
     def slopes(shares: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         shares = np.clip(shares, 0.0, 1.0)
+        if derivatives is not None and view.bound is None and not archive.ask(shares).message:
+            return exact(shares)
         steps = np.where(shares + STEP <= 1.0, STEP, -STEP)
         around = shares + np.diag(steps)
         middle, *others = view.archive.ask_all([shares, *around])

@@ -9,7 +9,7 @@ from tribodyn.studies.design.archive import Archive
 from tribodyn.studies.design.judged import HELD, NO_FIGURES, Judged
 
 #: Stands for the objective of a candidate without figures, over that of the start.
-POOR = 3.0
+POOR = 1.5
 
 
 class Scalar:
@@ -41,17 +41,25 @@ class Scalar:
 
     def margins(self, judged: Judged) -> list[float]:
         """Margins of the constraints, that of the bound last."""
+        margins = [self._unknown(judged) if judged.message else one for one in judged.margins]
+        if judged.shape is not None:
+            margins.append(judged.shape)
         if self.bound is None:
-            return list(judged.margins)
+            return margins
         other = judged.objectives[1 - self.objective]
         room = (self.bound - other) / self.scales[1 - self.objective]
-        return [*judged.margins, room if math.isfinite(room) else -NO_FIGURES]
+        return [*margins, room if math.isfinite(room) else self._unknown(judged)]
+
+    @staticmethod
+    def _unknown(judged: Judged) -> float:
+        """Stands for a margin of a candidate without figures: the distance of its shape, if known."""
+        return -NO_FIGURES if judged.shape is None else min(judged.shape, 0.0)
 
     def merit(self, judged: Judged) -> float:
         """Objective of a feasible candidate; of others above all those, growing with what they miss."""
         missed = -sum(min(0.0, one) for one in self.margins(judged))
         if judged.message:
-            return 1e6 + NO_FIGURES
+            return 1e6 + judged.violation
         return 1e6 + missed if missed > HELD else self.value(judged)
 
     def merits(self, several: Sequence[np.ndarray]) -> np.ndarray:

@@ -1,0 +1,89 @@
+"""Slopes of objectives and margins: the chain rule over duties and samples, and JAX against differences."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tribodyn.errors import InputError
+from tribodyn.studies.design.candidates import cases_of, chosen
+from tribodyn.studies.design.evaluation import evaluate
+from tribodyn.studies.design.judged import Judge
+from tribodyn.studies.design.short_form import loaded_search
+from tribodyn.studies.design.slopes import Derivatives, margin_slope, objective_slope
+
+F, G = "efficiency", "contact_ratio"
+FREE = [{"key": f"drive.{side}.profile_shift", "from": -1.0, "to": 1.0} for side in ("pinion", "gear")]
+TOLERANCE = {"key": "operating.gear_torque", "plus_minus": "10 N*m"}
+#: Coefficients of figures that are linear in two keys, at two duties and three samples.
+LINEAR = np.random.default_rng(3).normal(size=(2, 2, 3, 3))
+
+
+def figures(x: np.ndarray) -> list[dict[str, float]]:
+    rows = LINEAR[..., 0] + LINEAR[..., 1:] @ x
+    return [{F: float(rows[0, i, j]), G: float(rows[1, i, j])} for i in range(2) for j in range(3)]
+
+
+@pytest.mark.parametrize("over", ["mean", "worst", "quantile"])
+@pytest.mark.parametrize("over_duties", ["mean", "worst"])
+@pytest.mark.parametrize("weighted", [False, True])
+def test_the_chain_rule(over: str, over_duties: str, weighted: bool):
+    terms = [{"figure": F, "weight": -2.0}, {"figure": G, "weight": 1.0}]
+    design = {
+        "free": FREE,
+        "minimise": terms if weighted else G,
+        "subject_to": [f"{F} >= 0.3", f"{G} <= 0.5"],
+        "over_duties": over_duties,
+        "duty": [{"set": {"operating.pinion_speed": f"{n} rpm"}, "weight": n} for n in (1.0, 2.0)],
+        "tolerance": [TOLERANCE],
+        "robust": {"over": over, "samples": 3, "quantile": 0.5},
+    }
+    case = loaded_search("efficiency-involute-18-36", design, {}).case
+    judge = Judge(case, figures(np.zeros(2)))
+    x, step = np.array([0.3, -0.2]), 1e-6
+    slopes: Any = [[{F: LINEAR[0, i, j, 1:], G: LINEAR[1, i, j, 1:]} for j in range(3)] for i in range(2)]
+    around = [(judge.judged(figures(x + e)), judge.judged(figures(x - e))) for e in step * np.eye(2)]
+    expected = [(up.objectives[0] - down.objectives[0]) / (2 * step) for up, down in around]
+    found = objective_slope(judge, case.objectives[0], figures(x), slopes)
+    np.testing.assert_allclose(found, expected, rtol=1e-6)
+    for place, one in enumerate(case.constraints):
+        expected = [(up.margins[place] - down.margins[place]) / (2 * step) for up, down in around]
+        np.testing.assert_allclose(margin_slope(judge, one, figures(x), slopes), expected, rtol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("scenario", "figure", "key"),
+    [
+        ("involute-18-36", "dynamic_factor", "drive.pinion.profile_shift"),
+        ("load-contact-18-36", "peak_to_peak", "drive.pinion.profile_shift"),
+        ("efficiency-involute-18-36", "specific_sliding_max", "drive.pinion.profile_shift"),
+    ],
+)
+def test_what_cannot_be_differentiated(scenario: str, figure: str, key: str):
+    free = [{"key": key, "from": -0.1, "to": 0.1}]
+    with pytest.raises(InputError):
+        Derivatives(loaded_search(scenario, {"free": free, "minimise": figure}, {}).case)
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("scenario", ["efficiency-involute-18-36", "efficiency-cycloidal-23-47"])
+def test_jax_agrees_with_differences(scenario: str):
+    keys = ("drive.pinion.addendum", "drive.gear.addendum")
+    free = [{"key": key, "from": 0.8, "to": 1.05} for key in keys]
+    design = {"free": free, "minimise": "loss", "subject_to": ["contact_ratio >= 1.2"]}
+    case = loaded_search(scenario, design, {"output.samples_per_cycle": 200}).case
+
+    def found(x: np.ndarray) -> Any:
+        return evaluate(case.base, cases_of(case, chosen(case, x)))
+
+    judge, x, step = Judge(case, evaluate(case.base, cases_of(case, {}))), np.array([0.5, 0.4]), 2e-3
+    slopes = Derivatives(case).at(x)
+    around = [(judge.judged(found(x + e)), judge.judged(found(x - e))) for e in step * np.eye(2)]
+    value = objective_slope(judge, case.objectives[0], found(x), slopes)
+    np.testing.assert_allclose(
+        value, [(up.objectives[0] - down.objectives[0]) / (2 * step) for up, down in around], rtol=1e-2
+    )
+    margin = margin_slope(judge, case.constraints[0], found(x), slopes)
+    np.testing.assert_allclose(
+        margin, [(up.margins[0] - down.margins[0]) / (2 * step) for up, down in around], rtol=1e-3
+    )
