@@ -14,7 +14,7 @@ from tribodyn.post.report import Line
 from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, QUIET, WIDTH, new_figure
 from tribodyn.record.reader import Record
 from tribodyn.studies.design.layout import LOWER, OBJECTIVES, UPPER
-from tribodyn.studies.design.parts import apart, flat, naming_key
+from tribodyn.studies.design.naming import apart, flat, naming_key
 from tribodyn.studies.design.report import line_of
 
 #: Duties that are drawn as bars, at most; and labels of more.
@@ -111,7 +111,7 @@ def _draw_history(axes: Axes, records: Sequence[Record]) -> None:
     every = np.concatenate(seen)
     low, high = np.min(every), np.quantile(every, 0.95)
     if start is not None:
-        high = max(high, level)
+        high = max(high, seen[-1][0])
     axes.set_ylim(low - 0.08 * (high - low), high + 0.1 * (high - low))
     axes.set_xlabel("Evaluation (× not feasible)")
     axes.set_ylabel(shown.label)

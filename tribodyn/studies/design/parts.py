@@ -11,6 +11,7 @@ from tribodyn.scenario.units import Kind, NotAQuantity, factor_to_si, to_si
 from tribodyn.scenario.vary import base_units, is_drawn, is_whole, kind_at
 from tribodyn.studies import study_of
 from tribodyn.studies.design.case import DRAWN, START, Constraint, Duty, Free, Objective, Tolerance
+from tribodyn.studies.design.naming import apart, flat, naming_key
 from tribodyn.studies.evaluated import figure_units
 
 T = TypeVar("T")
@@ -275,15 +276,6 @@ def _contradictions(constraints: Sequence[Constraint]) -> list[InputError]:
     return errors
 
 
-def flat(table: Mapping[str, Any], above: str = "") -> dict[str, Any]:
-    """Nested tables as dotted keys."""
-    keys: dict[str, Any] = {}
-    for name, value in table.items():
-        key = f"{above}{name}"
-        keys |= flat(value, f"{key}.") if isinstance(value, Mapping) else {key: value}
-    return keys
-
-
 def _duty(number: int, one: Any, free: Sequence[Free]) -> Duty:
     keys = flat(one.set)
     for key in keys:
@@ -318,25 +310,3 @@ def _named_apart(free: Sequence[Free]) -> tuple[Free, ...]:
 def _tolerances_apart(some: Sequence[Tolerance]) -> tuple[Tolerance, ...]:
     names = apart([one.key for one in some])
     return tuple(one._replace(name=name) for one, name in zip(some, names, strict=True))
-
-
-def naming_key(keys: str | Sequence[str]) -> str:
-    """The key that names a free key: of several its parts that all of them have."""
-    if isinstance(keys, str):
-        return keys
-    shared = set(keys[0].split(".")).intersection(*(key.split(".") for key in keys[1:]))
-    return ".".join(part for part in keys[0].split(".") if part in shared) or keys[0]
-
-
-def apart(keys: Sequence[str]) -> list[str]:
-    """Shortest names for keys: their last parts, of such length that all differ; gears are always named."""
-    for length in range(1, 12):
-        ends = [key.split(".")[-length:] for key in keys]
-        gears = [next((one for one in key.split(".") if one in ("pinion", "gear")), "") for key in keys]
-        names = [
-            "_".join(([gear] if gear and gear not in end else []) + end)
-            for gear, end in zip(gears, ends, strict=True)
-        ]
-        if len(set(names)) == len(names):
-            return names
-    return [key.replace(".", "_") for key in keys]

@@ -11,7 +11,8 @@ from tribodyn.scenario.common import ScenarioHead, head_of
 from tribodyn.scenario.quantity import Count, Positive, Switch, Table, Text, scenario_file, written
 from tribodyn.studies import DEFAULT, STUDIES, study_of
 from tribodyn.studies.design.case import DesignCase, Robust, Search
-from tribodyn.studies.design.parts import flat, parts_of_design
+from tribodyn.studies.design.naming import flat
+from tribodyn.studies.design.parts import parts_of_design
 
 METHODS = (
     "auto",
