@@ -77,6 +77,8 @@ def test_misalignment_of_the_helix_tolerances():
 
 
 def test_what_is_refused():
+    with pytest.raises(InputError, match="the back flanks carry"):
+        case("involute-23-47", mesh__backlash="50 um", operating__gear_torque="-100 N*m")
     with pytest.raises(InputError, match="they have no quality"):
         load("involute-23-47", {"mesh.deviation_sample": 1})
     with pytest.raises(InputError, match=r"drive.gear.quality = 6.*face width"):

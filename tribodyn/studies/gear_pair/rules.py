@@ -157,6 +157,13 @@ def _working_flanks(torque: float, back_flanks: bool, mesh: Mesh) -> Iterator[In
                 rule="is that of the driving flanks, but under a negative gear_torque the back flanks carry",
                 remedy="leave it out, or reverse the load",
             )
+    if torque < 0 and mesh.deviation_sample is not None:
+        yield InputError(
+            "mesh.deviation_sample",
+            mesh.deviation_sample,
+            "is of the driving flanks, but under a load that drives the gear the back flanks carry",
+            "leave it out, or reverse the load",
+        )
     if torque == 0 and back_flanks and mesh.compliance == "fem":
         yield InputError(
             "operating.gear_torque",
