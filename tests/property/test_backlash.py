@@ -45,9 +45,8 @@ def test_backlash_is_what_the_teeth_leave_open(drawn):
     try:
         pair = check(involute.FAMILY, drive)
     except InputError as refused:
-        assert "overlap" not in refused.rule
-        assume(False)
-        return
+        assume("the teeth overlap" in refused.rule)  # other gears cannot be made, whatever their distance
+        raise
     closed = float(involute.normal_backlash(drive))
     assert closed > 0
     assert normal_backlash(pair) == pytest.approx(closed, rel=1e-6, abs=1e-9 * drive.module)
