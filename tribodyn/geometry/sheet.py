@@ -46,6 +46,7 @@ def geometry_sheet(
         "module": _millimetres(drive.module),
         "gear ratio": (float(drive.gear.teeth / drive.pinion.teeth), ""),
         "centre distance": _millimetres(path.pinion_pitch_radius + path.gear_pitch_radius),
+        **_operating_angle(assembly),
         **backlash_lines(assembly),
         "pressure angle of the rack on its rolling line": _degrees(assembly.pinion.path.pressure_angle(0.0)),
         "contact ratio": (assembly.contact_ratio, ""),
@@ -136,6 +137,13 @@ def _base_diameter(assembly: Assembly, side: Side) -> dict[str, Quantity]:
     along = kinematics(assembly.path, np.linspace(assembly.r_start, assembly.r_end, 5))
     arm = getattr(along, f"{side}_normal_arm")
     return {"base diameter": _millimetres(2 * arm[0])} if np.ptp(arm) <= 1e-12 * arm[0] else {}
+
+
+def _operating_angle(assembly: Assembly) -> dict[str, Quantity]:
+    """Return the pressure angle at which involutes work, the same along their path."""
+    if not assembly.family.involute:
+        return {}
+    return {"operating pressure angle": _degrees(assembly.path.pressure_angle(0.0))}
 
 
 def _tip_form_diameter(assembly: Assembly, side: Side) -> dict[str, Quantity]:
