@@ -52,7 +52,7 @@ def judged(
         "scuffing_integral": by_standard.get("S_intS", math.nan),
         "micropitting": _worse(by_standard.get("S_lambda"), own["S_lambda"]),
         "dynamic_factor": figures["dynamic_factor"],
-        "hertz_pressure": float(np.max(local.films.pressure)),
+        "hertz_pressure": float(np.nanmax(local.films.pressure)),
         "root_tension": max(figures["pinion_root_tension_max"], figures["gear_root_tension_max"]),
         "loaded_error": figures["loaded_transmission_error_peak_to_peak"],
     }
@@ -97,12 +97,12 @@ def _by_standard(case: AssessmentCase, found: Standard, strength: Strength) -> d
 
 def _by_simulation(case: AssessmentCase, strength: Strength, local: Local) -> dict[str, float]:
     films = local.films
-    contact = films.bulk_temperature + float(np.max(films.flash_rise))
+    contact = films.bulk_temperature + float(np.nanmax(films.flash_rise))
     margins = {"theta_B": contact - ZERO_CELSIUS, "S_B": math.nan, "S_lambda": math.nan}
     if strength.scuffing is not None:
         margins["S_B"] = flash_temperature.safety(strength.scuffing, contact, case.oil_temperature)
     if strength.specific_film is not None:
-        margins["S_lambda"] = float(np.min(films.specific_film)) / strength.specific_film
+        margins["S_lambda"] = float(np.nanmin(films.specific_film)) / strength.specific_film
     return margins
 
 

@@ -13,6 +13,9 @@ from tribodyn.standards.micropitting import Films
 from tribodyn.studies.assessment.case import AssessmentCase
 from tribodyn.studies.assessment.standard import flanks_of, oil_of
 
+#: Half width of a Hertz contact over its radius from which it is none: at the pitch point of a cycloid.
+_WIDEST = 0.1
+
 
 class Local(NamedTuple):
     """Values along the path of contact, and those at the points A to E.
@@ -26,7 +29,8 @@ class Local(NamedTuple):
     radius, sliding : (places,)
         Equivalent radius, m, and sliding speed, m/s.
     films : Films
-        Arrays over the places; the pressure with the dynamic and the application factor.
+        Arrays over the places; the pressure with the dynamic and the application factor. NaN where there is
+        no Hertz contact: without load, or where the radius vanishes.
     points : (7,)
         Roll angles of the points, rad.
     """
@@ -66,25 +70,31 @@ def local_of(
     settings = case.settings
     start, end = map(float, assembly.roll_limits)
     inside = (along["roll_angle"] >= start) & (along["roll_angle"] <= end)
-    # the ends themselves, by interpolation between positions inside and beyond
-    roll = np.unique(np.concatenate([[start], along["roll_angle"][inside], [end]]))
+    # the points themselves too, by interpolation: both ends lie between positions inside and beyond
+    points = point_angles(assembly)
+    roll = np.unique(np.concatenate([points, along["roll_angle"][inside]]))
     load, pressure = (
         np.interp(roll, along["roll_angle"], along[name]) for name in ("normal_load", "hertz_pressure")
     )
     motion = kinematics(assembly.path, assembly.path.signed_distance(roll))
     speeds = motion.pinion_speed * case.pinion_speed, motion.gear_speed * case.pinion_speed
     raised = pressure * np.sqrt(settings.application_factor * max(figures["dynamic_factor"], 1.0))
+    # no Hertz contact where its half width √(8 w ρ/(π E_r)) is not small beside its radius, none without load
+    flanks = flanks_of(case)
+    line_load = load / float(assembly.common_width)
+    narrow = 8.0 * line_load * motion.relative_curvature / (np.pi * flanks.reduced_modulus) < _WIDEST**2
+    hertzian = (raised > 0.0) & narrow
     films = micropitting.at_places(
-        np.maximum(raised, 1.0),  # a place without load has no film to speak of, and no logarithm of zero
+        np.where(hertzian, raised, np.nan),
         1.0 / motion.relative_curvature,
         speeds,
         figures["friction_coefficient_mean"],
         bulk_of(case, assembly, figures),
-        flanks_of(case),
+        flanks,
         oil_of(case),
     )
     sliding = np.abs(speeds[0] - speeds[1])
-    return Local(roll, load, 1.0 / motion.relative_curvature, sliding, films, point_angles(assembly))
+    return Local(roll, load, 1.0 / motion.relative_curvature, sliding, films, points)
 
 
 def bulk_of(case: AssessmentCase, assembly: Assembly, figures: Mapping[str, Any]) -> float:

@@ -209,7 +209,7 @@ def _points(summary: Mapping[str, Any]) -> str:
     head = "".join(f"<th>{name}</th>" for name in ("", *POINTS, "worst"))
     cells = "".join(
         f"<tr><td>{escape(label)}</td>"
-        + "".join(f"<td>{values[name] * factor:{form}}</td>" for name in (*POINTS, "worst"))
+        + "".join(f"<td>{_shown(values.get(name), factor, form)}</td>" for name in (*POINTS, "worst"))
         + "</tr>"
         for label, values, factor, form in rows
         if values

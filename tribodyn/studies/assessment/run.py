@@ -5,6 +5,8 @@ from tempfile import TemporaryDirectory
 from time import perf_counter
 from typing import Any
 
+import numpy as np
+
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.families import family
@@ -97,7 +99,7 @@ def assessed(
             "oil_temperature": case.oil_temperature,
         },
         **found_there,
-        "contact_temperature_max": float(local.films.bulk_temperature + max(local.films.flash_rise)),
+        "contact_temperature_max": float(local.films.bulk_temperature + np.nanmax(local.films.flash_rise)),
         "specific_film_min": own["lambda_GF"]["worst"],
         "iso": iso,
         "simulated": own,

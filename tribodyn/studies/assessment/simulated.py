@@ -31,8 +31,8 @@ def simulated_part(
     return {
         "theta_M": by_point(np.full(count, bulk), max),
         "mu_m": by_point(np.full(count, friction), max),
-        "h_Y": film | {"worst": float(np.min(films.film_thickness))},
-        "lambda_GF": specific | {"worst": float(np.min(films.specific_film))},
+        "h_Y": film | {"worst": float(np.nanmin(films.film_thickness))},
+        "lambda_GF": specific | {"worst": float(np.nanmin(films.specific_film))},
         "c_prime": figures["stiffness_single_pair_at_pitch_point"] / width,
         "c_gamma_alpha": figures["mesh_stiffness_mean"] / width / math.cos(angle) ** 2,
         "K_v": figures["dynamic_factor"],
@@ -40,5 +40,5 @@ def simulated_part(
         "loss": loss,
         "K_Hbeta": figures["face_load_factor"],
         "theta_B": by_point(local.at_points(bulk + films.flash_rise), max)
-        | {"worst": float(bulk + np.max(films.flash_rise))},
+        | {"worst": float(bulk + np.nanmax(films.flash_rise))},
     }

@@ -13,9 +13,9 @@ from tribodyn.cli.app import app
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import Drive, GearBody
-from tribodyn.geometry.families import involute
+from tribodyn.geometry.families import family, involute
 from tribodyn.standards.contact_path import POINTS, ContactPath, point_distances
-from tribodyn.studies.assessment.local import point_angles
+from tribodyn.studies.assessment.local import local_of, point_angles
 from tribodyn.studies.assessment.parts import asked_of
 from tribodyn.studies.assessment.standard import path_of
 from tribodyn.studies.gear_pair.assess import maxima
@@ -201,3 +201,18 @@ def test_the_temperature_of_the_teeth_can_be_asked_for_otherwise(tmp_path: Path)
     assert list(absent.speeds) == sorted(absent.speeds)
     with pytest.raises(InputError, match="pinion_oil"):
         short_case(KIND, tmp_path, temperature__model="network")
+
+
+def test_where_the_radius_vanishes_there_is_no_hertz_contact(tmp_path: Path):
+    cycloid = load_scenario("efficiency-cycloidal-23-47")
+    assembly = assemble(family(cycloid.family), cycloid.drive)
+    start, end = map(float, assembly.roll_limits)
+    roll = np.linspace(start, end, 41)
+    along = {"roll_angle": roll, "normal_load": np.full(41, 5e3), "hertz_pressure": np.full(41, 0.8e9)}
+    figures = {"dynamic_factor": 1.2, "friction_coefficient_mean": 0.05, "bulk_temperature": 360.0}
+    local = local_of(short_case(KIND, tmp_path), assembly, along, figures)
+    film = local.at_points(local.films.specific_film)
+    assert np.isnan(film[POINTS.index("C")])
+    assert np.all(np.delete(film, POINTS.index("C")) > 0.0)
+    assert local.films.pressure[0] == pytest.approx(0.8e9 * math.sqrt(1.2))
+    assert local.films.bulk_temperature == 360.0
