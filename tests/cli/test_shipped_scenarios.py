@@ -41,7 +41,13 @@ SEARCHES = [name for name in names(shipped("scenarios")) if name.startswith("des
 FEW = ("design.evaluations=3", "design.sensitivities=false", "design.confirm={}")
 
 
-@pytest.mark.parametrize("name", SEARCHES)
+#: Searches of which a single candidate takes seconds.
+LONG = ("design-crowning-18-36", "design-quiet-range-18-36")
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=pytest.mark.soak) if name in LONG else name for name in SEARCHES]
+)
 def test_a_search_runs(name: str, tmp_path: Path, forked: ForkedVerbs):
     few = [word for setting in FEW for word in ("--set", setting)]
     ended = forked("run", name, *few, "--json", "--no-plot", folder=tmp_path)

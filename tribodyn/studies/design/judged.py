@@ -151,6 +151,14 @@ class Judge:
             return float(np.quantile(values, robust.quantile))
         return float(np.mean(values))
 
+    def constrained(self, found: Sequence[dict[str, Any] | str]) -> dict[str, float]:
+        """The figure of every constraint at its worst duty and sample, by the constraint's text."""
+        rows = self.rows(found)
+        if rows is None:
+            return {}
+        known = (one for one in self.case.constraints if one.figure in rows[0][0])
+        return {one.text: one.sign * self._worst(one, rows) for one in known}
+
     def _margin(self, one: Constraint, rows: Sequence[Sequence[Mapping[str, float]]]) -> float:
         limit = self.limit(one) * one.sign
         return (limit - self._worst(one, rows)) / self.scales[one.text] if math.isfinite(limit) else 1.0

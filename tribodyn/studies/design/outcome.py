@@ -94,6 +94,9 @@ def headline(case: DesignCase, archive: Archive) -> dict[str, Any]:
             "start": [float(one) for one in judged.by_duty],
             "best": [float(one) for one in best.judged.by_duty],
         }
+    if case.constraints:
+        summary["constraints_start"] = judge.constrained(judge.start)
+        summary["constraints_best"] = judge.constrained(best.found)
     summary["figures_start"] = dict(judge.at_start)
     summary["figures_best"] = dict(best.judged.figures)
     if not single:

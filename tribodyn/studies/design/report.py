@@ -66,12 +66,11 @@ def sentences(record: Record) -> list[str]:
         f"{key}: {summary.get('start', {}).get(key, 'not set')} at the start, {value} at the best."
         for key, value in summary.get("best", {}).items()
     ]
-    before, after = summary.get("figures_start", {}), summary.get("figures_best", {})
-    constrained = [str(text) for text in record.scenario["design"].get("subject_to", ())]
-    for text in constrained:
-        name = _figure_in(text, after)
-        if name:
-            said.append(f"{text}: {_named(base, name)} {_change(base, name, before.get(name), after[name])}.")
+    before, after = summary.get("constraints_start", {}), summary.get("constraints_best", {})
+    known = summary.get("figures_best", {})
+    for text, value in after.items():
+        if name := _figure_in(text, known):
+            said.append(f"{text}: at its worst {_change(base, name, before.get(text), value)}.")
     if "objective_confirmed" in summary:
         change = _change(base, names[0], summary["objective_start_confirmed"], summary["objective_confirmed"])
         said.append(f"Evaluated once more as design.confirm says: {change}.")
