@@ -4,12 +4,16 @@ import math
 from dataclasses import replace
 from typing import Any, Protocol, TypeVar
 
+import numpy as np
+
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.material import MaterialData
+from tribodyn.geometry.path import kinematics
 from tribodyn.numerics.elementary import as_float, is_jax, minimum
 from tribodyn.tribology.contact import Surfaces
 from tribodyn.tribology.data import FilmData, FrictionData
+from tribodyn.tribology.duty_range import DutyRange
 from tribodyn.tribology.film import film_law
 from tribodyn.tribology.friction import friction_law
 from tribodyn.tribology.law import ActiveFilm, ActiveFriction, Closure, FilmLaw, FrictionLaw, LawInput
@@ -20,6 +24,11 @@ from tribodyn.tribology.trial import try_laws
 
 #: Pressure angle at the pitch point below which Niemann's formula has no meaning: radius and speed vanish.
 MINIMUM_ANGLE = math.radians(1.0)
+#: Loads over the whole torque on one pair, and speeds over the nominal ones, that a table of contacts spans;
+#: beyond, film and friction are those at its end.
+_LOADS, _SPEEDS = (0.25, 1.5), (0.8, 1.2)
+#: Least entrainment and radius over the largest along the path, and least slide-to-roll ratio, of a table.
+_LEAST_SHARE, LEAST_SLIDING = 0.1, 0.02
 
 
 class Duty(Protocol):
@@ -75,7 +84,13 @@ def closure_of(case: Lubricated) -> Closure:
 def untried_closure_of(case: Lubricated) -> Closure:
     """As `closure_of`, of a case whose numbers may be traced, and whose laws have been tried."""
     film, friction = laws_of(case)
-    given = LawInput(surfaces_of(case), case.lubricant, case.materials, lambda: nominal_conditions(case))
+    given = LawInput(
+        surfaces_of(case),
+        case.lubricant,
+        case.materials,
+        lambda: nominal_conditions(case),
+        lambda: duty_range(case),
+    )
     return closure(given, film, friction, dict(case.film.values), dict(case.friction.values))
 
 
@@ -170,6 +185,40 @@ def without_nominal_conditions() -> NominalConditions:
     """Stand for nominal conditions where there is no mesh: raise InputError."""
     raise InputError(
         "friction.law", None, "is a mean over the mesh, and there is none", "use a law of the local contact"
+    )
+
+
+def duty_range(case: Lubricated) -> DutyRange:
+    """Loads, speeds and curvatures that the contacts of a case meet at nominal speed and constant torque.
+
+    Raises
+    ------
+    InputError
+        Without a torque; there is no load to tabulate for.
+    """
+    from tribodyn.geometry.assembly import assemble
+    from tribodyn.geometry.families import family
+
+    torque = abs(float(case.operating.gear_torque))
+    speed = abs(float(case.operating.pinion_speed))
+    if torque == 0.0 or speed == 0.0:
+        raise InputError("film.law", '"solved"', "needs a torque and a speed to tabulate for", "give both")
+    assembly = assemble(family(case.family), case.drive)
+    start, end = assembly.limits
+    motion = kinematics(assembly.path, np.linspace(start, end, 41))
+    arm = np.min(np.abs(motion.gear_normal_arm))
+    load = torque / float(arm) / float(assembly.common_width)
+    entrainment = speed * np.abs(motion.entrainment)
+    curvature = np.abs(motion.relative_curvature)
+    # a cycloid's entrainment and radius vanish at the pitch point
+    entrainment = np.maximum(entrainment, _LEAST_SHARE * np.max(entrainment))
+    curvature = np.minimum(curvature, np.min(curvature) / _LEAST_SHARE)
+    ratio = speed * np.abs(motion.sliding) / entrainment
+    return DutyRange(
+        (_LOADS[0] * load, _LOADS[1] * load),
+        (_SPEEDS[0] * float(np.min(entrainment)), _SPEEDS[1] * float(np.max(entrainment))),
+        (0.99 * float(np.min(curvature)), 1.01 * float(np.max(curvature))),
+        (LEAST_SLIDING, max(1.05 * float(np.max(ratio)), 2.0 * LEAST_SLIDING)),
     )
 
 

@@ -16,6 +16,7 @@ from tribodyn.geometry.material import MaterialData
 from tribodyn.numerics.elementary import LAWS, absolute, law
 from tribodyn.numerics.parameter import Parameter
 from tribodyn.tribology.contact import Surfaces, hertz_half_width
+from tribodyn.tribology.duty_range import DutyRange, without_duty
 from tribodyn.tribology.flash import flash_temperature_rise
 from tribodyn.tribology.lubricant import LubricantData
 from tribodyn.tribology.nominal import NominalConditions
@@ -32,12 +33,15 @@ class LawInput(NamedTuple):
         Of pinion and gear.
     nominal : callable
         () -> NominalConditions at the pitch point; raises InputError where they have no meaning.
+    duty : callable
+        () -> DutyRange of the mesh; raises InputError where there is no mesh.
     """
 
     surfaces: Surfaces
     lubricant: LubricantData
     materials: tuple[MaterialData, MaterialData]
     nominal: Callable[[], NominalConditions]
+    duty: Callable[[], DutyRange] = without_duty
 
 
 class FilmFunctions(NamedTuple):

@@ -11,6 +11,7 @@ FILM_LAWS: Registry[FilmLaw] = Registry(
         "masjedi-khonsari-as-printed": "tribodyn.tribology.film.masjedi_khonsari:AS_PRINTED",
         "dowson-higginson": "tribodyn.tribology.film.dowson_higginson:LAW",
         "moes": "tribodyn.tribology.film.moes:LAW",
+        "solved": "tribodyn.tribology.film.solved:LAW",
     },
     "tribodyn.film_laws",
     FilmLaw,

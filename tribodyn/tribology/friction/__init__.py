@@ -21,6 +21,7 @@ FRICTION_LAWS: Registry[FrictionLaw] = Registry(
         "niemann": "tribodyn.tribology.friction.niemann:LAW",
         "schlenk": "tribodyn.tribology.friction.schlenk:LAW",
         "iso-14179-1": "tribodyn.tribology.friction.iso_14179_1:LAW",
+        "solved": "tribodyn.tribology.friction.solved:LAW",
     },
     "tribodyn.friction_laws",
     FrictionLaw,

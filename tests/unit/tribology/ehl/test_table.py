@@ -1,0 +1,107 @@
+"""Tables of the solved contact: polynomials, error, cache, the duty of a mesh, and laws that read them."""
+
+import math
+
+import numpy as np
+import pytest
+
+from tests.support.closures import LIU_NI, under
+from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
+from tribodyn.errors import InputError
+from tribodyn.studies.gear_pair.prepare import prepare
+from tribodyn.studies.load import load_scenario
+from tribodyn.tribology.closure import closure, duty_range, with_laws
+from tribodyn.tribology.contact import local_contact
+from tribodyn.tribology.duty_range import DutyRange
+from tribodyn.tribology.ehl import table as tables
+from tribodyn.tribology.ehl.table_lookup import TERMS, polynomial
+from tribodyn.tribology.film import film_law
+from tribodyn.tribology.friction import friction_law
+from tribodyn.tribology.surface_state import surface_state
+
+DUTY = DutyRange((1e5, 6e5), (0.1, 0.2), (100.0, 130.0), (0.02, 0.8))
+
+
+def power_laws(_contact, at):
+    """A film and a friction coefficient of powers, and a constant share, in place of solved contacts."""
+    load, speed, curvature, ratio = at
+    return np.array(
+        [math.log(2e-6 * speed**0.7 * load**-0.13 * curvature**-0.3), math.log(0.05 * ratio**0.2), 0.25]
+    )
+
+
+@pytest.fixture
+def by_powers(monkeypatch, tmp_path):
+    monkeypatch.setenv("TRIBODYN_CACHE", str(tmp_path))
+    monkeypatch.setattr(tables, "_solved", power_laws)
+    tables._table.cache_clear()
+    yield
+    tables._table.cache_clear()
+
+
+def test_polynomial_is_the_sum_of_its_terms(rng):
+    table = rng.standard_normal(len(TERMS))
+    x, y, z, s = point = rng.uniform(-1.0, 1.0, 4)
+    terms = [c * np.prod(point ** np.array(powers)) for c, powers in zip(table, TERMS, strict=True)]
+    assert polynomial(table, x, y, z, s) == pytest.approx(sum(terms), rel=1e-12)
+
+
+def test_laws_read_what_the_table_was_made_of(by_powers):
+    given = LIU_NI._replace(duty=lambda: DUTY)
+    laws = closure(given, film_law("solved"), friction_law("solved"))
+    assert laws.film.parameters.film_error < 1e-3
+    assert laws.friction.parameters.friction_error < 1e-3
+    state = surface_state(local_contact(3e5, 110.0, 0.15, -0.06, 0.12, 0.18), laws)
+    assert state.central_film_thickness == pytest.approx(2e-6 * 0.15**0.7 * 3e5**-0.13 * 110**-0.3, rel=1e-3)
+    assert state.friction_coefficient == pytest.approx(0.05 * 0.4**0.2, rel=1e-3)
+    assert state.asperity_load_ratio == pytest.approx(0.25, abs=1e-3)
+    # beyond its range a table is held at its end
+    beyond = surface_state(local_contact(6e6, 110.0, 0.15, 0.06, 0.18, 0.12), laws)
+    assert beyond.central_film_thickness == pytest.approx(2e-6 * 0.15**0.7 * 6e5**-0.13 * 110**-0.3, rel=1e-3)
+
+
+def test_a_table_is_kept(by_powers, monkeypatch):
+    contact = tables.contact_of(LIU_NI)
+    first = tables.table_over(contact, DUTY)
+    tables._table.cache_clear()
+    monkeypatch.setattr(tables, "_solved", None)
+    again = tables.table_over(contact, DUTY)
+    np.testing.assert_array_equal(first.friction, again.friction)
+    assert first[:8] == again[:8]
+    assert first[11:] == again[11:]
+
+
+def test_without_a_mesh_there_is_no_table():
+    with pytest.raises(InputError, match="duty of a mesh"):
+        under("solved")
+
+
+def test_duty_of_a_drive():
+    """Liu & Ni: 10 rad/s, 500 N m on the gear; at P u = ω r_p sin α, R = 8.98 mm, no sliding."""
+    duty = duty_range(load_scenario("crc-23-47"))
+    whole = 500.0 / (70.5e-3 * math.cos(math.radians(25.4))) / 0.02
+    assert duty.line_load[0] < whole < duty.line_load[1]
+    at_pitch_point = 10.0 * 34.5e-3 * math.sin(math.radians(22.81))
+    assert duty.entrainment[0] < at_pitch_point < duty.entrainment[1]
+    assert duty.curvature[0] < 1 / 8.98e-3 < duty.curvature[1]
+    assert 0.3 < duty.slide_to_roll[1] < 1.5
+
+
+@pytest.mark.soak
+def test_the_laws_run_in_every_compiler(by_powers, rng):
+    case = with_laws(load_scenario("crc-23-47"), film="solved", friction="solved")
+    assert_right_hand_sides_agree(at_several_conditions(prepare(case).model), rng, 1e-12)
+
+
+@pytest.mark.soak
+def test_error_of_a_table_of_solved_contacts():
+    found = tables.table_over(tables.contact_of(LIU_NI), DUTY)
+    assert found.film_error < 0.01
+    assert found.friction_error < 0.05
+    contact = tables.contact_of(LIU_NI)
+    at = np.array([3e5, 0.15, 112.0, 0.3])
+    state = tables._solved(contact, at)
+    laws = closure(LIU_NI._replace(duty=lambda: DUTY), film_law("solved"), friction_law("solved"))
+    known = surface_state(local_contact(3e5, 112.0, 0.15, 0.045, 0.1725, 0.1275), laws)
+    assert math.log(known.central_film_thickness) == pytest.approx(state[0], abs=0.01)
+    assert math.log(known.friction_coefficient) == pytest.approx(state[1], abs=0.05)
