@@ -80,12 +80,12 @@ PAGES_WITH_COMMANDS = sorted({block.page for block in blocks("console") if block
 
 @pytest.mark.parametrize("page", PAGES_WITH_COMMANDS, ids=lambda page: page.name)
 def test_commands_run(page: Path, folder: Path):
-    """In the order of the page, in one folder; validations and sweeps, tested elsewhere, are parsed only."""
+    """In the order of the page, in one folder; validations, sweeps and assessments are tested elsewhere."""
     for block in blocks("console"):
         if block.page != page:
             continue
         for words in commands(block):
-            if words[0] in ("validate", "sweep"):
+            if words[0] in ("validate", "sweep", "assess"):
                 command = get_command(app).commands[words[0]]  # type: ignore[attr-defined]
                 command.make_context(words[0], words[1:])
                 continue
