@@ -4,14 +4,26 @@ from collections.abc import Sequence
 from typing import Any
 
 from tribodyn.errors import InputError, SimulationError
+from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.families import family
+from tribodyn.geometry.limits import LIMITS, plain_distances
 from tribodyn.scenario.vary import base_units
 from tribodyn.studies.study import Study
 
+CONTACT_RATIO = "contact_ratio"
+
 
 def figure_units(study: Study) -> dict[str, str]:
-    """SI units of a study's figures by name: those that a sweep keeps, and of single cases the summary's."""
+    """SI units of a study's figures by name: those that a sweep keeps, and of single cases the summary's.
+
+    Of gear pairs the contact ratio and the distances from the limits of existence too.
+    """
     units = {name: one.units for name, one in study.swept().items()}
-    if not units or study.batch():
+    if not units:
+        return units
+    if study.has_gears:
+        units |= {CONTACT_RATIO: "1"} | {name: one.unit for name, one in LIMITS.items()}
+    if study.batch():
         return units
     for heading, lines in study.lines().items():
         for line in () if heading == "Solver" else lines:
@@ -37,11 +49,23 @@ def evaluated(study: Study, cases: Sequence[Any], workers: int | None = None) ->
     if batch:
         from tribodyn.studies.batch import batched
 
-        return batched(batch, cases, study.swept(), workers)
-    found: list[dict[str, Any] | str] = []
-    for case in cases:
-        try:
-            found.append(case if isinstance(case, str) else study.figures(case))
-        except (InputError, SimulationError) as error:
-            found.append(str(error))
-    return found
+        found = batched(batch, cases, study.swept(), workers)
+    else:
+        found = [_figures(study, case) for case in cases]
+    if not study.has_gears:
+        return found
+    return [
+        one if isinstance(one, str) else _of_teeth(case) | one for case, one in zip(cases, found, strict=True)
+    ]
+
+
+def _figures(study: Study, case: Any) -> dict[str, Any] | str:
+    try:
+        return case if isinstance(case, str) else study.figures(case)
+    except (InputError, SimulationError) as error:
+        return str(error)
+
+
+def _of_teeth(case: Any) -> dict[str, float]:
+    gears = assemble(family(case.family), case.drive)
+    return {CONTACT_RATIO: float(gears.contact_ratio), **plain_distances(gears)}
