@@ -29,7 +29,8 @@ def _states(rng, n):
     return load, curvature, speed, sliding, speed + sliding / 2, speed - sliding / 2
 
 
-@pytest.mark.parametrize("name", list(FILM_LAWS))
+# "solved" is made of a mesh: tests/unit/tribology/ehl/test_table.py
+@pytest.mark.parametrize("name", [name for name in FILM_LAWS if name != "solved"])
 def test_every_film_agrees_between_numpy_numba_and_jax(rng, name):
     n = 5000
     load, curvature, speed, *_ = _states(rng, n)

@@ -105,7 +105,8 @@ def test_the_formulas_meet_where_all_hold(line_load, speed):
     assert 0.65 < film("dowson-higginson", line_load, 100.0, speed) / central < 0.85
 
 
-@pytest.mark.parametrize("law", list(FILM_LAWS))
+# "solved" is made of a mesh: tests/unit/tribology/ehl/test_table.py
+@pytest.mark.parametrize("law", [law for law in FILM_LAWS if law != "solved"])
 def test_nothing_overflows_at_the_ends(law):
     with np.errstate(all="raise", under="ignore"):
         for load in (0.0, 1e-3, 1e9):
