@@ -17,7 +17,7 @@ from tribodyn.studies.design.layout import LOWER, OBJECTIVES, UPPER
 from tribodyn.studies.design.naming import apart, flat, naming_key
 from tribodyn.studies.design.report import line_of
 
-#: Duties that are drawn as bars, at most; and labels of more.
+#: Duties that are drawn as bars, at most.
 MOST_BARS = 6
 #: Characters of a line beside an axis.
 LONGEST = 28
@@ -139,7 +139,7 @@ def _draw_duties(axes: Axes, record: Record) -> None:
         else:
             axes.plot(place, values, ".-", color=color, label=label)
     labels = [name.replace("*", " ") for name in names]
-    every = 1 if bars else -(-len(names) // MOST_BARS)
+    every = 1 if bars else -(-len(names) // 4)
     axes.set_xticks(place[::every], labels[::every], fontsize=6.5)
     axes.set_ylabel(shown.label)
     axes.set_title("Before and after" + ", by duty" * (len(names) > 1), loc="left")

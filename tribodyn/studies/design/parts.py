@@ -234,7 +234,7 @@ def figure_name(place: str, name: Any, base: Mapping[str, Any]) -> str:
         raise InputError(place, quoted(name), "not the name of a figure", f"such as {next(iter(known), '')}")
     full = study.short_names().get(name, name)
     if full not in known:
-        what = f"figure of a {study.kind} study"
+        what = f"figure of studies of kind {study.kind}"
         raise unknown_name(place, name, [*study.short_names(), *known], what)
     return full
 
