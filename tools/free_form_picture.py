@@ -46,7 +46,7 @@ def along(panels: Any, pairs: dict[str, td.GearPair]) -> None:
 
 def main() -> None:
     """Draw the picture."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description="Draw the picture of the free-form search.")
     parser.add_argument("best", help="the best file of the search")
     parser.add_argument("--output", type=Path, default=PICTURE)
     given = parser.parse_args()
