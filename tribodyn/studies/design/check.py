@@ -9,7 +9,7 @@ from tribodyn.studies.study import Checked, TextTable
 def check(case: DesignCase) -> Checked:
     """Check a case and say what is searched."""
     name, reason = method_of(case)
-    rows = [(", ".join(one.keys), str(at(case.base, one.keys[0]) or "–"), bounds(one)) for one in case.free]
+    rows = [(", ".join(one.keys), _shown(at(case.base, one.keys[0])), bounds(one)) for one in case.free]
     cases = len(case.duties) * len(samples_of(case))
     wanted = [one.name.removeprefix("-") for one in case.objectives]
     more = case.objectives[0].name.startswith("-")
@@ -41,3 +41,7 @@ def bounds(one: Free) -> str:
     if one.choices:
         return ", ".join(map(str, one.choices))
     return f"{one.low:g} … {one.high:g} {one.unit}".rstrip()
+
+
+def _shown(value: object) -> str:
+    return "–" if value is None else str(value)
