@@ -41,9 +41,9 @@ def invoked(*words: object, status: int = 0) -> str:
 def words_of(kind: str) -> list[str]:
     """``--vary`` and what makes the cases short."""
     key, values = VARIED[kind]
-    unit = values[0].partition(" ")[2]
-    short = [word for name, value in SHORT[kind].items() for word in ("--set", f"{name}={value}")]
-    return ["--vary", f"{key}={','.join(value.partition(' ')[0] for value in values)}{unit}", *short]
+    written = {name: str(value).lower() if value is False else value for name, value in SHORT[kind].items()}
+    short = [word for name, value in written.items() for word in ("--set", f"{name}={value}")]
+    return ["--vary", f"{key}={','.join(value.replace(' ', '') for value in values)}", *short]
 
 
 def grid_of(kind: str, folder: Path) -> Grid:
