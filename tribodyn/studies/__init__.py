@@ -13,6 +13,7 @@ STUDIES: Registry[Study] = Registry(
         "gear-pair": "tribodyn.studies.gear_pair:STUDY",
         "efficiency": "tribodyn.studies.efficiency:STUDY",
         "load-contact": "tribodyn.studies.load_contact:STUDY",
+        "ehl": "tribodyn.studies.ehl:STUDY",
         "irefc": "tribodyn.studies.rolling:STUDY",
         "backlash-oscillator": "tribodyn.studies.backlash_oscillator:STUDY",
         "design": "tribodyn.studies.design:STUDY",

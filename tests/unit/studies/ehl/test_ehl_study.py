@@ -1,0 +1,53 @@
+"""The study of the solved contact: its loads, and the solved contact beside single ones and regressions."""
+
+import numpy as np
+import pytest
+
+import tribodyn as td
+
+
+@pytest.fixture(scope="module")
+def run():
+    """The shipped CRC drive at five positions."""
+    return td.run("ehl-crc-23-47", {"output.positions": 5})
+
+
+def test_its_contacts_are_those_of_the_function(run):
+    """Smooth, without sliding: central films within the heat's and the asperities' small share."""
+    data = run.data
+    at = 2
+    alone = td.line_contact(
+        line_load=float(data["line_load"][at]),
+        radius=float(data["equivalent_radius"][at]),
+        entrainment_speed=float(data["entrainment_speed"][at]),
+        viscosity=0.35,
+        pressure_viscosity=25e-9,
+        viscosity_pressure_index=0.57,
+        effective_modulus=226.37e9,
+    )
+    assert float(data["central_film_thickness"][at]) == pytest.approx(alone.central_film_thickness, rel=0.15)
+    assert float(data["hertz_pressure"][at]) == pytest.approx(alone.pressure.max(), rel=0.03)
+
+
+def test_loads_carry_the_torque(run):
+    """In single contact the line load times face width times the base radius is the torque on the gear."""
+    data = run.data
+    load = float(np.max(data["normal_load"]))
+    angle = np.radians(np.linspace(21.4, 25.4, 2))  # of the load over the path of contact
+    torque = load * 47 * 3e-3 / 2 * np.cos(angle)
+    assert torque.max() > 500.0 > torque.min()
+
+
+def test_profiles_carry_the_load(run):
+    data = run.data
+    place = data["place"].to_numpy()
+    for at in range(data.sizes["phase"]):
+        width = float(data["half_width"][at])
+        carried = np.trapezoid(data["pressure"][at].to_numpy(), place) * width
+        assert carried == pytest.approx(float(data["line_load"][at]), rel=0.02)
+
+
+def test_regressions_stand_beside_it(run):
+    assert {"masjedi-khonsari", "dowson-higginson", "moes"} <= set(run.summary["film_over_solved"])
+    assert all(0.3 < ratio < 3.0 for ratio in run.summary["film_over_solved"].values())
+    assert "solved" not in run.summary["friction_over_solved"]

@@ -1,0 +1,182 @@
+"""A pair's way through the mesh: its loads, speeds and radii, quasi-static, and its contact solved there."""
+
+import math
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.errors import InputError, SimulationError
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.families import family
+from tribodyn.geometry.path import kinematics
+from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.mesh.quasi_static import quasi_static
+from tribodyn.studies.ehl.case import EhlCase
+from tribodyn.studies.ehl.layout import BEGIN, END, PLACES
+from tribodyn.tribology.closure import surfaces_of, untried_closure_of
+from tribodyn.tribology.contact_friction import ContactFriction, contact_friction
+from tribodyn.tribology.data import FilmData, FrictionData
+from tribodyn.tribology.ehl.coupled import CoupledSolution, solve_coupled
+from tribodyn.tribology.ehl.problem import LineContact
+from tribodyn.tribology.ehl.table import Contact, contact_of
+from tribodyn.tribology.film import FILM_LAWS
+from tribodyn.tribology.friction import FRICTION_LAWS
+from tribodyn.tribology.law import LawInput
+
+Array = Any
+
+#: Loads over the highest at which a pair is taken as out of contact.
+_UNLOADED = 1e-6
+
+
+class Prepared(NamedTuple):
+    """A case made ready: the table of the mesh, and the gears it was made from."""
+
+    case: EhlCase
+    cycle: MeshCycle
+    assembly: Assembly
+
+
+class Way(NamedTuple):
+    """The pair at its positions: arrays (K,), SI; the rolling speeds are those of both flanks."""
+
+    roll: Array
+    normal_load: Array
+    line_load: Array
+    radius: Array
+    speeds: tuple[Array, Array]
+
+
+def prepare(case: EhlCase) -> Prepared:
+    """Check the geometry and tabulate the mesh; raises InputError where teeth cannot be made or run."""
+    from tribodyn.geometry.checks import check
+    from tribodyn.mesh.by_compliance import mesh_cycle_of
+
+    assembly = check(family(case.family), case.drive)
+    cycle = mesh_cycle_of(assembly, case.materials, case.mesh, case.operating.gear_torque)
+    return Prepared(case, cycle, assembly)
+
+
+def way(study: Prepared) -> Way:
+    """Return the pair at positions evenly spaced in roll angle, in the middle of equal parts of its contact.
+
+    Loads follow from the compliances of the pairs and the torque, without friction and inertia.
+    """
+    case, cycle = study.case, study.cycle
+    start, end = float(cycle.roll_start), float(cycle.roll_end)
+    roll = start + (np.arange(case.positions) + 0.5) / case.positions * (end - start)
+    nodes, loads = _loads(cycle, case.operating.gear_torque)
+    load = np.interp(roll, nodes, loads)
+    path = study.assembly.path
+    motion = kinematics(path, path.signed_distance(roll))
+    speed = case.operating.pinion_speed
+    return Way(
+        roll,
+        load,
+        load / float(cycle.face_width),
+        1.0 / np.asarray(motion.relative_curvature),
+        (speed * np.asarray(motion.pinion_speed), speed * np.asarray(motion.gear_speed)),
+    )
+
+
+def _loads(cycle: MeshCycle, gear_torque: float) -> tuple[Array, Array]:
+    """Roll angles of the table's nodes, and the load of the pair that is there; in order of the angle."""
+    pairs = cycle.front_pairs
+    load = np.asarray(quasi_static(cycle, gear_torque).normal_load)[:, :, :pairs]
+    age = np.asarray(cycle.phase)[:, :, None] + np.arange(pairs - 1.0, -1.0, -1.0)
+    roll = float(cycle.roll_start) + float(cycle.pitch_angle) * age
+    touching = np.broadcast_to(np.asarray(cycle.in_contact)[:, None, :pairs] > 0, load.shape)
+    roll, load = roll[touching], load[touching]
+    # nodes on both sides of a boundary share an angle and keep the order of time
+    order = np.argsort(roll, kind="stable")
+    return roll[order], load[order]
+
+
+def given_of(case: EhlCase) -> LawInput:
+    """What laws and solution are made from."""
+
+    def none() -> Any:
+        raise InputError("film.law", '"solved"', "is not compared with itself", "use another law")
+
+    return LawInput(surfaces_of(case), case.lubricant, case.materials, none, none)
+
+
+def seen_by(study: Prepared, over: Way, film: str | None, friction: str) -> ContactFriction:
+    """What a film law (None: that which goes with the friction law) and a friction law make of the way."""
+    case = replace(study.case, film=FilmData(film), friction=FrictionData(friction))
+    cycle, speed = study.cycle, study.case.operating.pinion_speed
+    return contact_friction(
+        untried_closure_of(case),
+        np.maximum(over.line_load, 1e-9),
+        over.radius,
+        *over.speeds,
+        float(cycle.pitch_point_length),
+        speed * float(cycle.pitch_point_rate),
+    )
+
+
+def by_laws(study: Prepared, over: Way) -> dict[str, dict[str, Array]]:
+    """Film by every film law and friction by every friction law that needs no values of its own.
+
+    The solved law is left out: it is tabulated from the contacts that are solved here.
+    """
+    films, frictions = {}, {}
+    for name in FILM_LAWS:
+        if name != "solved":
+            films[name] = np.asarray(seen_by(study, over, name, "none").surface.central_film_thickness)
+    for name in FRICTION_LAWS:
+        if name in ("solved", "none"):
+            continue
+        try:
+            seen = seen_by(study, over, None, name)
+        except InputError:  # it wants a value of its own
+            continue
+        frictions[name] = np.abs(np.asarray(seen.surface.friction_coefficient)) + 0.0 * over.roll
+    return {"film": films, "friction": frictions}
+
+
+def solved_at(
+    contact: Contact, line_load: float, radius: float, entrainment: float, sliding: float
+) -> CoupledSolution | None:
+    """Solve one contact, mixed and with heat; None: unloaded, or no solution was found."""
+    problem = LineContact(
+        line_load,
+        radius,
+        entrainment,
+        contact.fluid,
+        contact.effective_modulus,
+        sliding,
+        contact.roughness,
+    )
+    try:
+        return solve_coupled(problem, contact.rheology, contact.thermal)
+    except SimulationError:
+        return None
+
+
+def profiles(found: CoupledSolution) -> dict[str, Array]:
+    """Pressure, film, temperature and shear at the places of a record."""
+    solution = found.solution
+    place = np.linspace(BEGIN, END, PLACES)
+    at = solution.place / solution.problem.half_width
+
+    def over(values: Array, outside: float) -> Array:
+        return np.interp(place, at, values, left=outside, right=outside)
+
+    return {
+        "pressure": over(solution.pressure, 0.0),
+        "film_thickness": over(solution.mean_gap, math.nan),
+        "temperature_rise": over(found.temperature, 0.0),
+        "shear_stress": over(found.shear.stress, 0.0),
+    }
+
+
+def contact_for(case: EhlCase) -> Contact:
+    """What all contacts of a case have in common: oil, surfaces, rheology and heat."""
+    return contact_of(given_of(case))
+
+
+def loaded(over: Way) -> Array:
+    """Where the pair carries load."""
+    return over.normal_load > _UNLOADED * np.max(over.normal_load)

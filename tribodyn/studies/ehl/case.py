@@ -1,0 +1,42 @@
+"""A case of the solved contact study: everything one run needs to know, in SI units."""
+
+from dataclasses import dataclass
+
+from tribodyn.dynamics.data import OperatingData
+from tribodyn.geometry.drive import Drive
+from tribodyn.geometry.material import MaterialData
+from tribodyn.mesh.data import MeshData
+from tribodyn.studies.study import CaseHead
+from tribodyn.tribology.data import FilmData, FrictionData
+from tribodyn.tribology.lubricant import LubricantData
+
+
+@dataclass(frozen=True)
+class EhlCase(CaseHead):
+    """One study of the solved contact, complete.
+
+    Parameters
+    ----------
+    title, name, kind, toml, sha256, family, drive, materials, roughness, mean_roughness, lubricant
+        As in `tribodyn.studies.gear_pair.case.Case`; `kind` is "ehl".
+    operating : OperatingData
+        Pinion speed, and gear torque > 0, both constant.
+    mesh : MeshData
+        Compliance by which the pairs share the load.
+    positions : int
+        Positions of the pair at which its contact is solved.
+    film, friction : FilmData, FrictionData
+        None of their own: every law of the registries is evaluated beside the solution.
+    """
+
+    family: str
+    drive: Drive
+    materials: tuple[MaterialData, MaterialData]
+    roughness: float
+    mean_roughness: float
+    lubricant: LubricantData
+    operating: OperatingData
+    mesh: MeshData
+    positions: int
+    film: FilmData
+    friction: FrictionData

@@ -1,0 +1,143 @@
+"""Figures of solved contact studies: films and friction beside the laws, profiles, maps, Moes' chart."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from tribodyn.errors import InputError
+from tribodyn.post.figures.drawing import Drawing
+from tribodyn.post.figures.panel import View, record_title
+from tribodyn.post.style import PALETTE, PANEL_HEIGHT, WIDTH, new_figure
+from tribodyn.record.reader import Record
+from tribodyn.tribology.ehl.start import survey_film
+
+ROLL = "Roll angle from the pitch point (°)"
+_PLACE = "Place over half width of the Hertz contact"
+_SHOWN = 5
+
+
+def _one(records: Sequence[Record], view: View) -> Record:
+    if view.against == "time":
+        raise InputError("against", "time", "a study of the solved contact knows no time", "phase")
+    if len(records) != 1:
+        raise InputError("plot", "records", "this figure shows one record", "give one")
+    return records[0]
+
+
+def _overview(records: Sequence[Record], view: View) -> Figure:
+    record = _one(records, view)
+    drawn = new_figure(WIDTH, 3.0 * PANEL_HEIGHT)
+    film, friction, load = drawn.subplots(3, 1, sharex=True)
+    roll = np.degrees(record["roll_angle"])
+    film.plot(roll, 1e6 * record["central_film_thickness"], color="black", lw=2, label="solved, central")
+    film.plot(roll, 1e6 * record["minimum_film_thickness"], "k--", label="solved, minimum")
+    _laws(film, roll, 1e6 * record["film_by_law"], record["film_law"])
+    film.set_ylabel("Film thickness (µm)")
+    friction.plot(roll, record["friction_coefficient"], color="black", lw=2, label="solved")
+    _laws(friction, roll, record["friction_by_law"], record["friction_law"])
+    friction.set_ylabel("Friction coefficient")
+    load.plot(roll, 1e-9 * record["hertz_pressure"], color=PALETTE[0])
+    load.set(ylabel="Hertz pressure (GPa)", xlabel=ROLL)
+    for axes in (film, friction):
+        axes.set_ylim(bottom=0)
+        axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize="x-small")
+    drawn.suptitle(record_title(record))
+    return drawn
+
+
+def _laws(axes: Axes, roll: np.ndarray, values: np.ndarray, names: np.ndarray) -> None:
+    for number, name in enumerate(names):
+        text = name.decode() if isinstance(name, bytes) else str(name)
+        style = ("-", ":", "-.")[number // len(PALETTE) % 3]
+        axes.plot(roll, values[:, number], style, color=PALETTE[number % len(PALETTE)], lw=1, label=text)
+
+
+def _chosen(record: Record) -> np.ndarray:
+    solved = np.flatnonzero(np.isfinite(record["central_film_thickness"]))
+    return solved[np.unique(np.linspace(0, len(solved) - 1, _SHOWN).astype(int))]
+
+
+_PROFILES = (
+    ("pressure", 1e-9, "Pressure (GPa)"),
+    ("film_thickness", 1e6, "Film thickness (µm)"),
+    ("temperature_rise", 1.0, "Temperature rise (K)"),
+    ("shear_stress", 1e-6, "Shear stress (MPa)"),
+)
+
+
+def _profiles(records: Sequence[Record], view: View) -> Figure:
+    record = _one(records, view)
+    drawn = new_figure(WIDTH, 2.2 * PANEL_HEIGHT)
+    rows = drawn.subplots(2, 2, sharex=True)
+    for axes, (name, scale, label) in zip(rows.ravel(), _PROFILES, strict=True):
+        for number, at in enumerate(_chosen(record)):
+            text = f"{np.degrees(record['roll_angle'][at]):.1f}°"
+            axes.plot(record["place"], scale * record[name][at], color=PALETTE[number], label=text)
+        axes.set_ylabel(label)
+    top = 3e6 * np.nanmax(record["central_film_thickness"])
+    rows[0, 1].set_ylim(0, top)
+    rows[0, 0].legend(title="roll angle", fontsize="x-small")
+    for axes in rows[1]:
+        axes.set_xlabel(_PLACE)
+    drawn.suptitle(record_title(record))
+    return drawn
+
+
+def _maps(records: Sequence[Record], view: View) -> Figure:
+    record = _one(records, view)
+    drawn = new_figure(WIDTH, 2.2 * PANEL_HEIGHT)
+    rows = drawn.subplots(2, 2, sharex=True, sharey=True)
+    roll, top = np.degrees(record["roll_angle"]), 3e6 * np.nanmax(record["central_film_thickness"])
+    for axes, (name, scale, label) in zip(rows.ravel(), _PROFILES, strict=True):
+        limit = {"vmax": top} if name == "film_thickness" else {}
+        values = np.ma.masked_invalid(scale * record[name])
+        mesh = axes.pcolormesh(roll, record["place"], values.T, shading="nearest", rasterized=True, **limit)
+        drawn.colorbar(mesh, ax=axes, label=label)
+    for axes in rows[1]:
+        axes.set_xlabel(ROLL)
+    for axes in rows[:, 0]:
+        axes.set_ylabel("Place over half width")
+    drawn.suptitle(record_title(record))
+    return drawn
+
+
+def _moes(records: Sequence[Record], view: View) -> Figure:
+    record = _one(records, view)
+    drawn = new_figure(WIDTH, 1.6 * PANEL_HEIGHT)
+    axes = drawn.subplots()
+    load = np.geomspace(0.5, 2e4, 80)
+    for number, material in enumerate((1.0, 2.5, 5.0, 10.0, 25.0)):
+        # in b²/R = 8 W R/π, over R √U_Σ
+        film = [survey_film(one, material) * 8.0 * one / np.pi for one in load]
+        axes.loglog(load, film, color=PALETTE[number], lw=1, label=f"L = {material:g}")
+    solved = np.isfinite(record["moes_load"])
+    unit = record["half_width"] ** 2 / record["equivalent_radius"]
+    film = record["central_film_thickness"] / unit * 8.0 * record["moes_load"] / np.pi
+    low, high = np.nanmin(record["moes_material"]), np.nanmax(record["moes_material"])
+    label = f"this drive, solved, L = {low:.3g} … {high:.3g}"
+    axes.loglog(record["moes_load"][solved], film[solved], "k.-", label=label)
+    axes.set(xlabel="Load parameter M", ylabel="Central film, h/(R √U_Σ)")
+    axes.legend(fontsize="small")
+    drawn.suptitle(record_title(record))
+    return drawn
+
+
+def _traction(records: Sequence[Record], view: View) -> Figure:
+    record = _one(records, view)
+    drawn = new_figure(WIDTH, 1.4 * PANEL_HEIGHT)
+    axes = drawn.subplots()
+    axes.semilogx(record["slide_to_roll"], record["traction"], "o-", color=PALETTE[0])
+    axes.set(xlabel="Slide-to-roll ratio", ylabel="Friction coefficient", ylim=(0.0, None))
+    drawn.suptitle(record_title(record))
+    return drawn
+
+
+DRAWINGS: dict[str, Drawing] = {
+    "overview": Drawing("film and friction beside every law, Hertz pressure", _overview),
+    "profiles": Drawing("pressure, film, temperature and shear at chosen places", _profiles),
+    "maps": Drawing("the same over the way of the pair", _maps),
+    "moes": Drawing("Moes' chart with the drive's duty", _moes),
+    "traction": Drawing("friction over slide-to-roll ratio, where the load is highest", _traction),
+}

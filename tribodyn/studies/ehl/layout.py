@@ -1,0 +1,55 @@
+"""Datasets of a study of the solved contact: over the way of a pair, and over each contact."""
+
+from tribodyn.mesh.recorded import MESH_CYCLE
+from tribodyn.numerics.variable import Variable
+from tribodyn.record.schema import Layout
+
+#: Places of a profile, and where they begin and end, in half widths of the Hertz contact.
+PLACES, BEGIN, END = 161, -3.0, 1.5
+
+PHASE = Variable(("phase",), "1", "mesh cycles since the pair came into contact")
+_OVER = ("phase",)
+_PROFILE = ("phase", "place")
+
+SAMPLES: dict[str, Variable] = {
+    "roll_angle": Variable(
+        _OVER, "rad", "rotation of the pinion since the pair met at the pitch point, negative before it"
+    ),
+    "normal_load": Variable(_OVER, "N", "normal load of the pair, quasi-static"),
+    "line_load": Variable(_OVER, "N/m", "normal load per face width"),
+    "equivalent_radius": Variable(_OVER, "m", "equivalent radius"),
+    "entrainment_speed": Variable(_OVER, "m/s", "entrainment speed"),
+    "sliding_speed": Variable(_OVER, "m/s", "sliding speed, of the pinion's flank over the gear's"),
+    "hertz_pressure": Variable(_OVER, "Pa", "maximum Hertz pressure"),
+    "half_width": Variable(_OVER, "m", "half width of the Hertz contact"),
+    "central_film_thickness": Variable(_OVER, "m", "mean gap on the line of centres, solved"),
+    "minimum_film_thickness": Variable(_OVER, "m", "minimum mean gap, solved"),
+    "film_parameter": Variable(_OVER, "1", "central film over the roughness of both surfaces"),
+    "friction_coefficient": Variable(_OVER, "1", "friction coefficient, solved"),
+    "asperity_load_ratio": Variable(_OVER, "1", "share of the load that asperities carry, solved"),
+    "temperature_rise_max": Variable(_OVER, "K", "maximum over the contact of the oil's temperature rise"),
+    "moes_load": Variable(_OVER, "1", "load parameter M of Moes"),
+    "moes_material": Variable(_OVER, "1", "material parameter L of Moes"),
+    "residual": Variable(_OVER, "1", "largest imbalance of flow over the flow and of force over the load"),
+    "pressure": Variable(_PROFILE, "Pa", "pressure of fluid and asperities, solved"),
+    "film_thickness": Variable(_PROFILE, "m", "mean gap, solved; NaN behind the film"),
+    "temperature_rise": Variable(_PROFILE, "K", "temperature over the inlet's, mean over the film, solved"),
+    "shear_stress": Variable(_PROFILE, "Pa", "shear stress, mean over the film, solved"),
+    "film_by_law": Variable(("phase", "film_law"), "m", "film thickness by the regression"),
+    "friction_by_law": Variable(("phase", "friction_law"), "1", "friction coefficient by the law"),
+}
+
+TRACTION = {
+    "traction": Variable(
+        ("slide_to_roll",), "1", "friction coefficient where the load is highest, over slide-to-roll ratio"
+    ),
+}
+
+SCALES = {
+    "place": Variable(("place",), "1", "place in the direction of entrainment over the Hertz half width"),
+    "film_law": Variable(("film_law",), "1", "film law"),
+    "friction_law": Variable(("friction_law",), "1", "friction law"),
+    "slide_to_roll": Variable(("slide_to_roll",), "1", "sliding speed over entrainment speed"),
+}
+
+LAYOUT = Layout(PHASE, SAMPLES, SCALES, TRACTION, {"mesh_cycle": MESH_CYCLE})

@@ -1,0 +1,90 @@
+"""Lines and sentences of the summary of a solved contact study, and the figures that a sweep of it keeps."""
+
+from tribodyn.numerics.variable import Variable
+from tribodyn.post.report import Line, Lines
+from tribodyn.record.reader import Record
+from tribodyn.studies.gears import CONTACT_RATIO, NORMAL_LOAD, WALL_TIME
+
+_LINES = (
+    (
+        "central_film_min",
+        "Central film, minimum",
+        1e6,
+        "µm",
+        "Minimum along the way of the solved mean gap on the line of centres.",
+    ),
+    (
+        "minimum_film_min",
+        "Minimum film, minimum",
+        1e6,
+        "µm",
+        "Minimum along the way of the solved minimum gap.",
+    ),
+    (
+        "film_parameter_min",
+        "Film parameter λ, minimum",
+        1.0,
+        "",
+        "Central film over the roughness of both surfaces.",
+    ),
+    (
+        "friction_coefficient_mean",
+        "Friction coefficient, mean",
+        1.0,
+        "",
+        "Mean along the way, weighted by load and sliding speed.",
+    ),
+    (
+        "asperity_load_ratio_max",
+        "Load share of the asperities, maximum",
+        100.0,
+        "%",
+        "Maximum along the way.",
+    ),
+    (
+        "temperature_rise_max",
+        "Temperature rise of the oil, maximum",
+        1.0,
+        "K",
+        "Mean over the film, maximum over the contact and the way.",
+    ),
+    ("hertz_pressure_max", "Hertz pressure, maximum", 1e-9, "GPa", "Of the dry contact."),
+    ("pressure_max", "Pressure, maximum", 1e-9, "GPa", "Of the solved contact, at the places recorded."),
+    ("positions_solved", "Positions solved", 1.0, "", "Positions at which the contact was solved."),
+)
+
+LINES: Lines = {
+    "Geometry": (CONTACT_RATIO,),
+    "Solved contact": (
+        NORMAL_LOAD,
+        *(
+            Line(name, title, scale, unit, ".3g", definition=what)
+            for name, title, scale, unit, what in _LINES
+        ),
+    ),
+    "Solver": (WALL_TIME,),
+}
+
+SWEPT: dict[str, Variable] = {
+    "central_film_min": Variable((), "m", "minimum central film thickness, solved"),
+    "minimum_film_min": Variable((), "m", "minimum film thickness, solved"),
+    "film_parameter_min": Variable((), "1", "minimum film parameter, solved"),
+    "friction_coefficient_mean": Variable((), "1", "friction coefficient, solved, mean by loss"),
+    "asperity_load_ratio_max": Variable((), "1", "maximum load share of the asperities"),
+    "temperature_rise_max": Variable((), "K", "maximum temperature rise of the oil"),
+    "hertz_pressure_max": Variable((), "Pa", "maximum Hertz pressure"),
+}
+
+PANELS = ("central_film_thickness", "friction_coefficient", "hertz_pressure", "temperature_rise_max")
+
+
+def sentences(record: Record) -> list[str]:
+    """Say what the model leaves out, and where no solution was found."""
+    summary = record.summary
+    said = ["Steady contacts, one after another, under quasi-static loads without friction and inertia."]
+    if (residual := summary.get("residual_max")) is not None:
+        said.append(f"Flow and load are balanced to {residual:.1e}.")
+    solved, of = summary.get("positions_solved"), summary.get("positions")
+    if solved is not None and of is not None and solved < of:
+        said.append(f"At {of - solved} of {of} positions the pair carries nothing or no solution was found.")
+    return said

@@ -1,0 +1,172 @@
+"""From a case of the solved contact study to its record."""
+
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from tribodyn.mesh.cycle import as_arrays
+from tribodyn.studies.ehl.along_path import (
+    Prepared,
+    Way,
+    by_laws,
+    contact_for,
+    loaded,
+    prepare,
+    profiles,
+    seen_by,
+    solved_at,
+    way,
+)
+from tribodyn.studies.ehl.case import EhlCase
+from tribodyn.studies.ehl.layout import BEGIN, END, LAYOUT, PLACES, SAMPLES
+from tribodyn.studies.recording import target, writer
+from tribodyn.studies.study import Progress, RunResult
+
+Array = Any
+
+#: Slide-to-roll ratios of the traction curve.
+TRACTION = np.array([0.001, 0.003, 0.01, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8])
+_PROFILES = ("pressure", "film_thickness", "temperature_rise", "shear_stress")
+
+
+def run(
+    case: EhlCase,
+    output: str | Path | None = None,
+    *,
+    force: bool = False,
+    progress: Progress | None = None,
+) -> RunResult:
+    """Run a case and write its record; see `study.Prepared.run`."""
+    path = target(case, output, force)
+    begun = perf_counter()
+    study = prepare(case)
+    over = way(study)
+    laws = by_laws(study, over)
+    arrays = _solved(study, over, progress or (lambda _share: None))
+    summary = _figures(study, arrays, laws)
+    scales: dict[str, Array] = {
+        "place": np.linspace(BEGIN, END, PLACES),
+        "film_law": np.array(list(laws["film"])),
+        "friction_law": np.array(list(laws["friction"])),
+        "slide_to_roll": TRACTION,
+    }
+    arrays["film_by_law"] = np.stack(list(laws["film"].values()), axis=1)
+    arrays["friction_by_law"] = np.stack(list(laws["friction"].values()), axis=1)
+    groups = {"mesh_cycle": as_arrays(study.cycle)}
+    with writer(case, path, LAYOUT, case.positions, groups=groups, scales=scales, force=force) as record:
+        if summary["positions_solved"] == 0:
+            failure = "the contact could be solved at no position of the pair"
+            return RunResult(record.fail(failure, summary), "failed", failure, summary)
+        record.write(0, arrays)
+        for row, value in enumerate(_traction(study, over)):
+            record.put(row, {"traction": value})
+        summary["wall_time"] = perf_counter() - begun
+        return RunResult(record.finish(summary), "complete", "", summary)
+
+
+def figures(case: EhlCase) -> dict[str, Any]:
+    """Figures of a case without a record."""
+    study = prepare(case)
+    over = way(study)
+    return _figures(study, _solved(study, over, lambda _share: None), by_laws(study, over))
+
+
+def _solved(study: Prepared, over: Way, progress: Progress) -> dict[str, Array]:
+    """Datasets of all positions; NaN where the pair carries nothing or the contact was not solved."""
+    case = study.case
+    seen = seen_by(study, over, None, "none")
+    sliding = over.speeds[0] - over.speeds[1]
+    start, count = float(study.cycle.roll_start), len(over.roll)
+    arrays: dict[str, Array] = {
+        name: np.full((count, PLACES) if name in _PROFILES else count, np.nan)
+        for name in SAMPLES
+        if not name.endswith("_by_law")
+    }
+    arrays |= {
+        "phase": (over.roll - start) / float(study.cycle.pitch_angle),
+        "roll_angle": over.roll,
+        "normal_load": over.normal_load,
+        "line_load": over.line_load,
+        "equivalent_radius": np.asarray(seen.radius),
+        "entrainment_speed": np.asarray(seen.entrainment),
+        "sliding_speed": sliding,
+        "hertz_pressure": np.asarray(seen.surface.hertz_pressure),
+    }
+    contact = contact_for(case)
+    for at in np.flatnonzero(loaded(over)):
+        duty = over.line_load[at], seen.radius[at], seen.entrainment[at], sliding[at]
+        found = solved_at(contact, *(float(one) for one in duty))
+        if found is not None:
+            solution, problem = found.solution, found.solution.problem
+            gap = solution.mean_gap
+            central = float(np.interp(0.0, solution.place, gap))
+            values = profiles(found) | {
+                "half_width": problem.half_width,
+                "central_film_thickness": central,
+                "minimum_film_thickness": float(np.min(gap)),
+                "film_parameter": central / case.roughness,
+                "friction_coefficient": abs(found.friction) / problem.line_load,
+                "asperity_load_ratio": solution.asperity_load_ratio,
+                "temperature_rise_max": float(np.max(found.temperature)),
+                "moes_load": problem.moes_load,
+                "moes_material": problem.moes_material,
+                "residual": solution.imbalance,
+            }
+            for name, value in values.items():
+                arrays[name][at] = value
+        progress((at + 1) / count)
+    return arrays
+
+
+def _traction(study: Prepared, over: Way) -> list[float]:
+    """Friction coefficient over slide-to-roll ratio, where the load is highest; NaN: not solved."""
+    seen, contact = seen_by(study, over, None, "none"), contact_for(study.case)
+    at = int(np.argmax(over.line_load))
+    speed = float(seen.entrainment[at])
+    curve = []
+    for ratio in TRACTION:
+        found = solved_at(
+            contact, float(over.line_load[at]), float(seen.radius[at]), speed, float(ratio * speed)
+        )
+        curve.append(np.nan if found is None else abs(found.friction) / float(over.line_load[at]))
+    return curve
+
+
+def _figures(study: Prepared, arrays: dict[str, Array], laws: dict[str, dict[str, Array]]) -> dict[str, Any]:
+    solved = np.isfinite(arrays["central_film_thickness"])
+    if not np.any(solved):
+        return {"contact_ratio": float(study.cycle.contact_ratio), "positions_solved": 0}
+
+    def of(name: str) -> Array:
+        return arrays[name][solved]
+
+    # friction weighted by what it loses
+    weight = of("normal_load") * np.abs(of("sliding_speed"))
+    film = {
+        name: np.median(values[solved] / of("central_film_thickness"))
+        for name, values in laws["film"].items()
+    }
+    mean = float(np.sum(weight * of("friction_coefficient")) / np.sum(weight))
+    friction = {
+        name: float(np.sum(weight * values[solved]) / np.sum(weight)) / mean
+        for name, values in laws["friction"].items()
+    }
+    return {
+        "contact_ratio": float(study.cycle.contact_ratio),
+        "positions_solved": int(np.count_nonzero(solved)),
+        "positions": study.case.positions,
+        "central_film_min": float(np.min(of("central_film_thickness"))),
+        "minimum_film_min": float(np.min(of("minimum_film_thickness"))),
+        "film_parameter_min": float(np.min(of("film_parameter"))),
+        "friction_coefficient_mean": mean,
+        "asperity_load_ratio_max": float(np.max(of("asperity_load_ratio"))),
+        "temperature_rise_max": float(np.max(of("temperature_rise_max"))),
+        "hertz_pressure_max": float(np.max(of("hertz_pressure"))),
+        "residual_max": float(np.max(of("residual"))),
+        "pressure_max": float(np.max(of("pressure"))),
+        "normal_load_max": float(np.max(of("normal_load"))),
+        "film_over_solved": {name: float(value) for name, value in film.items()},
+        "friction_over_solved": friction,
+    }

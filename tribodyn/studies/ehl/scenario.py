@@ -1,0 +1,88 @@
+"""The tables of a scenario of ``kind = "ehl"``: the contact of a pair solved along its way."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from tribodyn.dynamics.data import OperatingData
+from tribodyn.mesh.data import MeshData
+from tribodyn.scenario.common import Temperature, head_of
+from tribodyn.scenario.drive_data import (
+    drive_of,
+    lubricant_of,
+    materials_of,
+    mean_roughness,
+    modifications_of,
+    roughness_of,
+    slices_of,
+)
+from tribodyn.scenario.duty import duty_of
+from tribodyn.scenario.model_files import DriveTable, Lubricant
+from tribodyn.scenario.modification import MisalignmentTable
+from tribodyn.scenario.quantity import Table, model_file, written
+from tribodyn.scenario.spectrum import OperatingTable, SpectrumScenario
+from tribodyn.studies.ehl.case import EhlCase
+from tribodyn.tribology.data import FilmData, FrictionData
+
+
+class EhlOperating(OperatingTable):
+    """Constant speed and load."""
+
+    oil_temperature: Temperature | None = Field(
+        None, description="where the oil enters the mesh; for a lubricant given by its data sheet"
+    )
+
+
+class EhlMesh(Table):
+    """By what compliance the pairs in contact share the load."""
+
+    compliance: Literal["energy", "fem"] = Field(
+        "energy", description="by which the pairs share the load: the energy method, or finite elements"
+    )
+
+
+class EhlOutput(Table):
+    """What is recorded."""
+
+    positions: Annotated[int, Field(strict=True, ge=4)] = Field(
+        40, description="of the pair, from the beginning to the end of its contact"
+    )
+
+
+class EhlScenario(SpectrumScenario):
+    """A scenario file of a study of the solved contact."""
+
+    kind: Literal["ehl"]
+    drive: Annotated[DriveTable, model_file("drives")]
+    lubricant: Annotated[Lubricant, model_file("lubricants")]
+    operating: EhlOperating
+    mesh: EhlMesh = written({})
+    output: EhlOutput = written({})
+
+
+Scenario = EhlScenario
+
+
+def case_of(scenario: Scenario, toml: str, sha256: str) -> EhlCase:
+    """Return the case of a scenario that has passed schema and rules."""
+    drive, operating = scenario.drive, scenario.operating
+    modifications = modifications_of(drive, MisalignmentTable(from_quality=0.0))
+    return EhlCase(
+        **head_of(scenario, toml, sha256),
+        family=drive.family,
+        drive=drive_of(drive),
+        materials=materials_of(drive),
+        roughness=roughness_of(drive),
+        mean_roughness=mean_roughness(drive),
+        lubricant=lubricant_of(scenario.lubricant, operating.oil_temperature),
+        operating=OperatingData("speed", *duty_of(operating, drive.pinion.teeth, drive.gear.teeth)),
+        mesh=MeshData(
+            scenario.mesh.compliance,
+            damping_ratio=0.0,
+            modifications=modifications,
+            slices=slices_of(None, modifications),
+        ),
+        positions=scenario.output.positions,
+        film=FilmData(),
+        friction=FrictionData("none"),
+    )
