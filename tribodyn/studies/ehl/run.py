@@ -44,7 +44,7 @@ def run(
     study = prepare(case)
     over = way(study)
     laws = by_laws(study, over)
-    arrays = _solved(study, over, progress or (lambda _share: None))
+    arrays = solve(study, over, progress or (lambda _share: None))
     summary = _figures(study, arrays, laws)
     scales: dict[str, Array] = {
         "place": np.linspace(BEGIN, END, PLACES),
@@ -70,10 +70,10 @@ def figures(case: EhlCase) -> dict[str, Any]:
     """Figures of a case without a record."""
     study = prepare(case)
     over = way(study)
-    return _figures(study, _solved(study, over, lambda _share: None), by_laws(study, over))
+    return _figures(study, solve(study, over, lambda _share: None), by_laws(study, over))
 
 
-def _solved(study: Prepared, over: Way, progress: Progress) -> dict[str, Array]:
+def solve(study: Prepared, over: Way, progress: Progress) -> dict[str, Array]:
     """Datasets of all positions; NaN where the pair carries nothing or the contact was not solved."""
     case = study.case
     seen = seen_by(study, over, None, "none")

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import tribodyn as td
+from tribodyn.studies.ehl.judged import case_for, judged, sentence
 
 
 @pytest.fixture(scope="module")
@@ -51,3 +52,23 @@ def test_regressions_stand_beside_it(run):
     assert {"masjedi-khonsari", "dowson-higginson", "moes"} <= set(run.summary["film_over_solved"])
     assert all(0.3 < ratio < 3.0 for ratio in run.summary["film_over_solved"].values())
     assert "solved" not in run.summary["friction_over_solved"]
+
+
+def test_laws_are_judged_by_the_study_of_any_scenario():
+    """The ratios of the study's own record, whatever scenario names drive, oil and duty."""
+    case = case_for("crc-23-47", {}, 5)
+    found = {(one.what, one.law): one for one in judged(case, (1.0,), (0.5, 1.0))}
+    alone = td.run("ehl-crc-23-47", {"output.positions": 5}).summary["film_over_solved"]
+    for law, ratio in alone.items():
+        one = found["film", law]
+        assert one.median == pytest.approx(ratio, rel=1e-6)
+        assert one.minimum <= one.median <= one.maximum
+        assert np.shape(one.map) == (1, 2)
+        assert one.map[0][1] == pytest.approx(ratio, rel=1e-6)
+    assert found["film", "masjedi-khonsari"].right == 1.0
+    assert "masjedi-khonsari" in sentence(list(found.values()))
+
+
+def test_what_has_no_oil_is_not_judged():
+    with pytest.raises(td.InputError, match="without lubricant"):
+        case_for("load-contact-18-36", {}, 5)
