@@ -142,8 +142,8 @@ def _compared(case: EhlCase, progress: Progress) -> list[Judged]:
                 found.append(Judged(what, law, nothing, nothing, nothing, inside, 0.0))
                 continue
             right = float(np.mean(np.abs(ratio - 1.0) <= RIGHT[what]))
-            numbers = (float(one(ratio)) for one in (np.min, np.median, np.max))
-            found.append(Judged(what, law, *numbers, inside, right))
+            low, middle, high = (float(one(ratio)) for one in (np.min, np.median, np.max))
+            found.append(Judged(what, law, low, middle, high, inside, right))
     return found
 
 
