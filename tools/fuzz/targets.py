@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from tools.fuzz.inputs import CURVE, Input, mutated, scenarios
-from tribodyn.cli.overrides import overrides
+from tribodyn.cli.options import overrides
 from tribodyn.compliance import fem_cache
 from tribodyn.compliance.gear_compliance import GearCompliance
 from tribodyn.errors import InputError, InputErrors, SimulationError

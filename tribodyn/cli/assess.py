@@ -5,8 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from tribodyn.cli import completion
-from tribodyn.cli.overrides import LargeOption, SetOption, overrides
+from tribodyn.cli.options import LargeOption, ScenarioArgument, SetOption, overrides
 
 if TYPE_CHECKING:
     from tribodyn.studies.study import Study
@@ -23,12 +22,7 @@ RECORD, PAGE, DATA = "assessment.h5", "report.html", "assessment.json"
 
 
 def assess(
-    scenario: Annotated[
-        str,
-        typer.Argument(
-            help="A scenario file, or the name of a shipped scenario.", autocompletion=completion.scenarios
-        ),
-    ],
+    scenario: ScenarioArgument,
     output: Annotated[
         Path | None,
         typer.Option("--output", "-o", help="The folder; default: the scenario's name, in this folder."),

@@ -1,11 +1,6 @@
 """`tribodyn check`: is the scenario sound, what gears does it describe, how stiff are they."""
 
-from typing import Annotated
-
-import typer
-
-from tribodyn.cli import completion
-from tribodyn.cli.overrides import LargeOption, SetOption, overrides
+from tribodyn.cli.options import JsonOption, LargeOption, ScenarioArgument, SetOption, overrides
 
 EXAMPLES = (
     "\b\nExamples:\n"
@@ -15,15 +10,10 @@ EXAMPLES = (
 
 
 def check(
-    scenario: Annotated[
-        str,
-        typer.Argument(
-            help="A scenario file, or the name of a shipped scenario.", autocompletion=completion.scenarios
-        ),
-    ],
+    scenario: ScenarioArgument,
     settings: SetOption = None,
     allow_large: LargeOption = False,
-    json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+    json: JsonOption = False,
 ) -> None:
     """Check a scenario; print geometry and stiffness."""
     from tribodyn.cli.printing import print_json, print_prose, print_text_table

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from tribodyn.cli import completion
+from tribodyn.cli.options import JsonOption, LargeOption, SetOption, overrides
 from tribodyn.cli.output import make_folder
-from tribodyn.cli.overrides import LargeOption, SetOption, overrides
 from tribodyn.cli.plot import Format
 
 if TYPE_CHECKING:
@@ -41,7 +41,7 @@ def compare(
     force: Annotated[bool, typer.Option("--force", help="Replace records of that name.")] = False,
     allow_large: LargeOption = False,
     format: Annotated[Format, typer.Option(help="File format of the pictures.")] = Format.png,
-    json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+    json: JsonOption = False,
 ) -> None:
     """Compare runs: one table, shared pictures."""
     from contextlib import ExitStack

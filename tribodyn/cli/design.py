@@ -6,7 +6,16 @@ from typing import Annotated
 import typer
 
 from tribodyn.cli import completion
-from tribodyn.cli.overrides import LargeOption, SetOption, overrides
+from tribodyn.cli.options import (
+    ForceOption,
+    LargeOption,
+    PageOption,
+    PlotOption,
+    SetOption,
+    SummaryOption,
+    overrides,
+    require_one_way,
+)
 
 EXAMPLES = (
     "\b\nValues of --free, the unit at least once, at the end:\n"
@@ -63,24 +72,17 @@ def design(
         typer.Option("--output", "-o", help="The record; default: the scenario's name and -design."),
     ] = None,
     settings: SetOption = None,
-    force: Annotated[bool, typer.Option("--force", help="Replace a record of that name.")] = False,
+    force: ForceOption = False,
     allow_large: LargeOption = False,
-    plot: Annotated[
-        bool | None,
-        typer.Option("--plot/--no-plot", help="All pictures, or none; default: one overview picture."),
-    ] = None,
-    report: Annotated[
-        bool, typer.Option("--report", help="Also write a page for the browser, beside the record.")
-    ] = False,
-    json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
+    plot: PlotOption = None,
+    report: PageOption = False,
+    json: SummaryOption = False,
 ) -> None:
     """Search for the best values of a scenario's keys."""
     from tribodyn.cli.run import Shown, run_loaded
-    from tribodyn.errors import InputError
     from tribodyn.studies.design.short_form import as_options, loaded_search
 
-    if resume and force:
-        raise InputError("--resume", None, "contradicts --force", "give one of them")
+    require_one_way(resume=resume, force=force)
     more = {"method": method, "evaluations": evaluations}
     options = as_options(free or [], minimise or [], maximise, subject_to or [], more)
     how = {"output": output, "force": force, "resume": resume, "allow_large": allow_large}

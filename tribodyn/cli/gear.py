@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tribodyn.cli import completion
+from tribodyn.cli.options import JsonOption, SetOption, overrides
 from tribodyn.cli.output import make_folder, unwritable
-from tribodyn.cli.overrides import SetOption, overrides
 
 if TYPE_CHECKING:
     from tribodyn.geometry.assembly import Assembly
@@ -44,7 +44,7 @@ def gear(
             metavar="N",
         ),
     ] = None,
-    json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+    json: JsonOption = False,
 ) -> None:
     """Print a gear pair's geometry; draw it."""
     from tribodyn.cli.printing import print_json, print_prose, print_text_table, quoted_path

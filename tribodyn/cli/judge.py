@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from tribodyn.cli import completion
-from tribodyn.cli.overrides import SetOption, overrides
+from tribodyn.cli.options import JsonOption, SetOption, overrides
 
 EXAMPLES = (
     "\b\nExamples:\n"
@@ -33,7 +33,7 @@ def judge(
     over_map: Annotated[
         bool, typer.Option("--map", help="Also over 1/4 to 2 times the load and the speed.")
     ] = False,
-    json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+    json: JsonOption = False,
 ) -> None:
     """Compare every film and friction law with the solved contact."""
     from tribodyn.cli.printing import print_json, print_prose, print_table

@@ -7,6 +7,8 @@ from typing import Annotated, Any
 
 import typer
 
+from tribodyn.cli.options import JsonOption
+
 EXAMPLES = (
     "\b\nExamples:\n"
     "  tribodyn list\n"
@@ -37,7 +39,7 @@ def list(
         Path | None,
         typer.Argument(help="With plots: the figures that this record, or sweep, holds enough for."),
     ] = None,
-    json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+    json: JsonOption = False,
 ) -> None:
     """List scenarios, models, kinds of study, laws, solvers, plots, papers."""
     from tribodyn.cli.printing import print_json, print_table

@@ -6,8 +6,17 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
-from tribodyn.cli import completion
-from tribodyn.cli.overrides import LargeOption, SetOption, overrides
+from tribodyn.cli.options import (
+    ForceOption,
+    LargeOption,
+    PageOption,
+    PlotOption,
+    ScenarioArgument,
+    SetOption,
+    SummaryOption,
+    overrides,
+    require_one_way,
+)
 
 if TYPE_CHECKING:
     from tribodyn.studies.load import Loaded
@@ -22,37 +31,25 @@ EXAMPLES = (
 
 
 def run(
-    scenario: Annotated[
-        str,
-        typer.Argument(
-            help="A scenario file, or the name of a shipped scenario.", autocompletion=completion.scenarios
-        ),
-    ],
+    scenario: ScenarioArgument,
     output: Annotated[
         Path | None,
         typer.Option("--output", "-o", help="The record; default: the scenario's name, in this folder."),
     ] = None,
     settings: SetOption = None,
-    force: Annotated[bool, typer.Option("--force", help="Replace a record of that name.")] = False,
+    force: ForceOption = False,
     resume: Annotated[
         bool, typer.Option("--resume", help="Continue a stopped search of that name (kind design).")
     ] = False,
     allow_large: LargeOption = False,
-    plot: Annotated[
-        bool | None,
-        typer.Option("--plot/--no-plot", help="All pictures, or none; default: one overview picture."),
-    ] = None,
-    report: Annotated[
-        bool, typer.Option("--report", help="Also write a page for the browser, beside the record.")
-    ] = False,
-    json: Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")] = False,
+    plot: PlotOption = None,
+    report: PageOption = False,
+    json: SummaryOption = False,
 ) -> None:
     """Run a scenario: record, summary, picture."""
-    from tribodyn.errors import InputError
     from tribodyn.studies.load import load
 
-    if resume and force:
-        raise InputError("--resume", None, "contradicts --force", "give one of them")
+    require_one_way(resume=resume, force=force)
     how = {"output": output, "force": force, "resume": resume, "allow_large": allow_large}
     run_loaded(lambda: load(scenario, overrides(settings)), Shown(plot, report, json), **how)
 

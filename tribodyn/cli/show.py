@@ -5,6 +5,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from tribodyn.cli.options import JsonOption
+
 if TYPE_CHECKING:
     from tribodyn.record.reader import Record
     from tribodyn.record.sweep_reader import SweepRecord
@@ -14,7 +16,7 @@ EXAMPLES = "\b\nExamples:\n  tribodyn show crc-23-47.h5\n  tribodyn show crc-23-
 
 def show(
     record: Annotated[Path, typer.Argument(help="A record that tribodyn wrote.")],
-    json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+    json: JsonOption = False,
 ) -> None:
     """Print the summary of a record."""
     from tribodyn.cli.printing import print_json

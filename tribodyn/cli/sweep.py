@@ -7,7 +7,14 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tribodyn.cli import completion
-from tribodyn.cli.overrides import LargeOption, SetOption, overrides
+from tribodyn.cli.options import (
+    ForceOption,
+    LargeOption,
+    ScenarioArgument,
+    SetOption,
+    overrides,
+    require_one_way,
+)
 
 if TYPE_CHECKING:
     from tribodyn.sweep.run import SweepResult
@@ -44,12 +51,7 @@ class EngineName(StrEnum):
 
 
 def sweep(
-    scenario: Annotated[
-        str,
-        typer.Argument(
-            help="A scenario file, or the name of a shipped scenario.", autocompletion=completion.scenarios
-        ),
-    ],
+    scenario: ScenarioArgument,
     *,
     vary: Annotated[
         list[str] | None,
@@ -103,7 +105,7 @@ def sweep(
         typer.Option("--output", "-o", help="The record; default: the scenario's name and the varied keys."),
     ] = None,
     settings: SetOption = None,
-    force: Annotated[bool, typer.Option("--force", help="Replace a record of that name.")] = False,
+    force: ForceOption = False,
     allow_large: LargeOption = False,
     json: Annotated[bool, typer.Option("--json", help="Print axes and figures as JSON.")] = False,
 ) -> None:
@@ -119,8 +121,7 @@ def sweep(
 
     if steady and transient is not None:
         raise InputError("--steady", None, "contradicts --transient", "give one of them")
-    if resume and force:
-        raise InputError("--resume", None, "contradicts --force", "give one of them")
+    require_one_way(resume=resume, force=force)
     grid = Grid(scenario, vary or [], overrides(settings))
     record = output or default_output(grid)
     chosen = DIRECTIONS if direction is Direction.both else (direction.value,) if direction else ()

@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from tribodyn.cli import completion
+from tribodyn.cli.options import JsonOption
 from tribodyn.cli.output import make_folder, unwritable
 
 EXAMPLES = (
@@ -30,7 +31,7 @@ def validate(
     plots: Annotated[
         Path | None, typer.Option("--plots", help="Folder for figures like the paper's, from our numbers.")
     ] = None,
-    json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+    json: JsonOption = False,
 ) -> None:
     """Compare with what a paper published."""
     from contextlib import ExitStack

@@ -1,4 +1,4 @@
-"""The --set option: key=value, through references."""
+"""Arguments and options that several commands take alike."""
 
 from typing import Annotated
 
@@ -6,6 +6,13 @@ import typer
 
 from tribodyn.cli import completion
 from tribodyn.errors import InputError, quoted
+
+ScenarioArgument = Annotated[
+    str,
+    typer.Argument(
+        help="A scenario file, or the name of a shipped scenario.", autocompletion=completion.scenarios
+    ),
+]
 
 SetOption = Annotated[
     list[str] | None,
@@ -17,11 +24,25 @@ SetOption = Annotated[
     ),
 ]
 
-
 LargeOption = Annotated[
     bool,
     typer.Option("--allow-large", help="Also what takes very much memory, disk or time."),
 ]
+
+ForceOption = Annotated[bool, typer.Option("--force", help="Replace a record of that name.")]
+
+PlotOption = Annotated[
+    bool | None,
+    typer.Option("--plot/--no-plot", help="All pictures, or none; default: one overview picture."),
+]
+
+PageOption = Annotated[
+    bool, typer.Option("--report", help="Also write a page for the browser, beside the record.")
+]
+
+JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON.")]
+
+SummaryOption = Annotated[bool, typer.Option("--json", help="Print the summary as JSON.")]
 
 #: Characters of a key; above that it is none of a scenario's.
 LONGEST_KEY = 200
@@ -39,3 +60,9 @@ def overrides(settings: list[str] | None) -> dict[str, str]:
             )
         parsed[key] = value.strip()
     return parsed
+
+
+def require_one_way(*, resume: bool, force: bool) -> None:
+    """Refuse to continue a record and to replace it at once."""
+    if resume and force:
+        raise InputError("--resume", None, "contradicts --force", "give one of them")
