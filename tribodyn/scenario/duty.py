@@ -63,6 +63,38 @@ def broken_duty_rules(
     return errors
 
 
+def broken_driving_rules(
+    table: DutyTable,
+    teeth: tuple[float, float],
+    why: str = "the driving flanks carry the load",
+    remedy: str = "",
+    *,
+    speed_needed: bool = True,
+) -> list[InputError]:
+    """Return as `broken_duty_rules` does, and a load by which the pinion does not drive.
+
+    Parameters
+    ----------
+    table : DutyTable
+    teeth : (float, float)
+        Of pinion and gear.
+    why : str
+        Why the study needs a driving pinion.
+    remedy : str
+        What else than a positive torque helps, as the end of a sentence.
+    speed_needed : bool
+    """
+    broken = broken_duty_rules(table, speed_needed=speed_needed)
+    if broken or (torque := duty_of(table, *teeth).gear_torque) > 0.0:
+        return broken
+    rule = f"must be greater than zero: {why}"
+    return [
+        InputError(
+            "operating.gear_torque", f"{torque:g} N*m", rule, f'write a torque such as "500 N*m"{remedy}'
+        )
+    ]
+
+
 def duty_of(table: DutyTable, pinion_teeth: float, gear_teeth: float) -> Duty:
     """Return pinion speed and gear torque of a table that breaks no rule.
 

@@ -5,7 +5,7 @@ from itertools import pairwise
 
 from tribodyn.errors import InputError, unknown_name
 from tribodyn.scenario.drive_rules import broken_drive_rules
-from tribodyn.scenario.duty import broken_duty_rules, duty_of
+from tribodyn.scenario.duty import broken_driving_rules
 from tribodyn.scenario.losses import broken_loss_rules
 from tribodyn.scenario.lubricant_rules import broken_lubricant_rules
 from tribodyn.scenario.modification_rules import Face, broken_slice_rules
@@ -40,17 +40,12 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
         yield from broken_lubricant_rules(scenario.lubricant, operating.oil_temperature)
     yield from broken_temperature_rules(scenario.temperature, scenario.lubricant)
     yield from broken_loss_rules(scenario.losses)
-    broken = broken_duty_rules(operating)
-    yield from broken
-    if not broken:
-        torque = duty_of(operating, drive.pinion.teeth, drive.gear.teeth).gear_torque
-        if not torque > 0.0:
-            yield InputError(
-                "operating.gear_torque",
-                f"{torque:g} N*m",
-                "must be greater than zero: the standards' formulas are those of a driving pinion",
-                'write a torque such as "500 N*m", or call the driving gear the pinion',
-            )
+    yield from broken_driving_rules(
+        operating,
+        (drive.pinion.teeth, drive.gear.teeth),
+        "the standards' formulas are those of a driving pinion",
+        ", or call the driving gear the pinion",
+    )
     yield from _asked(scenario)
 
 

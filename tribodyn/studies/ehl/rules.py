@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from tribodyn.errors import InputError
 from tribodyn.scenario.drive_rules import broken_drive_rules
-from tribodyn.scenario.duty import broken_duty_rules, duty_of
+from tribodyn.scenario.duty import broken_driving_rules
 from tribodyn.scenario.lubricant_rules import broken_lubricant_rules
 from tribodyn.scenario.modification import MisalignmentTable
 from tribodyn.scenario.modification_rules import Face, broken_face_rules
@@ -21,14 +21,4 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     yield from broken_face_rules(
         Face(drive, MisalignmentTable(from_quality=0.0), None, True), scenario.mesh.compliance
     )
-    broken = broken_duty_rules(operating)
-    yield from broken
-    if not broken:
-        torque = duty_of(operating, drive.pinion.teeth, drive.gear.teeth).gear_torque
-        if not torque > 0.0:
-            yield InputError(
-                "operating.gear_torque",
-                f"{torque:g} N*m",
-                "must be greater than zero: the driving flanks carry the load",
-                'write a torque such as "500 N*m"',
-            )
+    yield from broken_driving_rules(operating, (drive.pinion.teeth, drive.gear.teeth))

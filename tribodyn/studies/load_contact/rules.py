@@ -5,7 +5,7 @@ from itertools import pairwise
 
 from tribodyn.errors import InputError
 from tribodyn.scenario.drive_rules import broken_drive_rules
-from tribodyn.scenario.duty import broken_duty_rules, duty_of
+from tribodyn.scenario.duty import broken_driving_rules
 from tribodyn.scenario.modification_rules import Face, broken_slice_rules
 from tribodyn.scenario.quality import broken_sample_rules
 from tribodyn.scenario.spectrum import unnamed_duty
@@ -20,17 +20,7 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     yield from broken_slice_rules(Face(scenario.drive, mesh.misalignment, mesh.slices, mesh.slice_coupling))
     yield from broken_sample_rules(scenario.drive, mesh.deviation_sample, mesh.misalignment)
     drive, operating = scenario.drive, scenario.operating
-    broken = broken_duty_rules(operating, speed_needed=False)
-    yield from broken
-    if not broken:
-        torque = duty_of(operating, drive.pinion.teeth, drive.gear.teeth).gear_torque
-        if not torque > 0:
-            yield InputError(
-                "operating.gear_torque",
-                f"{torque:g} N*m",
-                "must be greater than zero: the driving flanks carry the load",
-                'write a torque such as "500 N*m"',
-            )
+    yield from broken_driving_rules(operating, (drive.pinion.teeth, drive.gear.teeth), speed_needed=False)
     torques = operating.gear_torques
     if len(torques) == 1:
         rule = "a single torque makes no map"
