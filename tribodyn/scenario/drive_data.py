@@ -73,6 +73,17 @@ def _mean_roughnesses(drive: model_files.DriveTable) -> list[float | None]:
     return [drive.mean_roughness if one.mean_roughness is None else one.mean_roughness for one in gears]
 
 
+def teeth_of(drive: model_files.DriveTable) -> dict[str, Any]:
+    """Return the fields of a case for the teeth of a drive file: their family, shape, material and flanks."""
+    return {
+        "family": drive.family,
+        "drive": drive_of(drive),
+        "materials": materials_of(drive),
+        "roughness": roughness_of(drive),
+        "mean_roughness": mean_roughness(drive),
+    }
+
+
 def drive_of(drive: model_files.DriveTable) -> Drive:
     """Return the geometry of a drive file."""
     from tribodyn.geometry.families import family

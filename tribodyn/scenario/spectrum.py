@@ -31,6 +31,14 @@ class OperatingTable(DutyTable):
     )
 
 
+class OiledOperatingTable(OperatingTable):
+    """Constant speed and load, and the oil's temperature."""
+
+    oil_temperature: Temperature | None = Field(
+        None, description="where the oil enters the mesh; for a lubricant given by its data sheet"
+    )
+
+
 class SpectrumScenario(ScenarioHead):
     """A scenario that may have a load spectrum."""
 

@@ -7,15 +7,12 @@ from pydantic import Field
 from tribodyn.compliance.foundation import Foundation
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.mesh.data import MeshData
-from tribodyn.scenario.common import Slices, Temperature, head_of
+from tribodyn.scenario.common import Slices, head_of
 from tribodyn.scenario.drive_data import (
-    drive_of,
     lubricant_of,
-    materials_of,
-    mean_roughness,
     modifications_of,
-    roughness_of,
     slices_of,
+    teeth_of,
 )
 from tribodyn.scenario.duty import duty_of
 from tribodyn.scenario.law_tables import FilmTable, FrictionTable, film_data, friction_values
@@ -29,18 +26,10 @@ from tribodyn.scenario.quantity import (
     model_file,
     written,
 )
-from tribodyn.scenario.spectrum import OperatingTable, SpectrumScenario, spectrum_of
+from tribodyn.scenario.spectrum import OiledOperatingTable, SpectrumScenario, spectrum_of
 from tribodyn.scenario.temperature import TemperatureTable, temperature_of
 from tribodyn.studies.efficiency.case import EfficiencyCase
 from tribodyn.tribology.data import FrictionData
-
-
-class EfficiencyOperating(OperatingTable):
-    """Constant speed and load."""
-
-    oil_temperature: Temperature | None = Field(
-        None, description="where the oil enters the mesh; for a lubricant given by its data sheet"
-    )
 
 
 class EfficiencyMesh(Table):
@@ -87,7 +76,7 @@ class EfficiencyScenario(SpectrumScenario):
     kind: Literal["efficiency"]
     drive: Annotated[DriveTable, model_file("drives")]
     lubricant: Annotated[Lubricant, model_file("lubricants")]
-    operating: EfficiencyOperating
+    operating: OiledOperatingTable
     mesh: EfficiencyMesh = written({})
     temperature: TemperatureTable | None = Field(None, description="bulk temperature of the teeth")
     losses: LossesTable | None = Field(None, description="load-independent losses")
@@ -110,11 +99,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> EfficiencyCase:
         error = error_with_sample(drive, None, sample)
     return EfficiencyCase(
         **head_of(scenario, toml, sha256),
-        family=drive.family,
-        drive=drive_of(drive),
-        materials=materials_of(drive),
-        roughness=roughness_of(drive),
-        mean_roughness=mean_roughness(drive),
+        **teeth_of(drive),
         lubricant=lubricant_of(scenario.lubricant, operating.oil_temperature),
         operating=OperatingData("speed", *duty_of(operating, drive.pinion.teeth, drive.gear.teeth)),
         mesh=MeshData(

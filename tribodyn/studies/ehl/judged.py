@@ -10,10 +10,10 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.scenario.resolve import resolve_table
+from tribodyn.scenario.spectrum import OiledOperatingTable
 from tribodyn.studies.ehl.along_path import by_laws, prepare, seen_by, way
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.studies.ehl.run import solve
-from tribodyn.studies.ehl.scenario import EhlOperating
 from tribodyn.studies.load import load, loaded_from, table_of
 from tribodyn.studies.study import Progress
 
@@ -65,7 +65,7 @@ def case_for(scenario: str | Path, overrides: Mapping[str, Any], positions: int)
         raise InputError(
             "kind", loaded.case.kind, rule, "name a scenario with drive, lubricant and operating"
         )
-    known = EhlOperating.model_fields
+    known = OiledOperatingTable.model_fields
     tables = {
         "title": loaded.case.title,
         "name": loaded.case.name,

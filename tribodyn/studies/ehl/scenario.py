@@ -6,31 +6,20 @@ from pydantic import Field
 
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.mesh.data import MeshData
-from tribodyn.scenario.common import Temperature, head_of
+from tribodyn.scenario.common import head_of
 from tribodyn.scenario.drive_data import (
-    drive_of,
     lubricant_of,
-    materials_of,
-    mean_roughness,
     modifications_of,
-    roughness_of,
     slices_of,
+    teeth_of,
 )
 from tribodyn.scenario.duty import duty_of
 from tribodyn.scenario.model_files import DriveTable, Lubricant
 from tribodyn.scenario.modification import MisalignmentTable
 from tribodyn.scenario.quantity import Table, model_file, written
-from tribodyn.scenario.spectrum import OperatingTable, SpectrumScenario
+from tribodyn.scenario.spectrum import OiledOperatingTable, SpectrumScenario
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.tribology.data import FilmData, FrictionData
-
-
-class EhlOperating(OperatingTable):
-    """Constant speed and load."""
-
-    oil_temperature: Temperature | None = Field(
-        None, description="where the oil enters the mesh; for a lubricant given by its data sheet"
-    )
 
 
 class EhlMesh(Table):
@@ -55,7 +44,7 @@ class EhlScenario(SpectrumScenario):
     kind: Literal["ehl"]
     drive: Annotated[DriveTable, model_file("drives")]
     lubricant: Annotated[Lubricant, model_file("lubricants")]
-    operating: EhlOperating
+    operating: OiledOperatingTable
     mesh: EhlMesh = written({})
     output: EhlOutput = written({})
 
@@ -69,11 +58,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> EhlCase:
     modifications = modifications_of(drive, MisalignmentTable(from_quality=0.0))
     return EhlCase(
         **head_of(scenario, toml, sha256),
-        family=drive.family,
-        drive=drive_of(drive),
-        materials=materials_of(drive),
-        roughness=roughness_of(drive),
-        mean_roughness=mean_roughness(drive),
+        **teeth_of(drive),
         lubricant=lubricant_of(scenario.lubricant, operating.oil_temperature),
         operating=OperatingData("speed", *duty_of(operating, drive.pinion.teeth, drive.gear.teeth)),
         mesh=MeshData(

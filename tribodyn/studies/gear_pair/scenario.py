@@ -19,7 +19,6 @@ from tribodyn.scenario.common import (
     Error,
     Inertia,
     Slices,
-    Temperature,
     Torque,
     TorsionalDamping,
     head_of,
@@ -27,14 +26,11 @@ from tribodyn.scenario.common import (
 from tribodyn.scenario.curves import ErrorCurve, StiffnessCurve, TorqueCurve
 from tribodyn.scenario.drive_data import (
     backlash_of,
-    drive_of,
     lubricant_of,
     masses_of,
-    materials_of,
-    mean_roughness,
     modifications_of,
-    roughness_of,
     slices_of,
+    teeth_of,
 )
 from tribodyn.scenario.duty import DutyTable, duty_of
 from tribodyn.scenario.law_tables import FilmTable, FrictionTable, film_data, friction_values
@@ -53,7 +49,7 @@ from tribodyn.scenario.quantity import (
     model_file,
     written,
 )
-from tribodyn.scenario.spectrum import OperatingTable, SpectrumScenario
+from tribodyn.scenario.spectrum import OiledOperatingTable, SpectrumScenario
 from tribodyn.scenario.temperature import TemperatureTable, temperature_of
 from tribodyn.scenario.tolerances import grade_of, tolerances_of
 from tribodyn.solve.data import SolverData
@@ -83,14 +79,11 @@ class ErrorHarmonic(Table):
     phase: Angle = written("0 deg")
 
 
-class Operating(OperatingTable):
+class Operating(OiledOperatingTable):
     """How the drive is driven and loaded: nominal speed, constant part of the load, and more."""
 
     source: Literal["speed", "torque"] = Field(
         "speed", description="speed: the pinion's rotation is prescribed; torque: a motor with inertia"
-    )
-    oil_temperature: Temperature | None = Field(
-        None, description="where the oil enters the mesh; for a lubricant given by its data sheet"
     )
     gear_torque_table: Annotated[TorqueCurve, csv_file("time", "torque")] | None = Field(
         None, description="over time, added to the load"
@@ -227,12 +220,8 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> Case:
     drive = scenario.drive
     return Case(
         **head_of(scenario, toml, sha256),
-        family=drive.family,
-        drive=drive_of(drive),
-        materials=materials_of(drive),
+        **teeth_of(drive),
         masses=masses_of(drive),
-        roughness=roughness_of(drive),
-        mean_roughness=mean_roughness(drive),
         lubricant=lubricant_of(scenario.lubricant, scenario.operating.oil_temperature),
         bearings=(_bearing(scenario.bearings.pinion), _bearing(scenario.bearings.gear)),
         operating=_operating(scenario),
@@ -280,8 +269,7 @@ def _operating(scenario: Scenario) -> OperatingData:
             exclude={
                 "gear_torque_table",
                 "gear_torque_harmonics",
-                "oil_temperature",
-                *OperatingTable.model_fields,
+                *OiledOperatingTable.model_fields,
             }
         ),
     )
