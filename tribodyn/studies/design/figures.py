@@ -78,15 +78,6 @@ def _overview(records: Sequence[Record], view: View) -> Figure:
     return drawn
 
 
-def _history(records: Sequence[Record], _view: View) -> Figure:
-    drawn = new_figure(WIDTH, 1.4 * PANEL_HEIGHT)
-    axes = drawn.subplots()
-    for record in records:
-        _required(record)
-    _draw_history(axes, records)
-    return drawn
-
-
 def _draw_history(axes: Axes, records: Sequence[Record]) -> None:
     """Objective of every candidate in their order, and the best so far."""
     shown = _Shown(records[0])
@@ -227,15 +218,6 @@ def _draw_sensitivities(axes: Axes, record: Record) -> None:
     axes.legend()
 
 
-def _front(records: Sequence[Record], _view: View) -> Figure:
-    drawn = new_figure(WIDTH, 1.6 * PANEL_HEIGHT)
-    axes = drawn.subplots()
-    for record in records:
-        _required(record)
-    _draw_front(axes, records)
-    return drawn
-
-
 def _draw_front(axes: Axes, records: Sequence[Record]) -> None:
     """All feasible candidates, and those that no other is better than in both objectives."""
     first, second = (_Shown(records[0], place) for place in (0, 1))
@@ -263,6 +245,20 @@ def _draw_front(axes: Axes, records: Sequence[Record]) -> None:
     axes.legend()
 
 
+def _together(draw: Any, height: float) -> Any:
+    """A figure of one panel with all records in it."""
+
+    def figure(records: Sequence[Record], _view: View) -> Figure:
+        drawn = new_figure(WIDTH, height * PANEL_HEIGHT)
+        axes = drawn.subplots()
+        for record in records:
+            _required(record)
+        draw(axes, records)
+        return drawn
+
+    return figure
+
+
 def _alone(draw: Any, height: float = 1.3) -> Any:
     """A figure with one panel."""
 
@@ -285,7 +281,9 @@ def _two(record: Record) -> bool:
 
 DRAWINGS: Mapping[str, Drawing] = {
     "overview": Drawing("history, start and best, free keys, what the best depends on", _overview, _found),
-    "history": Drawing("objective of every candidate, and the best so far", _history, _found),
+    "history": Drawing(
+        "objective of every candidate, and the best so far", _together(_draw_history, 1.4), _found
+    ),
     "duties": Drawing(
         "first objective at each duty, at the start and at the best", _alone(_draw_duties), _found
     ),
@@ -293,5 +291,5 @@ DRAWINGS: Mapping[str, Drawing] = {
     "sensitivities": Drawing(
         "change of the objective with one key or tolerance moved", _alone(_draw_sensitivities), _found
     ),
-    "front": Drawing("the front of two objectives", _front, _two),
+    "front": Drawing("the front of two objectives", _together(_draw_front, 1.6), _two),
 }
