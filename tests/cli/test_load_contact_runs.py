@@ -13,7 +13,7 @@ from tribodyn.record.reader import open_record
 from tribodyn.studies.load_contact import run as simulate_load_contact
 from tribodyn.studies.load_contact.figures import DRAWINGS
 
-NAMES = tuple(name for name in DRAWINGS if name != "overview")
+NAMES = tuple(name for name in DRAWINGS if name not in ("overview", "film-map"))
 PLAIN, RELIEVED = "load-contact-18-36", "harris-18-36-tip-relief"
 SHORT = ("--set", "output.positions_per_cycle=30")
 

@@ -133,10 +133,12 @@ def _explained(error: InputError, table: LawTable, law: Any) -> InputError:
 
 def film_data(scenario: WithLaws) -> FilmData:
     """Return the choice of film law, its values in SI units."""
-    film = scenario.film
-    if film is None:
-        return FilmData()
-    if film.law is None:
+    return film_of(scenario.film)
+
+
+def film_of(film: FilmTable | None) -> FilmData:
+    """Return the choice of film law of a table [film], its values in SI units."""
+    if film is None or film.law is None:
         return FilmData()
     return FilmData(film.law, own_values(_owner(film, FILM_LAWS[film.law]), film.own))
 

@@ -20,13 +20,16 @@ class PageMap(NamedTuple):
     face : (slices,)
         Place on the face from its middle, m.
     values : (positions, slices)
-        SI.
+        SI; NaN: left blank.
+    top : float
+        Percentile of the values at the top of the scale of colours.
     """
 
     name: str
     roll: np.ndarray
     face: np.ndarray
     values: np.ndarray
+    top: float = 100.0
 
 
 def as_data(record: Record, found: PageMap) -> dict[str, Any]:
@@ -39,4 +42,5 @@ def as_data(record: Record, found: PageMap) -> dict[str, Any]:
         "x": packed(np.degrees(found.roll)),
         "y": packed(found.face * 1e3),
         "z": packed(values.T),
+        "top": float(np.nanpercentile(values, found.top)) if np.any(np.isfinite(values)) else 0.0,
     }

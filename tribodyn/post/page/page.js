@@ -135,7 +135,7 @@
     mapPairs = [];
     mapNames.forEach((name, row) => {
       let top = 0;
-      for (const record of withMaps) for (const z of record.maps[row].z) if (z > top) top = z;
+      for (const record of withMaps) top = Math.max(top, record.maps[row].top);
       withMaps.forEach((record, column) => {
         const one = record.maps[row], n = row * columns + column, key = n ? String(n + 1) : "";
         const z = [];

@@ -120,7 +120,9 @@ def extrapolated(record: Record) -> dict[str, list[list[int]]]:
     for flag, names in FLAGS.items():
         if flag not in record or "normal_load" not in record:
             continue
-        outside = np.any((record[flag] == 0) & (record["normal_load"] > 0.0), axis=-1)
+        flags, loaded = record[flag] == 0, record["normal_load"] > 0.0
+        over_face = loaded.shape + (1,) * (flags.ndim - loaded.ndim)
+        outside = np.any(flags & loaded.reshape(over_face), axis=tuple(range(1, flags.ndim)))
         edges = np.flatnonzero(np.diff(np.concatenate([[0], outside.astype(int), [0]])))
         starts, ends = edges[::2], edges[1::2] - 1
         if len(starts) > MOST_INTERVALS:

@@ -1,11 +1,39 @@
 """A case of the static load contact study: everything one run needs to know, in SI units."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.material import MaterialData
 from tribodyn.geometry.modification import UNMODIFIED, Modifications
+from tribodyn.scenario.duty import Duty
 from tribodyn.studies.study import CaseHead
+from tribodyn.tribology.data import FilmData, FrictionData
+from tribodyn.tribology.lubricant import LubricantData
+
+
+@dataclass(frozen=True)
+class Oiled:
+    """What the film between the flanks follows from; see `tribology.closure.Lubricated`.
+
+    Parameters
+    ----------
+    family, drive, materials, roughness, mean_roughness, lubricant, film
+        As in `tribodyn.studies.gear_pair.case.Case`.
+    operating : Duty
+        Speed of the pinion, > 0, and torque on the gear.
+    friction : FrictionData
+        None: its law only says which film law goes with it.
+    """
+
+    family: str
+    drive: Drive
+    materials: tuple[MaterialData, MaterialData]
+    roughness: float
+    mean_roughness: float
+    lubricant: LubricantData
+    operating: Duty
+    film: FilmData
+    friction: FrictionData = field(default_factory=lambda: FrictionData("none"))
 
 
 @dataclass(frozen=True)
@@ -32,6 +60,8 @@ class LoadContactCase(CaseHead):
         Positions of the pinion in one mesh cycle.
     cycles : int
         Mesh cycles to roll through; more than one where teeth differ.
+    oiled : Oiled or None
+        For the film over the face; None: the scenario has no lubricant.
     """
 
     family: str
@@ -45,3 +75,4 @@ class LoadContactCase(CaseHead):
     slice_coupling: bool = True
     positions_per_cycle: int = 60
     cycles: int = 1
+    oiled: Oiled | None = None

@@ -9,7 +9,7 @@ from tribodyn.studies.gears_estimate import (
     pressed_seconds,
 )
 from tribodyn.studies.load_contact.case import LoadContactCase
-from tribodyn.studies.load_contact.layout import LAYOUT
+from tribodyn.studies.load_contact.layout import LAYOUT, OILED
 
 #: How often what is recorded is held at once.
 HELD = 4.0
@@ -21,7 +21,7 @@ def estimate(case: LoadContactCase) -> Estimate:
     sizes = {"phase": positions, "pair": TOUCHING, "slice": case.slices, "body": 2}
     if case.gear_torques:
         sizes["torque"] = len(case.gear_torques)
-    record = record_bytes(LAYOUT, sizes) + OUTLINES
+    record = record_bytes(OILED if case.oiled else LAYOUT, sizes) + OUTLINES
     seconds = pressed_seconds(float(positions) * (1 + len(case.gear_torques)), case.slices)
     return Estimate(
         PROGRAM + HELD * record + pressed_memory(positions, case.slices),

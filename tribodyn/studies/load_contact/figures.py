@@ -16,15 +16,16 @@ from tribodyn.record.reader import Record
 from tribodyn.studies.load_contact.layout import BODIES
 from tribodyn.studies.load_contact.maps import (
     EXPLAINED,
+    FILM,
     LINE_LOAD,
     PRESSURE,
     draw_map,
+    face_map_figure,
     line_load_figure,
-    pressure_map,
 )
 from tribodyn.studies.load_contact.rolled import over_phase, over_roll, pair_over_phase, require_positions
 
-HARRIS = "harris"
+HARRIS, FILM_MAP = "harris", "film-map"
 MAP_CURVES = "Transmission error over the mesh cycle, less its mean, at every torque"
 PHASE = "Phase (mesh cycles)"
 ROLL = "Roll angle from the pitch point (°)"
@@ -41,11 +42,19 @@ def _checked(name: str, records: Sequence[Record], view: View) -> None:
         if name == HARRIS and not has_map(record):
             rule = f"{record.path} holds a single torque"
             raise InputError("plot", name, rule, "run the scenario with operating.gear_torques")
+        if name == FILM_MAP and not has_film(record):
+            rule = f"{record.path} holds no film"
+            raise InputError("plot", name, rule, "run the scenario with a lubricant and a speed")
 
 
 def has_map(record: Record) -> bool:
     """Whether the record holds a Harris map."""
     return "torque" in record
+
+
+def has_film(record: Record) -> bool:
+    """Whether the record holds the film over the face."""
+    return FILM.dataset in record
 
 
 def colour(number: int) -> str:
@@ -288,7 +297,15 @@ DRAWINGS: dict[str, Drawing] = {
         "loaded-error": ("loaded and unloaded transmission error", _loaded_error),
         "load-sharing": ("load of every pair, and its share", _load_sharing),
         "line-load": ("line load over roll angle and face", line_load_figure),
-        "pressure-map": ("Hertz pressure over roll angle and face", pressure_map),
+        "pressure-map": (
+            "Hertz pressure over roll angle and face",
+            lambda records: face_map_figure(records, PRESSURE),
+        ),
+        FILM_MAP: (
+            "film thickness over roll angle and face, with a lubricant",
+            lambda records: face_map_figure(records, FILM),
+            has_film,
+        ),
         "root-stress": ("root stress on both sides of the tooth", _root_stress),
         "mesh-stiffness": ("mesh stiffness", _mesh_stiffness),
         HARRIS: ("Harris map: loaded transmission error over torque", _harris, has_map),

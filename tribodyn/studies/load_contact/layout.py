@@ -48,6 +48,14 @@ SAMPLES: dict[str, Variable] = {
     "torque_residual": Variable(("phase",), "1", "torque of the loads over the gear's torque, less 1"),
 }
 
+#: What a study with a lubricant adds.
+FILM: dict[str, Variable] = {
+    "central_film_thickness": Variable(
+        _FACE, "m", "film thickness by the film law; NaN where the slice carries none"
+    ),
+    "closure_in_range": Variable(_FACE, "1", "1 where the film law is inside its range, 0 outside"),
+}
+
 #: What a study at several torques adds: a Harris map.
 MAP: dict[str, Variable] = {
     "map_transmission_error": Variable(
@@ -65,3 +73,4 @@ LAYOUT = Layout(
     MAP,
     {"mesh_cycle": MESH_CYCLE, "geometry": GEOMETRY},
 )
+OILED = LAYOUT._replace(samples={**SAMPLES, **FILM})

@@ -17,28 +17,42 @@ _EVEN = 1e-6
 
 
 class OverFace(NamedTuple):
-    """A quantity over the face and how engineers read it: dataset, factor from SI, label, title of a map."""
+    """A quantity over the face and how engineers read it: dataset, factor from SI, label, title of a map.
+
+    `worst` finds the value that a cross marks; `top` is the percentile of the values at the scale's top.
+    """
 
     dataset: str
     factor: float
     label: str
     title: str
+    worst: Any = np.nanargmax
+    top: float = 100.0
 
 
 LINE_LOAD = OverFace("line_load", 1e-3, "Line load (N/mm)", "Line load of one pair from entry to exit")
 PRESSURE = OverFace(
     "hertz_pressure", 1e-9, "Hertz pressure (GPa)", "Hertz pressure of one pair from entry to exit"
 )
+FILM = OverFace(
+    "central_film_thickness",
+    1e6,
+    "Film thickness (µm)",
+    "Film of one pair from entry to exit",
+    np.nanargmin,
+    98.0,
+)
 #: What is drawn into a map.
-EXPLAINED = "Cross: maximum.  Dotted line: pitch point.  Dark: no load."
+EXPLAINED = "Cross: maximum, of the film the minimum.  Dotted line: pitch point.  Dark or blank: no load."
 
 
 def draw_map(axes: Axes, records: Sequence[Record], record: Record, quantity: OverFace) -> Any:
     """Draw a quantity of one pair over roll angle and face, coloured on a scale for all the records.
 
-    A cross marks the maximum value, unless it is the same all along the face.
+    A cross marks the worst value, unless it is the same all along the face.
     """
-    top = max(float(np.max(one[quantity.dataset])) for one in records) * quantity.factor
+    tops = [np.nanpercentile(one[quantity.dataset], quantity.top) for one in records]
+    top = float(max(tops)) * quantity.factor
     face_values = face_map(record, quantity.dataset)
     roll, values = np.degrees(face_values.roll), face_values.values * quantity.factor
     across = face_values.face * 1e3
@@ -47,15 +61,15 @@ def draw_map(axes: Axes, records: Sequence[Record], record: Record, quantity: Ov
     mesh = axes.pcolormesh(
         roll,
         np.concatenate([edges[:1], across, edges[1:]]),
-        np.concatenate([values[:, :1], values, values[:, -1:]], axis=1).T,
+        np.ma.masked_invalid(np.concatenate([values[:, :1], values, values[:, -1:]], axis=1).T),
         vmin=0.0,
         vmax=top,
         cmap="viridis",
         shading="gouraud",
         rasterized=True,
     )
-    at = np.unravel_index(np.argmax(values), values.shape)
-    if np.ptp(values[at[0]]) > _EVEN * top:
+    at = np.unravel_index(quantity.worst(values), values.shape)
+    if np.nanmax(values[at[0]]) - np.nanmin(values[at[0]]) > _EVEN * top:
         for color, width in (("white", 2.4), (INK, 1.0)):
             place = roll[at[0]], face_values.face[at[1]] * 1e3
             axes.plot(*place, "x", color=color, markersize=6, markeredgewidth=width)
@@ -97,22 +111,18 @@ def line_load_figure(records: Sequence[Record]) -> Figure:
     mark_panel(below, "abcdefgh"[len(records)], "Line load over the face, the pair at the pitch point")
     if len(records) > 1:
         below.legend(loc="lower center", ncols=min(3, len(records)))
-    if len(records) == 1:
-        drawn.suptitle(f"{record_title(records[0])}\n{EXPLAINED}", x=0.01, ha="left", fontsize=9)
-    else:
-        drawn.suptitle(f"{LINE_LOAD.title}. {EXPLAINED}", x=0.01, ha="left", fontsize=9)
+    about = f"{LINE_LOAD.title}. " if len(records) > 1 else f"{record_title(records[0])}\n"
+    drawn.suptitle(f"{about}{EXPLAINED}", x=0.01, ha="left", fontsize=9)
     return drawn
 
 
-def pressure_map(records: Sequence[Record]) -> Figure:
-    """Draw maps of the Hertz pressure, on one scale."""
+def face_map_figure(records: Sequence[Record], quantity: OverFace) -> Figure:
+    """Draw maps of a quantity, on one scale."""
     rows = -(-len(records) // _columns(len(records)))
     drawn = new_figure(WIDTH, rows * PANEL_HEIGHT + 0.6)
-    _maps(drawn, records, PRESSURE)
-    if len(records) == 1:
-        drawn.suptitle(f"{record_title(records[0])}\n{EXPLAINED}", x=0.01, ha="left", fontsize=9)
-    else:
-        drawn.suptitle(f"{PRESSURE.title}. {EXPLAINED}", x=0.01, ha="left", fontsize=9)
+    _maps(drawn, records, quantity)
+    about = f"{quantity.title}. " if len(records) > 1 else f"{record_title(records[0])}\n"
+    drawn.suptitle(f"{about}{EXPLAINED}", x=0.01, ha="left", fontsize=9)
     return drawn
 
 

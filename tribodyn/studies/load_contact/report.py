@@ -4,9 +4,17 @@ import numpy as np
 
 from tribodyn.numerics.variable import Variable
 from tribodyn.post.page.maps import PageMap
-from tribodyn.post.report import Line, Lines
+from tribodyn.post.report import Line, Lines, on_closures
 from tribodyn.record.reader import Record
-from tribodyn.studies.gears import CONTACT_RATIO, EFFECTIVE_CONTACT_RATIO, NORMAL_LOAD, SINGLE_PAIR, WALL_TIME
+from tribodyn.studies.gears import (
+    CONTACT_RATIO,
+    EFFECTIVE_CONTACT_RATIO,
+    NORMAL_LOAD,
+    SINGLE_PAIR,
+    TRIBOLOGY,
+    WALL_TIME,
+)
+from tribodyn.studies.load_contact.maps import FILM, LINE_LOAD, PRESSURE
 from tribodyn.studies.load_contact.rolled import face_edges, face_map
 
 LINES: Lines = {
@@ -136,6 +144,7 @@ LINES: Lines = {
             definition="Maximum of the pressure in the middle of the Hertz contact, over pairs, face and "
             "mesh cycle.",
         ),
+        *(line for line in TRIBOLOGY if line.name.startswith("film_")),
     ),
     "Solver": (WALL_TIME,),
 }
@@ -156,6 +165,8 @@ SWEPT: dict[str, Variable] = {
     "face_load_factor": Variable((), "1", "face load factor where the line load is at its maximum"),
     "face_load_factor_pitch_point": Variable((), "1", "face load factor at the pitch point"),
     "hertz_pressure_max": Variable((), "Pa", "maximum Hertz pressure"),
+    "film_min": Variable((), "m", "minimum film thickness over pairs and face; with a lubricant"),
+    "film_parameter_min": Variable((), "1", "minimum film parameter over pairs and face; with a lubricant"),
     "pinion_root_tension_max": Variable((), "Pa", "maximum root tension of the pinion"),
     "gear_root_tension_max": Variable((), "Pa", "maximum root tension of the gear"),
     "torque_residual": Variable((), "1", "torque of the loads over the gear's torque, less 1, at most"),
@@ -167,18 +178,20 @@ PANELS = ("loaded_transmission_error", "normal_load", "mesh_stiffness")
 
 
 def maps(record: Record) -> list[PageMap]:
-    """Line load and Hertz pressure of one pair over its roll angle and the face."""
-    names = ("line_load", "hertz_pressure")
+    """Line load, Hertz pressure and, with a lubricant, film of one pair over its roll angle and the face."""
     if record.samples < 2:
         return []
     edges = face_edges(record)[[0, -1]]
     found = []
-    for name in names:
+    for quantity in (LINE_LOAD, PRESSURE, FILM):
+        name = quantity.dataset
+        if name not in record:
+            continue
         over = face_map(record, name)
         # to the edges of the face with the values of the outermost slices
         face = np.concatenate([edges[:1], over.face, edges[1:]])
         values = np.concatenate([over.values[:, :1], over.values, over.values[:, -1:]], axis=1)
-        found.append(PageMap(name, over.roll, face, values))
+        found.append(PageMap(name, over.roll, face, values, quantity.top))
     return found
 
 
@@ -192,4 +205,7 @@ def sentences(record: Record) -> list[str]:
     residual = summary.get("torque_residual")
     if residual is not None:
         said.append(f"The loads carry the torque to within {abs(residual):.1e} of it.")
+    if "film_min" in summary:
+        said.append("The film is that of each slice alone, the oil as warm as it enters.")
+        said += on_closures(summary)
     return said

@@ -6,6 +6,7 @@ from itertools import pairwise
 from tribodyn.errors import InputError
 from tribodyn.scenario.drive_rules import broken_drive_rules
 from tribodyn.scenario.duty import broken_driving_rules
+from tribodyn.scenario.lubricant_rules import broken_lubricant_rules
 from tribodyn.scenario.modification_rules import Face, broken_slice_rules
 from tribodyn.scenario.quality import broken_sample_rules
 from tribodyn.scenario.spectrum import unnamed_duty
@@ -20,7 +21,12 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
     yield from broken_slice_rules(Face(scenario.drive, mesh.misalignment, mesh.slices, mesh.slice_coupling))
     yield from broken_sample_rules(scenario.drive, mesh.deviation_sample, mesh.misalignment)
     drive, operating = scenario.drive, scenario.operating
-    yield from broken_driving_rules(operating, (drive.pinion.teeth, drive.gear.teeth), speed_needed=False)
+    oiled = scenario.lubricant is not None
+    yield from broken_driving_rules(operating, (drive.pinion.teeth, drive.gear.teeth), speed_needed=oiled)
+    if scenario.lubricant is not None:
+        yield from broken_lubricant_rules(scenario.lubricant, operating.oil_temperature)
+    else:
+        yield from _without_oil(scenario)
     torques = operating.gear_torques
     if len(torques) == 1:
         rule = "a single torque makes no map"
@@ -34,3 +40,15 @@ def broken_rules(scenario: Scenario) -> Iterator[InputError]:
                 "give the torques in increasing order",
             )
             break
+
+
+def _without_oil(scenario: Scenario) -> Iterator[InputError]:
+    """Refuse what says something of a film that is not computed."""
+    remedy = 'add lubricant = "iso-vg-220-mineral", or leave it out'
+    given = {
+        "operating.oil_temperature": scenario.operating.oil_temperature,
+        "film": scenario.film,
+    }
+    for key, value in given.items():
+        if value is not None:
+            yield InputError(key, rule="without a lubricant there is no film", remedy=remedy)

@@ -19,7 +19,8 @@ from tribodyn.geometry.outlines import geometry_arrays
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.record.trust import Judge
 from tribodyn.studies.load_contact.case import LoadContactCase
-from tribodyn.studies.load_contact.layout import BODIES, LAYOUT
+from tribodyn.studies.load_contact.film import FaceFilm, film_over_face
+from tribodyn.studies.load_contact.layout import BODIES, LAYOUT, OILED
 from tribodyn.studies.recording import target, writer
 from tribodyn.studies.study import Progress, RunResult
 
@@ -104,12 +105,14 @@ def run(
         "geometry": geometry_arrays(study.flexible.assembly),
     }
     samples, scales = 0 if loaded is None else len(loaded.phase), _scales(study, loaded)
-    with writer(case, path, LAYOUT, samples, groups=groups, scales=scales, force=force) as record:
+    layout = LAYOUT if case.oiled is None else OILED
+    with writer(case, path, layout, samples, groups=groups, scales=scales, force=force) as record:
         summary: dict[str, Any] = {"contact_ratio": float(study.flexible.assembly.contact_ratio)}
         if loaded is None:
             return RunResult(record.fail(failure, summary), "failed", failure, summary)
-        record.write(0, record_arrays(study, loaded))
-        summary |= loaded_figures(study, loaded)
+        film = film_of(study, loaded)
+        record.write(0, record_arrays(study, loaded) | ({} if film is None else film_arrays(film)))
+        summary |= loaded_figures(study, loaded) | ({} if film is None else film.figures)
         report(1 / steps)
         spread = []
         for row, torque in enumerate(case.gear_torques):
@@ -132,7 +135,20 @@ def figures(case: LoadContactCase) -> dict[str, Any]:
     """Figures of a case at its own torque, without a record."""
     study = prepare(case)
     contact_ratio = {"contact_ratio": float(study.flexible.assembly.contact_ratio)}
-    return contact_ratio | loaded_figures(study, roll(study, case.gear_torque))
+    loaded = roll(study, case.gear_torque)
+    film = film_of(study, loaded)
+    return contact_ratio | loaded_figures(study, loaded) | ({} if film is None else film.figures)
+
+
+def film_of(study: Prepared, loaded: LoadedContact) -> FaceFilm | None:
+    """Film over the face; None where the scenario has no lubricant."""
+    oiled = study.case.oiled
+    return None if oiled is None else film_over_face(study.flexible.assembly, loaded, oiled)
+
+
+def film_arrays(film: FaceFilm) -> dict[str, Float[Array, "position pair slice"]]:
+    """Datasets of the film, over the phase first."""
+    return {"central_film_thickness": film.thickness, "closure_in_range": film.in_range}
 
 
 def record_arrays(study: Prepared, loaded: LoadedContact) -> dict[str, Float[Array, "position ..."]]:

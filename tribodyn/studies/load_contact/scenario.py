@@ -6,9 +6,10 @@ from pydantic import Field
 
 from tribodyn.scenario import units
 from tribodyn.scenario.common import Slices, head_of
-from tribodyn.scenario.drive_data import drive_of, materials_of, modifications_of, slices_of
+from tribodyn.scenario.drive_data import lubricant_of, modifications_of, slices_of, teeth_of
 from tribodyn.scenario.duty import duty_of
-from tribodyn.scenario.model_files import DriveTable
+from tribodyn.scenario.law_tables import FilmTable, film_of
+from tribodyn.scenario.model_files import DriveTable, Lubricant
 from tribodyn.scenario.modification import MisalignmentTable
 from tribodyn.scenario.quality import DeviationSample, with_sample
 from tribodyn.scenario.quantity import (
@@ -20,14 +21,14 @@ from tribodyn.scenario.quantity import (
     model_file,
     written,
 )
-from tribodyn.scenario.spectrum import OperatingTable, SpectrumScenario
-from tribodyn.studies.load_contact.case import LoadContactCase
+from tribodyn.scenario.spectrum import OiledOperatingTable, SpectrumScenario
+from tribodyn.studies.load_contact.case import LoadContactCase, Oiled
 
 Load = Annotated[float, Quantity(units.positive(units.TORQUE))]
 
 
-class LoadContactOperating(OperatingTable):
-    """The load, against the gear's motion; a speed only where the load is given as power."""
+class LoadContactOperating(OiledOperatingTable):
+    """The load, against the gear's motion; a speed only where the load is given as power, or for the film."""
 
     gear_torques: tuple[Load, ...] = Field(
         (), max_length=1000, description="of the Harris map, in increasing order"
@@ -60,8 +61,12 @@ class LoadContactScenario(SpectrumScenario):
 
     kind: Literal["load-contact"]
     drive: Annotated[DriveTable, model_file("drives")]
+    lubricant: Annotated[Lubricant, model_file("lubricants")] | None = Field(
+        None, description="for the film over the face; default: none is computed"
+    )
     operating: LoadContactOperating
     mesh: LoadContactMesh = written({})
+    film: FilmTable | None = Field(None, description="which law gives the film")
     output: LoadContactOutput = written({})
 
 
@@ -70,7 +75,12 @@ Scenario = LoadContactScenario
 
 def case_of(scenario: Scenario, toml: str, sha256: str) -> LoadContactCase:
     """Return the case of a scenario that has passed schema and rules."""
-    drive, mesh = scenario.drive, scenario.mesh
+    drive, mesh, operating = scenario.drive, scenario.mesh, scenario.operating
+    teeth, duty = teeth_of(drive), duty_of(operating, drive.pinion.teeth, drive.gear.teeth)
+    oiled = None
+    if scenario.lubricant is not None:
+        lubricant = lubricant_of(scenario.lubricant, operating.oil_temperature)
+        oiled = Oiled(**teeth, lubricant=lubricant, operating=duty, film=film_of(scenario.film))
     modifications = with_sample(
         drive,
         modifications_of(drive, mesh.misalignment),
@@ -80,15 +90,16 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> LoadContactCase:
     )
     return LoadContactCase(
         **head_of(scenario, toml, sha256),
-        family=drive.family,
-        drive=drive_of(drive),
-        materials=materials_of(drive),
-        gear_torque=duty_of(scenario.operating, drive.pinion.teeth, drive.gear.teeth).gear_torque,
-        gear_torques=scenario.operating.gear_torques,
+        family=teeth["family"],
+        drive=teeth["drive"],
+        materials=teeth["materials"],
+        gear_torque=duty.gear_torque,
+        gear_torques=operating.gear_torques,
         friction_coefficient=mesh.friction_coefficient,
         modifications=modifications,
         slices=slices_of(mesh.slices, modifications),
         slice_coupling=mesh.slice_coupling,
         positions_per_cycle=scenario.output.positions_per_cycle,
         cycles=scenario.output.cycles,
+        oiled=oiled,
     )

@@ -38,7 +38,8 @@ def plain(tmp_path_factory: pytest.TempPathFactory) -> Record:
     return open_record(synthetic_load_contact.write(path, slices=1, tilt=0.0, torques=()))
 
 
-NAMES = tuple(name for name in DRAWINGS if name != "overview")
+#: A film is drawn by test_face_film.
+NAMES = tuple(name for name in DRAWINGS if name not in ("overview", "film-map"))
 LABELS = {
     "loaded-error": ["Transmission error (µm)", "Transmission error (µm)"],
     "load-sharing": ["Normal load of each pair (N)", "Share of the load (%)"],
