@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from tribodyn.errors import InputError, quoted
 from tribodyn.interface.words import in_python
 from tribodyn.tribology.ehl.asperities import Roughness
 from tribodyn.tribology.ehl.coupled import solve_coupled
@@ -14,12 +15,20 @@ from tribodyn.tribology.ehl.problem import LineContact, check
 from tribodyn.tribology.ehl.rheology import Rheology
 from tribodyn.tribology.ehl.steady import STEP, Solution
 from tribodyn.tribology.ehl.traction import rolling_traction
+from tribodyn.tribology.ehl.values import positive
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 Array = Any
+
+#: α p_H above which oils are solid rather than fluid (elastic-plastic, Johnson & Tevaarwerk 1977).
+SOLID = 60.0
+#: Friction coefficients of lubricated steel stay below; limiting stresses of oils are 0.03 … 0.12 p.
+CREDIBLE = 0.2
+#: Between which steps of the grid are taken.
+FINEST, COARSEST = 0.01, 1.0
 
 
 @dataclass(frozen=True)
@@ -45,6 +54,7 @@ class SolvedContact:
     rolling_coefficient : drag of the pressure flow on each surface over the load, ½ ∫ h dp/dx dx/w
     hertz_pressure, half_width : of the dry contact, Pa, m
     moes_load, moes_material : Moes' M and L, with the sum of the speeds
+    limits : what the result is not credible for, in sentences; empty within the laws' usual range
     solution : the solution in Hertz's units, from which a similar contact can start
     """
 
@@ -64,6 +74,7 @@ class SolvedContact:
     half_width: float
     moes_load: float
     moes_material: float
+    limits: tuple[str, ...]
     solution: Solution
 
     def plot(self, ax: "Axes | None" = None) -> "Figure":
@@ -97,7 +108,8 @@ class SolvedContact:
     def __repr__(self) -> str:
         return (
             f"<tribodyn line contact: p_H {self.hertz_pressure / 1e9:.3g} GPa, central film "
-            f"{self.central_film_thickness * 1e6:.4g} µm, minimum {self.minimum_film_thickness * 1e6:.4g} µm>"
+            f"{self.central_film_thickness * 1e6:.4g} µm, minimum {self.minimum_film_thickness * 1e6:.4g} µm"
+            f"{''.join(f'; {limit}' for limit in self.limits)}>"
         )
 
 
@@ -175,9 +187,9 @@ def line_contact(
     solid_conductivity, solid_heat_capacity : (float, float)
         Of surfaces 1 and 2, W/(m K) and J/(m³ K) per volume; of steel by default.
     step : float
-        Steps of the grid over the distance from inlet and end of the film.
+        Steps of the grid over the distance from inlet and end of the film, 0.01 … 1.
     start : SolvedContact, optional
-        Of a similar contact: its grid and its pressures are the start.
+        Of a similar contact, as rough or as smooth: its grid and its pressures are the start.
 
     Returns
     -------
@@ -186,10 +198,12 @@ def line_contact(
     Raises
     ------
     InputError
-        If a value is no number, or not positive where it must be.
+        If a value is no number, or not positive where it must be, or if the contact is wider than its
+        cylinders.
     SimulationError
         If the equations could not be solved.
     """
+    _check_options(compressible, step, start, roughness)
     index = viscosity_pressure_index
     if index is None:
         check(
@@ -214,8 +228,8 @@ def line_contact(
             temperature_viscosity,
             oil_conductivity,
             oil_heat_capacity,
-            solid_conductivity,
-            solid_heat_capacity,
+            _pair(solid_conductivity),
+            _pair(solid_heat_capacity),
         )
     solved = solve_coupled(problem, shear, thermal, start.solution if start is not None else None, step)
     solution, heat = solved.solution, solved.heat
@@ -237,5 +251,41 @@ def line_contact(
         half_width=problem.half_width,
         moes_load=problem.moes_load,
         moes_material=problem.moes_material,
+        limits=_limits(problem, shear, abs(solved.friction) / line_load),
         solution=solution,
     )
+
+
+def _check_options(compressible: Any, step: Any, start: Any, roughness: Any) -> None:
+    """Raise InputError at what is no switch, no step and no start."""
+    if not isinstance(compressible, bool):
+        raise InputError("compressible", quoted(compressible), "is neither True nor False", "write either")
+    if not FINEST <= positive("step", step) <= COARSEST:
+        raise InputError("step", step, f"is not {FINEST:g} … {COARSEST:g}", f"0.05 is fine, {STEP:g} usual")
+    if start is None:
+        return
+    if not isinstance(start, SolvedContact):
+        raise InputError("start", quoted(start), "is no solved contact", "give what td.line_contact returned")
+    if (start.solution.problem.roughness is None) != (roughness is None):
+        raise InputError("start", None, "one contact is rough, the other smooth", "start without it")
+
+
+def _pair(value: Any) -> Any:
+    return tuple(value) if isinstance(value, (list, np.ndarray)) else value
+
+
+def _limits(problem: LineContact, rheology: Rheology, friction: float) -> tuple[str, ...]:
+    """Say where oils do not follow the laws used."""
+    said = []
+    exponent = problem.fluid.pressure_viscosity * problem.hertz_pressure
+    if exponent > SOLID:
+        said.append(
+            f"α p_H {exponent:.0f} is above {SOLID:g}: an oil so stiff is a solid, whose film and friction "
+            f"are extrapolated"
+        )
+    if friction > CREDIBLE and rheology.law != "limiting":
+        said.append(
+            f'the "{rheology.law}" film bears more shear than any oil: friction coefficient {friction:.3g} '
+            f'above {CREDIBLE:g}; rheology="limiting" bounds it'
+        )
+    return tuple(said)

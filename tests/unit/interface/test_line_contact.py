@@ -1,5 +1,7 @@
 """`td.line_contact`: names, units, signs and errors."""
 
+from typing import Any
+
 import matplotlib as mpl
 import numpy as np
 import pytest
@@ -8,7 +10,7 @@ import tribodyn as td
 
 mpl.use("agg")
 
-GIVEN = {
+GIVEN: dict[str, Any] = {
     "line_load": 200e3,
     "radius": 10e-3,
     "entrainment_speed": 1.0,
@@ -47,11 +49,128 @@ def test_index_of_roelands_isotherm_where_none_is_given():
     assert td.line_contact(**given).central_film_thickness == pytest.approx(same.central_film_thickness)
 
 
+#: Arguments that must be positive, and which law of shear reads them.
+POSITIVE = {
+    **dict.fromkeys(
+        [
+            *("line_load", "radius", "entrainment_speed", "viscosity", "effective_modulus", "roughness"),
+            *("asperity_density", "asperity_slope", "limiting_coefficient", "limiting_floor"),
+            *("oil_conductivity", "oil_heat_capacity", "step"),
+        ],
+        "limiting",
+    ),
+    "eyring_stress": "eyring",
+    "carreau_modulus": "carreau",
+    "carreau_index": "carreau",
+}
+
+
+def all_given(rheology):
+    return {**GIVEN, "roughness": 3e-7, "temperature_viscosity": 0.035, "rheology": rheology}
+
+
+@pytest.mark.parametrize("name", [*POSITIVE, "pressure_viscosity", "sliding_speed", "asperity_friction"])
 @pytest.mark.parametrize(
-    "name", ["line_load", "radius", "entrainment_speed", "viscosity", "effective_modulus"]
+    "value", [-1e300, float("nan"), float("inf"), 1e300, "1", True, [1.0], 1j, np.array([1.0, 2.0])]
 )
-@pytest.mark.parametrize("value", [0.0, -1.0, float("nan")])
+def test_no_numbers(name, value):
+    with pytest.raises(td.InputError) as caught:
+        td.line_contact(**{**all_given(POSITIVE.get(name, "limiting")), name: value})
+    assert caught.value.key == name
+
+
+@pytest.mark.parametrize("name", POSITIVE)
+@pytest.mark.parametrize("value", [0, -1.0, 1e-300])
+def test_no_positive_numbers(name, value):
+    with pytest.raises(td.InputError) as caught:
+        td.line_contact(**{**all_given(POSITIVE[name]), name: value})
+    assert caught.value.key == name
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("viscosity_pressure_index", 1.5),
+        ("viscosity_pressure_index", 0.0),
+        ("rheology", "plastic"),
+        ("rheology", ["eyring"]),
+        ("compressible", "no"),
+        ("solid_conductivity", 46.0),
+        ("solid_heat_capacity", (3.6e6, -1.0)),
+        ("temperature_viscosity", -0.1),
+        ("start", "here"),
+        ("line_load", 1e12),  # wider than the cylinders
+        ("line_load", 1e-9),
+        ("pressure_viscosity", 22.0),
+    ],
+)
 def test_bad_values(name, value):
     with pytest.raises(td.InputError) as caught:
-        td.line_contact(**{**GIVEN, name: value, "viscosity_pressure_index": None})
+        td.line_contact(**{**all_given("limiting"), name: value})
     assert caught.value.key == name
+
+
+def test_a_smooth_contact_does_not_start_a_rough_one():
+    smooth = td.line_contact(**GIVEN)
+    assert td.line_contact(**GIVEN, start=smooth).minimum_film_thickness == pytest.approx(
+        smooth.minimum_film_thickness
+    )
+    with pytest.raises(td.InputError, match="smooth"):
+        td.line_contact(**GIVEN, roughness=3e-7, start=smooth)
+
+
+@pytest.mark.parametrize("exponent", [30.0, 65.0, 600.0])
+@pytest.mark.parametrize("index", [0.6, 1.0])
+@pytest.mark.parametrize("heat", [None, 0.035])
+def test_cold_oil(exponent, index, heat):
+    """Stiff as it may be, it slips at τ_00 + Λ p; above α p_H = 60 the contact says that it is a solid."""
+    given = {**GIVEN, "viscosity_pressure_index": index, "pressure_viscosity": exponent / 0.8489e9}
+    contact = td.line_contact(
+        **given, sliding_speed=0.1, rheology="limiting", temperature_viscosity=heat, step=0.2
+    )
+    assert 0.045 < contact.friction_coefficient
+    assert contact.friction_coefficient * 200e3 <= np.trapezoid(2e6 + 0.05 * contact.pressure, contact.x)
+    assert any("60" in limit for limit in contact.limits) == (exponent > 60.0)
+
+
+def test_what_no_oil_bears_is_said():
+    contact = td.line_contact(**GIVEN, sliding_speed=0.1)
+    assert contact.friction_coefficient > 1.0
+    assert "limiting" in contact.limits[0]
+    assert "limiting" in repr(contact)
+    assert td.line_contact(**GIVEN).limits == ()
+
+
+@pytest.mark.soak
+def test_two_hundred_random_contacts(rng):
+    """Whatever the oil, the law and the heat: finite, bounded by the limiting stress, or one error."""
+    solved = 0
+    for _ in range(200):
+        given: dict[str, Any] = {
+            "line_load": 10 ** rng.uniform(3.5, 6.2),
+            "radius": 10 ** rng.uniform(-3, -1),
+            "entrainment_speed": 10 ** rng.uniform(-1.5, 1.5),
+            "viscosity": 10 ** rng.uniform(-2.3, 1),
+            "pressure_viscosity": rng.uniform(5e-9, 60e-9),
+            "viscosity_pressure_index": rng.choice([0.3, 0.6, 0.8, 1.0]),
+            "effective_modulus": 226.37e9,
+            "rheology": rng.choice(["limiting", "eyring", "carreau"]).item(),
+            "temperature_viscosity": rng.choice([0.0, 0.03, 0.06]),
+            "roughness": rng.choice([None, 1e-7, 1e-6]),
+        }
+        given["sliding_speed"] = given["entrainment_speed"] * rng.uniform(-1.5, 1.5)
+        if rng.random() < 0.5:
+            given["temperature_viscosity"] = None
+        try:
+            contact = td.line_contact(**given)
+        except (td.InputError, td.SimulationError):
+            continue
+        solved += 1
+        arrays = (contact.pressure, contact.film_thickness, contact.temperature, contact.shear_stress)
+        assert all(np.all(np.isfinite(one)) for one in arrays)
+        assert np.isfinite(contact.friction_coefficient)
+        if given["rheology"] == "limiting":
+            most = np.trapezoid(2e6 + 0.05 * contact.pressure, contact.x) / given["line_load"]
+            most += 0.12 * contact.asperity_load_ratio
+            assert abs(contact.friction_coefficient) <= most * (1.0 + 1e-9)
+    assert solved > 150

@@ -145,3 +145,8 @@ def test_nothing_overflows_at_the_ends(law):
                     values = known(laws, load, curvature, speed, speed, speed, speed)
                     assert np.all(np.isfinite(values))
                     assert values[0] >= 0
+
+
+def test_xu_on_flanks_as_rough_as_no_gear():
+    """exp(S) runs away beyond 1 µm; it must not leave the numbers."""
+    assert math.isfinite(xu(1e9, 0.01, 1.0, 0.1, 0.05, 1e-3))

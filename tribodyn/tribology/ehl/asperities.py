@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.special import ndtr
 
-from tribodyn.errors import InputError
+from tribodyn.tribology.ehl.values import not_negative, positive
 
 Array = Any
 
@@ -37,13 +37,8 @@ def check(roughness: Roughness) -> None:
     """Raise InputError at the first value that is not positive."""
     names = {"height": "roughness", "density": "asperity_density", "slope": "asperity_slope"}
     for name, key in names.items():
-        value = getattr(roughness, name)
-        if not (math.isfinite(value) and value > 0.0):
-            raise InputError(key, value, "must be positive", "leave the roughness out for smooth surfaces")
-    if not (math.isfinite(roughness.friction) and roughness.friction >= 0.0):
-        raise InputError(
-            "asperity_friction", roughness.friction, "must not be negative", "0.08 … 0.15 of steel"
-        )
+        positive(key, getattr(roughness, name), remedy="leave the roughness out for smooth surfaces")
+    not_negative("asperity_friction", roughness.friction, remedy="0.08 … 0.15 of steel")
 
 
 def asperity_pressure(gap: Array, roughness: Roughness, modulus: float) -> tuple[Array, Array]:

@@ -54,6 +54,7 @@ class CoupledSolution(NamedTuple):
         return np.mean(self.heat.layers, axis=1)
 
 
+@np.errstate(over="ignore", divide="ignore", invalid="ignore")
 def solve_coupled(
     problem: LineContact,
     rheology: Rheology,
@@ -83,7 +84,10 @@ def solve_coupled(
     for rounds in range(1, MOST_ROUNDS + 1):
         shear, heat, found = _closed(solution, rheology, surfaces, heat, rise)
         warmed = heat.layers if heat is not None else rise
-        wished = mixing.next(_packed(closure, rise), _packed(found, warmed))
+        target = _packed(found, warmed)
+        if not np.all(np.isfinite(target)):
+            raise _diverged(problem, rounds)
+        wished = mixing.next(_packed(closure, rise), target)
         while True:
             closure, rise = _unpacked(wished)
             try:
@@ -100,8 +104,12 @@ def solve_coupled(
         if all(abs(a - b) <= TOLERANCE * max(abs(a), c) for a, b, c in zip(known, last, least, strict=True)):
             return CoupledSolution(solution, shear, heat, friction, rounds)
         last = known
-    raise SimulationError(
-        f"pressure, shear and heat of the line contact did not converge in {MOST_ROUNDS} rounds (p_H "
+    raise _diverged(problem, MOST_ROUNDS)
+
+
+def _diverged(problem: LineContact, rounds: int) -> SimulationError:
+    return SimulationError(
+        f"pressure, shear and heat of the line contact did not converge in {rounds} rounds (p_H "
         f"{problem.hertz_pressure / 1e9:.3g} GPa, sliding {problem.sliding_speed:.3g} m/s)"
     )
 

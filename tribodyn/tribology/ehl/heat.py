@@ -22,6 +22,7 @@ from scipy.special import k0e, k1e
 
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.tribology.ehl.shear import LAYERS
+from tribodyn.tribology.ehl.values import not_negative, positive
 
 Array = Any
 
@@ -72,14 +73,16 @@ class Heat(NamedTuple):
 
 
 def check(thermal: Thermal) -> None:
-    """Raise InputError at the first value that is not positive."""
-    for name, value in thermal._asdict().items():
-        lowest = 0.0 if name == "temperature_viscosity" else 1e-300
-        several = value if isinstance(value, tuple) else (value,)
-        if len(several) != (2 if name.startswith("solid") else 1):
+    """Raise InputError at the first value that is no number, or not positive."""
+    not_negative("temperature_viscosity", thermal.temperature_viscosity, "1/K")
+    for name in ("conductivity", "heat_capacity"):
+        positive(f"oil_{name}", getattr(thermal, name))
+    for name in ("solid_conductivity", "solid_heat_capacity"):
+        value = getattr(thermal, name)
+        if not isinstance(value, tuple) or len(value) != 2:
             raise InputError(name, value, "must be two numbers", "give those of surface 1 and surface 2")
-        if not all(math.isfinite(one) and one >= lowest for one in several):
-            raise InputError(name, value, "must be positive", "give a number in SI units")
+        for one in value:
+            positive(name, one)
 
 
 def moving_source(place: Array, edge: Array, speed: float, conductivity: float, capacity: float) -> Array:

@@ -9,6 +9,11 @@ from tribodyn.tribology.contact import hertz_pressure as maximum_hertz_pressure
 from tribodyn.tribology.ehl import asperities
 from tribodyn.tribology.ehl.asperities import Roughness
 from tribodyn.tribology.ehl.fluid import Fluid
+from tribodyn.tribology.ehl.values import not_negative, number, positive
+
+#: Moes' M and L between which contacts are tried; gears have M 5 … 2000 and L 2 … 25. Smooth ones converge up
+#: to M = 1e4, rough ones up to the dry contact.
+LEAST_LOAD, GREATEST_LOAD, GREATEST_MATERIAL = 0.01, 1e12, 1000.0
 
 
 class LineContact(NamedTuple):
@@ -76,7 +81,7 @@ class LineContact(NamedTuple):
         return drawn / (self.effective_modulus * self.radius)
 
 
-#: Argument -> whether zero is allowed, unit, remedy.
+#: Argument that must be positive -> unit, remedy.
 _POSITIVE = {
     "line_load": ("N/m", "a contact without load has no film to solve; load it"),
     "radius": ("m", "give the radius of relative curvature"),
@@ -91,21 +96,41 @@ _POSITIVE = {
 
 
 def check(problem: LineContact) -> None:
-    """Raise InputError at the first value that is no number or has the wrong sign."""
+    """Raise InputError at the first value that is no number, has the wrong sign, or is out of all bounds."""
     given = {**problem._asdict(), **problem.fluid._asdict()}
-    for name in (*_POSITIVE, "pressure_viscosity", "sliding_speed"):
-        value = given[name]
-        if isinstance(value, bool) or not math.isfinite(value):
-            raise InputError(name, value, "is not a finite number", "give a number in SI units")
-        if name in _POSITIVE and value <= 0.0:
-            unit, remedy = _POSITIVE[name]
-            raise InputError(name, f"{value} {unit}".strip(), "must be positive", remedy)
-    if problem.roughness is not None:
-        asperities.check(problem.roughness)
-    if problem.fluid.pressure_viscosity < 0.0:
-        raise InputError(
-            "pressure_viscosity", f"{problem.fluid.pressure_viscosity} 1/Pa", "must not be negative"
-        )
+    for name, (unit, remedy) in _POSITIVE.items():
+        positive(name, given[name], unit, remedy)
+    not_negative("pressure_viscosity", problem.fluid.pressure_viscosity, "1/Pa")
+    number("sliding_speed", problem.sliding_speed)
     if problem.fluid.viscosity_pressure_index > 1.0:
         index = problem.fluid.viscosity_pressure_index
         raise InputError("viscosity_pressure_index", index, "is above 1, which is Barus' law", "give z ≤ 1")
+    if problem.roughness is not None:
+        asperities.check(problem.roughness)
+    _check_size(problem)
+
+
+def _check_size(problem: LineContact) -> None:
+    """Raise InputError outside of what the equations are made for."""
+    width, load, material = problem.half_width, problem.moes_load, problem.moes_material
+    if width > problem.radius:
+        raise InputError(
+            "line_load",
+            f"{problem.line_load:g} N/m",
+            f"the contact is wider ({2.0 * width:.3g} m) than cylinders of {problem.radius:.3g} m radius",
+            "half spaces need a lower load, a larger radius or a stiffer material",
+        )
+    if not LEAST_LOAD <= load <= GREATEST_LOAD:
+        raise InputError(
+            "line_load",
+            f"{problem.line_load:g} N/m",
+            f"Moes' load parameter M is {load:.3g}, solved is {LEAST_LOAD:g} … {GREATEST_LOAD:g}",
+            "check load, speed and viscosity, and their units",
+        )
+    if material > GREATEST_MATERIAL:
+        raise InputError(
+            "pressure_viscosity",
+            f"{problem.fluid.pressure_viscosity:g} 1/Pa",
+            f"Moes' material parameter L is {material:.3g}, solved is up to {GREATEST_MATERIAL:g}",
+            "check its unit: 1e-8 … 4e-8 1/Pa of oils",
+        )

@@ -5,11 +5,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import InputError, unknown_name
+from tribodyn.tribology.ehl.values import positive
 
 Array = Any
 
-#: Share of the limiting stress up to which the law holds; beyond, the rate goes on along its tangent.
-_NEAR_LIMIT = 1.0 - 1e-6
 #: Of Newton's method for Carreau's rate, which begins within a factor of 2.
 _CARREAU_STEPS = 8
 #: Of τ/τ_0: e^600 is more than any sliding speed asks for.
@@ -48,13 +47,11 @@ LAWS: dict[str, tuple[str, ...]] = {
 
 def check(rheology: Rheology) -> None:
     """Raise InputError at an unknown law or a constant that is not positive."""
-    if rheology.law not in LAWS:
+    if not isinstance(rheology.law, str) or rheology.law not in LAWS:
         raise unknown_name("rheology", str(rheology.law), LAWS, "law of shear")
     for name in LAWS[rheology.law]:
-        value = getattr(rheology, name)
-        if not (np.isfinite(value) and value > 0.0):
-            raise InputError(name, value, "must be a positive number", f'law "{rheology.law}" reads it')
-    if rheology.carreau_index > 1.0:
+        positive(name, getattr(rheology, name), remedy=f'law "{rheology.law}" reads it')
+    if rheology.law == "carreau" and rheology.carreau_index > 1.0:
         raise InputError("carreau_index", rheology.carreau_index, "thickens with shear", "give n ≤ 1")
 
 
@@ -77,13 +74,15 @@ def thinned(newtonian: Array, scale: Array, rheology: Rheology) -> Array:
     if rheology.law == "eyring":
         return scale * np.arcsinh(ratio)
     if rheology.law == "limiting":
-        beyond = np.maximum(np.abs(ratio) + np.log1p(-_NEAR_LIMIT), 0.0)
-        return scale * np.sign(ratio) * ((1.0 - _NEAR_LIMIT) * beyond - np.expm1(beyond - np.abs(ratio)))
+        return scale * np.sign(ratio) * -np.expm1(-np.abs(ratio))
     return newtonian * (1.0 + ratio * ratio) ** (0.5 * (rheology.carreau_index - 1.0))
 
 
 def newtonian_stress(stress: Array, scale: Array, rheology: Rheology) -> tuple[Array, Array]:
-    """η γ', the inverse of `thinned`, and its derivative by the stress."""
+    """η γ', the inverse of `thinned`, and its derivative by the stress.
+
+    Not of a limiting stress, which no number of digits tells from the stresses just below it.
+    """
     if rheology.law == "newtonian":
         return stress, np.ones_like(stress)
     ratio = stress / scale
@@ -91,10 +90,6 @@ def newtonian_stress(stress: Array, scale: Array, rheology: Rheology) -> tuple[A
         held = np.clip(ratio, -_MOST_EYRING, _MOST_EYRING)
         return scale * np.sinh(held), np.cosh(held)
     size = np.abs(ratio)
-    if rheology.law == "limiting":
-        below = np.minimum(size, _NEAR_LIMIT)
-        slope = 1.0 / (1.0 - below)
-        return scale * np.sign(ratio) * (-np.log1p(-below) + slope * (size - below)), slope
     index = rheology.carreau_index
     rate = np.maximum(size, np.maximum(size, 1e-300) ** (1.0 / index))
     for _ in range(_CARREAU_STEPS):

@@ -10,8 +10,9 @@ The drift is what unequal layers make of sliding alone, dp/dx = 0; what a gradie
 pressure, h³/(12 η) dp/dx of a Newtonian isothermal fluid (Yang & Wen 1990, with the law's tangent).
 
 A fluid at its limiting stress would yield to every gradient along the sliding, and no pressure could stand.
-With that law the flow by pressure takes the secant viscosity τ/γ', as if it went across the sliding. Nor does
-that law say where in the film it slips: all layers have their mean viscosity.
+With that law the flow by pressure goes as if it went across the sliding, with the secant viscosity τ_m/γ',
+and takes nothing from τ_m, which so never exceeds the limit. Nor does that law say where in the film it
+slips: all layers have their mean viscosity.
 """
 
 from typing import Any, NamedTuple
@@ -26,6 +27,8 @@ LAYERS = 12
 #: Middle of each layer over the thickness, from −½ at surface 2 to ½ at surface 1.
 MIDDLE = (np.arange(LAYERS) + 0.5) / LAYERS - 0.5
 _STEPS, _ACCURACY = 60, 1e-9
+#: Of the Newtonian stress over the limiting one, beyond which the limit is reached to rounding.
+_MOST_RATIO = 700.0
 #: Mean stress, over that of the pressure gradient, that is rounding.
 _NOTHING = 1e-6
 #: Stress of the pressure gradient, over that of the law, up to which its flow is linear in it.
@@ -77,7 +80,7 @@ def sheared(
     place = film[:, None] * MIDDLE
     slope = MIDDLE * (film * gradient)[:, None]
     if rheology.law == "limiting":
-        log_viscosity = np.broadcast_to(np.mean(log_viscosity, axis=1, keepdims=True), log_viscosity.shape)
+        return _limited(film, pressure, gradient, np.mean(log_viscosity, axis=1), speeds, rheology)
     fluid = np.exp(-log_viscosity)
     scale = stress_scale(pressure, rheology)[:, None]
     mean, rate, tangent, response = _mean_stress(sliding, thickness, slope, fluid, scale, rheology)
@@ -85,9 +88,6 @@ def sheared(
     if rheology.law != "newtonian":
         at_level = _mean_stress(sliding, thickness, np.zeros_like(slope), fluid, scale, rheology)
         level = at_level[1:3]
-        if rheology.law == "limiting":
-            secant = at_level[0][:, None] != 0.0
-            level = level[0], np.where(secant, level[0] / np.where(secant, at_level[0][:, None], 1.0), fluid)
     t0, t1 = (np.sum(level[1] * weight * thickness, axis=1) for weight in (1.0, place))
     # exact for a fluidity that is constant in a layer
     inner = place**2 + thickness**2 / 12.0
@@ -96,7 +96,6 @@ def sheared(
         drift = -sliding * t1 / t0
     else:
         drift = -np.sum(level[0] * place * thickness, axis=1)
-    if rheology.law in ("eyring", "carreau"):
         steep = np.abs(gradient) * film > _LEVEL * scale[:, 0]
         flow = -np.sum((rate * place + tangent * gradient[:, None] * thickness**2 / 12.0) * thickness, axis=1)
         through = np.where(steep, (drift - flow) / np.where(steep, gradient, 1.0), through)
@@ -109,6 +108,35 @@ def sheared(
         drift / (film * entrained),
         response,
     )
+
+
+def _limited(
+    film: Array,
+    pressure: Array,
+    gradient: Array,
+    log_viscosity: Array,
+    speeds: tuple[float, float],
+    rheology: Rheology,
+) -> Shear:
+    """Shear of a fluid with a limiting stress, in closed form; `log_viscosity` (x,) is the layers' mean."""
+    sliding = speeds[0] - speeds[1]
+    fluid, scale = np.exp(-log_viscosity), stress_scale(pressure, rheology)
+    newtonian = sliding / (film * fluid)
+    mean = thinned(newtonian, scale, rheology)
+    size = np.minimum(np.abs(newtonian) / scale, _MOST_RATIO)
+    resting = size < 1e-12
+    size = np.where(resting, 1.0, size)
+    # τ_L (1 − exp(−η γ'/τ_L)) over γ', and its logarithm by ln η
+    fluidity = np.where(resting, fluid, sliding / film / np.where(resting, 1.0, mean))
+    response = np.where(resting, 1.0, size / np.expm1(size))
+    thickness = film[:, None] / LAYERS
+    place = film[:, None] * MIDDLE
+    yields = (fluidity * gradient)[:, None]
+    rate = sliding / film[:, None] + yields * place
+    worked = (mean * sliding / LAYERS)[:, None]
+    heat = worked + yields * gradient[:, None] * (place**2 + thickness**2 / 12.0) * thickness
+    velocity = speeds[1] + np.cumsum(rate * thickness, axis=1) - 0.5 * rate * thickness
+    return Shear(mean, heat, velocity, fluidity, np.zeros_like(film), response)
 
 
 def _mean_stress(

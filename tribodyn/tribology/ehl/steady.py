@@ -200,7 +200,7 @@ def converged(
     for number in range(MOST_STEPS + 1):
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
             values, matrix = _residual(state, reduced, grid, closure)
-        imbalance = _imbalance(values, state)
+            imbalance = _imbalance(values, state)
         if imbalance <= TOLERANCE or not math.isfinite(imbalance) or number == MOST_STEPS:
             return state, number, imbalance
         try:

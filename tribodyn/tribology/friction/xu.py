@@ -46,7 +46,7 @@ def xu(pressure, radius, entrainment, sliding, viscosity, roughness):
         -8.916465
         - 0.354068 * group
         + 2.812084 * exp(-group)
-        + 0.620305 * exp(1e6 * roughness)
+        + 0.620305 * exp(minimum(1e6 * roughness, 100.0))
         + 1.03303 * log(gigapascal)
         + 1.036077 * log(ratio)
         - 0.100601 * log(entrainment)

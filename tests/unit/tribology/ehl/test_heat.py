@@ -83,7 +83,7 @@ def test_surfaces_under_their_flux():
     ("thermal", "key"),
     [
         (Thermal(-0.1), "temperature_viscosity"),
-        (Thermal(0.03, conductivity=0.0), "conductivity"),
+        (Thermal(0.03, conductivity=0.0), "oil_conductivity"),
         (Thermal(0.03, solid_conductivity=(46.0,)), "solid_conductivity"),
         (Thermal(0.03, solid_heat_capacity=(1e6, math.nan)), "solid_heat_capacity"),
     ],

@@ -17,7 +17,7 @@ def between_plates(law, sliding=0.2, gradient=0.0, viscosity=20.0, profile=0.0, 
     return sheared(*given, (1.0 + sliding / 2, 1.0 - sliding / 2), Rheology(law))
 
 
-@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("law", ["newtonian", "eyring", "carreau"])
 def test_stress_and_rate_are_inverse(law):
     stress = np.array([-1.4e7, -3e5, 0.0, 1e3, 2e6, 1.6e7])
     rheology = Rheology(law)
@@ -41,6 +41,18 @@ def test_mean_stress_of_each_law():
     )
     thinner = (1 + (equal / 5e6) ** 2) ** -0.25
     assert between_plates("carreau").stress[0] == pytest.approx(equal * thinner, rel=1e-8)
+
+
+@pytest.mark.parametrize("viscosity", [1e-2, 1e6, 1e30, 1e200])
+@pytest.mark.parametrize("gradient", [0.0, 1e14])
+def test_no_stress_above_the_limit(viscosity, gradient):
+    """However stiff the oil; the heat is the work of the sliding and of the pressure's flow."""
+    found = between_plates("limiting", gradient=gradient, viscosity=viscosity)
+    limit = 2e6 + 0.05 * 3e8
+    assert 0.0 < found.stress[0] <= limit
+    assert found.stress[0] == pytest.approx(limit * -np.expm1(-viscosity * 0.2 / 2e-7 / limit), rel=1e-9)
+    through = found.fluidity[0] * 2e-7**3 / 12 * gradient**2
+    assert np.sum(found.heat) == pytest.approx(found.stress[0] * 0.2 + through, rel=1e-9)
 
 
 @pytest.mark.parametrize("law", LAWS)
