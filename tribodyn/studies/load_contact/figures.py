@@ -15,7 +15,6 @@ from tribodyn.post.style import PAIR_STYLES, PALETTE, PANEL_HEIGHT, WIDTH, mark_
 from tribodyn.record.reader import Record
 from tribodyn.studies.load_contact.layout import BODIES
 from tribodyn.studies.load_contact.maps import (
-    EXPLAINED,
     FILM,
     LINE_LOAD,
     PRESSURE,
@@ -245,7 +244,7 @@ def _overview(records: Sequence[Record]) -> Figure:
     )
     for letter, axes, title in zip("abcdef", panels, titles, strict=True):
         mark_panel(axes, letter, title)
-    said = f"{record_title(record)}.  Maps: {EXPLAINED[0].lower()}{EXPLAINED[1:]}"
+    said = f"{record_title(record)}.  Maps: {LINE_LOAD.explained[0].lower()}{LINE_LOAD.explained[1:]}"
     drawn.suptitle(said, x=0.01, ha="left", fontsize=11)
     return drawn
 

@@ -19,7 +19,8 @@ _EVEN = 1e-6
 class OverFace(NamedTuple):
     """A quantity over the face and how engineers read it: dataset, factor from SI, label, title of a map.
 
-    `worst` finds the value that a cross marks; `top` is the percentile of the values at the scale's top.
+    `worst` finds the value that a cross marks; `top` is the percentile of the values at the scale's top;
+    `explained` says what is drawn into a map.
     """
 
     dataset: str
@@ -28,6 +29,7 @@ class OverFace(NamedTuple):
     title: str
     worst: Any = np.nanargmax
     top: float = 100.0
+    explained: str = "Cross: maximum.  Dotted line: pitch point.  Dark: no load."
 
 
 LINE_LOAD = OverFace("line_load", 1e-3, "Line load (N/mm)", "Line load of one pair from entry to exit")
@@ -41,9 +43,8 @@ FILM = OverFace(
     "Film of one pair from entry to exit",
     np.nanargmin,
     98.0,
+    "Cross: minimum.  Dotted line: pitch point.  Blank: no load.",
 )
-#: What is drawn into a map.
-EXPLAINED = "Cross: maximum, of the film the minimum.  Dotted line: pitch point.  Dark or blank: no load."
 
 
 def draw_map(axes: Axes, records: Sequence[Record], record: Record, quantity: OverFace) -> Any:
@@ -111,8 +112,7 @@ def line_load_figure(records: Sequence[Record]) -> Figure:
     mark_panel(below, "abcdefgh"[len(records)], "Line load over the face, the pair at the pitch point")
     if len(records) > 1:
         below.legend(loc="lower center", ncols=min(3, len(records)))
-    about = f"{LINE_LOAD.title}. " if len(records) > 1 else f"{record_title(records[0])}\n"
-    drawn.suptitle(f"{about}{EXPLAINED}", x=0.01, ha="left", fontsize=9)
+    _head(drawn, records, LINE_LOAD)
     return drawn
 
 
@@ -121,9 +121,13 @@ def face_map_figure(records: Sequence[Record], quantity: OverFace) -> Figure:
     rows = -(-len(records) // _columns(len(records)))
     drawn = new_figure(WIDTH, rows * PANEL_HEIGHT + 0.6)
     _maps(drawn, records, quantity)
-    about = f"{quantity.title}. " if len(records) > 1 else f"{record_title(records[0])}\n"
-    drawn.suptitle(f"{about}{EXPLAINED}", x=0.01, ha="left", fontsize=9)
+    _head(drawn, records, quantity)
     return drawn
+
+
+def _head(drawn: Figure, records: Sequence[Record], quantity: OverFace) -> None:
+    about = f"{quantity.title}." if len(records) > 1 else record_title(records[0])
+    drawn.suptitle(f"{about}\n{quantity.explained}", x=0.01, ha="left", fontsize=9)
 
 
 def _maps(part: Any, records: Sequence[Record], quantity: OverFace) -> None:
