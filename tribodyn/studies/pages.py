@@ -51,6 +51,7 @@ def report(records: Sequence[Record], figures: bool = True) -> str:
             one.panels(),
             one.maps(record),
             sheet(record) if figures else (),
+            one.profiles(record),
         )
         for one, record in zip(studies, records, strict=True)
     ]

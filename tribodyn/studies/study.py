@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from tribodyn.numerics.variable import Variable
     from tribodyn.post.figures.drawing import Drawing, SweepDrawing
     from tribodyn.post.page.maps import PageMap
+    from tribodyn.post.page.profiles import Profiles
     from tribodyn.post.report import Line, Lines
     from tribodyn.record.reader import Record
     from tribodyn.scenario.quantity import Table
@@ -274,6 +275,11 @@ class Study:
         """Maps over roll angle and face that a page of a record shows; none: nothing varies over the face."""
         found = self._part("report", "maps", optional=True)
         return found(record) if found else ()
+
+    def profiles(self, record: "Record") -> "Profiles | None":
+        """What a page of a record shows over a place at its cursor; None: nothing."""
+        found = self._part("report", "profiles", optional=True)
+        return found(record) if found else None
 
     def batch(self) -> "Batch | None":
         """How many cases are evaluated together; None: one after the other, by `figures`."""

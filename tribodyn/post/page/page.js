@@ -22,6 +22,10 @@
       }
     }
     for (const one of record.maps || []) for (const name of ["x", "y", "z"]) one[name] = numbers(one[name], Float32Array);
+    if (record.profiles) {
+      record.profiles.x = numbers(record.profiles.x, Float32Array);
+      for (const row of record.profiles.rows) row.y = numbers(row.y, Float32Array);
+    }
     const teeth = record.teeth;
     if (teeth) {
       teeth.frames = teeth.frames && numbers(teeth.frames, Uint32Array);
@@ -176,6 +180,49 @@
       Plotly.relayout($("maps"), { shapes: shapes });
     });
   }
+  // ---- profiles at the cursor
+  const withProfiles = data.records.filter((one) => one.profiles);
+  const profileAt = (record, row) => {
+    const count = record.profiles.x.length, from = indexAt(record.axis, at) * count;
+    return record.profiles.rows[row].y.subarray(from, from + count);
+  };
+  function drawProfiles() {
+    $("profiles-section").hidden = !withProfiles.length;
+    if (!withProfiles.length) return;
+    const style = getComputedStyle(document.documentElement), ink = style.getPropertyValue("--ink").trim();
+    const grid = style.getPropertyValue("--line").trim(), rows = withProfiles[0].profiles.rows, lines = Math.ceil(rows.length / 2), traces = [];
+    const layout = {
+      height: 80 + 220 * lines, margin: { l: 60, r: 20, t: 30, b: 45 }, paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)",
+      font: { color: ink, size: 12 }, annotations: [], showlegend: false,
+    };
+    $("profiles-title").textContent = withProfiles[0].profiles.title;
+    rows.forEach((row, n) => {
+      const key = n ? String(n + 1) : "", left = (n % 2) * 0.53, high = 1 - Math.floor(n / 2) / lines, low = high - 0.78 / lines;
+      let top = 0, bottom = 0;
+      for (const record of withProfiles) { top = Math.max(top, record.profiles.rows[n].high); bottom = Math.min(bottom, record.profiles.rows[n].low); }
+      layout["xaxis" + key] = { domain: [left, left + 0.47], anchor: "y" + key, gridcolor: grid, zeroline: false, title: { text: n >= rows.length - 2 ? plain(withProfiles[0].profiles.label) : "", font: { size: 11 } } };
+      layout["yaxis" + key] = { domain: [low, high], anchor: "x" + key, gridcolor: grid, zeroline: false, range: [1.05 * bottom, 1.05 * top], title: { text: plain(row.unit) } };
+      layout.annotations.push({ text: plain(row.title), x: left, y: high, xref: "paper", yref: "paper", xanchor: "left", yanchor: "bottom", showarrow: false });
+      withProfiles.forEach((record, number) => traces.push({
+        type: "scatter", mode: "lines", x: record.profiles.x, y: profileAt(record, n), xaxis: "x" + key, yaxis: "y" + key, connectgaps: false,
+        name: plain(record.label), line: { width: 1.5, color: COLORS[number % COLORS.length] },
+      }));
+    });
+    Plotly.react($("profiles"), traces, layout, { responsive: true, displaylogo: false });
+  }
+  let profiled = -1;
+  function moveProfiles() {
+    if (!withProfiles.length) return;
+    requestAnimationFrame(() => {
+      const sample = indexAt(first.axis, at);
+      if (sample === profiled) return;
+      profiled = sample;
+      const values = [];
+      withProfiles[0].profiles.rows.forEach((row, n) => withProfiles.forEach((record) => values.push(profileAt(record, n))));
+      Plotly.restyle($("profiles"), { y: values });
+      document.body.dataset.profiled = String(sample);
+    });
+  }
   // ---- teeth
   function drawTeeth() {
     const record = data.records[which], teeth = record.teeth, canvas = $("teeth");
@@ -260,7 +307,7 @@
     const [low, high] = span();
     at = Math.min(high, Math.max(low, value));
     if (!fromSlider) $("cursor").value = String(Math.round(1000 * (at - range[0]) / (range[1] - range[0])));
-    mark(); drawTeeth(); read(); markMaps();
+    mark(); drawTeeth(); read(); markMaps(); moveProfiles();
     document.body.dataset.at = String(at);
     document.body.dataset.line = $("line").style.left;
   }
@@ -291,7 +338,7 @@
   $("view").onchange = (event) => { range = event.target.value === "all" ? span() : first.window; draw(); move(Math.max(range[0], Math.min(range[1], at))); };
   $("color").onchange = drawTeeth;
   $("which").onchange = (event) => { which = Number(event.target.value); move(at); };
-  $("theme").onclick = () => { const root = document.documentElement; root.dataset.theme = root.dataset.theme === "dark" ? "light" : "dark"; draw(); drawTeeth(); drawMaps(); };
+  $("theme").onclick = () => { const root = document.documentElement; root.dataset.theme = root.dataset.theme === "dark" ? "light" : "dark"; draw(); drawTeeth(); drawMaps(); drawProfiles(); };
   document.addEventListener("keydown", (event) => {
     if (["SELECT", "INPUT"].includes(event.target.tagName) && event.key !== " ") return;
     const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
@@ -308,7 +355,7 @@
   $("teeth-section").hidden = !data.records.some((one) => one.teeth);
   // page.html#at=1.25 opens there
   const asked = Number(new URLSearchParams(location.hash.slice(1)).get("at") || NaN);
-  offer(); draw(); drawMaps(); move(isFinite(asked) ? asked : at);
+  offer(); draw(); drawMaps(); drawProfiles(); move(isFinite(asked) ? asked : at);
   if (data.figures) {
     $("plot").on("plotly_hover", (event) => { if (!playing) move(event.points[0].x); });
     $("plot").on("plotly_relayout", mark);

@@ -12,6 +12,8 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.post.page.maps import PageMap
 from tribodyn.post.page.maps import as_data as map_as_data
+from tribodyn.post.page.profiles import Profiles
+from tribodyn.post.page.profiles import as_data as profiles_as_data
 from tribodyn.post.page.rolling_teeth import rolling_teeth
 from tribodyn.post.page.series import as_data, extrapolated, in_engineers_units, packed, series_of
 from tribodyn.post.report import EXCEEDED, Lines, shown
@@ -42,6 +44,8 @@ class Told(NamedTuple):
     maps : sequence of PageMap
     tables : sequence of (title, columns, rows)
         The sheet of its gears.
+    profiles : Profiles or None
+        What is shown at the cursor.
     """
 
     lines: Lines
@@ -49,6 +53,7 @@ class Told(NamedTuple):
     panels: Sequence[str] = ()
     maps: Sequence[PageMap] = ()
     tables: Sequence[tuple[str, Sequence[str], Sequence[Sequence[str]]]] = ()
+    profiles: Profiles | None = None
 
 
 def page(records: Sequence[Record], told: Sequence[Told], figures: bool = True) -> str:
@@ -72,6 +77,10 @@ def page(records: Sequence[Record], told: Sequence[Told], figures: bool = True) 
     if figures:
         for one, record, what in zip(data, records, told, strict=True):
             one["maps"] = [map_as_data(record, found) for found in what.maps]
+            if what.profiles:
+                one["profiles"] = profiles_as_data(record, what.profiles)
+                over_places = {row.name for row in what.profiles.rows}
+                one["series"] = [series for series in one["series"] if series["name"] not in over_places]
     if not figures:
         panels = (LOAD, *told[0].panels)
         for one in data:

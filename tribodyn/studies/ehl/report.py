@@ -1,6 +1,9 @@
 """Lines and sentences of the summary of a solved contact study, and the figures that a sweep of it keeps."""
 
+import numpy as np
+
 from tribodyn.numerics.variable import Variable
+from tribodyn.post.page.profiles import Profile, Profiles
 from tribodyn.post.report import Line, Lines
 from tribodyn.record.reader import Record
 from tribodyn.studies.gears import CONTACT_RATIO, NORMAL_LOAD, WALL_TIME
@@ -76,6 +79,20 @@ SWEPT: dict[str, Variable] = {
 }
 
 PANELS = ("central_film_thickness", "friction_coefficient", "hertz_pressure", "temperature_rise_max")
+
+
+def profiles(record: Record) -> Profiles:
+    """Pressure, film, temperature and shear over the contact; the film to three times the central one."""
+    central = record["central_film_thickness"]
+    top = 3.0 * float(np.nanmax(central)) if np.any(np.isfinite(central)) else None
+    rows = (
+        Profile("pressure"),
+        Profile("film_thickness", top),
+        Profile("temperature_rise"),
+        Profile("shear_stress"),
+    )
+    label = "Place in the direction of entrainment over the Hertz half width"
+    return Profiles("The contact through the mesh", "place", label, rows)
 
 
 def sentences(record: Record) -> list[str]:

@@ -1,8 +1,6 @@
 """Pages of records: what they hold, that they harm nobody, and what a browser makes of them."""
 
-import base64
 import html
-import json
 import re
 from pathlib import Path
 from typing import Any, cast
@@ -13,6 +11,7 @@ import pytest
 from typer.testing import CliRunner
 
 import tribodyn as td
+from tests.support.pages import data_of, needs_browser, shown, unpacked
 from tribodyn.cli.app import app
 from tribodyn.interface.run import Run
 from tribodyn.post.page import pdf
@@ -21,10 +20,6 @@ from tribodyn.post.page.series import MOST_INTERVALS, MOST_SAMPLES, extrapolated
 from tribodyn.record.reader import open_record
 from tribodyn.record.sweep_reader import open_any
 from tribodyn.studies.pages import write_report
-
-needs_browser = pytest.mark.skipif(
-    pdf.browser() is None, reason="no browser: install Chromium (apt-get install chromium)"
-)
 
 
 @pytest.fixture(scope="module")
@@ -35,16 +30,6 @@ def crc() -> Run:
 @pytest.fixture(scope="module")
 def page(crc, tmp_path_factory) -> Path:
     return crc.report(tmp_path_factory.mktemp("page") / "crc.html")
-
-
-def data_of(page: Path) -> dict:
-    text = page.read_text(encoding="utf-8")
-    (data,) = re.findall(r'<script type="application/json" id="data">(.*?)</script>', text, re.DOTALL)
-    return json.loads(data)
-
-
-def unpacked(text: str, kind: str = "<f4") -> np.ndarray:
-    return np.frombuffer(base64.b64decode(text), kind)
 
 
 def test_it_needs_no_other_file_and_is_small(page):
@@ -285,15 +270,6 @@ def test_a_hostile_record_does_nothing(hostile):
     dom = shown(hostile.as_uri())
     assert 'data-ready="yes"' in dom
     assert "data-hit" not in dom.split("<script")[0]
-
-
-def shown(address: str) -> str:
-    """The document as the browser has it in the end; no error on its console."""
-    ended = pdf.run_browser("--dump-dom", "--enable-logging=stderr", "--window-size=1200,1000", address)
-    assert ended.returncode == 0
-    complaints = [line for line in ended.stderr.splitlines() if "CONSOLE" in line]
-    assert not complaints, complaints
-    return ended.stdout
 
 
 def test_without_a_browser_nothing_is_printed(page, monkeypatch):

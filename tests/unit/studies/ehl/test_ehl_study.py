@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import tribodyn as td
+from tests.support.pages import data_of, needs_browser, shown, unpacked
 from tribodyn.studies.ehl.judged import case_for, judged, sentence
 
 
@@ -72,3 +73,23 @@ def test_laws_are_judged_by_the_study_of_any_scenario():
 def test_what_has_no_oil_is_not_judged():
     with pytest.raises(td.InputError, match="without lubricant"):
         case_for("load-contact-18-36", {}, 5)
+
+
+def test_the_page_has_the_profiles_of_every_position(run, tmp_path):
+    (record,) = data_of(run.report(tmp_path / "page.html"))["records"]
+    profiles = record["profiles"]
+    np.testing.assert_allclose(unpacked(profiles["x"]), run.data["place"], rtol=1e-6)
+    rows = {row["name"]: row for row in profiles["rows"]}
+    pressure = unpacked(rows["pressure"]["y"]).reshape(run.data["pressure"].shape)
+    np.testing.assert_allclose(pressure * 1e9, run.data["pressure"], rtol=1e-6)
+    # the film's axis ends where the flanks have parted; the curves of 161 places are not on offer beside it
+    assert rows["film_thickness"]["high"] == pytest.approx(3e6 * run.data["central_film_thickness"].max())
+    assert not {"pressure", "film_thickness"} & {one["name"] for one in record["series"]}
+
+
+@needs_browser
+@pytest.mark.slow
+def test_the_cursor_moves_the_profiles(run, tmp_path):
+    page = run.report(tmp_path / "page.html")
+    phase = run.data["phase"].to_numpy()
+    assert 'data-profiled="3"' in shown(f"{page.as_uri()}#at={phase[3] + 1e-3}")
