@@ -2,8 +2,9 @@
 
 import json
 import threading
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future
+from contextlib import contextmanager
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -53,29 +54,57 @@ class Archive:
     pool : Pool
     keep : callable
         See `Keep`.
-    known : mapping
-        Identity -> figures of candidates that were evaluated before.
+    known : sequence
+        Values and figures of candidates that were evaluated before: `recorded`. `keep` does not get them.
+
+    Attributes
+    ----------
+    evaluations : list of Evaluation
+        What the methods asked for, each once: what they decide by.
     """
 
     def __init__(
-        self, case: DesignCase, judge: Judge, pool: Pool, keep: Keep, known: Mapping[str, Figures]
+        self,
+        case: DesignCase,
+        judge: Judge,
+        pool: Pool,
+        keep: Keep,
+        known: Sequence[tuple[Overrides, Figures]] = (),
     ) -> None:
         self.case = case
         self.judge = judge
         self.evaluations: list[Evaluation] = []
         self._pool = pool
         self._keep = keep
-        self._known = dict(known)
         self._asked: dict[str, Future[Any]] = {}
         self._done: dict[str, Evaluation] = {}
         self._lock = threading.Lock()
+        self._own = threading.local()
         self._closed = False
         self._shaped = study_of({"kind": case.base_kind}).has_gears and shapes_gears(case)
+        self._recorded = {identity(values): self._evaluation(values, found) for values, found in known}
 
     @property
-    def spent(self) -> int:
-        """Candidates that were asked for."""
-        return len(self._asked)
+    def recorded(self) -> list[Evaluation]:
+        """Candidates that were evaluated before, in their order."""
+        return list(self._recorded.values())
+
+    @property
+    def room(self) -> int:
+        """Candidates that may still be asked for."""
+        return self.case.search.evaluations - len(self._asked)
+
+    @contextmanager
+    def at_most(self, count: int) -> Iterator[None]:
+        """Let this thread ask for so many candidates, those counted that others ask for too.
+
+        Searches that run side by side so end in the same place whichever is faster.
+        """
+        self._own.room, self._own.names = count, set[str]()
+        try:
+            yield
+        finally:
+            del self._own.room, self._own.names
 
     def ask(self, shares: Sequence[float] | np.ndarray) -> Judged:
         """Judge a candidate at shares of the free keys' ranges; raises `SpentError`."""
@@ -88,16 +117,20 @@ class Archive:
         with self._lock:
             if self._closed:
                 raise SpentError
-            fresh = [name for name in dict.fromkeys(names) if name not in self._asked]
-            room = self.case.search.evaluations - len(self._asked)
-            for name in fresh[:room]:
-                self._asked[name] = self._submit(name, values[names.index(name)])
-        for name in dict.fromkeys(names):
-            if name in self._asked:
-                self._take(name, values[names.index(name)])
-        if len(fresh) > room:
+            allowed = self._allowed(list(dict.fromkeys(names)))
+            for name in allowed:
+                if name not in self._asked:
+                    self._asked[name] = self._submit(name, values[names.index(name)])
+        for name in allowed:
+            self._take(name, values[names.index(name)])
+        if len(allowed) < len(set(names)):
             raise SpentError
         return [self._done[name].judged for name in names]
+
+    def found_of(self, values: Overrides) -> "Future[Any]":
+        """Figures of the cases of a candidate about the best, evaluated if they are not known."""
+        name = identity(values)
+        return self._asked.get(name) or self._submit(name, values)
 
     def figures_of(self, shares: Sequence[float] | np.ndarray) -> Figures:
         """Figures of a candidate's cases, evaluated if they are not known."""
@@ -118,17 +151,32 @@ class Archive:
     def best(self, objective: int = 0) -> Evaluation | None:
         """The feasible candidate with the least objective; None where there is none."""
         feasible = [one for one in self.evaluations if one.judged.feasible]
-        return min(feasible, key=lambda one: one.judged.objectives[objective], default=None)
+        return min(feasible, key=lambda one: (one.judged.objectives[objective], one.numbers), default=None)
 
     def nearest(self) -> Evaluation | None:
         """The candidate that misses the constraints by least, of those that have figures."""
         some = [one for one in self.evaluations if not one.judged.message]
         return min(some, key=lambda one: one.judged.violation, default=None)
 
+    def _allowed(self, names: list[str]) -> list[str]:
+        """Those for which there is room, known ones included, in their order."""
+        for known, room in self._limits():
+            fresh = [name for name in names if name not in known]
+            over = set(fresh[max(0, room) :])
+            names = [name for name in names if name not in over]
+        if hasattr(self._own, "names"):
+            self._own.names.update(names)
+        return names
+
+    def _limits(self) -> Iterator[tuple[Any, int]]:
+        if hasattr(self._own, "names"):
+            yield self._own.names, self._own.room - len(self._own.names)
+        yield self._asked, self.room
+
     def _submit(self, name: str, values: Overrides) -> "Future[Any]":
-        if name in self._known:
+        if name in self._recorded:
             ready: Future[Any] = Future()
-            ready.set_result(self._known[name])
+            ready.set_result(self._recorded[name].found)
             return ready
         return self._pool.submit(cases_of(self.case, values))
 
@@ -137,12 +185,15 @@ class Archive:
         with self._lock:
             if name in self._done:
                 return
-            shape = self.shape_of(values)
-            numbers = tuple(number_of(one, values[one.keys[0]]) for one in self.case.free)
-            self._done[name] = Evaluation(values, numbers, found, self.judge.judged(found, shape))
-            self.evaluations.append(self._done[name])
-            if not self._closed:
-                self._keep(self._done[name])
+            one = self._recorded.get(name) or self._evaluation(values, found)
+            self._done[name] = one
+            self.evaluations.append(one)
+            if not self._closed and name not in self._recorded:
+                self._keep(one)
+
+    def _evaluation(self, values: Overrides, found: Figures) -> Evaluation:
+        numbers = tuple(number_of(one, values[one.keys[0]]) for one in self.case.free)
+        return Evaluation(values, numbers, found, self.judge.judged(found, self.shape_of(values)))
 
 
 def identity(values: Mapping[str, Any]) -> str:

@@ -4,7 +4,7 @@ from tribodyn.studies import study_of
 from tribodyn.studies.design.candidates import cases_of, chosen, start_of
 from tribodyn.studies.design.case import DesignCase
 from tribodyn.studies.design.evaluation import loaded_case
-from tribodyn.studies.design.layout import layout_of, scales_of
+from tribodyn.studies.design.layout import layout_of, names_of, scales_of
 from tribodyn.studies.estimate import Driver, Estimate, record_bytes
 
 #: Evaluations that are usual.
@@ -17,7 +17,9 @@ def estimate(case: DesignCase) -> Estimate:
     asked = cases_of(case, chosen(case, start_of(case)))
     one = study.estimate(loaded_case(case.base, asked[0]).case)
     count = float(case.search.evaluations)
-    sizes = {"evaluation": case.search.evaluations, **{k: len(v) for k, v in scales_of(case).items()}}
+    names = names_of(case, [])
+    scales = scales_of(case, names)
+    sizes = {"evaluation": case.search.evaluations, **{name: len(one) for name, one in scales.items()}}
     return Estimate(
         one.memory,
         record_bytes(layout_of(case), sizes),

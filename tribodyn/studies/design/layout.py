@@ -6,11 +6,10 @@ from typing import Any
 import numpy as np
 
 from tribodyn.numerics.variable import Variable, flag
-from tribodyn.record.reader import Record
 from tribodyn.record.schema import Layout
 from tribodyn.studies import study_of
-from tribodyn.studies.design.archive import Evaluation, identity
-from tribodyn.studies.design.candidates import samples_of, shapes_gears, value_at
+from tribodyn.studies.design.archive import Evaluation
+from tribodyn.studies.design.candidates import samples_of, shapes_gears
 from tribodyn.studies.design.case import DesignCase, Objective
 from tribodyn.studies.design.pool import Figures
 from tribodyn.studies.evaluated import figure_units
@@ -21,14 +20,26 @@ MESSAGE = 200
 OBJECTIVES = ("objective", "objective_2")
 #: Datasets of what was evaluated about the best.
 LOWER, UPPER = "objective_lower", "objective_upper"
+#: Dataset of the figures of the base scenario as it stands.
+START_FIGURES = "start_figures"
 #: Share of its range by which a free key is moved about the best.
 MOVED = 0.02
 
 
-def wanted(case: DesignCase) -> tuple[str, ...]:
-    """Names of the figures that objectives and constraints are made of."""
+def names_of(case: DesignCase, start: Figures) -> tuple[str, ...]:
+    """Names of the figures that are kept: of objectives and constraints, then all others.
+
+    Parameters
+    ----------
+    case : DesignCase
+    start : list
+        Figures of the base scenario's cases.
+    """
     of_objectives = (name for one in case.objectives for name, _ in one.terms)
-    return tuple(dict.fromkeys((*of_objectives, *(one.figure for one in case.constraints))))
+    of_start = (name for of in start if not isinstance(of, str) for name in of)
+    known = figure_units(study_of({"kind": case.base_kind}))
+    of_constraints = (one.figure for one in case.constraints)
+    return tuple(dict.fromkeys((*of_objectives, *of_constraints, *of_start, *known)))
 
 
 def objective_units(case: DesignCase, one: Objective) -> str:
@@ -57,7 +68,7 @@ def layout_of(case: DesignCase) -> Layout:
     samples["case_figures"] = Variable(
         (*along, "case", "figure"),
         "1",
-        "figures of every duty and sample, SI; names in the attribute figures",
+        "figures of every duty and sample, SI",
     )
     if shapes_gears(case):
         about = "least distance of the gears from the limits of their existence, in modules"
@@ -68,12 +79,15 @@ def layout_of(case: DesignCase) -> Layout:
         "duty": Variable(("duty",), "1", "number of the duty"),
         "constraint": Variable(("constraint",), "1", "number of the constraint"),
         "case": Variable(("case",), "1", "number of the case: samples run within duties"),
-        "figure": Variable(("figure",), "1", "number of the figure: those of the objectives, then others"),
+        "figure": Variable(("figure",), "1", "figures: those of objectives and constraints, then others"),
         "moved": Variable(
             ("moved",), "1", "number of a free key, and behind them of a tolerance, moved about the best"
         ),
     }
     others = {
+        START_FIGURES: Variable(
+            ("case", "figure"), "1", "figures of every duty and sample at the start, as in case_figures"
+        ),
         LOWER: Variable(
             ("moved",), units, "first objective with one key moved down about the best, the others kept"
         ),
@@ -82,18 +96,18 @@ def layout_of(case: DesignCase) -> Layout:
     return Layout(EVALUATION, samples, scales, others)
 
 
-def scales_of(case: DesignCase) -> dict[str, np.ndarray]:
+def scales_of(case: DesignCase, names: Sequence[str]) -> dict[str, np.ndarray]:
     """Values along the other axes."""
     scales = {
         "duty": np.arange(len(case.duties)),
         "case": np.arange(len(case.duties) * len(samples_of(case))),
-        "figure": np.arange(len(wanted(case))),
+        "figure": np.array(names),
         "moved": np.arange(len(case.free) + len(case.tolerances)),
     }
     return scales | ({"constraint": np.arange(len(case.constraints))} if case.constraints else {})
 
 
-def rows_of(case: DesignCase, some: Sequence[Evaluation], start: int) -> dict[str, Any]:
+def rows_of(case: DesignCase, names: Sequence[str], some: Sequence[Evaluation], start: int) -> dict[str, Any]:
     """Rows of the record for evaluations, the first of which has the number `start`."""
     numbers = np.array([one.numbers for one in some], dtype=float).reshape(len(some), len(case.free))
     rows: dict[str, Any] = {"evaluation": np.arange(start, start + len(some), dtype=float)}
@@ -104,13 +118,7 @@ def rows_of(case: DesignCase, some: Sequence[Evaluation], start: int) -> dict[st
     rows["objective_at_duty"] = np.array([one.judged.by_duty for one in some])
     if case.constraints:
         rows["margin"] = np.array([one.judged.margins for one in some])
-    names = wanted(case)
-    rows["case_figures"] = np.array(
-        [
-            [[np.nan if isinstance(of, str) else of.get(name, np.nan) for name in names] for of in one.found]
-            for one in some
-        ]
-    )
+    rows["case_figures"] = np.array([figure_rows(names, one.found) for one in some])
     if shapes_gears(case):
         rows["shape"] = np.array([np.nan if one.judged.shape is None else one.judged.shape for one in some])
     rows["feasible"] = np.array([float(one.judged.feasible) for one in some])
@@ -118,35 +126,13 @@ def rows_of(case: DesignCase, some: Sequence[Evaluation], start: int) -> dict[st
     return rows
 
 
+def figure_rows(names: Sequence[str], found: Figures) -> np.ndarray:
+    """Figures of cases as numbers, (case, figure); NaN where there is none."""
+    return np.array(
+        [[np.nan if isinstance(of, str) else of.get(name, np.nan) for name in names] for of in found]
+    )
+
+
 def _cut(text: str) -> bytes:
     raw = " ".join(text.split()).encode()
     return raw if len(raw) <= MESSAGE else raw[: MESSAGE - 3].decode(errors="ignore").encode() + b"..."
-
-
-def known_of(case: DesignCase, record: Record) -> dict[str, Figures]:
-    """Figures of the candidates of a record by their identity, to go on from."""
-    names = wanted(case)
-    columns = [record[f"free_{one.name}"] for one in case.free]
-    figures, messages = record["case_figures"], record["message"]
-    known: dict[str, Figures] = {}
-    for row in range(record.samples):
-        values = {}
-        for one, column in zip(case.free, columns, strict=True):
-            number = float(column[row])
-            share = (number + 0.5) / len(one.choices) if one.choices else _share(one, number)
-            values |= dict.fromkeys(one.keys, value_at(one, share))
-        found: Figures = [_figures(names, numbers) or str(messages[row]) for numbers in figures[row]]
-        if any(isinstance(of, str) and not of for of in found):
-            continue
-        known[identity(values)] = found
-    return known
-
-
-def _share(one: Any, number: float) -> float:
-    return (number / one.si - one.low) / (one.high - one.low)
-
-
-def _figures(names: Sequence[str], numbers: Sequence[float]) -> dict[str, float] | None:
-    if np.all(np.isnan(numbers)):
-        return None
-    return {name: float(value) for name, value in zip(names, numbers, strict=True) if not np.isnan(value)}

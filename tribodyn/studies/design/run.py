@@ -1,7 +1,8 @@
 """From a case of a search to its record: every evaluation, the best, and what was evaluated about it."""
 
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -16,7 +17,18 @@ from tribodyn.studies.design.archive import Archive, Evaluation, SpentError
 from tribodyn.studies.design.candidates import cases_of, chosen, share_of, start_of
 from tribodyn.studies.design.case import DesignCase
 from tribodyn.studies.design.judged import HELD, Judge
-from tribodyn.studies.design.layout import LOWER, MOVED, UPPER, known_of, layout_of, rows_of, scales_of
+from tribodyn.studies.design.layout import (
+    LOWER,
+    MOVED,
+    START_FIGURES,
+    UPPER,
+    figure_rows,
+    layout_of,
+    names_of,
+    rows_of,
+    scales_of,
+)
+from tribodyn.studies.design.left import NOTHING_LEFT, Left, Moved, left_in
 from tribodyn.studies.design.methods import METHODS, method_of
 from tribodyn.studies.design.outcome import check_targets, chosen_best, headline, write_best
 from tribodyn.studies.design.pool import Figures, Pool, workers_for
@@ -39,18 +51,22 @@ def run(
     """
     name, reason = method_of(case)
     path = Path(output) if output is not None else Path(f"{case.name}.h5")
-    known = _left(case, path) if resume and not force else {}
-    force = force or bool(known)
+    left = _left(case, path) if resume and not force else NOTHING_LEFT
+    force = force or left is not NOTHING_LEFT
     path = target(case, path, force)
     check_targets(path)
     begun = perf_counter()
-    scales = scales_of(case)
-    room = case.search.evaluations
-    with (
-        _started(case) as (pool, judge),
-        writer(case, path, layout_of(case), room, scales=scales, force=force) as record,
-    ):
-        archive = Archive(case, judge, pool, _keeper(case, record, progress), known)
+    with ExitStack() as stack:
+        pool, judge = stack.enter_context(_started(case, left.start))
+        archive = Archive(case, judge, pool, lambda one: keep(one), left.known)
+        names, room = names_of(case, judge.start), case.search.evaluations + len(left.known)
+        scales = scales_of(case, names)
+        record = stack.enter_context(writer(case, path, layout_of(case), room, scales=scales, force=force))
+        keep = _keeper(case, record, names, progress)
+        if archive.recorded:
+            record.write(0, rows_of(case, names, archive.recorded, 0))
+        for number, of in enumerate(figure_rows(names, judge.start)):
+            record.put(number, {START_FIGURES: of})
 
         def so_far(**more: Any) -> dict[str, Any]:
             figures = {"method": name, "method_reason": reason, "workers": pool.workers}
@@ -62,7 +78,7 @@ def run(
             if best is None:
                 message = _why_none(case, archive)
                 return RunResult(record.fail(message, so_far()), "failed", message, so_far())
-            summary = so_far(**_about(case, archive, pool, best, record))
+            summary = so_far(**_about(case, archive, pool, best, left.moved, record))
         except KeyboardInterrupt as error:
             archive.close()
             best = chosen_best(case, archive)
@@ -80,7 +96,7 @@ def figures(case: DesignCase) -> dict[str, Any]:
     """Figures of a search without a record; raises SimulationError where nothing is feasible."""
     name, _ = method_of(case)
     with _started(case) as (pool, judge):
-        archive = Archive(case, judge, pool, lambda _: None, {})
+        archive = Archive(case, judge, pool, lambda _: None)
         _search(case, archive, name)
         found = headline(case, archive)
         if "objective" not in found:
@@ -89,11 +105,11 @@ def figures(case: DesignCase) -> dict[str, Any]:
 
 
 @contextmanager
-def _started(case: DesignCase) -> Iterator[tuple[Pool, Judge]]:
+def _started(case: DesignCase, start: Figures | None = None) -> Iterator[tuple[Pool, Judge]]:
     """Give what evaluates candidates, and what judges them: it knows the base scenario as it stands."""
     asked = cases_of(case, {})
     with Pool(case.base, workers_for(case.search.evaluations * len(asked))) as pool:
-        yield pool, Judge(case, pool.submit(asked).result())
+        yield pool, Judge(case, start or pool.submit(asked).result())
 
 
 def _search(case: DesignCase, archive: Archive, name: str) -> None:
@@ -103,26 +119,28 @@ def _search(case: DesignCase, archive: Archive, name: str) -> None:
         METHODS[name](archive, start)
 
 
-def _keeper(case: DesignCase, record: RecordWriter, progress: Progress | None) -> Any:
+def _keeper(
+    case: DesignCase, record: RecordWriter, names: Sequence[str], progress: Progress | None
+) -> Callable[[Evaluation], None]:
     def keep(one: Evaluation) -> None:
-        record.write(record.written, rows_of(case, [one], record.written))
+        record.write(record.written, rows_of(case, names, [one], record.written))
         if progress:
             progress(record.written / case.search.evaluations)
 
     return keep
 
 
-def _left(case: DesignCase, path: Path) -> dict[str, Figures]:
+def _left(case: DesignCase, path: Path) -> Left:
     """What an unfinished search left; nothing, where there is nothing."""
     left = partial_path(path)
     if not left.exists():
-        return {}
+        return NOTHING_LEFT
     check_target(path, force=True)
     other = "move it away, or --force to begin anew"
     with open_record(left) as record:
         if record.kind != case.kind or record.attrs["scenario_sha256"] != case.sha256:
             raise InputError("--resume", str(left), "made from another scenario", other)
-        return known_of(case, record)
+        return left_in(case, record)
 
 
 def _why_none(case: DesignCase, archive: Archive) -> str:
@@ -141,29 +159,38 @@ def _why_none(case: DesignCase, archive: Archive) -> str:
 
 
 def _about(
-    case: DesignCase, archive: Archive, pool: Pool, best: Evaluation, record: RecordWriter
+    case: DesignCase,
+    archive: Archive,
+    pool: Pool,
+    best: Evaluation,
+    moved: Moved,
+    record: RecordWriter,
 ) -> dict[str, Any]:
-    """Evaluate about the best: each key and each tolerance moved alone; and once more as `confirm` says."""
+    """Evaluate about the best: each key and each tolerance moved alone; and once more as `confirm` says.
+
+    What stands in `moved`, of the search that this one goes on from, is not evaluated again.
+    """
     shares = np.array([share_of(one, best.values[one.keys[0]]) for one in case.free])
-    asked: list[Mapping[str, Any]] = []
-    moved_keys = case.free if case.sensitivities else ()
-    for place, one in enumerate(moved_keys):
-        for step in (-MOVED, MOVED):
-            moved = shares.copy()
-            moved[place] = np.clip(moved[place] + step, 0.0, 1.0)
-            asked.append(chosen(case, moved) if one.continuous else best.values)
-    waiting = [pool.submit(cases_of(case, values)) for values in asked]
-    alone = [
-        cases_of(case, best.values, alone=(place, side))
-        for place in range(len(case.tolerances) if case.sensitivities else 0)
-        for side in (-1.0, 1.0)
-    ]
-    waiting += [pool.submit(one) for one in alone]
+    waiting: list[tuple[int, str, Future[Figures]]] = []
+    for place, one in enumerate(case.free if case.sensitivities else ()):
+        for name, step in ((LOWER, -MOVED), (UPPER, MOVED)):
+            if (place, name) in moved:
+                continue
+            changed = shares.copy()
+            changed[place] = np.clip(changed[place] + step, 0.0, 1.0)
+            values = chosen(case, changed) if one.continuous else best.values
+            waiting.append((place, name, archive.found_of(values)))
+    for place in range(len(case.tolerances) if case.sensitivities else 0):
+        for name, side in ((LOWER, -1.0), (UPPER, 1.0)):
+            if (len(case.free) + place, name) not in moved:
+                asked = pool.submit(cases_of(case, best.values, alone=(place, side)))
+                waiting.append((len(case.free) + place, name, asked))
     ends = [{}, best.values] if case.confirm else []
     confirming = [pool.submit(cases_of(case, values, case.confirm)) for values in ends]
-    found = [_objective(archive.judge, one.result()) for one in waiting]
-    for row in range(len(found) // 2):
-        record.put(row, {LOWER: found[2 * row], UPPER: found[2 * row + 1]})
+    for (place, name), value in moved.items():
+        record.put(place, {name: value})
+    for place, name, one in waiting:
+        record.put(place, {name: _objective(archive.judge, one.result())})
     confirmed = [_objective(archive.judge, one.result()) for one in confirming]
     return {"objective_start_confirmed": confirmed[0], "objective_confirmed": confirmed[1]} if ends else {}
 

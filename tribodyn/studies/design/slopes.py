@@ -13,7 +13,6 @@ from tribodyn.studies.design.candidates import cases_of, chosen, start_of
 from tribodyn.studies.design.case import Constraint, DesignCase, Objective
 from tribodyn.studies.design.evaluation import loaded_case
 from tribodyn.studies.design.judged import Judge
-from tribodyn.studies.design.pool import Figures
 
 Slopes = list[list[dict[str, Float[Array, " key"]]]]
 """Slopes of figures by the shares of the free keys, by duty and sample."""
@@ -62,7 +61,9 @@ class Derivatives:
         return [rows[i : i + count] for i in range(0, len(rows), count)]
 
 
-def objective_slope(judge: Judge, one: Objective, found: Figures, slopes: Slopes) -> Float[Array, " key"]:
+def objective_slope(
+    judge: Judge, one: Objective, found: Sequence[dict[str, Any] | str], slopes: Slopes
+) -> Float[Array, " key"]:
     """Slope of an objective by the shares of the free keys."""
     total: Any = 0.0
     for name, factor in one.terms:
@@ -71,7 +72,9 @@ def objective_slope(judge: Judge, one: Objective, found: Figures, slopes: Slopes
     return total
 
 
-def margin_slope(judge: Judge, one: Constraint, found: Figures, slopes: Slopes) -> Float[Array, " key"]:
+def margin_slope(
+    judge: Judge, one: Constraint, found: Sequence[dict[str, Any] | str], slopes: Slopes
+) -> Float[Array, " key"]:
     """Slope of the margin of a constraint by the shares of the free keys."""
     rows = judge.rows(found) or []
     over = "quantile" if judge.case.robust.over == "quantile" else "worst"
@@ -85,7 +88,9 @@ def margin_slope(judge: Judge, one: Constraint, found: Figures, slopes: Slopes) 
     return -one.sign * slope / judge.scales[one.text]
 
 
-def _over_all(judge: Judge, name: str, sign: float, found: Figures, slopes: Slopes) -> Any:
+def _over_all(
+    judge: Judge, name: str, sign: float, found: Sequence[dict[str, Any] | str], slopes: Slopes
+) -> Any:
     case, rows = judge.case, judge.rows(found) or []
     of_duties = [
         _over_samples(judge, [one[name] for one in row], [one[name] for one in slope], sign, case.robust.over)

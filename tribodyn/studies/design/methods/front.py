@@ -1,11 +1,13 @@
 """Two objectives: the front of candidates of which no other is better in both."""
 
+from collections.abc import Callable
 from functools import partial
 from typing import Any
 
 import numpy as np
 
 from tribodyn.studies.design.archive import Archive, Evaluation
+from tribodyn.studies.design.candidates import share_of
 from tribodyn.studies.design.methods.local import ended_when_spent, first_look, minimise, together
 from tribodyn.studies.design.methods.population import PER_KEY, missing
 from tribodyn.studies.design.methods.views import Scalar
@@ -14,7 +16,7 @@ from tribodyn.studies.design.methods.views import Scalar
 def front(evaluations: list[Evaluation]) -> list[Evaluation]:
     """The feasible candidates that no other is better than in both objectives, by the first objective."""
     some = [one for one in evaluations if one.judged.feasible]
-    some.sort(key=lambda one: one.judged.objectives)
+    some.sort(key=lambda one: (one.judged.objectives, one.numbers))
     found: list[Evaluation] = []
     for one in some:
         if not found or one.judged.objectives[1] < found[-1].judged.objectives[1]:
@@ -42,20 +44,17 @@ def epsilon_constraint(archive: Archive, start: np.ndarray) -> None:
             return
         high, low = found[0].judged.objectives[1], found[-1].judged.objectives[1]
         bounds = np.linspace(high, low, case.search.points)[1:-1]
-        together(archive, [partial(_under, archive, float(bound), share) for bound in bounds])
+        together(archive, [_under(archive, found, float(bound), share) for bound in bounds])
 
     ended_when_spent(search)
 
 
-def _under(archive: Archive, bound: float, most: int) -> None:
-    """Minimise the first objective from the best candidate that keeps a bound of the second."""
-    from tribodyn.studies.design.candidates import share_of
-
-    keeping = [one for one in front(archive.evaluations) if one.judged.objectives[1] <= bound]
-    if keeping:
-        best = min(keeping, key=lambda one: one.judged.objectives[0])
-        start = [share_of(one, best.values[one.keys[0]]) for one in archive.case.free]
-        minimise("cobyqa", Scalar(archive, 0, bound), np.array(start), most)
+def _under(archive: Archive, found: list[Evaluation], bound: float, most: int) -> Callable[[], None]:
+    """Minimise the first objective from the best candidate of a front that keeps a bound of the second."""
+    keeping = [one for one in found if one.judged.objectives[1] <= bound]
+    best = min(keeping, key=lambda one: one.judged.objectives[0])
+    start = np.array([share_of(one, best.values[one.keys[0]]) for one in archive.case.free])
+    return partial(minimise, "cobyqa", Scalar(archive, 0, bound), start, most)
 
 
 def nsga2(archive: Archive, start: np.ndarray) -> None:

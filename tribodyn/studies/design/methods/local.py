@@ -74,10 +74,16 @@ def sobol(dimensions: int, count: int, seed: int) -> np.ndarray:
 
 
 def together(archive: Archive, searches: Sequence[Callable[[], None]]) -> None:
-    """Run searches side by side; each waits for its own evaluations."""
+    """Run searches side by side; each waits for its own evaluations, and may take an equal share of them."""
+    share = archive.room // max(1, len(searches))
+
+    def alone(search: Callable[[], None]) -> None:
+        with archive.at_most(share):
+            ended_when_spent(search)
+
     with ThreadPoolExecutor(len(searches) or 1) as threads:
         try:
-            for one in [threads.submit(ended_when_spent, search) for search in searches]:
+            for one in [threads.submit(alone, search) for search in searches]:
                 one.result()
         except BaseException:
             archive.close()

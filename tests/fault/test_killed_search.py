@@ -1,0 +1,108 @@
+"""A search that is killed leaves a valid record, and goes on from it to the same answer."""
+
+import json
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+# every submitted candidate is a line in a file, and takes a moment
+COUNTED = (
+    "import time\nfrom tribodyn.studies.design import run\n"
+    "class Counted(run.Pool):\n"
+    "    def submit(self, several):\n"
+    "        with open(sys.argv[-1], 'a') as file: print(str(several), file=file)\n"
+    "        time.sleep(0.03)\n"
+    "        return super().submit(several)\n"
+    "run.Pool = Counted\n"
+)
+PROGRAM = (
+    "import sys\nCOUNTED\nfrom tribodyn.cli import main\n"
+    "log = sys.argv.pop()\nsys.argv = ['tribodyn', 'run', *sys.argv[1:]]\n"
+).replace("COUNTED", COUNTED.replace("sys.argv[-1]", "log")) + "main()\n"
+
+SEARCH = """
+title = "shifts"
+kind = "design"
+[scenario]
+title = "an efficiency"
+kind = "efficiency"
+drive = "liu-ni-involute-23-47"
+lubricant = "liu-ni-2022"
+operating = { pinion_speed = "10 rad/s", gear_torque = "500 N*m" }
+mesh = { load_sharing = "uniform" }
+friction = { law = "coulomb", coefficient = 0.05 }
+output = { samples_per_cycle = 8 }
+[design]
+free = [
+    { key = "drive.pinion.profile_shift", from = -0.2, to = 0.5 },
+    { key = "drive.gear.profile_shift", from = -0.2, to = 0.5 },
+]
+minimise = "loss"
+subject_to = ["contact_ratio >= 1.5"]
+evaluations = 40
+"""
+
+
+def begun(folder: Path, name: str, *words: str) -> "subprocess.Popen[str]":
+    """A search of its own process, its submitted candidates in NAME.log."""
+    command = [sys.executable, "-c", PROGRAM, "search.toml", "-o", f"{name}.h5", "--json", "--no-plot"]
+    return subprocess.Popen([*command, *words, f"{name}.log"], cwd=folder, stdout=subprocess.PIPE, text=True)
+
+
+def lines(path: Path) -> list[str]:
+    return path.read_text(encoding="utf-8").splitlines()
+
+
+def written(partial: Path) -> int:
+    try:
+        with h5py.File(partial) as file:
+            return int(file["samples_written"][()])  # pyright: ignore
+    except (OSError, KeyError):
+        return 0
+
+
+def rows(path: Path) -> np.ndarray:
+    """Objective and free keys of every candidate, in an order of their own."""
+    with h5py.File(path) as file:
+        names = [name for name in file if name.startswith("free_")]
+        table = np.stack([file[name][...] for name in (*names, "objective")], axis=1)  # pyright: ignore
+    return table[np.lexsort(table.T)]
+
+
+def test_a_killed_search_goes_on_to_the_same_answer(tmp_path: Path):
+    (tmp_path / "search.toml").write_text(SEARCH, encoding="utf-8")
+    whole = begun(tmp_path, "whole")
+    said = json.loads(whole.communicate(timeout=300)[0])
+    assert whole.returncode == 0
+    partial = tmp_path / "killed.partial.h5"
+    for least, words in ((5, ()), (15, ("--resume",))):  # killed twice: what went on can be killed too
+        process = begun(tmp_path, "killed", *words)
+        started = time.monotonic()
+        while written(partial) < least:
+            assert process.poll() is None
+            assert time.monotonic() - started < 300
+            time.sleep(0.01)
+        process.kill()
+        process.communicate()
+        assert process.returncode == -signal.SIGKILL
+    left, asked = written(partial), len(lines(tmp_path / "killed.log"))
+    assert 15 <= left < said["evaluations"]
+    again = begun(tmp_path, "killed", "--resume")
+    found = json.loads(again.communicate(timeout=300)[0])
+    assert again.returncode == 0
+    for name in ("objective_start", "objective", "best", "evaluations"):
+        assert found[name] == said[name], name
+    for name in ("figures_start", "figures_best", "constraints_best"):
+        assert found["summary"][name] == said["summary"][name], name
+    np.testing.assert_array_equal(rows(tmp_path / "killed.h5"), rows(tmp_path / "whole.h5"))
+    # what the record held was not evaluated again: neither candidates nor the start
+    assert len(lines(tmp_path / "killed.log")) - asked == len(lines(tmp_path / "whole.log")) - left - 1
+    assert len(set(lines(tmp_path / "whole.log"))) == len(lines(tmp_path / "whole.log"))
+    with h5py.File(tmp_path / "killed.h5") as one, h5py.File(tmp_path / "whole.h5") as other:
+        for name in ("objective_lower", "objective_upper", "start_figures"):
+            np.testing.assert_array_equal(one[name][...], other[name][...], err_msg=name)  # pyright: ignore
