@@ -44,15 +44,16 @@ def film_width(film: float) -> float:
     return max((1.06 * film) ** (2.0 / 3.0), np.sqrt(2.0 * film) if film > 1.0 else 0.0)
 
 
-def placed(film: float, step: float, beyond: float = 0.0) -> Array:
+def placed(film: float, step: float, beyond: float = 0.0, thickest: float = 0.0) -> Array:
     """Places of the nodes for a central film in b²/R; `step` is the step over the distance from both ends.
 
     The density of nodes is Σ 1/√(δ² + (ξ − ξ_k)²)/step about the end of the film, ξ = 0, and the inlet two
     half widths before it, δ = `film_width`. The film begins 60 δ before the contact: where it is `FLOODED`.
-    Nodes go on for `beyond` behind the film.
+    Nodes go on for `beyond` behind the film. For films between `film` and `thickest` the nodes are as dense
+    as the thinner and reach as far as the thicker one needs.
     """
     width = film_width(film)
-    extent = 3.0 + FLOODED * width
+    extent = 3.0 + FLOODED * film_width(max(film, thickest))
 
     def number(place: Array) -> Array:
         return (np.arcsinh(place / width) + np.arcsinh((place + 2.0) / width)) / step

@@ -1,8 +1,8 @@
-"""Residual of Reynolds' equation, the film and the load of a steady line contact, and its Jacobian.
+"""Residual of Reynolds' equation, the film and the load of a line contact, and its Jacobian.
 
 In units of Hertz's half width b, pressure p_H and film b²/R (Venner & Lubrecht 2000, ch. 2):
 
-    ρ H³/(η λ) dP/dX − ρ H + Q = 0        flow Q constant: mass is conserved at every face
+    ρ H³/(η λ) dP/dX − ρ H + Q + S = 0    flow Q constant: mass is conserved at every face; S: `squeeze`
     H = H_0 + X²/2 + κ (D P)              D P = −1/π ∫ P ln|X − X'| dX'; κ = 0: rigid surfaces
     ∫ P dX = π/2
     P = 0 at both ends, ρ H = Q at the last: the film ends where dP/dX = 0 (Swift and Stieber)
@@ -19,6 +19,7 @@ import numpy as np
 from tribodyn.tribology.ehl.elasticity import HERTZ_LOAD
 from tribodyn.tribology.ehl.fluid import Fluid, log_viscosity, relative_density
 from tribodyn.tribology.ehl.grid import Grid, at_faces
+from tribodyn.tribology.ehl.squeeze import Squeeze, behind, cells, mesh_speed, stored
 
 Array = Any
 
@@ -112,10 +113,13 @@ def mean_fluidity(exponent: Array) -> tuple[Array, Array, Array]:
     return mean, -0.5 * (mean + middle * slope), -0.5 * (mean - middle * slope)
 
 
-def residual(state: State, reduced: Reduced, grid: Grid, closure: Closure) -> tuple[Array, Array]:
+def residual(
+    state: State, reduced: Reduced, grid: Grid, closure: Closure, squeeze: Squeeze | None = None
+) -> tuple[Array, Array]:
     """Residuals of all equations, and their Jacobian: faces, load, end; by pressures within, H_0, Q, X_e.
 
-    `closure` says how the fluid departs from a Newtonian isothermal one.
+    `closure` says how the fluid departs from a Newtonian isothermal one; without `squeeze` the contact is
+    steady.
     """
     pressure, scale = state.pressure, reduced.hertz_pressure
     place = state.end + grid.node
@@ -129,11 +133,14 @@ def residual(state: State, reduced: Reduced, grid: Grid, closure: Closure) -> tu
     density, growth = relative_density(scale * pressure, reduced.fluid)
     growth = scale * growth
     dense = at_faces(grid, density)
-    share = 1.0 + at_faces(grid, closure.drift)
+    share, kept = 1.0 + at_faces(grid, closure.drift), 1.0
+    if squeeze is not None:
+        speed = mesh_speed(squeeze, state.end, grid)
+        share, kept = share - speed[:-1], 1.0 - speed[-1]
     volume = dense * thick**3 / reduced.speed
     mobility = volume * fluidity
     gradient = np.diff(pressure) / grid.step
-    faces = mobility * gradient - share * dense * thick + state.flow
+    faces = mobility * gradient - share * dense * thick + kept * state.flow
     last = state.rigid_film + 0.5 * state.end**2
     last += reduced.compliance * (grid.deformation[-1, 1:-1] @ pressure[1:-1])
     values = np.concatenate([faces, [grid.weight @ pressure - HERTZ_LOAD, state.flow - last]])
@@ -150,13 +157,33 @@ def residual(state: State, reduced: Reduced, grid: Grid, closure: Closure) -> tu
     inner[row[1:], row[1:] - 1] += (-through + bulk * upstream + by_density * w[1] * growth[:-1])[1:]
     inner[row[2:], row[2:] - 2] += by_density[2:] * w[0][2:] * growth[1:-2]
     matrix[:size, size - 1] = by_film
-    matrix[:size, size] = 1.0
+    matrix[:size, size] = kept
     matrix[:size, size + 1] = by_film * at_faces(grid, place)
     matrix[size, : size - 1] = grid.weight[1:-1]
     matrix[size, size - 1 :] = 0.0
     matrix[size + 1, : size - 1] = -reduced.compliance * grid.deformation[-1, 1:-1]
     matrix[size + 1, size - 1 :] = (-1.0, 1.0, -state.end)
+    if squeeze is not None:
+        matrix[:size, size + 1] += squeeze.rate * (dense * thick - state.flow)
+        _store(values, matrix, film(state, reduced, grid), state, reduced, grid, squeeze)
     return values, matrix
+
+
+def _store(
+    values: Array, matrix: Array, thick: Array, state: State, reduced: Reduced, grid: Grid, squeeze: Squeeze
+) -> None:
+    """Add what the film stores, and its derivatives, to residuals and Jacobian."""
+    size = len(grid.step)
+    density, growth = relative_density(reduced.hertz_pressure * state.pressure, reduced.fluid)
+    values[:size] += stored(squeeze, grid, density * thick)
+    length = squeeze.rate * cells(grid)
+    by_film = length * density
+    by_pressure = (reduced.compliance * by_film)[:, None] * grid.deformation[:, 1:-1]
+    node = np.arange(1, size)
+    by_pressure[node, node - 1] += (length * reduced.hertz_pressure * growth * thick)[1:-1]
+    matrix[:size, : size - 1] += behind(by_pressure)
+    matrix[:size, size - 1] += behind(by_film)
+    matrix[:size, size + 1] += behind(by_film * (state.end + grid.node))
 
 
 def moved(state: State, change: Array) -> State:

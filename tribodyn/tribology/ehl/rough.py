@@ -25,6 +25,7 @@ from tribodyn.tribology.ehl.reynolds import (
     State,
     mean_fluidity,
 )
+from tribodyn.tribology.ehl.squeeze import Squeeze, cells, mesh_speed, stored
 
 Array = Any
 
@@ -54,7 +55,9 @@ def gap(thick: Array, reduced: RoughReduced) -> tuple[Array, Array]:
     return value / reduced.film_unit, slope
 
 
-def rough_residual(state: State, reduced: RoughReduced, grid: Grid, closure: Closure) -> tuple[Array, Array]:
+def rough_residual(
+    state: State, reduced: RoughReduced, grid: Grid, closure: Closure, squeeze: Squeeze | None = None
+) -> tuple[Array, Array]:
     """Residuals and Jacobian: faces, films, load, end; by pressures within the film, films, H_0, Q, X_e."""
     last, nodes, thick = grid.end, len(grid.node), state.film
     film, inner = slice(0, last + 1), last - 1
@@ -68,12 +71,15 @@ def rough_residual(state: State, reduced: RoughReduced, grid: Grid, closure: Clo
     slope = scale * closure.response[film] * slope
     density, growth = relative_density(scale * pressure, reduced.fluid)
     growth = scale * growth
-    dense, share = at_faces(grid, density), 1.0 + at_faces(grid, closure.drift[film])
+    dense, share, kept = at_faces(grid, density), 1.0 + at_faces(grid, closure.drift[film]), 1.0
+    if squeeze is not None:
+        speed = mesh_speed(squeeze, state.end, grid)
+        share, kept = share - speed[:-1], 1.0 - speed[-1]
     middle = at_faces(grid, mean[film])
     factor, widened = pressure_flow_factor(middle * unit, reduced.roughness)
     volume = dense * factor * middle**3 / reduced.speed
     gradient = np.diff(pressure) / grid.step[:last]
-    faces = volume * fluidity * gradient - share * dense * middle + state.flow
+    faces = volume * fluidity * gradient - share * dense * middle + kept * state.flow
     whole = state.pressure + carried
     bent = reduced.compliance * grid.deformation
     films = thick - state.rigid_film - 0.5 * place * place - bent @ whole
@@ -94,7 +100,7 @@ def rough_residual(state: State, reduced: RoughReduced, grid: Grid, closure: Clo
     matrix[face, column + 1] = by_gap * w[2] * opened[1 : last + 1]
     matrix[face, column] = by_gap * w[1] * opened[:last]
     matrix[face[1:], column[1:] - 1] = (by_gap * w[0])[1:] * opened[: last - 1]
-    matrix[:last, size - 2] = 1.0
+    matrix[:last, size - 2] = kept
     row, films_at = slice(last, last + nodes), slice(inner, inner + nodes)
     matrix[row, :inner] = -bent[:, 1:last]
     np.multiply(bent, -harder, out=matrix[row, films_at])
@@ -105,6 +111,14 @@ def rough_residual(state: State, reduced: RoughReduced, grid: Grid, closure: Clo
     matrix[size - 2, films_at] = grid.weight * harder
     matrix[size - 1, inner + last] = -opened[last]
     matrix[size - 1, size - 2] = 1.0
+    if squeeze is not None:
+        matrix[:last, size - 1] += squeeze.rate * (dense * middle - state.flow)
+        values[:last] += stored(squeeze, grid, density * mean[film])
+        length = squeeze.rate * cells(grid)
+        by_film = np.broadcast_to(length * density * opened[film], (last, last + 1))
+        matrix[:last, inner : inner + last + 1] += np.triu(by_film, 1)
+        by_pressure = np.broadcast_to((length * growth * mean[film])[1:last], (last, inner))
+        matrix[:last, :inner] += np.triu(by_pressure)
     return values, matrix
 
 

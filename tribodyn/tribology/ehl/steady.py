@@ -18,6 +18,7 @@ from tribodyn.tribology.ehl.rough import (
     rough_residual,
     with_films,
 )
+from tribodyn.tribology.ehl.squeeze import Squeeze
 from tribodyn.tribology.ehl.start import first_state, survey_film
 
 Array = Any
@@ -129,16 +130,23 @@ def expected_film(problem: LineContact) -> float:
     return survey_film(problem.moes_load, problem.moes_material) + height / problem.film_unit
 
 
-def grid_of(problem: LineContact, step: float = STEP) -> Grid:
-    """Return the grid that suits the film expected of a contact; behind it as far as asperities may touch."""
+def grid_of(problem: LineContact, step: float = STEP, *others: LineContact) -> Grid:
+    """Return the grid that suits the films expected of contacts; behind it as far as asperities may touch."""
+    problems = (problem, *others)
+    films = [expected_film(one) for one in problems]
     beyond = 0.0
     if problem.roughness is not None:
-        beyond = 1.5 + 2.0 * film_width(4.0 * problem.roughness.height / problem.film_unit)
-    return made(placed(expected_film(problem), step, beyond))
+        unit = min(one.film_unit for one in problems)
+        beyond = 1.5 + 2.0 * film_width(4.0 * problem.roughness.height / unit)
+    return made(placed(min(films), step, beyond, max(films)))
 
 
 def solve_steady(
-    problem: LineContact, start: Solution | None = None, step: float = STEP, closure: Closure | None = None
+    problem: LineContact,
+    start: Solution | None = None,
+    step: float = STEP,
+    closure: Closure | None = None,
+    grid: Grid | None = None,
 ) -> Solution:
     """Solve a steady contact.
 
@@ -150,7 +158,9 @@ def solve_steady(
     step : float
         Of a new grid; the errors of the film are of second order in it.
     closure : Closure, optional
-        On the nodes of `start`. Default: that of `start`, or a Newtonian isothermal fluid.
+        On the nodes of `start` or of `grid`. Default: that of `start`, or a Newtonian isothermal fluid.
+    grid : Grid, optional
+        Of a contact without `start`. Default: `grid_of` it.
 
     Returns
     -------
@@ -169,7 +179,7 @@ def solve_steady(
         grid, state = start.grid, start.state
         closure = start.closure if closure is None else closure
     else:
-        grid = grid_of(problem, step)
+        grid = grid_of(problem, step) if grid is None else grid
         state = first_state(reduced, grid, expected_film(problem))
         if isinstance(reduced, RoughReduced):
             state = with_films(state, reduced, grid)
@@ -193,15 +203,20 @@ def solve_steady(
 
 
 def converged(
-    state: State, reduced: Reduced | RoughReduced, grid: Grid, closure: Closure
+    state: State,
+    reduced: Reduced | RoughReduced,
+    grid: Grid,
+    closure: Closure,
+    squeeze: Squeeze | None = None,
+    tolerance: float = TOLERANCE,
 ) -> tuple[State, int, float]:
     """Take steps of Newton's method; returns the state, the number of steps, the imbalance (NaN: failed)."""
     imbalance = math.inf
     for number in range(MOST_STEPS + 1):
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            values, matrix = _residual(state, reduced, grid, closure)
+            values, matrix = _residual(state, reduced, grid, closure, squeeze)
             imbalance = _imbalance(values, state)
-        if imbalance <= TOLERANCE or not math.isfinite(imbalance) or number == MOST_STEPS:
+        if imbalance <= tolerance or not math.isfinite(imbalance) or number == MOST_STEPS:
             return state, number, imbalance
         try:
             change = np.linalg.solve(matrix, -values)
@@ -250,11 +265,15 @@ def _continued(
 
 
 def _residual(
-    state: State, reduced: Reduced | RoughReduced, grid: Grid, closure: Closure
+    state: State,
+    reduced: Reduced | RoughReduced,
+    grid: Grid,
+    closure: Closure,
+    squeeze: Squeeze | None,
 ) -> tuple[Array, Array]:
     if isinstance(reduced, RoughReduced):
-        return rough_residual(state, reduced, grid, closure)
-    return residual(state, reduced, grid, closure)
+        return rough_residual(state, reduced, grid, closure, squeeze)
+    return residual(state, reduced, grid, closure, squeeze)
 
 
 def _moved(state: State, change: Array, grid: Grid, reduced: Reduced | RoughReduced) -> State:

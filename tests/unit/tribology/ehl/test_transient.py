@@ -1,0 +1,222 @@
+"""The transient line contact: order in time, slow limit, a load step, mass, squeezing of rigid cylinders."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+from tests.support.line_contacts import REFERENCES, by_moes
+from tribodyn.errors import SimulationError
+from tribodyn.tribology.ehl.asperities import Roughness
+from tribodyn.tribology.ehl.fluid import log_viscosity, relative_density
+from tribodyn.tribology.ehl.reynolds import newtonian, residual
+from tribodyn.tribology.ehl.rough import rough_residual
+from tribodyn.tribology.ehl.squeeze import Squeeze
+from tribodyn.tribology.ehl.steady import grid_of, solve_steady
+from tribodyn.tribology.ehl.transient import Instant, march
+
+SMOOTH = REFERENCES[1][0]
+ROUGH = SMOOTH._replace(roughness=Roughness(3e-7))
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(60)
+#: Time in which the oil is drawn through half a contact.
+TRANSIT = SMOOTH.half_width / SMOOTH.entrainment_speed
+
+
+def swaying(problem, period):
+    """Load, radius and speed swing out and back over a period, smoothly from rest."""
+
+    def at(time):
+        swing = math.sin(math.pi * time / period) ** 2
+        return Instant(
+            problem._replace(
+                line_load=problem.line_load * (1.0 - 0.4 * swing),
+                radius=problem.radius * (1.0 + 0.2 * swing),
+                entrainment_speed=problem.entrainment_speed * (1.0 + 0.3 * swing),
+            )
+        )
+
+    return at
+
+
+def marched(at, end, steps, resolution=0.25):
+    """Solutions at the end of each of equal steps, the steady one at the beginning first."""
+    problem = at(0.0).problem
+    grid = grid_of(problem, resolution, at(0.5 * end).problem, at(end).problem)
+    start = solve_steady(problem, grid=grid)
+    return [start, *march(at, np.linspace(0.0, end, steps + 1), start)]
+
+
+@pytest.mark.parametrize("problem", [SMOOTH, ROUGH], ids=["smooth", "rough"])
+def test_order_in_time(problem):
+    at = swaying(problem, 8.0 * TRANSIT)
+    ends = [marched(at, 5.0 * TRANSIT, steps, 0.4)[-1] for steps in (20, 40, 80)]
+    for name in ("central_film_thickness", "minimum_film_thickness"):
+        films = [getattr(one, name) for one in ends]
+        assert math.log2((films[1] - films[0]) / (films[2] - films[1])) >= 1.9
+
+
+def test_the_steady_contact_is_the_slow_limit():
+    """The departure falls with the rate of change."""
+    departures = []
+    for period in (200.0, 400.0, 800.0):
+        at = swaying(SMOOTH, period * TRANSIT)
+        found = marched(at, 0.3 * period * TRANSIT, 24)[-1]
+        steady = solve_steady(found.problem, grid=found.grid)
+        departures.append(found.central_film_thickness / steady.central_film_thickness - 1.0)
+    assert -0.01 < departures[0] < 0.0
+    assert departures[0] / departures[1] == pytest.approx(2.0, rel=0.05)
+    assert departures[1] / departures[2] == pytest.approx(2.0, rel=0.05)
+
+
+def test_nothing_happens_to_a_steady_contact():
+    solutions = marched(lambda _time: Instant(SMOOTH), 3.0 * TRANSIT, 5)
+    for one in solutions[1:]:
+        assert one.central_film_thickness == pytest.approx(solutions[0].central_film_thickness, rel=1e-9)
+
+
+@pytest.mark.parametrize("factor", [0.8, 1.3])
+def test_a_load_step_decays_as_smaller_steps_say(factor):
+    """The thinnest film feels the step when the oil of the new inlet has come to it, and then is steady.
+
+    The load changes within half a transit of the oil through half a contact.
+    """
+
+    def at(time):
+        share = min(2.0 * time / TRANSIT, 1.0)
+        return Instant(SMOOTH._replace(line_load=SMOOTH.line_load * (1.0 + (factor - 1.0) * share)))
+
+    runs = [marched(at, 6.0 * TRANSIT, steps, 0.4) for steps in (60, 120, 240)]
+    steady = solve_steady(at(TRANSIT).problem, grid=runs[0][0].grid).minimum_film_thickness
+    films = [np.array([one.minimum_film_thickness for one in run]) for run in runs]
+    departures = [
+        film[:: len(film) // 60] / (film[0] - steady) - steady / (film[0] - steady) for film in films
+    ]
+    coarse, fine = np.sqrt(np.mean(np.diff(departures, axis=0) ** 2, axis=1))
+    assert fine < coarse / 1.7
+    assert fine < 0.15
+    for one in departures:
+        assert np.max(np.abs(one[15:30])) > 1.5
+        assert np.max(np.abs(one[40:])) < 0.25
+        assert abs(one[-1]) < 0.05
+
+
+def flow(solution):
+    """ρ/ρ0 (u h − h³/(12 η) dp/dx) in the middle between nodes, m²/s."""
+    problem, place, pressure = solution.problem, solution.place, solution.pressure
+    middle, p, h = (0.5 * (a[1:] + a[:-1]) for a in (place, pressure, solution.film_thickness))
+    viscosity = problem.fluid.viscosity * np.exp(log_viscosity(p, problem.fluid)[0])
+    slope = np.diff(pressure) / np.diff(place)
+    density = relative_density(p, problem.fluid)[0]
+    return middle, density * (problem.entrainment_speed * h - h**3 / (12.0 * viscosity) * slope)
+
+
+def test_mass_is_conserved():
+    """Between a place in the inlet that stands still and the end of the film: inflow − outflow = change."""
+    at = swaying(SMOOTH, 8.0 * TRANSIT)
+    steps = 80
+    solutions = marched(at, 5.0 * TRANSIT, steps, 0.1)
+    inlet = -1.3 * SMOOTH.half_width
+    mass, inflow, end, behind = [], [], [], []
+    for one in solutions:
+        density = relative_density(one.pressure, one.problem.fluid)[0] * one.film_thickness
+        inside = one.place > inlet
+        place = np.concatenate([[inlet], one.place[inside]])
+        mass.append(np.trapezoid(np.interp(place, one.place, density), place))
+        inflow.append(np.interp(inlet, *flow(one)))
+        end.append(one.place[-1])
+        behind.append(one.film_thickness[-1])
+    time = np.linspace(0.0, 5.0 * TRANSIT, steps + 1)
+    speed = np.array([one.problem.entrainment_speed for one in solutions])
+    outflow = np.array(behind) * (speed - np.gradient(np.array(end), time))
+    change = np.trapezoid(np.array(inflow) - outflow, time)
+    assert abs(change) > 0.1 * np.trapezoid(inflow, time)
+    assert change == pytest.approx(mass[-1] - mass[0], rel=4e-3)
+
+
+def rigid_approach(gap, problem):
+    """−dh_0/dt of rigid isoviscous cylinders at h_0: p' = 12 η [u (x² − e²)/2R − V (x − e)]/h³, e the end.
+
+    V and e follow from p = 0 at both ends and the load.
+    """
+    speed, radius = problem.entrainment_speed, problem.radius
+    unit = math.sqrt(2.0 * radius * gap)
+
+    def moments(end, approach):
+        """∫ p' dx and −∫ x p' dx, with x = √(2 R h_0) tan φ."""
+        half = 0.5 * (math.atan(end) + 0.5 * math.pi)
+        angle = math.atan(end) + half * (NODES - 1.0)
+        x = np.tan(angle)
+        drawn = speed * unit**2 * (x * x - end * end) / (2.0 * radius) - approach * unit * (x - end)
+        slope = 12.0 * problem.fluid.viscosity * drawn * np.cos(angle) ** 4 / gap**3 * unit * half
+        return WEIGHTS @ slope, -WEIGHTS @ (x * slope) * unit
+
+    def missing(approach):
+        end = brentq(lambda e: moments(e, approach)[0], -1.0, 50.0)
+        return moments(end, approach)[1] / problem.line_load - 1.0
+
+    scale = speed * unit / radius
+    return float(brentq(missing, -0.5 * scale, 2.0 * scale))  # pyright: ignore[reportArgumentType]
+
+
+def test_rigid_cylinders_squeeze_the_oil_as_their_closed_form():
+    """At M = 0.05 nothing bends; the load doubles within the time that the oil needs through the gap."""
+    problem = by_moes(0.05, 0.0)
+    gap = 2.449 / 0.05 * problem.line_load / problem.effective_modulus / 0.05
+    unit = math.sqrt(2.0 * problem.radius * gap)
+    end = 2.0 * unit / problem.entrainment_speed
+
+    def at(time):
+        return Instant(
+            problem._replace(line_load=problem.line_load * (1.0 + math.sin(0.5 * math.pi * time / end) ** 2))
+        )
+
+    solutions = marched(at, end, 40, 0.1)
+    bent = solutions[0].central_film_thickness
+    times = np.linspace(0.0, end, 11)
+    gap = brentq(lambda one: rigid_approach(one, problem), 0.5 * bent, 1.5 * bent)
+    assert gap == pytest.approx(bent, rel=5e-3)
+    for now, step in zip(times[:-1], np.diff(times), strict=True):  # Heun
+        first = -rigid_approach(gap, at(now).problem)
+        gap += 0.5 * step * (first - rigid_approach(gap + step * first, at(now + step).problem))
+    assert solutions[-1].central_film_thickness == pytest.approx(gap, rel=5e-3)
+    steady = solve_steady(at(end).problem).central_film_thickness
+    assert solutions[-1].central_film_thickness > 1.05 * steady
+
+
+@pytest.mark.parametrize("problem", [SMOOTH, ROUGH], ids=["smooth", "rough"])
+def test_jacobian_is_the_derivative(problem):
+    solution = solve_steady(problem, step=0.4)
+    grid, state, reduced = solution.grid, solution.state, solution.reduced
+    of = residual if problem.roughness is None else rough_residual
+    rng = np.random.default_rng(1)
+    squeeze = Squeeze(3.0, 0.1 * rng.random(grid.end + 1), 3.0 * rng.random(grid.end + 1))
+
+    def values(by):
+        pressure = state.pressure.copy()
+        inner = grid.end - 1
+        pressure[1 : grid.end] += by[:inner]
+        films = None if state.film is None else state.film + by[inner:-3]
+        moved = state._replace(pressure=pressure, film=films)
+        rigid, flowing, end = by[-3:]
+        moved = moved._replace(
+            rigid_film=state.rigid_film + rigid, flow=state.flow + flowing, end=state.end + end
+        )
+        return of(moved, reduced, grid, newtonian(grid), squeeze)  # pyright: ignore[reportArgumentType]
+
+    matrix = values(np.zeros(grid.end + 2 + (0 if state.film is None else len(grid.node))))[1]
+    for _ in range(4):
+        way = rng.standard_normal(len(matrix)) * 1e-7
+        way[: grid.end - 1] *= state.pressure[1 : grid.end]
+        difference = 0.5 * (values(way)[0] - values(-way)[0])
+        np.testing.assert_allclose(matrix @ way, difference, atol=1e-3 * np.abs(difference).max())
+
+
+def test_a_contact_that_cannot_be_reached_stops():
+    """A load that rises a hundredfold at once."""
+
+    def at(time):
+        return Instant(SMOOTH._replace(line_load=(100.0 if time > 0.0 else 1.0) * SMOOTH.line_load))
+
+    with pytest.raises(SimulationError, match="start again from a steady contact"):
+        marched(at, 1e-4 * TRANSIT, 1)

@@ -1,0 +1,116 @@
+"""A line contact whose load, radius and speed change with time: steady contact and squeeze, step by step.
+
+The equations are those of the steady contact with the squeeze term on (`squeeze`): at each instant Newton's
+method finds pressures, rigid displacement, flow, end of the film and load balance together. In time:
+backward differences of second order over steps that need not be equal, begun by one step of Euler's backward
+formula; both are L-stable. A step that does not converge is halved.
+"""
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any, NamedTuple
+
+from tribodyn.errors import SimulationError
+from tribodyn.tribology.ehl.fluid import relative_density
+from tribodyn.tribology.ehl.problem import LineContact, check
+from tribodyn.tribology.ehl.reynolds import Closure, State, film
+from tribodyn.tribology.ehl.squeeze import Held, cells, faces, squeeze_of
+from tribodyn.tribology.ehl.steady import Solution, converged, reduced_problem
+
+Array = Any
+
+#: Imbalance at which an instant is solved: what is stored is a small difference of large masses.
+TOLERANCE = 1e-9
+#: Shortest step, over that from one time to the next; growth of a step over the one before.
+_SHORTEST, _GROWTH = 1.0 / 64.0, 2.0
+
+
+class Instant(NamedTuple):
+    """A contact at an instant, and what shear and heat make of its flow (None: as at the start)."""
+
+    problem: LineContact
+    closure: Closure | None = None
+
+
+def march(
+    instant_at: Callable[[float], Instant], times: Sequence[float] | Array, start: Solution
+) -> Iterator[Solution]:
+    """Go through the solutions at the times after the first, at which the contact is `start`.
+
+    Parameters
+    ----------
+    instant_at : callable
+        The contact at a time, s. Fluid and roughness must stay the same; load, radius and speeds may change.
+        A closure stands on the nodes of `start.grid`.
+    times : (K,)
+        s, increasing; the film is steady before the first.
+    start : Solution
+        At the first time, on a grid that suits the contact at all times (`grid_of`).
+
+    Raises
+    ------
+    InputError
+        If a value has no meaning.
+    SimulationError
+        If an instant could not be solved with the shortest step.
+    """
+    solution, before = start, [_held(start, float(times[0]))]
+    for goal in times[1:]:
+        whole = shorter = float(goal) - before[-1].time
+        while (left := float(goal) - before[-1].time) > 1e-9 * whole:
+            step = min(left, shorter)
+            if len(before) == 2:
+                step = min(step, _GROWTH * (before[1].time - before[0].time))
+            # equal parts, so that no sliver is left
+            step = left / math.ceil(left / step - 1e-9)
+            found = _stepped(instant_at, before[-1].time + step, before, solution)
+            if found is None:
+                shorter = 0.5 * step
+                if shorter < _SHORTEST * whole:
+                    raise _stopped(instant_at(before[-1].time + step).problem, before[-1].time)
+                continue
+            solution = found
+            before = [before[-1], _held(found, before[-1].time + step)]
+        yield solution
+
+
+def _stepped(
+    instant_at: Callable[[float], Instant], time: float, before: list[Held], last: Solution
+) -> Solution | None:
+    """Return the solution at a time; None: Newton's method did not converge."""
+    problem, closure = instant_at(time)
+    check(problem)
+    closure = last.closure if closure is None else closure
+    reduced, grid = reduced_problem(problem), last.grid
+    squeeze = squeeze_of(time, before, problem.half_width, problem.entrainment_speed, problem.film_unit)
+    state, steps, imbalance = converged(_guess(last, problem), reduced, grid, closure, squeeze, TOLERANCE)
+    if not imbalance <= TOLERANCE:
+        return None
+    films = film(state, reduced, grid) if state.film is None else state.film
+    return Solution(problem, reduced, grid, state, films, closure, steps, imbalance)
+
+
+def _guess(last: Solution, problem: LineContact) -> State:
+    """Pressures of the last instant over Hertz's, and its film in the units of this one."""
+    state = last.state
+    ratio = last.problem.film_unit / problem.film_unit
+    shift = (ratio - 1.0) * state.flow
+    films = None if state.film is None else state.film + shift
+    return state._replace(rigid_film=state.rigid_film + shift, flow=ratio * state.flow, film=films)
+
+
+def _held(solution: Solution, time: float) -> Held:
+    """Masses and places of a solution."""
+    problem, grid = solution.problem, solution.grid
+    upto = slice(0, grid.end + 1)
+    density = relative_density(solution.fluid_pressure[upto], problem.fluid)[0]
+    mass = density * solution.mean_gap[upto] * cells(grid) * problem.half_width
+    return Held(time, mass, (solution.state.end + faces(grid)) * problem.half_width)
+
+
+def _stopped(problem: LineContact, time: float) -> SimulationError:
+    return SimulationError(
+        f"the transient line contact did not converge after {time:.4g} s (p_H "
+        f"{problem.hertz_pressure / 1e9:.3g} GPa, line load {problem.line_load:.3g} N/m): its load may rise "
+        f"faster than the oil is drawn in; start again from a steady contact"
+    )
