@@ -10,7 +10,7 @@ from typing import Any
 import matplotlib
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.layout_engine import ConstrainedLayoutEngine, LayoutEngine
 
 from tribodyn.errors import InputError
 
@@ -118,6 +118,46 @@ def new_figure(width: float = WIDTH, height: float = PANEL_HEIGHT) -> Figure:
     return Figure(figsize=(width, height), layout=ConstrainedLayoutEngine(w_pad=0.06, h_pad=0.06))
 
 
+class Margins(LayoutEngine):
+    """A grid of panels with room of a known size for its labels, inch; saves half the time to draw it.
+
+    Parameters
+    ----------
+    left, right, top, bottom : float
+        Around the grid; below it comes what a legend of the figure takes.
+    between : (float, float)
+        Panels, across and down.
+    """
+
+    _adjust_compatible = True
+    _colorbar_gridspec = False
+
+    def __init__(
+        self, left: float, right: float, top: float, bottom: float, between: tuple[float, float]
+    ) -> None:
+        super().__init__()
+        self._around = left, right, top, bottom
+        self._between = between
+
+    def execute(self, fig: Any) -> None:
+        """Place the grid."""
+        left, right, top, bottom = self._around
+        width, height = fig.get_size_inches()
+        for legend in fig.legends:
+            bottom += legend.get_window_extent().height / fig.dpi
+        grid = fig.axes[0].get_subplotspec().get_gridspec()
+        across = (width - left - right + self._between[0]) / grid.ncols - self._between[0]
+        down = (height - top - bottom + self._between[1]) / grid.nrows - self._between[1]
+        fig.subplots_adjust(
+            left / width,
+            bottom / height,
+            1.0 - right / width,
+            1.0 - top / height,
+            self._between[0] / across,
+            self._between[1] / down,
+        )
+
+
 def save(figure: Figure, path: str | Path) -> Path:
     """Write a figure as PNG, PDF or SVG, by the file's ending."""
     path = Path(path)
@@ -147,4 +187,5 @@ def _save_png(figure: Figure, path: Path) -> None:
 def mark_panel(axes: Axes, letter: str, title: str = "", rows: int = 0) -> None:
     """Put (a), (b), … and what a panel shows above the axes at the left, above `rows` rows of names."""
     marked = rf"$\mathbf{{({letter})}}$" if letter else ""
-    axes.set_title(" ".join(filter(None, (marked, title))), loc="left", pad=5 + ROW * rows)
+    # no ticks stand above the axes that the title would have to stay clear of
+    axes.set_title(" ".join(filter(None, (marked, title))), loc="left", y=1.0, pad=5 + ROW * rows)

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from functools import partial
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -14,8 +15,11 @@ from tribodyn.post.figures.panel import View, abscissa, abscissa_label, draw, le
 from tribodyn.post.figures.path_of_contact import draw_path, path_figure
 from tribodyn.post.figures.scale import scale
 from tribodyn.post.figures.spectrum import spectrum_figure
-from tribodyn.post.style import PALETTE, mark_panel, new_figure
+from tribodyn.post.style import PALETTE, Margins, mark_panel, new_figure
 from tribodyn.record.reader import Record
+
+#: Room in the overview, inch.
+OVERVIEW: dict[str, Any] = {"left": 0.74, "right": 0.42, "top": 0.85, "bottom": 0.5, "between": (0.86, 1.0)}
 
 
 def overview_figure(records: Sequence[Record], view: View) -> Figure:
@@ -41,6 +45,8 @@ def overview_figure(records: Sequence[Record], view: View) -> Figure:
         mark_panel(axes, letter, quantity.title, names)
     legend(drawn, list(rows.flat[1:]), [record], view)
     drawn.suptitle(record_title(record), x=0.01, ha="left", fontsize=11)
+    if isinstance(drawn, Figure) and len(drawn.axes) == rows.size:
+        drawn.set_layout_engine(Margins(**OVERVIEW))
     return drawn
 
 

@@ -8,6 +8,7 @@ from typing import Any, cast
 
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from tests.support import record_samples, synthetic_record
@@ -260,6 +261,21 @@ def test_the_path_is_drawn_with_both_teeth_and_tip_circles(records: list[Record]
     assert len(axes.patches) == 2
     assert {"$B_g$", "$C_p$", "$P$", "$C_g$", "$B_p$", "gear", "pinion"} <= set(texts(drawn))
     assert axes.get_aspect() == 1.0
+
+
+def test_the_overview_keeps_its_labels_in_the_figure_and_apart(records: list[Record]):
+    """Its margins are of fixed size."""
+    drawn = overview(records[0])
+    canvas = FigureCanvasAgg(drawn)
+    canvas.draw()
+    whole = drawn.bbox
+    boxes = [axes.get_tightbbox(canvas.get_renderer()) for axes in drawn.axes]
+    for box in [*boxes, *(legend.get_window_extent() for legend in drawn.legends)]:
+        assert whole.x0 <= box.x0 < box.x1 <= whole.x1
+        assert whole.y0 <= box.y0 < box.y1 <= whole.y1
+    for upper, lower in zip(boxes[:3], boxes[3:], strict=True):
+        assert upper.y0 >= lower.y1
+    assert min(box.y0 for box in boxes) >= max(legend.get_window_extent().y1 for legend in drawn.legends)
 
 
 def test_the_overview_has_six_panels(records: list[Record]):
