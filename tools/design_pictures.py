@@ -39,7 +39,7 @@ def record_of(name: str, folder: Path) -> Path:
 def scan(case: Any, points: int) -> tuple[np.ndarray, np.ndarray]:
     """Objective and feasibility (second key, first key) on a grid of both free keys: brute force."""
     shares = np.linspace(0.0, 1.0, points)
-    with Pool(case.base, 2) as pool:
+    with Pool(case.scenarios, 2) as pool:
         judge = Judge(case, pool.submit(cases_of(case, {})).result())
         waiting = [[pool.submit(cases_of(case, chosen(case, (x, y)))) for x in shares] for y in shares]
         rows = [[judge.judged(one.result()) for one in row] for row in waiting]

@@ -69,7 +69,7 @@ def written(partial: Path) -> int:
 def rows(path: Path) -> np.ndarray:
     """Objective and free keys of every candidate, in an order of their own."""
     with h5py.File(path) as file:
-        names = [name for name in file if name.startswith("free_")]
+        names = [name for name in file if str(name).startswith("free_")]
         table = np.stack([file[name][...] for name in (*names, "objective")], axis=1)  # pyright: ignore
     return table[np.lexsort(table.T)]
 

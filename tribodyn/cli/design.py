@@ -60,6 +60,12 @@ def design(
             help='What must hold: "contact_ratio >= 1.3", or "… >= start".',
         ),
     ] = None,
+    part: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--part", metavar="NAME=SCENARIO", help="A further scenario; its figures are NAME.FIGURE."
+        ),
+    ] = None,
     method: Annotated[
         str | None, typer.Option("--method", help="As design.method; default: chosen by the problem.")
     ] = None,
@@ -80,10 +86,10 @@ def design(
 ) -> None:
     """Search for the best values of a scenario's keys."""
     from tribodyn.cli.run import Shown, run_loaded
-    from tribodyn.studies.design.short_form import as_options, loaded_search
+    from tribodyn.studies.design.short_form import as_options, loaded_search, parts_of
 
     require_one_way(resume=resume, force=force)
-    more = {"method": method, "evaluations": evaluations}
+    more = {"method": method, "evaluations": evaluations, "part": parts_of(part or []) or None}
     options = as_options(free or [], minimise or [], maximise, subject_to or [], more)
     how = {"output": output, "force": force, "resume": resume, "allow_large": allow_large}
     run_loaded(

@@ -15,6 +15,7 @@ from tribodyn.studies.design.case import DesignCase
 from tribodyn.studies.design.evaluation import distance_from_limits
 from tribodyn.studies.design.judged import Judge, Judged
 from tribodyn.studies.design.pool import Figures, Pool
+from tribodyn.studies.design.sources import BASE, split
 
 Keep = Callable[["Evaluation"], None]
 """Called with every evaluation as soon as it is there, in their order."""
@@ -141,7 +142,9 @@ class Archive:
         """See `Judged.shape`; of the first duty, whose gears are those of the others."""
         if not self._shaped:
             return None
-        return distance_from_limits(self.case.base, cases_of(self.case, values)[0])
+        first = cases_of(self.case, values)[0]
+        keys = {key: value for key, value in first.items() if split(key, self.case.parts)[0] == BASE}
+        return distance_from_limits(self.case.base, keys)
 
     def close(self) -> None:
         """Let no further candidate be asked for: the threads of the methods end."""

@@ -9,6 +9,7 @@ from tribodyn.numerics.shapes import Array, Float
 from tribodyn.scenario.vary import base_units
 from tribodyn.studies.design.case import DRAWN, DesignCase, Free, Tolerance
 from tribodyn.studies.design.parts import PITCH_ERRORS
+from tribodyn.studies.design.sources import split
 
 #: Values are written to this share of their range, so that what is written is what was evaluated.
 _FINEST = 1e-7
@@ -52,7 +53,7 @@ def share_of(free: Free, value: Any) -> float:
 
 def start_of(case: DesignCase) -> Float[Array, " free"]:
     """Shares at which the base scenario stands."""
-    return np.array([share_of(one, at(case.base, one.keys[0])) for one in case.free])
+    return np.array([share_of(one, standing(case, one.keys[0])) for one in case.free])
 
 
 def chosen(case: DesignCase, shares: Sequence[float] | np.ndarray) -> Overrides:
@@ -89,7 +90,7 @@ def cases_of(
         for row in rows:
             deviated = dict(nominal)
             for one, deviation in zip(case.tolerances, row, strict=True):
-                deviated |= _deviated(one, deviation, nominal, case.base)
+                deviated |= _deviated(one, deviation, nominal, case)
             found.append(deviated)
     return found
 
@@ -115,16 +116,16 @@ def samples_of(case: DesignCase) -> list[Float[Array, "..."]]:
     return list(rows)
 
 
-def _deviated(one: Tolerance, deviation: float, nominal: Mapping[str, Any], base: Mapping[str, Any]) -> Any:
+def _deviated(one: Tolerance, deviation: float, nominal: Mapping[str, Any], case: DesignCase) -> Any:
     if one.distribution == DRAWN:
         return {one.key: int(abs(deviation) * 2**20)}
     if one.name.endswith(PITCH_ERRORS):
         teeth_key = one.key.replace(f"modification.{PITCH_ERRORS}", "teeth")
-        teeth = int(nominal.get(teeth_key, at(base, teeth_key)))
+        teeth = int(nominal.get(teeth_key, standing(case, teeth_key)))
         seed = int(abs(deviation) * 2**52)
         errors = np.random.default_rng(seed).uniform(-one.plus_minus, one.plus_minus, teeth)
         return {one.key: [f"{float(error)!r} {one.unit}" for error in errors]}
-    given = nominal.get(one.key, at(base, one.key))
+    given = nominal.get(one.key, standing(case, one.key))
     si = base_units(f"1 {one.unit}") if one.unit else None
     number = (_in_unit(given, one.unit, si[0] if si else 1.0) or 0.0) + float(deviation) * one.plus_minus
     return {one.key: f"{number!r} {one.unit}" if one.unit else number}
@@ -149,8 +150,10 @@ def shapes_gears(case: DesignCase) -> bool:
     return any(key.startswith("drive.") and ".modification." not in key for key in keys)
 
 
-def at(data: Any, key: str) -> Any:
-    """What stands at a dotted key; None where nothing does."""
+def standing(case: DesignCase, key: str) -> Any:
+    """What stands at a dotted key of the scenarios of a search; None where nothing does."""
+    name, key = split(key, case.parts)
+    data: Any = case.scenarios[name]
     for part in key.split("."):
         if isinstance(data, Mapping):
             data = data.get(part)

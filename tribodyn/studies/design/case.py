@@ -132,8 +132,10 @@ class DesignCase(CaseHead):
         As in `tribodyn.studies.study.CaseHead`; `kind` is "design".
     base : mapping
         The scenario that is searched through, resolved, as TOML has it.
+    parts : mapping
+        Further scenarios by name, with the drive of the base.
     base_kind : str
-        Its kind.
+        Kind of the base.
     free : tuple of Free
     objectives : tuple of Objective
         One, or two for a front.
@@ -152,6 +154,7 @@ class DesignCase(CaseHead):
     """
 
     base: Mapping[str, Any]
+    parts: Mapping[str, Mapping[str, Any]]
     base_kind: str
     free: tuple[Free, ...]
     objectives: tuple[Objective, ...]
@@ -163,3 +166,8 @@ class DesignCase(CaseHead):
     search: Search
     confirm: Mapping[str, Any]
     sensitivities: bool
+
+    @property
+    def scenarios(self) -> dict[str, Mapping[str, Any]]:
+        """All scenarios that are evaluated, by their names as sources."""
+        return {"": self.base, **self.parts}

@@ -1,6 +1,6 @@
 """What `check` says of a search: what is free, what is sought, what must hold, by which method."""
 
-from tribodyn.studies.design.candidates import at, samples_of
+from tribodyn.studies.design.candidates import samples_of, standing
 from tribodyn.studies.design.case import DesignCase, Free
 from tribodyn.studies.design.methods import method_of
 from tribodyn.studies.study import Checked, TextTable
@@ -9,7 +9,7 @@ from tribodyn.studies.study import Checked, TextTable
 def check(case: DesignCase) -> Checked:
     """Check a case and say what is searched."""
     name, reason = method_of(case)
-    rows = [(", ".join(one.keys), _shown(at(case.base, one.keys[0])), bounds(one)) for one in case.free]
+    rows = [(", ".join(one.keys), _shown(standing(case, one.keys[0])), bounds(one)) for one in case.free]
     cases = len(case.duties) * len(samples_of(case))
     wanted = [one.name.removeprefix("-") for one in case.objectives]
     more = case.objectives[0].name.startswith("-")
@@ -27,6 +27,7 @@ def check(case: DesignCase) -> Checked:
             ("", ""),
             (
                 ("maximise" if more else "minimise", " and ".join(wanted)),
+                *(("part", f"{name}: {one.get('title', '')}") for name, one in case.parts.items()),
                 *(("subject to", one.text) for one in case.constraints),
                 ("method", f"{name}: {reason}"),
                 ("evaluations", f"{case.search.evaluations} at most, {cases} cases each"),

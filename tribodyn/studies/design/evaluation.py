@@ -13,6 +13,7 @@ from tribodyn.errors import InputError
 from tribodyn.scenario.duty import LOADS, SPEEDS
 from tribodyn.scenario.resolve import resolve_table
 from tribodyn.studies import study_of
+from tribodyn.studies.design.sources import own
 from tribodyn.studies.evaluated import evaluated
 from tribodyn.studies.load import Loaded, loaded_from, table_of
 
@@ -33,27 +34,53 @@ def loaded_case(base: Mapping[str, Any], overrides: Mapping[str, Any]) -> Loaded
 
 
 def evaluate(
-    base: Mapping[str, Any], several: Sequence[Mapping[str, Any]], workers: int | None = None
+    scenarios: Mapping[str, Mapping[str, Any]],
+    several: Sequence[Mapping[str, Any]],
+    workers: int | None = None,
 ) -> list[dict[str, Any] | str]:
-    """Figures of cases of a base scenario, numbers alone; a text instead where one fails: why.
+    """Figures of cases, numbers alone; a text instead where one fails: why.
 
     Parameters
     ----------
-    base : mapping
-        The base scenario's data, resolved.
+    scenarios : mapping
+        Data of the scenario that is searched through, and of its parts, by their names as sources.
     several : sequence of mapping
         Overrides of each case.
     workers : int, optional
         Threads of a study that evaluates cases together.
     """
+    found: list[dict[str, Any] | str] = [{} for _ in several]
+    for name, data in scenarios.items():
+        schema = study_of(data).table(data)
+        asked = [own(name, schema, overrides, scenarios) for overrides in several]
+        once = {json.dumps(one, sort_keys=True): one for one in asked}
+        known = dict(zip(once, _figures(data, list(once.values()), workers), strict=True))
+        for place, one in enumerate(asked):
+            found[place] = _with(found[place], name, known[json.dumps(one, sort_keys=True)])
+    return found
+
+
+def _with(known: dict[str, Any] | str, name: str, more: dict[str, Any] | str) -> dict[str, Any] | str:
+    """Figures of a case with those of one more scenario."""
+    if isinstance(known, str):
+        return known
+    if isinstance(more, str):
+        return f"{name}: {more}" if name else more
+    return known | {f"{name}.{figure}" if name else figure: value for figure, value in more.items()}
+
+
+def _figures(
+    data: Mapping[str, Any], several: Sequence[Mapping[str, Any]], workers: int | None
+) -> list[dict[str, Any] | str]:
+    """Figures of cases of one scenario."""
     cases: list[Any] = []
     for overrides in several:
         try:
-            cases.append(loaded_case(base, overrides).case)
+            cases.append(loaded_case(data, overrides).case)
         except InputError as error:
             cases.append(str(error))
     try:
-        found = evaluated(study_of(base), cases, workers)
+        found = evaluated(study_of(data), cases, workers)
     except InputError as error:  # of all cases together
         found = [str(error)] * len(cases)
     return [one if isinstance(one, str) else numbers(one) for one in found]
@@ -86,12 +113,12 @@ def numbers(figures: Mapping[str, Any]) -> dict[str, float]:
 
 
 def serve() -> None:
-    """Evaluate what comes in as lines of JSON: first the base scenario, then lists of overrides."""
+    """Evaluate what comes in as lines of JSON: first the scenarios, then lists of overrides."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the first process ends, and with it the input
     answers, sys.stdout = sys.stdout, sys.stderr  # what a library prints is no answer
-    base = json.loads(sys.stdin.readline())
+    scenarios = json.loads(sys.stdin.readline())
     for line in sys.stdin:
-        answers.write(json.dumps(evaluate(base, json.loads(line), workers=1)) + "\n")
+        answers.write(json.dumps(evaluate(scenarios, json.loads(line), workers=1)) + "\n")
         answers.flush()
 
 

@@ -30,7 +30,7 @@ class _Shown:
     def __init__(self, record: Record, place: int = 0) -> None:
         name = OBJECTIVES[place]
         about = record.long_name(name).removeprefix("objective: ")
-        line = line_of(record.scenario.get("scenario", {}), about)
+        line = line_of(record.scenario, about)
         self.line = line or Line(about, about.replace("_", " "), unit=_unit(record.units(name)))
         value = record.summary.get("objective")
         down = value is not None and float(np.atleast_1d(value)[place]) * _least(record, name) < 0

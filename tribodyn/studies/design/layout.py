@@ -12,7 +12,7 @@ from tribodyn.studies.design.archive import Evaluation
 from tribodyn.studies.design.candidates import samples_of, shapes_gears
 from tribodyn.studies.design.case import DesignCase, Objective
 from tribodyn.studies.design.pool import Figures
-from tribodyn.studies.evaluated import figure_units
+from tribodyn.studies.design.sources import units_by_figure
 
 EVALUATION = Variable(("evaluation",), "1", "number of the evaluation")
 #: Bytes kept of a message.
@@ -37,14 +37,19 @@ def names_of(case: DesignCase, start: Figures) -> tuple[str, ...]:
     """
     of_objectives = (name for one in case.objectives for name, _ in one.terms)
     of_start = (name for of in start if not isinstance(of, str) for name in of)
-    known = figure_units(study_of({"kind": case.base_kind}))
+    known = known_units(case)
     of_constraints = (one.figure for one in case.constraints)
     return tuple(dict.fromkeys((*of_objectives, *of_constraints, *of_start, *known)))
 
 
+def known_units(case: DesignCase) -> dict[str, str]:
+    """SI units of all figures by name."""
+    return units_by_figure({name: study_of(data) for name, data in case.scenarios.items()})
+
+
 def objective_units(case: DesignCase, one: Objective) -> str:
     """SI unit of an objective; "1" of a sum of relative figures."""
-    units = figure_units(study_of({"kind": case.base_kind}))
+    units = known_units(case)
     return "1" if one.relative else units.get(one.terms[0][0], "1")
 
 

@@ -1,6 +1,7 @@
 """What a search leaves beside its record: the best scenario as TOML, its drive as DXF; and its summary."""
 
 import tomllib
+from collections import Counter
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -8,26 +9,29 @@ from typing import Any
 import tomli_w
 
 from tribodyn.errors import InputError, OutputError
+from tribodyn.studies import study_of
 from tribodyn.studies.design.archive import Archive, Evaluation
-from tribodyn.studies.design.candidates import at
+from tribodyn.studies.design.candidates import standing
 from tribodyn.studies.design.case import DesignCase
 from tribodyn.studies.design.evaluation import loaded_case
 from tribodyn.studies.design.methods.front import front
+from tribodyn.studies.design.sources import own
 
 #: First line of a file with the best scenario; a file without it is not replaced.
 HEAD = "# The best of the search of tribodyn: "
 
 
-def best_path(record: Path, ending: str) -> Path:
+def best_path(record: Path, ending: str, part: str = "") -> Path:
     """Name of a file with the best candidate of a search, beside its record."""
-    return record.with_name(f"{record.stem}-best.{ending}")
+    return record.with_name(f"{record.stem}-best{'-' * bool(part)}{part}.{ending}")
 
 
-def check_targets(record: Path) -> None:
+def check_targets(case: DesignCase, record: Path) -> None:
     """Raise InputError where a file is in the way that no search wrote."""
-    path = best_path(record, "toml")
-    if path.exists() and not _is_ours(path):
-        raise InputError("output", str(path), "exists, and no search wrote it", "choose another record")
+    for name in case.scenarios:
+        path = best_path(record, "toml", name)
+        if path.exists() and not _is_ours(path):
+            raise InputError("output", str(path), "exists, and no search wrote it", "choose another record")
 
 
 def _is_ours(path: Path) -> bool:
@@ -38,14 +42,20 @@ def _is_ours(path: Path) -> bool:
 
 
 def write_best(case: DesignCase, values: Mapping[str, Any], record: Path) -> list[Path]:
-    """Write the best scenario, and the drawing of its gears where it has some; return the files."""
-    loaded = loaded_case(case.base, values)
-    data = tomllib.loads(loaded.case.toml)
-    data |= {"title": f"{data['title']}: best of {case.name}", "name": f"{case.name}-best"}
-    files = [best_path(record, "toml")]
+    """Write the best scenario and its parts, and the drawing of the gears where it has some; the files."""
+    files: list[Path] = []
+    loaded = None
     try:
-        files[0].write_text(f"{HEAD}{case.title}\n{tomli_w.dumps(data)}", encoding="utf-8")
-        if loaded.study.has_gears:
+        for name, scenario in case.scenarios.items():
+            schema = study_of(scenario).table(scenario)
+            one = loaded_case(scenario, own(name, schema, values, case.parts))
+            loaded = loaded or one
+            data = tomllib.loads(one.case.toml)
+            more = f"-{name}" if name else ""
+            data |= {"title": f"{data['title']}: best of {case.name}", "name": f"{case.name}-best{more}"}
+            files.append(best_path(record, "toml", name))
+            files[-1].write_text(f"{HEAD}{case.title}\n{tomli_w.dumps(data)}", encoding="utf-8")
+        if loaded and loaded.study.has_gears:
             from tribodyn.drawing.dxf import write_pair
             from tribodyn.geometry.checks import check
             from tribodyn.geometry.families import family
@@ -53,7 +63,7 @@ def write_best(case: DesignCase, values: Mapping[str, Any], record: Path) -> lis
             assembly = check(family(loaded.case.family), loaded.case.drive)
             files.append(write_pair(best_path(record, "dxf"), assembly))
     except OSError as error:
-        raise OutputError(str(files[0]), error.strerror or str(error)) from None
+        raise OutputError(str(files[-1]), error.strerror or str(error)) from None
     return files
 
 
@@ -80,6 +90,8 @@ def headline(case: DesignCase, archive: Archive) -> dict[str, Any]:
     }
     if judged.message:
         summary["start_message"] = judged.message
+    if messages := Counter(one.judged.message for one in archive.evaluations if one.judged.message):
+        summary["without_figures_message"] = messages.most_common(1)[0][0]
     if best is None:
         return summary
     summary["objective"] = shown(best.judged.objectives)
@@ -87,7 +99,7 @@ def headline(case: DesignCase, archive: Archive) -> dict[str, Any]:
         key: value if isinstance(value, (int, float)) else str(value) for key, value in best.values.items()
     }
     summary["start"] = {
-        key: value for key in best.values if (value := at(case.base, key)) is not None and _plain(value)
+        key: value for key in best.values if (value := standing(case, key)) is not None and _plain(value)
     }
     if len(case.duties) > 1:
         summary["duties"] = {

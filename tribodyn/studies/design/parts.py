@@ -4,19 +4,18 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple, TypeVar
 
-from tribodyn.errors import InputError, near_name, quoted, unknown_name
-from tribodyn.scenario.quantity import Table
+from tribodyn.errors import InputError, quoted
 from tribodyn.scenario.resolve import toml_value
 from tribodyn.scenario.units import Kind, NotAQuantity, factor_to_si, to_si
 from tribodyn.scenario.vary import base_units, is_drawn, is_whole, kind_at
-from tribodyn.studies import study_of
 from tribodyn.studies.design.case import DRAWN, START, Constraint, Duty, Free, Objective, Tolerance
 from tribodyn.studies.design.naming import apart, flat, naming_key
-from tribodyn.studies.evaluated import figure_units
+from tribodyn.studies.design.sources import Sources, figure_name, require_key, units_by_figure
+from tribodyn.studies.study import Study
 
 T = TypeVar("T")
 _NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(\S.*?)?\s*$", re.ASCII)
-_CONSTRAINT = re.compile(r"\s*([A-Za-z]\w*)\s*(<=|>=|≤|≥|<|>)\s*(\S.*?)\s*$")
+_CONSTRAINT = re.compile(r"\s*([A-Za-z][\w.-]*)\s*(<=|>=|≤|≥|<|>)\s*(\S.*?)\s*$")
 #: Name at the end of a tolerance's key whose value is a list, one per tooth.
 PITCH_ERRORS = "pitch_errors"
 
@@ -32,19 +31,18 @@ class Parts(NamedTuple):
     errors: tuple[InputError, ...]
 
 
-def parts_of_design(table: Any, schema: type[Table], base: Mapping[str, Any]) -> Parts:
+def parts_of_design(table: Any, sources: Sources) -> Parts:
     """Read the table `[design]`.
 
     Parameters
     ----------
     table : DesignTable
-    schema : type of Table
-        Of the base scenario.
-    base : mapping
-        The base scenario's data, resolved; its kind alone where the rest is not known.
+    sources : mapping
+        What is evaluated.
     """
     errors: list[InputError] = []
-    units = figure_units(study_of(base))
+    studies = {name: one.study for name, one in sources.items()}
+    units = units_by_figure(studies)
 
     def collect(some: Sequence[T], read: Callable[[int, T], Any]) -> list[Any]:
         found = []
@@ -55,20 +53,22 @@ def parts_of_design(table: Any, schema: type[Table], base: Mapping[str, Any]) ->
                 errors.append(error)
         return found
 
-    free = collect(table.free, lambda number, one: _free(f"design.free.{number}", one, schema))
+    free = collect(table.free, lambda number, one: _free(f"design.free.{number}", one, sources))
     if not table.free:
         rule, remedy = "nothing is free", 'add { key = "…", from = "…", to = "…" }'
         errors.append(InputError("design.free", "[]", rule, remedy))
     errors += _twice(free)
-    objectives = collect([None], lambda _, __: _objectives(table, base))
+    objectives = collect([None], lambda _, __: _objectives(table, studies))
     constraints = collect(
-        table.subject_to, lambda number, text: _constraint(f"design.subject_to.{number}", text, base, units)
+        table.subject_to,
+        lambda number, text: _constraint(f"design.subject_to.{number}", text, studies, units),
     )
     errors += _contradictions(constraints)
-    duties = collect(table.duty, lambda number, one: _duty(number, one, free))
+    duties = collect(table.duty, lambda number, one: _duty(number, one, free, sources))
     tolerances = collect(
-        table.tolerance, lambda number, one: _tolerance(f"design.tolerance.{number}", one, schema)
+        table.tolerance, lambda number, one: _tolerance(f"design.tolerance.{number}", one, sources)
     )
+    collect(list(flat(table.confirm)), lambda _, key: require_key("design.confirm", key, sources))
     return Parts(
         _named_apart(free),
         objectives[0] if objectives else (),
@@ -79,12 +79,13 @@ def parts_of_design(table: Any, schema: type[Table], base: Mapping[str, Any]) ->
     )
 
 
-def _free(place: str, one: Any, schema: type[Table]) -> Free:
+def _free(place: str, one: Any, sources: Sources) -> Free:
     keys = (one.key,) if isinstance(one.key, str) else one.key
     if not isinstance(keys, (list, tuple)) or not keys or not all(isinstance(key, str) for key in keys):
         raise InputError(f"{place}.key", quoted(one.key), "not a key", 'write key = "drive.module"')
     for key in keys:
-        _known_key(f"{place}.key", key, schema)
+        _varied(f"{place}.key", key, sources)
+    (_, schema), key = require_key(f"{place}.key", keys[0], sources)
     low, high = getattr(one, "from"), one.to
     if one.choices is not None:
         if low is not None or high is not None:
@@ -95,7 +96,7 @@ def _free(place: str, one: Any, schema: type[Table]) -> Free:
     for name, value in (("from", low), ("to", high)):
         if value is None:
             raise InputError(f"{place}.{name}", None, "missing", f'add {name} = "…" with its unit')
-    kind = kind_at(schema, keys[0])
+    kind = kind_at(schema, key)
     kind = kind if isinstance(kind, Kind) else None
     numbers = [_number(f"{place}.{name}", value, kind) for name, value in (("from", low), ("to", high))]
     (first, _, units), (last, unit, other) = numbers
@@ -107,36 +108,18 @@ def _free(place: str, one: Any, schema: type[Table]) -> Free:
         rule = "the bounds are reversed" if first > last else "the bounds are equal: nothing is free"
         raise InputError(place, f"{quoted(low)} … {quoted(high)}", rule, "let from be less than to")
     si = _factor(unit, kind)
-    whole = is_whole(schema, keys[0])
+    whole = is_whole(schema, key)
     if whole and not all(isinstance(value, int) for value in (low, high)):
         raise InputError(place, f"{quoted(low)} … {quoted(high)}", "not whole numbers", "write such as 17")
     return Free(tuple(keys), "", first / si, last / si, unit, si, units, whole)
 
 
-def _known_key(place: str, key: str, schema: type[Table]) -> None:
-    """Raise InputError for a key that the base scenario's schema does not know."""
-    if key in ("title", "name", "kind") or key.startswith("output.") or not all(key.split(".")):
+def _varied(place: str, key: str, sources: Sources) -> None:
+    """Raise InputError for a key that cannot be varied."""
+    parts = key.split(".")
+    if key in ("title", "name", "kind") or "output" in parts[:-1] or not all(parts):
         raise InputError(place, quoted(key), "cannot be free", "name a key that the physics depends on")
-    at: Any = schema
-    above: list[str] = []
-    for part in key.split("."):
-        fields = getattr(at, "model_fields", None)
-        if fields is None or part.isdecimal():
-            return  # keys of a family or of a law: the scenario's own rules look after them
-        if part not in fields:
-            if "law" in fields or "shape" in above:
-                return
-            near = near_name(part, fields)
-            mean = f'did you mean "{".".join((*above, near))}"?' if near else f"there is: {', '.join(fields)}"
-            raise InputError(place, quoted(key), "unknown key", mean)
-        at = _table_in(fields[part])
-        above.append(part)
-
-
-def _table_in(field: Any) -> Any:
-    from tribodyn.scenario.quantity import parts_of
-
-    return next((one for one in parts_of(field) if isinstance(one, type) and issubclass(one, Table)), None)
+    require_key(place, key, sources)
 
 
 def _number(place: str, value: Any, kind: Kind | None) -> tuple[float, str, str]:
@@ -180,33 +163,33 @@ def _twice(free: Sequence[Free]) -> list[InputError]:
     return errors
 
 
-def _objectives(table: Any, base: Mapping[str, Any]) -> tuple[Objective, ...]:
+def _objectives(table: Any, studies: Mapping[str, Study]) -> tuple[Objective, ...]:
     if (table.minimise is None) == (table.maximise is None):
         rule = "missing" if table.minimise is None else "contradicts maximise"
         remedy = 'add minimise = "…", the name of a figure' if table.minimise is None else "give one of them"
         raise InputError("design.minimise", None, rule, remedy)
     if table.maximise is not None:
-        name = figure_name("design.maximise", table.maximise, base)
+        name = figure_name("design.maximise", table.maximise, studies)
         return (Objective(f"-{name}", ((name, -1.0),)),)
     given = table.minimise
     if isinstance(given, str):
-        name = figure_name("design.minimise", given, base)
+        name = figure_name("design.minimise", given, studies)
         return (Objective(name, ((name, 1.0),)),)
     if isinstance(given, (list, tuple)) and given and all(isinstance(one, str) for one in given):
         if len(given) > 2:
             rule = f"{len(given)} objectives; a front has two"
             raise InputError("design.minimise", quoted(list(given)), rule, "bound the others: subject_to")
-        names = [figure_name(f"design.minimise.{i}", one, base) for i, one in enumerate(given)]
+        names = [figure_name(f"design.minimise.{i}", one, studies) for i, one in enumerate(given)]
         if len(set(names)) < len(names):
             raise InputError("design.minimise", quoted(list(given)), "the same twice", "name another figure")
         return tuple(Objective(name, ((name, 1.0),)) for name in names)
     if isinstance(given, (list, tuple)) and given:
-        return (_weighted(given, base),)
+        return (_weighted(given, studies),)
     remedy = 'write minimise = "peak_to_peak", a list of two, or [{ figure = "…", weight = 1.0 }, …]'
     raise InputError("design.minimise", quoted(given), "not the name of a figure", remedy)
 
 
-def _weighted(given: Sequence[Any], base: Mapping[str, Any]) -> Objective:
+def _weighted(given: Sequence[Any], studies: Mapping[str, Study]) -> Objective:
     terms = []
     for number, one in enumerate(given):
         place = f"design.minimise.{number}"
@@ -216,35 +199,16 @@ def _weighted(given: Sequence[Any], base: Mapping[str, Any]) -> Objective:
         weight = one.get("weight", 1.0)
         if isinstance(weight, bool) or not isinstance(weight, (int, float)) or weight == 0:
             raise InputError(f"{place}.weight", quoted(weight), "not a weight", "write a number such as 0.5")
-        terms.append((figure_name(f"{place}.figure", one["figure"], base), float(weight)))
+        terms.append((figure_name(f"{place}.figure", one["figure"], studies), float(weight)))
     return Objective(" + ".join(f"{weight:g} {name}" for name, weight in terms), tuple(terms))
 
 
-def figure_name(place: str, name: Any, base: Mapping[str, Any]) -> str:
-    """Return the full name of a figure of the base scenario's study.
-
-    Raises
-    ------
-    InputError
-        For a name that is none; it suggests another.
-    """
-    study = study_of(base)
-    known = figure_units(study)
-    if not isinstance(name, str):
-        raise InputError(place, quoted(name), "not the name of a figure", f"such as {next(iter(known), '')}")
-    full = study.short_names().get(name, name)
-    if full not in known:
-        what = f"figure of studies of kind {study.kind}"
-        raise unknown_name(place, name, [*study.short_names(), *known], what)
-    return full
-
-
-def _constraint(place: str, text: str, base: Mapping[str, Any], units: Mapping[str, str]) -> Constraint:
+def _constraint(place: str, text: str, studies: Mapping[str, Study], units: Mapping[str, str]) -> Constraint:
     match = _CONSTRAINT.match(text)
     if match is None:
         remedy = 'write "contact_ratio >= 1.3" or "hertz_pressure_max <= 1.5 GPa"'
         raise InputError(place, quoted(text), "not FIGURE <= LIMIT or FIGURE >= LIMIT", remedy)
-    name = figure_name(place, match[1], base)
+    name = figure_name(place, match[1], studies)
     sign = 1.0 if match[2] in ("<=", "≤", "<") else -1.0
     if match[3] == START:
         return Constraint(text, name, sign, START)
@@ -276,24 +240,26 @@ def _contradictions(constraints: Sequence[Constraint]) -> list[InputError]:
     return errors
 
 
-def _duty(number: int, one: Any, free: Sequence[Free]) -> Duty:
+def _duty(number: int, one: Any, free: Sequence[Free], sources: Sources) -> Duty:
     keys = flat(one.set)
     for key in keys:
+        require_key(f"design.duty.{number}.set", key, sources)
         if any(key in other.keys for other in free):
             raise InputError(f"design.duty.{number}.set", quoted(key), "is free too", "choose one of them")
     name = ", ".join(f"{key.rpartition('.')[2]} {value}" for key, value in keys.items())
     return Duty(one.weight, keys, name)
 
 
-def _tolerance(place: str, one: Any, schema: type[Table]) -> Tolerance:
-    _known_key(f"{place}.key", one.key, schema)
-    if is_drawn(schema, one.key):
+def _tolerance(place: str, one: Any, sources: Sources) -> Tolerance:
+    _varied(f"{place}.key", one.key, sources)
+    (_, schema), key = require_key(f"{place}.key", one.key, sources)
+    if is_drawn(schema, key):
         if one.plus_minus is not None:
             raise InputError(f"{place}.plus_minus", quoted(one.plus_minus), "counts samples", "omit it")
         return Tolerance(one.key, "", 0.0, "", DRAWN)
     if one.plus_minus is None:
         raise InputError(f"{place}.plus_minus", None, "missing", 'add plus_minus = "…" with its unit')
-    kind = kind_at(schema, one.key)
+    kind = kind_at(schema, key)
     kind = kind._replace(allowed="any") if isinstance(kind, Kind) else None
     size, unit, _ = _number(f"{place}.plus_minus", one.plus_minus, kind)
     if size <= 0:

@@ -31,17 +31,18 @@ def workers_for(evaluations: int) -> int:
 
 
 class Pool:
-    """Evaluates lists of overrides of a base scenario; a context manager.
+    """Evaluates lists of overrides; a context manager.
 
     Parameters
     ----------
-    base : mapping
+    scenarios : mapping
+        As `evaluation.evaluate` takes them.
     workers : int
         How many at a time.
     """
 
-    def __init__(self, base: Mapping[str, Any], workers: int) -> None:
-        self.base = base
+    def __init__(self, scenarios: Mapping[str, Mapping[str, Any]], workers: int) -> None:
+        self.scenarios = scenarios
         self.workers = workers
         self._own = threading.local()
         self._processes: list[subprocess.Popen[str]] = []
@@ -75,12 +76,12 @@ class Pool:
             with self._lock:
                 self._processes.append(process)
             self._own.process = process
-            print(json.dumps(self.base), file=process.stdin, flush=True)
+            print(json.dumps(self.scenarios), file=process.stdin, flush=True)
 
     def _evaluate(self, several: list[Mapping[str, Any]]) -> Figures:
         process = self._own.process
         if process is None:
-            return evaluate(self.base, several, None if self.workers == 1 else 1)
+            return evaluate(self.scenarios, several, None if self.workers == 1 else 1)
         try:
             print(json.dumps(several), file=process.stdin, flush=True)
             answer = process.stdout.readline()

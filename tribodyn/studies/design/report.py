@@ -9,6 +9,7 @@ from tribodyn.numerics.variable import Variable
 from tribodyn.post.report import Line, Lines, shown
 from tribodyn.record.reader import Record
 from tribodyn.studies import study_of
+from tribodyn.studies.design.sources import split
 from tribodyn.studies.gears import WALL_TIME
 
 LINES: Lines = {
@@ -55,13 +56,13 @@ def sentences(record: Record) -> list[str]:
     summary = record.summary
     if "objective" not in summary:
         return []
-    base = record.scenario.get("scenario", {})
+    search = record.scenario
     names = str(summary["objective_name"]).split(" and ")
     start, best = (np.atleast_1d(summary.get(f"objective{one}", np.nan)) for one in ("_start", ""))
     said = []
     for place, name in enumerate(names):
         before = start[place] if place < len(start) and start[place] is not None else np.nan
-        said.append(f"{_named(base, name)}: {_change(base, name, before, best[place])}.")
+        said.append(f"{_named(search, name)}: {_change(search, name, before, best[place])}.")
     said += [
         f"{key}: {summary.get('start', {}).get(key, 'not set')} at the start, {value} at the best."
         for key, value in summary.get("best", {}).items()
@@ -70,10 +71,14 @@ def sentences(record: Record) -> list[str]:
     known = summary.get("figures_best", {})
     for text, value in after.items():
         if name := _figure_in(text, known):
-            said.append(f"{text}: at its worst {_change(base, name, before.get(text), value)}.")
+            said.append(f"{text}: at its worst {_change(search, name, before.get(text), value)}.")
     if "objective_confirmed" in summary:
-        change = _change(base, names[0], summary["objective_start_confirmed"], summary["objective_confirmed"])
+        ends = (summary[f"objective_{one}confirmed"] for one in ("start_", ""))
+        change = _change(search, names[0], *ends)
         said.append(f"Evaluated once more as design.confirm says: {change}.")
+    if "without_figures_message" in summary:
+        count = summary["evaluations_without_figures"]
+        said.append(f"{count} candidates have no figures, most because: {summary['without_figures_message']}")
     return said
 
 
@@ -82,19 +87,31 @@ def _figure_in(text: str, figures: Mapping[str, Any]) -> str:
     return name if name in figures else ""
 
 
-def line_of(base: Mapping[str, Any], name: str) -> Line | None:
-    """The line of the base scenario's summary for a figure."""
-    lines = (line for some in study_of(base).lines().values() for line in some)
-    return next((line for line in lines if line.name == name), None)
+def line_of(search: Mapping[str, Any], name: str) -> Line | None:
+    """The line for a figure of the summary of the search's scenario, or of a part of it.
+
+    Parameters
+    ----------
+    search : mapping
+        The search as its record holds it.
+    name : str
+        Of the figure.
+    """
+    parts = search.get("design", {}).get("part") or {}
+    part, figure = split(name, parts)
+    data = parts[part] if part else search.get("scenario", {})
+    lines = (line for some in study_of(data).lines().values() for line in some)
+    found = next((line for line in lines if line.name == figure), None)
+    return found._replace(label=f"{found.label} ({part})") if found and part else found
 
 
-def _named(base: Mapping[str, Any], name: str) -> str:
-    line = line_of(base, name)
+def _named(search: Mapping[str, Any], name: str) -> str:
+    line = line_of(search, name)
     return line.label if line else name
 
 
-def _change(base: Mapping[str, Any], name: str, before: Any, after: Any) -> str:
-    line = line_of(base, name) or Line(name, name)
+def _change(search: Mapping[str, Any], name: str, before: Any, after: Any) -> str:
+    line = line_of(search, name) or Line(name, name)
     first = "no figure"
     if before is not None and not np.isnan(before):
         first = f"{shown(line, float(before))} {line.unit}".rstrip()

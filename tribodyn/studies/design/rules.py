@@ -7,25 +7,53 @@ from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.scenario.quantity import Table
 from tribodyn.studies import STUDIES, study_of
 from tribodyn.studies.design.parts import parts_of_design
+from tribodyn.studies.design.sources import BASE, Source
 from tribodyn.studies.evaluated import figure_units
 
 
 def broken_rules(scenario: Any) -> Iterator[InputError]:
-    """Go through the rules that such a scenario breaks, those of its base scenario included."""
-    base = scenario.scenario
-    kind = base.get("kind") if isinstance(base, dict) else base.kind
-    if not isinstance(base, Table):
+    """Go through the rules that such a scenario breaks, those of the scenarios within it included."""
+    given = scenario.design.part
+    if isinstance(given, dict):
+        for name in given:
+            rule, remedy = "not a name for a part", "write letters, digits and hyphens, such as efficiency"
+            yield InputError("design.part", quoted(name), rule, remedy)
+        return
+    parts = {name: getattr(given, name) for name in type(given).model_fields} if given is not None else {}
+    sources: dict[str, Source] = {}
+    clear = True
+    for name, place, one in [
+        (BASE, "scenario", scenario.scenario),
+        *((name, f"design.part.{name}", part) for name, part in parts.items()),
+    ]:
+        errors = list(_of_scenario(place, one))
+        yield from errors
+        clear = clear and not any(error.key == f"{place}.kind" for error in errors)
+        if clear:
+            sources[name] = Source(study_of({"kind": one.kind}), type(one))
+    fields = type(scenario.scenario).model_fields if isinstance(scenario.scenario, Table) else {}
+    for name in parts:
+        if name in fields:
+            rule = f"the scenario has a table [{name}]"
+            yield InputError("design.part", quoted(name), rule, "choose another name for the part")
+    if clear:
+        yield from parts_of_design(scenario.design, sources).errors
+
+
+def _of_scenario(place: str, scenario: Any) -> Iterator[InputError]:
+    """Rules of a scenario that is to be evaluated."""
+    kind = scenario.get("kind") if isinstance(scenario, dict) else scenario.kind
+    if not isinstance(scenario, Table):
         if isinstance(kind, str) and kind not in STUDIES:
-            yield unknown_name("scenario.kind", kind, STUDIES, STUDIES.what)
+            yield unknown_name(f"{place}.kind", kind, STUDIES, STUDIES.what)
             return
         rule = "a search through a search" if kind == "design" else "not a scenario"
-        yield InputError("scenario.kind", quoted(kind), rule, "name a scenario of another kind")
+        yield InputError(f"{place}.kind", quoted(kind), rule, "name a scenario of another kind")
         return
     study = study_of({"kind": kind})
     if not figure_units(study):
         rule = f"a {kind} study names no figures that could be sought"
-        yield InputError("scenario.kind", quoted(kind), rule, "name a scenario of another kind")
+        yield InputError(f"{place}.kind", quoted(kind), rule, "name a scenario of another kind")
         return
-    for error in study.broken_rules(base):
-        yield InputError(f"scenario.{error.key}", error.value, error.rule, error.remedy, error.file)
-    yield from parts_of_design(scenario.design, type(base), {"kind": kind}).errors
+    for error in study.broken_rules(scenario):
+        yield InputError(f"{place}.{error.key}", error.value, error.rule, error.remedy, error.file)

@@ -54,7 +54,7 @@ def run(
     left = _left(case, path) if resume and not force else NOTHING_LEFT
     force = force or left is not NOTHING_LEFT
     path = target(case, path, force)
-    check_targets(path)
+    check_targets(case, path)
     begun = perf_counter()
     with ExitStack() as stack:
         pool, judge = stack.enter_context(_started(case, left.start))
@@ -88,7 +88,8 @@ def run(
             error.add_note(f"the {record.written} evaluations so far: {kept}, --resume goes on")
             raise
         files = write_best(case, best.values, path)
-        summary["files"] = {one.suffix[1:]: str(one) for one in files}
+        names = [*(f"toml_{name}" if name else "toml" for name in case.scenarios), "dxf"]
+        summary["files"] = dict(zip(names, map(str, files), strict=False))
         return RunResult(record.finish(summary, trim=True), "complete", "", summary)
 
 
@@ -108,7 +109,7 @@ def figures(case: DesignCase) -> dict[str, Any]:
 def _started(case: DesignCase, start: Figures | None = None) -> Iterator[tuple[Pool, Judge]]:
     """Give what evaluates candidates, and what judges them: it knows the base scenario as it stands."""
     asked = cases_of(case, {})
-    with Pool(case.base, workers_for(case.search.evaluations * len(asked))) as pool:
+    with Pool(case.scenarios, workers_for(case.search.evaluations * len(asked))) as pool:
         yield pool, Judge(case, start or pool.submit(asked).result())
 
 

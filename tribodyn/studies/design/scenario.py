@@ -13,7 +13,9 @@ from tribodyn.studies import DEFAULT, STUDIES, study_of
 from tribodyn.studies.design.case import DesignCase, Robust, Search
 from tribodyn.studies.design.naming import flat
 from tribodyn.studies.design.parts import parts_of_design
+from tribodyn.studies.design.sources import BASE, NAME, sources_of
 
+KIND = "design"
 METHODS = (
     "auto",
     "cobyqa",
@@ -92,6 +94,9 @@ class DesignTable(Table):
     subject_to: tuple[Text, ...] = Field(
         (), description="what must hold", examples=[["contact_ratio >= 1.3"]]
     )
+    part: dict[str, Any] | None = Field(
+        None, description="further scenarios by a name, evaluated with the drive of the first"
+    )
     duty: tuple[DesignDuty, ...] = Field((), description="figures are means over these")
     over_duties: Literal["mean", "worst"] = "mean"
     tolerance: tuple[ToleranceTable, ...] = ()
@@ -126,39 +131,69 @@ Scenario = DesignScenario
 
 
 def table_for(data: Mapping[str, Any]) -> type[Table]:
-    """Return the schema for data whose base scenario is of a known kind."""
-    base = data.get("scenario")
-    if not isinstance(base, Mapping) or "like" in base:  # not opened yet
-        return DesignScenario
-    kind = base.get("kind", DEFAULT)
-    if not isinstance(kind, str) or kind not in STUDIES or kind == "design":
-        return DesignScenario
-    return _around(study_of(base).table(base))
+    """Return the schema for data whose scenarios, as far as they are opened, are of known kinds."""
+    design = data.get("design")
+    given = design.get("part") if isinstance(design, Mapping) else None
+    parts = given if isinstance(given, Mapping) else {}
+    named = tuple((name, _schema_of(one)) for name, one in parts.items() if is_name(name))
+    return _around(_schema_of(data.get("scenario")), named)
+
+
+def is_name(name: str) -> bool:
+    """Whether a part may have that name."""
+    return NAME.fullmatch(name) is not None and not hasattr(Table, name)
+
+
+def _schema_of(scenario: Any) -> type[Table] | None:
+    """Schema of a scenario; None where it is not opened yet, or of no kind that can be searched through."""
+    if not isinstance(scenario, Mapping) or "like" in scenario:
+        return None
+    kind = scenario.get("kind", DEFAULT)
+    if not isinstance(kind, str) or kind not in STUDIES or kind == KIND:
+        return None
+    return study_of(scenario).table(scenario)
 
 
 @lru_cache(maxsize=16)
-def _around(base: type[Table]) -> type[Table]:
+def _around(base: type[Table] | None, parts: tuple[tuple[str, type[Table] | None], ...]) -> type[Table]:
+    changed: dict[str, Any] = {}
+    if base is not None:
+        about = DesignScenario.model_fields["scenario"].description
+        changed["scenario"] = (Annotated[base, scenario_file()], Field(description=about))
+    if parts:
+        fields: dict[str, Any] = {
+            name: (
+                Annotated[schema or dict[str, Any], scenario_file()],
+                Field(description="further scenario"),
+            )
+            for name, schema in parts
+        }
+        of_parts: Any = create_model("DesignParts", __base__=Table, __doc__="Further scenarios.", **fields)
+        design: Any = create_model(
+            "DesignTable",
+            __base__=DesignTable,
+            __doc__=DesignTable.__doc__,
+            part=(of_parts, Field(description=DesignTable.model_fields["part"].description)),
+        )
+        changed["design"] = (design, ...)
+    if not changed:
+        return DesignScenario
     made: Any = create_model(
-        "DesignScenario",
-        __base__=DesignScenario,
-        __doc__=DesignScenario.__doc__,
-        scenario=(  # pyright: ignore[reportArgumentType, reportCallIssue]
-            Annotated[base, scenario_file()],
-            Field(description="the scenario to search through"),
-        ),
+        "DesignScenario", __base__=DesignScenario, __doc__=DesignScenario.__doc__, **changed
     )
     return made
 
 
 def case_of(scenario: Scenario, toml: str, sha256: str) -> DesignCase:
     """Return the case of a scenario that has passed schema and rules."""
-    base = tomllib.loads(toml)["scenario"]
-    table = scenario.design
-    schema: Any = type(scenario.scenario)
-    parts = parts_of_design(table, schema, base)
+    data, table = tomllib.loads(toml), scenario.design
+    base = data["scenario"]
+    further = {name: _on_drive(one, base) for name, one in (data["design"].get("part") or {}).items()}
+    parts = parts_of_design(table, sources_of({BASE: base, **further}))
     return DesignCase(
         **head_of(scenario, toml, sha256),
         base=base,
+        parts=further,
         base_kind=study_of(base).kind,
         free=parts.free,
         objectives=parts.objectives,
@@ -173,3 +208,9 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> DesignCase:
         confirm=flat(table.confirm),
         sensitivities=table.sensitivities,
     )
+
+
+def _on_drive(part: dict[str, Any], base: Mapping[str, Any]) -> dict[str, Any]:
+    """A part with the drive of the scenario that is searched through, where both have one."""
+    both = "drive" in part and "drive" in base
+    return part | ({"drive": base["drive"]} if both else {})

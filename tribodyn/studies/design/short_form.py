@@ -53,6 +53,25 @@ def _refusal(option: str) -> InputError:
     return InputError(FREE, quoted(option), "neither KEY=FROM:TO nor KEY=VALUE,VALUE,…", remedy)
 
 
+def parts_of(options: Sequence[str]) -> dict[str, str]:
+    """Read several ``NAME=SCENARIO``.
+
+    Raises
+    ------
+    InputError
+        For what is none.
+    """
+    parts: dict[str, str] = {}
+    for option in options:
+        name, equals, scenario = (one.strip() for one in option.partition("="))
+        if not equals or not name or not scenario or name in parts:
+            rule = "is given twice" if name in parts else "not NAME=SCENARIO"
+            remedy = "write it like --part efficiency=efficiency-involute-18-36"
+            raise InputError("--part", quoted(option), rule, remedy)
+        parts[name] = scenario
+    return parts
+
+
 def loaded_search(
     source: str | Path | Mapping[str, Any] | CaseHead,
     design: Mapping[str, Any],

@@ -25,12 +25,12 @@ class Derivatives:
     ------
     InputError
         For a search whose figures cannot be differentiated by its keys: motions, whole numbers, choices,
-        finite elements.
+        finite elements, parts.
     """
 
     def __init__(self, case: DesignCase) -> None:
         study = study_of({"kind": case.base_kind})
-        if study.batch() or not study.has_gears or not all(one.continuous for one in case.free):
+        if case.parts or study.batch() or not study.has_gears or not all(one.continuous for one in case.free):
             raise InputError("design.method", None, "cannot be differentiated", "search by differences")
         self.case = case
         of_objectives = (name for one in case.objectives for name, _ in one.terms)

@@ -74,9 +74,9 @@ def test_jax_agrees_with_differences(scenario: str):
     case = loaded_search(scenario, design, {"output.samples_per_cycle": 200}).case
 
     def found(x: np.ndarray) -> Any:
-        return evaluate(case.base, cases_of(case, chosen(case, x)))
+        return evaluate(case.scenarios, cases_of(case, chosen(case, x)))
 
-    judge, x, step = Judge(case, evaluate(case.base, cases_of(case, {}))), np.array([0.5, 0.4]), 2e-3
+    judge, x, step = Judge(case, evaluate(case.scenarios, cases_of(case, {}))), np.array([0.5, 0.4]), 2e-3
     slopes = Derivatives(case).at(x)
     around = [(judge.judged(found(x + e)), judge.judged(found(x - e))) for e in step * np.eye(2)]
     value = objective_slope(judge, case.objectives[0], found(x), slopes)

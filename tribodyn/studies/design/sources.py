@@ -1,0 +1,136 @@
+"""What a search evaluates: the scenario that is searched through, and further ones, its parts, on its drive.
+
+Sources go by name; that of the scenario itself is "". Figures and keys of a part begin with its name:
+``efficiency.loss``, ``efficiency.operating.pinion_speed``.
+"""
+
+import re
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
+
+from tribodyn.errors import InputError, near_name, quoted, unknown_name
+from tribodyn.scenario.quantity import Table, parts_of
+from tribodyn.studies import study_of
+from tribodyn.studies.evaluated import figure_units
+from tribodyn.studies.study import Study
+
+#: The scenario that is searched through.
+BASE = ""
+NAME = re.compile(r"[A-Za-z][A-Za-z0-9-]*", re.ASCII)
+
+
+class Source(NamedTuple):
+    """The study of a scenario, and the schema of its file."""
+
+    study: Study
+    schema: type[Table]
+
+
+Sources = Mapping[str, Source]
+
+
+def sources_of(datas: Mapping[str, Mapping[str, Any]]) -> dict[str, Source]:
+    """Studies and schemas of scenarios by name."""
+    found = {}
+    for name, data in datas.items():
+        study = study_of(data)
+        found[name] = Source(study, study.table(data))
+    return found
+
+
+def units_by_figure(studies: Mapping[str, Study]) -> dict[str, str]:
+    """SI units of all figures by their full names."""
+    return {
+        _joined(name, figure): unit
+        for name, study in studies.items()
+        for figure, unit in figure_units(study).items()
+    }
+
+
+def figure_name(place: str, name: Any, studies: Mapping[str, Study]) -> str:
+    """Return the full name of a figure.
+
+    Raises
+    ------
+    InputError
+        For a name that is none; it suggests another.
+    """
+    if not isinstance(name, str):
+        first = next(iter(figure_units(studies[BASE])), "")
+        raise InputError(place, quoted(name), "not the name of a figure", f"such as {first}")
+    part, dot, figure = name.partition(".")
+    if not dot:
+        part, figure = BASE, name
+    elif part not in studies:
+        names = [one for one in studies if one != BASE]
+        remedy = f"there is: {', '.join(names)}" if names else "add [design.part]"
+        raise InputError(place, quoted(name), f"there is no part {quoted(part)}", remedy)
+    study = studies[part]
+    known = figure_units(study)
+    full = study.short_names().get(figure, figure)
+    if full not in known:
+        what = f"figure of studies of kind {study.kind}"
+        raise unknown_name(place, figure, [*study.short_names(), *known], what)
+    return _joined(part, full)
+
+
+def _joined(part: str, name: str) -> str:
+    return f"{part}.{name}" if part else name
+
+
+def split(key: str, names: Any) -> tuple[str, str]:
+    """Name of the source that a key or a figure belongs to, and the rest of it."""
+    part, dot, rest = key.partition(".")
+    return (part, rest) if dot and part in names else (BASE, key)
+
+
+def own(name: str, schema: type[Table], overrides: Mapping[str, Any], names: Any) -> dict[str, Any]:
+    """The overrides that belong to a source.
+
+    A part takes the keys that its schema knows, and those that begin with its name in their place.
+    """
+    common = {key: value for key, value in overrides.items() if split(key, names)[0] == BASE}
+    if name == BASE:
+        return common
+    found = {key: value for key, value in common.items() if unknown_part(key, schema) is None}
+    named = ((split(key, names), value) for key, value in overrides.items())
+    return found | {rest: value for (part, rest), value in named if part == name}
+
+
+def require_key(place: str, key: str, sources: Sources) -> tuple[Source, str]:
+    """Return the source of a key, and the key within it.
+
+    Raises
+    ------
+    InputError
+        For a key that the schema of its scenario does not know; it suggests another.
+    """
+    part, rest = split(key, sources)
+    if (missing := unknown_part(rest, sources[part].schema)) is not None:
+        above, name, fields = missing
+        near = near_name(name, fields)
+        mean = f'did you mean "{".".join((*above, near))}"?' if near else f"there is: {', '.join(fields)}"
+        raise InputError(place, quoted(key), "unknown key", mean)
+    return sources[part], rest
+
+
+def unknown_part(key: str, schema: type[Table]) -> tuple[list[str], str, list[str]] | None:
+    """What stands above the first part of a key that a schema does not know, that part, and what it knows.
+
+    None where it knows the key. Keys of a family or of a law are known: the scenario's own rules judge them.
+    """
+    at: Any = schema
+    above: list[str] = []
+    for part in key.split("."):
+        fields = getattr(at, "model_fields", None)
+        if fields is None or part.isdecimal():
+            return None
+        if part not in fields:
+            return None if "law" in fields or "shape" in above else (above, part, list(fields))
+        at = next(_tables_in(fields[part]), None)
+        above.append(part)
+    return None
+
+
+def _tables_in(field: Any) -> Iterator[type[Table]]:
+    return (one for one in parts_of(field) if isinstance(one, type) and issubclass(one, Table))
