@@ -14,6 +14,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+from tribodyn.numerics.work import usable_cores
+
 # no folder of the user's among the places of modules
 COMMAND = (sys.executable, "-P", "-c", "from tribodyn.cli.ahead import serve; serve()")
 #: How long it waits for a record, s: of a longer run the drawing takes a small share.
@@ -53,9 +55,8 @@ def drawer(wanted: bool) -> Iterator[Drawer | None]:
     """Give a process that gets ready to draw, where this is the command line's own and a core is free."""
     import tribodyn
 
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     made = None
-    if wanted and tribodyn.OWN_PROCESS and cores > 1:
+    if wanted and tribodyn.OWN_PROCESS and usable_cores() > 1:
         with suppress(OSError):
             made = Drawer()
     try:

@@ -4,6 +4,7 @@ Whoever shows progress calls `watched`; loops that take seconds go through `step
 among what is called for it. Nobody watching, all of it does nothing.
 """
 
+import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -60,3 +61,10 @@ def steps(of: Sequence[Step]) -> Iterator[Step]:
     for done, step in enumerate(of):
         with part(done / len(of), (done + 1) / len(of)):
             yield step
+
+
+def usable_cores() -> int:
+    """Cores that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1

@@ -159,6 +159,15 @@ def _other_ranges(summary: Mapping[str, Any]) -> list[str]:
         sentences += exceeded(summary, "friction_exceeded", "friction law")
     elif friction is None and name not in (None, "none"):
         sentences.append(f"The friction law {name} states no range of validity.")
+    errors = [
+        f"{what} within {100 * float(summary[key]):.2g} %"
+        for what, key in (("film", "film_table_error"), ("friction", "friction_table_error"))
+        if key in summary
+    ]
+    if errors:
+        sentences.append(
+            f"The table of solved contacts gives {' and '.join(errors)} of 95 % of those it was held against."
+        )
     return sentences
 
 

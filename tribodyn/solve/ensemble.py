@@ -4,7 +4,6 @@ A case's result depends on nothing but the case: not on the others, their order,
 A case that fails keeps what it has and leaves the others alone.
 """
 
-import os
 import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
@@ -15,6 +14,7 @@ from tribodyn.dynamics.extremes import extremes_of, put_extremes, take_in
 from tribodyn.dynamics.parameters import STATES, Model
 from tribodyn.kernels.native.internals import report_missing
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.numerics.work import usable_cores
 from tribodyn.solve.batch_result import Ensemble, nothing_yet, put
 from tribodyn.solve.choice import choose
 from tribodyn.solve.integrator import MAX_STEPS, March, Status
@@ -26,13 +26,6 @@ from tribodyn.solve.transient import cycles_at_once, make_integrator
 #: itself, with the method that `choice.choose` gives for it: the estimate costs as much as many cycles, so
 #: that it is made for few cases only.
 HANDED_OVER = 5000
-
-
-def usable_cores() -> int:
-    """Cores that this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
 
 
 def march(

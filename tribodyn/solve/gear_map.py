@@ -26,9 +26,10 @@ from tribodyn.dynamics.parameters import (
 )
 from tribodyn.kernels.native.internals import report_missing
 from tribodyn.numerics.shapes import Array, Float, Int
+from tribodyn.numerics.work import usable_cores
 from tribodyn.solve.choice import choose
 from tribodyn.solve.engagement import engage_next
-from tribodyn.solve.ensemble import march, usable_cores
+from tribodyn.solve.ensemble import march
 from tribodyn.solve.integrator import MAX_STEPS, REASONS, Status
 from tribodyn.solve.methods import Runs, runs
 from tribodyn.solve.period_map import DIFFERENCE, Marched, Tangent, by_differences

@@ -135,14 +135,21 @@ def with_laws(
 
 
 def law_figures(case: Lubricated) -> dict[str, Any]:
-    """Names of the laws in use, and the ranges that they state, for a summary."""
+    """Names of the laws in use, the ranges that they state and the errors of their tables, for a summary."""
     film, friction = laws_of(case)
+    errors = {}
+    if film.table_error is not None or friction.table_error is not None:
+        made = untried_closure_of(case)
+        for name, law, active in (("film", film, made.film), ("friction", friction, made.friction)):
+            if law.table_error is not None:
+                errors[f"{name}_table_error"] = law.table_error(active.parameters)
     return {
         "film_law": film.name,
         "film_thickness": film.thickness,
         "film_range": film.range or "none stated",
         "friction_law": friction.name,
         "friction_range": friction.range or "none stated",
+        **errors,
     }
 
 
@@ -205,7 +212,7 @@ def duty_range(case: Lubricated) -> DutyRange:
         raise InputError("film.law", '"solved"', "needs a torque and a speed to tabulate for", "give both")
     assembly = assemble(family(case.family), case.drive)
     start, end = assembly.limits
-    motion = kinematics(assembly.path, np.linspace(start, end, 41))
+    motion = kinematics(assembly.path, np.linspace(start, end, 81))
     arm = np.min(np.abs(motion.gear_normal_arm))
     load = torque / float(arm) / float(assembly.common_width)
     entrainment = speed * np.abs(motion.entrainment)
@@ -219,6 +226,7 @@ def duty_range(case: Lubricated) -> DutyRange:
         (_SPEEDS[0] * float(np.min(entrainment)), _SPEEDS[1] * float(np.max(entrainment))),
         (0.99 * float(np.min(curvature)), 1.01 * float(np.max(curvature))),
         (LEAST_SLIDING, max(1.05 * float(np.max(ratio)), 2.0 * LEAST_SLIDING)),
+        tuple((float(u), float(c), float(s)) for u, c, s in zip(entrainment, curvature, ratio, strict=True)),
     )
 
 

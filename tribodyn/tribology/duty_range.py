@@ -14,12 +14,15 @@ class DutyRange(NamedTuple):
     entrainment : m/s
     curvature : 1/m
     slide_to_roll : |v_s|/u
+    places : entrainment at nominal speed, curvature and slide-to-roll ratio at places along the path of
+        contact, where they belong together; none: they vary each for itself
     """
 
     line_load: tuple[float, float]
     entrainment: tuple[float, float]
     curvature: tuple[float, float]
     slide_to_roll: tuple[float, float]
+    places: tuple[tuple[float, float, float], ...] = ()
 
 
 def without_duty() -> DutyRange:

@@ -140,6 +140,9 @@ class _Law:
         validity, 0.0 outside, NaN where none is stated.
     limits : tuple of str
         The limits of the range one by one, such as "U ≤ 1e-10", in the order of `in_range`.
+    table_error : callable, optional
+        (parameters) -> share by which 95 % of the values of its table deviate at most from what they stand
+        for; of a law that is tabulated before a run.
     range : str
         The range of validity in words, with its source; "" where none is stated.
     """
@@ -152,6 +155,7 @@ class _Law:
     in_range: Callable[..., Any] = range_not_stated
     range: str = ""
     limits: tuple[str, ...] = ()
+    table_error: Callable[[Any], float] | None = None
 
     def __post_init__(self) -> None:
         for function in self.functions:

@@ -5,7 +5,6 @@ process of `multiprocessing` would run again.
 """
 
 import json
-import os
 import subprocess
 import sys
 import threading
@@ -15,6 +14,7 @@ from contextlib import suppress
 from typing import Any, Self
 
 from tribodyn.errors import SimulationError
+from tribodyn.numerics.work import usable_cores
 from tribodyn.studies.design.evaluation import evaluate
 
 COMMAND = (sys.executable, "-m", "tribodyn.studies.design.evaluation")
@@ -26,8 +26,7 @@ Figures = list[dict[str, Any] | str]
 
 def workers_for(evaluations: int) -> int:
     """How many evaluate side by side: one per core, fewer where there is little to do."""
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    return max(1, min(cores, evaluations // WORTH))
+    return max(1, min(usable_cores(), evaluations // WORTH))
 
 
 class Pool:

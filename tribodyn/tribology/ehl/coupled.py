@@ -16,6 +16,7 @@ from tribodyn.tribology.ehl.reynolds import Closure
 from tribodyn.tribology.ehl.rheology import Rheology
 from tribodyn.tribology.ehl.shear import LAYERS, Shear, sheared
 from tribodyn.tribology.ehl.steady import STEP, Solution, solve_steady
+from tribodyn.tribology.ehl.traction import shear_force
 
 Array = Any
 
@@ -98,7 +99,10 @@ def solve_coupled(
                 if share < _LEAST_SHARE:
                     raise
                 wished = mixing.shorter(share)
-        friction = float(np.trapezoid(shear.stress, solution.place)) + _by_asperities(solution)
+        film = slice(0, solution.grid.end + 1)
+        within = solution.fluid_pressure[film], solution.place[film]
+        part = shear._replace(newtonian=shear.newtonian[film])
+        friction = shear_force(part, *within, rheology) + _by_asperities(solution)
         known = (solution.central_film_thickness, friction, float(np.max(warmed)))
         least = (0.0, 1e-3 * problem.line_load, 1e-2)
         if all(abs(a - b) <= TOLERANCE * max(abs(a), c) for a, b, c in zip(known, last, least, strict=True)):

@@ -46,6 +46,7 @@ class Shear(NamedTuple):
     fluidity : flow by pressure over −h³/12 dp/dx, 1/(Pa s) (x)
     drift : over u h (x)
     response : d ln τ_m/d ln η (x)
+    newtonian : stress of a Newtonian fluid that flows as this one does at τ_m, Pa (x)
     """
 
     stress: Array
@@ -54,6 +55,7 @@ class Shear(NamedTuple):
     fluidity: Array
     drift: Array
     response: Array
+    newtonian: Array
 
 
 def sheared(
@@ -107,6 +109,7 @@ def sheared(
         12.0 * through / film**3,
         drift / (film * entrained),
         response,
+        newtonian_stress(mean, scale[:, 0], rheology)[0],
     )
 
 
@@ -136,7 +139,7 @@ def _limited(
     worked = (mean * sliding / LAYERS)[:, None]
     heat = worked + yields * gradient[:, None] * (place**2 + thickness**2 / 12.0) * thickness
     velocity = speeds[1] + np.cumsum(rate * thickness, axis=1) - 0.5 * rate * thickness
-    return Shear(mean, heat, velocity, fluidity, np.zeros_like(film), response)
+    return Shear(mean, heat, velocity, fluidity, np.zeros_like(film), response, newtonian)
 
 
 def _mean_stress(

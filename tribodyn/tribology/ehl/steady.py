@@ -188,7 +188,7 @@ def solve_steady(
     state, steps, imbalance = converged(first, reduced, grid, closure)
     if not imbalance <= TOLERANCE and start is None:
         if isinstance(reduced, RoughReduced):
-            state, more, imbalance = _stiffened(first, reduced, grid, closure)
+            state, more, imbalance = _roughened(problem, first, reduced, grid, closure)
         else:
             state, more, imbalance = _continued(first, reduced, grid, closure)
         steps += more
@@ -226,24 +226,30 @@ def converged(
     return state, MOST_STEPS, imbalance
 
 
-def _stiffened(state: State, reduced: RoughReduced, grid: Grid, closure: Closure) -> tuple[State, int, float]:
-    """Raise the density of the asperities from nearly none, by factors that Newton's method takes."""
-    whole = reduced.roughness
-    share, factor, total, imbalance = 1e-3, 10.0, 0, math.nan
-    found = state
-    done = 0.0
-    while factor > 1.02 and done < 1.0:
-        part = reduced._replace(roughness=whole._replace(density=share * whole.density))
-        found, steps, imbalance = converged(state, part, grid, closure)
-        total += steps
-        if imbalance <= TOLERANCE:
-            state, done, factor = found, share, factor**1.5
-        elif done == 0.0:
-            break
-        else:
-            factor **= 0.4
-        share = min(done * factor, 1.0)
-    return state, total, imbalance if done >= 1.0 else math.nan
+def _roughened(
+    problem: LineContact, first: State, reduced: RoughReduced, grid: Grid, closure: Closure
+) -> tuple[State, int, float]:
+    """Raise the density of the asperities, or else their height, by factors that Newton's method takes."""
+    whole, total = reduced.roughness, 0
+    film = survey_film(problem.moes_load, problem.moes_material)
+    smooth = with_films(first_state(reduced, grid, film), reduced, grid)
+    least = min(0.3 * film * reduced.film_unit / whole.height, 0.5)
+    for name, state, share, factor in (("density", first, 1e-3, 10.0), ("height", smooth, least, 2.5)):
+        done, imbalance = 0.0, math.nan
+        while factor > 1.02 and done < 1.0:
+            part = whole._replace(**{name: share * getattr(whole, name)})
+            found, steps, imbalance = converged(state, reduced._replace(roughness=part), grid, closure)
+            total += steps
+            if imbalance <= TOLERANCE:
+                state, done, factor = found, share, factor**1.5
+            elif done == 0.0:
+                break
+            else:
+                factor **= 0.4
+            share = min(done * factor, 1.0)
+        if done >= 1.0:
+            return state, total, imbalance
+    return first, total, math.nan
 
 
 def _continued(

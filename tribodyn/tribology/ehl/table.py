@@ -1,12 +1,12 @@
 """The solved contact over the duty of a mesh: polynomials in the logarithms of load, speed, radius, sliding.
 
-Contacts all over the duty are solved, mixed and with heat. Logarithms of the central film and of the friction
-coefficient, and the asperities' share, are fitted by polynomials of all powers up to `DEGREE` together. A
-part of the contacts is not fitted but compared: their deviation is the table's error.
+Contacts all over the duty are solved, mixed and with heat. Fitted by polynomials of the powers `TERMS` are
+the logarithm of the central film, the asperities' share, and of the film's friction coefficient μ_f below
+that at the limiting stress, μ_l, ln(μ_f/(μ_l − μ_f)), which is nearly even in all variables. A part of the
+contacts is not fitted but compared: their deviation is the table's error.
 """
 
 import io
-import math
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -16,43 +16,34 @@ from tribodyn.errors import InputError, SimulationError
 from tribodyn.numerics.cache import alone, keep, read_kept
 from tribodyn.numerics.elementary import is_jax
 from tribodyn.numerics.sources import digest_of
+from tribodyn.tribology.contact import hertz_half_width
 from tribodyn.tribology.duty_range import DutyRange
 from tribodyn.tribology.ehl.asperities import Roughness
-from tribodyn.tribology.ehl.coupled import solve_coupled
 from tribodyn.tribology.ehl.fluid import Fluid
 from tribodyn.tribology.ehl.heat import Thermal
-from tribodyn.tribology.ehl.problem import LineContact
 from tribodyn.tribology.ehl.rheology import Rheology
-from tribodyn.tribology.ehl.table_lookup import TERMS
+from tribodyn.tribology.ehl.table_lookup import TERMS, mixed_friction, most_of_film
+from tribodyn.tribology.ehl.table_points import Contact, solve_all, spread
 from tribodyn.tribology.law import LawInput
 
 Array = Any
 
-#: Largest deviation of film and friction that a table aims at.
+#: Deviation of film and friction that a table aims at, of 95 % of the compared contacts.
 WANTED = 0.01
 #: Contacts solved: first, more each time while the error is larger, and at most; and of these one in so many
 #: is compared instead of fitted.
-FIRST, MORE, MOST, COMPARED = 200, 100, 300, 6
-#: Grid's step of the contacts: the film within 0.05 %, friction within 1 % where the pressure spike counts.
-_STEP = 0.15
-
-
-class Contact(NamedTuple):
-    """What is the same in all contacts of a table; numbers alone, so that it has a hash."""
-
-    fluid: Fluid
-    effective_modulus: float
-    roughness: Roughness
-    rheology: Rheology
-    thermal: Thermal
+FIRST, MORE, MOST, COMPARED = 240, 120, 600, 6
+#: Stiffness of the polynomials: what a coefficient counts beside a deviation of all contacts.
+_STIFFNESS = 3e-5
 
 
 class Table(NamedTuple):
-    """Polynomials of ln h_c (m), ln μ and asperity share over four variables, flat as lanes read it.
+    """Polynomials of ln h_c (m), friction and asperity share over four variables, flat as lanes read it.
 
-    `film` is the mean gap on the line of centres, which between rough surfaces is never zero. A variable is
-    its logarithm less the middle of its range, over half the length of that. The errors are the deviations
-    that 95 % of the compared contacts stay below.
+    `film` is the mean gap on the line of centres, which between rough surfaces is never zero; `friction` the
+    first argument of `mixed_friction`, `rubbing` its last, `limit` and `floor` Λ and τ_00 (Pa). A variable
+    is its logarithm less the middle of its range, over half the length of that. The errors are the
+    deviations that 95 % of the compared contacts stay below; `solved` counts all contacts.
     """
 
     line_load: float
@@ -66,6 +57,9 @@ class Table(NamedTuple):
     film: Array
     friction: Array
     share: Array
+    limit: float
+    floor: float
+    rubbing: float
     film_error: float
     friction_error: float
     solved: float
@@ -104,74 +98,64 @@ def _table(contact: Contact, duty: DutyRange) -> Table:
 
 
 def _made(contact: Contact, duty: DutyRange) -> Table:
-    from scipy.stats import qmc
-
-    ends = np.log(np.array(duty))
+    ends = np.log(np.array(duty[:4]))
     middle, half = ends.mean(axis=1), np.maximum(0.5 * np.diff(ends, axis=1)[:, 0], 1e-6)
-    box = [float(one) for pair in zip(middle, half, strict=True) for one in pair]
-    sequence: Any = qmc.Sobol
-    points = sequence(4, seed=1).random(1024)[:MOST] * 2.0 - 1.0
-    # towards the ends of the range, where polynomials go astray first
-    points = np.sin(0.5 * math.pi * points)
-    values = np.full((MOST, 3), np.nan)
-    solved, found = 0, None
+    duties, along = spread(duty, MOST)
+    values = np.zeros((0, 3))
+    found = None
     for count in range(FIRST, MOST + 1, MORE):
-        for number in range(solved, count):
-            values[number] = _solved(contact, np.exp(middle + half * points[number]))
-        solved = count
-        found = _fitted(box, points[:count], values[:count])
+        values = np.concatenate([values, solve_all(contact, duties[len(values) : count])])
+        found = _fitted(contact, (middle, half), duties[:count], values, along[:count])
         if max(found.film_error, found.friction_error) <= WANTED:
             break
     assert found is not None
     return found
 
 
-def _solved(contact: Contact, at: Array) -> Array:
-    """Ln of film, ln of friction coefficient, and the asperities' share at one duty; NaN: none found."""
-    line_load, entrainment, curvature, ratio = (float(one) for one in at)
-    problem = LineContact(
-        line_load,
-        1.0 / curvature,
-        entrainment,
-        contact.fluid,
-        contact.effective_modulus,
-        ratio * entrainment,
-        contact.roughness,
-    )
-    try:
-        found = solve_coupled(problem, contact.rheology, contact.thermal, step=_STEP)
-    except SimulationError:
-        return np.full(3, np.nan)
-    gap = np.interp(0.0, found.solution.place, found.solution.mean_gap)
-    return np.array(
-        [
-            math.log(gap),
-            math.log(max(found.friction / line_load, 1e-12)),
-            found.solution.asperity_load_ratio,
-        ]
-    )
-
-
-def _fitted(box: list[float], points: Array, values: Array) -> Table:
+def _fitted(contact: Contact, box: tuple[Array, Array], duties: Array, values: Array, along: Array) -> Table:
     good = np.all(np.isfinite(values), axis=1)
-    if np.count_nonzero(good) < 1.5 * len(TERMS):
+    number = np.arange(len(duties))
+    # the comparison goes on with those that are compared already as contacts are added
+    compared = good & along & (number % COMPARED == COMPARED - 1)
+    used = good & ~compared
+    if np.count_nonzero(used) < 1.5 * len(TERMS):
         raise SimulationError(
-            f"the contact could be solved at {np.count_nonzero(good)} of {len(points)} duties only, too few "
+            f"the contact could be solved at {np.count_nonzero(good)} of {len(duties)} duties only, too few "
             f"for a table; use another film and friction law"
         )
-    compared = good & (np.arange(len(points)) % COMPARED == COMPARED - 1)
-    used = good & ~compared
-    powers = np.array([np.prod(points ** np.array(term), axis=1) for term in TERMS]).T
+    limit, floor = contact.rheology.limiting_coefficient, contact.rheology.limiting_floor
+    rubbing = contact.roughness.friction
+    load, curvature = np.exp(duties[:, 0]), np.exp(duties[:, 2])
+    most = most_of_film(load, hertz_half_width(load, curvature, contact.effective_modulus), limit, floor)
+    film, friction, share = np.where(good[:, None], values, 0.5).T
+    sheared = np.exp(friction) - rubbing * share
+    part = np.clip(sheared / np.maximum((1.0 - share) * most, 1e-12), 1e-6, 1.0 - 1e-6)
+    saturation = np.log(part / (1.0 - part))
+    # what a deviation of the saturation makes of the whole coefficient
+    weight = np.clip(sheared * np.exp(-friction) * (1.0 - part), 0.02, 1.0)
+    place = (duties - box[0]) / box[1]
+    powers = np.array([np.prod(place ** np.array(term), axis=1) for term in TERMS]).T
+    one = np.ones_like(film)
+    coefficients = [
+        _solved(powers[used], known[used], counts[used])
+        for known, counts in ((film, one), (saturation, weight), (share, one))
+    ]
+    by_film, by_saturation, by_share = (powers @ known for known in coefficients)
+    mixed = mixed_friction(by_saturation, np.clip(by_share, 0.0, 1.0), most, rubbing)
+    deviations = np.abs(np.expm1(by_film - film)), np.abs(mixed * np.exp(-friction) - 1.0)
+    errors = (float(np.quantile(one[compared], 0.95)) for one in deviations)
+    numbers = [float(one) for pair in zip(*box, strict=True) for one in pair]
+    return Table._make(
+        [*numbers, *coefficients, limit, floor, rubbing, *errors, float(np.count_nonzero(good))]
+    )
+
+
+def _solved(powers: Array, known: Array, weight: Array) -> Array:
     # a little stiffness, so that no high power grows from noise
-    stiff = np.diag(1e-5 * math.sqrt(np.count_nonzero(used)) * np.array([sum(term) for term in TERMS], float))
-    system = np.concatenate([powers[used], stiff])
-    right = np.concatenate([values[used], np.zeros((len(TERMS), values.shape[1]))])
-    coefficients = np.linalg.lstsq(system, right, rcond=None)[0]
-    deviation = np.abs(np.expm1(powers[compared] @ coefficients - values[compared]))
-    film, friction, share = (np.ascontiguousarray(one) for one in coefficients.T)
-    film_error, friction_error = (float(np.quantile(deviation[:, one], 0.95)) for one in (0, 1))
-    solved = float(np.count_nonzero(good))
-    return Table._make([*box, film, friction, share, film_error, friction_error, solved])
+    stiff = np.diag(_STIFFNESS * np.sqrt(len(known)) * np.array([sum(term) for term in TERMS], float))
+    system = np.concatenate([powers * weight[:, None], stiff])
+    right = np.concatenate([known * weight, np.zeros(len(TERMS))])
+    return np.ascontiguousarray(np.linalg.lstsq(system, right, rcond=None)[0])
 
 
 def contact_of(given: LawInput) -> Contact:

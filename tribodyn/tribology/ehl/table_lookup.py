@@ -1,17 +1,27 @@
 """Values of a table of solved contacts, as laws read them: polynomials of four variables."""
 
-from tribodyn.numerics.elementary import law, maximum, minimum
+from tribodyn.numerics.elementary import exp, law, maximum, minimum
 
-#: Powers of all four variables together, at most.
-DEGREE = 4
-#: Powers of each term, in the order of its coefficient.
+#: Powers of load and sliding together with twice those of speed and curvature, at most: along load and
+#: sliding an oil goes from the Newtonian to the limiting stress.
+DEGREE = 6
+#: Powers of load, speed, curvature and sliding of each term, in the order of its coefficient.
 TERMS = [
     (i, j, k, m)
     for i in range(DEGREE + 1)
-    for j in range(DEGREE + 1 - i)
-    for k in range(DEGREE + 1 - i - j)
-    for m in range(DEGREE + 1 - i - j - k)
+    for j in range((DEGREE - i) // 2 + 1)
+    for k in range((DEGREE - i) // 2 - j + 1)
+    for m in range(DEGREE - i - 2 * j - 2 * k + 1)
 ]
+
+#: What a table is made for, beyond which its values are those at its end.
+RANGE = "0.25 to 1.5 times the load of a single pair, 0.8 to 1.2 times the nominal speeds"
+LIMITS = (
+    "load ≥ 0.25 of a single pair's",
+    "load ≤ 1.5 of a single pair's",
+    "entrainment ≥ 0.8 of the path's minimum",
+    "entrainment ≤ 1.2 of the path's maximum",
+)
 
 _LAST = len(TERMS) - 1
 
@@ -29,14 +39,43 @@ def polynomial(table, x, y, z, s):
     whole = 0.0 * x
     for i in range(DEGREE, -1, -1):
         by_x = 0.0 * x
-        for j in range(DEGREE - i, -1, -1):
+        for j in range((DEGREE - i) // 2, -1, -1):
             by_y = 0.0 * x
-            for k in range(DEGREE - i - j, -1, -1):
+            for k in range((DEGREE - i) // 2 - j, -1, -1):
                 by_z = 0.0 * x
-                for _ in range(DEGREE - i - j - k, -1, -1):
+                for _ in range(DEGREE - i - 2 * j - 2 * k, -1, -1):
                     by_z = by_z * s + table[n]
                     n -= 1
                 by_y = by_y * z + by_z
             by_x = by_x * y + by_y
         whole = whole * x + by_x
     return whole
+
+
+@law
+def most_of_film(line_load, half_width, limit, floor):
+    """Friction coefficient that the film comes near to at its limiting stress τ_00 + Λ p, and stays below."""
+    return 1.15 * limit + 3.0 * floor * half_width / line_load
+
+
+@law
+def mixed_friction(saturation, share, most, rubbing):
+    """Friction coefficient of a film and of asperities that carry a share of the load.
+
+    The film's is most e^saturation/(1 + e^saturation): the exponent goes on evenly, as the logarithm of
+    viscosity and sliding does, where the coefficient itself bends towards the limit.
+    """
+    grown = exp(maximum(minimum(saturation, 30.0), -30.0))
+    return (1.0 - share) * most * grown / (1.0 + grown) + rubbing * share
+
+
+@law
+def in_table(contact, surfaces, table):
+    """Load and entrainment over the least, and the greatest over them, as `LIMITS` has them."""
+    load, speed = contact.line_load, contact.entrainment
+    return (
+        load * exp(table.line_load_half - table.line_load),
+        exp(table.line_load + table.line_load_half) / load,
+        speed * exp(table.entrainment_half - table.entrainment),
+        exp(table.entrainment + table.entrainment_half) / speed,
+    )

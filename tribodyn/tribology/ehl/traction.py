@@ -9,9 +9,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.tribology.ehl.rheology import Rheology, stress_scale, thinned
+from tribodyn.tribology.ehl.shear import Shear
 from tribodyn.tribology.ehl.steady import Solution
 
 Array = Any
+
+#: Parts of a step between nodes in the integral of the shear stress.
+_PARTS = 8
 
 
 class RollingTraction(NamedTuple):
@@ -26,6 +31,20 @@ class RollingTraction(NamedTuple):
 
     shear: float
     pressure: float
+
+
+def shear_force(shear: Shear, pressure: Array, place: Array, rheology: Rheology) -> float:
+    """∫ τ_m dx over the nodes at places, N/m.
+
+    Between two nodes the viscosity changes by powers of ten, and the stress bends where it comes near to what
+    the oil bears: there ln η γ' and the pressure are taken as linear, and the law of shear does the rest.
+    """
+    at = np.linspace(0.0, len(place) - 1.0, _PARTS * (len(place) - 1) + 1)
+    node = np.arange(len(place))
+    equal = np.exp(np.interp(at, node, np.log(np.maximum(np.abs(shear.newtonian), 1e-300))))
+    stress = thinned(equal, stress_scale(np.interp(at, node, pressure), rheology), rheology)
+    sign = np.sign(np.interp(at, node, np.sign(shear.newtonian)))
+    return float(np.trapezoid(sign * stress, np.interp(at, node, place)))
 
 
 def rolling_traction(solution: Solution) -> RollingTraction:

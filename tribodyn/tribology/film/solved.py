@@ -3,7 +3,7 @@
 from typing import Any
 
 from tribodyn.numerics.elementary import absolute, law, log, maximum, minimum
-from tribodyn.tribology.ehl.table_lookup import held, polynomial
+from tribodyn.tribology.ehl.table_lookup import LIMITS, RANGE, held, in_table, polynomial
 from tribodyn.tribology.law import FilmLaw, LawInput
 
 
@@ -31,4 +31,8 @@ LAW = FilmLaw(
     "mixed thermal contact solved before the run over the duty of the mesh: mean gap on the line of centres",
     solved_film,
     _table,
+    range=RANGE,
+    limits=LIMITS,
+    in_range=in_table,
+    table_error=lambda table: table.film_error,
 )

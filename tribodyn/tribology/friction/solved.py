@@ -2,8 +2,17 @@
 
 from typing import Any
 
-from tribodyn.numerics.elementary import absolute, exp, law, log, maximum
-from tribodyn.tribology.ehl.table_lookup import held, polynomial
+from tribodyn.numerics.elementary import absolute, law, log, maximum, minimum
+from tribodyn.tribology.contact import hertz_half_width
+from tribodyn.tribology.ehl.table_lookup import (
+    LIMITS,
+    RANGE,
+    held,
+    in_table,
+    mixed_friction,
+    most_of_film,
+    polynomial,
+)
 from tribodyn.tribology.law import FrictionLaw, LawInput
 
 
@@ -16,7 +25,16 @@ def solved_friction(contact, film, surfaces, parameters):
     z = held(log(contact.curvature), box.curvature, box.curvature_half)
     ratio = maximum(absolute(contact.sliding) / contact.entrainment, 1e-9)
     s = held(log(ratio), box.slide_to_roll, box.slide_to_roll_half)
-    return exp(polynomial(parameters.friction, x, y, z, s))
+    share = maximum(minimum(polynomial(box.share, x, y, z, s), 1.0), 0.0)
+    half_width = hertz_half_width(contact.line_load, contact.curvature, surfaces.effective_modulus)
+    most = most_of_film(contact.line_load, half_width, box.limit, box.floor)
+    return mixed_friction(polynomial(box.friction, x, y, z, s), share, most, box.rubbing)
+
+
+@law
+def in_its_table(contact, film, surfaces, parameters):
+    """Shares of load and entrainment allowed by the table."""
+    return in_table(contact, surfaces, parameters)
 
 
 def _table(given: LawInput) -> Any:
@@ -30,5 +48,9 @@ LAW = FrictionLaw(
     "mixed thermal contact at the limiting shear stress, solved before the run over the duty of the mesh",
     solved_friction,
     _table,
+    range=RANGE,
+    limits=LIMITS,
+    in_range=in_its_table,
+    table_error=lambda table: table.friction_error,
     film="solved",
 )

@@ -21,24 +21,34 @@ def newtonian(solution):
     return viscosity * problem.sliding_speed / solution.film_thickness
 
 
-def slid(share, law="eyring", thermal=None):
-    return solve_coupled(PROBLEM._replace(sliding_speed=share), Rheology(law), thermal)
+def slid(share, law="eyring", thermal=None, step=0.1):
+    return solve_coupled(PROBLEM._replace(sliding_speed=share), Rheology(law), thermal, step=step)
+
+
+@pytest.mark.parametrize(("law", "sliding"), [("limiting", 0.001), ("eyring", 0.1), ("carreau", 0.1)])
+def test_friction_on_a_coarse_grid(law, sliding):
+    """Within a half per cent of that on a grid four times finer, where the trapezoidal rule is 3 % off."""
+    fine = slid(sliding, law, step=0.05)
+    assert slid(sliding, law, step=0.2).friction == pytest.approx(fine.friction, rel=5e-3)
 
 
 def test_eyring_at_small_sliding_is_newtonian():
-    found = slid(1e-6)
+    found = slid(1e-6, step=0.05)
     expected = np.trapezoid(newtonian(found.solution), found.solution.place)
     # the pressure gradient alone shears the oil past τ_0 at the spike
     assert found.friction == pytest.approx(expected, rel=5e-3)
 
 
-@pytest.mark.parametrize("sliding", [0.1, 0.5, 1.5])
-def test_eyring_at_large_sliding(sliding):
-    """τ_0 arsinh(η Δu/(τ_0 h)), and by its logarithm where that is large."""
-    found = slid(sliding)
+@pytest.mark.parametrize(("sliding", "within"), [(0.1, 4e-3), (0.5, 2e-3), (1.5, 2e-3)])
+def test_eyring_at_large_sliding(sliding, within):
+    """τ_0 arsinh(η Δu/(τ_0 h)), and by its logarithm where that is large.
+
+    Less where the pressure's gradient shears the oil at the spike, the more the slower it slides.
+    """
+    found = slid(sliding, step=0.05)
     stress = newtonian(found.solution)
     expected = np.trapezoid(5e6 * np.arcsinh(stress / 5e6), found.solution.place)
-    assert found.friction == pytest.approx(expected, rel=2e-3)
+    assert found.friction == pytest.approx(expected, rel=within)
     loaded = stress > 1e9
     np.testing.assert_allclose(found.shear.stress[loaded], 5e6 * np.log(2 * stress[loaded] / 5e6), rtol=2e-3)
 

@@ -10,7 +10,9 @@ from tests.support.line_contacts import REFERENCES
 from tribodyn.errors import InputError
 from tribodyn.tribology.ehl.asperities import Roughness, asperity_pressure, mean_gap, pressure_flow_factor
 from tribodyn.tribology.ehl.coupled import solve_coupled
+from tribodyn.tribology.ehl.fluid import Fluid
 from tribodyn.tribology.ehl.heat import Thermal
+from tribodyn.tribology.ehl.problem import LineContact
 from tribodyn.tribology.ehl.reynolds import State, newtonian
 from tribodyn.tribology.ehl.rheology import Rheology
 from tribodyn.tribology.ehl.rough import rough_residual
@@ -133,3 +135,13 @@ def test_bad_values(changed, key):
     with pytest.raises(InputError) as caught:
         solve_steady(PROBLEM._replace(roughness=Roughness(0.4e-6)._replace(**changed)))
     assert caught.value.key == key
+
+
+def test_random_rough_contacts_converge(rng):
+    """σ over the smooth film from 0.1 to far above 10, as the gears' oils and loads have it and beyond."""
+    for _ in range(40):
+        fluid = Fluid(10 ** rng.uniform(-2.3, 0.0), rng.uniform(5e-9, 35e-9), 0.6)
+        load, radius, speed = 10 ** rng.uniform([4.0, -2.5, -1.0], [6.0, -1.3, 1.3])
+        height = Roughness(10 ** rng.uniform(-6.5, -5.7))
+        found = solve_steady(LineContact(load, radius, speed, fluid, 226e9, 0.0, height), step=0.15)
+        assert found.imbalance <= 1e-10
