@@ -18,8 +18,9 @@ from tribodyn.solve.right_hand_side import rhs, work_array
 
 #: Steps of the parameter from the neighbour to the point, periods marched at each, and then in a block.
 STEPS, CARRIED, BLOCK = 6, 24, 48
-#: Blocks at most, and the factor by which the distance must fall in one to go on.
-BLOCKS, FALLING = 40, 0.8
+#: Blocks at most, and the factor by which the largest distance of a few must fall in as many to go on: where
+#: multipliers are complex and almost 1 in modulus, the distance swings while it falls.
+BLOCKS, FALLING, FEW = 60, 0.8, 4
 #: Distance over the motion's size, at least over the scale, within which two motions are the same.
 SAME = 1e-4
 #: Distance beyond an end, over the parameter, within which the sweep marches on from it.
@@ -142,11 +143,13 @@ def compared(march: March, neighbour: Reported, point: Reported, ends: Sequence[
         return Compared("no period" if nearest > SAME * size else other, np.nan, np.nan, 0)
     size = max(1.0, float(np.max(np.abs(point.state))))
     closes = float(np.max(np.abs(march(point.value, point.state, point.period)[-1] - point.state))) / size
-    away = np.inf
+    distances: list[float] = []
     for _ in range(BLOCKS):
         track = march(point.value, state, BLOCK)
-        state, before = track[-1], away
-        away = float(np.min(np.max(np.abs(track[-point.period :] - point.state), axis=1))) / size
-        if away <= SAME / 100.0 or away > FALLING * before:
+        state = track[-1]
+        distances.append(float(np.min(np.max(np.abs(track[-point.period :] - point.state), axis=1))) / size)
+        before = max(distances[-2 * FEW : -FEW]) if len(distances) >= 2 * FEW else np.inf
+        if distances[-1] <= SAME / 100.0 or max(distances[-FEW:]) > FALLING * before:
             break
+    away = distances[-1]
     return Compared("same" if away <= SAME else other, closes, away, point.period)
