@@ -6,10 +6,9 @@ from typing import Any
 import numpy as np
 
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.scenario.vary import base_units
-from tribodyn.studies.design.case import DRAWN, DesignCase, Free, Tolerance
-from tribodyn.studies.design.parts import PITCH_ERRORS
-from tribodyn.studies.design.sources import split
+from tribodyn.studies.design.case import DesignCase, Free
+from tribodyn.studies.design.deviations import Nominal, deviating
+from tribodyn.studies.design.sources import in_unit, standing
 
 #: Values are written to this share of their range, so that what is written is what was evaluated.
 _FINEST = 1e-7
@@ -45,7 +44,7 @@ def share_of(free: Free, value: Any) -> float:
     if free.choices:
         place = free.choices.index(value) if value in free.choices else len(free.choices) // 2
         return (place + 0.5) / len(free.choices)
-    number = _in_unit(value, free.unit, free.si)
+    number = in_unit(value, free.unit, free.si)
     if number is None:
         return 0.5
     return min(1.0, max(0.0, (number - free.low) / (free.high - free.low)))
@@ -53,7 +52,7 @@ def share_of(free: Free, value: Any) -> float:
 
 def start_of(case: DesignCase) -> Float[Array, " free"]:
     """Shares at which the base scenario stands."""
-    return np.array([share_of(one, standing(case, one.keys[0])) for one in case.free])
+    return np.array([share_of(one, standing(case.scenarios, one.keys[0])) for one in case.free])
 
 
 def chosen(case: DesignCase, shares: Sequence[float] | np.ndarray) -> Overrides:
@@ -86,11 +85,11 @@ def cases_of(
     if alone is not None:
         rows = [np.where(np.arange(len(case.tolerances)) == alone[0], alone[1], 0.0)]
     for duty in case.duties:
-        nominal = {**free, **duty.set, **(more or {})}
+        nominal = Nominal(case, {**free, **duty.set, **(more or {})})
         for row in rows:
-            deviated = dict(nominal)
+            deviated = dict(nominal.keys)
             for one, deviation in zip(case.tolerances, row, strict=True):
-                deviated |= _deviated(one, deviation, nominal, case)
+                deviated |= deviating(one, float(deviation), nominal)
             found.append(deviated)
     return found
 
@@ -116,49 +115,7 @@ def samples_of(case: DesignCase) -> list[Float[Array, "..."]]:
     return list(rows)
 
 
-def _deviated(one: Tolerance, deviation: float, nominal: Mapping[str, Any], case: DesignCase) -> Any:
-    if one.distribution == DRAWN:
-        return {one.key: int(abs(deviation) * 2**20)}
-    if one.name.endswith(PITCH_ERRORS):
-        teeth_key = one.key.replace(f"modification.{PITCH_ERRORS}", "teeth")
-        teeth = int(nominal.get(teeth_key, standing(case, teeth_key)))
-        seed = int(abs(deviation) * 2**52)
-        errors = np.random.default_rng(seed).uniform(-one.plus_minus, one.plus_minus, teeth)
-        return {one.key: [f"{float(error)!r} {one.unit}" for error in errors]}
-    given = nominal.get(one.key, standing(case, one.key))
-    si = base_units(f"1 {one.unit}") if one.unit else None
-    number = (_in_unit(given, one.unit, si[0] if si else 1.0) or 0.0) + float(deviation) * one.plus_minus
-    return {one.key: f"{number!r} {one.unit}" if one.unit else number}
-
-
-def _in_unit(value: Any, unit: str, si: float) -> float | None:
-    """Number of a quantity in a unit; None for no value."""
-    if isinstance(value, (int, float)) and not isinstance(value, bool):
-        return float(value)
-    if not isinstance(value, str):
-        return None
-    number, _, own = value.strip().partition(" ")
-    if own.strip() == unit:
-        return float(number)
-    base = base_units(value)
-    return base[0] / si if base else None
-
-
 def shapes_gears(case: DesignCase) -> bool:
     """Whether free keys change the gears, not what is taken off their flanks alone."""
     keys = (key for one in case.free for key in one.keys)
     return any(key.startswith("drive.") and ".modification." not in key for key in keys)
-
-
-def standing(case: DesignCase, key: str) -> Any:
-    """What stands at a dotted key of the scenarios of a search; None where nothing does."""
-    name, key = split(key, case.parts)
-    data: Any = case.scenarios[name]
-    for part in key.split("."):
-        if isinstance(data, Mapping):
-            data = data.get(part)
-        elif isinstance(data, (list, tuple)) and part.isdecimal() and int(part) < len(data):
-            data = data[int(part)]
-        else:
-            return None
-    return data

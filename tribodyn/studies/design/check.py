@@ -1,15 +1,18 @@
 """What `check` says of a search: what is free, what is sought, what must hold, by which method."""
 
-from tribodyn.studies.design.candidates import samples_of, standing
+from tribodyn.studies.design.candidates import samples_of
 from tribodyn.studies.design.case import DesignCase, Free
 from tribodyn.studies.design.methods import method_of
+from tribodyn.studies.design.sources import standing
 from tribodyn.studies.study import Checked, TextTable
 
 
 def check(case: DesignCase) -> Checked:
     """Check a case and say what is searched."""
     name, reason = method_of(case)
-    rows = [(", ".join(one.keys), _shown(standing(case, one.keys[0])), bounds(one)) for one in case.free]
+    rows = [
+        (", ".join(one.keys), _shown(standing(case.scenarios, one.keys[0])), bounds(one)) for one in case.free
+    ]
     cases = len(case.duties) * len(samples_of(case))
     wanted = [one.name.removeprefix("-") for one in case.objectives]
     more = case.objectives[0].name.startswith("-")

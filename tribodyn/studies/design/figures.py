@@ -115,8 +115,7 @@ def _draw_duties(axes: Axes, record: Record) -> None:
     shown, duties = _Shown(record), record.summary.get("duties")
     names = duty_names(record.scenario["design"])
     if duties is None:
-        start, best = record.summary.get("objective_start"), record.summary["objective"]
-        heights = [[np.nan if start is None else abs(shown.factor) * start], [abs(shown.factor) * best]]
+        heights = [[abs(shown.factor) * _first(record, name)] for name in ("objective_start", "objective")]
         names = [""]
     else:
         heights = [shown.factor * np.asarray(duties[one]) for one in ("start", "best")]
@@ -139,6 +138,12 @@ def _draw_duties(axes: Axes, record: Record) -> None:
     axes.legend(ncols=2)
 
 
+def _first(record: Record, name: str) -> float:
+    """The first objective of the summary under a name; NaN where there is none."""
+    value = record.summary.get(name)
+    return np.nan if value is None else float(np.atleast_1d(value)[0])
+
+
 def duty_names(design: Mapping[str, Any]) -> list[str]:
     """A name for each duty: the values of the keys in which duties differ."""
     sets = [flat(one.get("set", {})) for one in design.get("duty", ())]
@@ -153,7 +158,7 @@ def _draw_values(axes: Axes, record: Record) -> None:
     names = [name for name in record if name.startswith("free_")]
     values = _Shown(record).values * np.sign(_Shown(record).factor)
     best = int(np.nanargmin(np.where(record["feasible"] == 1, values, np.nan)))
-    span = abs(float(np.atleast_1d(record.summary.get("objective_start") or 0.0)[0]) * _Shown(record).factor)
+    span = abs(np.nan_to_num(_first(record, "objective_start")) * _Shown(record).factor)
     near = (record["feasible"] == 1) & (values <= values[best] + 0.1 * abs(values[best] or span))
     keys = [naming_key(one["key"]) for one in entries]
     labels = []

@@ -11,11 +11,10 @@ import tomli_w
 from tribodyn.errors import InputError, OutputError
 from tribodyn.studies import study_of
 from tribodyn.studies.design.archive import Archive, Evaluation
-from tribodyn.studies.design.candidates import standing
 from tribodyn.studies.design.case import DesignCase
 from tribodyn.studies.design.evaluation import loaded_case
 from tribodyn.studies.design.methods.front import front
-from tribodyn.studies.design.sources import own
+from tribodyn.studies.design.sources import own, standing
 
 #: First line of a file with the best scenario; a file without it is not replaced.
 HEAD = "# The best of the search of tribodyn: "
@@ -99,7 +98,9 @@ def headline(case: DesignCase, archive: Archive) -> dict[str, Any]:
         key: value if isinstance(value, (int, float)) else str(value) for key, value in best.values.items()
     }
     summary["start"] = {
-        key: value for key in best.values if (value := standing(case, key)) is not None and _plain(value)
+        key: value
+        for key in best.values
+        if (value := standing(case.scenarios, key)) is not None and _plain(value)
     }
     if len(case.duties) > 1:
         summary["duties"] = {

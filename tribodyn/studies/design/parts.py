@@ -9,6 +9,7 @@ from tribodyn.scenario.resolve import toml_value
 from tribodyn.scenario.units import Kind, NotAQuantity, factor_to_si, to_si
 from tribodyn.scenario.vary import base_units, is_drawn, is_whole, kind_at
 from tribodyn.studies.design.case import DRAWN, START, Constraint, Duty, Free, Objective, Tolerance
+from tribodyn.studies.design.deviations import PROFILE_ERROR
 from tribodyn.studies.design.naming import apart, flat, naming_key
 from tribodyn.studies.design.sources import Sources, figure_name, require_key, units_by_figure
 from tribodyn.studies.study import Study
@@ -16,8 +17,6 @@ from tribodyn.studies.study import Study
 T = TypeVar("T")
 _NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(\S.*?)?\s*$", re.ASCII)
 _CONSTRAINT = re.compile(r"\s*([A-Za-z][\w.-]*)\s*(<=|>=|≤|≥|<|>)\s*(\S.*?)\s*$")
-#: Name at the end of a tolerance's key whose value is a list, one per tooth.
-PITCH_ERRORS = "pitch_errors"
 
 
 class Parts(NamedTuple):
@@ -261,7 +260,9 @@ def _tolerance(place: str, one: Any, sources: Sources) -> Tolerance:
         raise InputError(f"{place}.plus_minus", None, "missing", 'add plus_minus = "…" with its unit')
     kind = kind_at(schema, key)
     kind = kind._replace(allowed="any") if isinstance(kind, Kind) else None
-    size, unit, _ = _number(f"{place}.plus_minus", one.plus_minus, kind)
+    size, unit, units = _number(f"{place}.plus_minus", one.plus_minus, kind)
+    if one.key.endswith(PROFILE_ERROR) and units != "m":
+        raise InputError(f"{place}.plus_minus", quoted(one.plus_minus), "not a length", "write such as 3 um")
     if size <= 0:
         raise InputError(f"{place}.plus_minus", quoted(one.plus_minus), "not positive", "write such as 1 um")
     return Tolerance(one.key, one.key.rpartition(".")[2], size / _factor(unit, kind), unit, one.distribution)

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 from tribodyn.errors import InputError, near_name, quoted, unknown_name
 from tribodyn.scenario.quantity import Table, parts_of
+from tribodyn.scenario.vary import base_units
 from tribodyn.studies import study_of
 from tribodyn.studies.evaluated import figure_units
 from tribodyn.studies.study import Study
@@ -134,3 +135,30 @@ def unknown_part(key: str, schema: type[Table]) -> tuple[list[str], str, list[st
 
 def _tables_in(field: Any) -> Iterator[type[Table]]:
     return (one for one in parts_of(field) if isinstance(one, type) and issubclass(one, Table))
+
+
+def standing(scenarios: Mapping[str, Mapping[str, Any]], key: str) -> Any:
+    """What stands at a dotted key of the scenarios of a search; None where nothing does."""
+    name, key = split(key, [one for one in scenarios if one != BASE])
+    data: Any = scenarios[name]
+    for part in key.split("."):
+        if isinstance(data, Mapping):
+            data = data.get(part)
+        elif isinstance(data, (list, tuple)) and part.isdecimal() and int(part) < len(data):
+            data = data[int(part)]
+        else:
+            return None
+    return data
+
+
+def in_unit(value: Any, unit: str, si: float) -> float | None:
+    """Number of a quantity in a unit, of which one is `si` in SI; None for no value."""
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        return float(value)
+    if not isinstance(value, str):
+        return None
+    number, _, own = value.strip().partition(" ")
+    if own.strip() == unit:
+        return float(number)
+    base = base_units(value)
+    return base[0] / si if base else None

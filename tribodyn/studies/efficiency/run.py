@@ -11,7 +11,7 @@ import numpy as np
 
 from tribodyn.compliance.load_sharing import effective_contact_ratio
 from tribodyn.compliance.loaded_flanks import LoadedFlanks
-from tribodyn.dynamics.recorded import SAMPLES, scales_of
+from tribodyn.dynamics.recorded import scales_of
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.families import family
@@ -21,13 +21,13 @@ from tribodyn.geometry.path import Path as PathOfContact
 from tribodyn.geometry.sheet import specific_sliding_max
 from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.cycle import MeshCycle, as_arrays
-from tribodyn.mesh.power_flow import driving_gear, efficiency, power_put_in
+from tribodyn.mesh.power_flow import driving_gear, power_put_in
 from tribodyn.record.trust import Judge
 from tribodyn.studies.efficiency.along_path import CycleEfficiency, Duty, Engagement, cycle_efficiency, engage
+from tribodyn.studies.efficiency.arrays import record_arrays
 from tribodyn.studies.efficiency.case import EfficiencyCase
 from tribodyn.studies.efficiency.loss_factor import exact, hoehn, tip_contact_ratios
 from tribodyn.studies.efficiency.places import SHARINGS, Places, Sharing, places
-from tribodyn.studies.efficiency.quadrature import Array
 from tribodyn.studies.efficiency.sampled import Samples, samples
 from tribodyn.studies.efficiency.torque_ratio import path_contact, torque_ratio
 from tribodyn.studies.gears import LAYOUT
@@ -40,6 +40,8 @@ from tribodyn.tribology.friction.coulomb import constant
 from tribodyn.tribology.lubricant import LubricantData
 from tribodyn.tribology.surface_state import fraction_in_range
 
+#: By how much of a pitch the mesh is looked at before and behind a jump.
+_BESIDE = 1e-9
 #: Figures of every duty of a load spectrum that the summary has.
 SPECTRUM = (
     "efficiency",
@@ -130,7 +132,7 @@ def run(
     }
     scales = scales_of(study.cycle.side)
     with writer(case, path, LAYOUT, len(over.turned), groups=groups, scales=scales, force=force) as record:
-        record.write(0, _record_arrays(over, mesh, state, study.duty))
+        record.write(0, record_arrays(over, mesh, state, study.duty))
         if progress:
             progress(1.0)
         return RunResult(record.finish(summary), "complete", "", summary)
@@ -160,6 +162,17 @@ def spectrum_figures(case: EfficiencyCase) -> dict[str, Any]:
         "spectrum_efficiency": float(shares @ (each["efficiency"] * each["power_in_mean"]))
         / means["power_in_mean"],
     }
+
+
+def _at_jumps(study: Prepared) -> tuple[Places, Engagement]:
+    """The mesh on both sides of where a pair enters, leaves or passes a corner of the path.
+
+    Extremes lie there as a rule; over samples alone they would change by jumps with the numbers of a drive.
+    """
+    jumps = study.cycle.boundary[:, None] + np.array([-1.0, 1.0]) * _BESIDE
+    phase = np.clip(jumps.ravel(), _BESIDE, 1.0 - _BESIDE)
+    mesh = places(study.cycle, study.path, phase, study.duty.sharing, study.flanks)
+    return mesh, engage(mesh, study.duty)
 
 
 def _sampled(study: Prepared) -> tuple[Samples, Places, Engagement]:
@@ -229,13 +242,14 @@ def _figures(study: Prepared, over: Samples, mesh: Places, state: Engagement) ->
     balance = means.power_in - means.power_out - means.power_friction
     put_in = float(power_put_in(means.power_in, means.power_out))
 
-    def maximum(values: np.ndarray) -> float:
-        return float(np.max(values[loaded]))
+    beside, jumps = _at_jumps(study)
+    everywhere = np.concatenate([loaded, jumps.normal_load > 0])
 
-    def minimum(values: np.ndarray) -> float:
-        return float(np.min(values[loaded]))
+    def along(name: str) -> np.ndarray:
+        return np.concatenate([getattr(state, name), getattr(jumps, name)])[everywhere]
 
-    flash = maximum(state.flash_temperature_rise)
+    film = along("central_film_thickness")
+    flash = float(np.max(along("flash_temperature_rise")))
     thermal = thermal_figures(study.thermal, put_in, means.efficiency)
     return {
         **_judged(study, mesh, state, means.efficiency),
@@ -244,13 +258,13 @@ def _figures(study: Prepared, over: Samples, mesh: Places, state: Engagement) ->
         **_effective_contact_ratio(mesh, state, duty),
         "load_sharing": duty.sharing,
         "mesh_frequency": duty.pinion_speed / float(cycle.pitch_angle),
-        "normal_load_max": maximum(state.normal_load),
-        "film_min": minimum(state.central_film_thickness),
-        "film_parameter_min": minimum(state.central_film_thickness) / duty.closure.surfaces.roughness,
+        "normal_load_max": float(np.max(along("normal_load"))),
+        "film_min": float(np.min(film)),
+        "film_parameter_min": float(np.min(film)) / duty.closure.surfaces.roughness,
         "film_parameter_min_roll_angle": float(
-            mesh.roll.ravel()[np.argmin(np.where(loaded, state.central_film_thickness, np.inf))]
+            np.concatenate([mesh.roll, beside.roll])[everywhere][np.argmin(film)]
         ),
-        "hertz_pressure_max": maximum(state.hertz_pressure),
+        "hertz_pressure_max": float(np.max(along("hertz_pressure"))),
         "flash_temperature_max": flash,
         "friction_coefficient_mean": means.friction_coefficient,
         "friction_force_mean": np.sum(np.abs(over.by_pair(state.friction_force)[:-1]), axis=0) * share,
@@ -284,54 +298,3 @@ def _judged(study: Prepared, mesh: Places, state: Engagement, efficiency: float)
     judge.take({name: np.where(loaded, values, np.nan) for name, values in quantities.items()})
     judge.take({"efficiency": efficiency})
     return judge.figures()
-
-
-def _record_arrays(over: Samples, mesh: Places, state: Engagement, duty: Duty) -> dict[str, Any]:
-    """Datasets of a record of one mesh cycle; what a quasi-static state has not stays out."""
-    cycle = mesh.cycle
-    touching = (mesh.carrying > 0) & (state.normal_load > 0)
-    angle = over.turned * cycle.pitch_angle
-    ratio = cycle.pinion_pitch_radius / cycle.gear_pitch_radius
-    zero = np.zeros_like(angle)
-
-    def contacting(values: Array) -> Array:
-        return np.where(touching, values, np.nan)
-
-    gear_angle = ratio * angle - np.nan_to_num(state.deflection) / cycle.gear_pitch_radius
-    one = np.ones_like(angle)
-    arrays = {
-        "time": angle / duty.pinion_speed,
-        "pinion_angle": angle,
-        "displacement": np.stack([zero, zero, zero, zero, angle, gear_angle], axis=-1),
-        "velocity": np.stack(
-            [zero, zero, zero, zero, one * duty.pinion_speed, one * duty.pinion_speed * ratio], -1
-        ),
-        "transmission_error": contacting(
-            duty.way * state.deflection[:, None] * np.cos(cycle.pressure_angle[:, 0])
-        ),
-        "transmission_error_rotational": state.deflection,
-        "normal_load": state.normal_load,
-        "friction_force": state.friction_force,
-        "friction_coefficient": contacting(state.friction_coefficient),
-        "asperity_load_ratio": contacting(state.asperity_load_ratio),
-        "central_film_thickness": contacting(state.central_film_thickness),
-        "film_parameter": contacting(state.central_film_thickness / duty.closure.surfaces.roughness),
-        "flash_temperature_rise": contacting(state.flash_temperature_rise),
-        "hertz_pressure": contacting(state.hertz_pressure),
-        "equivalent_radius": contacting(state.radius),
-        "entrainment_speed": contacting(state.entrainment),
-        "sliding_speed": contacting(state.sliding),
-        "pressure_angle": contacting(cycle.pressure_angle[:, 0]),
-        "mesh_stiffness": np.where(touching, 1.0 / cycle.compliance[:, 0], 0.0),
-        "closure_in_range": contacting(state.closure_in_range),
-        "friction_in_range": contacting(state.friction_in_range),
-        "drive_torque": state.pinion_torque,
-        "power_in": state.power_in,
-        "power_out": state.power_out,
-        "power_friction": state.power_friction,
-        "power_damping": zero,
-        "power_parametric": zero,
-        "efficiency": efficiency(state.power_in, state.power_out, state.power_friction),
-    }
-    of_pairs = {name for name, one in SAMPLES.items() if one.dims == ("time", "pair")}
-    return {name: over.by_pair(values) if name in of_pairs else values for name, values in arrays.items()}

@@ -10,6 +10,7 @@ import tribodyn as td
 from tribodyn.errors import InputError
 from tribodyn.record.reader import open_record
 from tribodyn.studies.design import archive
+from tribodyn.studies.design.report import sentences
 from tribodyn.studies.load import load_scenario
 from tribodyn.studies.run import run
 
@@ -97,6 +98,15 @@ def test_an_interrupted_search_keeps_its_best_and_goes_on(tmp_path: Path, monkey
     assert gone_on.best == whole.best
     assert (gone_on.data.objective.values == whole.data.objective.values).all()
     assert len(evaluated) == of_whole - done - 1
+
+
+def test_a_front_without_duties_is_drawn_and_told(tmp_path: Path):
+    found = search(tmp_path / "a.h5", minimise=["loss", "hertz_pressure_max"], evaluations=24)
+    pictures = ("overview", "history", "duties", "free-keys", "sensitivities", "front")
+    assert all(found.plot(name).get_axes() for name in pictures)
+    with open_record(tmp_path / "a.h5") as record:
+        said = " ".join(sentences(record))
+    assert "Maximum Hertz pressure" in said or "Hertz" in said
 
 
 def test_constraints_that_cannot_be_kept_are_named(tmp_path: Path):

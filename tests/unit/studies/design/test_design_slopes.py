@@ -70,7 +70,8 @@ def test_what_cannot_be_differentiated(scenario: str, figure: str, key: str):
 def test_jax_agrees_with_differences(scenario: str):
     keys = ("drive.pinion.addendum", "drive.gear.addendum")
     free = [{"key": key, "from": 0.8, "to": 1.05} for key in keys]
-    design = {"free": free, "minimise": "loss", "subject_to": ["contact_ratio >= 1.2"]}
+    bounds = ["contact_ratio >= 1.2", "hertz_pressure_max <= 1 GPa"]
+    design = {"free": free, "minimise": "loss", "subject_to": bounds}
     case = loaded_search(scenario, design, {"output.samples_per_cycle": 200}).case
 
     def found(x: np.ndarray) -> Any:
@@ -83,7 +84,8 @@ def test_jax_agrees_with_differences(scenario: str):
     np.testing.assert_allclose(
         value, [(up.objectives[0] - down.objectives[0]) / (2 * step) for up, down in around], rtol=1e-2
     )
-    margin = margin_slope(judge, case.constraints[0], found(x), slopes)
-    np.testing.assert_allclose(
-        margin, [(up.margins[0] - down.margins[0]) / (2 * step) for up, down in around], rtol=1e-3
-    )
+    for place, one in enumerate(case.constraints):
+        margin = margin_slope(judge, one, found(x), slopes)
+        expected = [(up.margins[place] - down.margins[place]) / (2 * step) for up, down in around]
+        # samples do not meet the narrow peak of a cycloid's pressure at the pitch point to the last digit
+        np.testing.assert_allclose(margin, expected, rtol=1e-3, atol=5e-3, err_msg=one.text)
