@@ -61,3 +61,32 @@ def test_a_process_without_a_record_ends(monkeypatch):
     assert drawer._process.returncode is not None
     with ahead.drawer(wanted=False) as drawer:
         assert drawer is None
+
+
+@pytest.mark.parametrize(
+    ("words", "starts"),
+    [
+        (("run", "irefc"), True),
+        (("run", "irefc", "--no-plot"), False),
+        (("run", "irefc", "--plot"), False),
+        (("run", "--help"), False),
+        (("show", "run"), False),
+        ((), False),
+    ],
+)
+def test_it_starts_with_a_command_that_draws_one_picture(words, starts, monkeypatch):
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0, 1}, raising=False)
+    ahead.begin(words)
+    assert len(ahead._begun) == starts
+    with ahead.drawer(wanted=starts) as drawer:
+        assert (drawer is not None) == starts
+        assert not ahead._begun
+
+
+def test_it_ends_with_the_process_that_began_it(monkeypatch):
+    """A command that fails before it has anything to draw leaves nothing behind."""
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0, 1}, raising=False)
+    ahead.begin(("run", "no-such-scenario"))
+    process = ahead._begun.pop()._process
+    said, _ = process.communicate(timeout=60)  # closes its input, as the end of this process would
+    assert (said, process.returncode) == ("", 0)

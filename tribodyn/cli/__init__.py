@@ -13,6 +13,10 @@ def main() -> None:
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     # pydantic would look through all that is installed for plugins of its own
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
+    if sys.argv[1:2] == ["run"]:
+        from tribodyn.cli.ahead import begin
+
+        begin(sys.argv[1:])
     import tribodyn
     from tribodyn.cli.app import app
     from tribodyn.cli.outcome import end_when_asked

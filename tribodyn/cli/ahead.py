@@ -10,7 +10,7 @@ import os
 import subprocess
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
@@ -50,17 +50,34 @@ class Drawer:
             self._process.communicate()
 
 
+_begun: list[Drawer] = []
+
+
+def begin(words: Sequence[str]) -> None:
+    """Start the process before anything else of a command that will draw an overview, if a core is free.
+
+    Parameters
+    ----------
+    words : sequence of str
+        Of the command line, without the program.
+    """
+    drawn_otherwise = {"--plot", "--no-plot", "-h", "--help"}
+    if list(words[:1]) == ["run"] and not drawn_otherwise.intersection(words) and usable_cores() > 1:
+        with suppress(OSError):
+            _begun.append(Drawer())
+
+
 @contextmanager
 def drawer(wanted: bool) -> Iterator[Drawer | None]:
     """Give a process that gets ready to draw, where this is the command line's own and a core is free."""
     import tribodyn
 
-    made = None
-    if wanted and tribodyn.OWN_PROCESS and usable_cores() > 1:
+    made = _begun.pop() if _begun else None
+    if made is None and wanted and tribodyn.OWN_PROCESS and usable_cores() > 1:
         with suppress(OSError):
             made = Drawer()
     try:
-        yield made
+        yield made if wanted else None
     finally:
         if made is not None:
             made.close()
@@ -82,8 +99,11 @@ def serve() -> None:
     if not line:
         return
     from tribodyn.cli.plot import draw_pictures
+    from tribodyn.record.soundness import remember_own
 
-    pictures = draw_pictures(Path(json.loads(line)), everything=False)
+    record = Path(json.loads(line))
+    remember_own(record)  # the first process has just written it
+    pictures = draw_pictures(record, everything=False)
     sys.stdout.write(json.dumps([str(path) for path in pictures]))
 
 
