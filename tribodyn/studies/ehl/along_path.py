@@ -15,10 +15,12 @@ from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.studies.ehl.layout import BEGIN, END, PLACES
 from tribodyn.tribology.closure import surfaces_of, untried_closure_of
+from tribodyn.tribology.contact import hertz_half_width
 from tribodyn.tribology.contact_friction import ContactFriction, contact_friction
 from tribodyn.tribology.data import FilmData, FrictionData
 from tribodyn.tribology.ehl.coupled import CoupledSolution, solve_coupled
 from tribodyn.tribology.ehl.problem import LineContact
+from tribodyn.tribology.ehl.steady import Solution
 from tribodyn.tribology.ehl.table import Contact, contact_of
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
@@ -28,6 +30,8 @@ Array = Any
 
 #: Loads over the highest at which a pair is taken as out of contact.
 _UNLOADED = 1e-6
+#: Nodes over half the width over which a jump of the load is spread.
+_SPREAD = 32
 
 
 class Prepared(NamedTuple):
@@ -39,13 +43,17 @@ class Prepared(NamedTuple):
 
 
 class Way(NamedTuple):
-    """The pair at its positions: arrays (K,), SI; the rolling speeds are those of both flanks."""
+    """The pair at its positions: arrays (K,), SI; the rolling speeds are those of both flanks.
+
+    `table` holds roll angles and line loads between which the loads are linear.
+    """
 
     roll: Array
     normal_load: Array
     line_load: Array
     radius: Array
     speeds: tuple[Array, Array]
+    table: tuple[Array, Array]
 
 
 def prepare(case: EhlCase) -> Prepared:
@@ -61,36 +69,59 @@ def prepare(case: EhlCase) -> Prepared:
 def way(study: Prepared) -> Way:
     """Return the pair at positions evenly spaced in roll angle, in the middle of equal parts of its contact.
 
-    Loads follow from the compliances of the pairs and the torque, without friction and inertia.
+    Loads follow from the compliances of the pairs and the torque, without friction and inertia. With squeeze
+    a jump of the load, where another pair comes or goes, is spread over `jump_width`.
     """
     case, cycle = study.case, study.cycle
     start, end = float(cycle.roll_start), float(cycle.roll_end)
     roll = start + (np.arange(case.positions) + 0.5) / case.positions * (end - start)
-    nodes, loads = _loads(cycle, case.operating.gear_torque)
-    load = np.interp(roll, nodes, loads)
     path = study.assembly.path
     motion = kinematics(path, path.signed_distance(roll))
     speed = case.operating.pinion_speed
-    return Way(
-        roll,
-        load,
-        load / float(cycle.face_width),
-        1.0 / np.asarray(motion.relative_curvature),
-        (speed * np.asarray(motion.pinion_speed), speed * np.asarray(motion.gear_speed)),
-    )
+    radius = 1.0 / np.asarray(motion.relative_curvature)
+    speeds = (speed * np.asarray(motion.pinion_speed), speed * np.asarray(motion.gear_speed))
+    nodes, loads = _loads(cycle, case.operating.gear_torque)
+    loads = loads / float(cycle.face_width)
+    if case.transient:
+        nodes, loads = _spread(nodes, loads, jump_width(study, float(np.max(loads)), radius, speeds))
+    line_load = np.interp(roll, nodes, loads)
+    return Way(roll, line_load * float(cycle.face_width), line_load, radius, speeds, (nodes, loads))
+
+
+def jump_width(study: Prepared, line_load: float, radius: Array, speeds: tuple[Array, Array]) -> float:
+    """Roll angle in which the oil is drawn through half a contact, b/u, at the highest load; rad.
+
+    Where the load rises much faster, the contact widens faster than the oil can follow.
+    """
+    modulus = float(surfaces_of(study.case).effective_modulus)
+    width = hertz_half_width(line_load, 1.0 / np.median(radius), modulus)
+    drawn = np.median(0.5 * np.abs(speeds[0] + speeds[1]))
+    return float(width / drawn) * study.case.operating.pinion_speed
+
+
+def _spread(nodes: Array, loads: Array, width: float) -> tuple[Array, Array]:
+    """Loads averaged twice over half the width: once differentiable; on equally spaced nodes."""
+    count = int(np.ceil((nodes[-1] - nodes[0]) / width * 2 * _SPREAD)) + 1
+    fine = np.linspace(nodes[0], nodes[-1], count)
+    kernel = np.convolve(np.full(_SPREAD, 1.0 / _SPREAD), np.full(_SPREAD, 1.0 / _SPREAD))
+    reach = _SPREAD - 1
+    padded = np.pad(np.interp(fine, nodes, loads), reach, mode="edge")
+    return fine, np.convolve(padded, kernel, mode="valid")
 
 
 def _loads(cycle: MeshCycle, gear_torque: float) -> tuple[Array, Array]:
-    """Roll angles of the table's nodes, and the load of the pair that is there; in order of the angle."""
+    """Roll angles of the table's nodes, and the load of the pair that is there; in order of the angle.
+
+    Nodes on both sides of a boundary share an angle and keep the order of time.
+    """
     pairs = cycle.front_pairs
     load = np.asarray(quasi_static(cycle, gear_torque).normal_load)[:, :, :pairs]
     age = np.asarray(cycle.phase)[:, :, None] + np.arange(pairs - 1.0, -1.0, -1.0)
     roll = float(cycle.roll_start) + float(cycle.pitch_angle) * age
     touching = np.broadcast_to(np.asarray(cycle.in_contact)[:, None, :pairs] > 0, load.shape)
-    roll, load = roll[touching], load[touching]
-    # nodes on both sides of a boundary share an angle and keep the order of time
-    order = np.argsort(roll, kind="stable")
-    return roll[order], load[order]
+    # a pair passes through the phases as the youngest, then once more as the one before
+    roll, load, touching = (np.moveaxis(one, 2, 0)[::-1] for one in (roll, load, touching))
+    return roll[touching], load[touching]
 
 
 def given_of(case: EhlCase) -> LawInput:
@@ -158,18 +189,24 @@ def solved_at(
 def profiles(found: CoupledSolution) -> dict[str, Array]:
     """Pressure, film, temperature and shear at the places of a record."""
     solution = found.solution
-    place = np.linspace(BEGIN, END, PLACES)
-    at = solution.place / solution.problem.half_width
-
-    def over(values: Array, outside: float) -> Array:
-        return np.interp(place, at, values, left=outside, right=outside)
-
-    return {
-        "pressure": over(solution.pressure, 0.0),
-        "film_thickness": over(solution.mean_gap, math.nan),
-        "temperature_rise": over(found.temperature, 0.0),
-        "shear_stress": over(found.shear.stress, 0.0),
+    return pressure_and_film(solution) | {
+        "temperature_rise": over_places(solution, found.temperature, 0.0),
+        "shear_stress": over_places(solution, found.shear.stress, 0.0),
     }
+
+
+def pressure_and_film(solution: Solution) -> dict[str, Array]:
+    """Pressure and film at the places of a record."""
+    return {
+        "pressure": over_places(solution, solution.pressure, 0.0),
+        "film_thickness": over_places(solution, solution.mean_gap, math.nan),
+    }
+
+
+def over_places(solution: Solution, values: Array, outside: float) -> Array:
+    """Values at the nodes as values at the places of a record."""
+    at = solution.place / solution.problem.half_width
+    return np.interp(np.linspace(BEGIN, END, PLACES), at, values, left=outside, right=outside)
 
 
 def contact_for(case: EhlCase) -> Contact:

@@ -25,6 +25,8 @@ class EhlCase(CaseHead):
         Compliance by which the pairs share the load.
     positions : int
         Positions of the pair at which its contact is solved.
+    transient : bool
+        Whether the way is also solved with squeeze.
     film, friction : FilmData, FrictionData
         None of their own: every law of the registries is evaluated beside the solution.
     """
@@ -38,5 +40,6 @@ class EhlCase(CaseHead):
     operating: OperatingData
     mesh: MeshData
     positions: int
+    transient: bool
     film: FilmData
     friction: FrictionData

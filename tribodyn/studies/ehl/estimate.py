@@ -1,11 +1,13 @@
 """What a study of the solved contact takes, before any work."""
 
 from tribodyn.studies.ehl.case import EhlCase
-from tribodyn.studies.ehl.layout import LAYOUT, PLACES
+from tribodyn.studies.ehl.layout import PLACES, layout_of
 from tribodyn.studies.estimate import PROGRAM, Driver, Estimate, record_bytes
 
 #: Seconds of one solved position, contacts of the traction curve, and laws beside them.
 A_POSITION, TRACTION, LAWS = 0.3, 9, 12
+#: Seconds of a way with squeeze, and of each time step above those that the way takes anyway.
+A_WAY, A_STEP = 8.0, 0.015
 
 
 def estimate(case: EhlCase) -> Estimate:
@@ -17,8 +19,10 @@ def estimate(case: EhlCase) -> Estimate:
         "friction_law": LAWS,
         "slide_to_roll": TRACTION,
     }
-    record = record_bytes(LAYOUT, sizes)
+    record = record_bytes(layout_of(case.transient), sizes)
     seconds = A_POSITION * (case.positions + TRACTION)
+    if case.transient:
+        seconds += A_WAY + A_STEP * case.positions
     return Estimate(
         PROGRAM + 4.0 * record, record, seconds, (Driver("output.positions", float(case.positions), 40),)
     )

@@ -134,10 +134,40 @@ def _traction(records: Sequence[Record], view: View) -> Figure:
     return drawn
 
 
+def _transient(records: Sequence[Record], view: View) -> Figure:
+    record = _one(records, view)
+    if not _with_squeeze(record):
+        raise InputError(
+            "plot", "transient", "the record has no film with squeeze", "set contact.transient = true"
+        )
+    drawn = new_figure(WIDTH, 3.0 * PANEL_HEIGHT)
+    film, departure, friction = drawn.subplots(3, 1, sharex=True)
+    roll = np.degrees(record["roll_angle"])
+    for number, (name, label) in enumerate((("central", "central"), ("minimum", "minimum"))):
+        steady, squeezed = (record[f"{one}{name}_film_thickness"] for one in ("", "transient_"))
+        film.plot(roll, 1e6 * steady, "--", color=PALETTE[number], lw=1, label=f"{label}, steady")
+        film.plot(roll, 1e6 * squeezed, color=PALETTE[number], label=f"{label}, with squeeze")
+        departure.plot(roll, 100.0 * (squeezed / steady - 1.0), color=PALETTE[number], label=label)
+    friction.plot(roll, record["friction_coefficient"], "--", color=PALETTE[0], lw=1, label="steady")
+    friction.plot(roll, record["transient_friction_coefficient"], color=PALETTE[0], label="with squeeze")
+    film.set(ylabel="Film thickness (µm)", ylim=(0.0, None))
+    departure.set_ylabel("Departure (%)")
+    friction.set(ylabel="Friction coefficient", ylim=(0.0, None), xlabel=ROLL)
+    for axes in (film, departure, friction):
+        axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize="x-small")
+    drawn.suptitle(record_title(record))
+    return drawn
+
+
+def _with_squeeze(record: Record) -> bool:
+    return "transient_central_film_thickness" in record
+
+
 DRAWINGS: dict[str, Drawing] = {
     "overview": Drawing("film and friction beside every law, Hertz pressure", _overview),
     "profiles": Drawing("pressure, film, temperature and shear at chosen places", _profiles),
     "maps": Drawing("the same over the way of the pair", _maps),
     "moes": Drawing("Moes' chart with the drive's duty", _moes),
+    "transient": Drawing("film and friction with squeeze beside the steady ones", _transient, _with_squeeze),
     "traction": Drawing("friction over slide-to-roll ratio, where the load is highest", _traction),
 }

@@ -39,6 +39,15 @@ SAMPLES: dict[str, Variable] = {
     "friction_by_law": Variable(("phase", "friction_law"), "1", "friction coefficient by the law"),
 }
 
+#: With squeeze, beside `SAMPLES`.
+SQUEEZED: dict[str, Variable] = {
+    "transient_central_film_thickness": Variable(_OVER, "m", "mean gap on the line of centres, with squeeze"),
+    "transient_minimum_film_thickness": Variable(_OVER, "m", "minimum mean gap, with squeeze"),
+    "transient_friction_coefficient": Variable(_OVER, "1", "friction coefficient, with squeeze"),
+    "transient_pressure": Variable(_PROFILE, "Pa", "pressure of fluid and asperities, with squeeze"),
+    "transient_film_thickness": Variable(_PROFILE, "m", "mean gap, with squeeze; NaN behind the film"),
+}
+
 TRACTION = {
     "traction": Variable(
         ("slide_to_roll",), "1", "friction coefficient where the load is highest, over slide-to-roll ratio"
@@ -52,4 +61,8 @@ SCALES = {
     "slide_to_roll": Variable(("slide_to_roll",), "1", "sliding speed over entrainment speed"),
 }
 
-LAYOUT = Layout(PHASE, SAMPLES, SCALES, TRACTION, {"mesh_cycle": MESH_CYCLE})
+
+def layout_of(transient: bool) -> Layout:
+    """Layout of the record of a way, with squeeze or without."""
+    samples = SAMPLES | SQUEEZED if transient else SAMPLES
+    return Layout(PHASE, samples, SCALES, TRACTION, {"mesh_cycle": MESH_CYCLE})

@@ -20,7 +20,8 @@ from tribodyn.studies.ehl.along_path import (
     way,
 )
 from tribodyn.studies.ehl.case import EhlCase
-from tribodyn.studies.ehl.layout import BEGIN, END, LAYOUT, PLACES, SAMPLES
+from tribodyn.studies.ehl.layout import BEGIN, END, PLACES, SAMPLES, layout_of
+from tribodyn.studies.ehl.squeezed import Steady, kept, squeezed
 from tribodyn.studies.recording import target, writer
 from tribodyn.studies.study import Progress, RunResult
 
@@ -28,6 +29,8 @@ Array = Any
 
 #: Slide-to-roll ratios of the traction curve.
 TRACTION = np.array([0.001, 0.003, 0.01, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8])
+#: Share of the time that the steady contacts take, of a way that is solved with squeeze too.
+_STEADY = 0.7
 _PROFILES = ("pressure", "film_thickness", "temperature_rise", "shear_stress")
 
 
@@ -55,11 +58,12 @@ def run(
     arrays["film_by_law"] = np.stack(list(laws["film"].values()), axis=1)
     arrays["friction_by_law"] = np.stack(list(laws["friction"].values()), axis=1)
     groups = {"mesh_cycle": as_arrays(study.cycle)}
-    with writer(case, path, LAYOUT, case.positions, groups=groups, scales=scales, force=force) as record:
+    layout = layout_of(case.transient)
+    with writer(case, path, layout, case.positions, groups=groups, scales=scales, force=force) as record:
         if summary["positions_solved"] == 0:
             failure = "the contact could be solved at no position of the pair"
             return RunResult(record.fail(failure, summary), "failed", failure, summary)
-        record.write(0, arrays)
+        record.write(0, {name: arrays[name] for name in ("phase", *layout.samples)})
         for row, value in enumerate(_traction(study, over)):
             record.put(row, {"traction": value})
         summary["wall_time"] = perf_counter() - begun
@@ -95,6 +99,7 @@ def solve(study: Prepared, over: Way, progress: Progress) -> dict[str, Array]:
         "hertz_pressure": np.asarray(seen.surface.hertz_pressure),
     }
     contact = contact_for(case)
+    steady: list[Steady | None] = [None] * count
     for at in np.flatnonzero(loaded(over)):
         duty = over.line_load[at], seen.radius[at], seen.entrainment[at], sliding[at]
         found = solved_at(contact, *(float(one) for one in duty))
@@ -116,7 +121,12 @@ def solve(study: Prepared, over: Way, progress: Progress) -> dict[str, Array]:
             }
             for name, value in values.items():
                 arrays[name][at] = value
-        progress((at + 1) / count)
+            if case.transient:
+                steady[at] = kept(found)
+        progress((at + 1) / count * (_STEADY if case.transient else 1.0))
+    if case.transient:
+        rest = lambda share: progress(_STEADY + (1.0 - _STEADY) * share)  # noqa: E731
+        arrays |= squeezed(over, case.operating.pinion_speed, contact, steady, rest)
     return arrays
 
 
@@ -153,7 +163,8 @@ def _figures(study: Prepared, arrays: dict[str, Array], laws: dict[str, dict[str
         name: float(np.sum(weight * values[solved]) / np.sum(weight)) / mean
         for name, values in laws["friction"].items()
     }
-    return {
+    squeeze = squeeze_figures(study.case, arrays) if study.case.transient else {}
+    return squeeze | {
         "contact_ratio": float(study.cycle.contact_ratio),
         "positions_solved": int(np.count_nonzero(solved)),
         "positions": study.case.positions,
@@ -169,4 +180,33 @@ def _figures(study: Prepared, arrays: dict[str, Array], laws: dict[str, dict[str
         "normal_load_max": float(np.max(of("normal_load"))),
         "film_over_solved": {name: float(value) for name, value in film.items()},
         "friction_over_solved": friction,
+    }
+
+
+def squeeze_figures(case: EhlCase, arrays: dict[str, Array]) -> dict[str, Any]:
+    """How far films and friction with squeeze depart from the steady ones."""
+    solved = np.isfinite(arrays["transient_central_film_thickness"])
+    found: dict[str, Any] = {
+        "transient_positions_solved": int(np.count_nonzero(solved)),
+        "transient_restarts": int(arrays["restarts"]),
+    }
+    if not np.any(solved):
+        return found
+
+    def of(name: str) -> Array:
+        return arrays[name][solved]
+
+    for name in ("central", "minimum"):
+        departure = np.abs(of(f"transient_{name}_film_thickness") / of(f"{name}_film_thickness") - 1.0)
+        found[f"{name}_film_departure_max"] = float(np.max(departure))
+        found[f"{name}_film_departure_mean"] = float(np.mean(departure))
+    weight = of("normal_load") * np.abs(of("sliding_speed"))
+    friction, steady = (
+        float(np.sum(weight * of(name)) / np.sum(weight))
+        for name in ("transient_friction_coefficient", "friction_coefficient")
+    )
+    return found | {
+        "transient_minimum_film_min": float(np.min(of("transient_minimum_film_thickness"))),
+        "transient_friction_coefficient_mean": friction,
+        "friction_departure_mean": friction / steady - 1.0,
     }

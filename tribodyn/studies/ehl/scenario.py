@@ -16,7 +16,7 @@ from tribodyn.scenario.drive_data import (
 from tribodyn.scenario.duty import duty_of
 from tribodyn.scenario.model_files import DriveTable, Lubricant
 from tribodyn.scenario.modification import MisalignmentTable
-from tribodyn.scenario.quantity import Table, model_file, written
+from tribodyn.scenario.quantity import Switch, Table, model_file, written
 from tribodyn.scenario.spectrum import OiledOperatingTable, SpectrumScenario
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.tribology.data import FilmData, FrictionData
@@ -27,6 +27,15 @@ class EhlMesh(Table):
 
     compliance: Literal["energy", "fem"] = Field(
         "energy", description="by which the pairs share the load: the energy method, or finite elements"
+    )
+
+
+class EhlContact(Table):
+    """How the contact is solved."""
+
+    transient: Switch = Field(
+        False,
+        description="also solve the pair's way with squeeze, the film of one position carried to the next",
     )
 
 
@@ -46,6 +55,7 @@ class EhlScenario(SpectrumScenario):
     lubricant: Annotated[Lubricant, model_file("lubricants")]
     operating: OiledOperatingTable
     mesh: EhlMesh = written({})
+    contact: EhlContact = written({})
     output: EhlOutput = written({})
 
 
@@ -68,6 +78,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> EhlCase:
             slices=slices_of(None, modifications),
         ),
         positions=scenario.output.positions,
+        transient=scenario.contact.transient,
         film=FilmData(),
         friction=FrictionData("none"),
     )

@@ -99,10 +99,7 @@ def solve_coupled(
                 if share < _LEAST_SHARE:
                     raise
                 wished = mixing.shorter(share)
-        film = slice(0, solution.grid.end + 1)
-        within = solution.fluid_pressure[film], solution.place[film]
-        part = shear._replace(newtonian=shear.newtonian[film])
-        friction = shear_force(part, *within, rheology) + _by_asperities(solution)
+        friction = _friction(solution, shear, rheology)
         known = (solution.central_film_thickness, friction, float(np.max(warmed)))
         least = (0.0, 1e-3 * problem.line_load, 1e-2)
         if all(abs(a - b) <= TOLERANCE * max(abs(a), c) for a, b, c in zip(known, last, least, strict=True)):
@@ -139,20 +136,42 @@ def _unpacked(vector: Array) -> tuple[Closure, Array]:
     return Closure(*closure.reshape(3, -1)), rise.reshape(-1, LAYERS) / _KELVIN
 
 
+def friction_of(solution: Solution, rheology: Rheology, thermal: Thermal | None, rise: Array) -> float:
+    """Friction ∫ τ_m + f_c p_a dx, N/m, under temperatures of the layers, K above the inlet's (x, layer)."""
+    coefficient = thermal.temperature_viscosity if thermal is not None else 0.0
+    shear, _ = _sheared(solution, rheology, coefficient, rise)
+    return _friction(solution, shear, rheology)
+
+
+def _friction(solution: Solution, shear: Shear, rheology: Rheology) -> float:
+    """Of fluid and asperities, N/m."""
+    film = slice(0, solution.grid.end + 1)
+    within = solution.fluid_pressure[film], solution.place[film]
+    part = shear._replace(newtonian=shear.newtonian[film])
+    return shear_force(part, *within, rheology) + _by_asperities(solution)
+
+
+def _sheared(solution: Solution, rheology: Rheology, coefficient: float, rise: Array) -> tuple[Shear, Array]:
+    """Shear under given pressures, films and temperatures, and d ln η/dT in the layers."""
+    problem, fluid, pressure = solution.problem, solution.problem.fluid, solution.fluid_pressure
+    gradient = np.gradient(pressure, solution.place)
+    thickening, by_heat = hot_log_viscosity(pressure[:, None], rise, fluid, coefficient)
+    log_eta = math.log(fluid.viscosity) + thickening
+    shear = sheared(solution.mean_gap, pressure, gradient, log_eta, problem.surface_speeds, rheology)
+    # the film behind its end is broken: it shears, but in shreds
+    shear.stress[solution.grid.end + 1 :] = 0.0
+    shear.heat[solution.grid.end + 1 :] = 0.0
+    return shear, by_heat
+
+
 def _closed(
     solution: Solution, rheology: Rheology, surfaces: Surfaces | None, heat: Heat | None, rise: Array
 ) -> tuple[Shear, Heat | None, Closure]:
     """Shear and heat under given pressures, films and temperatures of the layers."""
     problem, fluid = solution.problem, solution.problem.fluid
-    pressure, film, place = solution.fluid_pressure, solution.mean_gap, solution.place
-    gradient = np.gradient(pressure, place)
+    pressure, film = solution.fluid_pressure, solution.mean_gap
     coefficient = surfaces.thermal.temperature_viscosity if surfaces is not None else 0.0
-    thickening, by_heat = hot_log_viscosity(pressure[:, None], rise, fluid, coefficient)
-    log_eta = math.log(fluid.viscosity) + thickening
-    shear = sheared(film, pressure, gradient, log_eta, problem.surface_speeds, rheology)
-    # the film behind its end is broken: it shears, but in shreds
-    shear.stress[solution.grid.end + 1 :] = 0.0
-    shear.heat[solution.grid.end + 1 :] = 0.0
+    shear, by_heat = _sheared(solution, rheology, coefficient, rise)
     if surfaces is not None:
         flow = relative_density(pressure, fluid)[0][:, None] * shear.velocity * film[:, None] / LAYERS
         through = solution.flow_film_thickness * problem.entrainment_speed

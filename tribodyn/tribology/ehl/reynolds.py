@@ -186,10 +186,15 @@ def _store(
     matrix[:size, size + 1] += behind(by_film * (state.end + grid.node))
 
 
-def moved(state: State, change: Array) -> State:
+def least_pressure(pressure: Array, suction: float) -> Array:
+    """Lowest pressures that a step of Newton's method may lead to."""
+    return KEPT_PRESSURE * np.maximum(pressure, 0.0) - suction
+
+
+def moved(state: State, change: Array, suction: float = 0.0) -> State:
     """Take a step of Newton's method, held where it would leave the meaning of an unknown."""
     pressure = state.pressure.copy()
-    pressure[1:-1] = np.maximum(pressure[1:-1] + change[:-3], KEPT_PRESSURE * pressure[1:-1])
+    pressure[1:-1] = np.maximum(pressure[1:-1] + change[:-3], least_pressure(pressure[1:-1], suction))
     rigid_film, flow, end = (float(one) for one in change[-3:])
     return State(
         pressure,

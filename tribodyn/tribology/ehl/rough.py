@@ -19,10 +19,10 @@ from tribodyn.tribology.ehl.fluid import Fluid, log_viscosity, relative_density
 from tribodyn.tribology.ehl.grid import Grid, at_faces
 from tribodyn.tribology.ehl.reynolds import (
     KEPT_FLOW,
-    KEPT_PRESSURE,
     LONGEST_WAY,
     Closure,
     State,
+    least_pressure,
     mean_fluidity,
 )
 from tribodyn.tribology.ehl.squeeze import Squeeze, cells, mesh_speed, stored
@@ -122,7 +122,9 @@ def rough_residual(
     return values, matrix
 
 
-def rough_moved(state: State, change: Array, grid: Grid, reduced: RoughReduced) -> State:
+def rough_moved(
+    state: State, change: Array, grid: Grid, reduced: RoughReduced, suction: float = 0.0
+) -> State:
     """Take a step of Newton's method, held where films would change by more than roughness and own size."""
     inner = grid.end - 1
     most = 2.0 * reduced.roughness.height / reduced.film_unit + 0.5 * np.abs(state.film)
@@ -130,7 +132,8 @@ def rough_moved(state: State, change: Array, grid: Grid, reduced: RoughReduced) 
     part = min(1.0, float(1.0 / np.max(np.abs(films) / most)))
     pressure = state.pressure.copy()
     within = slice(1, grid.end)
-    pressure[within] = np.maximum(pressure[within] + part * change[:inner], KEPT_PRESSURE * pressure[within])
+    least = least_pressure(pressure[within], suction)
+    pressure[within] = np.maximum(pressure[within] + part * change[:inner], least)
     rigid_film, flow, end = (part * float(one) for one in change[-3:])
     return State(
         pressure,

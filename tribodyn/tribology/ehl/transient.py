@@ -10,17 +10,19 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from tribodyn.errors import SimulationError
 from tribodyn.tribology.ehl.fluid import relative_density
 from tribodyn.tribology.ehl.problem import LineContact, check
 from tribodyn.tribology.ehl.reynolds import Closure, State, film
 from tribodyn.tribology.ehl.squeeze import Held, cells, faces, squeeze_of
-from tribodyn.tribology.ehl.steady import Solution, converged, reduced_problem
+from tribodyn.tribology.ehl.steady import TOLERANCE, Solution, converged, reduced_problem
 
 Array = Any
 
-#: Imbalance at which an instant is solved: what is stored is a small difference of large masses.
-TOLERANCE = 1e-9
+#: Newton's method needs 2 to 6 steps from one instant to the next.
+MOST_STEPS = 15
 #: Shortest step, over that from one time to the next; growth of a step over the one before.
 _SHORTEST, _GROWTH = 1.0 / 64.0, 2.0
 
@@ -54,7 +56,7 @@ def march(
     SimulationError
         If an instant could not be solved with the shortest step.
     """
-    solution, before = start, [_held(start, float(times[0]))]
+    known, before = [start], [_held(start, float(times[0]))]
     for goal in times[1:]:
         whole = shorter = float(goal) - before[-1].time
         while (left := float(goal) - before[-1].time) > 1e-9 * whole:
@@ -63,40 +65,60 @@ def march(
                 step = min(step, _GROWTH * (before[1].time - before[0].time))
             # equal parts, so that no sliver is left
             step = left / math.ceil(left / step - 1e-9)
-            found = _stepped(instant_at, before[-1].time + step, before, solution)
+            found = _stepped(instant_at, before[-1].time + step, before, known)
             if found is None:
                 shorter = 0.5 * step
                 if shorter < _SHORTEST * whole:
                     raise _stopped(instant_at(before[-1].time + step).problem, before[-1].time)
                 continue
-            solution = found
+            known = [known[-1], found]
             before = [before[-1], _held(found, before[-1].time + step)]
-        yield solution
+        yield known[-1]
 
 
 def _stepped(
-    instant_at: Callable[[float], Instant], time: float, before: list[Held], last: Solution
+    instant_at: Callable[[float], Instant], time: float, before: list[Held], known: list[Solution]
 ) -> Solution | None:
     """Return the solution at a time; None: Newton's method did not converge."""
     problem, closure = instant_at(time)
     check(problem)
+    last = known[-1]
     closure = last.closure if closure is None else closure
     reduced, grid = reduced_problem(problem), last.grid
     squeeze = squeeze_of(time, before, problem.half_width, problem.entrainment_speed, problem.film_unit)
-    state, steps, imbalance = converged(_guess(last, problem), reduced, grid, closure, squeeze, TOLERANCE)
+    guess = _same_film(last, problem)
+    if len(known) == 2:
+        guess = _gone_on(known[0], known[1], (time - before[1].time) / (before[1].time - before[0].time))
+    state, steps, imbalance = converged(guess, reduced, grid, closure, squeeze, MOST_STEPS)
     if not imbalance <= TOLERANCE:
         return None
     films = film(state, reduced, grid) if state.film is None else state.film
     return Solution(problem, reduced, grid, state, films, closure, steps, imbalance)
 
 
-def _guess(last: Solution, problem: LineContact) -> State:
+def _same_film(last: Solution, problem: LineContact) -> State:
     """Pressures of the last instant over Hertz's, and its film in the units of this one."""
     state = last.state
     ratio = last.problem.film_unit / problem.film_unit
     shift = (ratio - 1.0) * state.flow
     films = None if state.film is None else state.film + shift
     return state._replace(rigid_film=state.rigid_film + shift, flow=ratio * state.flow, film=films)
+
+
+def _gone_on(earlier: Solution, last: Solution, ratio: float) -> State:
+    """State to which the last two lead in a straight line, in Hertz's units; `ratio` of the steps in time."""
+    old, new = earlier.state, last.state
+
+    def on(name: str) -> Any:
+        return getattr(new, name) + ratio * (getattr(new, name) - getattr(old, name))
+
+    return State(
+        np.maximum(on("pressure"), 0.5 * new.pressure),
+        on("rigid_film"),
+        max(on("flow"), 0.5 * new.flow),
+        on("end"),
+        None if new.film is None else on("film"),
+    )
 
 
 def _held(solution: Solution, time: float) -> Held:

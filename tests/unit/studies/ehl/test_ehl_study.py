@@ -1,10 +1,16 @@
 """The study of the solved contact: its loads, and the solved contact beside single ones and regressions."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import tribodyn as td
 from tests.support.pages import data_of, needs_browser, shown, unpacked
+from tribodyn.post.figures.panel import View
+from tribodyn.record.reader import open_record
+from tribodyn.studies.ehl.along_path import jump_width, prepare, way
+from tribodyn.studies.ehl.figures import DRAWINGS
 from tribodyn.studies.ehl.judged import case_for, judged, sentence
 
 
@@ -93,3 +99,54 @@ def test_the_cursor_moves_the_profiles(run, tmp_path):
     page = run.report(tmp_path / "page.html")
     phase = run.data["phase"].to_numpy()
     assert 'data-profiled="3"' in shown(f"{page.as_uri()}#at={phase[3] + 1e-3}")
+
+
+@pytest.fixture(scope="module")
+def squeezed():
+    """The same way with squeeze, at twelve positions."""
+    return td.run("ehl-crc-23-47", {"output.positions": 12, "contact.transient": True})
+
+
+def test_squeeze_keeps_the_film_that_was(squeezed):
+    """The film stays thick for a while where the load rises, thin where it falls."""
+    data, summary = squeezed.data, squeezed.summary
+    steady, film = (data[f"{one}central_film_thickness"].to_numpy() for one in ("", "transient_"))
+    assert np.all(np.isfinite(film))
+    assert film[0] == pytest.approx(steady[0], rel=2e-3)
+    load = data["line_load"].to_numpy()
+    assert film[np.argmax(np.diff(load)) + 1] > steady[np.argmax(np.diff(load)) + 1]
+    assert summary["central_film_departure_max"] == pytest.approx(np.max(np.abs(film / steady - 1.0)))
+    assert 0.02 < summary["central_film_departure_max"] < 0.3
+    assert summary["central_film_departure_mean"] < 0.05
+    assert (summary["transient_positions_solved"], summary["transient_restarts"]) == (12, 0)
+
+
+def test_profiles_with_squeeze_carry_the_load(squeezed):
+    data = squeezed.data
+    place = data["place"].to_numpy()
+    carried = (
+        np.trapezoid(data["transient_pressure"].to_numpy(), place, axis=1) * data["half_width"].to_numpy()
+    )
+    np.testing.assert_allclose(carried, data["line_load"].to_numpy(), rtol=0.02)
+
+
+def test_jumps_of_the_load_are_spread():
+    """Over the width that is stated, twice as steep in its middle; the mean load stays."""
+    case = case_for("crc-23-47", {}, 5)
+    sharp = way(prepare(case)).table
+    study = prepare(replace(case, transient=True))
+    over = way(study)
+    width = jump_width(study, float(np.max(sharp[1])), over.radius, over.speeds)
+    assert np.trapezoid(over.table[1], over.table[0]) == pytest.approx(
+        np.trapezoid(sharp[1], sharp[0]), rel=1e-3
+    )
+    jump = np.max(np.abs(np.diff(sharp[1])))
+    steepest = np.max(np.abs(np.diff(over.table[1]) / np.diff(over.table[0])))
+    assert steepest == pytest.approx(2.0 * jump / width, rel=0.1)
+
+
+def test_figure_of_the_way_with_squeeze(run, squeezed):
+    with open_record(squeezed.path) as with_it, open_record(run.path) as without:
+        assert DRAWINGS["transient"].fits(with_it)
+        assert not DRAWINGS["transient"].fits(without)
+        assert len(DRAWINGS["transient"].draw([with_it], View()).axes) == 3

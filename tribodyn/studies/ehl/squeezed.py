@@ -1,0 +1,206 @@
+"""A pair's way with squeeze: the film of one position carried on to the next.
+
+Shear and heat are quasi-steady: what they make of the flow, and the temperatures under which the oil shears,
+are those of the steady contact at the same position. The way begins with the steady film of the first loaded
+position. Where the pair loses its load, or no instant can be solved, it begins anew behind that.
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from tribodyn.errors import InputError, SimulationError
+from tribodyn.studies.ehl.along_path import Way, pressure_and_film
+from tribodyn.studies.ehl.layout import PLACES
+from tribodyn.studies.study import Progress
+from tribodyn.tribology.ehl.coupled import CoupledSolution, friction_of
+from tribodyn.tribology.ehl.grid import Grid
+from tribodyn.tribology.ehl.problem import LineContact
+from tribodyn.tribology.ehl.reynolds import Closure, State, film
+from tribodyn.tribology.ehl.rough import RoughReduced, with_films
+from tribodyn.tribology.ehl.shear import LAYERS
+from tribodyn.tribology.ehl.steady import STEP, Solution, grid_of, reduced_problem, solve_steady
+from tribodyn.tribology.ehl.table import Contact
+from tribodyn.tribology.ehl.transient import Instant, march
+
+Array = Any
+
+#: Longest time step, over that in which the oil is drawn through half a contact: films within 0.1 %.
+WAY_OF_A_STEP = 0.1
+_PROFILES = ("pressure", "film_thickness")
+_SCALARS = ("central_film_thickness", "minimum_film_thickness", "friction_coefficient")
+PREFIX = "transient_"
+
+
+class Steady(NamedTuple):
+    """What is kept of a position's steady contact; arrays over the places ξ of its own grid.
+
+    `whole` is the pressure of fluid and asperities over Hertz's, `rise` the temperature of the layers.
+    """
+
+    problem: LineContact
+    state: State
+    node: Array
+    whole: Array
+    closure: Closure
+    rise: Array
+
+
+class Stretch(NamedTuple):
+    """Positions one after another at which the pair carries load, on one grid."""
+
+    times: Array
+    steady: Sequence[Steady]
+    closures: Array
+    rises: Array
+    grid: Grid
+    loads: tuple[Array, Array]
+
+
+def kept(found: CoupledSolution) -> Steady:
+    """Return what is kept of a steady contact."""
+    solution = found.solution
+    rise = np.zeros((len(solution.place), LAYERS)) if found.heat is None else found.heat.layers
+    whole = solution.pressure / solution.problem.hertz_pressure
+    return Steady(solution.problem, solution.state, solution.grid.node, whole, solution.closure, rise)
+
+
+def squeezed(
+    over: Way, speed: float, contact: Contact, steady: Sequence[Steady | None], progress: Progress
+) -> dict[str, Array]:
+    """Datasets of the way with squeeze, NaN where it was not solved, and `restarts` within the way.
+
+    Parameters
+    ----------
+    speed : rotation of the pinion, rad/s
+    contact : what all contacts have in common
+    steady : of each position; None: unloaded or not solved
+    """
+    count = len(over.roll)
+    arrays: dict[str, Array] = {PREFIX + name: np.full(count, np.nan) for name in _SCALARS}
+    arrays |= {PREFIX + name: np.full((count, PLACES), np.nan) for name in _PROFILES}
+    begun = 0
+    for first, last in _runs([one is not None for one in steady]):
+        chosen = [one for one in steady[first : last + 1] if one is not None]
+        stretch = _stretch(chosen, over, np.arange(first, last + 1), speed)
+        begun += _through(stretch, contact, arrays, first, progress)
+    return arrays | {"restarts": np.array(max(begun - 1, 0))}
+
+
+def _runs(good: Sequence[bool]) -> list[tuple[int, int]]:
+    """First and last number of each run of two or more true values."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], np.asarray(good, dtype=int), [0]])))
+    pairs = edges.reshape(-1, 2)
+    return [(int(a), int(b) - 1) for a, b in pairs if b - a > 1]
+
+
+def _stretch(steady: Sequence[Steady], over: Way, at: Array, speed: float) -> Stretch:
+    """One grid for all positions, with shear and heat of the steady contacts on its nodes."""
+    problems = [one.problem for one in steady]
+    grid = grid_of(problems[0], STEP, *problems[1:])
+    closures = np.array([[np.interp(grid.node, one.node, row) for row in one.closure] for one in steady])
+    rises = np.array([[np.interp(grid.node, one.node, row) for row in one.rise.T] for one in steady])
+    nodes, loads = over.table
+    return Stretch(over.roll[at] / speed, steady, closures, rises, grid, (nodes / speed, loads))
+
+
+def _through(
+    stretch: Stretch, contact: Contact, arrays: dict[str, Array], first: int, progress: Progress
+) -> int:
+    """Fill in the positions of a stretch; returns how often the film began as a steady one."""
+    at, begun, last = 0, 0, len(stretch.times) - 1
+    while at < last:
+        reached = at
+        for reached, solution in _carried(stretch, at):
+            _put(arrays, first + reached, solution, contact, stretch.rises[reached])
+            progress((first + reached + 1) / len(arrays[PREFIX + _SCALARS[0]]))
+        begun += reached > at
+        at = reached + 1
+    return begun
+
+
+def _carried(stretch: Stretch, begin: int) -> Iterator[tuple[int, Solution]]:
+    """Go through the positions from a steady one on until one cannot be reached; none if that is the next."""
+    try:
+        start = _begun(stretch, begin)
+        times, marks = _times(stretch, begin)
+        for number, solution in enumerate(march(_Instants(stretch), times, start), start=1):
+            at = marks.get(number)
+            if at == begin + 1:
+                yield begin, start
+            if at is not None:
+                yield at, solution
+    except (SimulationError, InputError):
+        return
+
+
+def _begun(stretch: Stretch, at: int) -> Solution:
+    """Steady contact of a position, on the grid of the stretch."""
+    one, grid = stretch.steady[at], stretch.grid
+    reduced = reduced_problem(one.problem)
+
+    def seen(values: Array) -> Array:
+        return np.interp(grid.node, one.node, values, left=0.0, right=0.0)
+
+    state = one.state._replace(pressure=seen(one.whole))
+    if isinstance(reduced, RoughReduced):
+        state = with_films(state, reduced, grid)._replace(pressure=seen(one.state.pressure))
+    closure = Closure(*stretch.closures[at])
+    start = Solution(one.problem, reduced, grid, state, film(state, reduced, grid), closure, 0, math.nan)
+    return solve_steady(one.problem, start)
+
+
+def _times(stretch: Stretch, at: int) -> tuple[Array, dict[int, int]]:
+    """Times from a position to the last, and which of them are those of which position."""
+    times, marks = [stretch.times[at]], {}
+    for number in range(at, len(stretch.times) - 1):
+        whole = stretch.times[number + 1] - stretch.times[number]
+        problem = stretch.steady[number + 1].problem
+        drawn = whole * problem.entrainment_speed / problem.half_width
+        parts = max(math.ceil(drawn / WAY_OF_A_STEP), 1)
+        times.extend(stretch.times[number] + whole * np.arange(1, parts + 1) / parts)
+        marks[len(times) - 1] = number + 1
+    return np.array(times), marks
+
+
+class _Instants:
+    """The contact at any time of a stretch."""
+
+    def __init__(self, stretch: Stretch) -> None:
+        self._stretch = stretch
+        values = [
+            (one.problem.radius, one.problem.entrainment_speed, one.problem.sliding_speed)
+            for one in stretch.steady
+        ]
+        self._smooth = CubicSpline(stretch.times, np.array(values))
+
+    def __call__(self, time: float) -> Instant:
+        stretch = self._stretch
+        place = np.interp(time, stretch.times, np.arange(len(stretch.times)))
+        low = min(int(place), len(stretch.times) - 2)
+        part = place - low
+        closure = (1.0 - part) * stretch.closures[low] + part * stretch.closures[low + 1]
+        radius, entrainment, sliding = (float(one) for one in self._smooth(time))
+        problem = stretch.steady[0].problem._replace(
+            line_load=float(np.interp(time, *stretch.loads)),
+            radius=radius,
+            entrainment_speed=entrainment,
+            sliding_speed=sliding,
+        )
+        return Instant(problem, Closure(*closure))
+
+
+def _put(arrays: dict[str, Array], at: int, solution: Solution, contact: Contact, rise: Array) -> None:
+    """Write an instant into the datasets."""
+    gap = solution.mean_gap
+    friction = friction_of(solution, contact.rheology, contact.thermal, rise.T)
+    values = pressure_and_film(solution) | {
+        "central_film_thickness": float(np.interp(0.0, solution.place, gap)),
+        "minimum_film_thickness": float(np.min(gap)),
+        "friction_coefficient": abs(friction) / solution.problem.line_load,
+    }
+    for name, value in values.items():
+        arrays[PREFIX + name][at] = value
