@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable, Mapping, Sequence
+from math import isfinite
 from typing import Any, NamedTuple, TypeVar
 
 from tribodyn.errors import InputError, quoted
@@ -11,7 +12,7 @@ from tribodyn.scenario.vary import base_units, is_drawn, is_whole, kind_at
 from tribodyn.studies.design.case import DRAWN, START, Constraint, Duty, Free, Objective, Tolerance
 from tribodyn.studies.design.deviations import PROFILE_ERROR
 from tribodyn.studies.design.naming import apart, flat, naming_key
-from tribodyn.studies.design.sources import Sources, figure_name, require_key, units_by_figure
+from tribodyn.studies.design.sources import Sources, figure_name, refused, require_key, units_by_figure
 from tribodyn.studies.study import Study
 
 T = TypeVar("T")
@@ -91,6 +92,10 @@ def _free(place: str, one: Any, sources: Sources) -> Free:
             raise InputError(place, None, "has both choices and from or to", "give one of them")
         if len(one.choices) < 2:
             raise InputError(f"{place}.choices", quoted(list(one.choices)), "nothing to choose", "give two")
+        for number, value in enumerate(one.choices):
+            if value in one.choices[:number]:
+                raise InputError(f"{place}.choices.{number}", quoted(value), "is there twice", "remove one")
+            _require(f"{place}.choices.{number}", keys, (value,), sources)
         return Free(tuple(keys), "", 0.0, len(one.choices) - 1.0, choices=tuple(one.choices))
     for name, value in (("from", low), ("to", high)):
         if value is None:
@@ -106,6 +111,7 @@ def _free(place: str, one: Any, sources: Sources) -> Free:
     if first >= last:
         rule = "the bounds are reversed" if first > last else "the bounds are equal: nothing is free"
         raise InputError(place, f"{quoted(low)} … {quoted(high)}", rule, "let from be less than to")
+    _require(f"{place}.to", keys, (high, low), sources)
     si = _factor(unit, kind)
     whole = is_whole(schema, key)
     if whole and not all(isinstance(value, int) for value in (low, high)):
@@ -121,8 +127,24 @@ def _varied(place: str, key: str, sources: Sources) -> None:
     require_key(place, key, sources)
 
 
+def _require(place: str, keys: Sequence[str], values: Sequence[Any], sources: Sources) -> None:
+    """Raise InputError where a key takes none of the values."""
+    for key in keys:
+        source, rest = require_key(place, key, sources)
+        errors = [refused(place, rest, value, source) for value in values]
+        if all(errors) and (first := errors[0]):
+            raise first
+
+
 def _number(place: str, value: Any, kind: Kind | None) -> tuple[float, str, str]:
     """Number in SI, unit as written, SI unit."""
+    magnitude, unit, units = _magnitude(place, value, kind)
+    if not isfinite(magnitude):
+        raise InputError(place, quoted(value), "not a finite number", 'write such as 0.3 or "3 mm"')
+    return magnitude, unit, units
+
+
+def _magnitude(place: str, value: Any, kind: Kind | None) -> tuple[float, str, str]:
     if kind is not None:
         try:
             magnitude = to_si(value, kind)
@@ -196,7 +218,12 @@ def _weighted(given: Sequence[Any], studies: Mapping[str, Study]) -> Objective:
             remedy = 'write { figure = "peak_to_peak", weight = 0.5 }'
             raise InputError(place, quoted(one), "not a figure and its weight", remedy)
         weight = one.get("weight", 1.0)
-        if isinstance(weight, bool) or not isinstance(weight, (int, float)) or weight == 0:
+        if (
+            isinstance(weight, bool)
+            or not isinstance(weight, (int, float))
+            or not isfinite(weight)
+            or not weight
+        ):
             raise InputError(f"{place}.weight", quoted(weight), "not a weight", "write a number such as 0.5")
         terms.append((figure_name(f"{place}.figure", one["figure"], studies), float(weight)))
     return Objective(" + ".join(f"{weight:g} {name}" for name, weight in terms), tuple(terms))
@@ -213,6 +240,8 @@ def _constraint(place: str, text: str, studies: Mapping[str, Study], units: Mapp
         return Constraint(text, name, sign, START)
     unit = units[name]
     value = toml_value(match[3])
+    if isinstance(value, float) and not isfinite(value):
+        raise InputError(place, quoted(text), "not a finite limit", "write a number, with its unit if any")
     if unit == "1":
         if isinstance(value, bool) or not isinstance(value, (int, float)):
             raise InputError(place, quoted(text), f"{name} is a plain number", "write the limit without unit")
@@ -242,7 +271,7 @@ def _contradictions(constraints: Sequence[Constraint]) -> list[InputError]:
 def _duty(number: int, one: Any, free: Sequence[Free], sources: Sources) -> Duty:
     keys = flat(one.set)
     for key in keys:
-        require_key(f"design.duty.{number}.set", key, sources)
+        _require(f"design.duty.{number}.set", (key,), (keys[key],), sources)
         if any(key in other.keys for other in free):
             raise InputError(f"design.duty.{number}.set", quoted(key), "is free too", "choose one of them")
     name = ", ".join(f"{key.rpartition('.')[2]} {value}" for key, value in keys.items())
@@ -260,6 +289,8 @@ def _tolerance(place: str, one: Any, sources: Sources) -> Tolerance:
         raise InputError(f"{place}.plus_minus", None, "missing", 'add plus_minus = "…" with its unit')
     kind = kind_at(schema, key)
     kind = kind._replace(allowed="any") if isinstance(kind, Kind) else None
+    if kind is None and not one.key.endswith(PROFILE_ERROR):
+        _require(f"{place}.key", (one.key,), (one.plus_minus,), sources)
     size, unit, units = _number(f"{place}.plus_minus", one.plus_minus, kind)
     if one.key.endswith(PROFILE_ERROR) and units != "m":
         raise InputError(f"{place}.plus_minus", quoted(one.plus_minus), "not a length", "write such as 3 um")

@@ -8,7 +8,10 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
+from pydantic import ValidationError, create_model
+
 from tribodyn.errors import InputError, near_name, quoted, unknown_name
+from tribodyn.scenario.messages import explain
 from tribodyn.scenario.quantity import Table, parts_of
 from tribodyn.scenario.vary import base_units
 from tribodyn.studies import study_of
@@ -113,6 +116,28 @@ def require_key(place: str, key: str, sources: Sources) -> tuple[Source, str]:
         mean = f'did you mean "{".".join((*above, near))}"?' if near else f"there is: {', '.join(fields)}"
         raise InputError(place, quoted(key), "unknown key", mean)
     return sources[part], rest
+
+
+def refused(place: str, key: str, value: Any, source: Source) -> InputError | None:
+    """Why the schema of a scenario does not take a value at a key, said of `place`; None where it does.
+
+    Keys of a family or of a law are left to the scenario's own rules.
+    """
+    at: Any = source.schema
+    field: Any = None
+    for part in key.split("."):
+        fields = getattr(at, "model_fields", None)
+        if fields is None or part not in fields:
+            return None
+        field = fields[part]
+        at = next(_tables_in(field), None)
+    model: Any = create_model("Value", value=(field.annotation, field))
+    try:
+        model.model_validate({"value": value})
+    except ValidationError as error:
+        first = explain(error, model)[0]
+        return InputError(place, quoted(value), f"{key}: {first.rule}", first.remedy)
+    return None
 
 
 def unknown_part(key: str, schema: type[Table]) -> tuple[list[str], str, list[str]] | None:

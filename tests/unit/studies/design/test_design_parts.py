@@ -12,6 +12,8 @@ from tribodyn.studies.load import load_scenario
 
 RELIEF = "drive.pinion.modification.tip_relief"
 FREE = {"key": RELIEF, "from": "0 um", "to": "40 um"}
+SHIFT = {"key": "drive.pinion.profile_shift", "from": -0.2, "to": 0.4}
+TEETH = {"key": "drive.pinion.teeth", "from": 17, "to": 20}
 BASE = "load-contact-18-36"
 
 
@@ -53,6 +55,35 @@ def search(**design: Any) -> Any:
             "design.tolerance.0.key",
             "unknown key",
         ),
+        ({"free": [{**SHIFT, "to": float("inf")}]}, "design.free.0.to", "not a finite number"),
+        ({"free": [{**SHIFT, "from": [1]}]}, "design.free.0.from", "neither a number nor a quantity"),
+        ({"free": [{**FREE, "form": "1 um"}]}, "design.free.0.form", 'did you mean "from"'),
+        ({"free": [{**FREE, "choices": ["1 um", "2 um"]}]}, "design.free.0", "both choices and from or to"),
+        ({"free": [{**TEETH, "from": 17.5}]}, "design.free.0", "not whole numbers"),
+        ({"free": [{**TEETH, "key": "drive.family"}]}, "design.free.0.to", "not text"),
+        ({"free": [{**TEETH, "key": "drive.pinion"}]}, "design.free.0.to", "not a table"),
+        (
+            {"free": [{**FREE, "key": [RELIEF, "drive.pinion.teeth"]}]},
+            "design.free.0.to",
+            "drive.pinion.teeth: not a whole number",
+        ),
+        (
+            {"free": [{"key": "drive.pinion.teeth", "choices": [18, 19, 18]}]},
+            "design.free.0.choices.2",
+            "is there twice",
+        ),
+        (
+            {"free": [{"key": RELIEF + "_shape", "choices": ["linear", "paraboic"]}]},
+            "design.free.0.choices.1",
+            'did you mean "parabolic"',
+        ),
+        ({"minimise": [{"figure": "peak_to_peak", "weight": float("nan")}]}, "design.minimise.0.weight", ""),
+        ({"minimise": ["peak_to_peak", "contact_ratio", "film_min"]}, "design.minimise", "a front has two"),
+        ({"subject_to": ["contact_ratio >= nan"]}, "design.subject_to.0", "not a finite limit"),
+        ({"duty": [{"set": {"operating.torque": 1}}]}, "design.duty.0.set", "operating.gear_torque"),
+        ({"duty": [{"set": {"operating.gear_torque": 100}}]}, "design.duty.0.set", "without a unit"),
+        ({"confirm": {"output.position": 9}}, "design.confirm", "positions_per_cycle"),
+        ({"tolerance": [{"key": "drive.family", "plus_minus": 1.0}]}, "design.tolerance.0.key", "not text"),
         ({"method": "cobyla"}, "design.method", 'did you mean "cobyqa"'),
         ({"evaluations": 1}, "design.evaluations", "at least 2"),
     ],
