@@ -31,6 +31,7 @@ SHORT: dict[str, dict[str, Any]] = {
         "drive.pinion.bore_radius": "12 mm",
         "drive.gear.bore_radius": "25 mm",
         "assessment.speeds": 8,
+        "assessment.samples": 2,
         "assessment.friction_laws": ["masjedi-khonsari", "niemann"],
     },
 }

@@ -1,6 +1,5 @@
 """The summary of a sweep's record: a table for people, a dictionary for programs."""
 
-import warnings
 from collections.abc import Sequence
 from typing import Any
 
@@ -9,6 +8,7 @@ from rich.console import Group
 from rich.table import Table
 from rich.text import Text
 
+from tribodyn.numerics.scatter import SPREAD, scatter
 from tribodyn.post.report import Line
 from tribodyn.post.report import shown as written
 from tribodyn.post.shown_units import shown, shown_unit
@@ -17,8 +17,6 @@ from tribodyn.record.sweep_schema import DONE
 
 #: Failed cases that are named; the record has them all.
 FAILURES_SHOWN = 5
-#: What is said of the scatter over samples: percentiles.
-SPREAD = {"median": 50.0, "p5": 5.0, "p95": 95.0}
 #: Ends of branches that are named; the record has them all.
 ENDS_SHOWN = 12
 
@@ -63,10 +61,7 @@ def spread(record: SweepRecord, name: str) -> dict[str, np.ndarray] | None:
     if not over or record[name].dtype.kind not in "fiu" or record[name].ndim != len(record.dims):
         return None
     values = np.where(record["status"] == DONE, record[name], np.nan)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RuntimeWarning)  # none of the samples is done
-        found = np.nanpercentile(values, list(SPREAD.values()), axis=over)
-    return dict(zip(SPREAD, found, strict=True))
+    return scatter(values, over)
 
 
 def _spread_table(record: SweepRecord, columns: Sequence[Line]) -> list[Any]:

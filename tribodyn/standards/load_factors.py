@@ -3,8 +3,6 @@
 The standard's definitions: how far the load of a place exceeds what an even distribution would give.
 """
 
-from typing import Any
-
 import numpy as np
 
 from tribodyn.numerics.shapes import Array, Float
@@ -18,20 +16,40 @@ def face_load_factor(line_load: Float[Array, "position pair slice"]) -> float:
     return float(np.max(carried) / np.mean(carried))
 
 
-def transverse_load_factor(share: Any, standard_share: Any) -> float:
-    """K_Hα: maximum share of a pair's load over that of accurate teeth, where these carry together.
+def transverse_load_factor(load: float, accurate_load: float) -> float:
+    """K_Hα: maximum load of a tooth over that of the same gears without deviations, at least 1: clause 8.
+
+    It is 1 where the deviations raise no tooth's load, and for gears without deviations, whose modifications
+    stay. Both loads are those of `shared_load`: in the middle of the path of spur gears with ε_α < 2 one pair
+    carries everything, with deviations as without, and the ratio of the maxima over the whole path would
+    always be 1. It is at most the whole load over `accurate_load`, reached where deviations leave one pair.
 
     Parameters
     ----------
-    share : (places,)
-        Load of one pair over the load of all, over places of its path, with the deviations that it has.
-    standard_share : (places,)
-        The same of accurate teeth.
+    load, accurate_load : float
+        With the deviations and without, N.
     """
-    both = (np.asarray(standard_share) > 0.0) & (np.asarray(standard_share) < 1.0 - 1e-9)
-    if not np.any(both):
-        return 1.0
-    return max(1.0, float(np.max(np.asarray(share)[both]) / np.max(np.asarray(standard_share)[both])))
+    return max(1.0, load / accurate_load)
+
+
+def shared_load(
+    load: Float[Array, "position pair"], roll: Float[Array, "position pair"], limits: tuple[float, float]
+) -> float:
+    """Maximum load of a pair, N, over the positions at which two pairs or more are on their path of contact.
+
+    NaN where there is no such position.
+
+    Parameters
+    ----------
+    load, roll : (positions, pairs)
+        N and rad.
+    limits : (first, last)
+        Roll angles of the path's ends without load, rad.
+    """
+    first, last = limits
+    room = 1e-9 * (last - first)
+    together = np.sum((roll >= first - room) & (roll <= last + room), axis=1) >= 2
+    return float(np.max(load[together])) if np.any(together) else float("nan")
 
 
 def transverse_factor_b(

@@ -38,7 +38,7 @@ class Rated(NamedTuple):
     line_load : float
         F_t K_A/b at the reference circle, N/m.
     base_pitch_deviation : float
-        f_pb − y_α after running in, m.
+        See `base_pitch_deviation`.
     """
 
     dynamic: DynamicFactor
@@ -57,6 +57,18 @@ def quality_of(grades: Sequence[float | None], tolerances: Sequence[Tolerances |
         max(one.single_pitch for one in known),
         max(one.profile_form for one in known),
     )
+
+
+def base_pitch_deviation(assembly: Assembly, quality: Quality) -> tuple[float, float]:
+    """f_pb and f_pb − y_α, m: new and after running in; f_pb = f_pT cos α, y_α = 0.075 f_pb up to 3 µm.
+
+    y_α is that of case-hardened and nitrided teeth. α is the pressure angle at the reference circle of
+    involutes; of other families it is that of the pitch point.
+    """
+    path = assembly.path
+    base = float(path.pinion_pitch_radius) * math.cos(float(path.pressure_angle(0.0)))
+    new = quality.single_pitch * base / float(reference_radius(assembly.drive, "pinion"))
+    return new, new - min(0.075 * new, 3e-6)
 
 
 def rated(
@@ -89,7 +101,7 @@ def rated(
     pair = pair._replace(line_load=pair.line_load * application_factor)
     stiffness = reference_stiffness(pair)
     inertias = float(bodies[0][1]), float(bodies[1][1])
-    pitch = quality.single_pitch * base[0] / float(reference_radius(drive, "pinion"))
+    pitch, after_running_in = base_pitch_deviation(assembly, quality)
     dynamic = dynamic_factor(
         DynamicMesh(
             float(drive.pinion.teeth),
@@ -105,4 +117,4 @@ def rated(
             max(quality.grade, 6.0),
         )
     )
-    return Rated(dynamic, stiffness, pair.line_load, pitch - min(0.075 * pitch, 3e-6))
+    return Rated(dynamic, stiffness, pair.line_load, after_running_in)

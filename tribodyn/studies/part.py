@@ -29,6 +29,10 @@ class Asked(NamedTuple):
         Over which steady states are asked for, rad/s, increasing; that of the duty is one of them.
     laws : sequence of str
         Friction laws, the first of them for everything but the spread of the losses.
+    pitch_deviation : float
+        Base pitch deviation f_pb − y_α of the drive's tolerance class, m.
+    samples : int
+        Samples of the class's deviations whose scatter is asked for, numbered from 1.
     """
 
     title: str
@@ -38,6 +42,8 @@ class Asked(NamedTuple):
     torques: Sequence[float]
     speeds: Sequence[float]
     laws: Sequence[str]
+    pitch_deviation: float
+    samples: int
 
     def operating(self) -> dict[str, Any]:
         """Table ``operating`` of a scenario at the duty."""
@@ -115,11 +121,14 @@ class Answer(NamedTuple):
     along : mapping
         Arrays along the path of contact, among them ``roll_angle`` (rad, increasing, 0 at the pitch point).
     curves : sequence of Curve
+    spread : mapping
+        Values (samples,) of figures by name, over the samples of deviations; NaN where one failed.
     """
 
     figures: Mapping[str, Any]
     along: Mapping[str, Any] = MappingProxyType({})
     curves: Sequence[Curve] = ()
+    spread: Mapping[str, np.ndarray] = MappingProxyType({})
 
 
 class Role(NamedTuple):

@@ -3,14 +3,18 @@
 import numpy as np
 import pytest
 
-from tribodyn.standards.load_factors import face_load_factor, transverse_factor_b, transverse_load_factor
+from tribodyn.standards.load_factors import (
+    face_load_factor,
+    shared_load,
+    transverse_factor_b,
+    transverse_load_factor,
+)
 
 
 def test_even_loads_have_factors_of_one():
     even = np.full((5, 2, 7), 100.0)
-    share = np.array([0.4, 0.5, 1.0, 1.0, 0.5, 0.4])
     assert face_load_factor(even) == 1.0
-    assert transverse_load_factor(share, share) == 1.0
+    assert transverse_load_factor(50.0, 50.0) == 1.0
 
 
 def test_a_wedge_carries_twice_the_mean_at_its_end():
@@ -19,9 +23,17 @@ def test_a_wedge_carries_twice_the_mean_at_its_end():
 
 
 def test_the_excess_counts_where_pairs_share():
-    accurate, real = np.array([0.5, 0.5, 1.0]), np.array([0.6, 0.4, 1.0])
-    assert transverse_load_factor(real, accurate) == pytest.approx(1.2)
-    assert transverse_load_factor(np.ones(3), np.ones(3)) == 1.0
+    # ε_α = 1.5 from 0 to 1.5: two pairs up to a phase of 0.5, then one that carries everything
+    phase = np.arange(10) / 10.0
+    roll = np.stack([phase + 1.0, phase], axis=1)
+    two = (phase <= 0.5)[:, None]
+    accurate = np.where(two, [[50.0, 50.0]], [[0.0, 100.0]])
+    deviating = np.where(two, [[30.0, 70.0]], [[0.0, 100.0]])
+    loads = [shared_load(one, roll, (0.0, 1.5)) for one in (deviating, accurate)]
+    assert loads == [70.0, 50.0]
+    assert transverse_load_factor(*loads) == pytest.approx(1.4)
+    assert transverse_load_factor(45.0, 50.0) == 1.0
+    assert np.isnan(shared_load(accurate[6:], roll[6:], (0.0, 1.5)))
 
 
 def test_method_b_of_example_1_of_iso_tr_6336_30_and_its_ends():

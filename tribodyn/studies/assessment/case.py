@@ -30,6 +30,8 @@ class Settings:
         First and last speed of the steady states, over the duty's.
     speeds : int
         How many, besides the duty's.
+    samples : int
+        Of the deviations, whose scatter is given.
     friction_laws : tuple of str
         The first is that of everything but the spread of the losses.
     damping_ratio : float
@@ -43,6 +45,7 @@ class Settings:
     torque_shares: tuple[float, ...]
     speed_range: tuple[float, float]
     speeds: int
+    samples: int
     friction_laws: tuple[str, ...]
     damping_ratio: float
 

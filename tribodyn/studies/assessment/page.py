@@ -12,6 +12,7 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
+from tribodyn.numerics.scatter import SPREAD
 from tribodyn.post.page.page import table, warnings_of
 from tribodyn.post.style import house_style
 from tribodyn.record.reader import Record, open_record
@@ -35,8 +36,17 @@ _COMPARED = {
     "c_prime": ("Stiffness of one pair c′", 1e-9, ".2f", "N/(mm µm)"),
     "c_gamma_alpha": ("Mesh stiffness c_γα", 1e-9, ".2f", "N/(mm µm)"),
     "K_v": ("Dynamic factor K_v", 1.0, ".3f", ""),
+    "K_Halpha": ("Transverse load factor K_Hα", 1.0, ".3f", ""),
     "H_v": ("Loss factor H_v", 1.0, ".4f", ""),
     "loss": ("Loss to tooth friction", 1.0, ".1f", "W"),
+}
+#: Name in the spread -> the same.
+_SCATTERED = {
+    "K_v": ("Dynamic factor K_v", 1.0, ".2f", ""),
+    "K_Halpha": ("Transverse load factor K_Hα", 1.0, ".2f", ""),
+    "K_Hbeta": ("Face load factor K_Hβ", 1.0, ".2f", ""),
+    "loaded_transmission_error_peak_to_peak": ("Loaded error, peak to peak", 1e6, ".2f", "µm"),
+    "transmission_error_peak_to_peak": ("The same in motion", 1e6, ".2f", "µm"),
 }
 _MARGINS = {
     "theta_B": ("Contact temperature θ_B", ".1f", "°C"),
@@ -68,7 +78,7 @@ def page(record: Record) -> str:
         _asked(case),
         _tiles(summary),
         '<div class="columns">',
-        f"<div>{_limits(summary)}{_list('Assumed', summary.get('assumed', {}))}</div>",
+        f"<div>{_limits(summary)}{_scatter(summary)}{_list('Assumed', summary.get('assumed', {}))}</div>",
         f"<div>{_by_standard(summary)}{_list('Extrapolated', summary.get('extrapolated', {}))}</div>",
         "</div>",
         f'<div class="pictures">{_image(pictures(record, curves), "error, vibration, film, losses")}</div>',
@@ -187,6 +197,26 @@ def _by_standard(summary: Mapping[str, Any]) -> str:
     )
     head = "<tr><th></th><th>ISO 6336</th><th>simulated</th><th></th></tr>"
     return f'<section><h2>Standard and simulation</h2><table class="numbers">{head}{cells}</table></section>'
+
+
+def _scatter(summary: Mapping[str, Any]) -> str:
+    """Figures over the samples of deviations, where there are any."""
+    spread = summary["simulated"].get("spread", {})
+    rows = [
+        f"<tr><td>{label}</td>"
+        + "".join(f"<td>{_shown(spread[name][part], factor, form)}</td>" for part in SPREAD)
+        + f"<td>{unit}</td></tr>"
+        for name, (label, factor, form, unit) in _SCATTERED.items()
+        if name in spread
+    ]
+    if not rows:
+        return ""
+    known = min(int(one["samples"]) for one in spread.values())
+    head = "<tr><th></th>" + "".join(f"<th>{one}</th>" for one in ("median", "5 %", "95 %", "")) + "</tr>"
+    return (
+        f"<section><h2>Scatter over {known} samples of deviations</h2>"
+        f'<table class="numbers scatter">{head}{"".join(rows)}</table></section>'
+    )
 
 
 def _shown(value: Any, factor: float, form: str) -> str:

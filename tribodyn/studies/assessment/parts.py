@@ -13,6 +13,8 @@ import numpy as np
 import tomli_w
 
 from tribodyn.errors import InputError, SimulationError
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.families import family
 from tribodyn.numerics.cache import replacing
 from tribodyn.numerics.work import announce
 from tribodyn.record.reader import open_record
@@ -22,6 +24,7 @@ from tribodyn.scenario.resolve import resolve_table
 from tribodyn.studies import STUDIES
 from tribodyn.studies.assessment.case import AssessmentCase
 from tribodyn.studies.batch import Chunk
+from tribodyn.studies.by_standard import base_pitch_deviation
 from tribodyn.studies.load import loaded_from, table_of
 from tribodyn.studies.part import Answer, Asked, Done, Role, Task
 from tribodyn.studies.study import Progress, Study
@@ -47,6 +50,8 @@ def asked_of(case: AssessmentCase) -> Asked:
         "temperature": data.get("temperature", {"model": "iso", "lubrication": settings.lubrication}),
         "damping_ratio": settings.damping_ratio,
     }
+    assembly = Assembly(family(case.family), case.drive)
+    _, pitch_deviation = base_pitch_deviation(assembly, case.quality)
     return Asked(
         case.title,
         tables,
@@ -55,6 +60,8 @@ def asked_of(case: AssessmentCase) -> Asked:
         tuple(case.gear_torque * share for share in settings.torque_shares),
         tuple(sorted({*map(float, speeds), case.pinion_speed})),
         settings.friction_laws,
+        pitch_deviation,
+        settings.samples,
     )
 
 

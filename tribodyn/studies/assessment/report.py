@@ -9,6 +9,20 @@ from tribodyn.studies.gears import CONTACT_RATIO, EFFECTIVE_CONTACT_RATIO, WALL_
 
 _RPM = 30.0 / math.pi
 
+
+def _over_samples(name: str, factor: float = 1.0, unit: str = "") -> Line:
+    """Line of the scatter of the figure above."""
+    return Line(
+        f"{name}_spread",
+        "over samples: median, 5, 95 %",
+        factor,
+        unit,
+        ".3f",
+        "Percentiles of the same over samples of the deviations that the tolerance class allows.",
+        listed=True,
+    )
+
+
 LINES: Lines = {
     "Geometry": (CONTACT_RATIO, EFFECTIVE_CONTACT_RATIO),
     "Loaded contact": (
@@ -19,12 +33,28 @@ LINES: Lines = {
             "µm",
             definition="Of r_p θ_p − r_g θ_g in slow rotation under the duty's torque.",
         ),
+        _over_samples("loaded_transmission_error_peak_to_peak", 1e6, "µm"),
         Line(
             "face_load_factor",
             "Face load factor K_Hβ",
             form=".3f",
             definition="Maximum over mean line load along the face, where the line load is at its maximum.",
         ),
+        _over_samples("face_load_factor"),
+        Line(
+            "transverse_load_factor",
+            "Transverse load factor K_Hα",
+            form=".3f",
+            definition="Maximum load of a tooth while two pairs or more are on their path, with a base pitch "
+            "deviation f_pb − y_α of one tooth, over the same of accurate teeth.",
+        ),
+        Line(
+            "transverse_load_factor_method_b",
+            "by ISO 6336-1, method B",
+            form=".3f",
+            definition="K_Hα by the formulas of the standard, with the same deviation.",
+        ),
+        _over_samples("transverse_load_factor"),
         Line(
             "pinion_root_tension_max",
             "Maximum root tension, pinion",
@@ -47,6 +77,7 @@ LINES: Lines = {
             form=".3f",
             definition="Maximum of the loads' moment over that of the mean load, from the motion.",
         ),
+        _over_samples("dynamic_factor"),
         Line(
             "dynamic_factor_max",
             "Maximum over the speeds",

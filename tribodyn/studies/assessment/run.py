@@ -11,6 +11,7 @@ from tribodyn.errors import SimulationError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.families import family
 from tribodyn.geometry.outlines import geometry_arrays
+from tribodyn.numerics.scatter import scatter
 from tribodyn.record.trust import INSIDE, OUTSIDE, REASONS, TRUST
 from tribodyn.standards.contact_path import POINTS
 from tribodyn.studies.assessment import parts
@@ -21,6 +22,7 @@ from tribodyn.studies.assessment.local import Local, local_of
 from tribodyn.studies.assessment.said import assumed, extrapolated
 from tribodyn.studies.assessment.simulated import simulated_part
 from tribodyn.studies.assessment.standard import iso_part, standard_of, strength_of
+from tribodyn.studies.assessment.units import units_of
 from tribodyn.studies.recording import target, writer
 from tribodyn.studies.study import Progress, RunResult
 
@@ -84,13 +86,15 @@ def assessed(
     done = parts.results(taking_part, folder, progress)
     found_there: dict[str, Any] = {}
     along: dict[str, Any] = {}
+    spread: dict[str, Any] = {}
     for _, answer in parts.answers(taking_part, asked, done):
         found_there |= answer.figures
         along |= answer.along
+        spread |= answer.spread
     local = local_of(case, assembly, along, found_there)
     involute = assembly.family.involute
     found = standard_of(case, assembly, found_there["face_load_factor"]) if involute else None
-    own = simulated_part(case, assembly, local, found_there)
+    own = simulated_part(case, assembly, local, found_there, spread)
     iso = iso_part(case, found) if found else {}
     summary: dict[str, Any] = {
         "duty": {
@@ -101,16 +105,19 @@ def assessed(
         **found_there,
         "contact_temperature_max": float(local.films.bulk_temperature + np.nanmax(local.films.flash_rise)),
         "specific_film_min": own["lambda_GF"]["worst"],
+        **({"transverse_load_factor_method_b": found.transverse} if found else {}),
         "iso": iso,
         "simulated": own,
         "point_angles": dict(zip(POINTS, map(float, local.points), strict=True)),
+        **{f"{name}_spread": list(scatter(values).values()) for name, values in spread.items()},
         **judged(case, found, strength_of(case), local, found_there),
         "assumed": _numbered(assumed(case, found is not None)),
         "extrapolated": _numbered(extrapolated(taking_part, done)),
         **_trust(done),
         "wall_time": perf_counter() - begun,
     }
-    return local, {name: value for name, value in summary.items() if value not in ({}, [])}
+    summary = {name: value for name, value in summary.items() if value not in ({}, [])}
+    return local, summary | {"units": units_of(summary)}
 
 
 def _failed(case: AssessmentCase, path: Path, message: str, force: bool) -> RunResult:

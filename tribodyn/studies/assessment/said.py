@@ -36,7 +36,13 @@ def assumed(case: AssessmentCase, by_standard: bool) -> list[str]:
         f"K_A = {settings.application_factor:g}; damping of the mesh {settings.damping_ratio:g}; K_Hβ by the "
         "contact analysis."
     )
-    said.append("The simulation has accurate teeth but for modifications and misalignment of the scenario.")
+    scatter = ""
+    if settings.samples:
+        scatter = f"; its scatter is over {settings.samples} samples of deviations within the tolerances"
+    said.append(
+        f"The simulation has accurate teeth but for modifications and misalignment of the scenario{scatter}. "
+        "Its K_Hα is that of one tooth with the base pitch deviation of the standard."
+    )
     if by_standard:
         said.append(
             f"Standards: deviations of class {case.quality.grade:g} by ISO 1328-1, K_v and K_Hα by method B, "

@@ -28,6 +28,7 @@ from tribodyn.studies.assessment.case import AssessmentCase, Settings
 from tribodyn.studies.by_standard import Quality, quality_of
 
 Speeds = Annotated[int, Field(strict=True, ge=8)]
+Samples = Annotated[int, Field(strict=True, ge=0, le=1000)]
 Pressure = Annotated[float, Quantity(units.positive(units.PRESSURE), "1.5 GPa")]
 Length = Annotated[float, Quantity(units.positive(units.LENGTH), "5 um")]
 
@@ -70,6 +71,9 @@ class AssessmentAsked(Table):
         (0.2, 2.5), description="first and last speed of the steady states over the duty's"
     )
     speeds: Speeds = Field(46, description="steady states over that range, besides the duty's")
+    samples: Samples = Field(
+        16, description="of the deviations that the tolerance class allows: scatter of the figures; 0: none"
+    )
     friction_laws: tuple[Text, ...] = Field(
         ("masjedi-khonsari", "niemann", "schlenk", "xu", "benedict-kelley", "iso-14179-1"),
         min_length=1,

@@ -7,18 +7,31 @@ from typing import Any
 import numpy as np
 
 from tribodyn.geometry.assembly import Assembly
+from tribodyn.numerics.scatter import scatter
 from tribodyn.studies.assessment.case import AssessmentCase
 from tribodyn.studies.assessment.local import Local
 from tribodyn.studies.assessment.standard import ZERO_CELSIUS, by_point
 
+#: Figure of the simulation -> its name by the standards.
+_NAMES = {
+    "dynamic_factor": "K_v",
+    "transverse_load_factor": "K_Halpha",
+    "face_load_factor": "K_Hbeta",
+}
+
 
 def simulated_part(
-    case: AssessmentCase, assembly: Assembly, local: Local, figures: Mapping[str, Any]
+    case: AssessmentCase,
+    assembly: Assembly,
+    local: Local,
+    figures: Mapping[str, Any],
+    spread: Mapping[str, Any],
 ) -> dict[str, Any]:
     """What stands beside `standard.iso_part`, by the same names; worst values are those of all places.
 
     c' and c_γα are along the line of action per face width: of one pair at the pitch point, and the mean of
-    all pairs. H_v is loss over power and mean friction coefficient.
+    all pairs. H_v is loss over power and mean friction coefficient. ``spread`` has the scatter over the
+    samples of deviations.
     """
     films, count = local.films, len(local.points)
     width = float(assembly.common_width)
@@ -28,6 +41,8 @@ def simulated_part(
     bulk = films.bulk_temperature - ZERO_CELSIUS
     film = by_point(local.at_points(films.film_thickness), min)
     specific = by_point(local.at_points(films.specific_film), min)
+    scattered = {_NAMES.get(name, name): _scatter(values) for name, values in spread.items()}
+    transverse = figures.get("transverse_load_factor")
     return {
         "theta_M": by_point(np.full(count, bulk), max),
         "mu_m": by_point(np.full(count, friction), max),
@@ -39,6 +54,14 @@ def simulated_part(
         "H_v": loss / (power * friction) if friction > 0.0 else float("nan"),
         "loss": loss,
         "K_Hbeta": figures["face_load_factor"],
+        **({"K_Halpha": transverse} if transverse is not None else {}),
+        **({"spread": scattered} if scattered else {}),
         "theta_B": by_point(local.at_points(bulk + films.flash_rise), max)
         | {"worst": float(bulk + np.nanmax(films.flash_rise))},
     }
+
+
+def _scatter(values: Any) -> dict[str, float]:
+    """Median, 5 and 95 % over the samples, and how many of them are known."""
+    known = {name: float(value) for name, value in scatter(values).items()}
+    return known | {"samples": int(np.sum(np.isfinite(values)))}

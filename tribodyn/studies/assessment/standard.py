@@ -224,6 +224,7 @@ def iso_part(case: AssessmentCase, found: Standard) -> dict[str, Any]:
         "c_prime": found.single_stiffness,
         "c_gamma_alpha": found.mesh_stiffness,
         "K_v": found.dynamic.factor,
+        "K_Halpha": found.transverse,
         "H_v": found.losses,
         "loss": power * films.friction_coefficient * found.losses,
     }

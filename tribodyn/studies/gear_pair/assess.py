@@ -9,7 +9,9 @@ import numpy as np
 from tribodyn.studies.gear_pair import STUDY
 from tribodyn.studies.part import Answer, Asked, Curve, Done, Role, Task
 
-_TASK = "steady-states"
+_TASK, _SAMPLES = "steady-states", "steady-states-samples"
+#: Slices of the face of the samples, which are inclined to each other: dynamic factors within 0.02 % of 21.
+_SLICES = 11
 #: Rise of the dynamic factor over both neighbours' minimum from which a maximum counts as a resonance.
 _RISE = 0.02
 #: Share of the time without contact that counts.
@@ -17,7 +19,10 @@ _LOST = 1e-6
 
 
 def tasks(asked: Asked) -> tuple[Task, ...]:
-    """A steady state at every speed; the oil as it enters, for friction hardly moves the loads."""
+    """A steady state at every speed, and of every sample of deviations at the duty.
+
+    The oil is taken as it enters, for friction hardly moves the loads.
+    """
     tables = asked.tables
     scenario = {
         "title": asked.title,
@@ -30,7 +35,13 @@ def tasks(asked: Asked) -> tuple[Task, ...]:
         "friction": {"law": asked.laws[0]},
     }
     speeds = [f"{speed!r} rad/s" for speed in asked.speeds]
-    return (Task(_TASK, "steady states over the speed", scenario, "operating.pinion_speed", speeds),)
+    found = [Task(_TASK, "steady states over the speed", scenario, "operating.pinion_speed", speeds)]
+    if asked.samples:
+        sliced = scenario | {"mesh": {"slices": _SLICES, **scenario["mesh"]}}
+        numbers = [str(number) for number in range(1, asked.samples + 1)]
+        about = "steady states, samples of deviations"
+        found.append(Task(_SAMPLES, about, sliced, "mesh.deviation_sample", numbers, needed=False))
+    return tuple(found)
 
 
 def answer(asked: Asked, done: Mapping[str, Done]) -> Answer:
@@ -67,7 +78,9 @@ def answer(asked: Asked, done: Mapping[str, Done]) -> Answer:
         {"": factor},
         asked.pinion_speed * rpm,
     )
-    return Answer(figures, curves=(curve,))
+    samples = done[_SAMPLES].rows if _SAMPLES in done else {}
+    names = ("dynamic_factor", "transmission_error_peak_to_peak") if samples else ()
+    return Answer(figures, curves=(curve,), spread={name: samples[name] for name in names})
 
 
 def maxima(values: np.ndarray) -> list[int]:

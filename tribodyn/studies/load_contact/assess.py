@@ -1,15 +1,19 @@
 """The part in an assessment: loaded error, loads, pressures and root stresses on finite elements."""
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
 from tribodyn.record.reader import open_record
+from tribodyn.standards.load_factors import transverse_load_factor
 from tribodyn.studies.load_contact import STUDY
 from tribodyn.studies.load_contact.rolled import over_roll
 from tribodyn.studies.part import Answer, Asked, Curve, Done, Role, Task
 
-_TASK = "loaded-contact"
+_TASK, _DEVIATING, _SAMPLES = "loaded-contact", "pitch-deviation", "loaded-contact-samples"
+#: Mesh cycles in which a deviating tooth is seen from its entry to its exit, up to ε_α = 3.
+_CYCLES = 3
 _FIGURES = (
     "contact_ratio",
     "contact_ratio_effective",
@@ -25,10 +29,14 @@ _FIGURES = (
     "pinion_root_tension_max",
     "gear_root_tension_max",
 )
+_SCATTERED = ("face_load_factor", "loaded_transmission_error_peak_to_peak")
 
 
 def tasks(asked: Asked) -> tuple[Task, ...]:
-    """Teeth in slow rotation at the duty's torque, and the transmission error over all torques."""
+    """Slow rotation at the duty's torque, the error over all torques; with a deviating tooth, and samples.
+
+    One tooth of the pinion stands f_pb − y_α ahead of all others: it carries more at its entry and its exit.
+    """
     operating = {
         "gear_torque": f"{asked.gear_torque!r} N*m",
         "gear_torques": [f"{torque!r} N*m" for torque in asked.torques],
@@ -40,7 +48,26 @@ def tasks(asked: Asked) -> tuple[Task, ...]:
         "operating": operating,
         "mesh": dict(asked.tables.get("mesh", {})),
     }
-    return (Task(_TASK, "loaded error, pressures, root stresses", scenario),)
+    found = [Task(_TASK, "loaded error, pressures, root stresses", scenario)]
+    at_duty = scenario | {"operating": {"gear_torque": operating["gear_torque"]}}
+    deviating = at_duty | {
+        "drive": _with_deviating_tooth(at_duty["drive"], asked.pitch_deviation),
+        "output": {"cycles": _CYCLES},
+    }
+    found.append(Task(_DEVIATING, "load sharing with a pitch deviation", deviating, needed=False))
+    if asked.samples:
+        numbers = [str(number) for number in range(1, asked.samples + 1)]
+        about = "load sharing, samples of deviations"
+        found.append(Task(_SAMPLES, about, at_duty, "mesh.deviation_sample", numbers, needed=False))
+    return tuple(found)
+
+
+def _with_deviating_tooth(drive: Mapping[str, Any], deviation: float) -> dict[str, Any]:
+    """Drive whose pinion has one tooth that stands `deviation` (m) ahead."""
+    pinion = drive["pinion"]
+    errors = [f"{-deviation!r} m"] + ["0 m"] * (int(pinion["teeth"]) - 1)
+    modification = pinion.get("modification", {}) | {"pitch_errors": errors}
+    return {**drive, "pinion": {**pinion, "modification": modification}}
 
 
 def answer(asked: Asked, done: Mapping[str, Done]) -> Answer:
@@ -50,7 +77,17 @@ def answer(asked: Asked, done: Mapping[str, Done]) -> Answer:
         roll, load = over_roll(record, record["normal_load"])
         _, pressure = over_roll(record, np.max(record["hertz_pressure"], axis=-1))
         torques, spread = record["torque"], record["map_peak_to_peak"]
-    figures = {name: summary[name] for name in _FIGURES if name in summary}
+    figures: dict[str, Any] = {name: summary[name] for name in _FIGURES if name in summary}
+    accurate = summary.get("shared_load_max")
+    deviating = done[_DEVIATING].summary.get("shared_load_max")
+    if deviating is not None and accurate is not None:
+        figures["transverse_load_factor"] = transverse_load_factor(deviating, accurate)
+    rows = done[_SAMPLES].rows if _SAMPLES in done else {}
+    scattered = {name: rows[name] for name in _SCATTERED} if rows else {}
+    if rows and accurate is not None:
+        shared = rows["shared_load_max"]
+        factors = [transverse_load_factor(one, accurate) if np.isfinite(one) else one for one in shared]
+        scattered["transverse_load_factor"] = np.array(factors)
     along = {"roll_angle": roll, "normal_load": load, "hertz_pressure": pressure}
     curve = Curve(
         "Loaded transmission error, peak to peak",
@@ -60,7 +97,7 @@ def answer(asked: Asked, done: Mapping[str, Done]) -> Answer:
         {"": 1e6 * np.asarray(spread)},
         asked.gear_torque,
     )
-    return Answer(figures, along, (curve,))
+    return Answer(figures, along, (curve,), scattered)
 
 
 ROLE = Role(1, "Loaded contact", tasks, answer)

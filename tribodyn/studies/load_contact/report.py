@@ -161,6 +161,7 @@ SWEPT: dict[str, Variable] = {
     "mesh_stiffness_peak_to_peak": Variable((), "N/m", "mesh stiffness, peak to peak"),
     "contact_ratio_effective": Variable((), "1", "contact ratio under load, corner contact included"),
     "normal_load_max": Variable((), "N", "maximum normal load of a pair"),
+    "shared_load_max": Variable((), "N", "maximum normal load of a pair while two or more are on their path"),
     "line_load_max": Variable((), "N/m", "maximum line load"),
     "face_load_factor": Variable((), "1", "face load factor where the line load is at its maximum"),
     "face_load_factor_pitch_point": Variable((), "1", "face load factor at the pitch point"),

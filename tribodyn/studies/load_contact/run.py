@@ -18,6 +18,7 @@ from tribodyn.geometry.material import MaterialData
 from tribodyn.geometry.outlines import geometry_arrays
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.record.trust import Judge
+from tribodyn.standards.load_factors import shared_load
 from tribodyn.studies.load_contact.case import LoadContactCase
 from tribodyn.studies.load_contact.film import FaceFilm, film_over_face
 from tribodyn.studies.load_contact.layout import BODIES, LAYOUT, OILED
@@ -195,6 +196,7 @@ def loaded_figures(study: Prepared, loaded: LoadedContact) -> dict[str, Any]:
         "loaded_transmission_error_peak_to_peak": float(np.ptp(loaded.deflection)),
         "unloaded_transmission_error_peak_to_peak": float(np.ptp(loaded.unloaded)),
         "normal_load_max": float(np.max(loaded.normal_load)),
+        **_shared(study, loaded),
         "line_load_max": float(loaded.line_load[worst]),
         "face_load_factor": float(loaded.face_load_factor[worst[0], worst[1]]),
         "face_load_factor_pitch_point": float(loaded.face_load_factor[position, pair]),
@@ -217,6 +219,12 @@ def _judged(study: Prepared, loaded: LoadedContact) -> dict[str, Any]:
     bent = np.abs(loaded.deflection - loaded.unloaded) / study.case.drive.module
     judge.take({"deflection": bent, "hertz_pressure": loaded.pressure}, places, pairs)
     return judge.figures()
+
+
+def _shared(study: Prepared, loaded: LoadedContact) -> dict[str, float]:
+    """Maximum load of a pair beside another; nothing where pairs never share the load."""
+    value = shared_load(loaded.normal_load, loaded.roll, study.flexible.assembly.roll_limits)
+    return {"shared_load_max": value} if np.isfinite(value) else {}
 
 
 def single_pair_stiffness(study: Prepared) -> float:

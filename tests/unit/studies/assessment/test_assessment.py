@@ -14,6 +14,7 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import family, involute
+from tribodyn.record.reader import open_record
 from tribodyn.standards.contact_path import POINTS, ContactPath, point_distances
 from tribodyn.studies.assessment.local import local_of, point_angles
 from tribodyn.studies.assessment.parts import asked_of
@@ -22,7 +23,7 @@ from tribodyn.studies.gear_pair.assess import maxima
 from tribodyn.studies.load import load_scenario
 
 KIND = "assessment"
-ISO = {"theta_M", "mu_m", "h_Y", "lambda_GF", "c_prime", "c_gamma_alpha", "K_v", "H_v", "loss"}
+ISO = {"theta_M", "mu_m", "h_Y", "lambda_GF", "c_prime", "c_gamma_alpha", "K_v", "K_Halpha", "H_v", "loss"}
 
 
 def invoked(*words: object, status: int = 0) -> str:
@@ -96,7 +97,7 @@ def test_the_simulation_stands_beside_it(assessed: dict):
     own, iso = assessed["simulated"], assessed["iso"]
     assert set(own) >= ISO
     # one model against another: the same order, not the same number
-    for name in ("c_prime", "c_gamma_alpha", "K_v", "H_v", "loss"):
+    for name in ("c_prime", "c_gamma_alpha", "K_v", "K_Halpha", "H_v", "loss"):
         assert 0.5 < own[name] / iso[name] < 2.0, name
     for name in ("h_Y", "lambda_GF", "mu_m", "theta_M"):
         assert 0.5 < own[name]["C"] / iso[name]["C"] < 2.0, name
@@ -107,6 +108,38 @@ def test_the_simulation_stands_beside_it(assessed: dict):
     assert assessed["margins"]["iso"]["S_lambda"] == pytest.approx(
         iso["lambda_GF"]["worst"] / assessed["margins"]["iso"]["lambda_GFP"]
     )
+
+
+def test_a_deviating_tooth_and_samples_stand_beside_accurate_teeth(assessed: dict):
+    own = assessed["simulated"]
+    whole = 20e3 / (1800.0 * math.pi / 30.0) / (27e-3 * math.cos(math.radians(20.0)))
+    with open_record(Path(assessed["record"]).with_name("assessment-parts") / "loaded-contact.h5") as record:
+        accurate = record.summary["shared_load_max"]
+    assert 1.0 < own["K_Halpha"] <= whole / accurate * (1.0 + 1e-9)
+    spread = own["spread"]
+    assert {"K_v", "K_Halpha", "K_Hbeta", "loaded_transmission_error_peak_to_peak"} <= set(spread)
+    for name, one in spread.items():
+        assert one["p5"] <= one["median"] <= one["p95"], name
+        assert one["samples"] == 2
+    assert spread["K_Hbeta"]["p5"] > own["K_Hbeta"]  # inclined teeth
+    assert spread["K_Halpha"]["p95"] <= whole / accurate * (1.0 + 1e-9)
+    assert assessed["dynamic_factor_spread"] == [spread["K_v"][name] for name in ("median", "p5", "p95")]
+
+
+def test_every_number_has_a_unit(assessed: dict):
+    units = assessed["units"]
+
+    def without(name: str, value: object) -> list[str]:
+        if name in units or isinstance(value, str):
+            return []
+        if isinstance(value, dict):
+            return [missing for inner, one in value.items() for missing in without(inner, one)]
+        return [name]
+
+    parts = ("duty", "iso", "simulated", "load_factors", "margins", "point_angles", "loss_by_law")
+    assert [missing for part in parts for missing in without(part, assessed[part])] == []
+    assert (units["c_prime"], units["h_Y"], units["theta_M"], units["K_v"]) == ("N/m2", "m", "degC", "1")
+    assert (units["loss"], units["contact_temperature_max"]) == ("W", "K")
 
 
 def test_points_of_the_path_are_those_of_the_standard():
@@ -162,6 +195,7 @@ def test_a_complete_record_is_not_replaced_unasked(assessed: dict, folder: Path)
         ("assessment.friction_laws", ["coulomb"], "leave it out"),
         ("assessment.torque_shares", [1.0, 0.5], "increasing"),
         ("assessment.speed_range", [2.0, 1.0], "above the first"),
+        ("assessment.samples", -1, "samples"),
         ("operating.power", "-20 kW", "driving pinion"),
         ("lubricant.viscosity_40", "15 mm**2/s", "viscosity_40"),
         ("drive.quality", 0, "quality"),
