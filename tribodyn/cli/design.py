@@ -1,5 +1,7 @@
 """`tribodyn design`: search for the values of a scenario's keys that minimise its figures."""
 
+from contextlib import nullcontext
+from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
@@ -16,6 +18,14 @@ from tribodyn.cli.options import (
     overrides,
     require_one_way,
 )
+
+
+class EngineName(StrEnum):
+    """Where candidates are evaluated."""
+
+    native = "native"
+    dask = "dask"
+
 
 EXAMPLES = (
     "\b\nValues of --free, the unit at least once, at the end:\n"
@@ -73,6 +83,13 @@ def design(
         int | None, typer.Option("--evaluations", min=2, max=10**6, help="At most; default: 200.")
     ] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Continue a stopped search of that name.")] = False,
+    engine: Annotated[
+        EngineName, typer.Option(help="native: the cores of this machine; dask: many machines.")
+    ] = EngineName.native,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(metavar="ADDRESS", help="Dask's scheduler, tcp://host:8786; default: one of its own."),
+    ] = None,
     output: Annotated[
         Path | None,
         typer.Option("--output", "-o", help="The record; default: the scenario's name and -design."),
@@ -86,12 +103,20 @@ def design(
 ) -> None:
     """Search for the best values of a scenario's keys."""
     from tribodyn.cli.run import Shown, run_loaded
+    from tribodyn.errors import InputError
+    from tribodyn.studies.cluster import client_of
     from tribodyn.studies.design.short_form import as_options, loaded_search, parts_of
 
     require_one_way(resume=resume, force=force)
+    if scheduler is not None and engine is EngineName.native:
+        raise InputError("--scheduler", scheduler, "belongs to --engine dask", "add --engine dask")
     more = {"method": method, "evaluations": evaluations, "part": parts_of(part or []) or None}
     options = as_options(free or [], minimise or [], maximise, subject_to or [], more)
     how = {"output": output, "force": force, "resume": resume, "allow_large": allow_large}
-    run_loaded(
-        lambda: loaded_search(scenario, options, overrides(settings)), Shown(plot, report, json), **how
-    )
+    with nullcontext() if engine is EngineName.native else client_of(None, scheduler) as client:
+        run_loaded(
+            lambda: loaded_search(scenario, options, overrides(settings)),
+            Shown(plot, report, json),
+            **how,
+            client=client,
+        )

@@ -65,6 +65,7 @@ def design(
     resume: bool = False,
     progress: Progress | None = None,
     allow_large: bool = False,
+    client: Any = None,
     **more: Any,
 ) -> Design:
     """Search for the values of a scenario's keys that minimise its figures.
@@ -90,6 +91,8 @@ def design(
         Called with the share done, 0 … 1.
     allow_large : bool
         Search what takes very much memory, disk or time, too.
+    client : distributed.Client, optional
+        Of Dask, whose workers evaluate the candidates; default: the cores of this machine.
     **more
         Further keys of ``[design]``: ``method``, ``evaluations``, ``maximise``, ``duty``, ``tolerance``, …
 
@@ -113,7 +116,7 @@ def design(
     written = in_toml(source) if isinstance(source, Mapping) else source
     changes = {str(key): in_toml(value) for key, value in (overrides or {}).items()}
     case = loaded_search(written, keys, changes).case
-    how: dict[str, Any] = {"progress": progress, "allow_large": allow_large}
+    how: dict[str, Any] = {"progress": progress, "allow_large": allow_large, "client": client}
     if output is not None:
         return Design(run(case, output, force=force, resume=resume, **how).path)
     folder = tempfile.mkdtemp(prefix="tribodyn-")

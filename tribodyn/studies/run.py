@@ -29,6 +29,7 @@ def run(
     progress: Progress | None = None,
     allow_large: bool = False,
     resume: bool = False,
+    client: Any = None,
 ) -> RunResult:
     """Run a case and write its record.
 
@@ -51,6 +52,8 @@ def run(
         Run what takes more memory, disk or time than is done unasked, too (`studies.estimate.LIMITS`).
     resume : bool
         Go on from what an unfinished run left, where the study can.
+    client : distributed.Client, optional
+        Whose workers evaluate the candidates of a search; default: the cores of this machine.
 
     Returns
     -------
@@ -65,7 +68,7 @@ def run(
     for table, law in (("film", film), ("friction", friction)):
         if law is not None:
             case = with_law(case, table, law)
-    how: dict[str, Any] = {"force": force, "allow_large": allow_large, "resume": resume}
+    how: dict[str, Any] = {"force": force, "allow_large": allow_large, "resume": resume, "client": client}
     return STUDIES[case.kind].run(case, output, progress=progress, **how)
 
 

@@ -176,6 +176,7 @@ class Study:
         progress: Progress | None = None,
         allow_large: bool = False,
         resume: bool = False,
+        client: Any = None,
     ) -> RunResult:
         """Run a case and write its record.
 
@@ -192,6 +193,8 @@ class Study:
             Run what takes more than `estimate.LIMITS`, too.
         resume : bool
             Go on from what an unfinished run left, if there is anything.
+        client : distributed.Client, optional
+            Whose workers evaluate, where a study evaluates many cases; default: this machine.
 
         Returns
         -------
@@ -207,7 +210,7 @@ class Study:
         if resume and not self.resumes:
             raise not_resumed(self.about)
         refuse_large(self.estimate(case), allow_large)
-        how = {"resume": resume} if self.resumes else {}
+        how = {"resume": resume, "client": client} if self.resumes else {}
         result = self._part("run", "run")(case, output, force=force, progress=progress, **how)
         return result._replace(summary=withheld(result.summary))
 

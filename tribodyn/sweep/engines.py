@@ -1,6 +1,5 @@
 """Where the chunks of a sweep are evaluated: in this process over its cores or through JAX, or by Dask."""
 
-import logging
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from typing import Any, Protocol
@@ -10,6 +9,7 @@ import numpy as np
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.studies import STUDIES
 from tribodyn.studies.batch import Chunk
+from tribodyn.studies.cluster import client_of, workers_of
 from tribodyn.sweep.by_figures import ByFigures
 
 Block = dict[str, np.ndarray]
@@ -69,7 +69,7 @@ class Dask:
 
     def _under_way(self) -> int:
         """Two chunks per worker, so that none waits for the next one to be sent; this bounds the memory."""
-        return 2 * max(1, len(self.client.scheduler_info(n_workers=-1)["workers"]))
+        return 2 * workers_of(self.client)
 
     def __call__(self, kind: str, chunks: Iterable[Chunk], settings: Any) -> Iterator[tuple[Chunk, Block]]:
         """See `Engine`."""
@@ -119,32 +119,5 @@ def engine_of(name: str, workers: int | None, scheduler: str | None) -> Iterator
             raise InputError("--scheduler", scheduler, "belongs to --engine dask", "add --engine dask")
         yield Local(workers, _jax_width() if name == JAX else 1)
         return
-    try:
-        from distributed import Client, LocalCluster
-    except ImportError:
-        raise InputError(
-            "--engine", "dask", "Dask is not installed", 'install it: pip install "tribodyn[cluster]"'
-        ) from None
-    if scheduler is None:
-        with (
-            LocalCluster(
-                n_workers=workers,
-                threads_per_worker=1,
-                dashboard_address=None,  # pyright: ignore[reportArgumentType]
-                silence_logs=logging.ERROR,
-            ) as cluster,
-            Client(cluster) as client,
-        ):
-            yield Dask(client)
-        return
-    try:
-        client = Client(scheduler, timeout="10s")
-    except (OSError, ValueError) as error:
-        raise InputError(
-            "--scheduler",
-            scheduler,
-            f"no scheduler answers there ({error})",
-            "start one: dask scheduler",
-        ) from None
-    with client:
+    with client_of(workers, scheduler) as client:
         yield Dask(client)

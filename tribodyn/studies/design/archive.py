@@ -14,7 +14,7 @@ from tribodyn.studies.design.candidates import Overrides, cases_of, chosen, numb
 from tribodyn.studies.design.case import DesignCase
 from tribodyn.studies.design.evaluation import distance_from_limits
 from tribodyn.studies.design.judged import Judge, Judged
-from tribodyn.studies.design.pool import Figures, Pool
+from tribodyn.studies.design.pool import Evaluators, Figures
 from tribodyn.studies.design.sources import BASE, split
 
 Keep = Callable[["Evaluation"], None]
@@ -52,7 +52,7 @@ class Archive:
     ----------
     case : DesignCase
     judge : Judge
-    pool : Pool
+    pool : Evaluators
     keep : callable
         See `Keep`.
     known : sequence
@@ -68,7 +68,7 @@ class Archive:
         self,
         case: DesignCase,
         judge: Judge,
-        pool: Pool,
+        pool: Evaluators,
         keep: Keep,
         known: Sequence[tuple[Overrides, Figures]] = (),
     ) -> None:

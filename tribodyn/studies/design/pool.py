@@ -1,7 +1,8 @@
-"""Evaluates candidates side by side: one in this process, the others in processes of their own.
+"""Evaluates candidates side by side, on this machine or on those of a cluster.
 
-The others are programs that are handed lines of text. They import nothing of the user's program, which a
-process of `multiprocessing` would run again.
+On this machine one is evaluated in this process, the others in processes of their own. Those are programs
+that are handed lines of text. They import nothing of the user's program, which a process of
+`multiprocessing` would run again.
 """
 
 import json
@@ -11,10 +12,11 @@ import threading
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
-from typing import Any, Self
+from typing import Any, Protocol, Self
 
 from tribodyn.errors import SimulationError
 from tribodyn.numerics.work import usable_cores
+from tribodyn.studies.cluster import workers_of
 from tribodyn.studies.design.evaluation import evaluate
 
 COMMAND = (sys.executable, "-m", "tribodyn.studies.design.evaluation")
@@ -29,6 +31,19 @@ def workers_for(evaluations: int) -> int:
     return max(1, min(usable_cores(), evaluations // WORTH))
 
 
+class Evaluators(Protocol):
+    """What evaluates candidates; a context manager."""
+
+    #: What the record says of it.
+    name: str
+    #: How many evaluate at a time.
+    workers: int
+
+    def submit(self, several: Sequence[Mapping[str, Any]]) -> Any:
+        """Evaluate cases by their overrides; gives what has their `Figures` as its ``result()``."""
+        ...
+
+
 class Pool:
     """Evaluates lists of overrides; a context manager.
 
@@ -39,6 +54,8 @@ class Pool:
     workers : int
         How many at a time.
     """
+
+    name = "native"
 
     def __init__(self, scenarios: Mapping[str, Mapping[str, Any]], workers: int) -> None:
         self.scenarios = scenarios
@@ -89,3 +106,50 @@ class Pool:
         if not answer:
             raise SimulationError("a process that evaluates designs ended: out of memory, or killed")
         return json.loads(answer)
+
+
+class Cluster:
+    """Evaluates lists of overrides by the workers of a Dask scheduler; a context manager.
+
+    What a worker was at when it died is done again by another. Workers need the same version of tribodyn.
+
+    Parameters
+    ----------
+    scenarios : mapping
+        As `evaluation.evaluate` takes them.
+    client : distributed.Client
+    """
+
+    name = "dask"
+
+    def __init__(self, scenarios: Mapping[str, Mapping[str, Any]], client: Any) -> None:
+        self.scenarios = scenarios
+        self.client = client
+        self.workers = workers_of(client)
+        self._sent: list[Any] = []
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.client.cancel([one for one in self._sent if not one.done()])
+
+    def submit(self, several: Sequence[Mapping[str, Any]]) -> "_Answer":
+        """Evaluate cases by their overrides, as `evaluation.evaluate` does."""
+        # impure: equal candidates of two searches must not be taken for one
+        sent = self.client.submit(evaluate, self.scenarios, list(several), 1, pure=False, retries=3)
+        self._sent.append(sent)
+        return _Answer(sent)
+
+
+class _Answer:
+    """What a worker of a cluster answers."""
+
+    def __init__(self, sent: Any) -> None:
+        self._sent = sent
+
+    def result(self) -> Figures:
+        try:
+            return self._sent.result()
+        except Exception as error:
+            raise SimulationError(f"a worker of the cluster could not go on: {error!r}") from error

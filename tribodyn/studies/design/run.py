@@ -31,7 +31,7 @@ from tribodyn.studies.design.layout import (
 from tribodyn.studies.design.left import NOTHING_LEFT, Left, Moved, left_in
 from tribodyn.studies.design.methods import METHODS, method_of
 from tribodyn.studies.design.outcome import check_targets, chosen_best, headline, write_best
-from tribodyn.studies.design.pool import Figures, Pool, workers_for
+from tribodyn.studies.design.pool import Cluster, Evaluators, Figures, Pool, workers_for
 from tribodyn.studies.recording import target, writer
 from tribodyn.studies.study import Progress, RunResult
 
@@ -43,6 +43,7 @@ def run(
     force: bool = False,
     progress: Progress | None = None,
     resume: bool = False,
+    client: Any = None,
 ) -> RunResult:
     """Run a search and write its record; see `study.Study.run`.
 
@@ -57,7 +58,7 @@ def run(
     check_targets(case, path)
     begun = perf_counter()
     with ExitStack() as stack:
-        pool, judge = stack.enter_context(_started(case, left.start))
+        pool, judge = stack.enter_context(_started(case, left.start, client))
         archive = Archive(case, judge, pool, lambda one: keep(one), left.known)
         names, room = names_of(case, judge.start), case.search.evaluations + len(left.known)
         scales = scales_of(case, names)
@@ -69,7 +70,8 @@ def run(
             record.put(number, {START_FIGURES: of})
 
         def so_far(**more: Any) -> dict[str, Any]:
-            figures = {"method": name, "method_reason": reason, "workers": pool.workers}
+            where = {"engine": pool.name, "workers": pool.workers}
+            figures = {"method": name, "method_reason": reason, **where}
             return headline(case, archive) | figures | more | {"wall_time": perf_counter() - begun}
 
         try:
@@ -106,10 +108,13 @@ def figures(case: DesignCase) -> dict[str, Any]:
 
 
 @contextmanager
-def _started(case: DesignCase, start: Figures | None = None) -> Iterator[tuple[Pool, Judge]]:
+def _started(
+    case: DesignCase, start: Figures | None = None, client: Any = None
+) -> Iterator[tuple[Evaluators, Judge]]:
     """Give what evaluates candidates, and what judges them: it knows the base scenario as it stands."""
     asked = cases_of(case, {})
-    with Pool(case.scenarios, workers_for(case.search.evaluations * len(asked))) as pool:
+    workers = workers_for(case.search.evaluations * len(asked))
+    with Cluster(case.scenarios, client) if client else Pool(case.scenarios, workers) as pool:
         yield pool, Judge(case, start or pool.submit(asked).result())
 
 
@@ -162,7 +167,7 @@ def _why_none(case: DesignCase, archive: Archive) -> str:
 def _about(
     case: DesignCase,
     archive: Archive,
-    pool: Pool,
+    pool: Evaluators,
     best: Evaluation,
     moved: Moved,
     record: RecordWriter,

@@ -9,7 +9,7 @@ import pytest
 import tribodyn as td
 from tribodyn.errors import InputError
 from tribodyn.record.reader import open_record
-from tribodyn.studies.design import archive
+from tribodyn.studies.design import archive, pool
 from tribodyn.studies.design.report import sentences
 from tribodyn.studies.load import load_scenario
 from tribodyn.studies.run import run
@@ -57,7 +57,7 @@ def test_what_a_search_leaves(tmp_path: Path):
 def test_an_interrupted_search_keeps_its_best_and_goes_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     evaluated: list[Any] = []
 
-    class Counted(archive.Pool):
+    class Counted(pool.Pool):
         def submit(self, several: Any) -> Any:
             evaluated.append(several)
             return super().submit(several)
@@ -135,3 +135,17 @@ def test_only_a_search_can_go_on(tmp_path: Path):
     case = load_scenario("efficiency-involute-18-36")
     with pytest.raises(InputError, match="such a run cannot go on"):
         run(case, tmp_path / "a.h5", resume=True)
+
+
+def test_a_cluster_finds_what_this_machine_finds(tmp_path: Path):
+    distributed = pytest.importorskip("distributed")
+    here = search(tmp_path / "here.h5")
+    with distributed.Client(
+        processes=False, n_workers=2, threads_per_worker=1, dashboard_address=None
+    ) as client:
+        there = search(tmp_path / "there.h5", client=client)
+    assert there.summary["engine"] == "dask"
+    assert there.summary["workers"] == 2
+    for name in ("objective_start", "objective", "best", "evaluations"):
+        assert getattr(there, name) == getattr(here, name)
+    assert there.summary["figures_best"] == here.summary["figures_best"]

@@ -1,0 +1,60 @@
+"""A client of Dask's scheduler: of one that runs, or of a cluster of this machine."""
+
+import logging
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from tribodyn.errors import InputError
+
+
+@contextmanager
+def client_of(workers: int | None, scheduler: str | None) -> Iterator[Any]:
+    """Give a client; a cluster of this machine lives as long as the block.
+
+    Parameters
+    ----------
+    workers : int, optional
+        Processes of a cluster of this machine; default: one per core.
+    scheduler : str, optional
+        Address of a scheduler, ``tcp://host:8786``.
+
+    Raises
+    ------
+    InputError
+        If Dask is not there, or no scheduler answers at that address.
+    """
+    try:
+        from distributed import Client, LocalCluster
+    except ImportError:
+        raise InputError(
+            "--engine", "dask", "Dask is not installed", 'install it: pip install "tribodyn[cluster]"'
+        ) from None
+    if scheduler is None:
+        with (
+            LocalCluster(
+                n_workers=workers,
+                threads_per_worker=1,
+                dashboard_address=None,  # pyright: ignore[reportArgumentType]
+                silence_logs=logging.ERROR,
+            ) as cluster,
+            Client(cluster) as client,
+        ):
+            yield client
+        return
+    try:
+        client = Client(scheduler, timeout="10s")
+    except (OSError, ValueError) as error:
+        raise InputError(
+            "--scheduler",
+            scheduler,
+            f"no scheduler answers there ({error})",
+            "start one: dask scheduler",
+        ) from None
+    with client:
+        yield client
+
+
+def workers_of(client: Any) -> int:
+    """How many workers a client's scheduler has."""
+    return max(1, len(client.scheduler_info(n_workers=-1)["workers"]))
