@@ -1,6 +1,9 @@
 """What all tests share: the shipped drives, prepared once; the order of files; how hypothesis searches."""
 
+import gc
 import json
+import os
+import sys
 from functools import lru_cache
 
 import numpy as np
@@ -9,6 +12,8 @@ from hypothesis import HealthCheck, settings
 
 from tests.support.durations import Durations, add_options
 from tests.support.forked_verbs import ForkedVerbs
+from tests.support.short_studies import ShortRuns
+from tribodyn.numerics.cache import trusted_folder
 from tribodyn.studies.gear_pair.prepare import Prepared, prepare
 from tribodyn.studies.load import load_scenario
 
@@ -28,6 +33,21 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 def pytest_configure(config: pytest.Config) -> None:
     """Sort the files by measured duration."""
     config.pluginmanager.register(Durations(config), "durations-of-tests")
+
+
+def pytest_collection_finish() -> None:
+    """Spare the garbage collector what is imported, and keep what XLA compiles beside what the package keeps.
+
+    A round over all modules takes a good part of a second, and compilers allocate without end.
+    """
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(5_000, 10, 10)
+    kept = trusted_folder("xla")
+    if "jax" in sys.modules and kept:
+        jax = sys.modules["jax"]
+        jax.config.update("jax_compilation_cache_dir", str(kept))
+        jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.2)
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
@@ -59,6 +79,13 @@ def forked(tmp_path_factory: pytest.TempPathFactory):
     verbs = ForkedVerbs(tmp_path_factory.mktemp("verbs"))
     yield verbs
     verbs.close()
+
+
+@pytest.fixture(scope="session")
+def short_runs(tmp_path_factory: pytest.TempPathFactory) -> ShortRuns:
+    """Short run of the template of a kind of study: short_runs("efficiency").summary; see `ShortRuns`."""
+    own = tmp_path_factory.getbasetemp()
+    return ShortRuns((own.parent if "PYTEST_XDIST_WORKER" in os.environ else own) / "short-runs")
 
 
 @pytest.fixture

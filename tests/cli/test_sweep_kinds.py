@@ -1,6 +1,7 @@
 """Sweeps of studies whose cases are evaluated one by one: figures, pictures, what is refused, going on."""
 
 import json
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -55,38 +56,50 @@ def test_every_kind_without_a_batch_is_tested():
     assert set(VARIED) == {kind for kind, study in STUDIES.items() if study.batch() is None}
 
 
+@pytest.fixture(scope="module")
+def swept(tmp_path_factory: pytest.TempPathFactory):
+    """(kind) -> record of the sweep of its two cases, and what was printed; each is swept once."""
+
+    @cache
+    def made(kind: str) -> tuple[Path, str]:
+        folder = tmp_path_factory.mktemp(kind)
+        path = folder / "sweep.h5"
+        return path, invoked("sweep", written_template(kind, folder), *words_of(kind), "-o", path)
+
+    return made
+
+
 @pytest.mark.parametrize("kind", KINDS)
-def test_a_sweep_has_the_figures_of_single_runs(kind: str, tmp_path: Path):
+def test_a_sweep_has_the_figures_of_single_runs(kind: str, swept, tmp_path: Path):
     key, values = VARIED[kind]
-    path, scenario = tmp_path / "sweep.h5", written_template(kind, tmp_path)
-    shown = json.loads(invoked("sweep", scenario, *words_of(kind), "-o", path, "--json"))
+    path, _ = swept(kind)
+    shown = json.loads(invoked("show", path, "--json"))
     assert shown["cases"] == shown["done"] == 2
-    swept = STUDIES[kind].swept()
+    figures = STUDIES[kind].swept()
     with SweepRecord(path) as record:
         assert (record.status, record.kind_of_study) == ("complete", kind)
-        assert set(record.figures) == set(swept)
+        assert set(record.figures) == set(figures)
         assert (record["status"] == DONE).all()
-        for name, variable in swept.items():
+        for name, variable in figures.items():
             assert (record.units(name), record.long_name(name)) == (variable.units, variable.long_name)
-        found = {name: record[name] for name in swept}
+        found = {name: record[name] for name in figures}
     compared = 0
     for i, value in enumerate(values):
         more: dict[str, Any] = {key.replace(".", "__"): value}
         summary = run_case(short_case(kind, tmp_path, **more), tmp_path / f"{i}.h5").summary
-        for name in swept:
+        for name in figures:
             if summary.get(name) is None:
                 assert np.isnan(found[name][i]), name
                 continue
             np.testing.assert_allclose(found[name][i], summary[name], rtol=1e-12, err_msg=name)
             compared += 1
-    assert compared > len(swept)
-    assert any(found[name][0] != found[name][1] for name in swept)
+    assert compared > len(figures)
+    assert any(found[name][0] != found[name][1] for name in figures)
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_it_is_shown_and_drawn(kind: str, tmp_path: Path):
-    path = tmp_path / "sweep.h5"
-    said = invoked("sweep", written_template(kind, tmp_path), *words_of(kind), "-o", path)
+def test_it_is_shown_and_drawn(kind: str, swept, tmp_path: Path):
+    path, said = swept(kind)
     assert "minimum" in said
     assert "2 done" in said
     lines = [line for line in STUDIES[kind].sweep_lines() if line.label in invoked("show", path)]

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from tests.support.closures import LIU_NI, MIXED, VECIANA, coulomb, under
+from tests.support.compile_fast import ONE_CALL
 from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
 from tribodyn.dynamics.parameters import STATES, Model
 from tribodyn.kernels.native import kernel
@@ -42,7 +43,7 @@ def test_every_film_agrees_between_numpy_numba_and_jax(rng, name):
 
     native = np.empty((3, n))
     _films(film, surfaces, load, curvature, speed, native)
-    traced = jax.jit(evaluate)(*map(jnp.asarray, state))
+    traced = jax.jit(evaluate, compiler_options=ONE_CALL)(*map(jnp.asarray, state))
     for row, (values, other) in enumerate(zip(evaluate(*state), traced, strict=True)):
         np.testing.assert_allclose(native[row], values, rtol=2e-12, atol=1e-13)
         np.testing.assert_allclose(other, values, rtol=2e-12, atol=1e-13)
@@ -83,7 +84,8 @@ def test_every_law_agrees_between_numpy_numba_and_jax(rng, name):
     values = _coefficient_and_rise(closure, *state)
     native = np.empty((2, n))
     _coefficients(closure, *state[:4], native)
-    traced = jax.jit(lambda *a: _coefficient_and_rise(closure, *a))(*map(jnp.asarray, state))
+    evaluate = jax.jit(lambda *a: _coefficient_and_rise(closure, *a), compiler_options=ONE_CALL)
+    traced = evaluate(*map(jnp.asarray, state))
     for row in (0, 1):
         np.testing.assert_allclose(native[row], values[row], rtol=1e-11, atol=1e-300)
         np.testing.assert_allclose(traced[row], values[row], rtol=1e-11, atol=1e-300)

@@ -1,9 +1,12 @@
 """The right-hand side under every compiler: plain NumPy, numba for one case and for lanes, JAX."""
 
+from functools import partial
+
 import jax
 import jax.numpy as jnp
 import numpy as np
 
+from tests.support.compile_fast import ONE_CALL
 from tests.support.states import random_place, random_state
 from tribodyn.dynamics.contact_forces import QUANTITIES
 from tribodyn.dynamics.equations import derivatives
@@ -25,6 +28,11 @@ def _lanes(phase, segment, y, model, work, dy):
     derivatives(rows_of(phase)[0], CYCLE, segment, rows_of(y), model, rows_of(work), rows_of(dy))
 
 
+@partial(jax.jit, static_argnames="options", compiler_options=ONE_CALL)
+def _traced(phase, y, segment, numbers, options):
+    return right_hand_side(phase, y, (CYCLE, segment, Model(**numbers, options=options)))
+
+
 def assert_right_hand_sides_agree(models: list[Model], rng: np.random.Generator, rtol: float) -> None:
     """Every compiler's derivatives at random states of every model; small ones within 1e-12 of the maximum.
 
@@ -36,11 +44,7 @@ def assert_right_hand_sides_agree(models: list[Model], rng: np.random.Generator,
     work, lane_work = np.zeros((QUANTITIES + pairs, pairs)), np.zeros((QUANTITIES + pairs, pairs, WIDTH))
     options = models[0].options
     fields = [name for name in Model._fields if name != "options"]
-    traced = jax.jit(
-        lambda phase, y, segment, numbers: right_hand_side(
-            phase, y, (CYCLE, segment, Model(**numbers, options=options))
-        )
-    )
+    arrays = [jax.tree.map(jnp.asarray, {name: getattr(model, name) for name in fields}) for model in models]
     for segment in range(len(models[0].table.boundary) - 1):
         for start in range(0, 2 * len(models), WIDTH):
             cases = [(start + lane) % len(models) for lane in range(WIDTH)]
@@ -58,11 +62,10 @@ def assert_right_hand_sides_agree(models: list[Model], rng: np.random.Generator,
                 expected = np.array([plain[i] for i in range(STATES)])
                 native = np.empty(STATES)
                 rhs(phase, CYCLE, segment, y, model, work, native)
-                arrays = jax.tree.map(jnp.asarray, {name: getattr(model, name) for name in fields})
                 found = {
                     "native": native,
                     "lanes": rates[:, lane],
-                    "jax": traced(phase, y, segment, arrays),
+                    "jax": _traced(phase, y, segment, arrays[case], options),
                 }
                 scale = 1e-12 * np.abs(expected).max()
                 for name, values in found.items():

@@ -1,9 +1,13 @@
 """A scenario of every kind of study that is shipped, made short: its template, and what shortens it."""
 
+import fcntl
+import pickle
 from pathlib import Path
 from typing import Any
 
 from tribodyn.studies.load import load_scenario
+from tribodyn.studies.results import RunResult
+from tribodyn.studies.run import run
 from tribodyn.studies.template import filled
 
 #: Kind -> overrides under which its template takes seconds.
@@ -48,3 +52,28 @@ def short_case(kind: str, folder: Path, **more: Any) -> Any:
     """The case of a kind's template, made short; `more` are overrides with `__` in place of dots."""
     overrides = SHORT[kind] | {key.replace("__", "."): value for key, value in more.items()}
     return load_scenario(written_template(kind, folder), overrides)
+
+
+class ShortRuns:
+    """Short runs of the templates: (kind) -> result; each is run once for all processes of the tests.
+
+    Parameters
+    ----------
+    folder : Path
+        Where the processes share them.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        folder.mkdir(exist_ok=True)
+
+    def __call__(self, kind: str) -> RunResult:
+        """Run the template of a kind, or wait for who runs it; nobody changes the record."""
+        kept = self.folder / f"{kind}.pickle"
+        with (self.folder / f"{kind}.lock").open("w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            if not kept.exists():
+                own = self.folder / kind
+                own.mkdir()
+                kept.write_bytes(pickle.dumps(run(short_case(kind, own), own / f"{kind}.h5")))
+        return pickle.loads(kept.read_bytes())

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from tests.support.compile_fast import ONE_CALL
 from tribodyn.compliance.energy import loaded_tooth, polynomials_over_ring, tooth_compliance
 from tribodyn.compliance.foundation import (
     HARMONICS,
@@ -121,7 +122,7 @@ def test_series_of_a_tooth_itself_is_long_enough(ratio, half_angle, error):
 def test_traced_ring_is_the_plain_one():
     load = np.array([[0.4, 1.0, 0.1], [0.3, 0.9, 0.2]])
     numbers = (0.03, 0.02, 0.1, 207e9, NU, 0.02)
-    traced = jax.jit(ring_foundation)(load, *map(jnp.asarray, numbers))
+    traced = jax.jit(ring_foundation, compiler_options=ONE_CALL)(load, *map(jnp.asarray, numbers))
     np.testing.assert_allclose(traced, ring_foundation(load, *numbers), rtol=1e-12)
 
 

@@ -16,32 +16,12 @@ from tribodyn.scenario.quantity import Table
 from tribodyn.studies import DEFAULT, STUDIES, study_of
 from tribodyn.studies.load import load_scenario
 from tribodyn.studies.pictures import compare, figure, names, summary_table
-from tribodyn.studies.run import run
 from tribodyn.studies.study import CaseHead, Checked, RunResult, Study
 
 KINDS = tuple(STUDIES)
 #: Their runs take long even when they are short: finite elements.
 SLOW = ("load-contact", "design", "assessment")
 RUNS = [pytest.param(kind, marks=pytest.mark.slow) if kind in SLOW else kind for kind in KINDS]
-
-
-@pytest.fixture(scope="module")
-def records(tmp_path_factory: pytest.TempPathFactory) -> dict[str, RunResult]:
-    """Runs by kind; see `ran`."""
-    return {}
-
-
-@pytest.fixture
-def ran(records: dict[str, RunResult], tmp_path_factory: pytest.TempPathFactory):
-    """(kind) -> result of the short run of its template, which is run once."""
-
-    def result(kind: str) -> RunResult:
-        if kind not in records:
-            folder = tmp_path_factory.mktemp(kind)
-            records[kind] = run(short_case(kind, folder), folder / f"{kind}.h5")
-        return records[kind]
-
-    return result
 
 
 def test_every_kind_is_tested():
@@ -94,8 +74,8 @@ def test_a_case_is_checked(kind: str, tmp_path: Path):
 
 
 @pytest.mark.parametrize("kind", RUNS)
-def test_a_run_gives_a_record_that_describes_itself(kind: str, ran):
-    result = ran(kind)
+def test_a_run_gives_a_record_that_describes_itself(kind: str, short_runs):
+    result = short_runs(kind)
     assert isinstance(result, RunResult)
     assert (result.status, result.message) == ("complete", "")
     with open_record(result.path) as record:
@@ -114,9 +94,9 @@ def test_a_run_gives_a_record_that_describes_itself(kind: str, ran):
 
 
 @pytest.mark.parametrize("kind", RUNS)
-def test_its_summary_has_its_lines(kind: str, ran):
+def test_its_summary_has_its_lines(kind: str, short_runs):
     study = STUDIES[kind]
-    with open_record(ran(kind).path) as record:
+    with open_record(short_runs(kind).path) as record:
         known = {line.name for lines in study.lines().values() for line in lines}
         assert len(known & set(record.summary)) >= 3
         assert study.sentences(record)
@@ -124,8 +104,8 @@ def test_its_summary_has_its_lines(kind: str, ran):
 
 
 @pytest.mark.parametrize("kind", RUNS)
-def test_every_figure_draws(kind: str, ran, tmp_path: Path):
-    with open_record(ran(kind).path) as record:
+def test_every_figure_draws(kind: str, short_runs, tmp_path: Path):
+    with open_record(short_runs(kind).path) as record:
         drawn = names([record])
         assert drawn
         for name in ("overview", *drawn):
@@ -134,8 +114,8 @@ def test_every_figure_draws(kind: str, ran, tmp_path: Path):
 
 
 @pytest.mark.parametrize("kind", [kind for kind in RUNS if kind != "gear-pair"])
-def test_figures_without_a_record_are_those_of_the_run(kind: str, ran, tmp_path: Path):
-    study, summary = STUDIES[kind], ran(kind).summary
+def test_figures_without_a_record_are_those_of_the_run(kind: str, short_runs, tmp_path: Path):
+    study, summary = STUDIES[kind], short_runs(kind).summary
     figures = study.figures(short_case(kind, tmp_path))
     missing = {name for name in study.swept() if summary.get(name) is None}
     assert missing < set(study.swept())
@@ -144,8 +124,11 @@ def test_figures_without_a_record_are_those_of_the_run(kind: str, ran, tmp_path:
     assert all(figures.get(name) is None for name in missing)
 
 
-def test_a_gear_pair_is_compared_with_its_efficiency(ran):
-    with open_record(ran("gear-pair").path) as motion, open_record(ran("efficiency").path) as slow:
+def test_a_gear_pair_is_compared_with_its_efficiency(short_runs):
+    with (
+        open_record(short_runs("gear-pair").path) as motion,
+        open_record(short_runs("efficiency").path) as slow,
+    ):
         compared = compare([motion, slow])
         rows = {row.line.name: row.values for rows in compared.groups.values() for row in rows}
         for name in ("efficiency", "contact_ratio", "normal_load_max", "friction_coefficient_mean"):
@@ -163,8 +146,8 @@ def test_a_gear_pair_is_compared_with_its_efficiency(ran):
         (("efficiency", "backlash-oscillator"), "share no quantities"),
     ],
 )
-def test_records_of_other_quantities_are_not_compared(ran, kinds: tuple[str, str], message: str):
-    with open_record(ran(kinds[0]).path) as one, open_record(ran(kinds[1]).path) as other:
+def test_records_of_other_quantities_are_not_compared(short_runs, kinds: tuple[str, str], message: str):
+    with open_record(short_runs(kinds[0]).path) as one, open_record(short_runs(kinds[1]).path) as other:
         with pytest.raises(InputError, match=message) as error:
             compare([one, other])
         assert error.value.key == "record"
