@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-#: X_L η^0.05 by type of oil, η in mPa·s: (27).
-LUBRICANT_FACTORS = {"mineral": 1.0, "pao": 0.8, "pag": 0.7, "pag-water-soluble": 0.6, "phosphate-ester": 1.3}
-
 
 def lubricant_factor(kind_factor: float, viscosity: float) -> float:
-    """X_L of an oil, from its value in `LUBRICANT_FACTORS` and η at the oil's temperature, Pa·s: (27)."""
+    """X_L of an oil at its viscosity η, Pa·s, from that of its type, X_L η^0.05 with η in mPa·s: (27).
+
+    The types have the factors of `micropitting.Oil`.
+    """
     return kind_factor * (1e3 * viscosity) ** -0.05
 
 

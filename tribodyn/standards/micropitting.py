@@ -22,8 +22,6 @@ from tribodyn.standards.contact_path import (
 
 #: X_S by how the oil reaches the mesh: ISO/TR 15144-1:2014, table 4.
 LUBRICATION_FACTORS = {"spray": 1.2, "dip": 1.0, "submerged": 0.2}
-#: X_L by type of oil: ISO/TR 15144-1:2014, table 3; of esters the standard has phosphate esters only.
-LUBRICANT_FACTORS = {"mineral": 1.0, "pao": 0.8, "pag": 0.7, "pag-water-soluble": 0.6, "phosphate-ester": 1.3}
 #: What the permissible film is above that of the test gears at their failure: ISO/TR 15144-1:2014, (A.1).
 _PERMISSIBLE = 1.4
 
@@ -38,7 +36,8 @@ class Oil(NamedTuple):
     pressure_viscosity : callable
         α, 1/Pa, at a temperature, K.
     lubricant_factor : float
-        X_L, see `LUBRICANT_FACTORS`.
+        X_L: 1.0 of mineral oil, 0.8 of PAO, 0.7 of PAG (0.6 where it dissolves in water), 1.3 of phosphate
+        esters: ISO/TR 15144-1:2014, table 3.
     """
 
     viscosity: Callable[[Any], Any]
