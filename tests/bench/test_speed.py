@@ -12,11 +12,14 @@ from scipy.integrate import solve_ivp
 
 from tools.peers import steady
 from tribodyn.dynamics.equations import derivatives, engagement
+from tribodyn.dynamics.extremes import no_extremes
 from tribodyn.dynamics.parameters import MECHANICAL, SLIP, STATES, WORK_IN, WORK_PARAMETRIC, XI, XI_RATE
 from tribodyn.solve.choice import choose
+from tribodyn.solve.ensemble import march
 from tribodyn.solve.gear_map import GearMap, moving_states
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.period_map import by_differences
+from tribodyn.solve.periodic import steady_states
 from tribodyn.solve.tolerances import Tolerances, absolute_tolerances, tolerances_from
 from tribodyn.solve.transient import make_integrator
 
@@ -146,6 +149,78 @@ def test_a_steady_sweep_is_20_times_faster_than_marching_with_lsoda(capsys):
     assert ours.residual <= 1e-7
     assert theirs.error < 1e-4
     assert steady.share(ours, theirs) <= 0.05
+
+
+def calm_ratio(slow, quick, maximum):
+    """Processor time of one function over another's, in turn, until both met a calm machine."""
+    best = {slow: float("inf"), quick: float("inf")}
+    for turn in range(60):
+        for function in best:
+            begun = process_time()
+            function()
+            best[function] = min(best[function], process_time() - begun)
+        if turn >= 15 and best[slow] < maximum * best[quick]:
+            break
+    return best[slow] / best[quick]
+
+
+@pytest.mark.parametrize(
+    ("name", "overrides", "maximum"),
+    [
+        ("crc-23-47", {}, 1.1),
+        ("crc-23-47-300", {}, 1.1),
+        ("involute-23-47", {"operating.pinion_speed": "100 rad/s"}, 1.1),
+        ("crc-23-47", {"operating.pinion_speed": "100 rad/s", "friction.sliding": "dynamic"}, 1.1),
+        # without friction the rest takes half the time
+        ("crc-23-47", {"operating.pinion_speed": "300 rad/s", "friction.law": "none"}, 1.15),
+    ],
+)
+def test_extremes_cost_a_run_at_most_a_tenth(prepared, name, overrides, maximum):
+    model = prepared(name, **overrides).model
+    state = static_equilibrium(model)
+    tolerances = tolerances_from(model, state, RTOL, 10**6)
+    method = choose("auto", model, state).method
+
+    def marched(extremes):
+        integrator = make_integrator(method, model, SAMPLES, tolerances)
+        integrator.extremes = extremes
+        integrator.integrate(state, 0, 20)
+
+    ratio = calm_ratio(lambda: marched(True), lambda: marched(False), maximum)
+    print(f"{name} {overrides}: a run with extremes takes {ratio:.3f} of one without")
+    assert ratio < maximum
+
+
+def test_extremes_cost_lanes_at_most_a_tenth(prepared):
+    """32 speeds, of 20 mesh cycles as a sweep has it: extremes over the last quarter."""
+    speeds = np.linspace(100.0, 600.0, 32)
+    models = [prepared("crc-23-47", **{"operating.pinion_speed": f"{speed} rad/s"}).model for speed in speeds]
+    states = np.array([static_equilibrium(model) for model in models])
+
+    def marched(extremes):
+        march(models, states, cycles=20, window=5, samples=SAMPLES, rtol=RTOL, workers=1, extremes=extremes)
+
+    ratio = calm_ratio(lambda: marched(True), lambda: marched(False), 1.1)
+    print(f"lanes with extremes take {ratio:.3f} of those without")
+    assert ratio < 1.1
+
+
+def test_extremes_cost_steady_states_at_most_a_tenth(prepared, monkeypatch):
+    speeds = np.linspace(100.0, 600.0, 16)
+    models = [prepared("crc-23-47", **{"operating.pinion_speed": f"{speed} rad/s"}).model for speed in speeds]
+    sought = GearMap.integrate
+
+    def found(extremes):
+        def integrate(*arguments, **others):
+            *result, ours = sought(*arguments, **{**others, "extremes": extremes})
+            return *result, ours if extremes else no_extremes(len(arguments[2]))
+
+        monkeypatch.setattr(GearMap, "integrate", integrate)
+        steady_states(models, samples=SAMPLES, workers=1)
+
+    ratio = calm_ratio(lambda: found(True), lambda: found(False), 1.1)
+    print(f"steady states with extremes take {ratio:.3f} of those without")
+    assert ratio < 1.1
 
 
 def test_native_kernel(case, benchmark):

@@ -58,8 +58,11 @@ TRANSMISSION_ERROR = 19  # along the pair's normal, gap not subtracted, m
 TURNED = 20  # sliding velocity over that at which friction has reversed
 TURNED_BEFORE = 21  # the same at the start of a step, see `solve.turning`
 TURNING_RATE = 22  # its rate in the last step, per mesh cycle
-COUPLING = 23  # deflection per load on slot 0, and on from here per load on the other slots, m/N
-QUANTITIES = 23  # and one more for every slot
+# One over line load, curvature, entrainment and sliding where the surfaces were last evaluated, and how far
+# the contact was from there, see `extremes`.
+SEEN_LOAD, SEEN_CURVATURE, SEEN_ENTRAINMENT, SEEN_SLIDING, WORSE = range(23, 28)
+COUPLING = 28  # deflection per load on slot 0, and on from here per load on the other slots, m/N
+QUANTITIES = 28  # and one more for every slot
 
 # Channels of mesh.cycle.Polynomials.channel.
 _COSINE, _SINE = CHANNELS.index("cosine"), CHANNELS.index("sine")
@@ -198,6 +201,46 @@ def reversals_per_velocity(model):
 
 
 @law
+def normal_contacts(segment, cell, u, cells_per_radian, y, model, work):
+    """Fill `work` with everything about every contact but its friction; arguments as of `contact_forces`."""
+    approach(segment, cell, u, cells_per_radian, y, model, work)
+    elastic_loads(segment, cell, u, model, work)
+    for i in range(model.table.side.shape[0]):
+        if out_of_reach(segment, i, model):
+            work[NORMAL_LOAD, i] = 0.0
+            continue
+        _normal_contact(i, segment, cell, u, y, model, work)
+
+
+@law
+def _normal_contact(i, segment, cell, u, y, model, work):
+    """Fill `work` with slot i's normal load and what depends on it; return the line load of its friction."""
+    mechanics = model.mechanics
+    table = model.table
+    stiffness = work[STIFFNESS, i]
+    engaged = ramp(work[EFFECTIVE_APPROACH, i], mechanics.contact_width)
+    damping = mechanics.mesh_damping * sqrt(stiffness) * work[APPROACH_RATE, i]
+    damping = table.in_contact[segment, i] * engaged * damping
+    load = load_with_damping(work[ELASTIC_LOAD, i], damping, mechanics.contact_width * stiffness)
+    work[NORMAL_LOAD, i] = load
+    # the line load at which friction acts as it does along the uneven face
+    line_load = load / table.face_width * cubic(table.channel, segment, cell, i, _UNEVEN, u)
+    if model.options.averaged:
+        radius = work[RADIUS, i]
+        averaged = averaged_radius(
+            radius, line_load, model.surfaces.effective_modulus, table.pitch_point_length
+        )
+        # entrainment is averaged with the radius, to which it is proportional there; sliding is not
+        added = (
+            table.side[i] * (mechanics.nominal_speed + y[SLIP]) * table.pitch_point_rate * (averaged - radius)
+        )
+        work[RADIUS, i] = averaged
+        work[PINION_SPEED, i] = work[PINION_SPEED, i] + added
+        work[GEAR_SPEED, i] = work[GEAR_SPEED, i] + added
+    return line_load
+
+
+@law
 def contact_forces(segment, cell, u, cells_per_radian, y, model, work):
     """Fill `work` with everything about every contact.
 
@@ -217,50 +260,24 @@ def contact_forces(segment, cell, u, cells_per_radian, y, model, work):
     """
     approach(segment, cell, u, cells_per_radian, y, model, work)
     elastic_loads(segment, cell, u, model, work)
-    mechanics = model.mechanics
-    table = model.table
     reversals = reversals_per_velocity(model)
-    for i in range(table.side.shape[0]):
+    for i in range(model.table.side.shape[0]):
         if out_of_reach(segment, i, model):
             work[NORMAL_LOAD, i] = 0.0
             work[FRICTION_FORCE, i] = 0.0
             continue
-        stiffness = work[STIFFNESS, i]
-        engaged = ramp(work[EFFECTIVE_APPROACH, i], mechanics.contact_width)
-        damping = mechanics.mesh_damping * sqrt(stiffness) * work[APPROACH_RATE, i]
-        damping = table.in_contact[segment, i] * engaged * damping
-        load = load_with_damping(work[ELASTIC_LOAD, i], damping, mechanics.contact_width * stiffness)
+        line_load = _normal_contact(i, segment, cell, u, y, model, work)
         if model.options.sliding == SLIDING_DYNAMIC:
             sliding = work[RELATIVE_VELOCITY, i]
         else:
             sliding = work[SLIDING, i]
         speed_p = work[PINION_SPEED, i]
         speed_g = work[GEAR_SPEED, i]
-        # the line load at which friction acts as it does along the uneven face
-        line_load = load / table.face_width * cubic(table.channel, segment, cell, i, _UNEVEN, u)
-        if model.options.averaged:
-            radius = work[RADIUS, i]
-            averaged = averaged_radius(
-                radius, line_load, model.surfaces.effective_modulus, table.pitch_point_length
-            )
-            # entrainment is averaged with the radius, to which it is proportional there; sliding is not
-            added = (
-                table.side[i]
-                * (mechanics.nominal_speed + y[SLIP])
-                * table.pitch_point_rate
-                * (averaged - radius)
-            )
-            speed_p = speed_p + added
-            speed_g = speed_g + added
-            work[RADIUS, i] = averaged
-            work[PINION_SPEED, i] = speed_p
-            work[GEAR_SPEED, i] = speed_g
         state = local_contact(
             line_load, 1.0 / work[RADIUS, i], 0.5 * (speed_p + speed_g), sliding, speed_p, speed_g
         )
         film = ActiveFilm(model.options.film, model.film)
         coefficient = model.options.friction.coefficient(state, film, model.surfaces, model.friction)
-        work[NORMAL_LOAD, i] = load
         work[FRICTION_COEFFICIENT, i] = coefficient
         work[TURNED, i] = sliding * reversals
-        work[FRICTION_FORCE, i] = coefficient * load * sign(work[TURNED, i])
+        work[FRICTION_FORCE, i] = coefficient * work[NORMAL_LOAD, i] * sign(work[TURNED, i])

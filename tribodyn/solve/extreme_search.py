@@ -10,27 +10,36 @@ from typing import NamedTuple, Self
 
 import numpy as np
 
-from tribodyn.dynamics.contact_forces import contact_forces
+from tribodyn.dynamics.contact_forces import normal_contacts
 from tribodyn.dynamics.equations import locate
 from tribodyn.dynamics.extremes import (
+    END,
+    EXTREME,
     EXTREMES,
     LOWEST,
+    MIDDLE,
+    RATE,
+    ROWS,
+    START,
+    TRIAL,
     Extremes,
     extreme_of,
     measure,
+    measure_end,
+    measure_inside,
     measures_of,
+    see_surfaces,
     vertex,
 )
 from tribodyn.dynamics.parameters import STATES
 from tribodyn.kernels.native import kernel
-from tribodyn.numerics.elementary import absolute, law, maximum
+from tribodyn.numerics.elementary import absolute, law, maximum, where
 from tribodyn.numerics.shapes import Array, Float
 
-#: Rows of measures: at the start, in the middle and at the end of a step, at another place in it, and the
-#: rate of change over the step before, per mesh cycle.
-START, MIDDLE, END, TRIAL, RATE = range(5)
 #: Rise over an extreme, as a share of it, that is not worth another evaluation.
 WORTH = 1e-7
+#: A rate of change that is not known.
+UNKNOWN = 1e150
 
 
 class Search(NamedTuple):
@@ -38,7 +47,7 @@ class Search(NamedTuple):
 
     Attributes
     ----------
-    measures : (5, measures)
+    measures : (ROWS, measures)
     state : (STATES,)
         Scratch: a state inside a step.
     extreme, cycles, segments : (EXTREMES,)
@@ -46,7 +55,7 @@ class Search(NamedTuple):
     states : (EXTREMES, STATES)
     """
 
-    measures: Float[Array, "5 measure"]
+    measures: Float[Array, "row measure"]
     state: Float[Array, " state"]
     extreme: Float[Array, " extreme"]
     cycles: Float[Array, " extreme"]
@@ -57,7 +66,7 @@ class Search(NamedTuple):
     def begun(cls, pairs: int) -> Self:
         """A search that knows nothing, with so many pair slots."""
         return cls(
-            np.zeros((5, measures_of(pairs))),
+            np.zeros((ROWS, measures_of(pairs))),
             np.zeros(STATES),
             np.full(EXTREMES, LOWEST),
             np.zeros(EXTREMES),
@@ -74,11 +83,22 @@ class Search(NamedTuple):
 def promising(start, end, change_before, extreme):
     """Whether a measure may pass its extreme inside a step.
 
-    A parabola rises above both ends of a step by no more than an eighth of the sum of what it changes over
-    that step and would by its rate over the step before; twice that is allowed for.
+    That is so if a parabola through both ends of the step does which bends twice as much as the one through
+    the step before, over which the measure changes by `change_before` in a phase as long as this step. With
+    the change d over a step, a parabola that bends by b, its second difference, rises above both ends by
+    (b − 2|d|)²/(8 b), if b is more than 2|d|.
     """
-    rise = 0.25 * (absolute(end - start) + change_before)
-    return worthwhile(maximum(start, end) + rise, extreme) & (end > LOWEST)
+    change = end - start
+    bend = 2.0 * absolute(change - change_before)
+    over = bend - 2.0 * absolute(change)
+    short = extreme + WORTH * absolute(extreme) - maximum(start, end)
+    return (start > LOWEST) & (end > LOWEST) & (over > 0.0) & (over * over > 8.0 * bend * short)
+
+
+@law
+def rate_of(start, end, per_step):
+    """Rate of change of a measure over a step, if both are known; `per_step` is one over the step."""
+    return where((start > LOWEST) & (end > LOWEST), (end - start) * per_step, UNKNOWN)
 
 
 @law
@@ -89,9 +109,9 @@ def worthwhile(value, extreme):
 
 @kernel
 def contacts_at(phase, segment, y, model, work):
-    """Fill `work` with the contacts of a state."""
+    """Fill `work` with the contacts of a state, but for friction."""
     cell, u, cells_per_radian = locate(phase, segment, model.table)
-    contact_forces(segment, cell, u, cells_per_radian, y, model, work)
+    normal_contacts(segment, cell, u, cells_per_radian, y, model, work)
 
 
 @kernel
@@ -106,6 +126,9 @@ def keep(row, cycles, segment, y, search):
             search.segments[which] = segment
             for j in range(STATES):
                 search.states[which, j] = y[j]
+            for other in range(search.measures.shape[1]):
+                if extreme_of(other) == which:
+                    search.measures[EXTREME, other] = value
 
 
 @kernel
@@ -114,9 +137,11 @@ def open_segment(place, y, model, work, search):
     for i in range(search.measures.shape[1]):
         for row in range(RATE):
             search.measures[row, i] = LOWEST
-        search.measures[RATE, i] = np.inf
+        search.measures[RATE, i] = UNKNOWN
+        search.measures[EXTREME, i] = search.extreme[extreme_of(i)]
     contacts_at(place.phase, place.segment, y, model, work)
     measure(place.phase, place.segment, y, model, work, search.measures[START])
+    see_surfaces(place.phase, place.segment, model, work, search.measures)
     keep(START, place.cycle + place.phase, place.segment, y, search)
 
 
@@ -125,16 +150,19 @@ def search_step(method, place, step, y, model, work, buffer, search):
     """Seek extremes over an accepted step from the state `y`, which ends at `place.end`."""
     measures = search.measures
     method.contacts(place.end, place.segment, model, work, buffer)
-    measure(place.end, place.segment, buffer[0], model, work, measures[END])
-    keep(END, place.cycle + place.end, place.segment, buffer[0], search)
-    inside = False
+    measure_end(False, place.end, place.segment, buffer[0], model, work, measures)
+    better, inside = False, False
     for i in range(measures.shape[1]):
-        start, end = measures[START, i], measures[END, i]
-        inside |= promising(start, end, measures[RATE, i] * step, search.extreme[extreme_of(i)])
+        start, end, extreme = measures[START, i], measures[END, i], measures[EXTREME, i]
+        better |= end > extreme
+        inside |= promising(start, end, measures[RATE, i] * step, maximum(end, extreme))
+    if better:
+        keep(END, place.cycle + place.end, place.segment, buffer[0], search)
     if inside:
         look_inside(method, place, step, y, model, work, buffer, search)
+    per_step = 1.0 / step
     for i in range(measures.shape[1]):
-        measures[RATE, i] = absolute(measures[END, i] - measures[START, i]) / step
+        measures[RATE, i] = rate_of(measures[START, i], measures[END, i], per_step)
         measures[START, i] = measures[END, i]
 
 
@@ -163,5 +191,5 @@ def look_inside(method, place, step, y, model, work, buffer, search):
         phase = place.phase + share * step
         method.sample(share, step, y, buffer, search.state)
         contacts_at(phase, place.segment, search.state, model, work)
-        measure(phase, place.segment, search.state, model, work, measures[row])
+        measure_inside(False, row, phase, place.segment, search.state, model, work, measures)
         keep(row, place.cycle + phase, place.segment, search.state, search)

@@ -3,16 +3,30 @@
 A lane takes part while its case is in its window; what it finds depends on no other lane.
 """
 
-from tribodyn.dynamics.contact_forces import contact_forces
+from tribodyn.dynamics.contact_forces import normal_contacts
 from tribodyn.dynamics.equations import locate
-from tribodyn.dynamics.extremes import LOWEST, extreme_of, measure, vertex
+from tribodyn.dynamics.extremes import (
+    END,
+    EXTREME,
+    LOWEST,
+    MIDDLE,
+    RATE,
+    START,
+    TRIAL,
+    extreme_of,
+    measure,
+    measure_end,
+    measure_inside,
+    see_surfaces,
+    vertex,
+)
 from tribodyn.dynamics.parameters import STATES
 from tribodyn.kernels.lanes.arrays import rows_of
 from tribodyn.kernels.lanes.vectors import any_of
 from tribodyn.kernels.native.parts import part
-from tribodyn.numerics.elementary import absolute, where
+from tribodyn.numerics.elementary import maximum, where
 from tribodyn.solve.dormand_prince import dense_output
-from tribodyn.solve.extreme_search import END, MIDDLE, RATE, START, TRIAL, promising, worthwhile
+from tribodyn.solve.extreme_search import UNKNOWN, promising, rate_of, worthwhile
 from tribodyn.solve.lane_queue import CASE, CYCLE
 
 #: A row that no measure stands in.
@@ -30,13 +44,16 @@ def seeking(lanes, block, march):
 def open_lanes(start, segment, lanes, model, block, march):
     """Measure the states at the start of a segment."""
     measures, y, work = rows_of(block.measures), rows_of(block.y), rows_of(block.work)
+    extreme = rows_of(block.extreme)
     for i in range(block.measures.shape[1]):
         for row in range(RATE):
             measures[row, i] = LOWEST
-        measures[RATE, i] = float("inf")
+        measures[RATE, i] = UNKNOWN
+        measures[EXTREME, i] = extreme[extreme_of(i)]
     cell, u, cells_per_radian = locate(start, segment, model.table)
-    contact_forces(segment, cell, u, cells_per_radian, y, model, work)
+    normal_contacts(segment, cell, u, cells_per_radian, y, model, work)
     measure(start, segment, y, model, work, measures[START])
+    see_surfaces(start, segment, model, work, measures)
     keep_lanes(lanes, START, start, segment, y, block, march)
 
 
@@ -56,23 +73,30 @@ def keep_lanes(lanes, row, phase, segment, y, block, march):
             segments[which] = where(better, 1.0 * segment, segments[which])
             for j in range(STATES):
                 states[which, j] = where(better, y[j], states[which, j])
+            for other in range(block.measures.shape[1]):
+                if extreme_of(other) == which:
+                    measures[EXTREME, other] = extreme[which]
 
 
 @part
 def search_lanes(lanes, phase, step, reached, segment, model, block, march):
     """Seek extremes over the steps just accepted in some lanes."""
-    measures, extreme = rows_of(block.measures), rows_of(block.extreme)
-    measure(reached, segment, rows_of(block.new), model, rows_of(block.work), measures[END])
-    keep_lanes(lanes, END, reached, segment, rows_of(block.new), block, march)
-    inside = step < 0.0
+    measures = rows_of(block.measures)
+    new, work = rows_of(block.new), rows_of(block.work)
+    measure_end(~lanes, reached, segment, new, model, work, measures)
+    better, inside = step < 0.0, step < 0.0
     for i in range(block.measures.shape[1]):
-        change = measures[RATE, i] * step
-        inside = inside | promising(measures[START, i], measures[END, i], change, extreme[extreme_of(i)])
-    inside = lanes & inside
+        start, end, extreme = measures[START, i], measures[END, i], measures[EXTREME, i]
+        better = better | (end > extreme)
+        inside = inside | promising(start, end, measures[RATE, i] * step, maximum(end, extreme))
+    better, inside = lanes & better, lanes & inside
+    if any_of(better):
+        keep_lanes(better, END, reached, segment, new, block, march)
     if any_of(inside):
         look_inside_lanes(inside, phase, step, segment, model, block, march)
+    per_step = 1.0 / step
     for i in range(block.measures.shape[1]):
-        rate = absolute(measures[END, i] - measures[START, i]) / step
+        rate = rate_of(measures[START, i], measures[END, i], per_step)
         measures[RATE, i] = where(lanes, rate, measures[RATE, i])
         measures[START, i] = where(lanes, measures[END, i], measures[START, i])
 
@@ -83,7 +107,7 @@ def look_inside_lanes(lanes, phase, step, segment, model, block, march):
     measures, extreme = rows_of(block.measures), rows_of(block.extreme)
     chosen, row, share, done = lanes, MIDDLE, 0.5 + 0.0 * step, 0.0 * step - 1.0
     while any_of(chosen):
-        measure_inside(chosen, row, share, phase, step, segment, model, block, march)
+        look_at(chosen, row, share, phase, step, segment, model, block, march)
         row = TRIAL
         following, share = 0.0 * step + NONE, 0.0 * step
         for i in range(block.measures.shape[1]):
@@ -97,7 +121,7 @@ def look_inside_lanes(lanes, phase, step, segment, model, block, march):
 
 
 @part
-def measure_inside(lanes, row, share, phase, step, segment, model, block, march):
+def look_at(lanes, row, share, phase, step, segment, model, block, march):
     """Measure at a share of each lane's step, on its dense output."""
     y, new, k, sample = rows_of(block.y), rows_of(block.new), rows_of(block.k), rows_of(block.sample)
     measures, work = rows_of(block.measures), rows_of(block.work)
@@ -105,6 +129,6 @@ def measure_inside(lanes, row, share, phase, step, segment, model, block, march)
         sample[i] = dense_output(share, step, y[i], new[i], k, i)
     at = phase + share * step
     cell, u, cells_per_radian = locate(at, segment, model.table)
-    contact_forces(segment, cell, u, cells_per_radian, sample, model, work)
-    measure(at, segment, sample, model, work, measures[row])
+    normal_contacts(segment, cell, u, cells_per_radian, sample, model, work)
+    measure_inside(~lanes, row, at, segment, sample, model, work, measures)
     keep_lanes(lanes, row, at, segment, sample, block, march)

@@ -10,6 +10,7 @@ import numpy as np
 
 from tribodyn.dynamics.contact_forces import QUANTITIES
 from tribodyn.dynamics.extremes import EXTREMES, LOWEST, Extremes, measures_of
+from tribodyn.dynamics.extremes import ROWS as ROWS_OF_MEASURES
 from tribodyn.dynamics.parameters import STATES
 from tribodyn.kernels.lanes.arrays import rows_of
 from tribodyn.kernels.lanes.vectors import WIDTH, count
@@ -134,7 +135,7 @@ def empty_lanes(
                 (STATES,),
                 (STAGES, STATES),
                 (QUANTITIES + pairs, pairs),
-                (5, measures_of(pairs)),
+                (ROWS_OF_MEASURES, measures_of(pairs)),
                 (EXTREMES,),
                 (EXTREMES,),
                 (EXTREMES,),

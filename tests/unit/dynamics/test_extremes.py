@@ -1,15 +1,19 @@
 import numpy as np
 import pytest
 
+from tests.support.closures import LIU_NI, under
 from tests.support.states import random_place, random_state
 from tribodyn.dynamics.contact_forces import contact_forces
 from tribodyn.dynamics.equations import locate
 from tribodyn.dynamics.extremes import (
     BACK,
     DRIVING,
+    END,
     ERROR_DOWN,
     ERROR_UP,
+    EXTREME,
     EXTREMES,
+    FARTHEST,
     FILM,
     FORCE,
     LOAD,
@@ -19,16 +23,26 @@ from tribodyn.dynamics.extremes import (
     OF_MESH,
     OF_PAIR,
     PRESSURE,
+    ROWS,
+    START,
+    STEEPEST,
     TEMPERATURE,
     extreme_of,
     measure,
+    measure_end,
     measures_of,
     no_extremes,
+    see_surfaces,
     take_in,
     vertex,
 )
 from tribodyn.dynamics.outputs import outputs, outputs_with_extremes
 from tribodyn.dynamics.parameters import STATES, XI
+from tribodyn.solve.extreme_search import promising
+from tribodyn.solve.right_hand_side import work_array
+from tribodyn.tribology.contact import local_contact
+from tribodyn.tribology.film import FILM_LAWS
+from tribodyn.tribology.surface_state import surface_extremes
 
 OVERRIDES = [
     {},
@@ -85,6 +99,77 @@ def test_vertex_of_a_parabola_is_exact(rng):
 )
 def test_no_vertex_where_the_parabola_is_not_highest_inside(values):
     assert vertex(*values) == (0.0, values[0])
+
+
+def test_surfaces_that_are_left_out_are_not_extreme(prepared, rng):
+    """From random states to others near by, with extremes that both have not reached, or only just."""
+    model = prepared("crc-23-47").model
+    pairs = model.table.side.shape[0]
+    surfaces = [j for j in range(OF_MESH, measures_of(pairs)) if extreme_of(j) != OF_MESH + LOAD]
+    left_out = 0
+    for above in np.geomspace(1e-3, 1.0, 40):
+        measures, work, full = np.full((ROWS, measures_of(pairs)), LOWEST), work_array(model), {}
+        y, (phase, segment) = random_state(rng), random_place(rng, model.table.boundary)
+        contact_forces(segment, *locate(phase, segment, model.table), y, model, work)
+        measure(phase, segment, y, model, work, measures[START])
+        see_surfaces(phase, segment, model, work, measures)
+        measures[EXTREME] = measures[START] + above * np.abs(measures[START])
+        near = y * (1.0 + rng.uniform(-0.1, 0.1))
+        contact_forces(segment, *locate(phase, segment, model.table), near, model, work)
+        measure_end(False, phase, segment, near, model, work, measures)
+        measure(phase, segment, near, model, work, full)
+        for j in set(surfaces) & full.keys():
+            known = measures[END, j] > LOWEST
+            left_out += not known
+            assert full[j] == measures[END, j] if known else full[j] <= measures[EXTREME, j]
+    assert left_out > 20
+
+
+@pytest.mark.parametrize(
+    ("film", "friction"),
+    [(film, "coulomb") for film in FILM_LAWS if film != "solved"]
+    + [("masjedi-khonsari", name) for name in ("masjedi-khonsari", "masjedi-khonsari-veciana")],
+)
+def test_no_surface_changes_faster_than_the_search_allows(film, friction, rng):
+    """From contacts of gears to others with more load and sliding, less radius and entrainment."""
+    values: dict[str, float] = {"coefficient": 0.05} if friction == "coulomb" else {}
+    laws = under(friction, LIU_NI, film, **values)
+
+    def surfaces(load, curvature, entrainment, sliding):
+        speeds = entrainment + 0.5 * sliding, entrainment - 0.5 * sliding
+        contact = local_contact(load, curvature, entrainment, sliding, *speeds)
+        thickness, pressure, temperature = surface_extremes(contact, *laws)
+        return {FILM: -thickness, PRESSURE: pressure, TEMPERATURE: temperature}
+
+    low, high = np.log([1e3, 10.0, 0.05, 1e-3]), np.log([2e6, 400.0, 20.0, 1.0])
+    contact = np.exp(rng.uniform(low, high, (2000, 4)).T)
+    contact[3] *= contact[2]
+    worse = rng.dirichlet(np.ones(4), 2000).T * rng.uniform(0.0, FARTHEST, 2000)
+    before = surfaces(*contact)
+    after = surfaces(*(contact * (1.0 + worse * np.array([[1.0], [1.0], [-1.0], [1.0]]))))
+    for measured, value in before.items():
+        most = value + STEEPEST[measured] * np.sum(worse, axis=0) * np.abs(value)
+        assert np.all(after[measured] <= most * (1.0 + 1e-12 * np.sign(most))), measured
+
+
+def test_a_step_is_looked_into_where_a_parabola_passes_the_extreme(rng):
+    looked = 0
+    for top, height, bend, short in rng.uniform([-2.0, -3.0, 0.1, 0.0], [3.0, 3.0, 9.0, 0.2], (500, 4)):
+        before, start, end = (height - bend * (share - top) ** 2 for share in (-1.0, 0.0, 1.0))
+        extreme = max(start, end) + short * bend
+        passes = 0.0 < top < 1.0 and height > extreme + 1e-6 * abs(extreme)
+        found = promising(start, end, start - before, extreme)
+        assert found or not passes
+        looked += found
+        if not -0.5 < top < 1.5:
+            assert not found
+    assert looked > 20
+
+
+def test_nothing_is_looked_into_where_an_end_is_not_known():
+    assert not promising(LOWEST, 1.0, 1e150, 0.5)
+    assert not promising(1.0, LOWEST, 1e150, 0.5)
+    assert promising(1.0, 1.0, 1e150, 2.0)
 
 
 def test_each_side_of_a_boundary_is_recorded_as_its_segment_has_it(prepared, rng):
