@@ -27,3 +27,10 @@ class ErrorCurve(Curve):
 
     roll_angle: RollAngles
     error: Annotated[Column, units.LENGTH]
+
+
+class LoadCurve(Curve):
+    """Normal load of a pair over the pinion's roll angle from the pitch point; below 0 it counts as 0."""
+
+    roll_angle: RollAngles
+    normal_load: Annotated[Column, units.FORCE]

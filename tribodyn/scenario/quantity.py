@@ -3,7 +3,8 @@
 The types here speak pydantic; what a unit is stands in `units`.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
@@ -55,6 +56,10 @@ class Quantity:
             raise broken(error.rule, error.remedy) from None
 
 
+RecordReader = Callable[[Path, str], dict[str, Any]]
+"""Takes columns, as a scenario writes them out, from a record; the text is the key, for messages."""
+
+
 class Reference:
     """Marks a field that may name a file instead of being written out; the loader puts the content in.
 
@@ -68,15 +73,23 @@ class Reference:
         Columns that a CSV file must have.
     as_list : bool
         Whether the one column of a CSV file stands for a list of quantities.
+    record : callable, optional
+        (path, key) -> the columns, out of a record; for files that end in .h5.
     """
 
     def __init__(
-        self, what: str, folder: str = "", columns: tuple[str, ...] = (), as_list: bool = False
+        self,
+        what: str,
+        folder: str = "",
+        columns: tuple[str, ...] = (),
+        as_list: bool = False,
+        record: RecordReader | None = None,
     ) -> None:
         self.what = what
         self.folder = folder
         self.columns = columns
         self.as_list = as_list
+        self.record = record
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
         like = {"type": "string", "description": f"{self.what}: says what this table does not"}
@@ -99,6 +112,12 @@ def csv_file(*columns: str, as_list: bool = False) -> Reference:
     """A field that may name a CSV file with these columns."""
     counted = ("columns " if len(columns) > 1 else "a column ") + " and ".join(columns)
     return Reference(f"CSV file with {counted}", columns=columns, as_list=as_list)
+
+
+def csv_or_record(*columns: str, record: RecordReader) -> Reference:
+    """A field that may name a CSV file with these columns, or a record that they are taken from."""
+    counted = " and ".join(columns)
+    return Reference(f"CSV file with columns {counted}, or a record", columns=columns, record=record)
 
 
 class Draws:

@@ -177,9 +177,12 @@ def _put_content(known: _References, key: Key) -> None:
                 dotted,
                 quoted(name),
                 f"no such file: {printable_path(file)}",
-                f"give a CSV file that begins with {columns}",
+                f"give a CSV file that begins with {columns}{'' if mark.record is None else ', or a record'}",
             )
-        curve = read_curve(file, dotted, mark.columns)
+        if mark.record is not None and file.suffix == ".h5":
+            curve = mark.record(file, dotted)
+        else:
+            curve = read_curve(file, dotted, mark.columns)
         holder[key[-1]] = _quantities(curve[mark.columns[0]]) if mark.as_list else curve
     known.origins.put(key, str(file))
 

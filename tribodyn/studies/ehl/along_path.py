@@ -11,9 +11,9 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.families import family
 from tribodyn.geometry.path import kinematics
 from tribodyn.mesh.cycle import MeshCycle
-from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.studies.ehl.layout import BEGIN, END, PLACES
+from tribodyn.studies.ehl.loads import given_loads, quasi_static_loads
 from tribodyn.tribology.closure import surfaces_of, untried_closure_of
 from tribodyn.tribology.contact import hertz_half_width
 from tribodyn.tribology.contact_friction import ContactFriction, contact_friction
@@ -69,7 +69,7 @@ def prepare(case: EhlCase) -> Prepared:
 def way(study: Prepared) -> Way:
     """Return the pair at positions evenly spaced in roll angle, in the middle of equal parts of its contact.
 
-    Loads follow from the compliances of the pairs and the torque, without friction and inertia. With squeeze
+    Loads are given ones, or follow from the compliances of the pairs and the torque. With squeeze
     a jump of the load, where another pair comes or goes, is spread over `jump_width`.
     """
     case, cycle = study.case, study.cycle
@@ -80,7 +80,10 @@ def way(study: Prepared) -> Way:
     speed = case.operating.pinion_speed
     radius = 1.0 / np.asarray(motion.relative_curvature)
     speeds = (speed * np.asarray(motion.pinion_speed), speed * np.asarray(motion.gear_speed))
-    nodes, loads = _loads(cycle, case.operating.gear_torque)
+    if case.loads is None:
+        nodes, loads = quasi_static_loads(cycle, case.operating.gear_torque)
+    else:
+        nodes, loads = given_loads(case.loads, cycle)
     loads = loads / float(cycle.face_width)
     if case.transient:
         nodes, loads = _spread(nodes, loads, jump_width(study, float(np.max(loads)), radius, speeds))
@@ -107,21 +110,6 @@ def _spread(nodes: Array, loads: Array, width: float) -> tuple[Array, Array]:
     reach = _SPREAD - 1
     padded = np.pad(np.interp(fine, nodes, loads), reach, mode="edge")
     return fine, np.convolve(padded, kernel, mode="valid")
-
-
-def _loads(cycle: MeshCycle, gear_torque: float) -> tuple[Array, Array]:
-    """Roll angles of the table's nodes, and the load of the pair that is there; in order of the angle.
-
-    Nodes on both sides of a boundary share an angle and keep the order of time.
-    """
-    pairs = cycle.front_pairs
-    load = np.asarray(quasi_static(cycle, gear_torque).normal_load)[:, :, :pairs]
-    age = np.asarray(cycle.phase)[:, :, None] + np.arange(pairs - 1.0, -1.0, -1.0)
-    roll = float(cycle.roll_start) + float(cycle.pitch_angle) * age
-    touching = np.broadcast_to(np.asarray(cycle.in_contact)[:, None, :pairs] > 0, load.shape)
-    # a pair passes through the phases as the youngest, then once more as the one before
-    roll, load, touching = (np.moveaxis(one, 2, 0)[::-1] for one in (roll, load, touching))
-    return roll[touching], load[touching]
 
 
 def given_of(case: EhlCase) -> LawInput:

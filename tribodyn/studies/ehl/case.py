@@ -2,6 +2,9 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.material import MaterialData
@@ -27,6 +30,8 @@ class EhlCase(CaseHead):
         Positions of the pair at which its contact is solved.
     transient : bool
         Whether the way is also solved with squeeze.
+    loads : (array, array) or None
+        Roll angles from the pitch point, rad, and normal loads there, N; None: quasi-static.
     film, friction : FilmData, FrictionData
         None of their own: every law of the registries is evaluated beside the solution.
     """
@@ -41,5 +46,6 @@ class EhlCase(CaseHead):
     mesh: MeshData
     positions: int
     transient: bool
+    loads: tuple[NDArray[np.float64], NDArray[np.float64]] | None
     film: FilmData
     friction: FrictionData

@@ -146,7 +146,9 @@ def profiles(record: Record) -> Profiles:
 def sentences(record: Record) -> list[str]:
     """Say what the model leaves out, and where no solution was found."""
     summary = record.summary
-    said = ["Steady contacts, one after another, under quasi-static loads without friction and inertia."]
+    given = summary.get("loads") == "given"
+    loads = "given loads" if given else "quasi-static loads without friction and inertia"
+    said = [f"Steady contacts, one after another, under {loads}."]
     said.extend(_squeeze_sentences(summary))
     if (residual := summary.get("residual_max")) is not None:
         said.append(f"Flow and load are balanced to {residual:.1e}.")

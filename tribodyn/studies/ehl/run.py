@@ -168,6 +168,7 @@ def _figures(study: Prepared, arrays: dict[str, Array], laws: dict[str, dict[str
         "contact_ratio": float(study.cycle.contact_ratio),
         "positions_solved": int(np.count_nonzero(solved)),
         "positions": study.case.positions,
+        "loads": "quasi-static" if study.case.loads is None else "given",
         "central_film_min": float(np.min(of("central_film_thickness"))),
         "minimum_film_min": float(np.min(of("minimum_film_thickness"))),
         "film_parameter_min": float(np.min(of("film_parameter"))),

@@ -1,12 +1,14 @@
 """The tables of a scenario of ``kind = "ehl"``: the contact of a pair solved along its way."""
 
-from typing import Annotated, Literal
+from pathlib import Path
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.mesh.data import MeshData
 from tribodyn.scenario.common import head_of
+from tribodyn.scenario.curves import LoadCurve
 from tribodyn.scenario.drive_data import (
     lubricant_of,
     modifications_of,
@@ -16,7 +18,7 @@ from tribodyn.scenario.drive_data import (
 from tribodyn.scenario.duty import duty_of
 from tribodyn.scenario.model_files import DriveTable, Lubricant
 from tribodyn.scenario.modification import MisalignmentTable
-from tribodyn.scenario.quantity import Switch, Table, model_file, written
+from tribodyn.scenario.quantity import Switch, Table, csv_or_record, model_file, written
 from tribodyn.scenario.spectrum import OiledOperatingTable, SpectrumScenario
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.tribology.data import FilmData, FrictionData
@@ -30,12 +32,24 @@ class EhlMesh(Table):
     )
 
 
+def _of_record(path: Path, key: str) -> dict[str, Any]:
+    from tribodyn.studies.ehl.loads import loads_of_record
+
+    return loads_of_record(path, key)
+
+
+LOADS = csv_or_record("roll_angle", "normal_load", record=_of_record)
+
+
 class EhlContact(Table):
     """How the contact is solved."""
 
     transient: Switch = Field(
         False,
         description="also solve the pair's way with squeeze, the film of one position carried to the next",
+    )
+    loads: Annotated[LoadCurve, LOADS] | None = Field(
+        None, description="of the pair over its way: a record's, or a table; default: quasi-static"
     )
 
 
@@ -79,6 +93,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> EhlCase:
         ),
         positions=scenario.output.positions,
         transient=scenario.contact.transient,
+        loads=loads.in_si() if (loads := scenario.contact.loads) else None,
         film=FilmData(),
         friction=FrictionData("none"),
     )
