@@ -71,6 +71,9 @@ def assess(
     missed = [name for name, one in data.get("limits", {}).items() if not one["kept"]]
     if missed:
         typer.echo(f"limits exceeded: {', '.join(missed)}")
+    limits = data.get("limits", {}).items()
+    if within := [name for name, one in limits if one["kept"] and not one.get("kept_p95", True)]:
+        typer.echo(f"limits exceeded within the scatter of the deviations: {', '.join(within)}")
 
 
 def _require(study: "Study") -> None:

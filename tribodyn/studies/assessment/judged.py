@@ -31,6 +31,8 @@ LIMITS: dict[str, Limit] = {
     "root_tension": Limit("Root tension", False, 1e-6, "MPa"),
     "loaded_error": Limit("Loaded error, peak to peak", False, 1e6, "µm"),
 }
+#: Limit -> the figure that it bounds, of those that scatter.
+_SCATTERED = {"dynamic_factor": "dynamic_factor", "loaded_error": "loaded_transmission_error_peak_to_peak"}
 
 
 def judged(
@@ -39,11 +41,13 @@ def judged(
     strength: Strength,
     local: Local,
     figures: Mapping[str, Any],
+    spread: Mapping[str, Mapping[str, float]],
 ) -> dict[str, Any]:
     """Return ``margins`` by ``iso`` and ``simulated``, ``load_factors`` and ``limits``; temperatures in °C.
 
     The worse of both safeties is compared with a limit. NaN: not known, because the oil's data sheet gives no
-    load stage.
+    load stage. Where a figure scatters over samples of deviations (`spread`, by the names of the figures),
+    its 95 % is compared too, as ``p95`` and ``kept_p95``.
     """
     by_standard = _by_standard(case, found, strength) if found else {}
     own = _by_simulation(case, strength, local)
@@ -62,6 +66,9 @@ def judged(
             continue
         kept = values[name] >= limit if LIMITS[name].least else values[name] <= limit
         limits[name] = {"value": float(values[name]), "limit": float(limit), "kept": bool(kept)}
+        upper = spread.get(_SCATTERED.get(name, ""), {}).get("p95", math.nan)
+        if math.isfinite(upper):
+            limits[name] |= {"p95": upper, "kept_p95": bool(upper <= limit)}
     factors = {"K_A": case.settings.application_factor, "K_Hbeta": figures["face_load_factor"]}
     if found:
         factors |= {

@@ -82,8 +82,8 @@ def page(record: Record) -> str:
         f"<div>{_by_standard(summary)}{_list('Extrapolated', summary.get('extrapolated', {}))}</div>",
         "</div>",
         f'<div class="pictures">{_image(pictures(record, curves), "error, vibration, film, losses")}</div>',
-        _points(summary),
         '<div class="break"></div>',
+        _points(summary),
         *(
             _part(part.study, part.role.title, [done[task.name] for task in part.tasks])
             for part in taking_part
@@ -115,6 +115,15 @@ def _verdict(record: Record, summary: Mapping[str, Any]) -> str:
         said = f'<p class="verdict bad">Limits exceeded: {escape("; ".join(missed))}.</p>'
     else:
         said = f'<p class="verdict good">All {len(limits)} limits hold.</p>' if limits else ""
+    within = [
+        f"{LIMITS[name].label} ({one['p95'] * LIMITS[name].factor:.3g} at 95 %)"
+        for name, one in limits.items()
+        if one["kept"] and not one.get("kept_p95", True)
+    ]
+    if within:
+        held = "" if missed else f"All {len(limits)} limits hold with accurate teeth. "
+        text = f"{held}Exceeded within the scatter of the deviations: {'; '.join(within)}."
+        said = (said if missed else "") + f'<p class="verdict bad">{escape(text)}</p>'
     return said + warnings_of(record, named=False).replace('class="warning"', 'class="verdict bad"')
 
 

@@ -11,7 +11,7 @@ from tribodyn.errors import SimulationError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.families import family
 from tribodyn.geometry.outlines import geometry_arrays
-from tribodyn.numerics.scatter import scatter
+from tribodyn.numerics.scatter import SPREAD, scatter
 from tribodyn.record.trust import INSIDE, OUTSIDE, REASONS, TRUST
 from tribodyn.standards.contact_path import POINTS
 from tribodyn.studies.assessment import parts
@@ -86,11 +86,11 @@ def assessed(
     done = parts.results(taking_part, folder, progress)
     found_there: dict[str, Any] = {}
     along: dict[str, Any] = {}
-    spread: dict[str, Any] = {}
+    spread: dict[str, dict[str, float]] = {}
     for _, answer in parts.answers(taking_part, asked, done):
         found_there |= answer.figures
         along |= answer.along
-        spread |= answer.spread
+        spread |= {name: _scatter(values) for name, values in answer.spread.items()}
     local = local_of(case, assembly, along, found_there)
     involute = assembly.family.involute
     found = standard_of(case, assembly, found_there["face_load_factor"]) if involute else None
@@ -109,8 +109,8 @@ def assessed(
         "iso": iso,
         "simulated": own,
         "point_angles": dict(zip(POINTS, map(float, local.points), strict=True)),
-        **{f"{name}_spread": list(scatter(values).values()) for name, values in spread.items()},
-        **judged(case, found, strength_of(case), local, found_there),
+        **{f"{name}_spread": [one[part] for part in SPREAD] for name, one in spread.items()},
+        **judged(case, found, strength_of(case), local, found_there, spread),
         "assumed": _numbered(assumed(case, found is not None)),
         "extrapolated": _numbered(extrapolated(taking_part, done)),
         **_trust(done),
@@ -118,6 +118,12 @@ def assessed(
     }
     summary = {name: value for name, value in summary.items() if value not in ({}, [])}
     return local, summary | {"units": units_of(summary)}
+
+
+def _scatter(values: np.ndarray) -> dict[str, float]:
+    """Median, 5 and 95 % over the samples, and how many of them are known."""
+    known = {name: float(value) for name, value in scatter(values).items()}
+    return known | {"samples": int(np.sum(np.isfinite(values)))}
 
 
 def _failed(case: AssessmentCase, path: Path, message: str, force: bool) -> RunResult:

@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.numerics.scatter import scatter
 from tribodyn.studies.assessment.case import AssessmentCase
 from tribodyn.studies.assessment.local import Local
 from tribodyn.studies.assessment.standard import ZERO_CELSIUS, by_point
@@ -25,7 +24,7 @@ def simulated_part(
     assembly: Assembly,
     local: Local,
     figures: Mapping[str, Any],
-    spread: Mapping[str, Any],
+    spread: Mapping[str, Mapping[str, float]],
 ) -> dict[str, Any]:
     """What stands beside `standard.iso_part`, by the same names; worst values are those of all places.
 
@@ -41,7 +40,7 @@ def simulated_part(
     bulk = films.bulk_temperature - ZERO_CELSIUS
     film = by_point(local.at_points(films.film_thickness), min)
     specific = by_point(local.at_points(films.specific_film), min)
-    scattered = {_NAMES.get(name, name): _scatter(values) for name, values in spread.items()}
+    scattered = {_NAMES.get(name, name): one for name, one in spread.items()}
     transverse = figures.get("transverse_load_factor")
     return {
         "theta_M": by_point(np.full(count, bulk), max),
@@ -59,9 +58,3 @@ def simulated_part(
         "theta_B": by_point(local.at_points(bulk + films.flash_rise), max)
         | {"worst": float(bulk + np.nanmax(films.flash_rise))},
     }
-
-
-def _scatter(values: Any) -> dict[str, float]:
-    """Median, 5 and 95 % over the samples, and how many of them are known."""
-    known = {name: float(value) for name, value in scatter(values).items()}
-    return known | {"samples": int(np.sum(np.isfinite(values)))}

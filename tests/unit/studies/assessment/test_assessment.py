@@ -167,6 +167,8 @@ def test_a_stopped_call_goes_on_and_limits_are_judged(assessed: dict, folder: Pa
     assert again["iso"] == assessed["iso"]
     assert again["simulated"] == assessed["simulated"]
     kept = {name: one["kept"] for name, one in again["limits"].items()}
+    assert again["limits"]["dynamic_factor"]["p95"] == again["simulated"]["spread"]["K_v"]["p95"]
+    assert not again["limits"]["dynamic_factor"]["kept_p95"]
     assert (kept["dynamic_factor"], kept["hertz_pressure"], kept["micropitting"]) == (False, True, True)
     page = (folder / "out" / "report.html").read_text(encoding="utf-8")
     assert "Limits exceeded: " in page
