@@ -1,13 +1,16 @@
 """Puts a page together: one file, which asks nothing of any other place."""
 
+import base64
 import json
 from collections.abc import Sequence
 from html import escape
 from importlib import resources
+from io import BytesIO
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from tribodyn.errors import InputError
 from tribodyn.post.page.maps import PageMap
@@ -17,6 +20,7 @@ from tribodyn.post.page.profiles import as_data as profiles_as_data
 from tribodyn.post.page.rolling_teeth import rolling_teeth
 from tribodyn.post.page.series import as_data, extrapolated, in_engineers_units, packed, series_of
 from tribodyn.post.report import EXCEEDED, Lines, shown
+from tribodyn.post.style import house_style
 from tribodyn.record import trust
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
@@ -43,9 +47,11 @@ class Told(NamedTuple):
         Datasets that are shown at first.
     maps : sequence of PageMap
     tables : sequence of (title, columns, rows)
-        The sheet of its gears.
+        The sheet of its gears, or what else stands under `heading`.
     profiles : Profiles or None
         What is shown at the cursor.
+    heading : str
+    pictures : sequence of (name, about, figure)
     """
 
     lines: Lines
@@ -54,6 +60,8 @@ class Told(NamedTuple):
     maps: Sequence[PageMap] = ()
     tables: Sequence[tuple[str, Sequence[str], Sequence[Sequence[str]]]] = ()
     profiles: Profiles | None = None
+    heading: str = "Geometry"
+    pictures: Sequence[tuple[str, str, Figure]] = ()
 
 
 def page(records: Sequence[Record], told: Sequence[Told], figures: bool = True) -> str:
@@ -102,6 +110,7 @@ def page(records: Sequence[Record], told: Sequence[Told], figures: bool = True) 
             _list(record, one.sentences, len(records) > 1) for record, one in zip(records, told, strict=True)
         ),
         "SHEET": _sheets(records, told) if figures else "",
+        "PICTURES": "".join(picture(*drawn) for one in told for drawn in one.pictures),
         "ORIGIN": "".join(map(origin, records)) if figures else "",
     }
     return assembled(title, payload, sections, figures)
@@ -230,7 +239,8 @@ def _sheets(records: Sequence[Record], told: Sequence[Told]) -> str:
         f'<div class="tables">{text}</div></details>'
         for text, names in found.items()
     )
-    return f"<section><h2>Geometry</h2>{''.join(texts)}</section>" if found else ""
+    heading = escape(told[0].heading)
+    return f"<section><h2>{heading}</h2>{''.join(texts)}</section>" if found else ""
 
 
 def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
@@ -238,6 +248,19 @@ def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> 
     head = "".join(f"<th>{escape(str(one))}</th>" for one in columns)
     body = "".join("<tr>" + "".join(f"<td>{escape(str(one))}</td>" for one in row) + "</tr>" for row in rows)
     return f'<div class="wide"><h3>{escape(title)}</h3><table><tr>{head}</tr>{body}</table></div>'
+
+
+def picture(name: str, about: str, figure: Figure) -> str:
+    """A picture within the page."""
+    file = BytesIO()
+    with house_style():
+        figure.savefig(file, format="png", dpi=130)
+    text = base64.b64encode(file.getvalue()).decode("ascii")
+    heading = f"{name[:1].upper()}{name[1:]}: {about}"
+    return (
+        f'<section class="pictures"><h2>{escape(heading)}</h2>'
+        f'<img alt="{escape(about)}" src="data:image/png;base64,{text}"></section>'
+    )
 
 
 def origin(record: Record | SweepRecord) -> str:

@@ -1,9 +1,7 @@
 """The page of a sweep: figures of its cases over the first varied key, its table and its pictures."""
 
-import base64
 from collections.abc import Sequence
 from html import escape
-from io import BytesIO
 from typing import Any
 
 import numpy as np
@@ -11,10 +9,9 @@ from matplotlib.figure import Figure
 
 from tribodyn.errors import InputError
 from tribodyn.post.figures.sweep.branch import axis_label, branches
-from tribodyn.post.page.page import assembled, origin, table
+from tribodyn.post.page.page import assembled, origin, picture, table
 from tribodyn.post.page.series import packed
 from tribodyn.post.report import Line
-from tribodyn.post.style import house_style
 from tribodyn.post.sweep_report import described, sweep_rows, sweep_said, sweep_warnings
 from tribodyn.record.sweep_reader import SweepRecord
 
@@ -98,20 +95,7 @@ def sweep_page(
             "TRUST": f"<ul>{said}</ul>",
             "OVER": "Over the first varied key",
             "SHEET": f"<section><h2>The scenario that is varied</h2>{sheet}</section>" if sheet else "",
-            "PICTURES": "".join(_picture(*one) for one in pictures),
+            "PICTURES": "".join(picture(*one) for one in pictures),
             "ORIGIN": origin(record),
         },
-    )
-
-
-def _picture(name: str, about: str, figure: Figure) -> str:
-    """A picture within the page."""
-    file = BytesIO()
-    with house_style():
-        figure.savefig(file, format="png", dpi=130)
-    text = base64.b64encode(file.getvalue()).decode("ascii")
-    heading = f"{name[:1].upper()}{name[1:]}: {about}"
-    return (
-        f'<section class="pictures"><h2>{escape(heading)}</h2>'
-        f'<img alt="{escape(about)}" src="data:image/png;base64,{text}"></section>'
     )

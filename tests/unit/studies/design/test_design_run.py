@@ -12,6 +12,7 @@ from tribodyn.record.reader import open_record
 from tribodyn.studies.design import archive, pool
 from tribodyn.studies.design.report import sentences
 from tribodyn.studies.load import load_scenario
+from tribodyn.studies.pages import report
 from tribodyn.studies.run import run
 
 #: A case of it takes milliseconds.
@@ -106,7 +107,10 @@ def test_a_front_without_duties_is_drawn_and_told(tmp_path: Path):
     assert all(found.plot(name).get_axes() for name in pictures)
     with open_record(tmp_path / "a.h5") as record:
         said = " ".join(sentences(record))
-    assert "Maximum Hertz pressure" in said or "Hertz" in said
+        text = report([record])
+    assert "Maximum Hertz pressure" in said
+    for shown in ("Figures before and after", "data:image/png;base64,", "drive.pinion.profile_shift"):
+        assert shown in text
 
 
 def test_constraints_that_cannot_be_kept_are_named(tmp_path: Path):

@@ -1,4 +1,4 @@
-"""Local searches by SciPy, side by side from the best of a Sobol sequence."""
+"""Local searches by SciPy from the best of a Sobol sequence; side by side, but COBYQA, which SciPy locks."""
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor

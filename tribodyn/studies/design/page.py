@@ -1,0 +1,63 @@
+"""The page of a search: before and after, its pictures, what was searched."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from tribodyn.post.page.page import Told
+from tribodyn.post.page.page import page as write
+from tribodyn.post.report import shown
+from tribodyn.record.reader import Record
+from tribodyn.studies.design.figures import DRAWINGS
+from tribodyn.studies.design.report import LINES, PANELS, line_of, sentences
+from tribodyn.studies.pages import sheet
+from tribodyn.studies.pictures import figure
+from tribodyn.studies.study import TextTable
+
+#: Pictures on the page, where the record holds enough for them.
+PICTURES = ("overview", "front")
+
+
+def page(record: Record) -> str:
+    """Write the page of a search's record."""
+    pictures = [
+        (name, DRAWINGS[name].about, figure(name, [record]))
+        for name in PICTURES
+        if DRAWINGS[name].fits(record)
+    ]
+    told = Told(
+        LINES,
+        sentences(record),
+        PANELS,
+        tables=(*before_and_after(record), *sheet(record)),
+        heading="Design",
+        pictures=pictures,
+    )
+    return write([record], [told])
+
+
+def before_and_after(record: Record) -> tuple[TextTable, ...]:
+    """Free keys, and all figures that a summary has a line for, at the start and at the best."""
+    summary = record.summary
+    if "best" not in summary:
+        return ()
+    start, best = (summary.get(name, {}) for name in ("start", "best"))
+    keys = [(key, str(start.get(key, "–")), str(value)) for key, value in best.items()]
+    before, after = (summary.get(f"figures_{name}", {}) for name in ("start", "best"))
+    figures = [
+        row for name, value in after.items() if (row := _row(record.scenario, name, before.get(name), value))
+    ]
+    found = [TextTable("Before and after", ("key", "start", "best"), keys)]
+    columns = ("figure", "start", "best", "unit", "change")
+    return (*found, TextTable("Figures before and after", columns, figures))
+
+
+def _row(search: Mapping[str, Any], name: str, before: Any, after: Any) -> tuple[str, ...] | None:
+    line = line_of(search, name)
+    if line is None:
+        return None
+    change = "–"
+    if before is not None and np.isfinite(before) and before:
+        change = f"{100.0 * (after / before - 1.0):+.1f} %"
+    return line.label, "–" if before is None else shown(line, before), shown(line, after), line.unit, change
