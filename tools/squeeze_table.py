@@ -13,6 +13,7 @@ from tools.marked_block import put
 from tribodyn.studies.ehl.along_path import prepare, way
 from tribodyn.studies.ehl.judged import case_for
 from tribodyn.studies.ehl.run import solve, squeeze_figures
+from tribodyn.studies.load import load_scenario
 
 PAGE = Path(__file__).parents[1] / "docs" / "ehl.md"
 SCENARIOS = ("crc-23-47", "involute-23-47", "involute-18-36", "cycloidal-23-47")
@@ -21,7 +22,7 @@ POSITIONS = 40
 
 def row(scenario: str) -> str:
     """A scenario's line of the table: departures in %, roll angles not reached, seconds of one core."""
-    case = case_for(scenario, {}, POSITIONS)
+    case = case_for(load_scenario(scenario), POSITIONS)
     seconds = []
     for transient in (False, True):
         study = prepare(replace(case, transient=transient))

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from tribodyn.interface.design import Design, design
     from tribodyn.interface.drive import GearPair, constraints, drive
     from tribodyn.interface.gradient import Gradient, differentiable, gradient
+    from tribodyn.interface.judge import judge
     from tribodyn.interface.line_contact import line_contact
     from tribodyn.interface.run import Run, run
     from tribodyn.interface.scenario import scenario
@@ -58,6 +59,7 @@ __all__ = [
     "differentiable",
     "drive",
     "gradient",
+    "judge",
     "line_contact",
     "open",
     "run",
@@ -87,6 +89,7 @@ _PLACES = {
     "differentiable": "tribodyn.interface.gradient",
     "drive": "tribodyn.interface.drive",
     "gradient": "tribodyn.interface.gradient",
+    "judge": "tribodyn.interface.judge",
     "line_contact": "tribodyn.interface.line_contact",
     "open": "tribodyn.interface.sweep:open_result",
     "run": "tribodyn.interface.run",

@@ -1,21 +1,27 @@
 """`tribodyn judge`: every film and friction law beside the solved contact."""
 
 import math
-from typing import Annotated
+from json import dumps
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from tribodyn.cli import completion
 from tribodyn.cli.options import JsonOption, SetOption, overrides
+from tribodyn.errors import InputError
+
+if TYPE_CHECKING:
+    from tribodyn.studies.ehl.judged import Judgement
 
 EXAMPLES = (
     "\b\nExamples:\n"
     "  tribodyn judge crc-23-47\n"
-    "  tribodyn judge my-drive.toml --map --json\n"
+    "  tribodyn judge my-drive.toml --map -o judged.png\n"
     '  tribodyn judge involute-23-47 --set operating.gear_torque="100 N*m"'
 )
-#: Factors on load and speed of the map.
-FACTORS = (0.25, 0.5, 1.0, 2.0)
+#: Of files that keep the result.
+ENDINGS = (".json", ".png", ".svg", ".pdf")
 
 
 def judge(
@@ -33,33 +39,33 @@ def judge(
     over_map: Annotated[
         bool, typer.Option("--map", help="Also over 1/4 to 2 times the load and the speed.")
     ] = False,
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", help="Keep it in this file: .json, or a picture: .png, .svg, .pdf."),
+    ] = None,
     json: JsonOption = False,
 ) -> None:
     """Compare every film and friction law with the solved contact."""
-    from tribodyn.cli.printing import print_json, print_prose, print_table
+    from tribodyn.cli.printing import print_json, print_prose, print_table, quoted_path
     from tribodyn.cli.progress import progress_bar
-    from tribodyn.studies.ehl.judged import case_for, judged, sentence
+    from tribodyn.studies.ehl.judged import FACTORS, judgement
+    from tribodyn.studies.load import load
 
-    case = case_for(scenario, overrides(settings), positions)
+    _check(output)
+    loaded = load(scenario, overrides(settings))
     factors = FACTORS if over_map else ()
-    with progress_bar("judge") as progress:
-        found = judged(case, factors, factors, progress)
-    said = sentence(found)
+    with progress_bar("judge") as progress, loaded.naming():
+        judged = judgement(loaded.case, positions, factors, progress)
+    found = judged.laws
+    if output is not None:
+        _keep(judged, output)
     if json:
-        print_json(
-            {
-                "title": case.title,
-                "positions": positions,
-                "load_factors": list(factors),
-                "speed_factors": list(factors),
-                "laws": [one._asdict() for one in found],
-                "said": said,
-            }
-        )
+        print_json(judged.as_dict() | ({"files": [str(output)]} if output is not None else {}))
         return
-    columns = ("", "law", "minimum", "median", "maximum", "inside its range")
+    columns = ("", "law", "compared with", "minimum", "median", "maximum", "inside its range")
     rows = [
-        [one.what, one.law, *(f"{value:.3f}" for value in one[2:5]), _share(one.in_range)] for one in found
+        [one.what, one.law, one.against, *(f"{value:.3f}" for value in one[2:5]), _share(one.in_range)]
+        for one in found
     ]
     print_table("Law over solved contact, along the way of a pair", columns, rows)
     if over_map:
@@ -70,7 +76,36 @@ def judge(
             for factor, row in zip(factors, one.map, strict=True)
         ]
         print_table("Median over load and speed", head, lines)
-    print_prose(said)
+    print_prose(judged.said)
+    if output is not None:
+        typer.echo(f"kept     {quoted_path(output)}")
+
+
+def _check(output: Path | None) -> None:
+    """Raise InputError at a file that could not be written in the end."""
+    if output is None:
+        return
+    if output.suffix not in ENDINGS:
+        rule = f"ends with none of {', '.join(ENDINGS)}"
+        raise InputError("--output", str(output), rule, f'write "{output.with_suffix(".json")}"')
+    if not output.absolute().parent.is_dir():
+        raise InputError("--output", str(output), "its folder is not there", "make it, or choose another")
+
+
+def _keep(judged: "Judgement", output: Path) -> None:
+    from tribodyn.cli.output import unwritable
+    from tribodyn.cli.printing import plain
+
+    try:
+        if output.suffix == ".json":
+            output.write_text(dumps(plain(judged.as_dict()), indent=2, ensure_ascii=False) + "\n", "utf-8")
+            return
+        from tribodyn.post.style import save
+        from tribodyn.studies.ehl.judged_picture import picture
+
+        save(picture(judged), output)
+    except OSError as error:
+        raise unwritable(output, error) from None
 
 
 def _share(value: float) -> str:

@@ -28,6 +28,8 @@ from tribodyn.tribology.law import LawInput
 
 Array = Any
 
+#: Positions at which the friction is solved that enters the loads.
+FRICTION_POSITIONS = 8
 #: Loads over the highest at which a pair is taken as out of contact.
 _UNLOADED = 1e-6
 #: Nodes over half the width over which a jump of the load is spread.
@@ -69,19 +71,32 @@ def prepare(case: EhlCase) -> Prepared:
 def way(study: Prepared) -> Way:
     """Return the pair at positions evenly spaced in roll angle, in the middle of equal parts of its contact.
 
-    Loads are given ones, or follow from the compliances of the pairs and the torque. With squeeze
-    a jump of the load, where another pair comes or goes, is spread over `jump_width`.
+    Loads are given ones, or follow from the compliances of the pairs, the torque and the friction of the contact
+    as it is solved at a few positions. With squeeze a jump of the load, where another pair comes or goes, is
+    spread over `jump_width`.
     """
+    if study.case.loads is not None:
+        return _way(study, study.case.positions, None)
+    free = _way(study, FRICTION_POSITIONS, None)
+    friction = np.abs(friction_along(study, free))
+    known = np.isfinite(friction)
+    if not np.any(known):
+        return _way(study, study.case.positions, None)
+    return _way(study, study.case.positions, (free.roll[known], friction[known]))
+
+
+def _way(study: Prepared, positions: int, friction: tuple[Array, Array] | None) -> Way:
+    """As `way`, with friction coefficients at roll angles, or without friction."""
     case, cycle = study.case, study.cycle
     start, end = float(cycle.roll_start), float(cycle.roll_end)
-    roll = start + (np.arange(case.positions) + 0.5) / case.positions * (end - start)
+    roll = start + (np.arange(positions) + 0.5) / positions * (end - start)
     path = study.assembly.path
     motion = kinematics(path, path.signed_distance(roll))
     speed = case.operating.pinion_speed
     radius = 1.0 / np.asarray(motion.relative_curvature)
     speeds = (speed * np.asarray(motion.pinion_speed), speed * np.asarray(motion.gear_speed))
     if case.loads is None:
-        nodes, loads = quasi_static_loads(cycle, case.operating.gear_torque)
+        nodes, loads = quasi_static_loads(cycle, case.operating.gear_torque, friction)
     else:
         nodes, loads = given_loads(case.loads, cycle)
     loads = loads / float(cycle.face_width)
@@ -110,6 +125,19 @@ def _spread(nodes: Array, loads: Array, width: float) -> tuple[Array, Array]:
     reach = _SPREAD - 1
     padded = np.pad(np.interp(fine, nodes, loads), reach, mode="edge")
     return fine, np.convolve(padded, kernel, mode="valid")
+
+
+def friction_along(study: Prepared, over: Way) -> Array:
+    """Friction coefficient of the solved contact, of the sign of the sliding; NaN where there is none."""
+    seen, contact = seen_by(study, over, None, "none"), contact_for(study.case)
+    sliding = over.speeds[0] - over.speeds[1]
+    found = np.full(len(over.roll), np.nan)
+    for at in np.flatnonzero(loaded(over)):
+        duty = over.line_load[at], seen.radius[at], seen.entrainment[at], sliding[at]
+        solved = solved_at(contact, *(float(one) for one in duty))
+        if solved is not None:
+            found[at] = solved.friction / float(over.line_load[at])
+    return found
 
 
 def given_of(case: EhlCase) -> LawInput:
@@ -155,10 +183,26 @@ def by_laws(study: Prepared, over: Way) -> dict[str, dict[str, Array]]:
     return {"film": films, "friction": frictions}
 
 
+def meant_by(study: Prepared, over: Way, law: str) -> str:
+    """Which dataset of the solved contact a film law stands for.
+
+    Its central or its minimum film; and that between smooth surfaces, where the law knows no roughness.
+    """
+    smooth = study._replace(case=replace(study.case, roughness=1e-3 * study.case.roughness))
+    films = (seen_by(one, over, law, "none").surface.central_film_thickness for one in (study, smooth))
+    kind = "smooth" if np.array_equal(*(np.asarray(one) for one in films)) else "thickness"
+    return f"{FILM_LAWS[law].thickness}_film_{kind}"
+
+
 def solved_at(
-    contact: Contact, line_load: float, radius: float, entrainment: float, sliding: float
+    contact: Contact,
+    line_load: float,
+    radius: float,
+    entrainment: float,
+    sliding: float,
+    smooth: bool = False,
 ) -> CoupledSolution | None:
-    """Solve one contact, mixed and with heat; None: unloaded, or no solution was found."""
+    """Solve one contact, mixed and with heat, or of `smooth` surfaces; None: no solution was found."""
     problem = LineContact(
         line_load,
         radius,
@@ -166,7 +210,7 @@ def solved_at(
         contact.fluid,
         contact.effective_modulus,
         sliding,
-        contact.roughness,
+        None if smooth else contact.roughness,
     )
     try:
         return solve_coupled(problem, contact.rheology, contact.thermal)

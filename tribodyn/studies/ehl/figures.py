@@ -33,6 +33,8 @@ def _overview(records: Sequence[Record], view: View) -> Figure:
     roll = np.degrees(record["roll_angle"])
     film.plot(roll, 1e6 * record["central_film_thickness"], color="black", lw=2, label="solved, central")
     film.plot(roll, 1e6 * record["minimum_film_thickness"], "k--", label="solved, minimum")
+    film.plot(roll, 1e6 * record["central_film_smooth"], "k:", label="solved, central, smooth")
+    film.plot(roll, 1e6 * record["minimum_film_smooth"], "k-.", label="solved, minimum, smooth")
     _laws(film, roll, 1e6 * record["film_by_law"], record["film_law"])
     film.set_ylabel("Film thickness (µm)")
     friction.plot(roll, record["friction_coefficient"], color="black", lw=2, label="solved")

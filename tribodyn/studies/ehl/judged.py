@@ -1,7 +1,7 @@
 """Every film and friction law beside the solved contact, over a pair's way and over load and speed."""
 
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -11,18 +11,28 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.scenario.resolve import resolve_table
 from tribodyn.scenario.spectrum import OiledOperatingTable
-from tribodyn.studies.ehl.along_path import by_laws, prepare, seen_by, way
+from tribodyn.studies.ehl.along_path import by_laws, meant_by, prepare, seen_by, way
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.studies.ehl.run import solve
-from tribodyn.studies.load import load, loaded_from, table_of
-from tribodyn.studies.study import Progress
+from tribodyn.studies.load import loaded_from, table_of
+from tribodyn.studies.study import CaseHead, Progress
 
 Array = Any
 
 #: Deviation from the solved contact up to which a law is called right: of the film, of friction.
 RIGHT = {"film": 0.10, "friction": 0.25}
+#: Factors on load and speed of a map.
+FACTORS = (0.25, 0.5, 1.0, 2.0)
 #: Positions of the pair at each point of the map over load and speed.
 AT_A_POINT = 5
+#: What laws are compared with, by dataset.
+AGAINST = {
+    "central_film_thickness": "central, rough",
+    "minimum_film_thickness": "minimum, rough",
+    "central_film_smooth": "central, smooth",
+    "minimum_film_smooth": "minimum, smooth",
+    "friction_coefficient": "friction",
+}
 #: Needed of a scenario.
 _TABLES = ("drive", "lubricant", "operating")
 
@@ -38,6 +48,7 @@ class Judged(NamedTuple):
     in_range : share of the way inside the range that the law states; NaN: it states none
     right : share of the way where the ratio is within `RIGHT` of 1
     map : (loads, speeds), median ratio; empty without a map
+    against : which solved quantity it is compared with: what the law stands for
     """
 
     what: str
@@ -48,27 +59,70 @@ class Judged(NamedTuple):
     in_range: float
     right: float
     map: tuple[tuple[float, ...], ...] = ()
+    against: str = ""
 
 
-def case_for(scenario: str | Path, overrides: Mapping[str, Any], positions: int) -> EhlCase:
-    """Return the solved contact of a scenario's drive, oil and duty, of whatever kind it is.
+class Judgement(NamedTuple):
+    """All laws beside the solved contact of a scenario.
+
+    Attributes
+    ----------
+    title : of the scenario
+    positions : of the pair, at which contacts were solved
+    load_factors, speed_factors : on torque and speed, of the map; empty without a map
+    laws : list of Judged
+    """
+
+    title: str
+    positions: int
+    load_factors: tuple[float, ...]
+    speed_factors: tuple[float, ...]
+    laws: list[Judged]
+
+    @property
+    def said(self) -> str:
+        """Which laws are right over the whole way of this duty, in a sentence."""
+        return sentence(self.laws)
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return it as `tribodyn judge --json` prints it."""
+        return {
+            **self._asdict(),
+            "laws": [one._asdict() for one in self.laws],
+            "said": self.said,
+        }
+
+
+def judgement(
+    case: CaseHead, positions: int, factors: tuple[float, ...] = (), progress: Progress | None = None
+) -> Judgement:
+    """Compare every law with the solved contact of a case of any study, over factors on load and speed too.
+
+    Raises
+    ------
+    InputError
+        As `case_for`.
+    """
+    found = judged(case_for(case, positions), factors, factors, progress)
+    return Judgement(case.title, positions, factors, factors, found)
+
+
+def case_for(case: CaseHead, positions: int) -> EhlCase:
+    """Return the solved contact of a case's drive, oil and duty, of whatever kind it is.
 
     Raises
     ------
     InputError
         For a scenario without a drive of two gears, a lubricant and a duty, or whose load is not positive.
     """
-    loaded = load(scenario, overrides)
-    data = tomllib.loads(loaded.case.toml)
+    data = tomllib.loads(case.toml)
     if missing := [name for name in _TABLES if not isinstance(data.get(name), dict)]:
         rule = f"a scenario without {' and without '.join(missing)}: there is no contact to solve"
-        raise InputError(
-            "kind", loaded.case.kind, rule, "name a scenario with drive, lubricant and operating"
-        )
+        raise InputError("kind", case.kind, rule, "name a scenario with drive, lubricant and operating")
     known = OiledOperatingTable.model_fields
     tables = {
-        "title": loaded.case.title,
-        "name": loaded.case.name,
+        "title": case.title,
+        "name": case.name,
         "kind": "ehl",
         "drive": data["drive"],
         "lubricant": data["lubricant"],
@@ -77,7 +131,9 @@ def case_for(scenario: str | Path, overrides: Mapping[str, Any], positions: int)
     }
     if "duty" in data:
         tables["duty"] = data["duty"]
-    return loaded_from(resolve_table(tables, loaded.path, {}, table_of), loaded.path).case
+    # what a case says has no reference left that would be looked for beside its file
+    path = Path(case.name)
+    return loaded_from(resolve_table(tables, path, {}, table_of), path).case
 
 
 def judged(
@@ -125,25 +181,23 @@ def _compared(case: EhlCase, progress: Progress) -> list[Judged]:
     study = prepare(case)
     over = way(study)
     arrays = solve(study, over, progress)
-    solved = {"film": arrays["central_film_thickness"], "friction": arrays["friction_coefficient"]}
     found = []
     for what, laws in by_laws(study, over).items():
         for law, values in laws.items():
-            ratio = values / solved[what]
+            if what == "film":
+                meant = meant_by(study, over, law)
+                seen = seen_by(study, over, law, "none").surface.closure_in_range
+            else:
+                meant = "friction_coefficient"
+                seen = seen_by(study, over, None, law).surface.friction_in_range
+            ratio = values / arrays[meant]
             ratio = ratio[np.isfinite(ratio)]
-            seen = (
-                seen_by(study, over, law, "none").surface.closure_in_range
-                if what == "film"
-                else seen_by(study, over, None, law).surface.friction_in_range
-            )
             inside = float(np.mean(np.broadcast_to(np.asarray(seen, dtype=float), over.roll.shape)))
-            if not len(ratio):
-                nothing = float("nan")
-                found.append(Judged(what, law, nothing, nothing, nothing, inside, 0.0))
-                continue
-            right = float(np.mean(np.abs(ratio - 1.0) <= RIGHT[what]))
-            low, middle, high = (float(one(ratio)) for one in (np.min, np.median, np.max))
-            found.append(Judged(what, law, low, middle, high, inside, right))
+            shares = (float("nan"),) * 3
+            if len(ratio):
+                shares = tuple(float(one(ratio)) for one in (np.min, np.median, np.max))
+            right = float(np.mean(np.abs(ratio - 1.0) <= RIGHT[what])) if len(ratio) else 0.0
+            found.append(Judged(what, law, *shares, inside, right, against=AGAINST[meant]))
     return found
 
 

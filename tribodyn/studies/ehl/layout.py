@@ -24,6 +24,8 @@ SAMPLES: dict[str, Variable] = {
     "half_width": Variable(_OVER, "m", "half width of the Hertz contact"),
     "central_film_thickness": Variable(_OVER, "m", "mean gap on the line of centres, solved"),
     "minimum_film_thickness": Variable(_OVER, "m", "minimum mean gap, solved"),
+    "central_film_smooth": Variable(_OVER, "m", "film on the line of centres of smooth surfaces, solved"),
+    "minimum_film_smooth": Variable(_OVER, "m", "minimum film of smooth surfaces, solved"),
     "film_parameter": Variable(_OVER, "1", "central film over the roughness of both surfaces"),
     "friction_coefficient": Variable(_OVER, "1", "friction coefficient, solved"),
     "asperity_load_ratio": Variable(_OVER, "1", "share of the load that asperities carry, solved"),

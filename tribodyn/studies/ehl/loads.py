@@ -18,15 +18,23 @@ KEY = "contact.loads"
 _SAME_WAY = 0.02
 
 
-def quasi_static_loads(cycle: MeshCycle, gear_torque: float) -> tuple[Array, Array]:
+def quasi_static_loads(
+    cycle: MeshCycle, gear_torque: float, friction: tuple[Array, Array] | None
+) -> tuple[Array, Array]:
     """Roll angles of the table's nodes, and the load of the pair that is there; in order of the angle.
 
-    Nodes on both sides of a boundary share an angle and keep the order of time.
+    Nodes on both sides of a boundary share an angle and keep the order of time. `friction`: roll angles and
+    friction coefficients there; None: frictionless.
     """
     pairs = cycle.front_pairs
-    load = np.asarray(quasi_static(cycle, gear_torque).normal_load)[:, :, :pairs]
     age = np.asarray(cycle.phase)[:, :, None] + np.arange(pairs - 1.0, -1.0, -1.0)
     roll = float(cycle.roll_start) + float(cycle.pitch_angle) * age
+    signed = None
+    if friction is not None:
+        # the pinion slides ahead of the gear behind the pitch point, which the pair passes at roll angle zero
+        signed = np.zeros(np.shape(cycle.compliance))
+        signed[:, :, :pairs] = np.sign(roll) * np.interp(roll, *friction)
+    load = np.asarray(quasi_static(cycle, gear_torque, signed).normal_load)[:, :, :pairs]
     touching = np.broadcast_to(np.asarray(cycle.in_contact)[:, None, :pairs] > 0, load.shape)
     # a pair passes through the phases as the youngest, then once more as the one before
     roll, load, touching = (np.moveaxis(one, 2, 0)[::-1] for one in (roll, load, touching))

@@ -147,7 +147,7 @@ def sentences(record: Record) -> list[str]:
     """Say what the model leaves out, and where no solution was found."""
     summary = record.summary
     given = summary.get("loads") == "given"
-    loads = "given loads" if given else "quasi-static loads without friction and inertia"
+    loads = "given loads" if given else "quasi-static loads with friction, without inertia"
     said = [f"Steady contacts, one after another, under {loads}."]
     said.extend(_squeeze_sentences(summary))
     if (residual := summary.get("residual_max")) is not None:

@@ -13,6 +13,7 @@ from tribodyn.studies.ehl.along_path import (
     by_laws,
     contact_for,
     loaded,
+    meant_by,
     prepare,
     profiles,
     seen_by,
@@ -48,7 +49,7 @@ def run(
     over = way(study)
     laws = by_laws(study, over)
     arrays = solve(study, over, progress or (lambda _share: None))
-    summary = _figures(study, arrays, laws)
+    summary = _figures(study, over, arrays, laws)
     scales: dict[str, Array] = {
         "place": np.linspace(BEGIN, END, PLACES),
         "film_law": np.array(list(laws["film"])),
@@ -74,7 +75,7 @@ def figures(case: EhlCase) -> dict[str, Any]:
     """Figures of a case without a record."""
     study = prepare(case)
     over = way(study)
-    return _figures(study, solve(study, over, lambda _share: None), by_laws(study, over))
+    return _figures(study, over, solve(study, over, lambda _share: None), by_laws(study, over))
 
 
 def solve(study: Prepared, over: Way, progress: Progress) -> dict[str, Array]:
@@ -123,6 +124,10 @@ def solve(study: Prepared, over: Way, progress: Progress) -> dict[str, Array]:
                 arrays[name][at] = value
             if case.transient:
                 steady[at] = kept(found)
+        flat = solved_at(contact, *(float(one) for one in duty), smooth=True)
+        if flat is not None:
+            arrays["central_film_smooth"][at] = flat.solution.central_film_thickness
+            arrays["minimum_film_smooth"][at] = flat.solution.minimum_film_thickness
         progress((at + 1) / count * (_STEADY if case.transient else 1.0))
     if case.transient:
         rest = lambda share: progress(_STEADY + (1.0 - _STEADY) * share)  # noqa: E731
@@ -144,7 +149,9 @@ def _traction(study: Prepared, over: Way) -> list[float]:
     return curve
 
 
-def _figures(study: Prepared, arrays: dict[str, Array], laws: dict[str, dict[str, Array]]) -> dict[str, Any]:
+def _figures(
+    study: Prepared, over: Way, arrays: dict[str, Array], laws: dict[str, dict[str, Array]]
+) -> dict[str, Any]:
     solved = np.isfinite(arrays["central_film_thickness"])
     if not np.any(solved):
         return {"contact_ratio": float(study.cycle.contact_ratio), "positions_solved": 0}
@@ -155,7 +162,7 @@ def _figures(study: Prepared, arrays: dict[str, Array], laws: dict[str, dict[str
     # friction weighted by what it loses
     weight = of("normal_load") * np.abs(of("sliding_speed"))
     film = {
-        name: np.median(values[solved] / of("central_film_thickness"))
+        name: np.nanmedian(values / arrays[meant_by(study, over, name)])
         for name, values in laws["film"].items()
     }
     mean = float(np.sum(weight * of("friction_coefficient")) / np.sum(weight))

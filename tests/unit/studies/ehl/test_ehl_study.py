@@ -7,11 +7,14 @@ import pytest
 
 import tribodyn as td
 from tests.support.pages import data_of, needs_browser, shown, unpacked
+from tribodyn.geometry.families import family
 from tribodyn.post.figures.panel import View
 from tribodyn.record.reader import open_record
+from tribodyn.studies.ehl import along_path
 from tribodyn.studies.ehl.along_path import jump_width, prepare, way
 from tribodyn.studies.ehl.figures import DRAWINGS
-from tribodyn.studies.ehl.judged import case_for, judged, sentence
+from tribodyn.studies.ehl.judged import case_for
+from tribodyn.studies.load import load_scenario
 
 
 @pytest.fixture(scope="module")
@@ -42,7 +45,8 @@ def test_loads_carry_the_torque(run):
     data = run.data
     load = float(np.max(data["normal_load"]))
     angle = np.radians(np.linspace(21.4, 25.4, 2))  # of the load over the path of contact
-    torque = load * 47 * 3e-3 / 2 * np.cos(angle)
+    # with friction coefficients of 0.09
+    torque = load * 47 * 3e-3 / 2 * (np.cos(angle) + np.array([0.09, -0.09]) * np.sin(angle))
     assert torque.max() > 500.0 > torque.min()
 
 
@@ -61,24 +65,74 @@ def test_regressions_stand_beside_it(run):
     assert "solved" not in run.summary["friction_over_solved"]
 
 
-def test_laws_are_judged_by_the_study_of_any_scenario():
+@pytest.fixture(scope="module")
+def judged():
+    return td.judge("crc-23-47", positions=5)
+
+
+def test_laws_are_judged_by_the_study_of_any_scenario(run, judged):
     """The ratios of the study's own record, whatever scenario names drive, oil and duty."""
-    case = case_for("crc-23-47", {}, 5)
-    found = {(one.what, one.law): one for one in judged(case, (1.0,), (0.5, 1.0))}
-    alone = td.run("ehl-crc-23-47", {"output.positions": 5}).summary["film_over_solved"]
-    for law, ratio in alone.items():
-        one = found["film", law]
+    for law, ratio in run.summary["film_over_solved"].items():
+        one = judged.laws["film", law]
         assert one.median == pytest.approx(ratio, rel=1e-6)
         assert one.minimum <= one.median <= one.maximum
-        assert np.shape(one.map) == (1, 2)
-        assert one.map[0][1] == pytest.approx(ratio, rel=1e-6)
-    assert found["film", "masjedi-khonsari"].right == 1.0
-    assert "masjedi-khonsari" in sentence(list(found.values()))
+    assert judged.laws["film", "masjedi-khonsari"].right == 1.0
+    assert "masjedi-khonsari" in judged.said
+    assert judged.as_dict()["said"] == judged.said
+
+
+def test_a_law_is_compared_with_what_it_stands_for(run, judged):
+    """Dowson & Higginson: the minimum film of smooth surfaces; Masjedi & Khonsari: the central of rough."""
+    assert judged.laws["film", "dowson-higginson"].against == "minimum, smooth"
+    assert judged.laws["film", "moes"].against == "central, smooth"
+    assert judged.laws["film", "masjedi-khonsari"].against == "central, rough"
+    data = run.data
+    smooth, rough = (data[name].to_numpy() for name in ("central_film_smooth", "central_film_thickness"))
+    assert np.all(smooth < rough)
+    assert np.all(data["minimum_film_smooth"].to_numpy() < smooth)
+
+
+def test_picture_of_judged_laws(judged):
+    films, frictions = judged.plot().axes
+    assert len(films.get_yticks()) == len([one for one in judged.laws if one[0] == "film"])
+    assert len(frictions.get_yticks()) == len([one for one in judged.laws if one[0] == "friction"])
+
+
+@pytest.mark.soak
+def test_maps_have_a_row_per_load_and_a_column_per_speed():
+    from tribodyn.studies.ehl.judged import judged as over
+
+    found = over(case_for(load_scenario("crc-23-47"), 4), (1.0,), (0.5, 1.0))
+    assert all(np.shape(one.map) == (1, 2) for one in found)
+
+
+def test_friction_shares_in_the_torque(monkeypatch):
+    """Where one pair carries all: F (r_g cos α ± μ (r_g sin α − s)) = T on the gear of an involute."""
+    monkeypatch.setattr(along_path, "friction_along", lambda _study, over: np.full(len(over.roll), 0.08))
+    study = along_path.prepare(case_for(load_scenario("involute-23-47"), 60))
+    over, cycle = along_path.way(study), study.cycle
+    alone = over.normal_load > 0.75 * over.normal_load.max()
+    radius = float(cycle.gear_pitch_radius)
+    angle = family("involute").working_path(study.case.drive).pressure_angle(0.0)
+    base = float(cycle.pinion_pitch_radius) * np.cos(angle)
+    arm = radius * np.cos(angle)
+    arm = arm + 0.08 * np.sign(over.roll) * (radius * np.sin(angle) - base * over.roll)
+    torque = (over.normal_load * arm)[alone]
+    away = np.abs(over.roll[alone]) > 0.01
+    np.testing.assert_allclose(torque[away], study.case.operating.gear_torque, rtol=1e-3)
+    assert np.count_nonzero(away) > 5
 
 
 def test_what_has_no_oil_is_not_judged():
     with pytest.raises(td.InputError, match="without lubricant"):
-        case_for("load-contact-18-36", {}, 5)
+        td.judge("load-contact-18-36", positions=5)
+
+
+@pytest.mark.parametrize("positions", [0, 3, 2001, 4.0, True, "8", float("nan")])
+def test_positions_that_are_none(positions):
+    with pytest.raises(td.InputError) as caught:
+        td.judge("crc-23-47", positions=positions)
+    assert caught.value.key == "positions"
 
 
 def test_the_page_has_the_profiles_of_every_position(run, tmp_path):
@@ -132,7 +186,7 @@ def test_profiles_with_squeeze_carry_the_load(squeezed):
 
 def test_jumps_of_the_load_are_spread():
     """Over the width that is stated, twice as steep in its middle; the mean load stays."""
-    case = case_for("crc-23-47", {}, 5)
+    case = case_for(load_scenario("crc-23-47"), 5)
     sharp = way(prepare(case)).table
     study = prepare(replace(case, transient=True))
     over = way(study)
