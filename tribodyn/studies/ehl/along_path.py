@@ -189,8 +189,8 @@ def meant_by(study: Prepared, over: Way, law: str) -> str:
     Its central or its minimum film; and that between smooth surfaces, where the law knows no roughness.
     """
     smooth = study._replace(case=replace(study.case, roughness=1e-3 * study.case.roughness))
-    films = (seen_by(one, over, law, "none").surface.central_film_thickness for one in (study, smooth))
-    kind = "smooth" if np.array_equal(*(np.asarray(one) for one in films)) else "thickness"
+    rough, flat = (seen_by(one, over, law, "none").surface.central_film_thickness for one in (study, smooth))
+    kind = "smooth" if np.array_equal(np.asarray(rough), np.asarray(flat)) else "thickness"
     return f"{FILM_LAWS[law].thickness}_film_{kind}"
 
 
@@ -200,6 +200,7 @@ def solved_at(
     radius: float,
     entrainment: float,
     sliding: float,
+    *,
     smooth: bool = False,
 ) -> CoupledSolution | None:
     """Solve one contact, mixed and with heat, or of `smooth` surfaces; None: no solution was found."""

@@ -193,11 +193,11 @@ def _compared(case: EhlCase, progress: Progress) -> list[Judged]:
             ratio = values / arrays[meant]
             ratio = ratio[np.isfinite(ratio)]
             inside = float(np.mean(np.broadcast_to(np.asarray(seen, dtype=float), over.roll.shape)))
-            shares = (float("nan"),) * 3
+            low = middle = high = float("nan")
             if len(ratio):
-                shares = tuple(float(one(ratio)) for one in (np.min, np.median, np.max))
+                low, middle, high = (float(one(ratio)) for one in (np.min, np.median, np.max))
             right = float(np.mean(np.abs(ratio - 1.0) <= RIGHT[what])) if len(ratio) else 0.0
-            found.append(Judged(what, law, *shares, inside, right, against=AGAINST[meant]))
+            found.append(Judged(what, law, low, middle, high, inside, right, against=AGAINST[meant]))
     return found
 
 

@@ -184,8 +184,9 @@ def test_profiles_with_squeeze_carry_the_load(squeezed):
     np.testing.assert_allclose(carried, data["line_load"].to_numpy(), rtol=0.02)
 
 
-def test_jumps_of_the_load_are_spread():
+def test_jumps_of_the_load_are_spread(monkeypatch):
     """Over the width that is stated, twice as steep in its middle; the mean load stays."""
+    monkeypatch.setattr(along_path, "friction_along", lambda _study, over: np.zeros(len(over.roll)))
     case = case_for(load_scenario("crc-23-47"), 5)
     sharp = way(prepare(case)).table
     study = prepare(replace(case, transient=True))
