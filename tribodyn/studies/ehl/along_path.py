@@ -71,9 +71,9 @@ def prepare(case: EhlCase) -> Prepared:
 def way(study: Prepared) -> Way:
     """Return the pair at positions evenly spaced in roll angle, in the middle of equal parts of its contact.
 
-    Loads are given ones, or follow from the compliances of the pairs, the torque and the friction of the contact
-    as it is solved at a few positions. With squeeze a jump of the load, where another pair comes or goes, is
-    spread over `jump_width`.
+    Loads are given ones, or follow from the compliances of the pairs, the torque and the friction of the
+    contact as it is solved at a few positions. With squeeze a jump of the load, where another pair comes or
+    goes, is spread over `jump_width`.
     """
     if study.case.loads is not None:
         return _way(study, study.case.positions, None)
