@@ -1,0 +1,21 @@
+"""Cases on the way from a case to its neighbour."""
+
+import pytest
+
+from tribodyn.studies.batch import Way
+from tribodyn.studies.gear_pair.batch.evaluate import tabulated
+from tribodyn.studies.gear_pair.batch.ways import prepared_between
+
+
+@pytest.mark.parametrize("speed", [400.0, 500.0, 650.0])
+def test_a_place_on_the_way_has_its_own_speed(speed, prepared):
+    """At the neighbour, between, and beyond the case."""
+    at_start, at_target = (
+        prepared("crc-23-47", **{"operating.pinion_speed": f"{v} rad/s"}) for v in (400, 600)
+    )
+    way = Way(at_start.case, 400.0, 600.0, 1, (100.0, 700.0))
+    prepared_at = prepared_between([at_target], [way], tabulated)
+    assert prepared_at(0, 600.0) is at_target
+    found = prepared_at(0, speed)
+    assert found.case.operating.pinion_speed == pytest.approx(speed)
+    assert float(found.model.mechanics.nominal_speed) == pytest.approx(speed)
