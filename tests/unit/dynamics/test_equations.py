@@ -35,6 +35,10 @@ from tribodyn.dynamics.parameters import (
     Y_G,
     Y_P,
 )
+from tribodyn.mesh.cycle import CHANNELS
+from tribodyn.solve.initial import static_equilibrium
+from tribodyn.tribology.contact import local_contact
+from tribodyn.tribology.law import ActiveFilm
 
 OVERRIDES = [
     {},
@@ -343,6 +347,26 @@ def test_locate_stays_inside_the_given_segment(prepared):
         cell, u, _ = locate(float(end), segment, table)
         assert cell == cells - 1
         assert u == pytest.approx(1.0, abs=1e-8)
+
+
+def test_friction_is_that_of_the_uneven_faces_line_load(prepared):
+    model = prepared("crc-23-47", **{"friction.sliding": "kinematic"}).model
+    channel = np.array(model.table.channel)
+    channel[..., CHANNELS.index("line_load_friction"), :] = [1.6, 0.0, 0.0, 0.0]
+    uneven = model._replace(table=model.table._replace(channel=channel))
+    state, coefficients = static_equilibrium(model), []
+    for one, factor in ((model, 1.0), (uneven, 1.6)):
+        work, _, _ = evaluate(one, state, 0.3 * float(model.table.boundary[1]), 0)
+        load = factor * work[contact.NORMAL_LOAD, 0] / model.table.face_width
+        speeds = work[contact.PINION_SPEED, 0], work[contact.GEAR_SPEED, 0]
+        state_there = local_contact(
+            load, 1.0 / work[contact.RADIUS, 0], np.mean(speeds), work[contact.SLIDING, 0], *speeds
+        )
+        film = ActiveFilm(model.options.film, model.film)
+        expected = model.options.friction.coefficient(state_there, film, model.surfaces, model.friction)
+        assert work[contact.FRICTION_COEFFICIENT, 0] == pytest.approx(expected, rel=1e-12)
+        coefficients.append(expected)
+    assert coefficients[0] != pytest.approx(coefficients[1], rel=1e-3)
 
 
 def test_load_torque_adds_table_and_harmonics(prepared):
