@@ -19,7 +19,7 @@ from tribodyn.tribology.contact import hertz_half_width
 from tribodyn.tribology.contact_friction import ContactFriction, contact_friction
 from tribodyn.tribology.data import FilmData, FrictionData
 from tribodyn.tribology.ehl.coupled import CoupledSolution, solve_coupled
-from tribodyn.tribology.ehl.problem import LineContact
+from tribodyn.tribology.ehl.problem import LEAST_LOAD, LineContact
 from tribodyn.tribology.ehl.steady import Solution
 from tribodyn.tribology.ehl.table import Contact, contact_of
 from tribodyn.tribology.film import FILM_LAWS
@@ -203,7 +203,10 @@ def solved_at(
     *,
     smooth: bool = False,
 ) -> CoupledSolution | None:
-    """Solve one contact, mixed and with heat, or of `smooth` surfaces; None: no solution was found."""
+    """Solve one contact, mixed and with heat, or of `smooth` surfaces.
+
+    None: next to no load, or no solution was found.
+    """
     problem = LineContact(
         line_load,
         radius,
@@ -213,6 +216,8 @@ def solved_at(
         sliding,
         None if smooth else contact.roughness,
     )
+    if problem.moes_load < LEAST_LOAD:
+        return None
     try:
         return solve_coupled(problem, contact.rheology, contact.thermal)
     except SimulationError:

@@ -47,7 +47,7 @@ def given_loads(loads: tuple[Array, Array], cycle: MeshCycle) -> tuple[Array, Ar
     Raises
     ------
     InputError
-        If they are those of another way of contact.
+        If they are those of another way of contact, or nowhere positive.
     """
     roll, load = loads
     start, end = float(cycle.roll_start), float(cycle.roll_end)
@@ -58,6 +58,8 @@ def given_loads(loads: tuple[Array, Array], cycle: MeshCycle) -> tuple[Array, Ar
         raise InputError(
             KEY, None, rule, "give loads of this drive over its whole contact, from the pitch point"
         )
+    if not np.any(load > 0.0):
+        raise InputError(KEY, None, "nowhere above 0: there is no contact to solve", "give loads that press")
     return roll, np.maximum(load, 0.0)
 
 
@@ -77,7 +79,11 @@ def loads_of_record(path: Path, key: str) -> dict[str, Any]:
     def bad(rule: str, remedy: str) -> InputError:
         return InputError(key, quoted(path.name), rule, remedy, str(path))
 
-    with open_record(path) as record:
+    try:
+        opened = open_record(path)
+    except InputError as error:
+        raise bad(error.rule, error.remedy) from None
+    with opened as record:
         if record.axis != "time" or "normal_load" not in record or "mesh_cycle" not in record.groups:
             raise bad("holds no loads of pairs over time", "give the record of a gear pair's simulation")
         cycle, numbers = record.mesh_cycle, np.asarray(record["pair"])

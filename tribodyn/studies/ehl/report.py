@@ -124,7 +124,13 @@ SWEPT: dict[str, Variable] = {
     "transient_minimum_film_min": Variable((), "m", "minimum film thickness with squeeze"),
 }
 
-PANELS = ("central_film_thickness", "friction_coefficient", "hertz_pressure", "temperature_rise_max")
+PANELS = (
+    "central_film_thickness",
+    "transient_central_film_thickness",
+    "friction_coefficient",
+    "hertz_pressure",
+    "temperature_rise_max",
+)
 
 
 def profiles(record: Record) -> Profiles:

@@ -50,6 +50,15 @@ def test_loads_of_a_table(tmp_path):
     np.testing.assert_allclose(over.normal_load, expected, rtol=1e-9)
 
 
+def test_what_presses_nowhere_or_is_no_record(tmp_path):
+    (tmp_path / "loads.csv").write_text("roll_angle [deg],normal_load [kN]\n-11.7,-2\n0,0\n12.1,-1\n")
+    (tmp_path / "loads.h5").write_text("nothing")
+    for name, rule in (("loads.csv", "no contact to solve"), ("loads.h5", "not an HDF5 file")):
+        with pytest.raises(td.InputError, match=rule) as caught:
+            td.run("ehl-crc-23-47", {"contact.loads": str(tmp_path / name)})
+        assert caught.value.key == "contact.loads"
+
+
 def test_the_film_begins_anew_behind_a_loss_of_contact():
     """Where the pair carries nothing there is no film; behind it the first one is steady."""
     study = prepare(load("ehl-crc-23-47", {"output.positions": 8, "contact.transient": True}).case)
