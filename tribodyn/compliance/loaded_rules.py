@@ -37,6 +37,13 @@ def check_contact(
     motion = pair_geometry(flexible.assembly, np.zeros(1)).motion
     line_load = gear_torque / motion.gear_normal_arm / flexible.width
     contact = 2.0 * float(half_width(flexible, motion.relative_curvature, line_load)[0])
+    if contact > flexible.width:
+        raise InputError(
+            "operating.gear_torque",
+            f"{gear_torque:g} N m",
+            f"flattens the contact to {contact * 1e3:.2g} mm, wider than the face",
+            "use a smaller load",
+        )
     if slices * contact > flexible.width:
         raise InputError(
             "mesh.slices",

@@ -286,7 +286,23 @@ def _check_contact_ratio(assembly: Assembly) -> None:
     if not ratio >= 1:
         rule = f"the contact ratio is {ratio:.3f}, so that a pair parts before the next one touches"
         remedy = "use larger addenda, more teeth or a smaller pressure angle"
+        distance = assembly.drive.centre_distance
+        if distance is not None and (usable := _usable_centre_distance(assembly, distance)) is not None:
+            remedy = f"use at most {usable:.7g} mm, or larger addenda"
+            raise InputError("drive.centre_distance", _millimetres(distance), rule, remedy)
         raise InputError(*_tip_key(assembly.drive, "pinion"), rule, remedy)
+
+
+def _usable_centre_distance(assembly: Assembly, given: float) -> float | None:
+    """Largest centre distance, mm, at which a pair touches before the last one parts; None: not by that."""
+    drive = assembly.drive
+
+    def carries(distance: float) -> bool:
+        apart = drive._replace(centre_distance=1e-3 * distance)
+        return bool(Assembly(assembly.family, apart).contact_ratio >= 1)
+
+    reference = 0.5e3 * float(drive.module * (drive.pinion.teeth + drive.gear.teeth))
+    return boundary(carries, 1e3 * given, reference)
 
 
 def _interference(assembly: Assembly, side: Side) -> str:

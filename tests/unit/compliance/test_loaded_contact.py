@@ -226,6 +226,7 @@ def test_relief_keeps_corners_from_touching(pair):
     [
         (Modifications(misalignment=Misalignment(1e-3)), TORQUE, 2, r"mesh\.slices = 2"),
         (Modifications(misalignment=Misalignment(1e-3)), TORQUE, 500, "give at most"),
+        (Modifications(), 1e12, 1, "operating.gear_torque.*wider than the face"),
         (Modifications(misalignment=Misalignment(2e-2)), TORQUE, 9, "carry the heaviest pair"),
         (UNMODIFIED, 0.0, 1, "gear_torque"),
         (Modifications(FlankModification(tip=Relief(1e-3, 1e-3))), TORQUE, 1, "tip_relief"),

@@ -112,3 +112,13 @@ def test_other_families_refuse_a_centre_distance():
     case = load_scenario("crc-23-47")
     with pytest.raises(InputError, match="conjugate at one centre distance only"):
         check(family("crc"), case.drive._replace(centre_distance=0.106))
+
+
+def test_gears_too_far_apart_are_refused_with_the_largest_distance():
+    with pytest.raises(InputError, match=r"drive.centre_distance = 132 mm: the contact ratio") as refused:
+        at(0.132)
+    largest = float(str(refused.value).split("use at most ")[1].split(" mm")[0])
+    tips = (41.1**2 - (37.5 * math.cos(ALPHA)) ** 2) ** 0.5 + (93.3**2 - (90 * math.cos(ALPHA)) ** 2) ** 0.5
+    for distance, touches in ((largest, True), (largest + 2e-3, False)):
+        line = math.sqrt(distance**2 - (127.5 * math.cos(ALPHA)) ** 2)  # a sin α_w
+        assert (tips - line >= 3.0 * math.pi * math.cos(ALPHA)) is touches
