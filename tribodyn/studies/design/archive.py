@@ -95,13 +95,19 @@ class Archive:
         """Candidates that may still be asked for."""
         return self.case.search.evaluations - len(self._asked)
 
+    @property
+    def asked(self) -> frozenset[str]:
+        """Names of the candidates that were asked for."""
+        return frozenset(self._asked)
+
     @contextmanager
-    def at_most(self, count: int) -> Iterator[None]:
+    def at_most(self, count: int, beside: frozenset[str]) -> Iterator[None]:
         """Let this thread ask for so many candidates, those counted that others ask for too.
 
-        Searches that run side by side so end in the same place whichever is faster.
+        Searches that run side by side so end in the same place whichever is faster. Candidates that were
+        asked for before all of them began, `beside`, count for none.
         """
-        self._own.room, self._own.names = count, set[str]()
+        self._own.room, self._own.names = count + len(beside), set(beside)
         try:
             yield
         finally:

@@ -74,16 +74,20 @@ def sobol(dimensions: int, count: int, seed: int) -> np.ndarray:
 
 
 def together(archive: Archive, searches: Sequence[Callable[[], None]]) -> None:
-    """Run searches side by side; each waits for its own evaluations, and may take an equal share of them."""
-    share = archive.room // max(1, len(searches))
+    """Run searches side by side; each waits for its own evaluations, and may take its share of them.
 
-    def alone(search: Callable[[], None]) -> None:
-        with archive.at_most(share):
+    Shares are equal; the first searches take what is left over.
+    """
+    share, over = divmod(archive.room, max(1, len(searches)))
+    before = archive.asked
+
+    def alone(number: int, search: Callable[[], None]) -> None:
+        with archive.at_most(share + (number < over), before):
             ended_when_spent(search)
 
     with ThreadPoolExecutor(len(searches) or 1) as threads:
         try:
-            for one in [threads.submit(alone, search) for search in searches]:
+            for one in [threads.submit(alone, *each) for each in enumerate(searches)]:
                 one.result()
         except BaseException:
             archive.close()
