@@ -4,7 +4,9 @@ import json
 import os
 import subprocess
 import sys
+from collections.abc import Callable, Iterable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -39,30 +41,51 @@ OUTSIDE_THE_MODEL = {"jia-parabolic-17-29"}
 SEARCHES = [name for name in names(shipped("scenarios")) if name.startswith("design-")]
 #: The cost of a search: a few candidates show that it runs.
 FEW = ("design.evaluations=3", "design.sensitivities=false", "design.confirm={}")
+#: Searches whose candidates take milliseconds; the others run in soak.
+QUICK_SEARCHES = ("design-cycloid-23-47", "design-shift-23-47")
+#: Families and studies of which another scenario runs; these run in soak.
+ALIKE = {
+    "crc-23-47-300",
+    "efficiency-involute-18-36",
+    "involute-18-36-tip-relief",
+    "involute-23-47",
+    "involute-23-47-frictionless",
+    "involute-shifted-23-47",
+    "irefc-as-published",
+    "jia-involute-17-29",
+}
+#: What makes a run of a kind short.
+SHORTER = {
+    "gear-pair": ("solver.cycles=2",),
+    "load-contact": ("output.positions_per_cycle=8",),
+    "ehl": ("output.positions=4",),
+}
 
 
-#: Searches of which a single candidate takes seconds.
-LONG = ("design-crowning-18-36", "design-quiet-range-18-36")
+def with_soak(found: Iterable[str], soak: Callable[[str], bool]) -> list[Any]:
+    """Names as parameters of a test, some of them for soak alone."""
+    return [pytest.param(name, marks=pytest.mark.soak) if soak(name) else name for name in found]
 
 
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=pytest.mark.soak) if name in LONG else name for name in SEARCHES]
-)
+def settings(given: Iterable[str]) -> list[str]:
+    return [word for setting in given for word in ("--set", setting)]
+
+
+@pytest.mark.parametrize("name", with_soak(SEARCHES, lambda name: name not in QUICK_SEARCHES))
 def test_a_search_runs(name: str, tmp_path: Path, forked: ForkedVerbs):
-    few = [word for setting in FEW for word in ("--set", setting)]
-    ended = forked("run", name, *few, "--json", "--no-plot", folder=tmp_path)
+    ended = forked("run", name, *settings(FEW), "--json", "--no-plot", folder=tmp_path)
     assert ended.returncode == 0, ended.stderr
     result = json.loads(ended.stdout)
     assert (result["status"], result["evaluations"]) == ("complete", 3)
     assert load_scenario(tmp_path / f"{name}-best.toml").kind == load_scenario(name).base_kind
 
 
-@pytest.mark.parametrize("name", [name for name in names(shipped("scenarios")) if name not in SEARCHES])
+@pytest.mark.parametrize(
+    "name",
+    with_soak([name for name in names(shipped("scenarios")) if name not in SEARCHES], ALIKE.__contains__),
+)
 def test_it_runs(name: str, tmp_path: Path, forked: ForkedVerbs):
-    still = load_scenario(name).kind != "gear-pair"  # solves no equation of motion and takes no time
-    shorter = () if still else ("--set", "solver.cycles=2")
-    if load_scenario(name).kind == "load-contact":
-        shorter = ("--set", "output.positions_per_cycle=8")
+    shorter = settings(SHORTER.get(load_scenario(name).kind, ()))
     words = (name, *shorter, *(() if name in DRAWN else ("--no-plot",)))
     ended = forked("run", *words, "--json", folder=tmp_path)
     assert ended.returncode == 0, ended.stderr
@@ -86,14 +109,14 @@ def test_it_runs(name: str, tmp_path: Path, forked: ForkedVerbs):
 
 
 def test_the_story_of_a_newcomer(tmp_path: Path, forked: ForkedVerbs):
-    """Every verb once as a user calls it; verbs again are forked."""
+    """What writes files in processes of their own, as a user calls it; the others are forked."""
     tribodyn("init", "mine", folder=tmp_path)
-    checked = json.loads(tribodyn("check", "mine.toml", "--json", folder=tmp_path))
+    checked = json.loads(forked("check", "mine.toml", "--json", folder=tmp_path).stdout)
     # (√(30² − 25.37²) + √(57² − 50.74²) − 81 sin 20°)/(3π cos 20°) of 18/36 teeth, module 3 mm
     assert checked["geometry"]["contact ratio"][0] == pytest.approx(1.6111, abs=5e-4)
     said = tribodyn("run", "mine.toml", "--set", "solver.cycles=2", folder=tmp_path)
     assert said.splitlines()[-2:] == ["record   mine.h5", "picture  mine-overview.png"]
-    assert "Contact ratio" in tribodyn("show", "mine.h5", folder=tmp_path)
+    assert "Contact ratio" in forked("show", "mine.h5", folder=tmp_path).stdout
     drawn = json.loads(tribodyn("plot", "mine.h5", "film", "-o", "pictures", "--json", folder=tmp_path))
     assert [Path(picture).name for picture in drawn["pictures"]] == ["mine-film.png"]
     given = ("mine.h5", "film", "--format", "svg", "--cycles", "0", "--against", "time")
@@ -118,12 +141,12 @@ def test_the_resolved_scenario_of_a_record_runs_again_to_the_same_numbers(
         assert (record["normal_load"] == first).all()
 
 
-def test_what_is_listed(tmp_path: Path):
-    listed = json.loads(tribodyn("list", "--json", folder=tmp_path))
+def test_what_is_listed(tmp_path: Path, forked: ForkedVerbs):
+    listed = json.loads(forked("list", "--json", folder=tmp_path).stdout)
     assert set(listed["scenarios"]) == set(names(shipped("scenarios")))
     assert "drives/liu-ni-crc-23-47" in listed["models"]
     assert "film" in listed["plots"]
-    schema = json.loads(tribodyn("schema", folder=tmp_path))
+    schema = json.loads(forked("schema", folder=tmp_path).stdout)
     assert schema["title"] == "Scenario"
 
 

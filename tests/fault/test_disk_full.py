@@ -98,7 +98,7 @@ def bytes_of(work, folder: Path, monkeypatch: pytest.MonkeyPatch) -> int:
 
 
 #: Into how many parts a record is cut: places at which the disk is full.
-PARTS = pytest.mark.parametrize("parts", [20, pytest.param(400, marks=pytest.mark.soak)])
+PARTS = pytest.mark.parametrize("parts", [8, pytest.param(400, marks=pytest.mark.soak)])
 
 
 @PARTS
