@@ -15,7 +15,7 @@ SAMPLES: dict[str, Variable] = {
     "roll_angle": Variable(
         _OVER, "rad", "rotation of the pinion since the pair met at the pitch point, negative before it"
     ),
-    "normal_load": Variable(_OVER, "N", "normal load of the pair, quasi-static"),
+    "normal_load": Variable(_OVER, "N", "normal load of the pair"),
     "line_load": Variable(_OVER, "N/m", "normal load per face width"),
     "equivalent_radius": Variable(_OVER, "m", "equivalent radius"),
     "entrainment_speed": Variable(_OVER, "m/s", "entrainment speed"),
