@@ -1,6 +1,5 @@
 """Two objectives: the front of candidates of which no other is better in both."""
 
-from collections.abc import Callable
 from functools import partial
 from typing import Any
 
@@ -8,7 +7,7 @@ import numpy as np
 
 from tribodyn.studies.design.archive import Archive, Evaluation
 from tribodyn.studies.design.candidates import share_of
-from tribodyn.studies.design.methods.local import ended_when_spent, first_look, minimise, together
+from tribodyn.studies.design.methods.local import ended_when_spent, first_look, in_turn, minimise
 from tribodyn.studies.design.methods.population import PER_KEY, missing
 from tribodyn.studies.design.methods.views import Scalar
 
@@ -32,29 +31,29 @@ def epsilon_constraint(archive: Archive, start: np.ndarray) -> None:
     def search() -> None:
         ends = [Scalar(archive, place) for place in (0, 1)]
         places = [first_look(view, start)[0] for view in ends]
-        together(
-            archive,
+        in_turn(
             [
                 partial(minimise, "cobyqa", view, place, share)
                 for view, place in zip(ends, places, strict=True)
-            ],
+            ]
         )
         found = front(archive.evaluations)
         if len(found) < 2:
             return
         high, low = found[0].judged.objectives[1], found[-1].judged.objectives[1]
         bounds = np.linspace(high, low, case.search.points)[1:-1]
-        together(archive, [_under(archive, found, float(bound), share) for bound in bounds])
+        in_turn([partial(_under, archive, float(bound), share) for bound in bounds])
 
     ended_when_spent(search)
 
 
-def _under(archive: Archive, found: list[Evaluation], bound: float, most: int) -> Callable[[], None]:
-    """Minimise the first objective from the best candidate of a front that keeps a bound of the second."""
-    keeping = [one for one in found if one.judged.objectives[1] <= bound]
-    best = min(keeping, key=lambda one: one.judged.objectives[0])
-    start = np.array([share_of(one, best.values[one.keys[0]]) for one in archive.case.free])
-    return partial(minimise, "cobyqa", Scalar(archive, 0, bound), start, most)
+def _under(archive: Archive, bound: float, most: int) -> None:
+    """Minimise the first objective from the best candidate that keeps a bound of the second."""
+    keeping = [one for one in front(archive.evaluations) if one.judged.objectives[1] <= bound]
+    if keeping:
+        best = min(keeping, key=lambda one: one.judged.objectives[0])
+        start = [share_of(one, best.values[one.keys[0]]) for one in archive.case.free]
+        minimise("cobyqa", Scalar(archive, 0, bound), np.array(start), most)
 
 
 def nsga2(archive: Archive, start: np.ndarray) -> None:
