@@ -23,8 +23,6 @@ LIMITS = (
     "entrainment ≤ 1.2 of the path's maximum",
 )
 
-_LAST = len(TERMS) - 1
-
 
 @law
 def held(value, middle, half):
@@ -32,24 +30,22 @@ def held(value, middle, half):
     return maximum(minimum((value - middle) / half, 1.0), -1.0)
 
 
-@law
-def polynomial(table, x, y, z, s):
-    """Sum of table[n] x^i y^j z^k s^m over the powers in the order of `TERMS`, by Horner's rule."""
-    n = _LAST
-    whole = 0.0 * x
-    for i in range(DEGREE, -1, -1):
-        by_x = 0.0 * x
-        for j in range((DEGREE - i) // 2, -1, -1):
-            by_y = 0.0 * x
-            for k in range((DEGREE - i) // 2 - j, -1, -1):
-                by_z = 0.0 * x
-                for _ in range(DEGREE - i - 2 * j - 2 * k, -1, -1):
-                    by_z = by_z * s + table[n]
-                    n -= 1
-                by_y = by_y * z + by_z
-            by_x = by_x * y + by_y
-        whole = whole * x + by_x
-    return whole
+def _nested(powers: tuple[str, ...], terms: list[tuple[int, ...]], first: int) -> str:
+    """Sum of table[n] over `terms`, sorted, by Horner's rule; the first of them is number `first`."""
+    if not powers:
+        return f"table[{first}]"
+    last, text = terms[-1][0], ""
+    for power in range(last, -1, -1):
+        at = [number for number, term in enumerate(terms) if term[0] == power]
+        part = _nested(powers[1:], [terms[number][1:] for number in at], first + at[0])
+        text = f"({text} * {powers[0]} + {part})" if text else part
+    return text
+
+
+# written out: no compiler unrolls loops whose length changes, and the processor would wait for each step
+exec(f"def polynomial(table, x, y, z, s):\n    return {_nested(('x', 'y', 'z', 's'), TERMS, 0)}")
+polynomial = law(globals()["polynomial"])
+polynomial.__doc__ = "Sum of table[n] x^i y^j z^k s^m over the powers in the order of `TERMS`."
 
 
 @law

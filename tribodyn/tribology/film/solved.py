@@ -16,8 +16,8 @@ def solved_film(contact, surfaces, parameters):
     z = held(log(contact.curvature), box.curvature, box.curvature_half)
     ratio = maximum(absolute(contact.sliding) / contact.entrainment, 1e-9)
     s = held(log(ratio), box.slide_to_roll, box.slide_to_roll_half)
-    share = polynomial(parameters.share, x, y, z, s)
-    return polynomial(parameters.film, x, y, z, s), 1.0, maximum(minimum(share, 1.0), 0.0)
+    share = polynomial(box.share, x, y, z, s)
+    return polynomial(box.film, x, y, z, s), 1.0, maximum(minimum(share, 1.0), 0.0)
 
 
 def _table(given: LawInput) -> Any:

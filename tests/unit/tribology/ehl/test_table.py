@@ -45,9 +45,9 @@ def by_powers(monkeypatch, tmp_path):
 
 def test_polynomial_is_the_sum_of_its_terms(rng):
     table = rng.standard_normal(len(TERMS))
-    x, y, z, s = point = rng.uniform(-1.0, 1.0, 4)
+    point = rng.uniform(-1.0, 1.0, 4)
     terms = [c * np.prod(point ** np.array(powers)) for c, powers in zip(table, TERMS, strict=True)]
-    assert polynomial(table, x, y, z, s) == pytest.approx(sum(terms), rel=1e-12)
+    assert polynomial(table, *point) == pytest.approx(sum(terms), rel=1e-12)
 
 
 def test_laws_read_what_the_table_was_made_of(by_powers):
