@@ -8,6 +8,8 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from tests.support.closures import LIU_NI, POINT, known, under
+from tests.support.line_contacts import by_moes
+from tribodyn.tribology.ehl.steady import solve_steady
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.film.moes import log_survey
 
@@ -133,5 +135,30 @@ def test_ranges_are_flagged_or_said_to_be_missing():
     laws = under("none", thinner, film="dowson-higginson")
     assert known(laws, 2e5, 100.0, 0.05, 0.0, 0.05, 0.05).closure_in_range == 1.0
     assert known(laws, 2e3, 100.0, 0.05, 0.0, 0.05, 0.05).closure_in_range == 0.0
-    assert np.isnan(known(under("none", film="moes"), **POINT).closure_in_range)
-    assert FILM_LAWS["moes"].range == ""
+
+
+@pytest.mark.parametrize("pressure", [0.3e9, 0.5e9, 0.8e9])
+@pytest.mark.parametrize("load", [2.0, 12.0, 90.0, 300.0])
+@pytest.mark.parametrize("material", [1.0, 5.0, 25.0])
+def test_moes_within_its_range(pressure, load, material):
+    """The solved contact of an oil by Roelands and Dowson & Higginson: within 25 % in the stated range."""
+    contact = by_moes(load, material, pressure, 0.6, compressible=True)
+    given = contact.line_load, 1.0 / contact.radius, contact.entrainment_speed
+    oil = LIU_NI._replace(
+        surfaces=SURFACES._replace(
+            effective_modulus=contact.effective_modulus,
+            inlet_viscosity=contact.fluid.viscosity,
+            pressure_viscosity=contact.fluid.pressure_viscosity,
+        )
+    )
+    state = known(under("none", oil, film="moes"), *given, 0.0, given[2], given[2])
+    solved = solve_steady(contact).central_film_thickness
+    assert 0.95 < state.central_film_thickness / solved < 1.25
+    edges = np.isin([pressure, load, material], [0.8e9, 2.0, 1.0, 25.0])
+    assert state.closure_in_range == 1.0 or np.any(edges)
+
+
+def test_moes_beyond_its_range():
+    laws = under("none", film="moes")
+    assert known(laws, 1.5e5, 100.0, 0.15, 0.0, 0.15, 0.15).closure_in_range == 1.0
+    assert known(laws, 8e5, 100.0, 0.15, 0.0, 0.15, 0.15).closure_in_range == 0.0

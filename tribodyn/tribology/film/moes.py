@@ -17,13 +17,18 @@ the line of centres, which makes Martin's 2.449/M of it 3/M.
 
 import math
 
-from tribodyn.numerics.elementary import absolute, exp, law, log, log1p, maximum, minimum
+from tribodyn.numerics.elementary import absolute, exp, law, log, log1p, maximum, minimum, sqrt
+from tribodyn.tribology.contact import hertz_pressure
 from tribodyn.tribology.film.dowson_higginson import smooth_film_of
 from tribodyn.tribology.law import FilmLaw
 
 _LOG_RI, _LOG_RP = math.log(3.0), math.log(1.287)
 _LOG_EI, _LOG_EP = math.log(2.621), math.log(1.311)
 _LOG_2 = math.log(2.0)
+#: Where the formula is within 25 % of the solved contact of a compressible oil: M, L, Hertz pressure (Pa). It
+#: knows no compressibility, and lies above the solved film by about the relative density at the pressure.
+JUDGED_RANGE = {"M": (2.0, 1000.0), "L": (1.0, 25.0), "pressure": (0.0, 0.8e9)}
+(_M_LOW, _M_HIGH), (_L_LOW, _L_HIGH), (_, _P_HIGH) = JUDGED_RANGE.values()
 
 
 @law
@@ -62,9 +67,24 @@ def moes(contact, surfaces, parameters):
     return log_H + 0.5 * log_U - log_curvature, 1.0, 0.0
 
 
+@law
+def in_judged_range(contact, surfaces, parameters):
+    """Shares of M, L and Hertz pressure allowed by `JUDGED_RANGE`, in the order of the law's limits."""
+    modulus = surfaces.effective_modulus
+    sum_speed = 2.0 * contact.entrainment * contact.curvature * surfaces.inlet_viscosity / modulus
+    load = contact.line_load * contact.curvature / modulus / sqrt(sum_speed)
+    material = surfaces.pressure_viscosity * modulus * sqrt(sqrt(sum_speed))
+    pressure = hertz_pressure(contact.line_load, contact.curvature, modulus)
+    return load / _M_LOW, material / _L_LOW, _M_HIGH / load, _L_HIGH / material, _P_HIGH / pressure
+
+
 LAW = FilmLaw(
     "moes",
     "central film of smooth line contacts in all regimes, Moes' survey formula",
     moes,
     smooth_film_of,
+    in_range=in_judged_range,
+    range="M 2 … 1000, L 1 … 25, p_H ≤ 0.8 GPa: within 25 % of the solved contact of smooth surfaces without "
+    "heat, mostly above it (docs/ehl.md)",
+    limits=("M ≥ 2", "L ≥ 1", "M ≤ 1000", "L ≤ 25", "p_H ≤ 0.8 GPa"),
 )
