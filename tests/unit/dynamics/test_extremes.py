@@ -3,7 +3,15 @@ import pytest
 
 from tests.support.closures import LIU_NI, under
 from tests.support.states import random_place, random_state
-from tribodyn.dynamics.contact_forces import contact_forces
+from tribodyn.dynamics.contact_forces import (
+    NORMAL_LOAD,
+    SEEN_CURVATURE,
+    SEEN_ENTRAINMENT,
+    SEEN_LOAD,
+    SEEN_SLIDING,
+    WORSE,
+    contact_forces,
+)
 from tribodyn.dynamics.equations import locate
 from tribodyn.dynamics.extremes import (
     BACK,
@@ -18,6 +26,7 @@ from tribodyn.dynamics.extremes import (
     FORCE,
     LOAD,
     LOWEST,
+    MIDDLE,
     NEWEST_DOWN,
     NEWEST_UP,
     OF_MESH,
@@ -30,6 +39,7 @@ from tribodyn.dynamics.extremes import (
     extreme_of,
     measure,
     measure_end,
+    measure_inside,
     measures_of,
     no_extremes,
     see_surfaces,
@@ -38,7 +48,8 @@ from tribodyn.dynamics.extremes import (
 )
 from tribodyn.dynamics.outputs import outputs, outputs_with_extremes
 from tribodyn.dynamics.parameters import STATES, XI
-from tribodyn.solve.extreme_search import promising
+from tribodyn.solve.extreme_search import UNKNOWN, promising, rate_of
+from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.right_hand_side import work_array
 from tribodyn.tribology.contact import local_contact
 from tribodyn.tribology.film import FILM_LAWS
@@ -164,6 +175,87 @@ def test_a_step_is_looked_into_where_a_parabola_passes_the_extreme(rng):
         if not -0.5 < top < 1.5:
             assert not found
     assert looked > 20
+
+
+def loaded_search(prepared):
+    """A model at rest in its static equilibrium, and a search that has just begun there; phase, segment."""
+    model = prepared("crc-23-47").model
+    measures, work = np.full((ROWS, measures_of(2)), LOWEST), work_array(model)
+    y, place = static_equilibrium(model), (0.3 * float(model.table.boundary[1]), 0)
+    contact_forces(place[1], *locate(*place, model.table), y, model, work)
+    measure(*place, y, model, work, measures[START])
+    see_surfaces(*place, model, work, measures)
+    measures[EXTREME] = 1e100
+    return model, measures, work, y, place
+
+
+def test_a_contact_is_worse_by_load_curvature_entrainment_and_sliding(prepared):
+    """By what has grown or, of entrainment, fallen, over what it was; the better counts nothing."""
+    model, measures, work, y, place = loaded_search(prepared)
+    carrying = np.flatnonzero(work[NORMAL_LOAD] > 0.0)
+    rows = [SEEN_LOAD, SEEN_CURVATURE, SEEN_ENTRAINMENT, SEEN_SLIDING]
+    seen = work[rows].copy()
+    assert work[WORSE, carrying] == pytest.approx(0.0, abs=1e-14)
+    for factors, worse in (
+        ([1.1, 1.0, 1.0, 1.0], 0.1),
+        ([1.0, 1.05, 1.0, 1.0], 0.05),
+        ([1.0, 1.0, 0.8, 1.0], 0.2),
+        ([1.0, 1.0, 1.0, 1.3], 0.3),
+        ([1.1, 1.05, 0.8, 1.3], 0.65),
+        ([0.5, 0.5, 2.0, 0.5], 0.0),
+    ):
+        work[rows] = seen * np.array(factors)[:, None]
+        measures[EXTREME] = 1e100
+        work[WORSE] = worse  # as in the step before
+        measure_end(False, *place, y, model, work, measures)
+        left_out = measures[END, OF_MESH + FILM] == LOWEST
+        assert left_out == (worse < FARTHEST)
+        if left_out:
+            assert work[WORSE, carrying] == pytest.approx(worse, abs=1e-12)
+
+
+def test_another_change_as_large_as_the_last_is_allowed_for(prepared):
+    model, measures, work, y, place = loaded_search(prepared)
+    work[SEEN_LOAD] *= 1.0 + 0.6 * FARTHEST
+    before = work.copy()
+    for worse, left_out in ((0.6 * FARTHEST, True), (0.0, False)):
+        work[:] = before
+        work[WORSE] = worse
+        measure_end(False, *place, y, model, work, measures)
+        assert (measures[END, OF_MESH + FILM] == LOWEST) == left_out
+    assert work[WORSE, 0] == 0.0  # it has been evaluated
+    assert 1.0 / work[SEEN_LOAD, 0] == pytest.approx(1.0 / before[SEEN_LOAD, 0] * (1.0 + 0.6 * FARTHEST))
+
+
+def test_inside_a_step_surfaces_are_measured_where_both_ends_are(prepared):
+    model, measures, work, y, place = loaded_search(prepared)
+    surfaces = [OF_MESH + OF_PAIR * i + j for i in range(2) for j in (FILM, PRESSURE, TEMPERATURE)]
+    measures[END] = measures[START]
+    measure_inside(False, MIDDLE, *place, y, model, work, measures)
+    np.testing.assert_array_equal(measures[MIDDLE], measures[START])
+    for row in (START, END):
+        kept = measures.copy()
+        measures[row, OF_MESH + OF_PAIR + FILM] = LOWEST
+        measure_inside(False, MIDDLE, *place, y, model, work, measures)
+        known = measures[MIDDLE, surfaces] > LOWEST
+        np.testing.assert_array_equal(known, [True] * 3 + [False] * 3)
+        measures[:] = kept
+
+
+def test_a_parabola_of_twice_the_bend_decides(rng):
+    """Its highest point from very many places in the step."""
+    share = np.linspace(0.0, 1.0, 20001)
+    for start, end, before in rng.uniform(-1.0, 1.0, (100, 3)):
+        bend = 2.0 * abs((end - start) - before)
+        highest = np.max(start + (end - start) * share + 0.5 * bend * share * (1.0 - share))
+        if highest > max(start, end) + 1e-3:
+            assert promising(start, end, before, highest - 1e-5)
+        assert not promising(start, end, before, highest + 1e-5)
+
+
+def test_a_rate_is_known_where_both_ends_are():
+    assert rate_of(1.0, 3.0, 10.0) == 20.0
+    assert rate_of(LOWEST, 3.0, 10.0) == rate_of(1.0, LOWEST, 10.0) == UNKNOWN
 
 
 def test_nothing_is_looked_into_where_an_end_is_not_known():
