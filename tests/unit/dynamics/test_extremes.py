@@ -227,6 +227,17 @@ def test_another_change_as_large_as_the_last_is_allowed_for(prepared):
     assert 1.0 / work[SEEN_LOAD, 0] == pytest.approx(1.0 / before[SEEN_LOAD, 0] * (1.0 + 0.6 * FARTHEST))
 
 
+@pytest.mark.parametrize("near", [0, 1])
+def test_each_pair_is_measured_where_its_own_surfaces_are_near(near, prepared):
+    model, measures, work, y, place = loaded_search(prepared)
+    surfaces = [[OF_MESH + OF_PAIR * i + j for j in (FILM, PRESSURE, TEMPERATURE)] for i in range(2)]
+    measures[EXTREME, surfaces[near]] = measures[START, surfaces[near]]
+    work[SEEN_LOAD] *= 1.01
+    measure_end(False, *place, y, model, work, measures)
+    assert np.all(measures[END, surfaces[near]] == measures[START, surfaces[near]])
+    assert np.all(measures[END, surfaces[1 - near]] == LOWEST)
+
+
 def test_inside_a_step_surfaces_are_measured_where_both_ends_are(prepared):
     model, measures, work, y, place = loaded_search(prepared)
     surfaces = [OF_MESH + OF_PAIR * i + j for i in range(2) for j in (FILM, PRESSURE, TEMPERATURE)]
