@@ -25,7 +25,7 @@ ONE_A_CHUNK = (
     "from tribodyn.cli import main\nimport sys\nsys.argv = ['tribodyn', 'sweep', *sys.argv[1:]]\nmain()\n"
 )
 WORDS = ("crc-23-47", "--transient", "40", "--set", "output.samples_per_cycle=40")
-VARY = ("--vary", "operating.pinion_speed=20:400/16 rad/s")
+VARY = ("--vary", "operating.pinion_speed=20:400/30 rad/s")
 
 
 def same(one: Path, other: Path) -> None:
@@ -37,9 +37,7 @@ def same(one: Path, other: Path) -> None:
                 assert a[name][...].tobytes() == b[name][...].tobytes(), name  # pyright: ignore
 
 
-@pytest.mark.parametrize(
-    "direction", [(), pytest.param(("--direction", "up"), marks=pytest.mark.soak)], ids=["steady", "followed"]
-)
+@pytest.mark.parametrize("direction", [(), ("--direction", "up")])
 def test_a_killed_sweep_goes_on_where_it_stopped(direction: tuple[str, ...], tmp_path: Path):
     words = [*WORDS, *VARY, *direction, "-o", "killed.h5"]
     process = subprocess.Popen([sys.executable, "-c", ONE_A_CHUNK, *words], cwd=tmp_path)
@@ -56,7 +54,7 @@ def test_a_killed_sweep_goes_on_where_it_stopped(direction: tuple[str, ...], tmp
     with SweepRecord(partial) as left:
         assert left.status == "partial"
         before = left["status"]
-        assert 3 <= np.sum(before == DONE) < 16
+        assert 3 <= np.sum(before == DONE) < 30
         assert np.isfinite(left["efficiency"][before == DONE]).all()
         assert np.isnan(left["efficiency"][before == WAITING]).all()
     for other in (["--set", "operating.gear_torque=1 N*m"], ["--transient", "39"], ["--direction", "down"]):
