@@ -14,7 +14,6 @@ unexport PYTHONDONTWRITEBYTECODE
 TESTS_XLA := --xla_cpu_use_fusion_emitters=false
 # a file's tests share what it prepares; the longest files come first (tests/durations.json)
 IN_PARALLEL := -n 2 --dist loadfile --no-loadscope-reorder --benchmark-disable
-FROM_START := tests/bench/test_time_from_start.py
 VENV := .venv
 BIN := $(VENV)/bin
 # the constraints also hold for what builds the package
@@ -51,11 +50,9 @@ tests: in-parallel ratios
 in-parallel: $(VENV)/.testing
 	XLA_FLAGS="$(TESTS_XLA)" $(BIN)/python -m pytest $(IN_PARALLEL) -m "not bench"
 
-# never beside other tests; a core for those of one process, the other for those of processor time
+# alone: never beside other tests
 ratios: $(VENV)/.testing
-	@$(BIN)/python -m pytest -m bench $(FROM_START) > $(VENV)/start.txt 2>&1 & start=$$!; \
-	  $(BIN)/python -m pytest -m bench tests/bench --ignore $(FROM_START); speed=$$?; \
-	  wait $$start; start=$$?; cat $(VENV)/start.txt; [ $$speed$$start = 00 ]
+	$(BIN)/python -m pytest -m bench tests/bench
 
 quick: $(VENV)/.testing
 	XLA_FLAGS="$(TESTS_XLA)" $(BIN)/python -m pytest $(IN_PARALLEL) --quick -m "not bench and not slow"
