@@ -19,36 +19,26 @@ Bounds = Sequence[Any] | Mapping[str, Any] | str
 
 
 class Design(Run):
-    """A search that ran; `design` makes one. It is a `Run`, whose data are over the evaluations.
-
-    Attributes
-    ----------
-    objective_start, objective : float, or list of two
-        At the start, and at the best; SI. The first is None where the start has no figures.
-    best : dict
-        Key to the best value, as a scenario has it: overrides of the scenario that was searched through.
-    evaluations : int
-        Candidates that were evaluated.
-    """
+    """A search that ran; `design` makes one. It is a `Run`, whose data are over the evaluations."""
 
     @property
     def objective_start(self) -> Any:
-        """The objective at the start."""
+        """The objective at the start, SI: a number, or a list of two; None where the start has no figures."""
         return self.summary.get("objective_start")
 
     @property
     def objective(self) -> Any:
-        """The objective at the best."""
+        """The objective at the best, SI: a number, or a list of two."""
         return self.summary.get("objective")
 
     @property
     def best(self) -> dict[str, Any]:
-        """The best values by key."""
+        """Best value by key, as a scenario has it: overrides of the scenario that was searched."""
         return dict(self.summary.get("best", {}))
 
     @property
     def evaluations(self) -> int:
-        """How many candidates were evaluated."""
+        """Number of candidates that were evaluated."""
         return int(self.summary["evaluations"])
 
 
