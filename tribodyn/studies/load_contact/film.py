@@ -20,14 +20,14 @@ class FaceFilm(NamedTuple):
 
     Attributes
     ----------
-    thickness, in_range : (T, P, S)
-        By the film law, m, and whether that is inside its range; NaN where the slice carries nothing.
+    arrays : mapping
+        Datasets of the record (T, P, S): film by the film law, m, and whether that is inside its range; NaN
+        where the slice carries nothing.
     figures : mapping
         Of the summary, SI units.
     """
 
-    thickness: Float[Array, "position pair slice"]
-    in_range: Float[Array, "position pair slice"]
+    arrays: dict[str, Float[Array, "position pair slice"]]
     figures: dict[str, Any]
 
 
@@ -59,8 +59,7 @@ def film_over_face(assembly: Assembly, loaded: LoadedContact, oiled: Oiled) -> F
     laws = {name: value for name, value in law_figures(oiled).items() if name.startswith("film")}
     outside = exceeded_limits(oiled, *range_shares(contact.contact, closure))
     return FaceFilm(
-        thickness,
-        in_range,
+        {"central_film_thickness": thickness, "closure_in_range": in_range},
         {
             "film_min": float(film[least]),
             "film_parameter_min": float(film[least] / closure.surfaces.roughness),

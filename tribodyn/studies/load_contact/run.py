@@ -112,8 +112,8 @@ def run(
         if loaded is None:
             return RunResult(record.fail(failure, summary), "failed", failure, summary)
         film = film_of(study, loaded)
-        record.write(0, record_arrays(study, loaded) | ({} if film is None else film_arrays(film)))
-        summary |= loaded_figures(study, loaded) | ({} if film is None else film.figures)
+        record.write(0, record_arrays(study, loaded) | film.arrays)
+        summary |= loaded_figures(study, loaded) | film.figures
         report(1 / steps)
         spread = []
         for row, torque in enumerate(case.gear_torques):
@@ -137,19 +137,13 @@ def figures(case: LoadContactCase) -> dict[str, Any]:
     study = prepare(case)
     contact_ratio = {"contact_ratio": float(study.flexible.assembly.contact_ratio)}
     loaded = roll(study, case.gear_torque)
-    film = film_of(study, loaded)
-    return contact_ratio | loaded_figures(study, loaded) | ({} if film is None else film.figures)
+    return contact_ratio | loaded_figures(study, loaded) | film_of(study, loaded).figures
 
 
-def film_of(study: Prepared, loaded: LoadedContact) -> FaceFilm | None:
-    """Film over the face; None where the scenario has no lubricant."""
+def film_of(study: Prepared, loaded: LoadedContact) -> FaceFilm:
+    """Film over the face; nothing where the scenario has no lubricant."""
     oiled = study.case.oiled
-    return None if oiled is None else film_over_face(study.flexible.assembly, loaded, oiled)
-
-
-def film_arrays(film: FaceFilm) -> dict[str, Float[Array, "position pair slice"]]:
-    """Datasets of the film, over the phase first."""
-    return {"central_film_thickness": film.thickness, "closure_in_range": film.in_range}
+    return FaceFilm({}, {}) if oiled is None else film_over_face(study.flexible.assembly, loaded, oiled)
 
 
 def record_arrays(study: Prepared, loaded: LoadedContact) -> dict[str, Float[Array, "position ..."]]:
