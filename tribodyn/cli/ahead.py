@@ -13,6 +13,7 @@ import threading
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import Any, cast
 
 from tribodyn.numerics.work import usable_cores
 
@@ -88,37 +89,39 @@ def serve() -> None:
     import gc
     import signal
 
-    gc.set_threshold(50_000)
+    gc.disable()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the first process ends, and with it the input
     timer = threading.Timer(PATIENCE, lambda: os._exit(0))
     timer.daemon = True
     timer.start()
-    _warm_up()
+    _get_ready()
     line = sys.stdin.readline()
     timer.cancel()
     if not line:
         return
-    from tribodyn.cli.plot import draw_pictures
+    from tribodyn.cli.pictures import draw_pictures
     from tribodyn.record.soundness import remember_own
 
     record = Path(json.loads(line))
     remember_own(record)  # the first process has just written it
     pictures = draw_pictures(record, everything=False)
     sys.stdout.write(json.dumps([str(path) for path in pictures]))
+    sys.stdout.flush()
+    os._exit(0)  # to take matplotlib apart in order would let the first process wait
 
 
-def _warm_up() -> None:
-    """Draw a figure that nobody sees: fonts, formulas and layouts are then known."""
-    import io
+def _get_ready() -> None:
+    """Import what draws, and do what an overview has that needs no record."""
+    from matplotlib import artist
 
+    # to compose the help texts of matplotlib's classes would be a third of the time to import it
+    artist.kwdoc = lambda _: ""
+    cast(Any, artist.Artist)._update_set_signature_and_docstring = classmethod(lambda _: None)
+
+    import tribodyn.cli.pictures
+    import tribodyn.cli.progress
+    import tribodyn.record.soundness
     import tribodyn.studies.pictures  # noqa: F401
-    from tribodyn.post.figures import over_mesh  # noqa: F401
-    from tribodyn.post.style import house_style, new_figure
+    from tribodyn.post.figures.over_mesh import prepare_overview
 
-    with house_style():
-        figure = new_figure(2.0, 2.0)
-        axes = figure.subplots()
-        axes.set_title("$B_g$ 0123456789 (a)", fontweight="bold")
-        axes.set_xlabel("Phase (mesh cycles) $C_p$")
-        figure.legend(axes.plot([0.0, 1.0]), ["pair 1"])
-        figure.savefig(io.BytesIO(), format="png")
+    prepare_overview()

@@ -47,7 +47,7 @@ def compare(
     from contextlib import ExitStack
     from tempfile import TemporaryDirectory
 
-    from tribodyn.cli.plot import draw
+    from tribodyn.cli.pictures import draw
     from tribodyn.cli.printing import print_json, print_rich, quoted_path
     from tribodyn.post import compare as comparing
     from tribodyn.record.reader import open_record

@@ -1,19 +1,15 @@
 """`tribodyn plot`: pictures of records."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Sequence
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from tribodyn.cli import completion
-from tribodyn.cli.output import make_folder, unwritable
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from tribodyn.record.reader import Record
     from tribodyn.record.sweep_reader import SweepRecord
 
 EXAMPLES = (
@@ -75,6 +71,7 @@ def plot(
     """Draw figures of records; several are compared."""
     from contextlib import ExitStack
 
+    from tribodyn.cli.pictures import draw
     from tribodyn.cli.printing import print_json, quoted_path
     from tribodyn.errors import InputError
     from tribodyn.record.reader import open_record
@@ -102,34 +99,11 @@ def plot(
             typer.echo(f"picture  {quoted_path(picture)}")
 
 
-def draw(
-    records: Sequence["Record"],
-    names: Iterable[str],
-    beside: Path,
-    *,
-    cycles: int | Literal["auto"] | None = "auto",
-    against: str | None = None,
-) -> list[Path]:
-    """Draw figures by name into files named after `beside`: ``crc.png`` becomes ``crc-film.png``."""
-    from tribodyn.studies.pictures import figure
-
-    return _save_all(names, beside, lambda name: figure(name, records, cycles=cycles, against=against))
-
-
-def draw_pictures(path: Path, *, everything: bool) -> list[Path]:
-    """Draw the overview of a record, or all its figures, beside it."""
-    from tribodyn.record.reader import open_record
-    from tribodyn.studies.pictures import names
-
-    with open_record(path) as record:
-        chosen = ["overview", *names([record])] if everything else ["overview"]
-        return draw([record], chosen, path.with_suffix(".png"))
-
-
 def _draw_sweeps(paths: Sequence[str], names: Sequence[str], beside: Path, at: Sequence[str]) -> list[Path]:
     """Draw figures of sweeps."""
     from contextlib import ExitStack
 
+    from tribodyn.cli.pictures import save_all
     from tribodyn.record.sweep_reader import SweepRecord
     from tribodyn.studies.pictures import sweep_figure, sweep_names
 
@@ -137,7 +111,7 @@ def _draw_sweeps(paths: Sequence[str], names: Sequence[str], beside: Path, at: S
         records = [stack.enter_context(SweepRecord(path)) for path in paths]
         place = _place(records[0], at)
         chosen = sweep_names(records) if not names or "all" in names else names
-        return _save_all(chosen, beside, lambda name: sweep_figure(name, records, place))
+        return save_all(chosen, beside, lambda name: sweep_figure(name, records, place))
 
 
 def _place(record: "SweepRecord", at: Sequence[str]) -> dict[str, float | str]:
@@ -163,22 +137,3 @@ def _place(record: "SweepRecord", at: Sequence[str]) -> dict[str, float | str]:
         except ValueError:
             raise InputError("--at", f'"{one}"', "not a number", f"write it like {name}=1.5") from None
     return place
-
-
-def _save_all(names: Iterable[str], beside: Path, make: Callable[[str], "Figure"]) -> list[Path]:
-    from tribodyn.cli.progress import progress_bar
-    from tribodyn.post.style import save
-
-    names = list(names)
-    pictures = []
-    with progress_bar("drawing") as progress:
-        for done, name in enumerate(names, start=1):
-            picture = beside.with_name(f"{beside.stem}-{name}{beside.suffix}")
-            drawn = make(name)
-            make_folder(beside.parent)
-            try:
-                pictures.append(save(drawn, picture))
-            except OSError as error:
-                raise unwritable(beside.parent, error) from None
-            progress(done / len(names))
-    return pictures

@@ -76,7 +76,7 @@ def run_loaded(made: "Callable[[], Loaded]", shown: Shown, *, output: Path | Non
     """
     from tribodyn.cli.ahead import drawer
     from tribodyn.cli.outcome import SIMULATION_FAILED, complain
-    from tribodyn.cli.plot import draw_pictures
+    from tribodyn.cli.pictures import draw_pictures
     from tribodyn.cli.printing import print_json, quoted_path
     from tribodyn.cli.progress import progress_bar
     from tribodyn.record.withheld import warnings

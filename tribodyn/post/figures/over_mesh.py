@@ -11,36 +11,57 @@ from matplotlib.figure import Figure
 from tribodyn.post.cycles import last_cycles, transient
 from tribodyn.post.figures import over_phase as panels
 from tribodyn.post.figures.drawing import Drawing
-from tribodyn.post.figures.panel import View, abscissa, abscissa_label, draw, legend, record_title
+from tribodyn.post.figures.panel import (
+    ALONE,
+    KEY_POINTS,
+    View,
+    abscissa,
+    abscissa_label,
+    draw,
+    legend,
+    record_title,
+)
 from tribodyn.post.figures.path_of_contact import draw_path, path_figure
 from tribodyn.post.figures.scale import scale
 from tribodyn.post.figures.spectrum import spectrum_figure
-from tribodyn.post.style import PALETTE, Margins, mark_panel, new_figure
+from tribodyn.post.style import (
+    PALETTE,
+    STYLE,
+    Margins,
+    mark_panel,
+    new_grid,
+    panel_title,
+    prepare_grid,
+    read_formulas,
+)
 from tribodyn.record.reader import Record
 
-#: Room in the overview, inch.
+#: Size of the overview, inch, and its rows and columns.
+GRID = 11.0, 6.6, 2, 3
+#: Room in it, inch.
 OVERVIEW: dict[str, Any] = {"left": 0.74, "right": 0.42, "top": 0.85, "bottom": 0.5, "between": (0.86, 1.0)}
+#: Titles of its panels a, and b to f.
+PATH = "Teeth and path of contact"
+QUANTITIES = (
+    panels.TRANSMISSION_ERROR,
+    panels.NORMAL_LOAD,
+    panels.FRICTION_FORCE,
+    panels.FILM_THICKNESS,
+    panels.EFFICIENCY,
+)
 
 
 def overview_figure(records: Sequence[Record], view: View) -> Figure:
     """Draw what the first record holds in six panels; of a transient its speed and load in the first."""
     record = records[0]
-    drawn = new_figure(11.0, 6.6)
-    rows = drawn.subplots(2, 3)
+    drawn, rows = new_grid(*GRID)
     if view.cycles is None and transient(record):
         draw_speed(rows[0, 0], record, view)
         mark_panel(rows[0, 0], "a", "Speed and load, means of a mesh cycle")
     else:
         draw_path(rows[0, 0], record)
-        mark_panel(rows[0, 0], "a", "Teeth and path of contact")
-    quantities = (
-        panels.TRANSMISSION_ERROR,
-        panels.NORMAL_LOAD,
-        panels.FRICTION_FORCE,
-        panels.FILM_THICKNESS,
-        panels.EFFICIENCY,
-    )
-    for letter, axes, quantity in zip("bcdef", rows.flat[1:], quantities, strict=True):
+        mark_panel(rows[0, 0], "a", PATH)
+    for letter, axes, quantity in zip("bcdef", rows.flat[1:], QUANTITIES, strict=True):
         names = draw(axes, [record], quantity, view)
         mark_panel(axes, letter, quantity.title, names)
     legend(drawn, list(rows.flat[1:]), [record], view)
@@ -48,6 +69,16 @@ def overview_figure(records: Sequence[Record], view: View) -> Figure:
     if isinstance(drawn, Figure) and len(drawn.axes) == rows.size:
         drawn.set_layout_engine(Margins(**OVERVIEW))
     return drawn
+
+
+def prepare_overview() -> None:
+    """Do what needs no record: make the grid of panels, read the formulas."""
+    prepare_grid(*GRID)
+    titles = [PATH, *(quantity.title for quantity in QUANTITIES)]
+    marked = [panel_title(letter, title) for letter, title in zip("abcdef", titles, strict=True)]
+    names = [f"${name}$" for name in ("B_g", "C_p", "P", "C_g", "B_p")]
+    read_formulas([*marked, *(quantity.label for quantity in QUANTITIES), *names], STYLE["font.size"])
+    read_formulas([*names, KEY_POINTS + ALONE], STYLE["legend.fontsize"])
 
 
 def draw_speed(axes: Axes, record: Record, view: View) -> None:
