@@ -58,11 +58,8 @@ TRANSMISSION_ERROR = 19  # along the pair's normal, gap not subtracted, m
 TURNED = 20  # sliding velocity over that at which friction has reversed
 TURNED_BEFORE = 21  # the same at the start of a step, see `solve.turning`
 TURNING_RATE = 22  # its rate in the last step, per mesh cycle
-# One over line load, curvature, entrainment and sliding where the surfaces were last evaluated, and how far
-# the contact was from there, see `extremes`.
-SEEN_LOAD, SEEN_CURVATURE, SEEN_ENTRAINMENT, SEEN_SLIDING, WORSE = range(23, 28)
-COUPLING = 28  # deflection per load on slot 0, and on from here per load on the other slots, m/N
-QUANTITIES = 28  # and one more for every slot
+COUPLING = 23  # deflection per load on slot 0, and on from here per load on the other slots, m/N
+QUANTITIES = 23  # and one more for every slot
 
 # Channels of mesh.cycle.Polynomials.channel.
 _COSINE, _SINE = CHANNELS.index("cosine"), CHANNELS.index("sine")

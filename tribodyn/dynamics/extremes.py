@@ -16,13 +16,8 @@ from tribodyn.dynamics.contact_forces import (
     PINION_SPEED,
     RADIUS,
     RELATIVE_VELOCITY,
-    SEEN_CURVATURE,
-    SEEN_ENTRAINMENT,
-    SEEN_LOAD,
-    SEEN_SLIDING,
     SLIDING,
     TRANSMISSION_ERROR,
-    WORSE,
     cubic,
     out_of_reach,
 )
@@ -31,8 +26,8 @@ from tribodyn.dynamics.parameters import SLIDING_DYNAMIC, STATES, XI
 from tribodyn.numerics.elementary import absolute, law, maximum, minimum, skippable, where
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.tribology.contact import local_contact
-from tribodyn.tribology.law import ActiveFilm, ActiveFriction
-from tribodyn.tribology.surface_state import surface_extremes
+from tribodyn.tribology.law import FARTHEST, MOST_SLIDING, ActiveFilm, ActiveFriction, Worse
+from tribodyn.tribology.surface_state import film_and_temperature
 
 #: Measures of the whole mesh: the rotational transmission error, up and down; and from here for the driving
 #: flanks and behind them for the back flanks …
@@ -40,22 +35,24 @@ ERROR_UP, ERROR_DOWN, DRIVING, BACK = 0, 1, 2, 5
 #: … the transmission error of the newest pair, up and down, and the force along the pitch tangent.
 NEWEST_UP, NEWEST_DOWN, FORCE = range(3)
 OF_MESH = 8
-#: Measures of a pair, those of one slot after the other's: load, thinness of the film, pressure, temperature.
-LOAD, FILM, PRESSURE, TEMPERATURE = range(4)
+#: Measures of a pair, those of one slot after the other's: load, line load times curvature, which is as the
+#: square of the Hertz pressure, and by the laws in use thinness of the film and temperature.
+LOAD, PRESSURE, FILM, TEMPERATURE = range(4)
 OF_PAIR = 4
 #: Extremes: one per measure of the mesh, and one of all pairs per measure of a pair.
 EXTREMES = OF_MESH + OF_PAIR
 #: A measure that nothing has.
 LOWEST = -1e300
 #: Rows of measures in a search: at the start, in the middle and at the end of a step, at another place in it;
-#: the rate of change over the step before, per mesh cycle; the extreme of each so far; those of surfaces
-#: where they were last evaluated.
-START, MIDDLE, END, TRIAL, RATE, EXTREME, SEEN = range(7)
-ROWS = 7
-#: By measure of a pair: exponent of load, curvature or speeds that no film thickness, pressure or temperature
-#: rise surpasses while these change by less than FARTHEST.
-STEEPEST = (0.0, 1.0, 0.5, 2.0)
-FARTHEST = 0.5
+#: the rate of change over the step before, per mesh cycle; the extreme of each so far; of pairs what they
+#: were when their laws were last evaluated, and how far from extreme.
+START, MIDDLE, END, TRIAL, RATE, EXTREME, SEEN, ROOM = range(8)
+ROWS = 8
+#: In the row `SEEN` of a pair: one over line load, curvature, entrainment and sliding.
+SEEN_LOAD, SEEN_CURVATURE, SEEN_ENTRAINMENT, SEEN_SLIDING = range(OF_PAIR)
+#: In the row `ROOM` of a pair: shares by which its film may have thinned and its temperature risen since, and
+#: those by which they are extreme.
+THINNER, WARMER, THICK, COOL = range(OF_PAIR)
 
 
 class Extremes(NamedTuple):
@@ -142,6 +139,7 @@ def measure(phase, segment, y, model, work, measures):
         if out_of_reach(segment, i, model):
             continue
         contact = highest_loaded(i, segment, cell, u, model, work)
+        measures[OF_MESH + OF_PAIR * i + PRESSURE] = contact.line_load * contact.curvature
         measure_surfaces(i, contact, model, measures)
 
 
@@ -172,46 +170,53 @@ def measure_loads(segment, y, model, work, measures):
 
 @law
 def measure_surfaces(i, contact, model, measures):
-    """Fill the `measures` of slot i's surfaces."""
+    """Fill the `measures` of slot i that are by laws."""
     film = ActiveFilm(model.options.film, model.film)
     friction = ActiveFriction(model.options.friction, model.friction)
-    thickness, pressure, temperature = surface_extremes(contact, model.surfaces, film, friction)
+    thickness, temperature = film_and_temperature(contact, model.surfaces, film, friction)
     first = OF_MESH + OF_PAIR * i
     measures[first + FILM] = -thickness
-    measures[first + PRESSURE] = pressure
     measures[first + TEMPERATURE] = temperature
 
 
 @law
 def see_surfaces(phase, segment, model, work, measures):
-    """Keep what slots were when their surfaces were evaluated; `measures` has the rows of a search."""
+    """Keep what slots were when their laws were evaluated; `measures` has the rows of a search."""
     cell, u, _ = locate(phase, segment, model.table)
     for i in range(model.table.side.shape[0]):
         if out_of_reach(segment, i, model):
             continue
         contact = highest_loaded(i, segment, cell, u, model, work)
-        _see(contact.line_load < 0.0, i, contact, START, work, measures)
+        _see(contact.line_load < 0.0, i, contact, START, measures)
 
 
 @law
-def _see(far, i, contact, row, work, measures):
+def _see(far, i, contact, row, measures):
     """Keep what slot i is where a row of measures is, except where it is far."""
-    work[SEEN_LOAD, i] = where(far, work[SEEN_LOAD, i], 1.0 / contact.line_load)
-    work[SEEN_CURVATURE, i] = where(far, work[SEEN_CURVATURE, i], 1.0 / contact.curvature)
-    work[SEEN_ENTRAINMENT, i] = where(far, work[SEEN_ENTRAINMENT, i], 1.0 / contact.entrainment)
-    sliding = maximum(absolute(contact.sliding), 1e-300)
-    work[SEEN_SLIDING, i] = where(far, work[SEEN_SLIDING, i], 1.0 / sliding)
-    work[WORSE, i] = where(far, work[WORSE, i], 0.0)
-    for j in range(OF_MESH + OF_PAIR * i + FILM, OF_MESH + OF_PAIR * (i + 1)):
-        measures[SEEN, j] = where(far, measures[SEEN, j], measures[row, j])
+    first = OF_MESH + OF_PAIR * i
+    _keep(far, 1.0 / contact.line_load, SEEN, first + SEEN_LOAD, measures)
+    _keep(far, 1.0 / contact.curvature, SEEN, first + SEEN_CURVATURE, measures)
+    _keep(far, 1.0 / contact.entrainment, SEEN, first + SEEN_ENTRAINMENT, measures)
+    _keep(far, 1.0 / maximum(absolute(contact.sliding), 1e-300), SEEN, first + SEEN_SLIDING, measures)
+    for before, room, j in ((THINNER, THICK, first + FILM), (WARMER, COOL, first + TEMPERATURE)):
+        value = measures[row, j]
+        _keep(far, 0.0, ROOM, first + before, measures)
+        short = (measures[EXTREME, j] - value) / maximum(absolute(value), 1e-300)
+        _keep(far, short, ROOM, first + room, measures)
+
+
+@law
+def _keep(far, value, row, j, measures):
+    """Replace what a row holds, except where a contact is far."""
+    measures[row, j] = where(far, measures[row, j], value)
 
 
 @law
 def measure_end(idle, phase, segment, y, model, work, measures):
-    """Fill the row `END` of a search; of surfaces only where they may be near an extreme.
+    """Fill the row `END` of a search; by laws only where they may be near an extreme.
 
     They are far from it where no change of load, curvature and speeds since they were last evaluated, and
-    another one as large as the step's, takes them there. Then they are `LOWEST`.
+    another one as large as the step's, takes them there by the laws' steepness. Then they are `LOWEST`.
 
     Parameters
     ----------
@@ -224,30 +229,43 @@ def measure_end(idle, phase, segment, y, model, work, measures):
     """
     measure_loads(segment, y, model, work, measures[END])
     cell, u, _ = locate(phase, segment, model.table)
+    film, friction = model.options.film, model.options.friction
     for i in range(model.table.side.shape[0]):
         if out_of_reach(segment, i, model):
             continue
         contact = highest_loaded(i, segment, cell, u, model, work)
-        worse = maximum(contact.line_load * work[SEEN_LOAD, i] - 1.0, 0.0)
-        worse = worse + maximum(contact.curvature * work[SEEN_CURVATURE, i] - 1.0, 0.0)
-        worse = worse + maximum(1.0 - contact.entrainment * work[SEEN_ENTRAINMENT, i], 0.0)
-        worse = worse + maximum(absolute(contact.sliding) * work[SEEN_SLIDING, i] - 1.0, 0.0)
-        reach = worse + maximum(worse - work[WORSE, i], 0.0)
-        work[WORSE, i] = where(idle, work[WORSE, i], worse)
         first = OF_MESH + OF_PAIR * i
-        inside = reach < FARTHEST
-        for j in range(FILM, OF_PAIR):
-            seen = measures[SEEN, first + j]
-            inside = inside & (seen + STEEPEST[j] * reach * absolute(seen) <= measures[EXTREME, first + j])
-        far = idle | inside
+        measures[END, first + PRESSURE] = contact.line_load * contact.curvature
+        worse = _worse(first, contact, measures[SEEN])
+        thinner = film.steepness(worse, contact, model.surfaces, model.film)
+        warmer = friction.steepness(worse, contact, model.surfaces, model.friction)
+        room = measures[ROOM]
+        film_far = thinner + maximum(thinner - room[first + THINNER], 0.0) <= room[first + THICK]
+        heat_far = warmer + maximum(warmer - room[first + WARMER], 0.0) <= room[first + COOL]
+        holds = worse.line_load + worse.curvature + worse.entrainment <= FARTHEST
+        holds = holds & (absolute(contact.sliding) <= MOST_SLIDING * contact.entrainment)
+        far = idle | (holds & film_far & heat_far)
+        _keep(idle, thinner, ROOM, first + THINNER, measures)
+        _keep(idle, warmer, ROOM, first + WARMER, measures)
         _measure_unless(far, i, contact, model, measures[END])
         if not skippable(far):
-            _see(far, i, contact, END, work, measures)
+            _see(far, i, contact, END, measures)
+
+
+@law
+def _worse(first, contact, seen):
+    """How much worse a contact is than when its laws were evaluated; `Worse`."""
+    return Worse(
+        maximum(contact.line_load * seen[first + SEEN_LOAD] - 1.0, 0.0),
+        absolute(contact.curvature * seen[first + SEEN_CURVATURE] - 1.0),
+        absolute(contact.entrainment * seen[first + SEEN_ENTRAINMENT] - 1.0),
+        maximum(absolute(contact.sliding) * seen[first + SEEN_SLIDING] - 1.0, 0.0),
+    )
 
 
 @law
 def measure_inside(idle, row, phase, segment, y, model, work, measures):
-    """Fill a row of a search inside a step; of surfaces only where both ends of the step may be extreme.
+    """Fill a row of a search inside a step; by laws only where both ends of the step may be extreme.
 
     The other arguments are those of `measure_end`.
     """
@@ -256,15 +274,16 @@ def measure_inside(idle, row, phase, segment, y, model, work, measures):
     for i in range(model.table.side.shape[0]):
         if out_of_reach(segment, i, model):
             continue
-        film = OF_MESH + OF_PAIR * i + FILM
-        far = idle | (minimum(measures[START, film], measures[END, film]) <= LOWEST)
+        first = OF_MESH + OF_PAIR * i
+        far = idle | (minimum(measures[START, first + FILM], measures[END, first + FILM]) <= LOWEST)
         contact = highest_loaded(i, segment, cell, u, model, work)
+        measures[row, first + PRESSURE] = contact.line_load * contact.curvature
         _measure_unless(far, i, contact, model, measures[row])
 
 
 @law
 def _measure_unless(far, i, contact, model, measures):
-    """Fill the `measures` of slot i's surfaces; `LOWEST` where they are far from extreme."""
+    """Fill the `measures` of slot i that are by laws; `LOWEST` where they are far from extreme."""
     first = OF_MESH + OF_PAIR * i
     if skippable(far):
         for j in range(FILM, OF_PAIR):
@@ -284,6 +303,12 @@ def measures_of(pairs: int) -> int:
 def extreme_of(row):
     """The extreme that a measure belongs to."""
     return row if row < OF_MESH else OF_MESH + (row - OF_MESH) % OF_PAIR
+
+
+@law
+def alike(row, rows):
+    """The measures, of so many, that belong to the same extreme as one of them."""
+    return range(row, row + 1) if row < OF_MESH else range(extreme_of(row), rows, OF_PAIR)
 
 
 @law

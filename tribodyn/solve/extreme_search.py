@@ -23,6 +23,7 @@ from tribodyn.dynamics.extremes import (
     START,
     TRIAL,
     Extremes,
+    alike,
     extreme_of,
     measure,
     measure_end,
@@ -85,20 +86,37 @@ def promising(start, end, change_before, extreme):
 
     That is so if a parabola through both ends of the step does which bends twice as much as the one through
     the step before, over which the measure changes by `change_before` in a phase as long as this step. With
-    the change d over a step, a parabola that bends by b, its second difference, rises above both ends by
-    (b − 2|d|)²/(8 b), if b is more than 2|d|.
+    the change d over a step, a parabola that bends by 2 b, its second difference, rises above both ends by
+    (b − |d|)²/(4 b), if b is more than |d|. With an end that is not known, `LOWEST`, it never is.
     """
     change = end - start
-    bend = 2.0 * absolute(change - change_before)
-    over = bend - 2.0 * absolute(change)
-    short = extreme + WORTH * absolute(extreme) - maximum(start, end)
-    return (start > LOWEST) & (end > LOWEST) & (over > 0.0) & (over * over > 8.0 * bend * short)
+    bend = absolute(change - change_before)
+    over = bend - absolute(change)
+    top = where(end > start, end, start)
+    short = where(top > extreme, top, extreme) - top + WORTH * absolute(top)
+    return (over > 0.0) & (over * over > 4.0 * bend * short)
 
 
 @law
 def rate_of(start, end, per_step):
     """Rate of change of a measure over a step, if both are known; `per_step` is one over the step."""
     return where((start > LOWEST) & (end > LOWEST), (end - start) * per_step, UNKNOWN)
+
+
+@law
+def begin_rates(measures, extreme, rows):
+    """Suppose, at the start of a segment, that measures rise twice as fast as any alike moved before.
+
+    There measures have corners, and pairs other slots.
+    """
+    for which in range(EXTREMES):
+        fastest = 0.0 * extreme[which] - 1.0
+        for row in alike(which, rows):
+            rate = absolute(measures[RATE, row])
+            fastest = maximum(fastest, where(rate < UNKNOWN, rate, -1.0))
+        known = (extreme[which] > LOWEST) & (fastest >= 0.0)
+        for row in alike(which, rows):
+            measures[RATE, row] = where(known, 2.0 * fastest, UNKNOWN)
 
 
 @law
@@ -126,9 +144,8 @@ def keep(row, cycles, segment, y, search):
             search.segments[which] = segment
             for j in range(STATES):
                 search.states[which, j] = y[j]
-            for other in range(search.measures.shape[1]):
-                if extreme_of(other) == which:
-                    search.measures[EXTREME, other] = value
+            for other in alike(i, search.measures.shape[1]):
+                search.measures[EXTREME, other] = value
 
 
 @kernel
@@ -137,8 +154,8 @@ def open_segment(place, y, model, work, search):
     for i in range(search.measures.shape[1]):
         for row in range(RATE):
             search.measures[row, i] = LOWEST
-        search.measures[RATE, i] = UNKNOWN
         search.measures[EXTREME, i] = search.extreme[extreme_of(i)]
+    begin_rates(search.measures, search.extreme, search.measures.shape[1])
     contacts_at(place.phase, place.segment, y, model, work)
     measure(place.phase, place.segment, y, model, work, search.measures[START])
     see_surfaces(place.phase, place.segment, model, work, search.measures)
@@ -155,7 +172,7 @@ def search_step(method, place, step, y, model, work, buffer, search):
     for i in range(measures.shape[1]):
         start, end, extreme = measures[START, i], measures[END, i], measures[EXTREME, i]
         better |= end > extreme
-        inside |= promising(start, end, measures[RATE, i] * step, maximum(end, extreme))
+        inside |= promising(start, end, measures[RATE, i] * step, extreme)
     if better:
         keep(END, place.cycle + place.end, place.segment, buffer[0], search)
     if inside:

@@ -13,6 +13,7 @@ from tribodyn.dynamics.extremes import (
     RATE,
     START,
     TRIAL,
+    alike,
     extreme_of,
     measure,
     measure_end,
@@ -24,9 +25,9 @@ from tribodyn.dynamics.parameters import STATES
 from tribodyn.kernels.lanes.arrays import rows_of
 from tribodyn.kernels.lanes.vectors import any_of
 from tribodyn.kernels.native.parts import part
-from tribodyn.numerics.elementary import maximum, where
+from tribodyn.numerics.elementary import where
 from tribodyn.solve.dormand_prince import dense_output
-from tribodyn.solve.extreme_search import UNKNOWN, promising, rate_of, worthwhile
+from tribodyn.solve.extreme_search import begin_rates, promising, rate_of, worthwhile
 from tribodyn.solve.lane_queue import CASE, CYCLE
 
 #: A row that no measure stands in.
@@ -48,8 +49,8 @@ def open_lanes(start, segment, lanes, model, block, march):
     for i in range(block.measures.shape[1]):
         for row in range(RATE):
             measures[row, i] = LOWEST
-        measures[RATE, i] = UNKNOWN
         measures[EXTREME, i] = extreme[extreme_of(i)]
+    begin_rates(measures, extreme, block.measures.shape[1])
     cell, u, cells_per_radian = locate(start, segment, model.table)
     normal_contacts(segment, cell, u, cells_per_radian, y, model, work)
     measure(start, segment, y, model, work, measures[START])
@@ -73,9 +74,8 @@ def keep_lanes(lanes, row, phase, segment, y, block, march):
             segments[which] = where(better, 1.0 * segment, segments[which])
             for j in range(STATES):
                 states[which, j] = where(better, y[j], states[which, j])
-            for other in range(block.measures.shape[1]):
-                if extreme_of(other) == which:
-                    measures[EXTREME, other] = extreme[which]
+            for other in alike(i, block.measures.shape[1]):
+                measures[EXTREME, other] = extreme[which]
 
 
 @part
@@ -88,7 +88,7 @@ def search_lanes(lanes, phase, step, reached, segment, model, block, march):
     for i in range(block.measures.shape[1]):
         start, end, extreme = measures[START, i], measures[END, i], measures[EXTREME, i]
         better = better | (end > extreme)
-        inside = inside | promising(start, end, measures[RATE, i] * step, maximum(end, extreme))
+        inside = inside | promising(start, end, measures[RATE, i] * step, extreme)
     better, inside = lanes & better, lanes & inside
     if any_of(better):
         keep_lanes(better, END, reached, segment, new, block, march)

@@ -7,7 +7,13 @@ import numpy as np
 
 from tribodyn.numerics.elementary import exp, law, namespace
 from tribodyn.tribology.contact import MAXIMUM_OVER_MEAN, LocalContact, hertz_half_width
-from tribodyn.tribology.law import ActiveFilm, Closure, FilmFunctions, film_range_not_stated
+from tribodyn.tribology.law import (
+    ActiveFilm,
+    Closure,
+    FilmFunctions,
+    film_range_not_stated,
+    steepness_not_stated,
+)
 
 
 class SurfaceState(NamedTuple):
@@ -44,7 +50,8 @@ def _film_and_heat(contact, surfaces, film, friction):
     """Evaluate the laws in use once: the film law's results, friction coefficient, flash temperature rise."""
     evaluated = film.functions.film(contact, surfaces, film.parameters)
     # so that no friction law evaluates the film again
-    known = ActiveFilm(FilmFunctions(film_given, film_range_not_stated), evaluated)
+    functions = FilmFunctions(film_given, film_range_not_stated, steepness_not_stated)
+    known = ActiveFilm(functions, evaluated)
     coefficient = friction.functions.coefficient(contact, known, surfaces, friction.parameters)
     temperature = friction.functions.flash_temperature(
         contact, known, surfaces, friction.parameters, coefficient
@@ -60,11 +67,11 @@ def _pressure(contact, surfaces):
 
 
 @law
-def surface_extremes(contact, surfaces, film, friction):
-    """Film thickness (m), maximum Hertz pressure (Pa) and flash temperature rise (K), as `surface_state`."""
+def film_and_temperature(contact, surfaces, film, friction):
+    """Film thickness (m) and flash temperature rise (K), as `surface_state`."""
     evaluated, _, _, temperature = _film_and_heat(contact, surfaces, film, friction)
     log_smooth, rough, _ = evaluated
-    return exp(log_smooth) * rough, _pressure(contact, surfaces), temperature
+    return exp(log_smooth) * rough, temperature
 
 
 def surface_state(contact: LocalContact, closure: Closure) -> SurfaceState:

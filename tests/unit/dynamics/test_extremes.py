@@ -1,15 +1,14 @@
 import numpy as np
 import pytest
 
-from tests.support.closures import LIU_NI, under
+from tests.support.closures import LIU_NI, VECIANA, under
 from tests.support.states import random_place, random_state
 from tribodyn.dynamics.contact_forces import (
+    GEAR_SPEED,
     NORMAL_LOAD,
-    SEEN_CURVATURE,
-    SEEN_ENTRAINMENT,
-    SEEN_LOAD,
-    SEEN_SLIDING,
-    WORSE,
+    PINION_SPEED,
+    RELATIVE_VELOCITY,
+    SLIDING,
     contact_forces,
 )
 from tribodyn.dynamics.equations import locate
@@ -21,7 +20,6 @@ from tribodyn.dynamics.extremes import (
     ERROR_UP,
     EXTREME,
     EXTREMES,
-    FARTHEST,
     FILM,
     FORCE,
     LOAD,
@@ -32,10 +30,17 @@ from tribodyn.dynamics.extremes import (
     OF_MESH,
     OF_PAIR,
     PRESSURE,
+    RATE,
+    ROOM,
     ROWS,
+    SEEN,
+    SEEN_LOAD,
+    SEEN_SLIDING,
     START,
-    STEEPEST,
     TEMPERATURE,
+    THICK,
+    THINNER,
+    alike,
     extreme_of,
     measure,
     measure_end,
@@ -48,12 +53,14 @@ from tribodyn.dynamics.extremes import (
 )
 from tribodyn.dynamics.outputs import outputs, outputs_with_extremes
 from tribodyn.dynamics.parameters import STATES, XI
-from tribodyn.solve.extreme_search import UNKNOWN, promising, rate_of
+from tribodyn.solve.extreme_search import UNKNOWN, begin_rates, promising, rate_of
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.right_hand_side import work_array
 from tribodyn.tribology.contact import local_contact
-from tribodyn.tribology.film import FILM_LAWS
-from tribodyn.tribology.surface_state import surface_extremes
+from tribodyn.tribology.film import FILM_LAWS, film_law
+from tribodyn.tribology.friction import FRICTION_LAWS
+from tribodyn.tribology.law import FARTHEST, MOST_SLIDING, Worse, steepness_not_stated
+from tribodyn.tribology.surface_state import film_and_temperature
 
 OVERRIDES = [
     {},
@@ -88,15 +95,18 @@ def test_measures_are_what_is_recorded(overrides, prepared, rng):
             for row, sign, name in (
                 (LOAD, 1, "normal_load"),
                 (FILM, -1, "central_film_thickness"),
-                (PRESSURE, 1, "hertz_pressure"),
                 (TEMPERATURE, 1, "flash_temperature_rise"),
             ):
                 np.testing.assert_allclose(sign * found[first + row], recorded[name][pair], rtol=1e-12)
+            squared = found[first + PRESSURE] * model.surfaces.effective_modulus / (2.0 * np.pi)
+            np.testing.assert_allclose(np.sqrt(squared), recorded["hertz_pressure"][pair], rtol=1e-12)
 
 
 def test_every_measure_has_its_extreme():
     of = [extreme_of(row) for row in range(measures_of(3))]
     assert of == [*range(OF_MESH), *(3 * list(range(OF_MESH, EXTREMES)))]
+    for row, its_own in enumerate(of):
+        assert list(alike(row, len(of))) == [other for other in range(len(of)) if of[other] == its_own]
 
 
 def test_vertex_of_a_parabola_is_exact(rng):
@@ -116,15 +126,15 @@ def test_surfaces_that_are_left_out_are_not_extreme(prepared, rng):
     """From random states to others near by, with extremes that both have not reached, or only just."""
     model = prepared("crc-23-47").model
     pairs = model.table.side.shape[0]
-    surfaces = [j for j in range(OF_MESH, measures_of(pairs)) if extreme_of(j) != OF_MESH + LOAD]
+    surfaces = [OF_MESH + OF_PAIR * i + j for i in range(pairs) for j in (FILM, TEMPERATURE)]
     left_out = 0
     for above in np.geomspace(1e-3, 1.0, 40):
         measures, work, full = np.full((ROWS, measures_of(pairs)), LOWEST), work_array(model), {}
         y, (phase, segment) = random_state(rng), random_place(rng, model.table.boundary)
         contact_forces(segment, *locate(phase, segment, model.table), y, model, work)
         measure(phase, segment, y, model, work, measures[START])
-        see_surfaces(phase, segment, model, work, measures)
         measures[EXTREME] = measures[START] + above * np.abs(measures[START])
+        see_surfaces(phase, segment, model, work, measures)
         near = y * (1.0 + rng.uniform(-0.1, 0.1))
         contact_forces(segment, *locate(phase, segment, model.table), near, model, work)
         measure_end(False, phase, segment, near, model, work, measures)
@@ -136,31 +146,64 @@ def test_surfaces_that_are_left_out_are_not_extreme(prepared, rng):
     assert left_out > 20
 
 
-@pytest.mark.parametrize(
-    ("film", "friction"),
-    [(film, "coulomb") for film in FILM_LAWS if film != "solved"]
-    + [("masjedi-khonsari", name) for name in ("masjedi-khonsari", "masjedi-khonsari-veciana")],
-)
-def test_no_surface_changes_faster_than_the_search_allows(film, friction, rng):
-    """From contacts of gears to others with more load and sliding, less radius and entrainment."""
+STATED = [
+    *((film, "coulomb") for film in FILM_LAWS if film_law(film).steepness is not steepness_not_stated),
+    *(("masjedi-khonsari", friction) for friction in FRICTION_LAWS if friction.startswith("masjedi")),
+    ("masjedi-khonsari", "xu"),
+    ("masjedi-khonsari", "benedict-kelley"),
+]
+
+
+@pytest.mark.parametrize(("film", "friction"), STATED)
+@pytest.mark.parametrize("given", [LIU_NI, VECIANA], ids=["liu-ni", "veciana"])
+def test_no_law_is_steeper_than_it_says(film, friction, given, rng):
+    """From contacts of gears to others that are worse in some respects and better in others."""
+    count = 4000
     values: dict[str, float] = {"coefficient": 0.05} if friction == "coulomb" else {}
-    laws = under(friction, LIU_NI, film, **values)
+    laws = under(friction, given, film, **values)
 
-    def surfaces(load, curvature, entrainment, sliding):
+    def contact_of(load, curvature, entrainment, sliding):
         speeds = entrainment + 0.5 * sliding, entrainment - 0.5 * sliding
-        contact = local_contact(load, curvature, entrainment, sliding, *speeds)
-        thickness, pressure, temperature = surface_extremes(contact, *laws)
-        return {FILM: -thickness, PRESSURE: pressure, TEMPERATURE: temperature}
+        return local_contact(load, curvature, entrainment, sliding, *speeds)
 
-    low, high = np.log([1e3, 10.0, 0.05, 1e-3]), np.log([2e6, 400.0, 20.0, 1.0])
-    contact = np.exp(rng.uniform(low, high, (2000, 4)).T)
-    contact[3] *= contact[2]
-    worse = rng.dirichlet(np.ones(4), 2000).T * rng.uniform(0.0, FARTHEST, 2000)
-    before = surfaces(*contact)
-    after = surfaces(*(contact * (1.0 + worse * np.array([[1.0], [1.0], [-1.0], [1.0]]))))
-    for measured, value in before.items():
-        most = value + STEEPEST[measured] * np.sum(worse, axis=0) * np.abs(value)
-        assert np.all(after[measured] <= most * (1.0 + 1e-12 * np.sign(most))), measured
+    low, high = np.log([1e3, 10.0, 0.05, 1e-6]), np.log([2e6, 400.0, 20.0, MOST_SLIDING])
+    load, curvature, entrainment, ratio = np.exp(rng.uniform(low, high, (count, 4)).T)
+    sliding = ratio * entrainment
+    # shares by which load, curvature and entrainment are worse; sliding by any
+    worse = rng.dirichlet(np.full(3, 0.5), count).T * rng.uniform(0.0, FARTHEST, count)
+    faster = np.exp(rng.uniform(0.0, np.log(MOST_SLIDING / ratio))) - 1.0
+    up_or_down = rng.choice([-1.0, 1.0], (3, count))
+    up_or_down[0] = 1.0
+    factors = np.append(1.0 + up_or_down * worse, [1.0 + faster], axis=0)
+    better = np.exp(-rng.exponential(0.5, (4, count)))
+    is_better = rng.random((4, count)) < 0.3
+    is_better[1:3] = False  # more or less curvature or entrainment: either is worse
+    factors = np.where(is_better, better, factors)
+    worse, faster = np.where(is_better[:3], 0.0, worse), np.where(is_better[3], 0.0, faster)
+    after = np.array([load, curvature, entrainment, sliding]) * factors
+    holds = after[3] <= MOST_SLIDING * after[2]
+    assert np.mean(holds) > 0.5
+    contact_before, contact = contact_of(load, curvature, entrainment, sliding), contact_of(*after)
+    thickness, temperature = film_and_temperature(contact_before, *laws)
+    thin, warm = film_and_temperature(contact, *laws)
+    no = np.zeros(count)
+    for before, now, of in ((-thickness, -thin, laws.film), (temperature, warm, laws.friction)):
+        steepness, unchanged = of.functions.steepness, Worse(no, no, no, no)
+        most = steepness(Worse(*worse, faster), contact, laws.surfaces, of.parameters)
+        stated = steepness(unchanged, contact_before, laws.surfaces, of.parameters) < np.inf
+        known = holds & stated & np.isfinite(most)
+        change = ((now - before)[known]) / np.abs(before[known])
+        assert np.all(change <= most[known] + 1e-9)
+        assert np.max(change) > 0.1
+        assert np.mean(known) > 0.1
+
+
+def test_a_law_that_says_no_steepness_is_evaluated_at_every_step(prepared):
+    model, measures, work, y, place = loaded_search(prepared)
+    friction = model.options.friction._replace(steepness=steepness_not_stated)
+    model = model._replace(options=model.options._replace(friction=friction))
+    measure_end(False, *place, y, model, work, measures)
+    assert np.all(measures[END] == measures[START])
 
 
 def test_a_step_is_looked_into_where_a_parabola_passes_the_extreme(rng):
@@ -177,62 +220,92 @@ def test_a_step_is_looked_into_where_a_parabola_passes_the_extreme(rng):
     assert looked > 20
 
 
-def loaded_search(prepared):
+def loaded_search(prepared, **overrides):
     """A model at rest in its static equilibrium, and a search that has just begun there; phase, segment."""
-    model = prepared("crc-23-47").model
+    model = prepared("crc-23-47", **overrides).model
     measures, work = np.full((ROWS, measures_of(2)), LOWEST), work_array(model)
     y, place = static_equilibrium(model), (0.3 * float(model.table.boundary[1]), 0)
     contact_forces(place[1], *locate(*place, model.table), y, model, work)
     measure(*place, y, model, work, measures[START])
-    see_surfaces(*place, model, work, measures)
     measures[EXTREME] = 1e100
+    see_surfaces(*place, model, work, measures)
     return model, measures, work, y, place
 
 
+def of_both(measures, row, column):
+    """What a row has in a column of both pairs, as a view."""
+    return measures[row, OF_MESH:].reshape(2, OF_PAIR)[:, column]
+
+
 def test_a_contact_is_worse_by_load_curvature_entrainment_and_sliding(prepared):
-    """By what has grown or, of entrainment, fallen, over what it was; the better counts nothing."""
+    """By what has changed for the worse, over what it was; the better counts nothing."""
     model, measures, work, y, place = loaded_search(prepared)
+
+    def steepness(worse, contact, surfaces, parameters):
+        return np.array([3.0, 0.5, 0.7, 0.1]) @ worse
+
+    film = model.options.film._replace(steepness=steepness)
+    model = model._replace(options=model.options._replace(film=film))
     carrying = np.flatnonzero(work[NORMAL_LOAD] > 0.0)
-    rows = [SEEN_LOAD, SEEN_CURVATURE, SEEN_ENTRAINMENT, SEEN_SLIDING]
-    seen = work[rows].copy()
-    assert work[WORSE, carrying] == pytest.approx(0.0, abs=1e-14)
-    for factors, worse in (
-        ([1.1, 1.0, 1.0, 1.0], 0.1),
-        ([1.0, 1.05, 1.0, 1.0], 0.05),
-        ([1.0, 1.0, 0.8, 1.0], 0.2),
-        ([1.0, 1.0, 1.0, 1.3], 0.3),
-        ([1.1, 1.05, 0.8, 1.3], 0.65),
-        ([0.5, 0.5, 2.0, 0.5], 0.0),
+    before = measures.copy()
+    for factors, thinner in (
+        ([1.1, 1.0, 1.0, 1.0], 0.3),
+        ([1.0, 1.05, 1.0, 1.0], 0.025),
+        ([1.0, 0.95, 1.0, 1.0], 0.025),
+        ([1.0, 1.0, 0.8, 1.0], 0.14),
+        ([1.0, 1.0, 1.2, 1.0], 0.14),
+        ([1.0, 1.0, 1.0, 4.0], 0.3),
+        ([1.1, 1.1, 1.1, 1.1], 0.43),
+        ([0.5, 1.0, 1.0, 0.5], 0.0),
+        ([1.6, 1.0, 1.0, 1.0], None),
+        ([1.0, 1.6, 1.0, 1.0], None),
+        ([1.0, 1.0, 0.4, 1.0], None),
+        ([1.2, 1.2, 0.8, 1.0], None),
     ):
-        work[rows] = seen * np.array(factors)[:, None]
-        measures[EXTREME] = 1e100
-        work[WORSE] = worse  # as in the step before
+        measures[:] = before
+        measures[SEEN, OF_MESH:] *= np.tile(factors, 2)
         measure_end(False, *place, y, model, work, measures)
         left_out = measures[END, OF_MESH + FILM] == LOWEST
-        assert left_out == (worse < FARTHEST)
+        assert left_out == (thinner is not None), factors
         if left_out:
-            assert work[WORSE, carrying] == pytest.approx(worse, abs=1e-12)
+            assert of_both(measures, ROOM, THINNER)[carrying] == pytest.approx(thinner, abs=1e-12)
+
+
+def test_a_contact_that_slides_far_is_evaluated(prepared):
+    """There no law is bound by its steepness."""
+    model, measures, work, y, place = loaded_search(prepared)
+    for most, left_out in ((0.999, True), (1.001, False)):
+        speed = work[PINION_SPEED] + work[GEAR_SPEED]
+        work[SLIDING] = work[RELATIVE_VELOCITY] = most * MOST_SLIDING * 0.5 * np.abs(speed)
+        measures[SEEN, OF_MESH + SEEN_SLIDING :: OF_PAIR] = 1e-3
+        measure_end(False, *place, y, model, work, measures)
+        assert (measures[END, OF_MESH + FILM] == LOWEST) == left_out
 
 
 def test_another_change_as_large_as_the_last_is_allowed_for(prepared):
     model, measures, work, y, place = loaded_search(prepared)
-    work[SEEN_LOAD] *= 1.0 + 0.6 * FARTHEST
-    before = work.copy()
-    for worse, left_out in ((0.6 * FARTHEST, True), (0.0, False)):
-        work[:] = before
-        work[WORSE] = worse
+    seen, room = of_both(measures, SEEN, SEEN_LOAD), of_both(measures, ROOM, THICK)
+    seen *= 1.2
+    no = np.zeros(3)
+    change = model.options.film.steepness(Worse(0.2, *no), None, model.surfaces, model.film)
+    room[:] = 1.5 * change
+    before = measures.copy()
+    for thinner, left_out in ((change, True), (0.6 * change, True), (0.4 * change, False), (0.0, False)):
+        measures[:] = before
+        of_both(measures, ROOM, THINNER)[:] = thinner
         measure_end(False, *place, y, model, work, measures)
         assert (measures[END, OF_MESH + FILM] == LOWEST) == left_out
-    assert work[WORSE, 0] == 0.0  # it has been evaluated
-    assert 1.0 / work[SEEN_LOAD, 0] == pytest.approx(1.0 / before[SEEN_LOAD, 0] * (1.0 + 0.6 * FARTHEST))
+    assert of_both(measures, ROOM, THINNER)[0] == 0.0  # it has been evaluated
+    assert 1.2 * seen[0] == pytest.approx(before[SEEN, OF_MESH + SEEN_LOAD])
 
 
 @pytest.mark.parametrize("near", [0, 1])
 def test_each_pair_is_measured_where_its_own_surfaces_are_near(near, prepared):
     model, measures, work, y, place = loaded_search(prepared)
-    surfaces = [[OF_MESH + OF_PAIR * i + j for j in (FILM, PRESSURE, TEMPERATURE)] for i in range(2)]
+    surfaces = [[OF_MESH + OF_PAIR * i + j for j in (FILM, TEMPERATURE)] for i in range(2)]
     measures[EXTREME, surfaces[near]] = measures[START, surfaces[near]]
-    work[SEEN_LOAD] *= 1.01
+    see_surfaces(*place, model, work, measures)
+    of_both(measures, SEEN, SEEN_LOAD)[:] *= 1.01
     measure_end(False, *place, y, model, work, measures)
     assert np.all(measures[END, surfaces[near]] == measures[START, surfaces[near]])
     assert np.all(measures[END, surfaces[1 - near]] == LOWEST)
@@ -240,7 +313,7 @@ def test_each_pair_is_measured_where_its_own_surfaces_are_near(near, prepared):
 
 def test_inside_a_step_surfaces_are_measured_where_both_ends_are(prepared):
     model, measures, work, y, place = loaded_search(prepared)
-    surfaces = [OF_MESH + OF_PAIR * i + j for i in range(2) for j in (FILM, PRESSURE, TEMPERATURE)]
+    surfaces = [OF_MESH + OF_PAIR * i + j for i in range(2) for j in (FILM, TEMPERATURE)]
     measures[END] = measures[START]
     measure_inside(False, MIDDLE, *place, y, model, work, measures)
     np.testing.assert_array_equal(measures[MIDDLE], measures[START])
@@ -249,7 +322,7 @@ def test_inside_a_step_surfaces_are_measured_where_both_ends_are(prepared):
         measures[row, OF_MESH + OF_PAIR + FILM] = LOWEST
         measure_inside(False, MIDDLE, *place, y, model, work, measures)
         known = measures[MIDDLE, surfaces] > LOWEST
-        np.testing.assert_array_equal(known, [True] * 3 + [False] * 3)
+        np.testing.assert_array_equal(known, [True] * 2 + [False] * 2)
         measures[:] = kept
 
 
@@ -267,6 +340,19 @@ def test_a_parabola_of_twice_the_bend_decides(rng):
 def test_a_rate_is_known_where_both_ends_are():
     assert rate_of(1.0, 3.0, 10.0) == 20.0
     assert rate_of(LOWEST, 3.0, 10.0) == rate_of(1.0, LOWEST, 10.0) == UNKNOWN
+
+
+def test_at_the_start_of_a_segment_measures_are_as_fast_as_any_alike_were():
+    """Twice that, of the slots of pairs together; unknown where nothing has been found yet."""
+    measures, extreme = np.zeros((ROWS, measures_of(2))), np.zeros(EXTREMES)
+    first, second = OF_MESH + LOAD, OF_MESH + OF_PAIR + LOAD
+    extreme[FORCE] = LOWEST
+    measures[RATE, [ERROR_UP, FORCE, first, second]] = [-3.0, 5.0, UNKNOWN, -2.0]
+    measures[RATE, [first + FILM, second + FILM]] = UNKNOWN
+    begin_rates(measures, extreme, measures.shape[1])
+    assert measures[RATE, [ERROR_UP, ERROR_DOWN, FORCE]].tolist() == [6.0, 0.0, UNKNOWN]
+    assert measures[RATE, [first, second]].tolist() == [4.0, 4.0]
+    assert measures[RATE, [first + FILM, second + FILM]].tolist() == [UNKNOWN, UNKNOWN]
 
 
 def test_nothing_is_looked_into_where_an_end_is_not_known():

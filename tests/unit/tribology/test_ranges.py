@@ -8,7 +8,6 @@ from tribodyn.tribology.contact import local_contact
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.film.masjedi_khonsari import FITTED_RANGE
 from tribodyn.tribology.friction import FRICTION_LAWS
-from tribodyn.tribology.law import FilmFunctions
 from tribodyn.tribology.surface_state import exceeded, range_shares, surface_state
 
 
@@ -43,7 +42,7 @@ def test_a_limit_is_exceeded_by_the_actual_over_the_allowed():
 
 def test_a_law_may_say_no_more_than_whether_it_is_inside():
     laws = under("none")
-    functions = FilmFunctions(laws.film.functions.film, lambda contact, *_: contact.line_load > 1e5)
+    functions = laws.film.functions._replace(in_range=lambda contact, *_: contact.line_load > 1e5)
     plain = laws._replace(film=laws.film._replace(functions=functions))
     contact = contacts([5e4, 2e5])
     np.testing.assert_array_equal(surface_state(contact, plain).closure_in_range, [0.0, 1.0])

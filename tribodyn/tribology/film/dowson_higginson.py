@@ -58,6 +58,12 @@ def dowson_higginson(contact, surfaces, parameters):
 
 
 @law
+def steepness(worse, contact, surfaces, parameters):
+    """See `FilmLaw`: the film goes as W^−0.13, U^0.7 and curvature^−0.43."""
+    return 0.15 * worse.line_load + 0.45 * worse.curvature + 0.8 * worse.entrainment
+
+
+@law
 def in_fitted_range(contact, surfaces, parameters):
     """Shares of the dimensionless groups allowed by `FITTED_RANGE`, in the order of the law's limits."""
     modulus = surfaces.effective_modulus
@@ -76,4 +82,5 @@ LAW = FilmLaw(
     range="3e-5 ≤ W ≤ 3e-4, 1e-13 ≤ U ≤ 1e-11, 2500 ≤ G ≤ 5000 (from memory, not checked against the book)",
     thickness="minimum",
     limits=("W ≥ 3e-5", "U ≥ 1e-13", "G ≥ 2500", "W ≤ 3e-4", "U ≤ 1e-11", "G ≤ 5000"),
+    steepness=steepness,
 )

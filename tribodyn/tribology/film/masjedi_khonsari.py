@@ -103,6 +103,12 @@ def rough_film(contact, surfaces, parameters):
 
 
 @law
+def steepness(worse, contact, surfaces, parameters):
+    """See `FilmLaw`: with its rough part the film goes at most as W^−0.364, U^0.705 and curvature^−0.43."""
+    return 0.4 * worse.line_load + 0.45 * worse.curvature + 0.8 * worse.entrainment
+
+
+@law
 def in_fitted_range(contact, surfaces, parameters):
     """Shares of the dimensionless groups allowed by `FITTED_RANGE`, in the order of `LIMITS`."""
     modulus = surfaces.effective_modulus
@@ -137,6 +143,7 @@ LAW = FilmLaw(
     in_range=in_fitted_range,
     range=RANGE,
     limits=LIMITS,
+    steepness=steepness,
 )
 AS_PRINTED = FilmLaw(
     "masjedi-khonsari-as-printed",
@@ -146,4 +153,5 @@ AS_PRINTED = FilmLaw(
     in_range=in_fitted_range,
     range=RANGE,
     limits=LIMITS,
+    steepness=steepness,
 )

@@ -68,6 +68,12 @@ def moes(contact, surfaces, parameters):
 
 
 @law
+def steepness(worse, contact, surfaces, parameters):
+    """See `FilmLaw`: that of a rigid isoviscous contact, the steepest."""
+    return worse.line_load + worse.curvature + worse.entrainment
+
+
+@law
 def in_judged_range(contact, surfaces, parameters):
     """Shares of M, L and Hertz pressure allowed by `JUDGED_RANGE`, in the order of the law's limits."""
     modulus = surfaces.effective_modulus
@@ -87,4 +93,5 @@ LAW = FilmLaw(
     range="M 2 … 1000, L 1 … 25, p_H ≤ 0.8 GPa: within 25 % of the solved contact of smooth surfaces without "
     "heat, mostly above it (docs/ehl.md)",
     limits=("M ≥ 2", "L ≥ 1", "M ≤ 1000", "L ≤ 25", "p_H ≤ 0.8 GPa"),
+    steepness=steepness,
 )

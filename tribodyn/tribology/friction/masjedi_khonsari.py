@@ -11,7 +11,7 @@ from tribodyn.numerics.elementary import absolute, exp, expm1, law, log, maximum
 from tribodyn.tribology.contact import hertz_half_width
 from tribodyn.tribology.film.masjedi_khonsari import LIMITS, RANGE, in_fitted_range
 from tribodyn.tribology.flash import flash_temperature_rise
-from tribodyn.tribology.law import FrictionLaw, LawInput, film_at
+from tribodyn.tribology.law import FrictionLaw, LawInput, compounded, film_at
 from tribodyn.tribology.rheology import limiting_shear_share, log_roelands_viscosity
 
 
@@ -96,6 +96,13 @@ def heat_of_mixed_friction(contact, film, surfaces, parameters, coefficient):
 
 
 @law
+def steepness(worse, contact, surfaces, parameters):
+    """See `FrictionLaw`; with the asperity load ratios of Masjedi & Khonsari's film, or none."""
+    others = 1.2 * worse.line_load + 1.2 * worse.curvature + 2.3 * worse.entrainment
+    return compounded(others, 1.4 * worse.sliding)
+
+
+@law
 def saturated(x):
     """1 − exp(−x) for x ≥ 0. From 38 on it is 1 to the last bit, and what x is need not be waited for."""
     if skippable(x >= 38.0):
@@ -168,6 +175,7 @@ def _law(name: str, about: str, film: str = "masjedi-khonsari", **settings: Any)
         limits=LIMITS,
         flash_temperature=heat_of_mixed_friction,
         film=film,
+        steepness=steepness,
     )
 
 

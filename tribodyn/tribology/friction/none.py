@@ -16,8 +16,20 @@ def no_friction(contact, film, surfaces, parameters):
     return 0.0 * contact.sliding
 
 
+@law
+def steepness(worse, contact, surfaces, parameters):
+    """Zero: there is no heat."""
+    return 0.0 * worse.line_load
+
+
 def _none(given: LawInput) -> Any:
     return NoParameters()
 
 
-LAW = FrictionLaw("none", "frictionless flanks; the film is still reported", no_friction, _none)
+LAW = FrictionLaw(
+    "none",
+    "frictionless flanks; the film is still reported",
+    no_friction,
+    _none,
+    steepness=steepness,
+)

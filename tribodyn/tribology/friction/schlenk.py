@@ -3,7 +3,7 @@
 from tribodyn.numerics.elementary import as_float
 from tribodyn.tribology.friction.coulomb import Constant, constant, range_of_constant
 from tribodyn.tribology.friction.niemann import MAXIMUM_SPEED, mean_of_fzg_tests
-from tribodyn.tribology.law import FrictionLaw, LawInput
+from tribodyn.tribology.law import FrictionLaw, LawInput, steepness_of_heat
 from tribodyn.tribology.nominal import NominalConditions
 
 
@@ -29,4 +29,5 @@ LAW = FrictionLaw(
     in_range=range_of_constant,
     range="pitch line speed up to about 50 m/s (FZG tests of case-hardened gears)",
     limits=("pitch line speed ≤ 50 m/s",),
+    steepness=steepness_of_heat,
 )
