@@ -62,12 +62,18 @@ def judge(
     if json:
         print_json(judged.as_dict() | ({"files": [str(output)]} if output is not None else {}))
         return
-    columns = ("", "law", "compared with", "minimum", "median", "maximum", "inside its range")
+    columns = ("", "law", "compared with", "minimum", "median", "maximum", "inside its range", "judged range")
     rows = [
-        [one.what, one.law, one.against, *(f"{value:.3f}" for value in one[2:5]), _share(one.in_range)]
+        [
+            *(one.what, one.law, one.against),
+            *(f"{value:.3f}" for value in one[2:5]),
+            *(_share(one.in_range), _share(one.in_judged_range, "none")),
+        ]
         for one in found
     ]
     print_table("Law over solved contact, along the way of a pair", columns, rows)
+    ranges = [[one.what, one.law, one.range or "none stated"] for one in found]
+    print_table("Ranges of the laws", ("", "law", "range"), ranges)
     if over_map:
         head = ("", "law", "load", *(f"speed × {factor:g}" for factor in factors))
         lines = [
@@ -108,5 +114,5 @@ def _keep(judged: "Judgement", output: Path) -> None:
         raise unwritable(output, error) from None
 
 
-def _share(value: float) -> str:
-    return "not stated" if math.isnan(value) else f"{100 * value:.0f} %"
+def _share(value: float, without: str = "not stated") -> str:
+    return without if math.isnan(value) else f"{100 * value:.0f} %"

@@ -128,14 +128,12 @@ def on_methods(summary: Mapping[str, Any]) -> list[str]:
 
 
 def on_closures(summary: Mapping[str, Any]) -> list[str]:
-    """Say how much of the contact is inside the film law's fitted range, and what pressure at P means."""
+    """Say how much of the contact is inside the ranges of the laws, and what pressure at P means."""
     sentences = []
     fraction = summary.get("closure_in_range_fraction")
     if fraction is not None:
         outside = "" if fraction >= 1 else "; the rest is extrapolated, see closure_in_range"
-        sentences.append(
-            f"The film law is inside its fitted range in {_percent(fraction)} of the contact{outside}."
-        )
+        sentences.append(f"The film law is inside its range in {_percent(fraction)} of the contact{outside}.")
         sentences += exceeded(summary, "closure_exceeded", "film law")
     sentences += _other_ranges(summary)
     if summary.get("pitch_point", "regular") != "regular":
@@ -159,6 +157,7 @@ def _other_ranges(summary: Mapping[str, Any]) -> list[str]:
         sentences += exceeded(summary, "friction_exceeded", "friction law")
     elif friction is None and name not in (None, "none"):
         sentences.append(f"The friction law {name} states no range of validity.")
+    sentences += _without_judged_range(summary)
     errors = [
         f"{what} within {100 * float(summary[key]):.2g} %"
         for what, key in (("film", "film_table_error"), ("friction", "friction_table_error"))
@@ -168,6 +167,19 @@ def _other_ranges(summary: Mapping[str, Any]) -> list[str]:
         sentences.append(
             f"The table of solved contacts gives {' and '.join(errors)} of 95 % of those it was held against."
         )
+    return sentences
+
+
+def _without_judged_range(summary: Mapping[str, Any]) -> list[str]:
+    """Say how far a law is from the solved contact, where that bears it out in no range."""
+    sentences = []
+    for what in ("film", "friction"):
+        judged = summary.get(f"{what}_judged")
+        if isinstance(judged, Mapping) and not judged["limits"]:
+            sentences.append(
+                f"The {what} law {summary[f'{what}_law']} has no range by the solved contact: nine of ten "
+                f"contacts of gears have {judged['low']:.2g} to {judged['high']:.2g} times its {what}."
+            )
     return sentences
 
 

@@ -135,7 +135,9 @@ def with_laws(
 
 
 def law_figures(case: Lubricated) -> dict[str, Any]:
-    """Names of the laws in use, the ranges that they state and the errors of their tables, for a summary."""
+    """Names of the laws in use, their ranges, what the solved contact says of them (`film_judged`,
+    `friction_judged`), and the errors of their tables, for a summary.
+    """
     film, friction = laws_of(case)
     errors = {}
     if film.table_error is not None or friction.table_error is not None:
@@ -146,11 +148,20 @@ def law_figures(case: Lubricated) -> dict[str, Any]:
     return {
         "film_law": film.name,
         "film_thickness": film.thickness,
-        "film_range": film.range or "none stated",
+        "film_range": film.stated or "none stated",
         "friction_law": friction.name,
-        "friction_range": friction.range or "none stated",
+        "friction_range": friction.stated or "none stated",
+        **{f"{law.table}_judged": spread for law in (film, friction) if (spread := _spread(law))},
         **errors,
     }
+
+
+def _spread(law: FilmLaw | FrictionLaw) -> dict[str, Any]:
+    """Ratio to the solved contact at 5, 50 and 95 % of the sampled contacts, and the number of judged limits."""
+    if law.judged is None:
+        return {}
+    low, median, high = law.judged.ratio
+    return {"low": low, "median": median, "high": high, "limits": law.judged.limits}
 
 
 def exceeded_limits(case: Lubricated, closure_shares: Any, friction_shares: Any) -> dict[str, Any]:
@@ -164,8 +175,8 @@ def exceeded_limits(case: Lubricated, closure_shares: Any, friction_shares: Any)
     """
     film, friction = laws_of(case)
     found = {
-        "closure_exceeded": exceeded(closure_shares, film.limits),
-        "friction_exceeded": exceeded(friction_shares, friction.limits),
+        "closure_exceeded": exceeded(closure_shares, film.named_limits),
+        "friction_exceeded": exceeded(friction_shares, friction.named_limits),
     }
     return {name: limits for name, limits in found.items() if limits}
 
@@ -228,6 +239,11 @@ def duty_range(case: Lubricated) -> DutyRange:
         (LEAST_SLIDING, max(1.05 * float(np.max(ratio)), 2.0 * LEAST_SLIDING)),
         tuple((float(u), float(c), float(s)) for u, c, s in zip(entrainment, curvature, ratio, strict=True)),
     )
+
+
+def nominal_line_load(duty: DutyRange) -> float:
+    """Return the load of a pair that carries the whole torque alone, N/m, from the range made for it."""
+    return duty.line_load[1] / _LOADS[1]
 
 
 def nominal_conditions(case: Lubricated) -> NominalConditions:

@@ -81,6 +81,21 @@ def hertz_half_width(line_load, curvature, effective_modulus):
 
 
 @law
+def moes_numbers(contact, surfaces):
+    """Moes' M = W U_Σ^−1/2 and L = G U_Σ^1/4, U_Σ = 2 η0 u/(E' ρ), W = w'/(E' ρ), G = α_PV E'."""
+    modulus = surfaces.effective_modulus
+    sum_speed = 2.0 * contact.entrainment * contact.curvature * surfaces.inlet_viscosity / modulus
+    load = contact.line_load * contact.curvature / modulus / sqrt(sum_speed)
+    return load, surfaces.pressure_viscosity * modulus * sqrt(sqrt(sum_speed))
+
+
+@law
+def inlet_heating(contact, surfaces):
+    """η0 u², W/m: what shear heats the oil by at the inlet, K_T η0 u²/k of a contact's heat number."""
+    return surfaces.inlet_viscosity * contact.entrainment * contact.entrainment
+
+
+@law
 def hertz_pressure(line_load, curvature, effective_modulus):
     """Maximum Hertz pressure p_H = √(w' E'/(2π ρ)), Pa."""
     return sqrt(line_load * effective_modulus * curvature / (2.0 * math.pi))

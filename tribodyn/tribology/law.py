@@ -160,6 +160,23 @@ def _values_type(names: tuple[str, ...]) -> Any:
     return namedtuple("Values", names)
 
 
+class JudgedRange(NamedTuple):
+    """What the solved contact says of a law, over oils, surfaces and duties of gears (docs/ehl.md, Ranges).
+
+    Attributes
+    ----------
+    right : lowest and highest ratio of the law's value to the solved one at which it is called right
+    limits : how many of the law's limits follow from the comparison, the last ones: where these hold, nine of
+        ten contacts are right; 0: no such limits were found
+    ratio : that ratio at 5, 50 and 95 % of the sampled contacts inside these limits; where there are none,
+        inside the range of the law's authors
+    """
+
+    right: tuple[float, float]
+    ratio: tuple[float, float, float]
+    limits: int = 0
+
+
 @dataclass(frozen=True, eq=False)
 class _Law:
     """What film and friction laws have in common.
@@ -182,12 +199,15 @@ class _Law:
         least 1 inside, below 1 outside. A law without `limits` gives one number: 1.0 inside its range of
         validity, 0.0 outside, NaN where none is stated.
     limits : tuple of str
-        The limits of the range one by one, such as "U ≤ 1e-10", in the order of `in_range`.
+        The limits of the range one by one, such as "U ≤ 1e-10", in the order of `in_range`: those of the law's
+        authors, then those by the solved contact.
+    judged : JudgedRange, optional
+        What the solved contact says of the law; None: it was not compared.
     table_error : callable, optional
         (parameters) -> share by which 95 % of the values of its table deviate at most from what they stand
         for; of a law that is tabulated before a run.
     range : str
-        The range of validity in words, with its source; "" where none is stated.
+        The range of validity of the law's authors in words, with its source; "" where none is stated.
     steepness : callable
         (worse: Worse, contact: LocalContact, surfaces: Surfaces, parameters) -> share of what it was by which
         the film at most has thinned, or the flash temperature has risen, in a contact that has got so much
@@ -207,6 +227,27 @@ class _Law:
     limits: tuple[str, ...] = ()
     table_error: Callable[[Any], float] | None = None
     steepness: Callable[..., Any] = steepness_not_stated
+    judged: JudgedRange | None = None
+
+    @property
+    def stated(self) -> str:
+        """The range in words: that of the authors, then that by the solved contact; "" where none is stated."""
+        words = [self.range] if self.range else []
+        if (judged := self.judged) is not None:
+            low, high = judged.right
+            if judged.limits:
+                limits = ", ".join(self.limits[-judged.limits :])
+                words.append(f"by the solved contact: {limits} ({low:g} to {high:g} times it)")
+            else:
+                low, _, high = judged.ratio
+                words.append(f"no range by the solved contact: {low:.2g} to {high:.2g} times it")
+        return "; ".join(words)
+
+    @property
+    def named_limits(self) -> tuple[str, ...]:
+        """The limits; those by the solved contact end with "(judged)"."""
+        own = len(self.limits) - (self.judged.limits if self.judged is not None else 0)
+        return (*self.limits[:own], *(f"{limit} (judged)" for limit in self.limits[own:]))
 
     def __post_init__(self) -> None:
         for function in self.functions:

@@ -53,7 +53,7 @@ def test_figures_are_in_engineers_units(record: Record, line: list[str]):
 
 def test_it_says_how_far_to_trust_it(record: Record):
     text = printed(record)
-    assert "inside its fitted range in 93.0 % of the contact" in text
+    assert "inside its range in 93.0 % of the contact" in text
     assert "closes within 3.0e-08 of the largest work" in text
     assert "Solved by dopri5 (not stiff" in text
 
@@ -62,6 +62,16 @@ def test_a_share_short_of_all_is_never_called_all(tmp_path: Path):
     assert "99.9 % of the contact" in printed(
         failed(tmp_path / "run.h5", {"closure_in_range_fraction": 0.99999})
     )
+
+
+def test_a_law_that_no_contact_bears_out_is_said(tmp_path: Path):
+    judged = {"low": 0.42, "median": 2.2, "high": 13.6, "limits": 0}
+    summary = {"friction_law": "xu", "friction_judged": judged, "closure_in_range_fraction": 1.0}
+    text = " ".join(printed(failed(tmp_path / "run.h5", summary)).split())
+    assert "friction law xu has no range by the solved contact" in text
+    assert "0.42 to 14 times its friction" in text
+    summary["friction_judged"] = judged | {"limits": 3}
+    assert "no range by" not in printed(failed(tmp_path / "other.h5", summary))
 
 
 def test_a_failed_run_says_so(tmp_path: Path):

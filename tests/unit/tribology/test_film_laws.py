@@ -137,9 +137,9 @@ def test_ranges_are_flagged_or_said_to_be_missing():
     assert known(laws, 2e3, 100.0, 0.05, 0.0, 0.05, 0.05).closure_in_range == 0.0
 
 
-@pytest.mark.parametrize("pressure", [0.3e9, 0.5e9, 0.8e9])
+@pytest.mark.parametrize("pressure", [0.3e9, 0.5e9, 0.75e9])
 @pytest.mark.parametrize("load", [2.0, 12.0, 90.0, 300.0])
-@pytest.mark.parametrize("material", [1.0, 5.0, 25.0])
+@pytest.mark.parametrize("material", [1.0, 5.0, 15.0])
 def test_moes_within_its_range(pressure, load, material):
     """The solved contact of an oil by Roelands and Dowson & Higginson: within 25 % in the stated range."""
     contact = by_moes(load, material, pressure, 0.6, compressible=True)
@@ -154,7 +154,7 @@ def test_moes_within_its_range(pressure, load, material):
     state = known(under("none", oil, film="moes"), *given, 0.0, given[2], given[2])
     solved = solve_steady(contact).central_film_thickness
     assert 0.95 < state.central_film_thickness / solved < 1.25
-    edges = np.isin([pressure, load, material], [0.8e9, 2.0, 1.0, 25.0])
+    edges = np.isin([pressure, load, material], [0.75e9, 2.0, 1.0, 15.0])
     assert state.closure_in_range == 1.0 or np.any(edges)
 
 

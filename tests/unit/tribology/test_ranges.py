@@ -20,7 +20,7 @@ def test_laws_say_one_share_for_each_limit():
     for registry in (FILM_LAWS, FRICTION_LAWS):
         for name in registry:
             law = registry[name]
-            assert bool(law.limits) == bool(law.range), name
+            assert bool(law.limits) == bool(law.stated), name
 
 
 def test_a_limit_is_exceeded_by_the_actual_over_the_allowed():
@@ -38,6 +38,39 @@ def test_a_limit_is_exceeded_by_the_actual_over_the_allowed():
     others = [one for limit, one in found.items() if not limit.startswith("W")]
     inside = np.array([False, True, False, False]) & (not others)
     np.testing.assert_array_equal(surface_state(contact, laws).closure_in_range, inside)
+
+
+def test_limits_by_the_solved_contact_are_named():
+    """Inside the authors' range of U and W, but too hot and fast an oil: L beyond what the contact bears out."""
+    law = FILM_LAWS["moes"]
+    shares, _ = range_shares(contacts([4e5], entrainment=1e3), under("none", film="moes"))
+    found = {one["limit"]: one["factor"] for one in exceeded(shares, law.named_limits).values()}
+    assert set(found) <= {f"{limit} (judged)" for limit in law.limits}
+    laws = under("none", film="moes").surfaces
+    sum_speed = 2.0 * 1e3 * 100.0 * laws.inlet_viscosity / laws.effective_modulus
+    material = laws.pressure_viscosity * laws.effective_modulus * sum_speed**0.25
+    assert found["L ≤ 15 (judged)"] == pytest.approx(material / 15.0)
+
+
+def test_friction_in_pure_rolling_is_outside():
+    """The ratio of two coefficients that both vanish says nothing."""
+    laws = under("masjedi-khonsari")
+    rolling = local_contact(4e5, 100.0, 2.0, 0.0, 2.0, 2.0)
+    assert surface_state(rolling, laws).friction_in_range == 0.0
+    _, shares = range_shares(rolling, laws)
+    named = exceeded(np.atleast_2d(shares), FRICTION_LAWS["masjedi-khonsari"].named_limits).values()
+    assert {"limit": "Newtonian stress ≥ 0.1 Λ_lim p (judged)", "share": 1.0} in named
+
+
+def test_a_range_is_said_with_its_origin():
+    film, friction = FILM_LAWS["dowson-higginson"], FRICTION_LAWS["xu"]
+    assert film.stated.startswith(film.range)
+    assert "by the solved contact: M ≥ 2" in film.stated
+    assert friction.judged is not None
+    low, _, high = friction.judged.ratio
+    assert f"no range by the solved contact: {low:.2g} to {high:.2g} times it" in friction.stated
+    assert friction.named_limits == friction.limits
+    assert FRICTION_LAWS["coulomb"].stated == ""
 
 
 def test_a_law_may_say_no_more_than_whether_it_is_inside():

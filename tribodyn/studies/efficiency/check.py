@@ -5,6 +5,7 @@ from tribodyn.mesh.stiffness import single_pair
 from tribodyn.studies.efficiency.case import EfficiencyCase
 from tribodyn.studies.efficiency.run import prepare
 from tribodyn.studies.gears import checked
+from tribodyn.studies.law_ranges import with_laws
 from tribodyn.studies.oil import with_oil
 from tribodyn.studies.study import Checked
 
@@ -16,4 +17,4 @@ def check(case: EfficiencyCase) -> Checked:
     method = f'compliance = "{case.mesh.compliance}"'
     remark = compliance_remark(study.assembly, case.materials, case.mesh)
     gears = checked(study.assembly, case.materials, method, *pair, remark=remark)
-    return with_oil(gears, study.lubricant)
+    return with_laws(with_oil(gears, study.lubricant), case, study.duty.closure)

@@ -11,11 +11,18 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.scenario.resolve import resolve_table
 from tribodyn.scenario.spectrum import OiledOperatingTable
-from tribodyn.studies.ehl.along_path import by_laws, meant_by, prepare, seen_by, way
+from tribodyn.studies.ehl.along_path import Prepared, by_laws, meant_by, prepare, seen_by, way
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.studies.ehl.run import solve
 from tribodyn.studies.load import loaded_from, table_of
 from tribodyn.studies.study import CaseHead, Progress
+from tribodyn.tribology.closure import untried_closure_of
+from tribodyn.tribology.contact_friction import ContactFriction
+from tribodyn.tribology.data import FilmData, FrictionData
+from tribodyn.tribology.film import FILM_LAWS
+from tribodyn.tribology.friction import FRICTION_LAWS
+from tribodyn.tribology.law import FilmLaw, FrictionLaw
+from tribodyn.tribology.surface_state import range_shares
 
 Array = Any
 
@@ -46,9 +53,12 @@ class Judged(NamedTuple):
     law : its name
     minimum, median, maximum : of the ratio of the law's value to the solved one over the pair's way
     in_range : share of the way inside the range that the law states; NaN: it states none
+    in_judged_range : share of the way inside the limits by the solved contact of many oils and surfaces
+        (`law.JudgedRange`); NaN: there are none
     right : share of the way where the ratio is within `RIGHT` of 1
     map : (loads, speeds), median ratio; empty without a map
     against : which solved quantity it is compared with: what the law stands for
+    range : of the law, in words; "" where none is stated
     """
 
     what: str
@@ -57,9 +67,11 @@ class Judged(NamedTuple):
     median: float
     maximum: float
     in_range: float
+    in_judged_range: float
     right: float
     map: tuple[tuple[float, ...], ...] = ()
     against: str = ""
+    range: str = ""
 
 
 class Judgement(NamedTuple):
@@ -185,20 +197,33 @@ def _compared(case: EhlCase, progress: Progress) -> list[Judged]:
     for what, laws in by_laws(study, over).items():
         for law, values in laws.items():
             if what == "film":
-                meant = meant_by(study, over, law)
-                seen = seen_by(study, over, law, "none").surface.closure_in_range
+                meant, stated = meant_by(study, over, law), FILM_LAWS[law]
+                seen = seen_by(study, over, law, "none")
             else:
-                meant = "friction_coefficient"
-                seen = seen_by(study, over, None, law).surface.friction_in_range
+                meant, stated = "friction_coefficient", FRICTION_LAWS[law]
+                seen = seen_by(study, over, None, law)
             ratio = values / arrays[meant]
             ratio = ratio[np.isfinite(ratio)]
-            inside = float(np.mean(np.broadcast_to(np.asarray(seen, dtype=float), over.roll.shape)))
+            inside = _inside(study, seen, stated)
             low = middle = high = float("nan")
             if len(ratio):
                 low, middle, high = (float(one(ratio)) for one in (np.min, np.median, np.max))
             right = float(np.mean(np.abs(ratio - 1.0) <= RIGHT[what])) if len(ratio) else 0.0
-            found.append(Judged(what, law, low, middle, high, inside, right, against=AGAINST[meant]))
+            said = Judged(what, law, low, middle, high, *inside, right)
+            found.append(said._replace(against=AGAINST[meant], range=stated.stated))
     return found
+
+
+def _inside(study: Prepared, seen: ContactFriction, law: FilmLaw | FrictionLaw) -> tuple[float, float]:
+    """Shares of the way inside the law's range, and inside its judged limits alone; NaN: none stated."""
+    film, friction = (law.name, "none") if law.table == "film" else (None, law.name)
+    closure = untried_closure_of(replace(study.case, film=FilmData(film), friction=FrictionData(friction)))
+    shares = range_shares(seen.contact, closure)[law.table != "film"]
+    least = np.min(np.broadcast_to(shares, (*seen.radius.shape, shares.shape[-1])), axis=-1)
+    whole = float("nan") if np.all(np.isnan(least)) else float(np.mean(least >= 1.0))
+    if law.judged is None or not law.judged.limits:
+        return whole, float("nan")
+    return whole, float(np.mean(np.all(shares[..., -law.judged.limits :] >= 1.0, axis=-1)))
 
 
 def sentence(found: Sequence[Judged]) -> str:

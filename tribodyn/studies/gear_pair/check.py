@@ -5,6 +5,7 @@ from tribodyn.mesh.stiffness import single_pair
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.gears import checked
+from tribodyn.studies.law_ranges import with_laws
 from tribodyn.studies.oil import with_oil
 from tribodyn.studies.study import Checked
 
@@ -16,4 +17,4 @@ def check(case: Case) -> Checked:
     method = f'compliance = "{case.mesh.compliance}"'
     remark = compliance_remark(prepared.assembly, case.materials, case.mesh)
     gears = checked(prepared.assembly, case.materials, method, *pair, prepared.masses, remark)
-    return with_oil(gears, prepared.lubricant)
+    return with_laws(with_oil(gears, prepared.lubricant), case, prepared.model.closure)

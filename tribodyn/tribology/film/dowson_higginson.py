@@ -10,7 +10,8 @@ import math
 from typing import Any, NamedTuple
 
 from tribodyn.numerics.elementary import law, log
-from tribodyn.tribology.law import FilmLaw, LawInput
+from tribodyn.tribology.contact import hertz_pressure, inlet_heating, moes_numbers
+from tribodyn.tribology.law import FilmLaw, JudgedRange, LawInput
 
 _LOG_FACTOR = math.log(2.65)
 _U_POWER, _G_POWER, _W_POWER = 0.7, 0.54, -0.13
@@ -21,6 +22,10 @@ FITTED_RANGE = {"W": (3e-5, 3e-4), "U": (1e-13, 1e-11), "G": (2500.0, 5000.0)}
 _W_LOW, _W_HIGH = FITTED_RANGE["W"]
 _U_LOW, _U_HIGH = FITTED_RANGE["U"]
 _G_LOW, _G_HIGH = FITTED_RANGE["G"]
+#: Where the formula is within 25 % of the solved contact, heat included: Moes' M and L, Hertz pressure (Pa),
+#: η0 u² (W/m).
+JUDGED_RANGE = {"M": (2.0, 500.0), "L": (2.0, 15.0), "pressure": (0.0, 1.4e9), "heating": (0.0, 1.0)}
+(_M_LOW, _M_HIGH), (_L_LOW, _L_HIGH), (_, _P_HIGH), (_, _HEAT_HIGH) = JUDGED_RANGE.values()
 
 
 class SmoothFilm(NamedTuple):
@@ -64,13 +69,18 @@ def steepness(worse, contact, surfaces, parameters):
 
 
 @law
-def in_fitted_range(contact, surfaces, parameters):
-    """Shares of the dimensionless groups allowed by `FITTED_RANGE`, in the order of the law's limits."""
+def in_ranges(contact, surfaces, parameters):
+    """Shares allowed by `FITTED_RANGE`, then by `JUDGED_RANGE`, in the order of the law's limits."""
     modulus = surfaces.effective_modulus
     W = contact.line_load * contact.curvature / modulus
     U = surfaces.inlet_viscosity * contact.entrainment * contact.curvature / modulus
     G = surfaces.pressure_viscosity * modulus
-    return W / _W_LOW, U / _U_LOW, G / _G_LOW, _W_HIGH / W, _U_HIGH / U, _G_HIGH / G
+    load, material = moes_numbers(contact, surfaces)
+    pressure = hertz_pressure(contact.line_load, contact.curvature, modulus)
+    fitted = W / _W_LOW, U / _U_LOW, G / _G_LOW, _W_HIGH / W, _U_HIGH / U, _G_HIGH / G
+    low = load / _M_LOW, material / _L_LOW
+    high = _M_HIGH / load, _L_HIGH / material, _P_HIGH / pressure
+    return (*fitted, *low, *high, _HEAT_HIGH / inlet_heating(contact, surfaces))
 
 
 LAW = FilmLaw(
@@ -78,9 +88,13 @@ LAW = FilmLaw(
     "minimum film of smooth line contacts, Dowson & Higginson (1968)",
     dowson_higginson,
     smooth_film_of,
-    in_range=in_fitted_range,
+    in_range=in_ranges,
     range="3e-5 ≤ W ≤ 3e-4, 1e-13 ≤ U ≤ 1e-11, 2500 ≤ G ≤ 5000 (from memory, not checked against the book)",
     thickness="minimum",
-    limits=("W ≥ 3e-5", "U ≥ 1e-13", "G ≥ 2500", "W ≤ 3e-4", "U ≤ 1e-11", "G ≤ 5000"),
+    limits=(
+        *("W ≥ 3e-5", "U ≥ 1e-13", "G ≥ 2500", "W ≤ 3e-4", "U ≤ 1e-11", "G ≤ 5000"),
+        *("M ≥ 2", "L ≥ 2", "M ≤ 500", "L ≤ 15", "p_H ≤ 1.4 GPa", "η0 u² ≤ 1 W/m"),
+    ),
+    judged=JudgedRange((0.75, 1.25), (1.03, 1.09, 1.22), 6),
     steepness=steepness,
 )

@@ -9,7 +9,8 @@ from functools import partial
 from typing import Any, NamedTuple
 
 from tribodyn.numerics.elementary import exp, law, log, log1p, maximum, minimum, where
-from tribodyn.tribology.law import FilmLaw, LawInput
+from tribodyn.tribology.contact import inlet_heating, moes_numbers
+from tribodyn.tribology.law import FilmLaw, JudgedRange, LawInput
 
 #: Ranges over which the regressions were fitted: load W, speed U, material G, roughness σ/ρ, hardness V.
 #: The bounds are given from memory of the literature and have not been checked against the paper; the flags
@@ -26,6 +27,10 @@ _U_LOW, _U_HIGH = FITTED_RANGE["U"]
 _G_LOW, _G_HIGH = FITTED_RANGE["G"]
 _S_HIGH = FITTED_RANGE["roughness"][1]  # from 0
 _V_LOW, _V_HIGH = FITTED_RANGE["V"]
+#: Where the film is within 25 % of the solved contact, heat included: Moes' M and L, the factor by which the
+#: formula raises the film of smooth surfaces for their roughness, η0 u² (W/m).
+JUDGED_RANGE = {"M": (2.0, 1000.0), "L": (2.0, 20.0), "factor": (1.0, 2.0), "heating": (0.0, 3.0)}
+(_M_LOW, _M_HIGH), (_L_LOW, _L_HIGH), (_, _FACTOR_HIGH), (_, _HEAT_HIGH) = JUDGED_RANGE.values()
 
 #: Half width of the C1 blend by which the asperity load ratio is held at 1.
 CAP_WIDTH = 0.01
@@ -121,6 +126,29 @@ def in_fitted_range(contact, surfaces, parameters):
     return (*low, _W_HIGH / W, _U_HIGH / U, _G_HIGH / G, _V_HIGH / V, _S_HIGH / S)
 
 
+@law
+def roughness_factor(contact, surfaces):
+    """Factor by which the formula raises the film of smooth surfaces for their roughness."""
+    modulus = surfaces.effective_modulus
+    log_curvature = log(contact.curvature)
+    log_W = log(contact.line_load) + log_curvature - log(modulus)
+    log_U = log(surfaces.inlet_viscosity) + log(contact.entrainment) + log_curvature - log(modulus)
+    log_G, log_V = log(surfaces.pressure_viscosity) + log(modulus), log(surfaces.hardness) - log(modulus)
+    log_S = log(surfaces.roughness) + log_curvature
+    _, factor = central_film_thickness(log_W, log_U, log_G, log_S, log_V, log_curvature)
+    return factor
+
+
+@law
+def in_ranges(contact, surfaces, parameters):
+    """Shares allowed by `FITTED_RANGE`, then by `JUDGED_RANGE`, in the order of the law's limits."""
+    load, material = moes_numbers(contact, surfaces)
+    fitted = in_fitted_range(contact, surfaces, parameters)
+    low = load / _M_LOW, material / _L_LOW
+    high = _M_HIGH / load, _L_HIGH / material, _FACTOR_HIGH / roughness_factor(contact, surfaces)
+    return (*fitted, *low, *high, _HEAT_HIGH / inlet_heating(contact, surfaces))
+
+
 def rough_film_of(given: LawInput, asperity_log_factor: float = 4470.0) -> RoughFilm:
     """Return the parameters; the factor inside the logarithm of the asperity load ratio is the paper's."""
     surfaces = given.surfaces
@@ -135,14 +163,21 @@ def rough_film_of(given: LawInput, asperity_log_factor: float = 4470.0) -> Rough
     )
 
 
+JUDGED_LIMITS = (
+    *("M ≥ 2", "L ≥ 2", "M ≤ 1000", "L ≤ 20", "roughness factor of the film ≤ 2", "η0 u² ≤ 3 W/m"),
+)
+#: Of the film, which is the same with the misprint.
+JUDGED = JudgedRange((0.75, 1.25), (0.942, 1.0, 1.15), len(JUDGED_LIMITS))
+
 LAW = FilmLaw(
     "masjedi-khonsari",
     "central film and asperity load of rough line contacts, Masjedi & Khonsari (2012)",
     rough_film,
     rough_film_of,
-    in_range=in_fitted_range,
+    in_range=in_ranges,
     range=RANGE,
-    limits=LIMITS,
+    limits=(*LIMITS, *JUDGED_LIMITS),
+    judged=JUDGED,
     steepness=steepness,
 )
 AS_PRINTED = FilmLaw(
@@ -150,8 +185,9 @@ AS_PRINTED = FilmLaw(
     "the same with Liu & Ni's misprint in the asperity load, 447 for 4470",
     rough_film,
     partial(rough_film_of, asperity_log_factor=447.0),
-    in_range=in_fitted_range,
+    in_range=in_ranges,
     range=RANGE,
-    limits=LIMITS,
+    limits=(*LIMITS, *JUDGED_LIMITS),
+    judged=JUDGED,
     steepness=steepness,
 )

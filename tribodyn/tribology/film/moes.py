@@ -17,18 +17,19 @@ the line of centres, which makes Martin's 2.449/M of it 3/M.
 
 import math
 
-from tribodyn.numerics.elementary import absolute, exp, law, log, log1p, maximum, minimum, sqrt
-from tribodyn.tribology.contact import hertz_pressure
+from tribodyn.numerics.elementary import absolute, exp, law, log, log1p, maximum, minimum
+from tribodyn.tribology.contact import hertz_pressure, inlet_heating, moes_numbers
 from tribodyn.tribology.film.dowson_higginson import smooth_film_of
-from tribodyn.tribology.law import FilmLaw
+from tribodyn.tribology.law import FilmLaw, JudgedRange
 
 _LOG_RI, _LOG_RP = math.log(3.0), math.log(1.287)
 _LOG_EI, _LOG_EP = math.log(2.621), math.log(1.311)
 _LOG_2 = math.log(2.0)
-#: Where the formula is within 25 % of the solved contact of a compressible oil: M, L, Hertz pressure (Pa). It
-#: knows no compressibility, and lies above the solved film by about the relative density at the pressure.
-JUDGED_RANGE = {"M": (2.0, 1000.0), "L": (1.0, 25.0), "pressure": (0.0, 0.8e9)}
-(_M_LOW, _M_HIGH), (_L_LOW, _L_HIGH), (_, _P_HIGH) = JUDGED_RANGE.values()
+#: Where the formula is within 25 % of the solved contact of a compressible oil, heat included: M, L, Hertz
+#: pressure (Pa), η0 u² (W/m). It knows no compressibility, and lies above the solved film by about the
+#: relative density.
+JUDGED_RANGE = {"M": (2.0, 1000.0), "L": (1.0, 15.0), "pressure": (0.0, 0.75e9), "heating": (0.0, 1.0)}
+(_M_LOW, _M_HIGH), (_L_LOW, _L_HIGH), (_, _P_HIGH), (_, _HEAT_HIGH) = JUDGED_RANGE.values()
 
 
 @law
@@ -75,13 +76,12 @@ def steepness(worse, contact, surfaces, parameters):
 
 @law
 def in_judged_range(contact, surfaces, parameters):
-    """Shares of M, L and Hertz pressure allowed by `JUDGED_RANGE`, in the order of the law's limits."""
-    modulus = surfaces.effective_modulus
-    sum_speed = 2.0 * contact.entrainment * contact.curvature * surfaces.inlet_viscosity / modulus
-    load = contact.line_load * contact.curvature / modulus / sqrt(sum_speed)
-    material = surfaces.pressure_viscosity * modulus * sqrt(sqrt(sum_speed))
-    pressure = hertz_pressure(contact.line_load, contact.curvature, modulus)
-    return load / _M_LOW, material / _L_LOW, _M_HIGH / load, _L_HIGH / material, _P_HIGH / pressure
+    """Shares of M, L, pressure and heat allowed by `JUDGED_RANGE`, in the order of the law's limits."""
+    load, material = moes_numbers(contact, surfaces)
+    pressure = hertz_pressure(contact.line_load, contact.curvature, surfaces.effective_modulus)
+    heating = _HEAT_HIGH / inlet_heating(contact, surfaces)
+    low = load / _M_LOW, material / _L_LOW
+    return (*low, _M_HIGH / load, _L_HIGH / material, _P_HIGH / pressure, heating)
 
 
 LAW = FilmLaw(
@@ -90,8 +90,7 @@ LAW = FilmLaw(
     moes,
     smooth_film_of,
     in_range=in_judged_range,
-    range="M 2 … 1000, L 1 … 25, p_H ≤ 0.8 GPa: within 25 % of the solved contact of smooth surfaces without "
-    "heat, mostly above it (docs/ehl.md)",
-    limits=("M ≥ 2", "L ≥ 1", "M ≤ 1000", "L ≤ 25", "p_H ≤ 0.8 GPa"),
+    limits=("M ≥ 2", "L ≥ 1", "M ≤ 1000", "L ≤ 15", "p_H ≤ 0.75 GPa", "η0 u² ≤ 1 W/m"),
+    judged=JudgedRange((0.75, 1.25), (1.11, 1.17, 1.23), 6),
     steepness=steepness,
 )

@@ -4,7 +4,7 @@ import math
 
 from tribodyn.numerics.elementary import absolute, exp, law, log, maximum, where
 from tribodyn.tribology.friction.none import NoParameters
-from tribodyn.tribology.law import FrictionLaw, LawInput, compounded
+from tribodyn.tribology.law import FrictionLaw, JudgedRange, LawInput, compounded
 
 LN10 = 2.302585092994046
 
@@ -96,4 +96,5 @@ LAW = FrictionLaw(
         "Ra ≤ 0.75 µm",
         "29700 w/(η |v_s| V_Σ²) ≥ 1 (coefficient above zero)",
     ),
+    judged=JudgedRange((0.5, 2.0), (1.02, 3.87, 25.0)),
 )

@@ -8,11 +8,17 @@ from functools import partial
 from typing import Any, NamedTuple
 
 from tribodyn.numerics.elementary import absolute, exp, expm1, law, log, maximum, minimum, skippable
-from tribodyn.tribology.contact import hertz_half_width
+from tribodyn.tribology.contact import hertz_half_width, moes_numbers
 from tribodyn.tribology.film.masjedi_khonsari import LIMITS, RANGE, in_fitted_range
 from tribodyn.tribology.flash import flash_temperature_rise
-from tribodyn.tribology.law import FrictionLaw, LawInput, compounded, film_at
+from tribodyn.tribology.law import FrictionLaw, JudgedRange, LawInput, compounded, film_at
 from tribodyn.tribology.rheology import limiting_shear_share, log_roelands_viscosity
+
+#: Where friction is within a factor of 2 of the solved contact: Moes' L, and the stress η |v_s|/h_c of a
+#: Newtonian film by the law over Λ_lim p. Below that the solved film shears more easily than the law's.
+JUDGED_RANGE = {"L": (2.0, 15.0), "stress": 0.1}
+(_L_LOW, _L_HIGH), _STRESS_LOW = JUDGED_RANGE.values()
+JUDGED_LIMITS = "L ≥ 2", "L ≤ 15", "Newtonian stress ≥ 0.1 Λ_lim p"
 
 
 class MixedFriction(NamedTuple):
@@ -47,8 +53,8 @@ class MixedFriction(NamedTuple):
 
 
 @law
-def mixed_friction(contact, film, surfaces, parameters):
-    """Friction coefficient μ = λ f_c + (τ_lim/p) [1 − exp(−η |v_s|/(τ_lim h_c))] of a local contact."""
+def sheared(contact, film, surfaces, parameters):
+    """Share λ of the asperities, τ_lim/p, and the stress over its limit, η |v_s|/(τ_lim h_c)."""
     log_smooth, rough, share = film_at(film, contact, surfaces)
     sliding = absolute(contact.sliding)
     half_width = hertz_half_width(contact.line_load, contact.curvature, surfaces.effective_modulus)
@@ -65,7 +71,13 @@ def mixed_friction(contact, film, surfaces, parameters):
     )
     # where asperities carry everything the fluid has no shear limit left, and no weight either
     per_viscosity = sliding / (maximum(shear_share * pressure, 1.0) * rough)
-    newtonian = minimum(exp(log_viscosity - log_smooth) * per_viscosity, 600.0)
+    return share, shear_share, minimum(exp(log_viscosity - log_smooth) * per_viscosity, 600.0)
+
+
+@law
+def mixed_friction(contact, film, surfaces, parameters):
+    """Friction coefficient μ = λ f_c + (τ_lim/p) [1 − exp(−η |v_s|/(τ_lim h_c))] of a local contact."""
+    share, shear_share, newtonian = sheared(contact, film, surfaces, parameters)
     return parameters.asperity_friction * share + shear_share * saturated(newtonian)
 
 
@@ -122,6 +134,16 @@ def in_range_of_film(contact, film, surfaces, parameters):
     return in_fitted_range(contact, surfaces, parameters)
 
 
+@law
+def in_ranges(contact, film, surfaces, parameters):
+    """Shares allowed by the fitted range of the film, then by `JUDGED_RANGE`."""
+    fitted = in_fitted_range(contact, surfaces, parameters)
+    _, material = moes_numbers(contact, surfaces)
+    _, shear_share, over_limit = sheared(contact, film, surfaces, parameters)
+    stress = over_limit * shear_share / parameters.limiting_shear_coefficient
+    return (*fitted, material / _L_LOW, _L_HIGH / material, stress / _STRESS_LOW)
+
+
 def _mixed(
     given: LawInput,
     limiting_share: float = 1.0,
@@ -164,36 +186,55 @@ def _mixed(
     )
 
 
-def _law(name: str, about: str, film: str = "masjedi-khonsari", **settings: Any) -> FrictionLaw:
+def _law(
+    name: str,
+    about: str,
+    ratio: tuple[float, float, float],
+    film: str = "masjedi-khonsari",
+    ranged: bool = True,
+    **settings: Any,
+) -> FrictionLaw:
+    """Return a variant with its ratio to the solved contact; `ranged`: it is right in `JUDGED_RANGE`."""
+    judged = JUDGED_LIMITS if ranged else ()
     return FrictionLaw(
         name,
         about,
         mixed_friction,
         partial(_mixed, **settings),
-        in_range=in_range_of_film,
+        in_range=in_ranges if ranged else in_range_of_film,
         range=f"that of its film: {RANGE}",
-        limits=LIMITS,
+        limits=(*LIMITS, *judged),
+        judged=JudgedRange((0.5, 2.0), ratio, len(judged)),
         flash_temperature=heat_of_mixed_friction,
         film=film,
         steepness=steepness,
     )
 
 
-LAW = _law("masjedi-khonsari", "mixed elastohydrodynamic line contact, Masjedi & Khonsari (2012, 2015)")
+LAW = _law(
+    "masjedi-khonsari",
+    "mixed elastohydrodynamic line contact, Masjedi & Khonsari (2012, 2015)",
+    (0.738, 1.01, 1.39),
+)
 MEAN_PRESSURE = _law(
     "masjedi-khonsari-mean-pressure",
     "the same, limiting shear stress from the whole mean pressure instead of the fluid's share",
+    (0.744, 1.02, 1.52),
     limiting_share=0.0,
 )
 AS_PRINTED = _law(
     "masjedi-khonsari-as-printed",
     "the same with Liu & Ni's misprints: 447 for 4470, Péclet numbers without ρ c_p",
+    (0.125, 1.01, 3.01),
+    ranged=False,
     film="masjedi-khonsari-as-printed",
     heat_capacity=False,
 )
 VECIANA = _law(
     "masjedi-khonsari-veciana",
     "the same as Veciana et al. print it: Péclet numbers of sliding speed and lubricant density",
+    (0.445, 1.02, 3.79),
+    ranged=False,
     lubricant_heat=True,
     peclet_sliding=1.0,
 )
@@ -201,6 +242,7 @@ VECIANA_PEAK = _law(
     "masjedi-khonsari-veciana-peak",
     "the reading that meets Veciana's crossover: Roelands' law at the maximum pressure, "
     "each surface's own speed and the lubricant's density in the Péclet numbers",
+    (0.876, 1.13, 2.14),
     lubricant_heat=True,
     viscosity_pressure_factor=4.0 / math.pi,
 )

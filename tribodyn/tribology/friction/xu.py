@@ -5,7 +5,7 @@ import math
 from tribodyn.numerics.elementary import absolute, exp, law, log, maximum, minimum, where
 from tribodyn.tribology.contact import hertz_pressure
 from tribodyn.tribology.friction.none import NoParameters
-from tribodyn.tribology.law import FrictionLaw, LawInput, compounded
+from tribodyn.tribology.law import FrictionLaw, JudgedRange, LawInput, compounded
 
 LN10 = 2.302585092994046
 
@@ -110,4 +110,5 @@ LAW = FrictionLaw(
     "(from memory of the dissertation)",
     steepness=steepness,
     limits=("p_H ≥ 0.5 GPa", "p_H ≤ 2.5 GPa", "slide-to-roll ratio ≤ 1", "roughness ≤ 1 µm"),
+    judged=JudgedRange((0.5, 2.0), (0.656, 1.94, 14.3)),
 )
