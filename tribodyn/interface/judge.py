@@ -26,9 +26,10 @@ class LawsJudged:
     laws : dict
         (what, law) to its ratios to the solved contact along the way of a pair: ("film", "moes"), with
         `minimum`, `median`, `maximum`, `in_range` (share of the way inside the range that the law states;
-        NaN: it states none), `in_judged_range` (share inside the limits that follow from the solved contact of
-        many oils and surfaces; NaN: there are none), `range` (in words), `right` (share where it is within 10 % of the film, 25 % of the friction),
-        `against` (which solved quantity) and `map` (medians, loads by speeds).
+        NaN: it states none), `in_judged_range` (share inside the limits that follow from the solved
+        contact of many oils and surfaces; NaN: there are none), `range` (in words), `right` (share where it
+        is within 10 % of the film, 25 % of the friction), `against` (which solved quantity) and `map`
+        (medians, loads by speeds).
     load_factors, speed_factors : tuple of float
         On torque and speed, of the map.
     said : str

@@ -135,8 +135,9 @@ def with_laws(
 
 
 def law_figures(case: Lubricated) -> dict[str, Any]:
-    """Names of the laws in use, their ranges, what the solved contact says of them (`film_judged`,
-    `friction_judged`), and the errors of their tables, for a summary.
+    """Names of the laws in use, their ranges and the errors of their tables, for a summary.
+
+    `film_judged` and `friction_judged`: their ratios to the solved contact, where they were compared.
     """
     film, friction = laws_of(case)
     errors = {}
@@ -157,7 +158,7 @@ def law_figures(case: Lubricated) -> dict[str, Any]:
 
 
 def _spread(law: FilmLaw | FrictionLaw) -> dict[str, Any]:
-    """Ratio to the solved contact at 5, 50 and 95 % of the sampled contacts, and the number of judged limits."""
+    """5, 50 and 95 % of the ratio to the solved contact, and the number of judged limits."""
     if law.judged is None:
         return {}
     low, median, high = law.judged.ratio

@@ -199,8 +199,8 @@ class _Law:
         least 1 inside, below 1 outside. A law without `limits` gives one number: 1.0 inside its range of
         validity, 0.0 outside, NaN where none is stated.
     limits : tuple of str
-        The limits of the range one by one, such as "U ≤ 1e-10", in the order of `in_range`: those of the law's
-        authors, then those by the solved contact.
+        The limits of the range one by one, such as "U ≤ 1e-10", in the order of `in_range`: those of the
+        law's authors, then those by the solved contact.
     judged : JudgedRange, optional
         What the solved contact says of the law; None: it was not compared.
     table_error : callable, optional
@@ -231,7 +231,7 @@ class _Law:
 
     @property
     def stated(self) -> str:
-        """The range in words: that of the authors, then that by the solved contact; "" where none is stated."""
+        """The range in words, of the authors, then by the solved contact; "" where none is stated."""
         words = [self.range] if self.range else []
         if (judged := self.judged) is not None:
             low, high = judged.right

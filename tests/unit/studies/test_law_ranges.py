@@ -12,9 +12,8 @@ from tribodyn.tribology.law import FrictionLaw
 
 
 def checked(**changes: str) -> Checked:
-    return check(
-        load_scenario("involute-23-47", {name.replace("__", "."): one for name, one in changes.items()})
-    )
+    settings = {name.replace("__", "."): value for name, value in changes.items()}
+    return check(load_scenario("involute-23-47", settings))
 
 
 def test_it_says_which_limits_the_duty_exceeds():
@@ -26,7 +25,8 @@ def test_it_says_which_limits_the_duty_exceeds():
     ]
     assert factors[1]["W ≤ 5e-4"] == pytest.approx(2.0 * factors[0]["W ≤ 5e-4"])
     said = [remark for remark in heavy.remarks if remark.startswith("Limits of the film law exceeded")]
-    assert len(said) == 1 and "W ≤ 5e-4" in said[0]
+    assert len(said) == 1
+    assert "W ≤ 5e-4" in said[0]
 
 
 def test_a_law_without_range_by_the_solved_contact_says_how_far_it_is_off():
@@ -48,4 +48,4 @@ def test_a_law_of_ones_own_has_none():
     mine = FrictionLaw("a-tenth", "always 0.1", a_tenth)
     laws = check(with_laws(load_scenario("involute-23-47"), friction=mine)).data["laws"]
     assert laws["friction_range"] == "none stated"
-    assert "friction_judged" not in laws and "friction_exceeded" not in laws
+    assert not {"friction_judged", "friction_exceeded"} & set(laws)

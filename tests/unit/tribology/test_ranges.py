@@ -41,7 +41,7 @@ def test_a_limit_is_exceeded_by_the_actual_over_the_allowed():
 
 
 def test_limits_by_the_solved_contact_are_named():
-    """Inside the authors' range of U and W, but too hot and fast an oil: L beyond what the contact bears out."""
+    """So fast that L is beyond what the contact bears out, by the factor that the speed gives."""
     law = FILM_LAWS["moes"]
     shares, _ = range_shares(contacts([4e5], entrainment=1e3), under("none", film="moes"))
     found = {one["limit"]: one["factor"] for one in exceeded(shares, law.named_limits).values()}
