@@ -19,6 +19,7 @@ from tribodyn.numerics.parameter import Parameter
 from tribodyn.tribology.contact import Surfaces, hertz_half_width
 from tribodyn.tribology.duty_range import DutyRange, without_duty
 from tribodyn.tribology.flash import flash_temperature_rise
+from tribodyn.tribology.judged_range import JudgedRange
 from tribodyn.tribology.lubricant import LubricantData
 from tribodyn.tribology.nominal import NominalConditions
 
@@ -160,23 +161,6 @@ def _values_type(names: tuple[str, ...]) -> Any:
     return namedtuple("Values", names)
 
 
-class JudgedRange(NamedTuple):
-    """What the solved contact says of a law, over oils, surfaces and duties of gears (docs/ehl.md, Ranges).
-
-    Attributes
-    ----------
-    right : lowest and highest ratio of the law's value to the solved one at which it is called right
-    limits : how many of the law's limits follow from the comparison, the last ones: where these hold, nine of
-        ten contacts are right; 0: no such limits were found
-    ratio : that ratio at 5, 50 and 95 % of the sampled contacts inside these limits; where there are none,
-        inside the range of the law's authors
-    """
-
-    right: tuple[float, float]
-    ratio: tuple[float, float, float]
-    limits: int = 0
-
-
 @dataclass(frozen=True, eq=False)
 class _Law:
     """What film and friction laws have in common.
@@ -232,22 +216,13 @@ class _Law:
     @property
     def stated(self) -> str:
         """The range in words, of the authors, then by the solved contact; "" where none is stated."""
-        words = [self.range] if self.range else []
-        if (judged := self.judged) is not None:
-            low, high = judged.right
-            if judged.limits:
-                limits = ", ".join(self.limits[-judged.limits :])
-                words.append(f"by the solved contact: {limits} ({low:g} to {high:g} times it)")
-            else:
-                low, _, high = judged.ratio
-                words.append(f"no range by the solved contact: {low:.2g} to {high:.2g} times it")
-        return "; ".join(words)
+        judged = self.judged.said(self.limits) if self.judged is not None else ""
+        return "; ".join(one for one in (self.range, judged) if one)
 
     @property
     def named_limits(self) -> tuple[str, ...]:
         """The limits; those by the solved contact end with "(judged)"."""
-        own = len(self.limits) - (self.judged.limits if self.judged is not None else 0)
-        return (*self.limits[:own], *(f"{limit} (judged)" for limit in self.limits[own:]))
+        return self.limits if self.judged is None else self.judged.named(self.limits)
 
     def __post_init__(self) -> None:
         for function in self.functions:

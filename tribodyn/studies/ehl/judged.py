@@ -54,7 +54,7 @@ class Judged(NamedTuple):
     minimum, median, maximum : of the ratio of the law's value to the solved one over the pair's way
     in_range : share of the way inside the range that the law states; NaN: it states none
     in_judged_range : share of the way inside the limits by the solved contact of many oils and surfaces
-        (`law.JudgedRange`); NaN: there are none
+        (`judged_range.JudgedRange`); NaN: there are none
     right : share of the way where the ratio is within `RIGHT` of 1
     map : (loads, speeds), median ratio; empty without a map
     against : which solved quantity it is compared with: what the law stands for

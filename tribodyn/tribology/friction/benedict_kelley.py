@@ -4,7 +4,8 @@ import math
 
 from tribodyn.numerics.elementary import absolute, exp, law, log, maximum, where
 from tribodyn.tribology.friction.none import NoParameters
-from tribodyn.tribology.law import FrictionLaw, JudgedRange, LawInput, compounded
+from tribodyn.tribology.judged_range import JudgedRange
+from tribodyn.tribology.law import FrictionLaw, LawInput, compounded
 
 LN10 = 2.302585092994046
 

@@ -2,7 +2,8 @@
 
 from tribodyn.numerics.elementary import as_float, exp, log, minimum
 from tribodyn.tribology.friction.coulomb import Constant, constant, range_of_constant
-from tribodyn.tribology.law import FrictionLaw, JudgedRange, LawInput, steepness_of_heat
+from tribodyn.tribology.judged_range import JudgedRange
+from tribodyn.tribology.law import FrictionLaw, LawInput, steepness_of_heat
 from tribodyn.tribology.nominal import NominalConditions
 
 #: Pitch line speed (m/s) and load intensity (Pa) for which the standard gives the formula.

@@ -11,7 +11,8 @@ from tribodyn.numerics.elementary import absolute, exp, expm1, law, log, maximum
 from tribodyn.tribology.contact import hertz_half_width, moes_numbers
 from tribodyn.tribology.film.masjedi_khonsari import LIMITS, RANGE, in_fitted_range
 from tribodyn.tribology.flash import flash_temperature_rise
-from tribodyn.tribology.law import FrictionLaw, JudgedRange, LawInput, compounded, film_at
+from tribodyn.tribology.judged_range import JudgedRange
+from tribodyn.tribology.law import FrictionLaw, LawInput, compounded, film_at
 from tribodyn.tribology.rheology import limiting_shear_share, log_roelands_viscosity
 
 #: Where friction is within a factor of 2 of the solved contact: Moes' L, and the stress η |v_s|/h_c of a

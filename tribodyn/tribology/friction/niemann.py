@@ -2,7 +2,8 @@
 
 from tribodyn.numerics.elementary import as_float, exp, log
 from tribodyn.tribology.friction.coulomb import Constant, constant, range_of_constant
-from tribodyn.tribology.law import FrictionLaw, JudgedRange, LawInput, steepness_of_heat
+from tribodyn.tribology.judged_range import JudgedRange
+from tribodyn.tribology.law import FrictionLaw, LawInput, steepness_of_heat
 from tribodyn.tribology.nominal import NominalConditions
 
 #: Pitch line speed up to which the FZG tests behind the formula went, m/s.

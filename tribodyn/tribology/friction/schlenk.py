@@ -3,7 +3,8 @@
 from tribodyn.numerics.elementary import as_float
 from tribodyn.tribology.friction.coulomb import Constant, constant, range_of_constant
 from tribodyn.tribology.friction.niemann import MAXIMUM_SPEED, mean_of_fzg_tests
-from tribodyn.tribology.law import FrictionLaw, JudgedRange, LawInput, steepness_of_heat
+from tribodyn.tribology.judged_range import JudgedRange
+from tribodyn.tribology.law import FrictionLaw, LawInput, steepness_of_heat
 from tribodyn.tribology.nominal import NominalConditions
 
 
