@@ -1,4 +1,4 @@
-"""Explicit Runge-Kutta methods: coefficients of SciPy's RK45 and DOP853, and steps taken with their formulas."""
+"""Explicit Runge-Kutta methods: coefficients of SciPy, and steps taken with their formulas."""
 
 import numpy as np
 import pytest
@@ -24,7 +24,9 @@ def test_the_pair_has_the_coefficients_of_scipy():
 def test_the_triple_has_the_coefficients_of_scipy():
     stages = triple.STAGES
     assert stages == reference_8.N_STAGES
-    np.testing.assert_allclose(triple.A[:stages, :stages], reference_8.A[:stages, :stages], rtol=1e-13, atol=0)
+    np.testing.assert_allclose(
+        triple.A[:stages, :stages], reference_8.A[:stages, :stages], rtol=1e-13, atol=0
+    )
     np.testing.assert_allclose(triple.A[stages, :stages], reference_8.B, rtol=1e-13, atol=0)
     np.testing.assert_allclose(triple.C[:stages], reference_8.C[:stages], rtol=1e-13)
     assert triple.C[stages] == 1.0

@@ -45,7 +45,9 @@ def mean_inverse(low, high):
 def random_case(rng, nodes, film):
     """A grid, a closure and a squeeze term."""
     grid, faces = made(nodes), film - 1
-    closure = reynolds.Closure(*(rng.uniform(*one, len(nodes)) for one in ((-0.5, 0.0), (0.5, 1.0), (-0.1, 0.1))))
+    closure = reynolds.Closure(
+        *(rng.uniform(*one, len(nodes)) for one in ((-0.5, 0.0), (0.5, 1.0), (-0.1, 0.1)))
+    )
     squeeze = Squeeze(0.7, rng.uniform(0.5, 1.0, film), rng.uniform(-1.0, 1.0, faces + 1))
     pressure = np.where(np.arange(len(nodes)) < film - 1, rng.uniform(0.3, 1.2, len(nodes)), 0.0)
     pressure[0] = 0.0
@@ -55,7 +57,11 @@ def random_case(rng, nodes, film):
 def flows(node, last, thick, squeeze, end, pressure, closure, speed, factor=lambda h: 1.0):
     """Mass balance of every face by its terms, with films at the nodes of the flow."""
     place = [end + 0.5 * (node[i] + node[i + 1]) for i in range(last)] + [end]
-    moves = [squeeze.rate * x - old if squeeze else 0.0 for x, old in zip(place, squeeze.place, strict=True)] if squeeze else [0.0] * (last + 1)
+    moves = (
+        [squeeze.rate * x - old if squeeze else 0.0 for x, old in zip(place, squeeze.place, strict=True)]
+        if squeeze
+        else [0.0] * (last + 1)
+    )
     dense = density(SCALE * pressure[: last + 1])
     g = closure.thinning + closure.response * ln_viscosity(SCALE * pressure)
     length = [0.5 * (node[1] - node[0])]
@@ -70,7 +76,8 @@ def flows(node, last, thick, squeeze, end, pressure, closure, speed, factor=lamb
         stored = 0.0
         if squeeze:
             stored = sum(
-                squeeze.rate * length[k] * dense[k] * thick[k] - squeeze.mass[k] for k in range(i + 1, last + 1)
+                squeeze.rate * length[k] * dense[k] * thick[k] - squeeze.mass[k]
+                for k in range(i + 1, last + 1)
             )
         found.append((pushed - couette * rho * h, 1 - moves[last], stored))
     return found
@@ -138,8 +145,14 @@ def test_rough_surfaces(rng, squeezed):
     carried = 16 * math.sqrt(2) / 15 * math.pi * 0.05**2 * math.sqrt(0.01) * modulus / 2 * overlap / SCALE
     whole = pressure + carried
     faces = flows(
-        nodes[: last + 1], last, mean[: last + 1], squeeze, end, pressure[: last + 1],
-        reynolds.Closure(*(one[: last + 1] for one in closure)), 0.3,
+        nodes[: last + 1],
+        last,
+        mean[: last + 1],
+        squeeze,
+        end,
+        pressure[: last + 1],
+        reynolds.Closure(*(one[: last + 1] for one in closure)),
+        0.3,
         lambda h: 1 - 0.9 * math.exp(-0.56 * h * unit / sigma),
     )
     expected = [moved + kept * flow + stored for moved, kept, stored in faces]
