@@ -155,16 +155,18 @@ def _reached(package: Path) -> dict[str, frozenset[str]]:
     return reached
 
 
-def _imported(file: Path, tests: Path) -> set[str]:
+@cache
+def _imported(file: Path, tests: Path) -> frozenset[str]:
     """Modules that a test file imports itself, by what it takes from tests/support and conftest.py too."""
     text = file.read_text(encoding="utf-8")
     found = set(re.findall(rf"(?:from|import)\s+({PACKAGE}[\w.]*)", text))
-    found |= {f"{a}.{b}" for a, b in re.findall(rf"from ({PACKAGE}[\w.]*) import (\w+)$", text, re.MULTILINE)}
+    for module, names in re.findall(rf"from ({PACKAGE}[\w.]*) import (\([^)]*\)|.*)", text):
+        found |= {f"{module}.{one.split()[0]}" for one in names.strip("()").split(",") if one.strip()}
     for name in re.findall(r"from tests\.support\.(\w+) import", text):
         found |= _imported(tests / "support" / f"{name}.py", tests)
     if re.search(r"\b(prepared|forked)\(", text) and file.name != "conftest.py":
         found |= _imported(tests / "conftest.py", tests)
-    return found
+    return frozenset(found)
 
 
 def tests_of(module: str, package: Path, tests: Path) -> list[list[str]]:
