@@ -14,7 +14,8 @@ from subprocess import CompletedProcess
 #: Reads a line of JSON a verb, answers with its exit status. SIGALRM ends a verb that hangs.
 SERVER = """
 import json, os, signal, sys
-import tribodyn.studies.pictures, tribodyn.studies.gear_pair.run
+import llvmlite.binding, matplotlib.backends.backend_agg, matplotlib.figure, numba, pydantic, scipy.interpolate, typer
+import tribodyn.cli.app, tribodyn.studies.pictures, tribodyn.studies.gear_pair.run
 from tribodyn.cli import main
 
 for line in sys.stdin:

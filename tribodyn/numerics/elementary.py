@@ -10,7 +10,7 @@ Array code (geometry, energy method) asks `namespace` for the module that fits i
 
 import math
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, TypeVar
 
 import numpy as np
@@ -18,6 +18,7 @@ import numpy as np
 F = TypeVar("F", bound=Callable[..., Any])
 
 LAWS: list[Callable[..., Any]] = []
+_PLAIN = frozenset({float, int, bool, np.ndarray, np.float64, np.bool_})
 
 
 def law(function: F) -> F:
@@ -39,17 +40,20 @@ def as_float(value: Any) -> Any:
 
 def namespace(*values: Any) -> Any:
     """`jax.numpy` if any leaf of `values` (nested tuples and lists allowed) is a JAX array, else `numpy`."""
-    if "jax" in sys.modules and any(_has_jax(value) for value in values):
+    if "jax" in sys.modules and _has_jax(values):
         import jax.numpy as jnp
 
         return jnp
     return np
 
 
-def _has_jax(value: Any) -> bool:
-    if isinstance(value, (tuple, list)):
-        return any(_has_jax(item) for item in value)
-    return is_jax(value)
+def _has_jax(values: Sequence[Any]) -> bool:
+    for value in values:
+        if type(value) in _PLAIN:  # by far the quickest answer, and the usual one
+            continue
+        if _has_jax(value) if isinstance(value, (tuple, list)) else is_jax(value):
+            return True
+    return False
 
 
 def sqrt(x: Any) -> Any:

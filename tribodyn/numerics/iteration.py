@@ -54,7 +54,7 @@ def iterate(step: Callable[[State], State], state: State, steps: int, differenti
 
 
 def newton(step: Callable[..., Any], start: Any, count: int, *parameters: Any) -> Any:
-    """Apply a Newton step a fixed number of times.
+    """Apply a Newton step a fixed number of times; with NumPy, until it changes nothing.
 
     Under JAX only the last step is differentiated: at the root that is the implicit function theorem, because
     the derivative of a Newton step by its start vanishes there. First derivatives are exact (in both modes),
@@ -74,7 +74,9 @@ def newton(step: Callable[..., Any], start: Any, count: int, *parameters: Any) -
     xp = namespace(start, *parameters)
     if xp.__name__ == "numpy":
         for _ in range(count):
-            start = step(start, *parameters)
+            before, start = start, step(start, *parameters)
+            if _equal(before, start):  # further steps leave it
+                break
         return start
     import jax
 
@@ -82,6 +84,13 @@ def newton(step: Callable[..., Any], start: Any, count: int, *parameters: Any) -
     fixed_start, fixed = jax.lax.stop_gradient((start, parameters))
     root = jax.lax.fori_loop(0, count - 1, lambda _, state: step(state, *fixed), fixed_start)
     return step(root, *parameters)
+
+
+def _equal(one: Any, other: Any) -> bool:
+    """Whether two states of arrays are equal, bit for bit; NaN never is."""
+    if isinstance(one, tuple):
+        return all(map(_equal, one, other))
+    return bool(np.all(one == other)) and np.shape(one) == np.shape(other)
 
 
 def chebyshev_basis(x: Float[Array, "*point"], degree: int) -> Float[Array, "*point degree"]:

@@ -3,7 +3,8 @@
 The types here speak pydantic; what a unit is stands in `units`.
 """
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import lru_cache
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -238,17 +239,17 @@ def defaults_written_out(raw: dict[str, Any], table: type[Table]) -> dict[str, A
     return full
 
 
-def references(
-    table: type[BaseModel], above: tuple[str, ...] = ()
-) -> Iterator[tuple[tuple[str, ...], Reference]]:
-    """Go through the keys of a table, and of the tables in it, that may name files; from the outside in."""
+@lru_cache(maxsize=256)
+def references(table: type[BaseModel]) -> Mapping[tuple[str, ...], Reference]:
+    """Return the keys of a table, and of the tables in it, that may name files; from the outside in."""
+    found: dict[tuple[str, ...], Reference] = {}
     for name, field in table.model_fields.items():
-        key = (*above, name)
         marks = list(parts_of(field))
-        yield from ((key, one) for one in marks if isinstance(one, Reference))
+        found |= {(name,): one for one in marks if isinstance(one, Reference)}
         inner = next((one for one in marks if isinstance(one, type) and issubclass(one, BaseModel)), None)
         if inner is not None:
-            yield from references(inner, key)
+            found |= {(name, *key): one for key, one in references(inner).items()}
+    return found
 
 
 def parts_of(field: Any) -> Iterator[Any]:

@@ -83,7 +83,7 @@ class _References(NamedTuple):
     data: dict[str, Any]
     origins: Origins
     path: Path
-    marks: dict[tuple[str, ...], Reference]
+    marks: Mapping[tuple[str, ...], Reference]
 
     def keys(self) -> Iterator[Key]:
         """Go through the keys that may name files; those of a family last, when its name is known."""
@@ -105,13 +105,13 @@ class _References(NamedTuple):
 
 def _marked(known: _References, table_of: TableOf) -> _References:
     """Say which keys may name files; a scenario within this one is opened first, for it has such keys too."""
-    marks = dict(references(table_of(known.data)))
+    marks = references(table_of(known.data))
     inner = [key for key, mark in marks.items() if mark.folder == SCENARIOS]
     if not inner:
         return known._replace(marks=marks)
     for key in inner:
         _put_content(known._replace(marks=marks), key)
-    return known._replace(marks=dict(references(table_of(known.data))))
+    return known._replace(marks=references(table_of(known.data)))
 
 
 def unresolved_keys(errors: Iterable[InputError]) -> set[str]:
