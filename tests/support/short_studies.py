@@ -15,7 +15,7 @@ SHORT: dict[str, dict[str, Any]] = {
     "gear-pair": {"solver.cycles": 4, "output.samples_per_cycle": 40},
     "efficiency": {"output.samples_per_cycle": 40},
     "load-contact": {"output.positions_per_cycle": 12, "mesh.slices": 7},
-    "ehl": {"output.positions": 4},
+    "ehl": {"output.positions": 4, "contact.step": 0.25},
     "irefc": {"output.samples_per_cycle": 8},
     "backlash-oscillator": {"frequency.step": 0.2},
     "design": {

@@ -245,7 +245,7 @@ def references(table: type[BaseModel]) -> Mapping[tuple[str, ...], Reference]:
     found: dict[tuple[str, ...], Reference] = {}
     for name, field in table.model_fields.items():
         marks = list(parts_of(field))
-        found |= {(name,): one for one in marks if isinstance(one, Reference)}
+        found.update(((name,), one) for one in marks if isinstance(one, Reference))
         inner = next((one for one in marks if isinstance(one, type) and issubclass(one, BaseModel)), None)
         if inner is not None:
             found |= {(name, *key): one for key, one in references(inner).items()}

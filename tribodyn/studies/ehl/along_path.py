@@ -134,7 +134,7 @@ def friction_along(study: Prepared, over: Way) -> Array:
     found = np.full(len(over.roll), np.nan)
     for at in np.flatnonzero(loaded(over)):
         duty = over.line_load[at], seen.radius[at], seen.entrainment[at], sliding[at]
-        solved = solved_at(contact, *(float(one) for one in duty))
+        solved = solved_at(contact, *(float(one) for one in duty), study.case.step)
         if solved is not None:
             found[at] = solved.friction / float(over.line_load[at])
     return found
@@ -200,10 +200,11 @@ def solved_at(
     radius: float,
     entrainment: float,
     sliding: float,
+    step: float,
     *,
     smooth: bool = False,
 ) -> CoupledSolution | None:
-    """Solve one contact, mixed and with heat, or of `smooth` surfaces.
+    """Solve one contact, mixed and with heat, or of `smooth` surfaces, on a grid of so long a `step`.
 
     None: next to no load, or no solution was found.
     """
@@ -219,7 +220,7 @@ def solved_at(
     if problem.moes_load < LEAST_LOAD:
         return None
     try:
-        return solve_coupled(problem, contact.rheology, contact.thermal)
+        return solve_coupled(problem, contact.rheology, contact.thermal, step=step)
     except SimulationError:
         return None
 

@@ -32,6 +32,8 @@ class EhlCase(CaseHead):
         Whether the way is also solved with squeeze.
     loads : (array, array) or None
         Roll angles from the pitch point, rad, and normal loads there, N; None: quasi-static.
+    step : float
+        Of the contact's grid, over the distance from inlet and end of the film.
     film, friction : FilmData, FrictionData
         None of their own: every law of the registries is evaluated beside the solution.
     """
@@ -47,5 +49,6 @@ class EhlCase(CaseHead):
     positions: int
     transient: bool
     loads: tuple[NDArray[np.float64], NDArray[np.float64]] | None
+    step: float
     film: FilmData
     friction: FrictionData

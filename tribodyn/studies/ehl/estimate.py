@@ -3,6 +3,7 @@
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.studies.ehl.layout import PLACES, layout_of
 from tribodyn.studies.estimate import PROGRAM, Driver, Estimate, record_bytes
+from tribodyn.tribology.ehl.grid import STEP
 
 #: Seconds of one solved position, contacts of the traction curve, and laws beside them.
 A_POSITION, TRACTION, LAWS = 0.3, 9, 12
@@ -23,6 +24,7 @@ def estimate(case: EhlCase) -> Estimate:
     seconds = A_POSITION * (case.positions + TRACTION)
     if case.transient:
         seconds += A_WAY + A_STEP * case.positions
+    seconds *= (STEP / case.step) ** 2
     return Estimate(
         PROGRAM + 4.0 * record, record, seconds, (Driver("output.positions", float(case.positions), 40),)
     )

@@ -22,6 +22,7 @@ from tribodyn.scenario.quantity import Switch, Table, csv_or_record, model_file,
 from tribodyn.scenario.spectrum import OiledOperatingTable, SpectrumScenario
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.tribology.data import FilmData, FrictionData
+from tribodyn.tribology.ehl.grid import STEP
 
 
 class EhlMesh(Table):
@@ -50,6 +51,9 @@ class EhlContact(Table):
     )
     loads: Annotated[LoadCurve, LOADS] | None = Field(
         None, description="of the pair over its way: a record's, or a table; default: quasi-static"
+    )
+    step: Annotated[float, Field(strict=True, allow_inf_nan=False, ge=0.02, le=0.5)] = Field(
+        STEP, description="of the grid, over the distance from inlet and end of the film"
     )
 
 
@@ -94,6 +98,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> EhlCase:
         positions=scenario.output.positions,
         transient=scenario.contact.transient,
         loads=loads.in_si() if (loads := scenario.contact.loads) else None,
+        step=scenario.contact.step,
         film=FilmData(),
         friction=FrictionData("none"),
     )

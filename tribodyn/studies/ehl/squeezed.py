@@ -14,6 +14,7 @@ from scipy.interpolate import CubicSpline
 
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.studies.ehl.along_path import Way, pressure_and_film
+from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.studies.ehl.layout import PLACES
 from tribodyn.studies.study import Progress
 from tribodyn.tribology.ehl.coupled import CoupledSolution, friction_of
@@ -22,7 +23,7 @@ from tribodyn.tribology.ehl.problem import LineContact
 from tribodyn.tribology.ehl.reynolds import Closure, State, film
 from tribodyn.tribology.ehl.rough import RoughReduced, with_films
 from tribodyn.tribology.ehl.shear import LAYERS
-from tribodyn.tribology.ehl.steady import STEP, Solution, grid_of, reduced_problem, solve_steady
+from tribodyn.tribology.ehl.steady import Solution, grid_of, reduced_problem, solve_steady
 from tribodyn.tribology.ehl.table import Contact
 from tribodyn.tribology.ehl.transient import Instant, march
 
@@ -69,13 +70,13 @@ def kept(found: CoupledSolution) -> Steady:
 
 
 def squeezed(
-    over: Way, speed: float, contact: Contact, steady: Sequence[Steady | None], progress: Progress
+    over: Way, case: EhlCase, contact: Contact, steady: Sequence[Steady | None], progress: Progress
 ) -> dict[str, Array]:
     """Datasets of the way with squeeze, NaN where it was not solved, and `restarts` within the way.
 
     Parameters
     ----------
-    speed : rotation of the pinion, rad/s
+    case : whose pinion's speed and step of the grid hold
     contact : what all contacts have in common
     steady : of each position; None: unloaded or not solved
     """
@@ -85,7 +86,7 @@ def squeezed(
     begun = 0
     for first, last in _runs([one is not None for one in steady]):
         chosen = [one for one in steady[first : last + 1] if one is not None]
-        stretch = _stretch(chosen, over, np.arange(first, last + 1), speed)
+        stretch = _stretch(chosen, over, np.arange(first, last + 1), case)
         begun += _through(stretch, contact, arrays, first, progress)
     return arrays | {"restarts": np.array(max(begun - 1, 0))}
 
@@ -97,13 +98,13 @@ def _runs(good: Sequence[bool]) -> list[tuple[int, int]]:
     return [(int(a), int(b) - 1) for a, b in pairs if b - a > 1]
 
 
-def _stretch(steady: Sequence[Steady], over: Way, at: Array, speed: float) -> Stretch:
+def _stretch(steady: Sequence[Steady], over: Way, at: Array, case: EhlCase) -> Stretch:
     """One grid for all positions, with shear and heat of the steady contacts on its nodes."""
     problems = [one.problem for one in steady]
-    grid = grid_of(problems[0], STEP, *problems[1:])
+    grid = grid_of(problems[0], case.step, *problems[1:])
     closures = np.array([[np.interp(grid.node, one.node, row) for row in one.closure] for one in steady])
     rises = np.array([[np.interp(grid.node, one.node, row) for row in one.rise.T] for one in steady])
-    nodes, loads = over.table
+    (nodes, loads), speed = over.table, case.operating.pinion_speed
     return Stretch(over.roll[at] / speed, steady, closures, rises, grid, (nodes / speed, loads))
 
 

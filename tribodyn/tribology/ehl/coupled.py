@@ -9,13 +9,14 @@ from tribodyn.errors import SimulationError
 from tribodyn.tribology.ehl import heat as heat_of
 from tribodyn.tribology.ehl import rheology as rheology_of
 from tribodyn.tribology.ehl.fluid import hot_log_viscosity, log_viscosity, relative_density
+from tribodyn.tribology.ehl.grid import STEP
 from tribodyn.tribology.ehl.heat import Heat, Surfaces, Thermal, heated, surfaces_under
 from tribodyn.tribology.ehl.mixing import Mixing
 from tribodyn.tribology.ehl.problem import LineContact
 from tribodyn.tribology.ehl.reynolds import Closure
 from tribodyn.tribology.ehl.rheology import Rheology
 from tribodyn.tribology.ehl.shear import LAYERS, Shear, sheared
-from tribodyn.tribology.ehl.steady import STEP, Solution, solve_steady
+from tribodyn.tribology.ehl.steady import Solution, solve_steady
 from tribodyn.tribology.ehl.traction import shear_force
 
 Array = Any

@@ -9,6 +9,8 @@ from tribodyn.tribology.ehl.elasticity import influence
 
 Array = Any
 
+#: Steps between nodes over the distance from inlet and end of the film: h_c within 0.01 %, h_min 0.2 %.
+STEP = 0.1
 #: Length of the film before the contact over `film_width`; twice as much raises no film by 0.01 %.
 FLOODED = 60.0
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from tribodyn.errors import SimulationError
 from tribodyn.tribology.ehl.elasticity import HERTZ_LOAD
-from tribodyn.tribology.ehl.grid import Grid, film_width, made, placed
+from tribodyn.tribology.ehl.grid import STEP, Grid, film_width, made, placed
 from tribodyn.tribology.ehl.problem import LineContact, check
 from tribodyn.tribology.ehl.reynolds import Closure, Reduced, State, film, moved, newtonian, residual
 from tribodyn.tribology.ehl.rough import (
@@ -23,8 +23,6 @@ from tribodyn.tribology.ehl.start import first_state, survey_film
 
 Array = Any
 
-#: Steps between nodes over the distance from inlet and end of the film: h_c within 0.01 %, h_min 0.2 %.
-STEP = 0.1
 #: Mass and force balance: largest residual of a face over the flow, and of the load over the load.
 TOLERANCE = 1e-10
 #: Newton's method needs 4 to 14 steps over the whole map of Moes.

@@ -59,17 +59,32 @@ def test_what_presses_nowhere_or_is_no_record(tmp_path):
         assert caught.value.key == "contact.loads"
 
 
+def test_the_step_is_that_of_the_grid():
+    """Half the nodes, and a film within 0.3 %; the record's contacts are solved with the case's."""
+    found = {}
+    for step in (0.1, 0.2):
+        study = prepare(load("ehl-crc-23-47", {"output.positions": 4, "contact.step": step}).case)
+        assert study.case.step == step
+        duty = 4e5, 9e-3, 0.2, 0.01
+        found[step] = solved_at(contact_for(study.case), *duty, study.case.step).solution
+    assert 1.7 < len(found[0.1].place) / len(found[0.2].place) < 2.2
+    films = [one.central_film_thickness for one in found.values()]
+    assert 0.0 < abs(films[1] / films[0] - 1.0) < 3e-3
+
+
 def test_the_film_begins_anew_behind_a_loss_of_contact():
     """Where the pair carries nothing there is no film; behind it the first one is steady."""
-    study = prepare(load("ehl-crc-23-47", {"output.positions": 8, "contact.transient": True}).case)
+    study = prepare(
+        load("ehl-crc-23-47", {"output.positions": 8, "contact.transient": True, "contact.step": 0.2}).case
+    )
     over, contact = way(study), contact_for(study.case)
     seen = seen_by(study, over, None, "none")
     duties = np.stack(
         [over.line_load, seen.radius, seen.entrainment, over.speeds[0] - over.speeds[1]], axis=1
     )
-    solved = {at: solved_at(contact, *(float(one) for one in duties[at])) for at in (1, 2, 5, 6, 7)}
+    solved = {at: solved_at(contact, *(float(one) for one in duties[at]), 0.2) for at in (1, 2, 5, 6, 7)}
     steady = [kept(one) if (one := solved.get(at)) else None for at in range(8)]
-    found = squeezed(over, study.case.operating.pinion_speed, contact, steady, lambda _share: None)
+    found = squeezed(over, study.case, contact, steady, lambda _share: None)
     film = found["transient_central_film_thickness"]
     assert list(np.isfinite(film)) == [one is not None for one in steady]
     assert found["restarts"] == 1

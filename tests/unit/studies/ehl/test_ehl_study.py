@@ -158,7 +158,7 @@ def test_the_cursor_moves_the_profiles(run, tmp_path):
 @pytest.fixture(scope="module")
 def squeezed():
     """The same way with squeeze, at twelve positions."""
-    return td.run("ehl-crc-23-47", {"output.positions": 12, "contact.transient": True})
+    return td.run("ehl-crc-23-47", {"output.positions": 12, "contact.transient": True, "contact.step": 0.2})
 
 
 def test_squeeze_keeps_the_film_that_was(squeezed):
