@@ -36,7 +36,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def pytest_collection_finish() -> None:
-    """Spare the garbage collector what is imported, and keep what XLA compiles beside what the package keeps.
+    """Spare the garbage collector what is imported; keep what XLA compiles; draw coarse pictures.
 
     A round over all modules takes a good part of a second, and compilers allocate without end.
     """
@@ -48,6 +48,8 @@ def pytest_collection_finish() -> None:
         jax = sys.modules["jax"]
         jax.config.update("jax_compilation_cache_dir", str(kept))
         jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.2)
+    if "tribodyn.post.style" in sys.modules:  # pixels of a picture take a third of its time
+        sys.modules["tribodyn.post.style"].STYLE["savefig.dpi"] = 60
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:

@@ -47,6 +47,7 @@ QUICK_SEARCHES = ("design-cycloid-23-47", "design-shift-23-47")
 ALIKE = {
     "crc-23-47-300",
     "efficiency-involute-18-36",
+    "ehl-crc-23-47",
     "involute-18-36-tip-relief",
     "involute-23-47",
     "involute-23-47-frictionless",
@@ -58,7 +59,7 @@ ALIKE = {
 SHORTER = {
     "gear-pair": ("solver.cycles=2",),
     "load-contact": ("output.positions_per_cycle=8",),
-    "ehl": ("output.positions=4",),
+    "ehl": ("output.positions=4", "contact.step=0.25"),
 }
 
 

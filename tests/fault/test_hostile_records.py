@@ -138,7 +138,9 @@ def test_it_is_refused_in_python_and_on_the_command_line(damage, good: Path, pat
         damage(file)
     with pytest.raises(InputError, match="damaged"):
         open_any(path)
-    for words in (["show"], ["show", "--json"], ["plot"], ["compare", str(good)]):
+    verbs = (["show"], ["show", "--json"], ["plot"], ["compare", str(good)])
+    # all of them open a record in one way
+    for words in verbs if damage in DAMAGES[:3] else verbs[:1]:
         ended = CliRunner().invoke(app, [words[0], str(path), *words[1:]])
         assert ended.exit_code == 2, ended.output
         assert "damaged" in ended.stderr

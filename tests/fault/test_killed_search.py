@@ -50,7 +50,7 @@ free = [
 ]
 minimise = "loss"
 subject_to = ["contact_ratio >= 1.5"]
-evaluations = 40
+evaluations = 24
 """
 
 
@@ -93,7 +93,7 @@ def test_a_killed_search_goes_on_to_the_same_answer(tmp_path: Path, monkeypatch:
     whole = td.design(tmp_path / "search.toml", output=tmp_path / "whole.h5")
     said = {name: getattr(whole, name) for name in NAMES}
     partial = tmp_path / "killed.partial.h5"
-    for least, words in ((5, ()), (15, ("--resume",))):  # killed twice: what went on can be killed too
+    for least, words in ((4, ()), (10, ("--resume",))):  # killed twice: what went on can be killed too
         process = begun(tmp_path, "killed", *words)
         started = time.monotonic()
         while written(partial) < least:
@@ -104,7 +104,7 @@ def test_a_killed_search_goes_on_to_the_same_answer(tmp_path: Path, monkeypatch:
         process.communicate()
         assert process.returncode == -signal.SIGKILL
     left, asked = written(partial), len(lines(tmp_path / "killed.log"))
-    assert 15 <= left < said["evaluations"]
+    assert 10 <= left < said["evaluations"]
     again = begun(tmp_path, "killed", "--resume")
     found = json.loads(again.communicate(timeout=300)[0])
     assert again.returncode == 0

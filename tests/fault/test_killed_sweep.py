@@ -37,7 +37,9 @@ def same(one: Path, other: Path) -> None:
                 assert a[name][...].tobytes() == b[name][...].tobytes(), name  # pyright: ignore
 
 
-@pytest.mark.parametrize("direction", [(), ("--direction", "up")])
+@pytest.mark.parametrize(
+    "direction", [(), pytest.param(("--direction", "up"), marks=pytest.mark.soak)], ids=["batch", "followed"]
+)
 def test_a_killed_sweep_goes_on_where_it_stopped(direction: tuple[str, ...], tmp_path: Path):
     words = [*WORDS, *VARY, *direction, "-o", "killed.h5"]
     process = subprocess.Popen([sys.executable, "-c", ONE_A_CHUNK, *words], cwd=tmp_path)

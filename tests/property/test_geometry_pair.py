@@ -28,7 +28,7 @@ def limits_of(family, drive):
 
 
 fraction = st.floats(0.0, 1.0)
-over_pairs = settings(max_examples=30, deadline=None)
+over_pairs = settings(max_examples=16, deadline=None)
 
 
 @over_pairs

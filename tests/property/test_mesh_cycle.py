@@ -25,7 +25,7 @@ def cycles(draw, back=False):
     return tabulate(assemble(family, drive), (STEEL, BRONZE), mesh, pair_slots(assemble(family, drive)), back)
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=12, deadline=None)
 @given(cycles())
 def test_compliance_of_the_loaded_pairs_is_positive_definite(cycle):
     for s in range(len(cycle.in_contact)):
@@ -36,7 +36,7 @@ def test_compliance_of_the_loaded_pairs_is_positive_definite(cycle):
             assert np.linalg.eigvalsh(matrix).min() > 0.3 * np.diag(matrix).min()
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=12, deadline=None)
 @given(cycles())
 def test_period(cycle):
     pairs = cycle.front_pairs
@@ -57,7 +57,7 @@ def test_period(cycle):
     )
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=12, deadline=None)
 @given(cycles())
 def test_segments_hold_as_many_pairs_as_the_contact_ratio_says(cycle):
     share = np.diff(cycle.boundary) @ cycle.in_contact.sum(axis=1)
@@ -66,7 +66,7 @@ def test_segments_hold_as_many_pairs_as_the_contact_ratio_says(cycle):
     np.testing.assert_allclose(cycle.phase[1:, 0], cycle.phase[:-1, -1])
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=12, deadline=None)
 @given(cycles(back=True))
 def test_back_flanks_touch_as_long_as_front_flanks(cycle):
     pairs = cycle.front_pairs

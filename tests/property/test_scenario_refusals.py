@@ -12,7 +12,7 @@ from tribodyn.scenario.quantity import references
 from tribodyn.studies.gear_pair.scenario import Scenario
 from tribodyn.studies.load import load_scenario
 
-REFERENCES = [".".join(map(str, key)) for key in (key for key, _ in references(Scenario))]
+REFERENCES = [".".join(key) for key in references(Scenario)]
 KEYS = [*keys_of(Scenario), *REFERENCES, "nonsense", "mesh.nonsense.more"]
 QUANTITY = r"-?[0-9]{1,3}(\.[0-9])? ?(mm|N\*m|rad/s|deg|kg|Pa|1/K|%|m\*\*[0-9]|/)"
 SCALARS = st.one_of(

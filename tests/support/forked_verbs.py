@@ -14,10 +14,12 @@ from subprocess import CompletedProcess
 #: Reads a line of JSON a verb, answers with its exit status. SIGALRM ends a verb that hangs.
 SERVER = """
 import json, os, signal, sys
-import llvmlite.binding, matplotlib.backends.backend_agg, matplotlib.figure, numba, pydantic, scipy.interpolate, typer
+import llvmlite.binding, matplotlib.backends.backend_agg, matplotlib.figure, numba, scipy.interpolate
 import tribodyn.cli.app, tribodyn.studies.pictures, tribodyn.studies.gear_pair.run
 from tribodyn.cli import main
+from tribodyn.post.style import STYLE
 
+STYLE["savefig.dpi"] = 60
 for line in sys.stdin:
     request = json.loads(line)
     child = os.fork()

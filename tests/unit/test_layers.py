@@ -60,7 +60,6 @@ LONGEST_FILE = 340
 
 FILES = modules(ROOT)
 STUDIES = sorted(path.name for path in (ROOT / "studies").iterdir() if (path / "__init__.py").is_file())
-ALL = imports(ROOT)
 
 
 def wrong_arrows(source: str, *, typing_only: bool) -> list[str]:
@@ -68,7 +67,7 @@ def wrong_arrows(source: str, *, typing_only: bool) -> list[str]:
     allowed = MAY_IMPORT[source] | {source, "errors", ""}
     return [
         f"{one.importer}:{one.line} imports {one.imported}"
-        for one in ALL
+        for one in imports(ROOT)
         if folder(one.importer) == source
         and one.imported.split(".")[0] == ROOT.name
         and folder(one.imported) not in allowed
@@ -110,12 +109,14 @@ def test_imports_for_type_checkers_point_the_same_way(source):
 
 
 def test_errors_import_nothing_of_the_package():
-    assert [one for one in ALL if folder(one.importer) == "errors" and one.imported in FILES] == []
+    assert [one for one in imports(ROOT) if folder(one.importer) == "errors" and one.imported in FILES] == []
 
 
 def test_drawing_takes_of_the_pictures_of_results_their_style_and_the_gears_alone():
     taken = {
-        one.imported for one in ALL if folder(one.importer) == "drawing" and folder(one.imported) == "post"
+        one.imported
+        for one in imports(ROOT)
+        if folder(one.importer) == "drawing" and folder(one.imported) == "post"
     }
     assert taken <= {"tribodyn.post.style", "tribodyn.post.figures.gears_in_mesh"}
 
@@ -139,7 +140,7 @@ def test_no_circle_by_folder():
 def test_physics_knows_no_file_format_or_picture(source):
     found = [
         f"{one.importer}:{one.line} imports {one.imported}"
-        for one in ALL
+        for one in imports(ROOT)
         if folder(one.importer) == source and one.imported.split(".")[0] in BORDERS
     ]
     assert not found, "\n".join(found)
@@ -150,7 +151,7 @@ def test_a_study_imports_no_other(study):
     others = tuple(f"tribodyn.studies.{other}" for other in STUDIES if other != study)
     found = [
         f"{one.importer}:{one.line} imports {one.imported}"
-        for one in ALL
+        for one in imports(ROOT)
         if f"{one.importer}.".startswith(f"tribodyn.studies.{study}.")
         and f"{one.imported}.".startswith(tuple(f"{other}." for other in others))
     ]

@@ -81,7 +81,7 @@ def records() -> dict[str, bytes]:
 def keys(kind: str) -> tuple[str, ...]:
     """All dotted keys of the scenarios of a kind, and some that are none."""
     table = STUDIES[kind].table()
-    named = (".".join(map(str, key)) for key, _ in references(table))
+    named = (".".join(map(str, key)) for key in references(table))
     return (
         *keys_of(table),
         *named,
