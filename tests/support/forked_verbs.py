@@ -13,13 +13,15 @@ from subprocess import CompletedProcess
 
 #: Reads a line of JSON a verb, answers with its exit status. SIGALRM ends a verb that hangs.
 SERVER = """
-import json, os, signal, sys
+import gc, json, os, signal, sys
 import llvmlite.binding, matplotlib.backends.backend_agg, matplotlib.figure, numba, scipy.interpolate
-import tribodyn.cli.app, tribodyn.studies.pictures, tribodyn.studies.gear_pair.run
+import tribodyn.cli.app, tribodyn.studies.pictures
+import tribodyn.studies.gear_pair.run, tribodyn.studies.gear_pair.scenario
 from tribodyn.cli import main
 from tribodyn.post.style import STYLE
 
 STYLE["savefig.dpi"] = 60
+gc.freeze()
 for line in sys.stdin:
     request = json.loads(line)
     child = os.fork()
