@@ -43,7 +43,7 @@ def figures(tmp_path_factory):
     first, _ = times_of(RUN, folder, folder / "cache")
     others = {"run": RUN, "picture": PICTURE, "libraries": LIBRARIES, "loop": LOOP}
     times = {name: [] for name in others}
-    for _ in range(5):
+    for _ in range(4):
         for name, command in others.items():
             times[name].append(times_of(command, folder, folder / "cache"))
     least = {name: [min(one) for one in zip(*values, strict=True)] for name, values in times.items()}
