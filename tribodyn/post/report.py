@@ -176,9 +176,10 @@ def _without_judged_range(summary: Mapping[str, Any]) -> list[str]:
     for what in ("film", "friction"):
         judged = summary.get(f"{what}_judged")
         if isinstance(judged, Mapping) and not judged["limits"]:
+            times = f"{judged['low']:.2g} to {judged['high']:.2g} times"
             sentences.append(
-                f"The {what} law {summary[f'{what}_law']} has no range by the solved contact: nine of ten "
-                f"contacts of gears have {judged['low']:.2g} to {judged['high']:.2g} times its {what}."
+                f"The {what} law {summary[f'{what}_law']} has no range by the solved contact: in nine of ten "
+                f"contacts of gears it gives {times} the solved {what}."
             )
     return sentences
 

@@ -69,7 +69,7 @@ def test_a_law_that_no_contact_bears_out_is_said(tmp_path: Path):
     summary = {"friction_law": "xu", "friction_judged": judged, "closure_in_range_fraction": 1.0}
     text = " ".join(printed(failed(tmp_path / "run.h5", summary)).split())
     assert "friction law xu has no range by the solved contact" in text
-    assert "0.42 to 14 times its friction" in text
+    assert "0.42 to 14 times the solved friction" in text
     summary["friction_judged"] = judged | {"limits": 3}
     assert "no range by" not in printed(failed(tmp_path / "other.h5", summary))
 
