@@ -1,0 +1,151 @@
+"""Drives that differ in size, in stiffness or in which gear drives: what has to change, and by how much."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from tests.support.sample_drives import SOUND
+from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.body import mass_and_inertia
+from tribodyn.geometry.drive import SIDES
+from tribodyn.geometry.material import MaterialData
+from tribodyn.geometry.path import kinematics
+from tribodyn.geometry.sheet import geometry_sheet
+from tribodyn.mesh.data import MeshData
+from tribodyn.mesh.friction_loss import mean_efficiency
+from tribodyn.mesh.quasi_static import quasi_static
+from tribodyn.mesh.tabulate import tabulate
+
+STEEL = MaterialData("steel", 206e9, 0.3, 7850.0, 46.0, 470.0, 6e9)
+IRON = MaterialData("iron", 120e9, 0.26, 7200.0, 46.0, 470.0, 6e9)
+SIZE, STIFFER = 1.7, 1.3
+PAIRS = pytest.mark.parametrize(("family", "drive"), SOUND)
+
+
+def larger(drive):
+    """The same drive, all lengths times `SIZE`."""
+    bodies = [
+        one._replace(face_width=SIZE * one.face_width, bore_radius=SIZE * one.bore_radius)
+        for one in (drive.pinion, drive.gear)
+    ]
+    return drive._replace(module=SIZE * drive.module, pinion=bodies[0], gear=bodies[1])
+
+
+def stiffer(material):
+    return replace(material, youngs_modulus=STIFFER * material.youngs_modulus)
+
+
+def table(family, drive, materials=(STEEL, IRON), **options):
+    data = MeshData(**({"compliance": "energy", "damping_ratio": 0.05, "points": 17} | options))
+    return tabulate(assemble(family, drive), materials, data, 2)
+
+
+def figures(sheet):
+    for name, value in sheet.items():
+        if isinstance(value, dict):
+            yield from ((f"{name} {inner}", one) for inner, one in figures(value))
+        else:
+            yield name, value
+
+
+@PAIRS
+def test_a_larger_drive_has_larger_lengths_and_equal_angles(family, drive):
+    small, large = (dict(figures(geometry_sheet(assemble(family, one)))) for one in (drive, larger(drive)))
+    assert small.keys() == large.keys()
+    lengths = 0
+    for name, (value, unit) in small.items():
+        factor = SIZE if unit.startswith("mm") else 1.0
+        if not isinstance(value, float) or ("pin" in name and "pinion" != name.split()[0]):
+            continue
+        assert large[name] == (pytest.approx(factor * value, rel=1e-9, abs=1e-9), unit), name
+        lengths += unit == "mm"
+    assert lengths > 20
+    for side in SIDES:
+        mass, inertia = mass_and_inertia(assemble(family, drive), side, 7850.0)
+        heavier = mass_and_inertia(assemble(family, larger(drive)), side, 7850.0)
+        assert heavier == pytest.approx((SIZE**3 * mass, SIZE**5 * inertia), rel=1e-9)
+
+
+@PAIRS
+@pytest.mark.parametrize("hertz", ["linear", "load-dependent"])
+def test_a_larger_and_stiffer_drive(family, drive, hertz):
+    """Compliance goes with 1/(E L), Palmgren's with 1/(E^0.9 L^0.8); loads with E L² at equal shares."""
+    one = table(family, drive, hertz=hertz)
+    other = table(family, larger(drive), (stiffer(STEEL), stiffer(IRON)), hertz=hertz)
+    for name in ("boundary", "in_contact", "phase", "pressure_angle", "contact_ratio", "pitch_point_phase"):
+        np.testing.assert_allclose(getattr(other, name), getattr(one, name), rtol=1e-9, atol=1e-12)
+    for name in ("signed_distance", "equivalent_radius", "pinion_speed", "gear_speed", "face_width"):
+        np.testing.assert_allclose(getattr(other, name), SIZE * getattr(one, name), rtol=1e-9, atol=1e-12)
+    for name in ("compliance", "coupling"):
+        np.testing.assert_allclose(
+            getattr(other, name), getattr(one, name) / (STIFFER * SIZE), rtol=1e-8, atol=1e-22
+        )
+    assert other.hertz_coefficient == pytest.approx(one.hertz_coefficient / (STIFFER**0.9 * SIZE**0.8))
+    if hertz == "linear":
+        shared, heavier = quasi_static(one, 300.0), quasi_static(other, 300.0 * STIFFER * SIZE**3)
+        np.testing.assert_allclose(heavier.normal_load, STIFFER * SIZE**2 * shared.normal_load, rtol=1e-7)
+        np.testing.assert_allclose(heavier.deflection, SIZE * shared.deflection, rtol=1e-7)
+        np.testing.assert_allclose(heavier.mesh_stiffness, STIFFER * SIZE * shared.mesh_stiffness, rtol=1e-7)
+        assert mean_efficiency(other, 800.0, 0.05) == pytest.approx(mean_efficiency(one, 300.0, 0.05))
+
+
+@PAIRS
+def test_with_the_gears_exchanged_a_pair_goes_its_way_back(family, drive):
+    turned = drive._replace(pinion=drive.gear, gear=drive.pinion)
+    one, other = assemble(family, drive), assemble(family, turned)
+    assert (other.r_start, other.r_end) == pytest.approx((-one.r_end, -one.r_start), rel=1e-9)
+    assert other.contact_ratio == pytest.approx(one.contact_ratio, rel=1e-9)
+    r = np.linspace(one.r_start, one.r_end, 9)
+    there, back = kinematics(one.path, r), kinematics(other.path, -r)
+    ratio = drive.gear.teeth / drive.pinion.teeth
+    np.testing.assert_allclose(back.pressure_angle, there.pressure_angle, rtol=1e-8)
+    np.testing.assert_allclose(back.relative_curvature, there.relative_curvature, rtol=1e-7)
+    np.testing.assert_allclose(back.pinion_speed, ratio * there.gear_speed, rtol=1e-7)
+    np.testing.assert_allclose(back.gear_speed, ratio * there.pinion_speed, rtol=1e-7)
+    np.testing.assert_allclose(back.pinion_friction_arm, there.gear_friction_arm, rtol=1e-7)
+    np.testing.assert_allclose(back.gear_normal_arm, there.pinion_normal_arm, rtol=1e-7)
+    first, last = table(family, drive), table(family, turned, (IRON, STEEL))
+    # the pair that entered last goes back as the one that leaves first
+    inside = (
+        first.in_contact[
+            0,
+            :,
+        ]
+        > 0
+    )
+    assert inside.all()
+    np.testing.assert_allclose(last.compliance[0, ::-1, ::-1], first.compliance[0], rtol=1e-6)
+    np.testing.assert_allclose(last.coupling[0, ::-1, ::-1, ::-1], first.coupling[0], rtol=1e-6, atol=1e-16)
+    np.testing.assert_allclose(last.compliance[1, ::-1, 1], first.compliance[1, :, 1], rtol=1e-6)
+    np.testing.assert_allclose(last.boundary, first.boundary, rtol=1e-8)
+    # and the shares of a load without friction are the same
+    turns = quasi_static(first, 300.0 * ratio), quasi_static(last, 300.0)
+    np.testing.assert_allclose(turns[1].normal_load[0, ::-1, ::-1], turns[0].normal_load[0], rtol=1e-6)
+
+
+def test_loads_share_the_deflection_and_balance_the_torque():
+    """Two pairs, their compliances, coupling and gaps: two equations solved by hand."""
+    family, drive = SOUND[0]
+    one = table(family, drive)
+    rng = np.random.default_rng(3)
+    gap = 2e-6 * rng.random(one.compliance.shape)
+    cycle = one._replace(gap=gap)
+    friction = 0.1 * np.sign(cycle.signed_distance)
+    found = quasi_static(cycle, 400.0, friction)
+    for node in (0, 5, 16):
+        h = np.cos(cycle.pressure_angle[0, node])
+        arm = cycle.gear_pitch_radius * h + friction[0, node] * (
+            cycle.gear_pitch_radius * np.sin(cycle.pressure_angle[0, node]) - cycle.signed_distance[0, node]
+        )
+        matrix = np.zeros((3, 3))
+        matrix[:2, :2] = np.diag(cycle.compliance[0, node]) + cycle.coupling[0, node]
+        matrix[:2, 2], matrix[2, :2] = -h, arm
+        *load, deflection = np.linalg.solve(matrix, [*-gap[0, node], 400.0])
+        np.testing.assert_allclose(found.normal_load[0, node], load, rtol=1e-9)
+        assert found.deflection[0, node] == pytest.approx(deflection, rel=1e-9)
+        # the force on the pitch circles over the deflection that it adds
+        more = np.linalg.solve(matrix, [*-gap[0, node], 401.0])[2]
+        assert found.mesh_stiffness[0, node] == pytest.approx(
+            1.0 / cycle.gear_pitch_radius / (more - deflection), rel=1e-6
+        )
