@@ -233,3 +233,15 @@ def test_refused(name):
     said = str(caught.value)
     assert rule in said, said
     assert advice in said, said
+
+
+@pytest.mark.parametrize("steep", [0, 1, 2])
+def test_the_value_named_is_the_one_beside_the_swing(steep):
+    """Of a path and of the one that runs the other way round."""
+    named = []
+    for order in (slice(None), slice(None, None, -1)):
+        angles = np.radians(np.roll([70, 2, 60, 20, 20, 20, 20], steep))[order]
+        with pytest.raises(InputError, match="between or beyond") as caught:
+            check(FAMILY, with_shape(angles=angles))
+        named.append(int(str(caught.value.key).rpartition(".")[2]))
+    assert named[0] + named[1] == 6

@@ -1,6 +1,7 @@
 """Drives that differ in size, in stiffness or in which gear drives: what has to change, and by how much."""
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from tribodyn.geometry.path import kinematics
 from tribodyn.geometry.sheet import geometry_sheet
 from tribodyn.mesh.data import MeshData
 from tribodyn.mesh.friction_loss import mean_efficiency
-from tribodyn.mesh.quasi_static import quasi_static
+from tribodyn.mesh.quasi_static import cycle_integral, cycle_mean, quasi_static
 from tribodyn.mesh.tabulate import tabulate
 
 STEEL = MaterialData("steel", 206e9, 0.3, 7850.0, 46.0, 470.0, 6e9)
@@ -149,3 +150,20 @@ def test_loads_share_the_deflection_and_balance_the_torque():
         assert found.mesh_stiffness[0, node] == pytest.approx(
             1.0 / cycle.gear_pitch_radius / (more - deflection), rel=1e-6
         )
+
+
+@pytest.mark.parametrize("upto", [0.0, 0.3, 0.85, 1.0])
+def test_integrals_over_the_cycle_are_those_of_cubics(upto):
+    """Of one value per node and of one per pair; each segment has a cubic of its own."""
+    one = table(*SOUND[0])
+    phase, number = one.phase, np.arange(len(one.phase))[:, None]
+    values = 1.0 + number - 2.0 * phase + (3.0 + number) * phase**3
+    exact = 0.0
+    for k, (low, high) in enumerate(pairwise(one.boundary)):
+        high = min(high, upto)
+        if high > low:
+            exact += np.diff(np.polyval([(3.0 + k) / 4, 0.0, -1.0, 1.0 + k, 0.0], [low, high]))[0]
+    assert cycle_integral(one, values, np.array([[upto]])) == pytest.approx(exact, rel=1e-12, abs=1e-15)
+    both = cycle_integral(one, np.stack([values, -2.0 * values], axis=-1), np.array([[upto, upto]]))
+    np.testing.assert_allclose(both, [exact, -2.0 * exact], rtol=1e-12, atol=1e-15)
+    assert cycle_mean(one, 1.0 + 0.0 * values) == pytest.approx(1.0)

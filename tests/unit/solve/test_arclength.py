@@ -1,9 +1,13 @@
 """Branches beyond the ends of their stable parts, on maps whose branches are known in closed form."""
 
+from types import SimpleNamespace
+from typing import Any, cast
+
 import numpy as np
 import pytest
 
 from tests.support.closed_form_maps import Lines, cubic, delayed, logistic
+from tribodyn.solve.arclength import Arclength, Place
 from tribodyn.solve.branch_end import FOLD, MERGING, PERIOD_DOUBLING, Seed
 from tribodyn.solve.continuation import Leg, follow
 from tribodyn.solve.unstable_branch import unstable_branches
@@ -94,3 +98,18 @@ def test_where_nothing_goes_on_there_is_no_branch():
     assert branch is None
     runs_away = Seed(2.5, np.array([40.0]), 1, 1.0)
     assert unstable_branches(Lines(logistic, 1), 0, [runs_away], (2.0, 2.9)) == [None]
+
+
+def test_the_parameter_turns_at_the_vertex_of_a_parabola():
+    """a = 0.9 − x², in units of 2 for a and 1 for x, between places so near that nothing is solved."""
+    ends = []
+    for x in (-3e-4, 5e-4):
+        tangent = np.array([1.0, -x])  # of (x, a/2)
+        ends.append(
+            Place(np.array([x, 0.45 - 0.5 * x * x]), tangent / np.linalg.norm(tangent), np.ones(1), 0.0, None)
+        )
+    way = cast(Any, SimpleNamespace(units=np.array([1.0, 2.0])))
+    found, value, within = Arclength.turning(way, *ends)
+    assert found is ends[0]
+    assert value == pytest.approx(0.9, abs=1e-8)
+    assert within == pytest.approx(9e-8, rel=1e-2)
