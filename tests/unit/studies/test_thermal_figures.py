@@ -1,6 +1,7 @@
 """Figures of losses and temperatures, by adding up powers."""
 
 from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
@@ -10,7 +11,7 @@ from tribodyn.tribology.losses.wheel import Loss
 LOSSES = {"churning": Loss(30.0, ("too fast",)), "windage": Loss(5.0, ()), "bearings": Loss(15.0, ())}
 
 
-def settled(given_off=None):
+def settled(given_off=None) -> Any:
     heat = _heat(200.0, LOSSES, given_off is not None)
     temperatures = SimpleNamespace(bulk=350.0, pinion=352.0, gear=348.0, oil=340.0, housing=330.0)
     return SimpleNamespace(temperatures=temperatures, heat=heat, given_off=given_off, losses=LOSSES)
@@ -39,9 +40,10 @@ def test_heat_arises_where_it_is_lost(housing):
 
 
 def test_contact_temperature_is_bulk_and_flash():
-    oil = SimpleNamespace(temperature=340.0)
+    oil: Any = SimpleNamespace(temperature=340.0)
+    unknown: Any = SimpleNamespace(temperature=None)
     assert contact_figures(oil, {"bulk_temperature": 350.0, "flash_temperature_max": 40.0}) == {
         "contact_temperature_max": 390.0
     }
     assert contact_figures(oil, {"flash_temperature_max": 40.0})["contact_temperature_max"] == 380.0
-    assert contact_figures(SimpleNamespace(temperature=None), {"flash_temperature_max": 40.0}) == {}
+    assert contact_figures(unknown, {"flash_temperature_max": 40.0}) == {}

@@ -2,17 +2,20 @@
 
 import math
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pytest
 from scipy.integrate import quad
-from scipy.optimize import brentq
+from scipy.optimize import brentq as scipy_brentq
 from scipy.special import k0
 
 from tribodyn.tribology.ehl.heat import Thermal, heated, surfaces_under
 from tribodyn.tribology.ehl.rheology import Rheology
 from tribodyn.tribology.ehl.shear import LAYERS, sheared
 
+#: SciPy's says that it may return more than the root.
+brentq: Any = scipy_brentq
 SPEEDS = (1.3, 0.9)
 MIDDLES = [(k + 0.5) / LAYERS - 0.5 for k in range(LAYERS)]
 
