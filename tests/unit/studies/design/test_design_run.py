@@ -82,6 +82,7 @@ def test_an_interrupted_search_keeps_its_best_and_goes_on(tmp_path: Path, monkey
     assert any("--resume goes on" in note for note in stopped.value.__notes__)
     with open_record(tmp_path / "stopped.partial.h5") as record:
         assert record.status == "failed"
+        assert record.message == "interrupted by the user"
         done = record.samples
         assert 3 < done < whole.evaluations
         assert record.summary["objective"] == min(record["objective"])
