@@ -134,7 +134,7 @@ def friction_along(study: Prepared, over: Way) -> Array:
     found = np.full(len(over.roll), np.nan)
     for at in np.flatnonzero(loaded(over)):
         duty = over.line_load[at], seen.radius[at], seen.entrainment[at], sliding[at]
-        solved = solved_at(contact, *(float(one) for one in duty), study.case.step)
+        solved = solved_at(contact, *(float(one) for one in duty), step=study.case.step)
         if solved is not None:
             found[at] = solved.friction / float(over.line_load[at])
     return found
@@ -200,8 +200,8 @@ def solved_at(
     radius: float,
     entrainment: float,
     sliding: float,
-    step: float,
     *,
+    step: float,
     smooth: bool = False,
 ) -> CoupledSolution | None:
     """Solve one contact, mixed and with heat, or of `smooth` surfaces, on a grid of so long a `step`.

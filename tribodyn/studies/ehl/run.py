@@ -103,7 +103,7 @@ def solve(study: Prepared, over: Way, progress: Progress) -> dict[str, Array]:
     steady: list[Steady | None] = [None] * count
     for at in np.flatnonzero(loaded(over)):
         duty = over.line_load[at], seen.radius[at], seen.entrainment[at], sliding[at]
-        found = solved_at(contact, *(float(one) for one in duty), case.step)
+        found = solved_at(contact, *(float(one) for one in duty), step=case.step)
         if found is not None:
             solution, problem = found.solution, found.solution.problem
             gap = solution.mean_gap
@@ -124,7 +124,7 @@ def solve(study: Prepared, over: Way, progress: Progress) -> dict[str, Array]:
                 arrays[name][at] = value
             if case.transient:
                 steady[at] = kept(found)
-        flat = solved_at(contact, *(float(one) for one in duty), case.step, smooth=True)
+        flat = solved_at(contact, *(float(one) for one in duty), step=case.step, smooth=True)
         if flat is not None:
             arrays["central_film_smooth"][at] = flat.solution.central_film_thickness
             arrays["minimum_film_smooth"][at] = flat.solution.minimum_film_thickness
@@ -148,7 +148,7 @@ def _traction(study: Prepared, over: Way) -> list[float]:
             float(seen.radius[at]),
             speed,
             float(ratio * speed),
-            study.case.step,
+            step=study.case.step,
         )
         curve.append(np.nan if found is None else abs(found.friction) / float(over.line_load[at]))
     return curve
