@@ -5,11 +5,13 @@ python -m tools.mutants --count 100 --seed 2 --out done.jsonl  # keeps what is d
 python -m tools.mutants --at solve/marching.py:136           # every change of a line
 python -m tools.mutants --again done.jsonl                   # the changes that survived an earlier run
 python -m tools.mutants --count 100 --near --part 0 2        # the nearest tests only; every second change
+python -m tools.mutants --again done.jsonl --all             # the survivors, with every test of `make test`
 
 Each change is made in a copy of the tracked files. First run the test files that import the changed module or
 have its name, then all others that depend on it, each time up to the first failure. Machine code and finite
 elements are kept in a cache of the copy; their keys hold the sources, so that no change is hidden by them.
-The time limit is one of processor time: a busy machine makes no survivor.
+The time limit is one of processor time: a busy machine makes no survivor. The tests run in forks of a process
+that has imported the libraries.
 """
 
 import argparse
@@ -18,7 +20,6 @@ import json
 import os
 import random
 import re
-import resource
 import shutil
 import subprocess
 import sys
@@ -43,7 +44,32 @@ SYMBOL = re.compile(rb"\*\*|//|<=|>=|==|!=|[-+*/<>]|\band\b|\bor\b")
 FACTOR = 1.1
 #: Processor time of the tests of one change, s.
 LIMIT = 600
-QUICK = [*"-q -x -p no:cacheprovider --benchmark-disable --quick -m".split(), "not bench and not slow"]
+OPTIONS = "-q -x -p no:cacheprovider --benchmark-disable".split()
+QUICK = ["--quick", "-m", "not bench and not slow"]
+ALL = ["-m", "not bench and not soak"]
+#: Reads a line of JSON for each run of pytest, answers with its exit status.
+SERVER = """
+import gc, json, os, resource, sys
+import h5py, jax, llvmlite.binding, matplotlib.backends.backend_agg, matplotlib.figure, numba
+import pint, pydantic, pytest, rich.console, scipy.integrate, scipy.interpolate, scipy.optimize
+import scipy.sparse.linalg, skfem, typer
+
+gc.freeze()
+for line in sys.stdin:
+    request = json.loads(line)
+    child = os.fork()
+    if child == 0:
+        resource.setrlimit(resource.RLIMIT_CPU, (request["limit"], request["limit"]))
+        out = os.open(request["out"], os.O_WRONLY | os.O_TRUNC)
+        for number in (1, 2):
+            os.dup2(out, number)
+        os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
+        status = pytest.main(request["words"])
+        sys.stdout.flush()
+        os._exit(status)
+    _, ended = os.waitpid(child, 0)
+    print(os.waitstatus_to_exitcode(ended), flush=True)
+"""
 
 
 class Change(NamedTuple):
@@ -209,9 +235,28 @@ class Tests:
         self.root, self.limit = root, limit
         self.sound: set[str] = set()
         self.failing: set[str] = set()
+        self.out = root / "out.txt"
+        self.out.touch()
+        own = {
+            "PYTHONPATH": str(root),
+            "PYTHONDONTWRITEBYTECODE": "1",
+            "TRIBODYN_CACHE": str(root / ".cache"),
+            "OPENBLAS_NUM_THREADS": "1",
+        }
+        self.server = subprocess.Popen(
+            [sys.executable, "-c", SERVER],
+            cwd=root,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+            env=os.environ | own,
+        )
 
-    def noticed(self, change: Change, near: bool = False) -> str:
-        """Make a change and run its tests, or the nearest; what noticed it, or nothing where none did."""
+    def noticed(self, change: Change, near: bool = False, every: bool = False) -> str:
+        """Make a change and run its tests, or the nearest; what noticed it, or nothing where none did.
+
+        Of the quick tests, or of every one that `make test` runs.
+        """
         file = self.root / PACKAGE / change.file
         source = file.read_bytes()
         module = ".".join((PACKAGE, *Path(change.file).with_suffix("").parts)).removesuffix(".__init__")
@@ -220,39 +265,32 @@ class Tests:
         while waiting:
             try:
                 file.write_bytes(change.made(source))
-                failed = self._first_failing(waiting[0])
+                failed = self._first_failing(waiting[0], every)
             finally:
                 file.write_bytes(source)
             if not failed:
                 waiting.pop(0)
-            elif "::" not in failed or failed in self.sound or not self._first_failing([failed]):
+            elif "::" not in failed or failed in self.sound or not self._first_failing([failed], every):
                 self.sound.add(failed)
                 return failed
             else:
                 self.failing.add(failed)
         return ""
 
-    def _first_failing(self, files: list[str]) -> str:
-        environment = os.environ | {
-            "PYTHONPATH": str(self.root),
-            "PYTHONDONTWRITEBYTECODE": "1",
-            "TRIBODYN_CACHE": str(self.root / ".cache"),
-            "OPENBLAS_NUM_THREADS": "1",
-        }
+    def _first_failing(self, files: list[str], every: bool) -> str:
         left_out = [f"--deselect={name}" for name in sorted(self.failing)]
-        run = subprocess.run(
-            [sys.executable, "-m", "pytest", *QUICK, *left_out, *files],
-            cwd=self.root,
-            env=environment,
-            capture_output=True,
-            text=True,
-            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (self.limit, self.limit)),
-            check=False,
-        )
-        if run.returncode in (0, 5):  # all passed, or none was quick
+        words = [*OPTIONS, *(ALL if every else QUICK), *left_out, *files]
+        request = {"words": words, "limit": self.limit, "out": str(self.out)}
+        assert self.server.stdin is not None
+        assert self.server.stdout is not None
+        self.server.stdin.write(json.dumps(request) + "\n")
+        self.server.stdin.flush()
+        status = int(self.server.stdout.readline())
+        if status in (0, 5):  # all passed, or none was quick
             return ""
-        failed = re.findall(r"^(?:FAILED|ERROR) (.+?)(?: - .*)?$", run.stdout, re.MULTILINE)
-        return failed[0] if failed else f"exit status {run.returncode}"
+        said = self.out.read_text(encoding="utf-8", errors="replace")
+        failed = re.findall(r"^(?:FAILED|ERROR) (.+?)(?: - .*)?$", said, re.MULTILINE)
+        return failed[0] if failed else f"exit status {status}"
 
 
 def copied(folder: Path) -> Path:
@@ -289,6 +327,9 @@ def main() -> None:
     parser.add_argument("--again", metavar="FILE", help="the survivors in a file of results instead")
     parser.add_argument("--near", action="store_true", help="only tests of files that name the module")
     parser.add_argument(
+        "--all", action="store_true", help="every test of `make test` in place of the quick ones"
+    )
+    parser.add_argument(
         "--part", type=int, nargs=2, default=(0, 1), help="number and count of a share of them"
     )
     parser.add_argument("--out", metavar="FILE", help="file of results, a line each, to go on from")
@@ -306,7 +347,7 @@ def main() -> None:
         tests = Tests(root, arguments.limit)
         for number, change in enumerate(chosen, 1):
             if change not in done:
-                done[change] = tests.noticed(change, arguments.near)
+                done[change] = tests.noticed(change, arguments.near, arguments.all)
                 if out:
                     with out.open("a", encoding="utf-8") as stream:
                         stream.write(json.dumps({"change": change, "noticed": done[change]}) + "\n")

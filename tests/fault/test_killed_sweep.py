@@ -58,7 +58,8 @@ def test_a_killed_sweep_goes_on_where_it_stopped(direction: tuple[str, ...], tmp
         before = left["status"]
         assert 3 <= np.sum(before == DONE) < 30
         assert np.isfinite(left["efficiency"][before == DONE]).all()
-        assert np.isnan(left["efficiency"][before == WAITING]).all()
+        # what a case gave is written before its status: one may have been killed in between
+        assert np.sum(np.isfinite(left["efficiency"][before == WAITING])) <= 1
     for other in (["--set", "operating.gear_torque=1 N*m"], ["--transient", "39"], ["--direction", "down"]):
         refused = CliRunner().invoke(
             app, ["sweep", *WORDS, *VARY, *direction, *other, "--resume", "-o", str(tmp_path / "killed.h5")]
