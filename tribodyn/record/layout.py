@@ -3,6 +3,7 @@
 import importlib.metadata
 from collections.abc import Mapping
 from datetime import datetime
+from functools import cache
 from typing import Any, NamedTuple
 
 import h5py
@@ -80,18 +81,19 @@ def create(head: Head, samples: int) -> LaidOut:
         size = {axis: samples, **{name: len(values) for name, values in head.scales.items()}}
         datasets = {axis: reserve(file, axis, layout.axis, (samples,))}
         datasets[axis].make_scale(axis)
+        scales = {axis: datasets[axis]}
         for name, values in head.scales.items():
-            scale(file, name, layout.scales[name], np.asarray(values))
+            scales[name] = scale(file, name, layout.scales[name], np.asarray(values))
         for name, variable in (*layout.samples.items(), *layout.others.items()):
             if all(dim in size for dim in variable.dims):
                 datasets[name] = reserve(file, name, variable, tuple(size[dim] for dim in variable.dims))
-                attach(file, file, datasets[name], variable)
+                attach(datasets[name], variable, scales)
         file.attrs["axis"] = axis
         # words, not an array of texts: Octave stops reading at those
         file.attrs["datasets"] = " ".join(datasets)
         datasets["samples_written"] = reserve(file, "samples_written", schema.SAMPLES_WRITTEN, ())
         for name, table in layout.groups.items():
-            _write_arrays(file, file.create_group(name), table, head.groups.get(name, {}))
+            _write_arrays(file.create_group(name), table, head.groups.get(name, {}), scales)
         file.create_group("summary")
         places = {name: place_of(dataset) for name, dataset in datasets.items()}
         variables = {**layout.along, **layout.others, "samples_written": schema.SAMPLES_WRITTEN}
@@ -129,7 +131,12 @@ def write_head(file: h5py.File, kind: str, scenario: str, sha256: str, created: 
     file.attrs["status"] = schema.PARTIAL
     file.attrs["message"] = schema.STATUS_NOTES[schema.PARTIAL]
     for library in LIBRARIES:
-        file.attrs[f"{library}_version"] = importlib.metadata.version(library)
+        file.attrs[f"{library}_version"] = _version(library)
+
+
+@cache
+def _version(library: str) -> str:
+    return importlib.metadata.version(library)
 
 
 def reserve(file: h5py.File, name: str, variable: Variable, shape: tuple[int, ...]) -> h5py.Dataset:
@@ -178,8 +185,8 @@ def describe(dataset: h5py.Dataset, variable: Variable) -> None:
     dataset.attrs["long_name"] = variable.long_name
 
 
-def scale(group: h5py.Group, name: str, variable: Variable, values: np.ndarray) -> None:
-    """Write a dimension scale."""
+def scale(group: h5py.Group, name: str, variable: Variable, values: np.ndarray) -> h5py.Dataset:
+    """Write a dimension scale, and return it."""
     text = values.dtype.kind == "U"
     # of fixed length, because Octave stops reading at other strings; the attribute makes xarray decode
     dataset = group.create_dataset(name, data=values.astype("S") if text else values)
@@ -187,12 +194,13 @@ def scale(group: h5py.Group, name: str, variable: Variable, values: np.ndarray) 
         dataset.attrs["_Encoding"] = "utf-8"
     describe(dataset, variable)
     dataset.make_scale(name)
+    return dataset
 
 
-def attach(file: h5py.File, group: h5py.Group, dataset: Any, variable: Variable) -> None:
-    """Attach to every axis of a dataset its scale, from the group or the root."""
+def attach(dataset: Any, variable: Variable, scales: Mapping[str, h5py.Dataset]) -> None:
+    """Attach to every axis of a dataset its scale."""
     for axis, dim in enumerate(variable.dims):
-        dataset.dims[axis].attach_scale(group[dim] if dim in group else file[dim])
+        dataset.dims[axis].attach_scale(scales[dim])
 
 
 def counted(name: str) -> str:
@@ -201,9 +209,12 @@ def counted(name: str) -> str:
 
 
 def _write_arrays(
-    file: h5py.File, group: h5py.Group, table: Mapping[str, Variable], values: Mapping[str, Any]
+    group: h5py.Group,
+    table: Mapping[str, Variable],
+    values: Mapping[str, Any],
+    scales: Mapping[str, h5py.Dataset],
 ) -> None:
-    """Arrays of `table` become datasets with their scales, numbers attributes."""
+    """Arrays of `table` become datasets with the group's scales or the root's, numbers attributes."""
     arrays = {}
     for name, value in values.items():
         if name in table and table[name].dims:
@@ -212,15 +223,19 @@ def _write_arrays(
         group.attrs[name] = value
         if name in table:
             group.attrs[f"{name}_units"] = table[name].units
+    scales = dict(scales)
+    written = {}
     for name, variable in table.items():
         if name in arrays:
-            describe(group.create_dataset(name, data=arrays[name]), variable)
+            written[name] = group.create_dataset(name, data=arrays[name])
+            describe(written[name], variable)
             if variable.dims == (name,):
-                group[name].make_scale(name)  # pyright: ignore[reportAttributeAccessIssue]
+                written[name].make_scale(name)
+                scales[name] = written[name]
     for name, variable in table.items():
         if name not in arrays or variable.dims == (name,):
             continue
         for dim, length in zip(variable.dims, arrays[name].shape, strict=True):
-            if dim not in group and dim not in file:
-                scale(group, dim, Variable((dim,), "1", counted(dim)), np.arange(length))
-        attach(file, group, group[name], variable)
+            if dim not in scales:
+                scales[dim] = scale(group, dim, Variable((dim,), "1", counted(dim)), np.arange(length))
+        attach(written[name], variable, scales)

@@ -97,12 +97,17 @@ class Record:
     def dims_of(self, name: str) -> tuple[str, ...]:
         """Names of a dataset's dimensions; none of a group, or of a number."""
         if name not in self._known_dims:
-            self._known_dims[name] = dims_in(self._file, name)
+            self._known_dims[name] = dims_in(self._file, name, self._scales)
         return self._known_dims[name]
 
     @cached_property
     def _known_dims(self) -> dict[str, tuple[str, ...]]:
         """Dimensions by dataset: to read them takes longer than to read a short dataset."""
+        return {}
+
+    @cached_property
+    def _scales(self) -> dict[int, str]:
+        """Names of scales, see `dims_in`."""
         return {}
 
     def units(self, name: str) -> str:
@@ -169,7 +174,7 @@ class Record:
         A figure that is withheld is None, see `record.withheld`.
         """
         nested: dict[str, Any] = {}
-        for name, value in attributes(self._file["summary"]).items():
+        for name, value in self._attributes["summary"].items():
             *parents, leaf = name.split("/")
             place = nested
             for parent in parents:
@@ -188,6 +193,11 @@ class Record:
         return self._group("geometry")
 
     @cached_property
+    def _attributes(self) -> dict[str, dict[str, Any]]:
+        """Attributes of the groups."""
+        return {name: attributes(self._file[name]) for name in self.groups}
+
+    @cached_property
     def groups(self) -> tuple[str, ...]:
         """Names of the groups: "mesh_cycle", "geometry", "summary", as far as there are."""
         return tuple(name for name, item in self._file.items() if isinstance(item, h5py.Group))
@@ -199,7 +209,8 @@ class Record:
         """Arrays and numbers of a group; of scales only those that are data themselves."""
         try:
             group = self._file[name]
-            numbers = {key: value for key, value in attributes(group).items() if not key.endswith("_units")}
+            own = self._attributes[name].items()
+            numbers = {key: value for key, value in own if not key.endswith("_units")}
             data = {key: one for key, one in group.items() if one.attrs["long_name"] != counted(key)}
             return {**{key: one[...] for key, one in data.items()}, **numbers}
         except (OSError, KeyError, RuntimeError) as error:
@@ -245,10 +256,7 @@ class Record:
         for name in self._along:
             if self._file[name].shape[0] < self.samples:
                 raise ValueError(f"{name} is too short")
-        for item in self._file.values():
-            if isinstance(item, h5py.Group):
-                attributes(item)
-        _ = self._file["summary"]
+        _ = self._attributes["summary"]
 
     def _damaged(self, error: Exception) -> InputError:
         reason = str(error).strip("'\"")
@@ -277,14 +285,24 @@ def open_file(path: Path) -> h5py.File:
         raise InputError("record", str(path), "not an HDF5 file", "name a file of tribodyn run") from error
 
 
-def dims_in(file: h5py.File, name: str) -> tuple[str, ...]:
-    """Names of a dataset's dimensions; none of a group, or of a number."""
+def dims_in(file: h5py.File, name: str, scales: dict[int, str]) -> tuple[str, ...]:
+    """Names of a dataset's dimensions; none of a group, or of a number.
+
+    `scales` remembers names by the scales' addresses in the file: HDF5 searches the file for each.
+    """
     item = file[name]
     if not isinstance(item, h5py.Dataset) or not item.shape:
         return ()
     if item.is_scale:
         return (name,)
-    return tuple(str(dim[0].name).rpartition("/")[2] if len(dim) else "" for dim in item.dims)
+    return tuple(_name_of(dim[0], scales) if len(dim) else "" for dim in item.dims)
+
+
+def _name_of(scale: h5py.Dataset, known: dict[int, str]) -> str:
+    address = h5py.h5o.get_info(scale.id).addr
+    if address not in known:
+        known[address] = str(scale.name).rpartition("/")[2]
+    return known[address]
 
 
 def attributes(item: Any) -> dict[str, Any]:

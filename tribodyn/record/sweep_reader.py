@@ -105,7 +105,12 @@ class SweepRecord:
 
     def dims_of(self, name: str) -> tuple[str, ...]:
         """Names of a dataset's dimensions."""
-        return dims_in(self._file, name)
+        return dims_in(self._file, name, self._scales)
+
+    @cached_property
+    def _scales(self) -> dict[int, str]:
+        """Names of scales, see `dims_in`."""
+        return {}
 
     def __contains__(self, name: object) -> bool:
         return name in self._file and isinstance(self._file[name], h5py.Dataset)

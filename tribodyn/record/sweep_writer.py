@@ -206,14 +206,14 @@ def _lay_out(head: SweepHead) -> layout.LaidOut:
         file.attrs["sweep"] = head.settings
         for name, value in head.layout.attributes.items():
             file.attrs[name] = value
-        size = _write_scales(file, head)
+        scales = _write_scales(file, head)
         places, blanks = {}, []
         for name, variable in head.layout.variables.items():
             full = variable._replace(dims=(*head.dims, *variable.dims))
             if full.units == sweep_schema.FIRST_PARAMETER:
                 full = full._replace(units=head.parameters[0].units or "1")
-            dataset = layout.reserve(file, name, full, tuple(size[dim] for dim in full.dims))
-            layout.attach(file, file, dataset, full)
+            dataset = layout.reserve(file, name, full, tuple(scales[dim].shape[0] for dim in full.dims))
+            layout.attach(dataset, full, scales)
             if _TEXT in variable.dtype:
                 dataset.attrs["_Encoding"] = "utf-8"
             places[name] = _case_place(dataset, len(head.dims))
@@ -223,27 +223,28 @@ def _lay_out(head: SweepHead) -> layout.LaidOut:
     return layout.LaidOut(content, blanks, places)
 
 
-def _write_scales(file: h5py.File, head: SweepHead) -> dict[str, int]:
-    """Write the scales of all dimensions; their lengths."""
+def _write_scales(file: h5py.File, head: SweepHead) -> dict[str, h5py.Dataset]:
+    """Write the scales of all dimensions."""
+    scales = {}
     for one in head.parameters:
         variable = Variable((one.name,), one.units or "1", f"varied parameter {one.key}")
-        _write_scale(file, one.name, variable, one.values)
-        file[one.name].attrs["key"] = one.key
+        scales[one.name] = _write_scale(file, one.name, variable, one.values)
+        scales[one.name].attrs["key"] = one.key
     if head.directions:
-        _write_scale(file, "direction", sweep_schema.DIRECTION, head.directions)
+        scales["direction"] = _write_scale(file, "direction", sweep_schema.DIRECTION, head.directions)
     for name, (variable, values) in head.layout.scales.items():
-        _write_scale(file, name, variable, values)
-    return {name: file[name].shape[0] for name in (*head.dims, *head.layout.scales)}  # pyright: ignore
+        scales[name] = _write_scale(file, name, variable, values)
+    return scales
 
 
-def _write_scale(file: h5py.File, name: str, variable: Variable, values: Sequence[Any]) -> None:
+def _write_scale(file: h5py.File, name: str, variable: Variable, values: Sequence[Any]) -> h5py.Dataset:
     """Numbers as they are; texts of fixed length, see `layout`."""
     if isinstance(values[0], str):
-        layout.scale(file, name, variable, np.char.encode(np.array(values), "utf-8"))
-        file[name].attrs["_Encoding"] = "utf-8"
-    else:
-        numbers = np.asarray(values)
-        layout.scale(file, name, variable, numbers if numbers.dtype.kind == "i" else numbers.astype("<f8"))
+        dataset = layout.scale(file, name, variable, np.char.encode(np.array(values), "utf-8"))
+        dataset.attrs["_Encoding"] = "utf-8"
+        return dataset
+    numbers = np.asarray(values)
+    return layout.scale(file, name, variable, numbers if numbers.dtype.kind == "i" else numbers.astype("<f8"))
 
 
 def _case_place(dataset: h5py.Dataset, dims: int) -> layout.Place:
