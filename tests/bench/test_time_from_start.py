@@ -44,9 +44,9 @@ def figures(tmp_path_factory):
     first, _ = times_of(RUN, folder, folder / "cache")
     others = {"run": RUN, "picture": PICTURE, "libraries": LIBRARIES, "loop": LOOP}
     times = {name: [] for name in others}
-    for turn in range(5):
+    for turn in range(3):
         for name, command in others.items():
-            if name != "picture" or turn < 3:
+            if name != "picture" or turn < 2:
                 times[name].append(times_of(command, folder, folder / "cache"))
     least = {name: [min(one) for one in zip(*values, strict=True)] for name, values in times.items()}
     return {
