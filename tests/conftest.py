@@ -42,7 +42,7 @@ def pytest_collection_finish() -> None:
     """
     gc.collect()
     gc.freeze()
-    gc.set_threshold(5_000, 10, 10)
+    gc.set_threshold(5_000, 10, 50)
     kept = trusted_folder("xla")
     if "jax" in sys.modules and kept:
         jax = sys.modules["jax"]
