@@ -1,9 +1,7 @@
 """How objects show themselves in a notebook: tables and small pictures as HTML that needs no other file."""
 
-import base64
 from collections.abc import Iterable, Sequence
 from html import escape
-from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,10 +13,9 @@ from tribodyn.studies.study import Study, TextTable
 if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
-#: Of a small picture: inches per panel, and dots per inch.
-SIZE, RESOLUTION = (3.6, 2.1), 90
+#: Of a small picture: inches per panel, and its resolution as a share of that of a file.
+SIZE, RESOLUTION = (3.6, 2.1), 0.45
 #: Panels of a run; mesh cycles in them.
 PANELS, CYCLES = 2, 2
 #: Characters that fit over a panel.
@@ -124,16 +121,10 @@ def picture_of_gears(mesh: GearsInMesh) -> str:
 def _picture(panels: Sequence[Any], height: float = 1.0) -> str:
     from matplotlib.figure import Figure
 
-    from tribodyn.post.style import house_style
+    from tribodyn.post.style import house_style, inline
 
     with house_style():
         figure = Figure((SIZE[0] * len(panels), SIZE[1] * height), layout="constrained")
         for axes, draw in zip(figure.subplots(1, len(panels), squeeze=False)[0], panels, strict=True):
             draw(axes)
-        return _inline(figure)
-
-
-def _inline(figure: "Figure") -> str:
-    stream = BytesIO()
-    figure.savefig(stream, format="png", dpi=RESOLUTION)
-    return f'<img alt="" src="data:image/png;base64,{base64.b64encode(stream.getvalue()).decode("ascii")}">'
+        return inline(figure, share=RESOLUTION)

@@ -2,7 +2,6 @@
 
 import struct
 import zlib
-from pathlib import Path
 
 import numpy as np
 
@@ -11,12 +10,11 @@ LEVEL = 3
 INCH = 0.0254
 
 
-def write_png(path: Path, pixels: np.ndarray, dpi: float) -> None:
-    """Write a picture.
+def png(pixels: np.ndarray, dpi: float) -> bytes:
+    """The bytes of a picture's file.
 
     Parameters
     ----------
-    path : Path
     pixels : array of uint8, (rows, columns, 4)
         Red, green, blue and opacity.
     dpi : float
@@ -32,8 +30,7 @@ def write_png(path: Path, pixels: np.ndarray, dpi: float) -> None:
         (b"IDAT", zlib.compress(lines.data, LEVEL)),
         (b"IEND", b""),
     )
-    with path.open("wb") as file:
-        file.write(b"\x89PNG\r\n\x1a\n")
-        for name, data in chunks:
-            file.write(struct.pack(">I", len(data)) + name + data)
-            file.write(struct.pack(">I", zlib.crc32(name + data)))
+    return b"\x89PNG\r\n\x1a\n" + b"".join(
+        struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+        for name, data in chunks
+    )

@@ -1,10 +1,12 @@
 """House style of the figures: one look, fit for print, with colours for every kind of colour vision."""
 
+import base64
 import functools
 import warnings
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
+from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +18,7 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.layout_engine import ConstrainedLayoutEngine, LayoutEngine
 
 from tribodyn.errors import InputError
-from tribodyn.post.png import write_png
+from tribodyn.post.png import png
 
 #: Okabe & Ito (2008), the colours that stay apart for every kind of colour vision; yellow is left out, too
 #: pale for a line on white.
@@ -40,6 +42,8 @@ WIDTH, PANEL_HEIGHT = 6.7, 2.5
 
 #: Ticks that an axis seldom exceeds.
 TICKS = 10
+#: Resolution of a picture within a page, as a share of that of a file.
+INLINE = 0.7
 #: Height of a row of names above axes, points.
 ROW = 9.5
 
@@ -194,10 +198,27 @@ def save(figure: Figure, path: str | Path) -> Path:
     path = Path(path)
     with house_style():
         if path.suffix == ".png":
-            write_png(path, painted(figure), STYLE["savefig.dpi"])
+            path.write_bytes(png(painted(figure), STYLE["savefig.dpi"]))
         else:
             figure.savefig(path)
     return path
+
+
+def inline(figure: Figure, about: str = "", share: float = INLINE) -> str:
+    """A figure as an image within a page.
+
+    Parameters
+    ----------
+    figure : Figure
+    about : str
+        What it shows, for who cannot see it.
+    share : float
+        Its resolution over that of a file.
+    """
+    dpi = share * STYLE["savefig.dpi"]
+    with house_style():
+        data = base64.b64encode(png(painted(figure, dpi), dpi)).decode("ascii")
+    return f'<img alt="{escape(about)}" src="data:image/png;base64,{data}">'
 
 
 @functools.cache
@@ -215,7 +236,7 @@ def read_formulas(texts: Iterable[str], size: float) -> None:
             _formulas().parse(text, STYLE["savefig.dpi"], FontProperties(size=size))
 
 
-def painted(figure: Figure) -> np.ndarray:
+def painted(figure: Figure, dpi: float | None = None) -> np.ndarray:
     """Draw a figure as PNG files have it: uint8 (rows, columns, 4), red, green, blue, opacity.
 
     `savefig` would draw it once more to no effect.
@@ -223,7 +244,7 @@ def painted(figure: Figure) -> np.ndarray:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 
     shown_at = figure.dpi
-    figure.dpi = matplotlib.rcParams["savefig.dpi"]
+    figure.dpi = dpi or matplotlib.rcParams["savefig.dpi"]
     try:
         canvas = FigureCanvasAgg(figure)
         canvas.get_renderer().mathtext_parser = _formulas()

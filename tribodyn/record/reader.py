@@ -299,7 +299,7 @@ def dims_in(file: h5py.File, name: str, scales: dict[int, str]) -> tuple[str, ..
 
 
 def _name_of(scale: h5py.Dataset, known: dict[int, str]) -> str:
-    address = h5py.h5o.get_info(scale.id).addr
+    address = h5py.h5o.get_info(scale.id).addr  # pyright: ignore[reportAttributeAccessIssue]
     if address not in known:
         known[address] = str(scale.name).rpartition("/")[2]
     return known[address]

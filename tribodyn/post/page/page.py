@@ -1,11 +1,9 @@
 """Puts a page together: one file, which asks nothing of any other place."""
 
-import base64
 import json
 from collections.abc import Sequence
 from html import escape
 from importlib import resources
-from io import BytesIO
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -20,7 +18,7 @@ from tribodyn.post.page.profiles import as_data as profiles_as_data
 from tribodyn.post.page.rolling_teeth import rolling_teeth
 from tribodyn.post.page.series import as_data, extrapolated, in_engineers_units, packed, series_of
 from tribodyn.post.report import EXCEEDED, Lines, shown
-from tribodyn.post.style import house_style
+from tribodyn.post.style import inline
 from tribodyn.record import trust
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
@@ -252,15 +250,8 @@ def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> 
 
 def picture(name: str, about: str, figure: Figure) -> str:
     """A picture within the page."""
-    file = BytesIO()
-    with house_style():
-        figure.savefig(file, format="png", dpi=130)
-    text = base64.b64encode(file.getvalue()).decode("ascii")
     heading = f"{name[:1].upper()}{name[1:]}: {about}"
-    return (
-        f'<section class="pictures"><h2>{escape(heading)}</h2>'
-        f'<img alt="{escape(about)}" src="data:image/png;base64,{text}"></section>'
-    )
+    return f'<section class="pictures"><h2>{escape(heading)}</h2>{inline(figure, about)}</section>'
 
 
 def origin(record: Record | SweepRecord) -> str:

@@ -1,20 +1,16 @@
 """The report of an assessment: a first page for whoever asked, the details on those behind it."""
 
-import base64
 import math
 from collections.abc import Mapping, Sequence
 from html import escape
 from importlib import resources
-from io import BytesIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from matplotlib.figure import Figure
-
 from tribodyn.numerics.scatter import SPREAD
 from tribodyn.post.page.page import table, warnings_of
-from tribodyn.post.style import house_style
+from tribodyn.post.style import inline
 from tribodyn.record.reader import Record, open_record
 from tribodyn.standards.contact_path import POINTS
 from tribodyn.studies.assessment import parts
@@ -72,6 +68,7 @@ def page(record: Record) -> str:
         for _, answer in parts.answers(taking_part, asked, done):
             curves += answer.curves
     title = str(record.scenario.get("title", record.label))
+    picture = inline(pictures(record, curves), "error, vibration, film, losses")
     body = [
         _header(record, title),
         _verdict(record, summary),
@@ -81,7 +78,7 @@ def page(record: Record) -> str:
         f"<div>{_limits(summary)}{_scatter(summary)}{_list('Assumed', summary.get('assumed', {}))}</div>",
         f"<div>{_by_standard(summary)}{_list('Extrapolated', summary.get('extrapolated', {}))}</div>",
         "</div>",
-        f'<div class="pictures">{_image(pictures(record, curves), "error, vibration, film, losses")}</div>',
+        f'<div class="pictures"><p>{picture}</p></div>',
         '<div class="break"></div>',
         _points(summary),
         *(
@@ -273,18 +270,10 @@ def _part(study: Study, title: str, done: Sequence[parts.Done]) -> str:
         if not one.summary:
             continue
         with open_record(one.path) as record:
-            picture = _image(overview(record), title)
+            picture = f"<p>{inline(overview(record), title)}</p>"
             tables = summary_tables([record], [study.lines()])
         return f"<section><h2>{escape(title)}</h2>{picture}{tables}</section>"
     return ""
-
-
-def _image(figure: Figure, about: str) -> str:
-    file = BytesIO()
-    with house_style():
-        figure.savefig(file, format="png", dpi=150)
-    text = base64.b64encode(file.getvalue()).decode("ascii")
-    return f'<p><img alt="{escape(about)}" src="data:image/png;base64,{text}"></p>'
 
 
 def _origin(record: Record) -> str:
