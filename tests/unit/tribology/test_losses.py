@@ -4,9 +4,10 @@ import itertools
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
-from tribodyn.tribology.losses.bearing_drag import ShaftBearings, palmgren
+from tribodyn.tribology.losses.bearing_drag import DRAG_FACTORS, ShaftBearings, palmgren
 from tribodyn.tribology.losses.churning import changenet_velex, iso_14179_1
 from tribodyn.tribology.losses.of_pair import BearingDragData, LossData, losses_of_pair
 from tribodyn.tribology.losses.wheel import Wheel
@@ -32,6 +33,107 @@ def test_changenet_velex_by_hand():
     assert power == pytest.approx(0.5 * 850 * (750 * RPM) ** 3 * surface * radius**3 * moment, rel=1e-9)
     thick = changenet_velex(WHEEL, 0.060, 850.0, 1e-3).power
     assert thick / power == pytest.approx(2**0.21, rel=1e-9)
+
+
+def wetted(wheel, depth):
+    """Flanks, sides and teeth below the level, m²."""
+    theta = math.acos(1 - depth / wheel.pitch_radius)
+    sides = wheel.pitch_radius**2 * (2 * theta - math.sin(2 * theta))
+    rim = 2 * wheel.pitch_radius * wheel.face_width * theta
+    height = wheel.tip_radius - wheel.root_radius
+    return sides + rim + 2 * wheel.teeth * height * wheel.face_width * theta / math.pi
+
+
+@pytest.mark.parametrize("rpm", [400.0, 950.0, 1130.0, 2900.0])
+@pytest.mark.parametrize("immersion", [2e-3, 21e-3, 90e-3])
+def test_changenet_velex_in_every_regime(rpm, immersion):
+    """C_m of both regimes in powers of h/D, V_0/D³, Fr, Re, b/D; between Re = 6000 and 9000 linear.
+
+    The slow regime's Reynolds number goes on to 9000. Above the axis the formula says that it ends.
+    """
+    wheel, volume = WHEEL._replace(speed=rpm * RPM, immersion=immersion), 2.3e-3
+    found = changenet_velex(wheel, 0.031, 871.0, volume)
+    r, b, depth = 79.5e-3, 24e-3, immersion - 3e-3
+    if depth <= 0:
+        assert found.power == 0.0
+        return
+    froude, reynolds = (rpm * RPM) ** 2 * r / 9.80665, rpm * RPM * r * b * 871.0 / 0.031
+    h, v = depth / (2 * r), volume / (2 * r) ** 3
+    slow = 1.366 * h**0.45 * v**0.1 * froude**-0.6 * min(reynolds, 9000) ** -0.21
+    fast = 3.644 * h**0.1 * v**-0.35 * froude**-0.88 * (b / (2 * r)) ** 0.85
+    moment = np.interp(reynolds, [6000, 9000], [slow, fast])
+    power = 0.5 * 871.0 * (rpm * RPM) ** 3 * wetted(wheel, depth) * r**3 * moment
+    assert found.power == pytest.approx(power, rel=1e-12)
+    assert bool(found.exceeded) == (depth > r)
+
+
+def test_a_gear_wholly_below_the_level_is_wetted_all_over():
+    """Deeper than its diameter wets no more: only (h/D)^0.45 goes on."""
+    deep = [changenet_velex(WHEEL._replace(immersion=one), *OIL, 1e-3).power for one in (0.2, 0.25)]
+    assert deep[1] / deep[0] == pytest.approx((247 / 197) ** 0.45)
+
+
+def test_iso_14179_1_at_its_ends():
+    """Immersed wholly f_g = 1; fine teeth: R_f is not below zero, and the limit is said."""
+    whole, deeper = (iso_14179_1(WHEEL._replace(immersion=one), *OIL).power for one in (165e-3, 0.3))
+    assert whole == deeper
+    assert whole == pytest.approx(iso_14179_1(WHEEL, *OIL).power * 165 / 40)
+    for module, limits in ((0.5e-3, ("module ≥ 1 mm",)), (1e-3, ()), (3e-3, ())):
+        found = iso_14179_1(WHEEL._replace(module=module), *OIL)
+        assert found.exceeded == limits
+        viscosity, rough = 0.03 / 850 * 1e6, max(7.93 - 4.648 / (1e3 * module), 0.0)
+        teeth = 7.37 * 165**4.7 * 24 * rough / math.sqrt(math.tan(math.pi / 18))
+        power = 1e3 * 40 / 165 * viscosity * 750**3 * (teeth + 1.474 * 165**5.7) / (0.2 * 1e26)
+        assert found.power == pytest.approx(power, rel=1e-9)
+
+
+def test_windage_by_hand():
+    """Dawson in rpm, mm, kW; Anderson & Loewenthal with air of 1.06 kg/m³ and 0.020 mPa s."""
+    wheel = Wheel(7100 * RPM, 161e-3, 166e-3, 156e-3, 43e-3, 3.5e-3, 92.0)
+    dawsons = 7100**2.9 * (0.16 * 312**3.9 + 312**2.9 * 43**0.75 * 3.5**1.15) * 1e-20
+    assert dawson(wheel).power == pytest.approx(1e3 * dawsons, rel=1e-12)
+    kilowatts = 2.82e-7 * (1 + 2.3 * 43 / 161) * 1.06**0.8 * 7100**2.8 * 0.161**4.6 * 0.020**0.2
+    assert anderson_loewenthal(wheel).power == pytest.approx(1e3 * kilowatts, rel=1e-12)
+    for diameter, outside in ((0.299, True), (0.301, False), (1.159, False), (1.161, True)):
+        assert bool(dawson(wheel._replace(root_radius=diameter / 2)).exceeded) == outside
+
+
+def test_palmgren_by_hand():
+    """10^−7 f_0 (ν n)^⅔ d_m³ N mm, and 160 for the power below ν n = 2000; factors of the types."""
+    assert DRAG_FACTORS == {
+        "deep-groove-ball": 2.0,
+        "angular-contact-ball": 3.3,
+        "cylindrical-roller": 3.0,
+        "tapered-roller": 6.0,
+        "needle-roller": 12.0,
+    }
+    for rpm in (30.0, 44.0, 700.0):
+        for count in (1, 3):
+            flow = 0.0391 / 853 * 1e6 * rpm
+            moment = 1e-7 * 3.3 * 71.0**3 * (flow ** (2 / 3) if flow >= 2000 else 160)
+            found = palmgren(ShaftBearings(rpm * RPM, 71e-3, 3.3, count), 0.0391, 853.0).power
+            assert found == pytest.approx(count * moment * 1e-3 * rpm * RPM, rel=1e-12)
+
+
+def test_losses_of_both_gears_are_added_and_limits_said_once():
+    pinion = WHEEL._replace(speed=1500 * RPM, module=0.9e-3, immersion=11e-3, root_radius=31e-3)
+    gear = WHEEL._replace(module=0.9e-3)
+    drags = BearingDragData(60e-3, 2.0, 2), BearingDragData(80e-3, 3.0, 1)
+    for churning, each in (
+        ("iso-14179-1", lambda one: iso_14179_1(one, *OIL)),
+        ("changenet-velex", lambda one: changenet_velex(one, *OIL, 1.7e-3)),
+    ):
+        for windage, blown in (("dawson", dawson), ("anderson-loewenthal", anderson_loewenthal)):
+            asked = LossData(churning, windage, "palmgren", 11e-3, 40e-3, 1.7e-3, drags)
+            found = losses_of_pair(asked, (pinion, gear), *OIL)
+            assert found["churning"].power == pytest.approx(each(pinion).power + each(gear).power)
+            assert found["windage"].power == pytest.approx(blown(pinion).power + blown(gear).power)
+            assert len(found["churning"].exceeded) == (churning == "iso-14179-1")
+            shafts = [
+                palmgren(ShaftBearings(one.speed, drag.mean_diameter, drag.drag_factor, drag.count), *OIL)
+                for one, drag in zip((pinion, gear), drags, strict=True)
+            ]
+            assert found["bearings"].power == pytest.approx(sum(one.power for one in shafts))
 
 
 def test_in_the_second_regime_viscosity_has_no_effect():

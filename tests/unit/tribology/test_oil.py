@@ -1,6 +1,8 @@
 """Oil from its data sheet: a published design report, closed forms, limits."""
 
 import math
+import re
+from pathlib import Path
 
 import pytest
 
@@ -112,6 +114,72 @@ def test_limiting_shear_and_boundary_friction_are_those_measured():
     assert by_type["pao"].limiting_shear_coefficient == 0.035
     assert {one.asperity_friction for one in by_type.values()} == {0.065}
     assert oil.LIMITING_SHEAR["mineral"].spread == (0.047, 0.053)
+
+
+@pytest.mark.parametrize("kind", OIL_TYPES)
+def test_every_number_of_an_oil_by_hand(kind):
+    """In mm²/s, mPa s and °C, with decadic logarithms, from two lines of a data sheet."""
+    v40, v100, density, theta = 146.0, 17.3, 873.0, 67.0
+    kelvin = theta + 273.15
+    found = lubricant_from(OilSheet(kind, v40 * 1e-6, v100 * 1e-6, density), kelvin)
+
+    def kinematic(at):
+        doubled = [math.log10(math.log10(v + 0.7)) for v in (v40, v100)]
+        slope = (doubled[0] - doubled[1]) / math.log10(373.15 / 313.15)
+        return 10**10 ** (doubled[0] - slope * math.log10(at / 313.15)) - 0.7
+
+    def dynamic(at):
+        return kinematic(at) * 1e-6 * (density - 0.7 * (at - 289.0))
+
+    assert found.density == pytest.approx(density - 0.7 * (kelvin - 289))
+    assert found.inlet_viscosity == pytest.approx(dynamic(kelvin), rel=1e-12)
+    at_38 = dynamic(38 + 273.15)
+    factor, power = {"mineral": (2.657, 0.1348), "pao": (1.466, 0.0507), "pag": (1.392, 0.1572)}.get(
+        kind, (0.0, 0.0)
+    )
+    alpha = factor * 1e-8 * at_38**power * (1 + 516 * (1 / (theta + 273) - 1 / 311))
+    if kind == "ester":  # Gold et al. (2001)
+        alpha = 6.605e-9 * kinematic(kelvin) ** 0.136
+    assert found.pressure_viscosity == pytest.approx(alpha, rel=1e-12)
+    index = alpha * 1.962e8 / (math.log(dynamic(kelvin)) + 9.67)
+    assert found.viscosity_pressure_index == pytest.approx(index, rel=1e-12)
+    slope = (math.log(dynamic(kelvin + 0.01)) - math.log(dynamic(kelvin - 0.01))) / 0.02
+    assert found.temperature_viscosity == pytest.approx(-slope, rel=1e-6)
+    assert found.load_exponent == 0.0
+    # mineral, PAO, PAG of ISO/TR 15144-1; the phosphate ester is its only ester
+    assert found.lubricant_factor == {"mineral": 1.0, "pao": 0.8, "pag": 0.7, "ester": 0.8}[kind]
+    assert found.schlenk_factor == {"mineral": 0.846, "pao": 0.65, "pag": 0.585, "ester": 0.65}[kind]
+
+
+def test_coefficients_by_type_are_those_of_the_page():
+    """Values, and spreads where there are some, of the table "By type"."""
+    page = (Path(__file__).parents[3] / "docs" / "oil.md").read_text(encoding="utf-8")
+    for name in ("limiting_shear_coefficient", "asperity_friction", "lubricant_factor", "schlenk_factor"):
+        (row,) = re.findall(rf"^\| `{name}` \|(.+)$", page, re.MULTILINE)
+        cells, first = row.split("|")[:4], row.split("|")[0]
+        for kind, cell in zip(("mineral", "pao", "ester", "pag"), cells, strict=True):
+            numbers = [float(one) for one in re.findall(r"[\d.]+", first if "same" in cell else cell)]
+            found = oil.by_type(kind)[name]
+            assert found.value == numbers[0]
+            assert found.real_spread == (tuple(numbers[1:]) or None), (name, kind)
+            assert found.spread[0] <= found.value <= found.spread[1]
+
+
+def test_viscosities_far_beyond_those_of_oils_stay_numbers():
+    """Near 0 K the line of D341 is held at ln ln(ν + 0.7) = 4; a slope there is finite."""
+    assert oil.kinematic_viscosity(220e-6, 19e-6, 40.0) == pytest.approx(1e-6 * math.exp(math.exp(4.0)))
+    assert math.isfinite(oil.temperature_viscosity_at(220e-6, 19e-6, 890.0, 40.0))
+    assert (oil.TEMPERATURE_RANGE, oil.MINIMUM_VISCOSITY) == (pytest.approx((233.15, 453.15)), 2e-6)
+    assert oil.MAXIMUM_VISCOSITY == 20.0
+
+
+def test_heat_of_a_mineral_oil_by_cragoe():
+    """(1685 + 3.39 θ)/√d and 0.1172 (1 − 0.00054 θ)/d."""
+    theta, d = 63.0, 0.861
+    kelvin = theta + 273.15
+    assert oil.specific_heat(861.0, kelvin) == pytest.approx((1685 + 3.39 * theta) / math.sqrt(d), rel=1e-12)
+    conducted = 0.1172 * (1 - 0.00054 * theta) / d
+    assert oil.thermal_conductivity(861.0, kelvin) == pytest.approx(conducted, rel=1e-12)
 
 
 def test_heat_of_the_oil_is_of_the_order_of_tables():

@@ -1,24 +1,34 @@
+"""The mixed law of Masjedi & Khonsari by its printed formulas, its variants, limits, symmetry."""
+
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from tests.support.closures import LIU_NI, MIXED, POINT, known, under
-from tribodyn.tribology.contact import hertz_half_width, hertz_pressure
+from tribodyn.tribology.contact import hertz_half_width, hertz_pressure, inlet_heating, local_contact
+from tribodyn.tribology.film.masjedi_khonsari import asperity_load_ratio
 from tribodyn.tribology.flash import flash_temperature_rise
+from tribodyn.tribology.friction.masjedi_khonsari import saturated
 from tribodyn.tribology.rheology import limiting_shear_share, log_roelands_viscosity
 
 LAWS = under(MIXED)
 
 
-def by_hand(w, rho, u, v, u1, u2, c):
-    """Liu & Ni (18)-(24) written out with powers, 4470 and ρ_s c_p restored."""
+def by_hand(w, rho, u, v, u1, u2, c, factor=4470, limited=True, heat=None, slid=False, peak=1.0):
+    """Liu & Ni (18)-(24) written out with powers, 4470 and ρ_s c_p restored.
+
+    Variants: another `factor`; limiting stress of the whole pressure; other `heat` capacities in the Péclet
+    numbers, or the sliding speed; `peak` times the pressure in Roelands' law.
+    """
     c, oil = c.surfaces, c.lubricant
+    heat = heat or (c.pinion_heat_capacity, c.gear_heat_capacity)
+    u1, u2 = (v, v) if slid else (u1, u2)
     E = c.effective_modulus
     W, U, G = w / (E * rho), c.inlet_viscosity * u / (E * rho), c.pressure_viscosity * E
     s, V = c.roughness / rho, c.hardness / E
     La = 0.005 * W**-0.408 * U**-0.088 * G**0.103
-    factor = 4470
     La *= math.log(1 + factor * s**6.015 * V**1.168 * W**0.485 * U**-3.741 * G**-2.898)
     lam = min(La / 100, 1.0)
     h = 2.691 * W**-0.135 * U**0.705 * G**0.556 * rho
@@ -26,14 +36,11 @@ def by_hand(w, rho, u, v, u1, u2, c):
     a = math.sqrt(8 * w * rho / (math.pi * E))
     p = w / (2 * a)
     ph = p * (1 - lam)
-    tau = oil.limiting_shear_coefficient * ph
+    tau = oil.limiting_shear_coefficient * (ph if limited else p)
     q = abs(v) * p * (oil.asperity_friction * lam + oil.limiting_shear_coefficient * (1 - lam))
     pe = [
-        a * uj * hc / (2 * k)
-        for uj, hc, k in (
-            (u1, c.pinion_heat_capacity, c.pinion_conductivity),
-            (u2, c.gear_heat_capacity, c.gear_conductivity),
-        )
+        a * abs(uj) * hc / (2 * k)
+        for uj, hc, k in ((u1, heat[0], c.pinion_conductivity), (u2, heat[1], c.gear_conductivity))
     ]
     dT = (
         2
@@ -45,7 +52,7 @@ def by_hand(w, rho, u, v, u1, u2, c):
         )
     )
     eta = c.inlet_viscosity * math.exp(
-        (math.log(c.inlet_viscosity) + 9.67) * (-1 + (1 + 5.1e-9 * ph) ** oil.viscosity_pressure_index)
+        (math.log(c.inlet_viscosity) + 9.67) * (-1 + (1 + 5.1e-9 * peak * ph) ** oil.viscosity_pressure_index)
         - oil.temperature_viscosity * dT
     )
     mu = lam * oil.asperity_friction + 2 * a * tau / w * (1 - math.exp(-eta * abs(v) / (tau * h)))
@@ -59,6 +66,53 @@ def test_mixed_film_is_the_printed_law(load, speed, sliding):
     ours = known(LAWS, load, 1 / 8.98e-3, speed, sliding * speed, speed * 1.2, speed * 0.8)
     theirs = by_hand(load, 8.98e-3, speed, sliding * speed, speed * 1.2, speed * 0.8, LIU_NI)
     np.testing.assert_allclose(ours[:5], theirs, rtol=1e-9, atol=1e-14)
+
+
+STEEL = LIU_NI.materials[0]
+UNLIKE = LIU_NI._replace(
+    surfaces=LIU_NI.surfaces._replace(gear_conductivity=37.0, gear_heat_capacity=2.9e6, roughness=6e-7),
+    materials=(STEEL, replace(STEEL, specific_heat=530.0)),
+)
+
+
+@pytest.mark.parametrize(
+    ("law", "variant"),
+    [
+        ("masjedi-khonsari", {}),
+        ("masjedi-khonsari-mean-pressure", {"limited": False}),
+        ("masjedi-khonsari-as-printed", {"factor": 447, "heat": (1.0, 1.0)}),
+        ("masjedi-khonsari-veciana", {"heat": (880.0 * 460.0, 880.0 * 530.0), "slid": True}),
+        ("masjedi-khonsari-veciana-peak", {"heat": (880.0 * 460.0, 880.0 * 530.0), "peak": 4 / math.pi}),
+    ],
+)
+def test_variants_are_what_they_say(law, variant):
+    """Pinion and gear of unlike steels, which change places where the sliding turns."""
+    for load, rho, u, v in (
+        (3.7e4, 7.1e-3, 0.31, -0.05),
+        (2.9e5, 9.7e-3, 0.083, 0.021),
+        (3e5, 6e-3, 2.6, 1.9),
+    ):
+        found = known(under(law, UNLIKE), load, 1 / rho, u, v, u + v / 2, u - v / 2)
+        theirs = by_hand(load, rho, u, v, u + v / 2, u - v / 2, UNLIKE, **variant)
+        np.testing.assert_allclose(found[0], abs(theirs[0]), rtol=1e-9)
+        np.testing.assert_allclose(found[1:5], theirs[1:5], rtol=1e-9)
+
+
+def test_the_asperity_load_is_held_at_all_of_it():
+    """Over 0.99 … 1.01 a parabola leads from the ratio to one; very rough surfaces overflow nothing."""
+    W, U, G, S, V = 2e-4, 3e-11, 4700.0, 4e-5, 0.011
+    logs = [math.log(one) for one in (W, U, G, S, V)]
+    plain = 5e-5 * W**-0.408 * U**-0.088 * G**0.103
+    inner = math.log(S**6.015 * V**1.168 * W**0.485 * U**-3.741 * G**-2.898)
+    for ratio in (0.5, 0.985, 0.993, 1.0, 1.006, 1.02, 3.0):
+        factor = math.log(math.expm1(ratio / plain)) if ratio / plain < 600 else ratio / plain
+        held = ratio if ratio < 0.99 else 1.0 if ratio > 1.01 else ratio - (ratio - 0.99) ** 2 / 0.04
+        assert asperity_load_ratio(*logs, factor - inner) == pytest.approx(held, rel=1e-10)
+
+
+def test_what_an_exponential_film_saturates_to():
+    for x in (1e-9, 0.3, 5.0, 37.0, 39.0, 500.0):
+        assert saturated(x) == pytest.approx(-math.expm1(-x), rel=1e-15)
 
 
 def test_thick_film_carries_no_asperity_load():
@@ -144,6 +198,38 @@ def test_hertz_line_contact_closed_forms():
     a = hertz_half_width(3.85e5, 111.0, 2.26e11)
     p = hertz_pressure(3.85e5, 111.0, 2.26e11)
     assert p == pytest.approx(4 / math.pi * 3.85e5 / (2 * a), rel=1e-12)
+
+
+def test_flash_temperature_by_hand():
+    """2 a q/(√π Σ K √(1 + Pe)); the speeds' signs do not matter."""
+    a, q, speeds, k, c = 2.3e-4, 4e8, (1.7, -0.6), (50.0, 37.0), (3.5e6, 2.9e6)
+    solids = LIU_NI.surfaces._replace(
+        pinion_conductivity=k[0], gear_conductivity=k[1], pinion_heat_capacity=c[0], gear_heat_capacity=c[1]
+    )
+    conducted = sum(
+        one * math.sqrt(1 + a * abs(speed) * heat / (2 * one))
+        for speed, one, heat in zip(speeds, k, c, strict=True)
+    )
+    rise = flash_temperature_rise(q, a, *speeds, solids)
+    assert rise == pytest.approx(2 * a * q / math.sqrt(math.pi) / conducted, rel=1e-12)
+
+
+def test_laws_are_evaluated_above_the_minimum_of_load_and_speed():
+    """1 N/m and 1 µm/s."""
+    held = local_contact(0.3, 100.0, 2e-7, 0.1, 0.05, -0.05)
+    assert (held.line_load, held.entrainment, held.sliding) == (1.0, 1e-6, 0.1)
+    moving = local_contact(2.0, 100.0, -3e-6, 0.1, 0.05, -0.05)
+    assert (moving.line_load, moving.entrainment) == (2.0, 3e-6)
+    assert inlet_heating(moving, LIU_NI.surfaces) == pytest.approx(0.35 * 9e-12)
+
+
+def test_roelands_by_hand_and_its_clip():
+    """η0 exp{(ln η0 + 9.67) [(1 + 5.1e-9 p)^z − 1] − K ΔT}; an exponent beyond ±600 is held."""
+    found = log_roelands_viscosity(7e8, 31.0, math.log(0.35), 0.57, 0.045)
+    rise = (math.log(0.35) + 9.67) * ((1 + 5.1e-9 * 7e8) ** 0.57 - 1)
+    assert found == pytest.approx(math.log(0.35) + rise - 0.045 * 31.0, rel=1e-12)
+    assert log_roelands_viscosity(1e14, 0.0, math.log(0.35), 0.57, 0.045) == math.log(0.35) + 600.0
+    assert log_roelands_viscosity(0.0, 1e9, math.log(0.35), 0.57, 0.045) == math.log(0.35) - 600.0
 
 
 def test_roelands_at_ambient_pressure_and_its_clip():
