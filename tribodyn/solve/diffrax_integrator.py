@@ -54,8 +54,14 @@ def use_compilation_cache() -> None:
 def right_hand_side(phase: Any, y: Any, args: Any) -> Any:
     """Derivative of the state as a JAX array; `args` is (cycle, segment, model)."""
     cycle, segment, model = args
+    return _rates(phase, y, cycle, segment, model[:-1], model.options)
+
+
+@partial(jax.jit, static_argnames="options")
+def _rates(phase: Any, y: Any, cycle: Any, segment: Any, numbers: Any, options: Options) -> Any:
+    """Traced once, however often a method's stages name it."""
     rates: dict[int, Any] = {}
-    derivatives(phase, cycle, segment, y, model, {}, rates)
+    derivatives(phase, cycle, segment, y, Model(*numbers, options=options), {}, rates)
     return jnp.stack([jnp.asarray(rates[i], dtype=y.dtype) for i in range(STATES)])
 
 
