@@ -6,10 +6,19 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from scipy.linalg import lu_solve
 from scipy.special import k0
 
 from tribodyn.errors import InputError
-from tribodyn.tribology.ehl.heat import Thermal, check, heated, moving_source, surfaces_under
+from tribodyn.tribology.ehl.heat import (
+    Thermal,
+    _conductances,
+    _coupling,
+    check,
+    heated,
+    moving_source,
+    surfaces_under,
+)
 from tribodyn.tribology.ehl.shear import LAYERS
 
 CONDUCTIVITY, CAPACITY = 46.0, 3.6e6
@@ -77,6 +86,67 @@ def test_surfaces_under_their_flux():
     expected = 2 * 0.5e8 * math.sqrt(4e-4 / (math.pi * 46.0 * 3.6e6 * 100.0))
     assert found.surface_1[-1] == pytest.approx(expected, rel=0.03)
     np.testing.assert_allclose(found.surface_1, found.surface_2)
+
+
+def test_fluxes_across_a_film_that_does_not_flow(rng):
+    """A chain of resistances: half a layer at both walls; each layer loses what it makes less when warm."""
+    film, loss = np.array([2e-7, 5e-7]), rng.uniform(0.0, 2e5, (2, LAYERS))
+    thermal = Thermal(0.03, conductivity=0.17)
+    own_1, between, own_2 = _conductances(film, loss, thermal)
+    for i in range(2):
+        layer = 0.17 * LAYERS / film[i]
+
+        def fluxes(wall_2, wall_1, layer=layer, i=i):
+            chain, right = np.zeros((LAYERS, LAYERS)), np.zeros(LAYERS)
+            for k in range(LAYERS):
+                chain[k, k] += loss[i, k]
+                for other in (k - 1, k + 1):
+                    if 0 <= other < LAYERS:
+                        chain[k, k] += layer
+                        chain[k, other] -= layer
+            for k, wall in ((0, wall_2), (LAYERS - 1, wall_1)):
+                chain[k, k] += 2 * layer
+                right[k] += 2 * layer * wall
+            warm = np.linalg.solve(chain, right)
+            return 2 * layer * (warm[0] - wall_2), 2 * layer * (warm[-1] - wall_1)
+
+        assert fluxes(0.0, -1.0)[1] == pytest.approx(own_1[i])
+        assert fluxes(-1.0, 0.0)[0] == pytest.approx(own_2[i])
+        assert fluxes(1.0, 0.0)[1] == pytest.approx(between[i])
+        assert fluxes(0.0, 1.0)[0] == pytest.approx(between[i])
+    plain = _conductances(film, np.zeros((2, LAYERS)), thermal)
+    np.testing.assert_allclose(plain, [0.17 / film] * 3)
+
+
+def test_coupling_is_that_of_surfaces_with_a_film_at_rest(rng):
+    """Θ_1 + R_1 (g_1 Θ_1 − g Θ_2), and the same of the other surface."""
+    response = rng.uniform(0.1, 1.0, (3, 3)), rng.uniform(0.1, 1.0, (3, 3))
+    own_1, between, own_2 = rng.uniform(0.1, 1.0, (3, 3))
+    warm = rng.standard_normal(6)
+    one = warm[:3] + response[0] @ (own_1 * warm[:3] - between * warm[3:])
+    two = warm[3:] + response[1] @ (own_2 * warm[3:] - between * warm[:3])
+    factors = _coupling(response, (own_1, between, own_2))
+    np.testing.assert_allclose(lu_solve(factors, np.concatenate([one, two])), warm)
+
+
+def test_unless_told_otherwise_steel_in_mineral_oil():
+    """46 W/(m K) and 3.6 MJ/(m³ K) of bearing steel; 0.14 W/(m K) and 1.7 MJ/(m³ K) of mineral oil."""
+    assert Thermal(0.03) == (0.03, 0.14, 1.7e6, (46.0, 46.0), (3.6e6, 3.6e6))
+
+
+def test_a_surface_at_rest_is_warmed_as_by_a_source_that_creeps():
+    """Below u ρc/2k = 1 1/m, in either direction, nothing depends on the speed."""
+    place, edge = np.array([-1e-4, 2e-5, 3e-4]), np.array([-2e-4, 0.0, 2e-4])
+    slowest = 2 * CONDUCTIVITY / CAPACITY
+    for direction in (1.0, -1.0):
+        creeping = moving_source(place, edge, direction * slowest, CONDUCTIVITY, CAPACITY)
+        for share in (0.9, 1e-3):
+            found = moving_source(place, edge, share * direction * slowest, CONDUCTIVITY, CAPACITY)
+            np.testing.assert_array_equal(found, creeping)
+    np.testing.assert_array_equal(
+        moving_source(place, edge, 0.0, CONDUCTIVITY, CAPACITY),
+        moving_source(place, edge, slowest, CONDUCTIVITY, CAPACITY),
+    )
 
 
 @pytest.mark.parametrize(

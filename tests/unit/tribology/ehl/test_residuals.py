@@ -164,6 +164,67 @@ def test_rough_surfaces(rng, squeezed):
     )
 
 
+@pytest.mark.parametrize("gap", [0.0, 3e-9, -4e-3, 0.0195, -0.0205, 1.7, -40.0, 700.0])
+def test_mean_fluidity_is_the_mean_of_the_exponential(gap):
+    """(e^−g1 − e^−g2)/(g2 − g1), and the derivatives −∫ (1 − s) e^−g ds, −∫ s e^−g ds by quadrature."""
+    low = np.array([0.3, 0.3 + gap])
+    found = [float(one[0]) for one in reynolds.mean_fluidity(low)]
+    exact = math.exp(-0.3) * (-math.expm1(-gap) / gap if gap else 1.0)
+    assert found[0] == pytest.approx(exact, rel=1e-12)
+    node, weight = np.polynomial.legendre.leggauss(400)
+    s, weight = 0.5 * (node + 1.0), 0.5 * weight
+    values = np.exp(-(0.3 + gap * s))
+    assert found[1] == pytest.approx(-np.sum(weight * (1.0 - s) * values), rel=1e-8)
+    assert found[2] == pytest.approx(-np.sum(weight * s * values), rel=1e-8, abs=1e-10 * exact)
+
+
+def test_rough_steps_are_held_where_films_would_jump(rng):
+    """No film changes by more than 2 σ and half of itself: the whole step is as much shorter."""
+    nodes = np.concatenate([NODES, BEYOND])
+    grid, count = made(nodes), len(nodes)
+    surfaces = Roughness(3e-7)
+    reduced = rough.RoughReduced(0.3, SCALE, FLUID, surfaces, 2.2e11, 5e-7)
+    pressure = np.where(np.arange(count) < grid.end, rng.uniform(0.5, 1.0, count), 0.0)
+    pressure[0] = 0.0
+    state = reynolds.State(pressure, 0.4, 0.9, 0.2, rng.uniform(0.5, 1.4, count))
+    inner = grid.end - 1
+    change = np.concatenate([rng.uniform(-0.1, 0.1, inner + count), [0.03, -0.02, 0.05]])
+    small = rough.rough_moved(state, change, grid, reduced)
+    np.testing.assert_allclose(small.pressure[1 : grid.end], pressure[1 : grid.end] + change[:inner])
+    np.testing.assert_allclose(small.film, state.film + change[inner:-3])
+    assert (small.rigid_film, small.flow, small.end) == pytest.approx((0.43, 0.88, 0.25))
+    assert np.all(small.pressure[grid.end :] == 0.0)
+    # one film that would change by four times what it may
+    change[inner + 3] = 4.0 * (2 * 3e-7 / 5e-7 + 0.5 * state.film[3])
+    held = rough.rough_moved(state, change, grid, reduced)
+    np.testing.assert_allclose(held.film, state.film + 0.25 * change[inner:-3])
+    np.testing.assert_allclose(held.pressure[1 : grid.end], pressure[1 : grid.end] + 0.25 * change[:inner])
+    assert (held.rigid_film, held.flow, held.end) == pytest.approx((0.4075, 0.895, 0.2125))
+    far = np.concatenate([np.full(inner, -50.0), np.full(count, 1e-12), [0.0, -9.0, 7.0]])
+    bound = rough.rough_moved(state, far, grid, reduced)
+    np.testing.assert_allclose(bound.pressure[1 : grid.end], 0.2 * pressure[1 : grid.end])
+    assert (bound.flow, bound.end) == pytest.approx((0.3 * 0.9, 0.5))
+    far[-1] = -7.0
+    sucked = rough.rough_moved(state, far, grid, reduced, 0.05)
+    np.testing.assert_allclose(sucked.pressure[1 : grid.end], 0.2 * pressure[1 : grid.end] - 0.05)
+    assert sucked.end == pytest.approx(-0.1)
+
+
+def test_films_of_a_smooth_state(rng):
+    """H_0 + x²/2 + D P at all nodes; behind the end of the film no pressure stays."""
+    nodes = np.concatenate([NODES, BEYOND])
+    grid = made(nodes)
+    state = reynolds.State(rng.uniform(0.3, 1.0, len(nodes)), 0.4, 0.9, 0.2)
+    for compliance in (1.0, 0.6):
+        reduced = rough.RoughReduced(0.3, SCALE, FLUID, Roughness(3e-7), 2.2e11, 5e-7, compliance)
+        found = rough.with_films(state, reduced, grid)
+        np.testing.assert_array_equal(found.pressure[: grid.end], state.pressure[: grid.end])
+        assert np.all(found.pressure[grid.end :] == 0.0)
+        bent = compliance * grid.deformation @ state.pressure
+        np.testing.assert_allclose(found.film, 0.4 + 0.5 * (0.2 + nodes) ** 2 + bent)
+        assert found[1:4] == (0.4, 0.9, 0.2)
+
+
 def test_deformation_is_that_of_a_half_space(rng):
     """−1/π ∫ P ln|x − x'| dx' of a pressure that is linear between the nodes, by fine quadrature."""
     grid = made(NODES)

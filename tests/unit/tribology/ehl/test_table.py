@@ -1,13 +1,14 @@
 """Tables of the solved contact: polynomials, error, cache, the duty of a mesh, and laws that read them."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from tests.support.closures import LIU_NI, under
 from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
-from tribodyn.errors import InputError
+from tribodyn.errors import InputError, SimulationError
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.load import load_scenario
 from tribodyn.tribology.closure import closure, duty_range, with_laws
@@ -15,7 +16,10 @@ from tribodyn.tribology.contact import local_contact
 from tribodyn.tribology.duty_range import DutyRange
 from tribodyn.tribology.ehl import table as tables
 from tribodyn.tribology.ehl import table_points as points
-from tribodyn.tribology.ehl.table_lookup import TERMS, polynomial
+from tribodyn.tribology.ehl.coupled import solve_coupled
+from tribodyn.tribology.ehl.problem import LineContact
+from tribodyn.tribology.ehl.table_lookup import TERMS, mixed_friction, polynomial
+from tribodyn.tribology.ehl.table_lookup import held as held_at
 from tribodyn.tribology.film import film_law
 from tribodyn.tribology.friction import friction_law
 from tribodyn.tribology.surface_state import surface_state
@@ -140,3 +144,185 @@ def test_error_of_a_table_of_solved_contacts():
     known = surface_state(local_contact(3e5, 112.0, 0.15, 0.045, 0.1725, 0.1275), laws)
     assert math.log(known.central_film_thickness) == pytest.approx(state[0], abs=0.01)
     assert math.log(known.friction_coefficient) == pytest.approx(state[1], abs=0.01)
+
+
+def box_of(duty):
+    """Middle and half length of the logarithms."""
+    ends = np.log(np.array(duty[:4]))
+    return ends.mean(axis=1), 0.5 * np.diff(ends, axis=1)[:, 0]
+
+
+def film_and_friction(contact, duties):
+    """Ln film, saturation and share as polynomials of a few powers of ln duty, and ln friction of them."""
+    middle, half = box_of(DUTY)
+    x, y, z, s = ((duties - middle) / half).T
+    film = -15.0 - 0.1 * x + 0.3 * y - 0.05 * z + 0.02 * x * x + 0.01 * s**3 - 0.02 * x * y
+    saturation = 0.4 - 0.8 * x + 0.7 * s + 0.2 * x * s - 0.1 * y + 0.15 * z
+    share = 0.3 + 0.1 * x - 0.15 * y + 0.02 * s
+    load, curvature = np.exp(duties[:, 0]), np.exp(duties[:, 2])
+    limit, floor = contact.rheology.limiting_coefficient, contact.rheology.limiting_floor
+    half_width = np.sqrt(8.0 * load / (np.pi * contact.effective_modulus * curvature))
+    most = 1.15 * limit + 3.0 * floor * half_width / load
+    friction = (1.0 - share) * most / (1.0 + np.exp(-saturation)) + contact.roughness.friction * share
+    return film, share, friction
+
+
+def box_filled(rng, count):
+    middle, half = box_of(DUTY)
+    return middle + half * rng.uniform(-1.0, 1.0, (count, 4))
+
+
+def test_terms_are_all_powers_of_up_to_six():
+    """Of load and sliding alone up to the sixth, where speed and curvature count twice."""
+    grid = np.stack(np.meshgrid(*[range(7)] * 4, indexing="ij"), axis=-1).reshape(-1, 4)
+    weight = grid @ [1, 2, 2, 1]
+    assert sorted(TERMS) == sorted(map(tuple, grid[weight <= 6].tolist()))
+    assert sorted(TERMS) == TERMS
+
+
+def test_a_fit_gives_back_what_it_was_made_of(rng):
+    """And what is compared counts as the error, not in the fit; contacts without a solution are left out."""
+    contact = tables.contact_of(LIU_NI)
+    duties, along = box_filled(rng, 400), np.arange(400) % 5 != 0
+    film, share, friction = film_and_friction(contact, duties)
+    values = np.stack([np.log(np.exp(film)), np.log(friction), share], axis=1)
+    exact = tables._fitted(contact, box_of(DUTY), duties, values, along)
+    assert exact.film_error < 2e-3
+    assert exact.friction_error < 2e-3
+    assert exact.solved == 400
+    assert exact[:8] == pytest.approx([one for pair in zip(*box_of(DUTY), strict=True) for one in pair])
+    assert (exact.limit, exact.floor, exact.rubbing) == (0.091, 2e6, 0.11)
+    # laws read it: inside, and held at the ends of every variable
+    laws = film_law("solved").functions.film, friction_law("solved").functions.coefficient
+    for load, speed, curvature, ratio in (
+        (3e5, 0.13, 117.0, 0.1),
+        (1e7, 0.7, 90.0, 1.4),
+        (2e4, 0.01, 200.0, 1e-3),
+    ):
+        held = [
+            np.clip(one, *ends) for one, ends in zip((load, speed, curvature, ratio), DUTY[:4], strict=True)
+        ]
+        wanted = [one[0] for one in film_and_friction(contact, np.log([held]))]
+        for sign in (1.0, -1.0):
+            v = sign * ratio * speed
+            seen = local_contact(load, curvature, speed, v, speed + v / 2, speed - v / 2)
+            log_film, rough, carried = laws[0](seen, LIU_NI.surfaces, exact)
+            assert log_film == pytest.approx(wanted[0], abs=3e-3)
+            assert rough == 1.0
+            assert carried == pytest.approx(wanted[1], abs=3e-3)
+            if (load, curvature) == (held[0], held[2]):
+                mu = laws[1](seen, None, LIU_NI.surfaces, exact)
+                assert mu == pytest.approx(wanted[2], rel=3e-3)
+    compared = (np.arange(400) % 6 == 5) & along
+    off = values + np.outer(compared, [0.03, -0.02, 0.0])
+    off[np.arange(400) % 7 == 3] = np.nan
+    again = tables._fitted(contact, box_of(DUTY), duties, off, along)
+    assert again.film_error == pytest.approx(1 - np.exp(-0.03), abs=1e-3)
+    assert again.friction_error == pytest.approx(np.exp(0.02) - 1, abs=1e-3)
+    assert again.solved == 400 - 57
+    np.testing.assert_allclose(again.film[:3], exact.film[:3], atol=0.02)
+    off[np.arange(400) % 8 > 1] = np.nan
+    with pytest.raises(SimulationError, match=r"at 86 of 400 duties only"):
+        tables._fitted(contact, box_of(DUTY), duties, off, along)
+
+
+def test_asperities_carry_neither_less_than_nothing_nor_more_than_all():
+    numbers = (0.0, 1.0) * 4
+    zero = np.zeros(len(TERMS))
+    for share, held in ((-0.4, 0.0), (0.3, 0.3), (1.7, 1.0)):
+        one = zero + share * (np.arange(len(TERMS)) == TERMS.index((0, 0, 0, 0)))
+        table = tables.Table(*numbers, zero, zero, one, 0.05, 2e6, 0.11, 0.0, 0.0, 0.0)
+        seen = local_contact(3e5, 110.0, 0.15, 0.06, 0.18, 0.12)
+        assert film_law("solved").functions.film(seen, LIU_NI.surfaces, table)[2] == held
+        mu = friction_law("solved").functions.coefficient(seen, None, LIU_NI.surfaces, table)
+        width = math.sqrt(8 * 3e5 / (math.pi * LIU_NI.surfaces.effective_modulus * 110.0))
+        most = 1.15 * 0.05 + 3 * 2e6 * width / 3e5
+        assert mu == pytest.approx((1 - held) * 0.5 * most + 0.11 * held)
+    # where the film is saturated or slides hardly nothing overflows
+    assert mixed_friction(900.0, 0.2, 0.05, 0.1) == pytest.approx(0.8 * 0.05 + 0.02)
+    assert mixed_friction(-900.0, 0.2, 0.05, 0.1) == pytest.approx(0.02)
+    assert [held_at(one, 2.0, 0.5) for one in (1.0, 1.75, 2.0, 2.5, 9.0)] == [-1.0, -0.5, 0.0, 1.0, 1.0]
+
+
+def test_more_contacts_are_solved_while_the_error_is_large(monkeypatch, rng):
+    """240 to begin with, 120 more each time, 600 at most; none is solved twice."""
+    contact, solved = tables.contact_of(LIU_NI), []
+    every = box_filled(rng, 600)
+    monkeypatch.setattr(tables, "spread", lambda duty, count: (every[:count], np.ones(count, dtype=bool)))
+    noise = 0.0
+
+    def solve_all(_, duties):
+        solved.append(duties)
+        film, share, friction = film_and_friction(contact, duties)
+        return np.stack([film + noise * rng.standard_normal(len(film)), np.log(friction), share], axis=1)
+
+    monkeypatch.setattr(tables, "solve_all", solve_all)
+    assert tables._made(contact, DUTY).solved == 240
+    noise = 0.05
+    assert tables._made(contact, DUTY).solved == 600
+    assert [len(one) for one in solved] == [240, 240, 120, 120, 120]
+    np.testing.assert_array_equal(np.concatenate(solved[1:]), every)
+
+
+def test_a_contact_of_a_table_is_that_of_the_case():
+    oil = LIU_NI.lubricant
+    surfaces = LIU_NI.surfaces._replace(
+        pinion_conductivity=51.0, gear_conductivity=37.0, pinion_heat_capacity=3.4e6, gear_heat_capacity=2.9e6
+    )
+    found = tables.contact_of(LIU_NI._replace(surfaces=surfaces))
+    assert found.fluid == (oil.inlet_viscosity, oil.pressure_viscosity, oil.viscosity_pressure_index, True)
+    assert found.effective_modulus == surfaces.effective_modulus
+    assert (found.roughness.height, found.roughness.friction) == (3e-7, oil.asperity_friction)
+    assert found.rheology.law == "limiting"
+    assert found.rheology.limiting_coefficient == oil.limiting_shear_coefficient
+    assert found.thermal == (0.045, 0.14, 1.7e6, (51.0, 37.0), (3.4e6, 2.9e6))
+    polished = surfaces._replace(roughness=0.0)
+    given = LIU_NI._replace(surfaces=polished, lubricant=replace(oil, viscosity_pressure_index=1.2))
+    assert tables.contact_of(given).roughness.height == 1e-9
+    assert tables.contact_of(given).fluid.viscosity_pressure_index == 1.0
+
+
+def stopped(*_, **__):
+    raise SimulationError("no solution")
+
+
+def test_a_solution_of_a_table_is_that_of_its_duty(monkeypatch):
+    """Mean gap on the line of centres, friction over load, the asperities' share; NaN where there is none."""
+    assert points.STEP == 0.12
+    monkeypatch.setattr(points, "STEP", 0.5)
+    contact = tables.contact_of(LIU_NI)
+    found = points.solve_one(contact, np.log([2.7e5, 0.21, 93.0, 0.35]))
+    problem = LineContact(
+        2.7e5, 1 / 93.0, 0.21, contact.fluid, contact.effective_modulus, 0.35 * 0.21, contact.roughness
+    )
+    own = solve_coupled(problem, contact.rheology, contact.thermal, step=0.5)
+    gap = np.interp(0.0, own.solution.place, own.solution.mean_gap)
+    expected = [math.log(gap), math.log(own.friction / 2.7e5), own.solution.asperity_load_ratio]
+    np.testing.assert_allclose(found, expected, rtol=1e-6)
+    wanted = np.log([2.7e5, 0.21, 93.0, 0.35])
+    monkeypatch.setattr(points, "solve_coupled", stopped)
+    assert np.all(np.isnan(points.solve_one(contact, wanted)))
+
+
+@pytest.mark.parametrize(("cores", "count", "processes"), [(1, 9, 0), (3, 9, 2), (9, 9, 2), (3, 2, 0)])
+def test_duties_are_shared_between_processes(monkeypatch, cores, count, processes):
+    """One per core while each has enough to do; what a process does not answer is solved by this one."""
+    begun = []
+
+    def solve_one(_, duty):
+        return np.array([2.0 * duty[0], duty[1], -duty[2]])
+
+    def begin(contact, duties):
+        begun.append(duties)
+        return None
+
+    monkeypatch.setattr(points, "usable_cores", lambda: cores)
+    monkeypatch.setattr(points, "_WORTH", 3)
+    monkeypatch.setattr(points, "solve_one", solve_one)
+    monkeypatch.setattr(points, "_begun", begin)
+    duties = np.arange(4.0 * count).reshape(count, 4)
+    contact = tables.contact_of(LIU_NI)
+    np.testing.assert_array_equal(points.solve_all(contact, duties), [solve_one(None, one) for one in duties])
+    assert len(begun) == processes
+    for number, one in enumerate(begun, start=1):
+        np.testing.assert_array_equal(one, duties[number :: processes + 1])

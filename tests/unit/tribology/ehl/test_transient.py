@@ -1,6 +1,7 @@
 """The transient line contact: order in time, slow limit, a load step, mass, squeezing of rigid cylinders."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -8,17 +9,19 @@ from scipy.optimize import brentq
 
 from tests.support.line_contacts import REFERENCES, by_moes
 from tribodyn.errors import SimulationError
+from tribodyn.tribology.ehl import transient
 from tribodyn.tribology.ehl.asperities import Roughness
 from tribodyn.tribology.ehl.fluid import log_viscosity, relative_density
 from tribodyn.tribology.ehl.reynolds import newtonian, residual
 from tribodyn.tribology.ehl.rough import rough_residual
-from tribodyn.tribology.ehl.squeeze import Squeeze
+from tribodyn.tribology.ehl.squeeze import Held, Squeeze
 from tribodyn.tribology.ehl.steady import grid_of, solve_steady
 from tribodyn.tribology.ehl.transient import Instant, march
 
 SMOOTH = REFERENCES[1][0]
 ROUGH = SMOOTH._replace(roughness=Roughness(3e-7))
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(60)
+FLUID = SMOOTH.fluid
 #: Time in which the oil is drawn through half a contact.
 TRANSIT = SMOOTH.half_width / SMOOTH.entrainment_speed
 
@@ -54,6 +57,121 @@ def test_order_in_time(problem):
     for name in ("central_film_thickness", "minimum_film_thickness"):
         films = [getattr(one, name) for one in ends]
         assert math.log2((films[1] - films[0]) / (films[2] - films[1])) >= 1.9
+
+
+def at_face(node, value, i):
+    """Value half way between nodes i and i + 1, of the parabola with node i − 1."""
+    if i == 0:
+        return 0.5 * (value[0] + value[1])
+    x = 0.5 * (node[i] + node[i + 1])
+    return np.polyval(np.polyfit(node[i - 1 : i + 2] - x, value[i - 1 : i + 2], 2), 0.0)
+
+
+def rate(times, values):
+    """Derivative at the last of the times of the polynomial through all."""
+    scale = times[-1] - times[0]
+    return (
+        np.polyder(np.poly1d(np.polyfit((np.array(times) - times[-1]) / scale, values, len(times) - 1)))(0.0)
+        / scale
+    )
+
+
+@pytest.mark.parametrize("problem", [SMOOTH, ROUGH], ids=["smooth", "rough"])
+def test_mass_and_load_of_every_instant_in_plain_loops(problem):
+    """SI: d/dt of the mass between a face and the end = flow through the face − outflow, nodes that move.
+
+    Unequal steps; the derivative is that of the parabola through the last three instants, of the line of two.
+    """
+    period = 8.0 * TRANSIT
+    at, times = swaying(problem, period), np.array([0.0, 0.3, 0.75, 1.6, 2.0]) * TRANSIT
+    grid = grid_of(problem, 0.4, at(2.0 * TRANSIT).problem)
+    start = solve_steady(problem, grid=grid)
+    found = [start, *march(at, times, start)]
+    assert len(found) == 5
+    last, xi = grid.end, grid.node
+    masses, places = [], []
+    for one in found:
+        b = one.problem.half_width
+        density = relative_density(one.fluid_pressure, FLUID)[0]
+        length = [0.5 * (xi[1] - xi[0]), *(0.5 * (xi[j + 1] - xi[j - 1]) for j in range(1, last))]
+        length.append(0.5 * (xi[last] - xi[last - 1]))
+        masses.append([density[j] * one.mean_gap[j] * length[j] * b for j in range(last + 1)])
+        faces = [0.5 * (xi[i] + xi[i + 1]) for i in range(last)] + [xi[last]]
+        places.append([b * (one.state.end + face) for face in faces])
+    masses, places = np.array(masses), np.array(places)
+    for k in range(1, 5):
+        now, one, which = at(times[k]).problem, found[k], slice(max(k - 2, 0), k + 1)
+        assert one.problem == now
+        # the ends of the whole deformation: gap of the parabola and pressures that carry the load
+        assert np.trapezoid(one.pressure, one.place) == pytest.approx(now.line_load, rel=1e-9)
+        grown = [rate(times[which], masses[which, j]) for j in range(last + 1)]
+        moves = [rate(times[which], places[which, i]) for i in range(last + 1)]
+        u, h, p = now.entrainment_speed, one.mean_gap[: last + 1], one.fluid_pressure[: last + 1]
+        ln_eta, density = log_viscosity(p, FLUID)[0], relative_density(p, FLUID)[0]
+        out = one.flow_film_thickness * (u - moves[last])
+        for i in range(last):
+            thick, dense = at_face(xi, h, i), at_face(xi, density, i)
+            low, high = ln_eta[i], ln_eta[i + 1]
+            inverse = math.exp(-low) if low == high else (math.exp(-low) - math.exp(-high)) / (high - low)
+            slope = (p[i + 1] - p[i]) / (one.place[i + 1] - one.place[i])
+            factor = 1.0 - (0.9 * math.exp(-0.56 * thick / 3e-7) if problem is ROUGH else 0.0)
+            pushed = dense * factor * thick**3 / (12.0 * FLUID.viscosity) * inverse * slope
+            through = dense * thick * (u - moves[i]) - pushed
+            assert sum(grown[i + 1 :]) == pytest.approx(through - out, abs=2e-8 * u * h[0])
+        assert one.imbalance <= 1e-10
+        assert one.steps <= 6
+
+
+class Instants:
+    """Instants without films: those whose step is too long fail."""
+
+    def __init__(self, monkeypatch, longest):
+        self.tried, self.longest = [], longest
+        monkeypatch.setattr(transient, "_stepped", self.stepped)
+        monkeypatch.setattr(transient, "_held", lambda solution, time: Held(time, None, None))
+
+    def stepped(self, instant_at, time, before, known):
+        assert len(before) == len(known) <= 2
+        step = time - before[-1].time
+        self.tried.append((time, step <= self.longest))
+        return time if step <= self.longest else None
+
+    def march(self, times):
+        start: Any = times[0]
+        return list(march(lambda _: Instant(SMOOTH), times, start))
+
+
+def test_a_step_that_fails_is_halved_and_grows_again(monkeypatch):
+    """Each at most twice the one before, equal parts of what is left, and every time is met."""
+    instants = Instants(monkeypatch, 0.3)
+    assert instants.march([0.0, 1.0, 1.5, 4.0]) == pytest.approx([1.0, 1.5, 4.0])
+    made = [0.0, *(time for time, good in instants.tried if good)]
+    steps = np.diff(made)
+    assert np.all(steps > 0.0)
+    assert np.all(steps <= 0.3 + 1e-12)
+    assert np.all(steps[1:] <= 2.0 * steps[:-1] + 1e-12)
+    assert [time for time in made if time in (1.0, 1.5, 4.0)] == [1.0, 1.5, 4.0]
+    assert instants.tried[0] == (1.0, False)
+    assert instants.tried[1] == (0.5, False)
+    assert instants.tried[2] == (0.25, True)
+    # what is left, cut into as few equal parts as steps of at most a quarter allow
+    np.testing.assert_allclose(steps[:4], 0.25)
+
+
+def test_steps_that_work_go_from_time_to_time(monkeypatch):
+    instants = Instants(monkeypatch, 10.0)
+    times = [0.0, 1.0, 2.0, 3.5, 9.5]
+    assert instants.march(times) == pytest.approx(times[1:])
+    tried = [time for time, _ in instants.tried]
+    # 6 after a step of 1.5: two of 3
+    assert tried == pytest.approx([1.0, 2.0, 3.5, 6.5, 9.5])
+
+
+def test_the_shortest_step_is_a_sixty_fourth(monkeypatch):
+    instants = Instants(monkeypatch, 0.0)
+    with pytest.raises(SimulationError, match=r"after 2 s .*start again"):
+        instants.march([2.0, 3.0])
+    assert [time - 2.0 for time, _ in instants.tried] == pytest.approx([2.0**-n for n in range(7)])
 
 
 def test_the_steady_contact_is_the_slow_limit():
