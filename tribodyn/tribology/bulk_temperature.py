@@ -74,7 +74,7 @@ class Network(NamedTuple):
     ----------
     pinion_oil, gear_oil : conductance from the teeth to the oil, W/K, > 0
     oil_flow : heat capacity flow ρ c Q of the oil that is carried through, W/K; 0: none
-    oil_housing, housing_ambient : W/K; 0: none
+    oil_housing, housing_ambient : W/K, both or neither; 0: none
     ambient_temperature : K; read where there is a housing
     """
 
@@ -88,13 +88,7 @@ class Network(NamedTuple):
     @property
     def holds_oil(self) -> bool:
         """Whether the oil is held at its temperature: it gives off its heat nowhere that is said."""
-        return self.oil_flow == 0.0 and self._to_ambient == 0.0
-
-    @property
-    def _to_ambient(self) -> float:
-        """Conductance from the oil through the housing to ambient, W/K."""
-        both = self.oil_housing + self.housing_ambient
-        return self.oil_housing * self.housing_ambient / both if both else 0.0
+        return self.oil_flow == 0.0 and self.housing_ambient == 0.0
 
 
 class Temperatures(NamedTuple):
@@ -131,7 +125,7 @@ def network_temperatures(network: Network, heat: Heat, oil_temperature: float) -
     oil = oil_temperature
     entering = heat.pinion + heat.gear + heat.oil
     share = 0.0
-    if network.oil_housing + network.housing_ambient > 0.0:
+    if network.housing_ambient > 0.0:
         share = network.oil_housing / (network.oil_housing + network.housing_ambient)
     if not network.holds_oil:
         to_ambient = share * network.housing_ambient

@@ -231,7 +231,7 @@ def test_asperities_carry_neither_less_than_nothing_nor_more_than_all():
     zero = np.zeros(len(TERMS))
     for share, held in ((-0.4, 0.0), (0.3, 0.3), (1.7, 1.0)):
         one = zero + share * (np.arange(len(TERMS)) == TERMS.index((0, 0, 0, 0)))
-        table = tables.Table(*numbers, zero, zero, one, 0.05, 2e6, 0.11, 0.0, 0.0, 0.0)
+        table = tables.Table._make([*numbers, zero, zero, one, 0.05, 2e6, 0.11, 0.0, 0.0, 0.0])
         seen = local_contact(3e5, 110.0, 0.15, 0.06, 0.18, 0.12)
         assert film_law("solved").functions.film(seen, LIU_NI.surfaces, table)[2] == held
         mu = friction_law("solved").functions.coefficient(seen, None, LIU_NI.surfaces, table)
