@@ -30,8 +30,9 @@ VARIED = {
     "design": ("scenario.drive.module", ("3 mm", "3.1 mm")),
     "assessment": ("operating.oil_temperature", ("70 degC", "80 degC")),
 }
-FINITE_ELEMENTS = ("load-contact", "design", "assessment")
-KINDS = [pytest.param(kind, marks=pytest.mark.soak) if kind in FINITE_ELEMENTS else kind for kind in VARIED]
+#: Kinds whose cases take long.
+LONG = ("load-contact", "ehl", "design", "assessment")
+KINDS = [pytest.param(kind, marks=pytest.mark.soak) if kind in LONG else kind for kind in VARIED]
 
 
 def invoked(*words: object, status: int = 0) -> str:

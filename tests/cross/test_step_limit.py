@@ -49,10 +49,8 @@ def test_a_cycle_may_take_so_many_steps(case, method):
     assert_limit_is_per_cycle(case, method)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    "method", [pytest.param(name, marks=[] if name == "tsit5" else pytest.mark.soak) for name in JAX]
-)
+@pytest.mark.soak
+@pytest.mark.parametrize("method", JAX)
 def test_a_cycle_may_take_so_many_steps_through_jax(case, method):
     """One program for every cycle and limit: what the first cycle takes compiles nothing for the others."""
     integrated(case, method, MANY, 1)

@@ -37,7 +37,7 @@ def run(prepared, addendum, method):
     return case, states
 
 
-@pytest.mark.parametrize("method", ["dopri5", "radau"])
+@pytest.mark.parametrize("method", ["dopri5", pytest.param("radau", marks=pytest.mark.soak)])
 def test_runs_at_a_contact_ratio_of_one(prepared, method):
     drive = prepared("involute-23-47").case.drive
     exact = brentq(lambda h: contact_ratio_with(drive, h) - 1.0, 0.3, 1.0, xtol=1e-16, rtol=1e-15)

@@ -134,7 +134,10 @@ main()
 LONG = ("--set", "solver.cycles=20000", "--set", "output.samples_per_cycle=20")
 
 
-@pytest.mark.parametrize(("asked", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+@pytest.mark.parametrize(
+    ("asked", "status"),
+    [(signal.SIGINT, 130), pytest.param(signal.SIGTERM, 143, marks=pytest.mark.soak)],
+)
 def test_an_interrupted_run_keeps_what_it_has(asked: signal.Signals, status: int, tmp_path: Path):
     process = subprocess.Popen(
         [sys.executable, "-c", HEEDING_INTERRUPTS, "run", "crc-23-47", *LONG],

@@ -80,6 +80,7 @@ def rows(path: Path) -> np.ndarray:
     return table[np.lexsort(table.T)]
 
 
+@pytest.mark.soak
 def test_a_killed_search_goes_on_to_the_same_answer(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     (tmp_path / "search.toml").write_text(SEARCH, encoding="utf-8")
     submitted: list[str] = []

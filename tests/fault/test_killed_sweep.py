@@ -95,7 +95,7 @@ def test_a_record_of_something_else_is_not_taken_up(tmp_path: Path):
     assert "not what a sweep left" in refused.stderr
 
 
-@pytest.mark.slow
+@pytest.mark.soak
 def test_a_cluster_that_loses_a_worker_gives_the_same_record(tmp_path: Path, monkeypatch):
     """A scheduler and two workers in processes of their own; one of them is killed half-way."""
     distributed = pytest.importorskip("distributed")

@@ -124,6 +124,7 @@ def test_shorter_waves_give_way_less_and_reach_the_neighbours_less(gear):
     assert next_tooth[-1] < 1e-3
 
 
+@pytest.mark.soak
 def test_compliance_does_not_depend_on_the_depth_of_the_local_region():
     k, width, total = np.array([0.0, 0.5, 1.5]) / MODULE, 0.03, []
     for depth in (0.2, 0.25, 1 / 3):

@@ -41,7 +41,7 @@ def test_number_of_cells_is_the_mesh_s():
 
 
 @pytest.mark.skipif(not STATUS.exists(), reason="the system does not tell a process's peak of memory")
-@pytest.mark.parametrize(("components", "level"), [(2, 4), (3, 3)])
+@pytest.mark.parametrize(("components", "level"), [pytest.param(2, 4, marks=pytest.mark.soak), (3, 3)])
 def test_estimate_meets_the_peak_of_a_process(components, level):
     done = subprocess.run(
         [sys.executable, "-c", SOLVE, str(components)], capture_output=True, text=True, check=True

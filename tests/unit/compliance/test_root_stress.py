@@ -89,6 +89,7 @@ def maximum(stress):
     return most + (after - before) ** 2 / (8 * (2 * most - before - after))
 
 
+@pytest.mark.soak
 def test_maximum_root_stress_converges():
     # with the loads at the same places: every position of level 1 is one of the finer meshes'
     found = []

@@ -138,10 +138,12 @@ LARGE = {
     "assessment": [("assessment.speeds", 10**9)],
     "design": [("scenario.output.positions_per_cycle", 10**9)],
 }
+#: Kinds that run others, again and again.
+LONG = ("assessment", "design")
 
 
 @pytest.mark.parametrize("kind", LARGE)
-def test_every_kind_refuses_what_is_too_large_before_any_work(kind: str, tmp_path: Path, monkeypatch):
+def test_every_kind_refuses_what_is_too_large_before_any_work(kind: str, tmp_path: Path):
     study = STUDIES[kind]
     for key, value in LARGE[kind]:
         case = short_case(kind, tmp_path, **{key.replace(".", "__"): value})
@@ -152,12 +154,17 @@ def test_every_kind_refuses_what_is_too_large_before_any_work(kind: str, tmp_pat
             assert "more than is done unasked" in error.value.rule
             assert process_time() - started < 2.0
     assert not list(tmp_path.glob("*.h5"))
-    # lifted, it goes on to the work itself
+    assert set(LARGE) == set(STUDIES)
+
+
+@pytest.mark.parametrize(
+    "kind", [pytest.param(kind, marks=pytest.mark.soak if kind in LONG else ()) for kind in LARGE]
+)
+def test_lifted_it_goes_on_to_the_work(kind: str, tmp_path: Path, monkeypatch):
     monkeypatch.setattr(estimate, "LIMITS", Estimate(1.0, 1.0, 1.0))
     case = short_case(kind, tmp_path)
     with pytest.raises(InputError, match="allow-large"):
         run(case, tmp_path / "small.h5")
-    assert set(LARGE) == set(STUDIES)
     assert run(case, tmp_path / "small.h5", allow_large=True).status == "complete"
 
 
