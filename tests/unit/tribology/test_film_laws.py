@@ -10,8 +10,8 @@ from scipy.optimize import brentq
 from tests.support.closures import LIU_NI, POINT, known, under
 from tests.support.line_contacts import by_moes
 from tribodyn.tribology.ehl.steady import solve_steady
-from tribodyn.tribology.film import FILM_LAWS
-from tribodyn.tribology.film.moes import log_survey
+from tribodyn.tribology.film import FILM_LAWS, dowson_higginson, masjedi_khonsari
+from tribodyn.tribology.film.moes import log_of_sum, log_survey
 
 SURFACES = LIU_NI.surfaces
 
@@ -41,6 +41,34 @@ def test_dowson_higginson_in_plain_powers():
     assert math.log2(speed) == pytest.approx(0.7)
     radius = film("dowson-higginson", curvature=50.0) / film("dowson-higginson")
     assert math.log2(radius) == pytest.approx(1 - 0.7 + 0.13)
+
+
+@pytest.mark.parametrize("law", [masjedi_khonsari.LAW, masjedi_khonsari.AS_PRINTED, dowson_higginson.LAW])
+def test_films_in_plain_powers(law):
+    """Both laws' groups and powers at contacts that no two of them share."""
+    for load, curvature, speed in ((1.3e5, 71.0, 0.9), (7e5, 190.0, 0.13)):
+        W, U, G = groups(load, curvature, speed)
+        S, V = SURFACES.roughness * curvature, SURFACES.hardness / SURFACES.effective_modulus
+        if law is dowson_higginson.LAW:
+            expected = 2.65 * U**0.7 * G**0.54 * W**-0.13 / curvature
+        else:
+            expected = 2.691 * W**-0.135 * U**0.705 * G**0.556 / curvature
+            expected *= 1 + 0.2 * S**1.222 * V**0.223 * W**-0.229 * U**-0.748 * G**-0.842
+        assert film(law.name, load, curvature, speed) == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize("load", [0.04, 1.7, 30.0, 900.0])
+@pytest.mark.parametrize("material", [0.3, 4.0, 17.0])
+def test_moes_in_plain_powers(load, material):
+    """Both pairs of asymptotes joined by powers 7/3 and −7/2, and these by s."""
+    rigid, elastic = (3.0 / load, 1.287 * material ** (2 / 3)), (2.621 * load**-0.2, 1.311 * load**-0.125)
+    s = (7 + 8 * math.exp(-2 * elastic[0] / rigid[0])) / 5
+    thin = (rigid[0] ** (7 / 3) + elastic[0] ** (7 / 3)) ** (3 / 7)
+    thick = (rigid[1] ** -3.5 + (elastic[1] * material**0.75) ** -3.5) ** (-2 / 7)
+    found = math.exp(log_survey(math.log(load), math.log(material)))
+    assert found == pytest.approx((thin**s + thick**s) ** (1 / s), rel=1e-12)
+    assert log_of_sum(1.3, -0.4) == pytest.approx(math.log(math.exp(1.3) + math.exp(-0.4)), rel=1e-14)
+    assert log_of_sum(-900.0, 900.0) == 900.0
 
 
 def rigid_cylinder():

@@ -4,11 +4,14 @@ import numpy as np
 import pytest
 
 from tests.support.line_contacts import REFERENCES
-from tribodyn.tribology.ehl.coupled import solve_coupled
+from tribodyn.errors import InputError
+from tribodyn.tribology.ehl.asperities import Roughness
+from tribodyn.tribology.ehl.coupled import friction_of, solve_coupled
 from tribodyn.tribology.ehl.fluid import log_viscosity
 from tribodyn.tribology.ehl.heat import Thermal
 from tribodyn.tribology.ehl.rheology import Rheology
 from tribodyn.tribology.ehl.steady import solve_steady
+from tribodyn.tribology.ehl.traction import shear_force
 
 PROBLEM = REFERENCES[1][0]
 OIL = Thermal(0.035)
@@ -91,6 +94,57 @@ def test_energy(law, sliding):
     assert np.sum(found.shear.heat * width[:, None]) == pytest.approx(heat.made, rel=1e-6)
     assert heat.made > found.friction * sliding
     assert found.solution.imbalance <= 1e-10
+
+
+@pytest.mark.parametrize("roughness", [None, Roughness(3e-7)])
+@pytest.mark.parametrize("sliding", [0.2, -0.2])
+def test_friction_and_heat_of_a_coarse_contact(roughness, sliding):
+    """∫ τ_m dx of the fluid and f_c ∫ p_a dx; all work on the film is heat; the film thins by what flows."""
+    problem = PROBLEM._replace(sliding_speed=sliding, entrainment_speed=0.3, roughness=roughness)
+    found = solve_coupled(problem, Rheology("eyring"), OIL, step=0.5)
+    heat, solution = found.heat, found.solution
+    assert heat is not None
+    end = solution.grid.end + 1
+    part = found.shear._replace(newtonian=found.shear.newtonian[:end])
+    fluid = shear_force(part, solution.fluid_pressure[:end], solution.place[:end], Rheology("eyring"))
+    rubbed = np.trapezoid(solution.asperity_pressure, solution.place) * 0.12 * np.sign(sliding)
+    assert (rubbed == 0.0) == (roughness is None)
+    assert found.friction == pytest.approx(fluid + rubbed, rel=1e-9)
+    assert friction_of(solution, Rheology("eyring"), OIL, heat.layers) == pytest.approx(found.friction)
+    np.testing.assert_allclose(found.temperature, heat.layers.mean(axis=1))
+    width = np.gradient(solution.place)
+    width[[0, -1]] *= 0.5
+    made = np.sum(found.shear.heat * width[:, None]) + abs(rubbed * sliding)
+    assert heat.made == pytest.approx(made, rel=1e-6)
+    assert heat.into_1 + heat.into_2 + heat.carried == pytest.approx(heat.made, rel=1e-6)
+    assert np.all(found.shear.heat[end:] == 0.0)
+    assert np.all(found.shear.stress[end:] == 0.0)
+    # the closure that pressures were solved under: the effective viscosity, as pressure varies about it
+    closure, cold = solution.closure, log_viscosity(solution.fluid_pressure, problem.fluid)[0]
+    effective = closure.thinning + closure.response * cold
+    np.testing.assert_allclose(effective, -np.log(found.shear.fluidity * 0.04), rtol=1e-4, atol=1e-4)
+    np.testing.assert_allclose(closure.drift, found.shear.drift, atol=1e-5)
+    np.testing.assert_allclose(closure.response, found.shear.response, atol=1e-3)
+
+
+def test_without_sliding_asperities_do_not_rub():
+    problem = PROBLEM._replace(entrainment_speed=0.3, roughness=Roughness(3e-7))
+    found = solve_coupled(problem, Rheology("eyring"), step=0.5)
+    assert found.solution.asperity_load_ratio > 0.01
+    assert abs(found.friction) < 1e-6 * problem.line_load
+    assert np.all(found.temperature == 0.0)
+    plain = friction_of(found.solution, Rheology("eyring"), None, np.zeros((len(found.solution.place), 12)))
+    assert plain == pytest.approx(found.friction, abs=1e-6)
+
+
+def test_what_has_no_meaning_is_refused_before_anything_is_solved():
+    for rheology, thermal, key in (
+        (Rheology("plastic"), None, "rheology"),
+        (Rheology("eyring"), Thermal(0.03, conductivity=-1.0), "oil_conductivity"),
+    ):
+        with pytest.raises(InputError) as caught:
+            solve_coupled(PROBLEM, rheology, thermal)
+        assert caught.value.key == key
 
 
 def test_heat_lowers_friction_and_film():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from tests.support.line_contacts import REFERENCES
+from tests.support.line_contacts import REFERENCES, by_moes
 from tribodyn.errors import InputError
 from tribodyn.tribology.ehl.asperities import Roughness, asperity_pressure, mean_gap, pressure_flow_factor
 from tribodyn.tribology.ehl.coupled import solve_coupled
@@ -38,6 +38,68 @@ def test_asperity_pressure_is_greenwood_and_tripps(ratio):
     near = height * np.array([ratio - 1e-3, ratio + 1e-3])
     ends = asperity_pressure(near, Roughness(height), 226e9)[0]
     assert slope[0] == pytest.approx((ends[1] - ends[0]) / (near[1] - near[0]), rel=1e-3)
+
+
+def test_asperities_pressed_flat():
+    """Below −6 σ the pressure goes straight on; F_5/2 is ∫ (s − t)^5/2 φ ds to six digits everywhere."""
+    height, unlike = 0.4e-6, Roughness(0.4e-6, 0.04, 0.02)
+    factor = 16 * math.sqrt(2) / 15 * math.pi * 0.04**2 * math.sqrt(0.02) * 0.5 * 211e9
+    gaps = np.array([-9.0, -7.0, -6.0, -5.9, -1.4, 0.3, 2.2, 4.0]) * height
+    value, slope = asperity_pressure(gaps, unlike, 211e9)
+
+    def overlap(t, power):
+        kernel = lambda s: (s - t) ** power * math.exp(-s * s / 2) / math.sqrt(2 * math.pi)  # noqa: E731
+        return quad(kernel, t, 0.5 * (t + 10.0))[0] + quad(kernel, 0.5 * (t + 10.0), 10.0)[0]
+
+    for k, t in enumerate(gaps / height):
+        held = max(t, -6.0)
+        integral, steep = overlap(held, 2.5), -2.5 * overlap(held, 1.5)
+        assert value[k] == pytest.approx(factor * (integral + steep * (t - held)), rel=2e-6)
+        assert slope[k] == pytest.approx(factor * steep / height, rel=2e-6)
+
+
+def test_derivatives_of_gap_and_flow_factor():
+    height = 0.5e-6
+    gaps = np.array([-2.0, -0.4, 0.7, 3.0]) * height
+    for function in (mean_gap, pressure_flow_factor):
+        above, below = (function(gaps + by, Roughness(height))[0] for by in (1e-12, -1e-12))
+        np.testing.assert_allclose(function(gaps, Roughness(height))[1], (above - below) / 2e-12, rtol=1e-4)
+    mean = np.array([0.3, 1.9]) * height
+    factor = pressure_flow_factor(mean, Roughness(height))[0]
+    np.testing.assert_allclose(factor, 1 - 0.9 * np.exp(-0.56 * mean / height))
+    # pressed together for good a trillionth of the roughness stays open
+    shut, share = mean_gap(np.array([-60.0 * height]), Roughness(height))
+    assert shut[0] == pytest.approx(1e-12 * height)
+    assert share[0] == 0.0
+
+
+def test_unless_told_otherwise_ground_steel():
+    """σβn 0.05, σ/β 0.01 (Greenwood & Tripp), f_c 0.12."""
+    assert Roughness(1e-7) == (1e-7, 0.05, 0.01, 0.12)
+
+
+#: M, L, p_H, z, σ of contacts that Newton's method does not reach at once.
+STEEP = [
+    (1621.0, 5.12, 2e9, 0.6, 3.46e-7),
+    (4.13, 2.18, 0.7e9, 0.6, 8.59e-7),
+    (83.1, 14.6, 0.1e9, 0.6, 8.4e-8),
+]
+
+
+@pytest.mark.parametrize(("load", "material", "pressure", "index", "height"), STEEP)
+def test_contacts_that_are_roughened_by_steps(load, material, pressure, index, height):
+    """The density of the asperities is raised, or their height: the whole roughness at the end."""
+    problem = by_moes(load, material, pressure, index, True)._replace(roughness=Roughness(height))
+    found = solve_steady(problem, step=0.4)
+    grid, reduced = found.grid, reduced_problem(problem)
+    assert found.reduced == reduced
+    values = rough_residual(found.state, reduced, grid, newtonian(grid))[0]
+    assert np.max(np.abs(values[: grid.end])) <= 1e-9 * found.state.flow
+    whole = np.trapezoid(found.pressure, found.place)
+    assert whole == pytest.approx(problem.line_load, rel=1e-9)
+    assert found.steps > 41
+    own = asperity_pressure(found.film_thickness, problem.roughness, problem.effective_modulus)[0]
+    np.testing.assert_allclose(found.asperity_pressure, own, rtol=1e-9)
 
 
 def test_mean_gap_and_flow_factor():

@@ -6,13 +6,16 @@ import numpy as np
 import pytest
 
 from tests.support.line_contacts import REFERENCES, by_moes
-from tribodyn.errors import InputError
+from tribodyn.errors import InputError, SimulationError
+from tribodyn.tribology.ehl import steady
+from tribodyn.tribology.ehl.asperities import Roughness
 from tribodyn.tribology.ehl.fluid import Fluid, log_viscosity, relative_density
-from tribodyn.tribology.ehl.grid import made, placed
+from tribodyn.tribology.ehl.grid import film_width, made, placed
 from tribodyn.tribology.ehl.reynolds import State, newtonian, residual
 from tribodyn.tribology.ehl.start import first_state
-from tribodyn.tribology.ehl.steady import converged, reduced_problem, solve_steady
+from tribodyn.tribology.ehl.steady import converged, expected_film, grid_of, reduced_problem, solve_steady
 from tribodyn.tribology.ehl.traction import rolling_traction
+from tribodyn.tribology.film.moes import log_survey
 
 
 def moes_films(solution, load):
@@ -176,6 +179,76 @@ def test_thicker_where_faster_and_thinner_where_heavier():
     film = solve_steady(base).central_film_thickness
     assert solve_steady(base._replace(entrainment_speed=1.1)).central_film_thickness > film
     assert solve_steady(base._replace(line_load=220e3)).central_film_thickness < film
+
+
+def test_a_contact_by_way_of_thinner_oils():
+    """Where Newton's method does not reach it at once the pressure-viscosity coefficient is raised."""
+    problem = by_moes(26585.0, 48.7, 0.7e9, 0.3, True)
+    found = solve_steady(problem, step=0.4)
+    assert found.steps > 41
+    assert found.reduced.fluid == problem.fluid
+    values = residual(found.state, reduced_problem(problem), found.grid, newtonian(found.grid))[0]  # pyright: ignore[reportArgumentType]
+    assert np.max(np.abs(values[:-2])) <= 1e-9 * found.state.flow
+    assert np.trapezoid(found.pressure, found.place) == pytest.approx(problem.line_load, rel=1e-9)
+
+
+@pytest.mark.parametrize("roughness", [None, Roughness(3e-7)])
+def test_what_does_not_converge_says_so(monkeypatch, roughness):
+    tried = []
+
+    def failing(state, *_):
+        tried.append(state)
+        return state, 7, math.nan
+
+    monkeypatch.setattr(steady, "converged", failing)
+    with pytest.raises(SimulationError, match=r"did not converge in \d+ steps"):
+        solve_steady(REFERENCES[1][0]._replace(roughness=roughness), step=0.4)
+    # smooth: half of the pressure-viscosity coefficient, down to a 64th; rough: both ways end at once
+    assert len(tried) == (3 if roughness else 7)
+
+
+def test_grids_suit_all_their_contacts():
+    """Nodes for the thinnest film, an inlet for the thickest; behind it as far as asperities may touch."""
+    thin, thick = REFERENCES[0][0], REFERENCES[1][0]._replace(entrainment_speed=30.0)
+    films = [expected_film(one) for one in (thin, thick)]
+    for one, survey in zip((thin, thick), films, strict=True):
+        H = math.exp(log_survey(math.log(one.moes_load), math.log(one.moes_material)))
+        drawn = 2 * one.fluid.viscosity * one.entrainment_speed / (one.effective_modulus * one.radius)
+        assert survey == pytest.approx(H * one.radius * math.sqrt(drawn) / one.film_unit)
+    both = grid_of(thin, 0.2, thick)
+    np.testing.assert_allclose(both.node, placed(min(films), 0.2, 0.0, max(films)))
+    np.testing.assert_allclose(grid_of(thick, 0.2, thin).node, both.node)
+    rough = thin._replace(roughness=Roughness(4e-7))
+    assert expected_film(rough) == pytest.approx(films[0] + 4e-7 / thin.film_unit)
+    unit = min(thin.film_unit, thick.film_unit)
+    beyond = 1.5 + 2.0 * film_width(4.0 * 4e-7 / unit)
+    assert grid_of(rough, 0.2, thick).node[-1] == pytest.approx(beyond)
+    assert grid_of(thin, 0.2).node[-1] == 0.0
+
+
+@pytest.mark.parametrize("problem", [one[0] for one in REFERENCES])
+def test_the_start_is_near_enough(problem):
+    """Newton's method needs 4 to 14 steps over the map of Moes."""
+    assert solve_steady(problem, step=0.4).steps <= 14
+
+
+def test_what_a_solution_says_of_itself():
+    """Films in m, in Hertz's units and in those of the flow; asperities only where there are some."""
+    problem = REFERENCES[1][0]
+    found = solve_steady(problem, step=0.3)
+    unit, b = problem.film_unit, problem.half_width
+    np.testing.assert_allclose(found.film_thickness, found.film * unit)
+    np.testing.assert_allclose(found.mean_gap, found.film * unit)
+    np.testing.assert_allclose(found.place, b * (found.state.end + found.grid.node))
+    np.testing.assert_allclose(found.pressure, found.state.pressure * problem.hertz_pressure)
+    assert np.all(found.asperity_pressure == 0.0)
+    assert found.asperity_load_ratio == 0.0
+    assert found.flow_film_thickness == pytest.approx(found.state.flow * unit)
+    gap = problem.radius * (found.place / problem.radius) ** 2 / 2
+    assert found.film_thickness[0] == pytest.approx(gap[0], rel=0.2)  # far out hardly bent
+    near = np.argmin(found.film)
+    assert found.minimum_film_thickness <= found.film_thickness[near]
+    assert found.minimum_film_thickness == pytest.approx(found.film_thickness[near], rel=0.02)
 
 
 def test_a_similar_contact_as_the_start():
