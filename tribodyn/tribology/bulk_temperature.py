@@ -54,7 +54,7 @@ class TemperatureData:
 
 
 class Heat(NamedTuple):
-    """Heat that arises in the parts of a gearbox, W."""
+    """Heat that arises in the parts of a gearbox, W; that of the housing in the oil where there is none."""
 
     pinion: float
     gear: float
@@ -124,7 +124,7 @@ def network_temperatures(network: Network, heat: Heat, oil_temperature: float) -
     """
     oil = oil_temperature
     entering = heat.pinion + heat.gear + heat.oil
-    share = 0.0
+    share = 1.0
     if network.housing_ambient > 0.0:
         share = network.oil_housing / (network.oil_housing + network.housing_ambient)
     if not network.holds_oil:

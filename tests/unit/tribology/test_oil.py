@@ -2,6 +2,7 @@
 
 import math
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -9,7 +10,14 @@ import pytest
 from tribodyn.tribology import oil
 from tribodyn.tribology.friction.niemann import niemann
 from tribodyn.tribology.friction.schlenk import schlenk
-from tribodyn.tribology.lubricant import LubricantData, lubricant_at, lubricant_from, oil_values
+from tribodyn.tribology.lubricant import (
+    FzgStages,
+    LubricantData,
+    lubricant_around,
+    lubricant_at,
+    lubricant_from,
+    oil_values,
+)
 from tribodyn.tribology.nominal import NominalConditions
 from tribodyn.tribology.oil import OIL_TYPES, T_40, T_100, ZERO_CELSIUS, OilSheet
 from tribodyn.tribology.rheology import log_roelands_viscosity
@@ -149,6 +157,26 @@ def test_every_number_of_an_oil_by_hand(kind):
     # mineral, PAO, PAG of ISO/TR 15144-1; the phosphate ester is its only ester
     assert found.lubricant_factor == {"mineral": 1.0, "pao": 0.8, "pag": 0.7, "ester": 0.8}[kind]
     assert found.schlenk_factor == {"mineral": 0.846, "pao": 0.65, "pag": 0.585, "ester": 0.65}[kind]
+
+
+def test_an_oil_without_a_data_sheet_is_mineral_75w90():
+    """Niemann's exponent of 75W90 for a lubricant factor, Schlenk's factor of mineral oil; FZG at 90 °C."""
+    plain = LubricantData(0.11, 0.06, 0.01, 1.5e-8, 0.58, 0.03, 820.0)
+    mean = NominalConditions(4e3, 0.027, 0.054, 0.35, 150.0, 0.02, 0.025, 840.0, 8e-7, 0.0651)
+    for one in (plain, mean):
+        assert (one.load_exponent, one.lubricant_factor, one.schlenk_factor) == (0.0651, 1.0, 0.846)
+    assert plain.fzg == (FzgStages(None, None, 90.0 + 273.15))
+    assert lubricant_around(plain) is plain
+    known = oil_values(
+        replace(plain, type="pao", given=frozenset(oil.UNITS) - {"limiting_shear_coefficient"})
+    )
+    assert known["density"] == (820.0, "kg/m3", "given", None)
+    assert known["limiting_shear_coefficient"][1:] == ("1", oil.LIMITING_SHEAR["pao"].source, (0.03, 0.04))
+    assert known["asperity_friction"].origin == "given"
+    assert all(one.origin == "given" for one in oil_values(plain).values())
+    untyped = oil_values(replace(plain, given=frozenset(oil.UNITS) - {"schlenk_factor", "load_exponent"}))
+    assert untyped["schlenk_factor"].origin.startswith("default: mineral")
+    assert "75W90" in untyped["load_exponent"].origin
 
 
 def test_coefficients_by_type_are_those_of_the_page():

@@ -31,6 +31,38 @@ def test_stress_and_rate_are_inverse(law):
     assert small[0] == pytest.approx(1.0, rel=1e-6)
 
 
+def test_laws_in_closed_form():
+    """τ at a Newtonian stress, in either direction; none of it is anything at rest."""
+    equal, pressure = np.array([-3e8, -2e6, 0.0, 4e5, 7e6]), np.array([0.0, 3e8, 3e8, 9e8, 1e8])
+    limit = 2e6 + 0.05 * pressure
+    expected = {
+        "newtonian": equal,
+        "eyring": 5e6 * np.arcsinh(equal / 5e6),
+        "limiting": np.sign(equal) * limit * (1 - np.exp(-np.abs(equal) / limit)),
+        "carreau": equal * (1 + (equal / 5e6) ** 2) ** -0.25,
+    }
+    for law, stress in expected.items():
+        rheology = Rheology(law)
+        scale = stress_scale(pressure, rheology)
+        np.testing.assert_allclose(thinned(equal, scale, rheology), stress, rtol=1e-12, atol=1e-300)
+    assert Rheology() == ("newtonian", 5e6, 0.05, 2e6, 5e6, 0.5)
+    check(Rheology("carreau", carreau_index=1.0))
+
+
+@pytest.mark.parametrize("index", [0.3, 0.8, 1.0])
+def test_carreau_of_any_index_is_inverted(index):
+    """From far below the modulus to far above it, both ways; the slope by differences."""
+    rheology = Rheology("carreau", carreau_modulus=3e6, carreau_index=index)
+    equal = np.array([-1e13, -4e6, 0.0, 1e2, 2.9e6, 1e8, 1e15])
+    scale = stress_scale(0.0 * equal, rheology)
+    stress = thinned(equal, scale, rheology)
+    back, slope = newtonian_stress(stress, scale, rheology)
+    np.testing.assert_allclose(back, equal, rtol=1e-8)
+    by = 1e-5 * np.maximum(np.abs(stress), 1.0)
+    above, below = (newtonian_stress(stress + one, scale, rheology)[0] for one in (by, -by))
+    np.testing.assert_allclose(slope, (above - below) / (2 * by), rtol=1e-5)
+
+
 def test_mean_stress_of_each_law():
     equal = 20.0 * 0.2 / 2e-7
     assert between_plates("newtonian").stress[0] == pytest.approx(equal)

@@ -144,6 +144,8 @@ def test_nodes_are_dense_at_both_ends_of_the_contact():
     width = (1.06 * film) ** (2 / 3)
     assert film_width(film) == pytest.approx(width)
     assert film_width(8.0) == pytest.approx(max((1.06 * 8.0) ** (2 / 3), 4.0))
+    # between both only the parabola is wider
+    assert [film_width(one) for one in (1.0, 2.0, 5.0)] == pytest.approx([1.06 ** (2 / 3), 2.0, 10.0**0.5])
     assert node[0] == pytest.approx(-3.0 - 60.0 * width)
     assert node[-1] == 0.0
     middle = 0.5 * (node[1:] + node[:-1])

@@ -21,7 +21,9 @@ from tribodyn.tribology.ehl.problem import LineContact
 from tribodyn.tribology.ehl.table_lookup import TERMS, mixed_friction, polynomial
 from tribodyn.tribology.ehl.table_lookup import held as held_at
 from tribodyn.tribology.film import film_law
+from tribodyn.tribology.film.solved import solved_film
 from tribodyn.tribology.friction import friction_law
+from tribodyn.tribology.friction.solved import solved_friction
 from tribodyn.tribology.surface_state import surface_state
 
 DUTY = DutyRange((1e5, 6e5), (0.1, 0.2), (100.0, 130.0), (0.02, 0.8))
@@ -85,6 +87,12 @@ def test_contacts_crowd_along_the_path():
     near = np.abs(ratio - belongs) < 0.03 + 0.13 * belongs
     assert np.all(near[along])
     assert np.mean(near[~along]) < 0.5
+    # 0.8 to 1.2 times the entrainment of the place
+    speeds = (speed / (0.15 + 0.02 * np.log(curvature / 200.0)))[along]
+    assert 0.79 < speeds.min() < 0.83
+    assert 1.17 < speeds.max() < 1.21
+    assert points.spread(duty, 65)[0].shape == (65, 4)
+    assert points.spread(duty, 1)[0].shape == (1, 4)
     box, all_of_it = points.spread(duty._replace(places=()), 64)
     assert box.shape == (64, 4)
     assert np.all(all_of_it)
@@ -193,7 +201,7 @@ def test_a_fit_gives_back_what_it_was_made_of(rng):
     assert exact[:8] == pytest.approx([one for pair in zip(*box_of(DUTY), strict=True) for one in pair])
     assert (exact.limit, exact.floor, exact.rubbing) == (0.091, 2e6, 0.11)
     # laws read it: inside, and held at the ends of every variable
-    laws = film_law("solved").functions.film, friction_law("solved").functions.coefficient
+    laws = solved_film, solved_friction
     for load, speed, curvature, ratio in (
         (3e5, 0.13, 117.0, 0.1),
         (1e7, 0.7, 90.0, 1.4),
@@ -226,6 +234,38 @@ def test_a_fit_gives_back_what_it_was_made_of(rng):
         tables._fitted(contact, box_of(DUTY), duties, off, along)
 
 
+def test_coefficients_are_the_weighted_least_squares(rng):
+    """A deviation of the saturation counts by what it makes of the friction, at least a fiftieth of it.
+
+    Each coefficient is held towards zero by 3e-5 of its powers' sum.
+    """
+    contact, count = tables.contact_of(LIU_NI), 300
+    duties = box_filled(rng, count)
+    film, share, friction = film_and_friction(contact, duties)
+    friction = friction * np.exp(0.05 * rng.standard_normal(count))
+    values = np.stack([film + 0.05 * rng.standard_normal(count), np.log(friction), share], axis=1)
+    # none along a path: all are fitted
+    found = tables._fitted(contact, box_of(DUTY), duties, values, np.arange(count) == 5)
+    used = np.arange(count) != 5
+    middle, half = box_of(DUTY)
+    powers = np.prod(((duties - middle) / half)[:, None, :] ** np.array(TERMS), axis=2)
+    load, curvature = np.exp(duties[:, 0]), np.exp(duties[:, 2])
+    width = np.sqrt(8.0 * load / (np.pi * contact.effective_modulus * curvature))
+    most = 1.15 * 0.091 + 3.0 * 2e6 * width / load
+    part = (friction - 0.11 * share) / ((1.0 - share) * most)
+    part = np.clip(part, 1e-6, 1.0 - 1e-6)
+    saturation = np.log(part / (1.0 - part))
+    by = 1e-5
+    above, below = (mixed_friction(saturation + one, share, most, 0.11) for one in (by, -by))
+    weight = np.clip((above - below) / (2 * by) / friction, 0.02, 1.0)
+    stiff = 3e-5**2 * np.count_nonzero(used) * np.diag([sum(one) ** 2 for one in TERMS])
+    cases = (found.film, values[:, 0], 0 * share + 1), (found.friction, saturation, weight)
+    for coefficients, known, counts in cases:
+        a = (powers * counts[:, None])[used]
+        wanted = np.linalg.solve(a.T @ a + stiff, a.T @ (known * counts)[used])
+        np.testing.assert_allclose(powers @ coefficients, powers @ wanted, atol=1e-4)
+
+
 def test_asperities_carry_neither_less_than_nothing_nor_more_than_all():
     numbers = (0.0, 1.0) * 4
     zero = np.zeros(len(TERMS))
@@ -233,8 +273,8 @@ def test_asperities_carry_neither_less_than_nothing_nor_more_than_all():
         one = zero + share * (np.arange(len(TERMS)) == TERMS.index((0, 0, 0, 0)))
         table = tables.Table._make([*numbers, zero, zero, one, 0.05, 2e6, 0.11, 0.0, 0.0, 0.0])
         seen = local_contact(3e5, 110.0, 0.15, 0.06, 0.18, 0.12)
-        assert film_law("solved").functions.film(seen, LIU_NI.surfaces, table)[2] == held
-        mu = friction_law("solved").functions.coefficient(seen, None, LIU_NI.surfaces, table)
+        assert solved_film(seen, LIU_NI.surfaces, table)[2] == held
+        mu = solved_friction(seen, None, LIU_NI.surfaces, table)
         width = math.sqrt(8 * 3e5 / (math.pi * LIU_NI.surfaces.effective_modulus * 110.0))
         most = 1.15 * 0.05 + 3 * 2e6 * width / 3e5
         assert mu == pytest.approx((1 - held) * 0.5 * most + 0.11 * held)
