@@ -50,8 +50,10 @@ def test_all_heat_is_counted():
     assert Heat(1.0, 2.0, 4.0, 8.0).total == 15.0
     assert Heat(1.0, 2.0).total == 3.0
     assert [NETWORKS[name].holds_oil for name in NETWORKS] == [True, False, False, False]
-    assert Network(20.0, 40.0).ambient_temperature == 293.15  # 20 °C
-    assert TemperatureData("network").ambient_temperature == 293.15
+    # nothing else leads heat away; surroundings of 20 °C
+    assert Network(20.0, 40.0) == (20.0, 40.0, 0.0, 0.0, 0.0, 293.15)
+    plain = TemperatureData("network", "dip", 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 293.15, None)
+    assert TemperatureData("network") == plain
 
 
 def test_without_heat_all_is_as_warm_as_its_surroundings():
