@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from tribodyn.tribology.ehl.elasticity import hertz_gap, influence
+from tribodyn.tribology.ehl.elasticity import HERTZ_LOAD, hertz_gap, influence
 
 
 def test_influence_of_uneven_nodes_is_the_integral():
@@ -56,6 +56,7 @@ def test_gap_beside_a_hertz_contact(x):
     exact = quad(lambda s: math.sqrt(s * s - 1.0), 1.0, abs(x))[0]
     assert hertz_gap(np.array([x]))[0] == pytest.approx(exact, rel=1e-9)
     assert hertz_gap(np.array([0.0, 0.7, -0.99])) == pytest.approx(0.0)
+    assert quad(lambda s: math.sqrt(1.0 - s * s), -1.0, 1.0)[0] == pytest.approx(HERTZ_LOAD)
 
 
 def test_far_and_near_forms_meet():

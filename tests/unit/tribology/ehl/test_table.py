@@ -91,6 +91,11 @@ def test_contacts_crowd_along_the_path():
     speeds = (speed / (0.15 + 0.02 * np.log(curvature / 200.0)))[along]
     assert 0.79 < speeds.min() < 0.83
     assert 1.17 < speeds.max() < 1.21
+    # load, speed and place each go their own way
+    ways = np.corrcoef(np.log([load[along], speeds, curvature[along]]))
+    assert np.max(np.abs(ways - np.eye(3))) < 0.12
+    many, along = points.spread(duty, 512)
+    assert np.all(np.diff(np.sort(many[along, 2])) < 0.1)
     assert points.spread(duty, 65)[0].shape == (65, 4)
     assert points.spread(duty, 1)[0].shape == (1, 4)
     box, all_of_it = points.spread(duty._replace(places=()), 64)
