@@ -151,6 +151,7 @@ def test_regimes_of_churning_join_without_a_step():
 
 
 def test_a_gear_that_does_not_dip_churns_nothing():
+    assert Wheel(*WHEEL[:7]) == WHEEL._replace(immersion=0.0)
     assert changenet_velex(WHEEL._replace(immersion=0.0), *OIL, 1e-3).power == 0.0
     assert iso_14179_1(WHEEL._replace(immersion=0.0), *OIL).power == 0.0
 
