@@ -101,6 +101,12 @@ def test_contacts_crowd_along_the_path():
     box, all_of_it = points.spread(duty._replace(places=()), 64)
     assert box.shape == (64, 4)
     assert np.all(all_of_it)
+    # denser towards the ends, by half a cosine: a third in either outer quarter of every variable
+    middle, half = box_of(duty)
+    wide = (points.spread(duty._replace(places=()), 512)[0] - middle) / half
+    np.testing.assert_allclose(np.mean(wide < -0.5, axis=0), 1 / 3, atol=0.01)
+    np.testing.assert_allclose(np.mean(wide > 0.5, axis=0), 1 / 3, atol=0.01)
+    np.testing.assert_allclose(np.mean(wide < 0.0, axis=0), 1 / 2, atol=0.01)
 
 
 def test_processes_solve_what_one_solves(monkeypatch):
