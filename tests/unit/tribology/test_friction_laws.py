@@ -10,6 +10,7 @@ from tribodyn.tribology.contact import local_contact
 from tribodyn.tribology.friction.benedict_kelley import benedict_kelley
 from tribodyn.tribology.friction.benedict_kelley import steepness as benedict_steepness
 from tribodyn.tribology.friction.iso_14179_1 import iso_14179_1
+from tribodyn.tribology.friction.masjedi_khonsari import steepness as mixed_steepness
 from tribodyn.tribology.friction.niemann import niemann
 from tribodyn.tribology.friction.xu import steepness as xu_steepness
 from tribodyn.tribology.friction.xu import xu
@@ -176,7 +177,7 @@ def test_where_the_laws_say_how_steep_they_are(given):
         known = math.isfinite(benedict_steepness(worse, held, given.surfaces, None))
         assert known == (least >= 40)
     calm = local_contact(1e5, curvature, 0.3, 0.01, 0.3, 0.3)
-    for steepness in (xu_steepness, benedict_steepness):
+    for steepness in (xu_steepness, benedict_steepness, mixed_steepness):
         assert steepness(none, calm, given.surfaces, None) == 0.0
         assert 0.3 < steepness(none._replace(sliding=0.3), calm, given.surfaces, None) < 1.2
         for name in ("line_load", "entrainment"):
