@@ -21,6 +21,7 @@ NETWORKS = {
     "oil flow": Network(20.0, 40.0, oil_flow=60.0),
     "housing": Network(20.0, 40.0, oil_housing=30.0, housing_ambient=20.0, ambient_temperature=295.0),
     "both": Network(20.0, 40.0, 60.0, 30.0, 20.0, 295.0),
+    "a little of both": Network(20.0, 40.0, 0.7, 0.3, 0.5, 295.0),
 }
 
 
@@ -49,7 +50,7 @@ def test_heat_in_is_heat_out_at_every_node(name):
 def test_all_heat_is_counted():
     assert Heat(1.0, 2.0, 4.0, 8.0).total == 15.0
     assert Heat(1.0, 2.0).total == 3.0
-    assert [NETWORKS[name].holds_oil for name in NETWORKS] == [True, False, False, False]
+    assert [NETWORKS[name].holds_oil for name in NETWORKS] == [True, False, False, False, False]
     # nothing else leads heat away; surroundings of 20 °C
     assert Network(20.0, 40.0) == (20.0, 40.0, 0.0, 0.0, 0.0, 293.15)
     plain = TemperatureData("network", "dip", 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 293.15, None)
