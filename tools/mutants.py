@@ -92,8 +92,11 @@ class Change(NamedTuple):
 
 
 def changes(package: Path, folders: Sequence[str] = PHYSICS) -> list[Change]:
-    """Every change that can be made in some folders of the package."""
-    files = [one for folder in folders for one in sorted((package / folder).rglob("*.py"))]
+    """Every change that can be made in some folders or files of the package."""
+    places = [package / folder for folder in folders]
+    files = [
+        file for place in places for file in ([place] if place.is_file() else sorted(place.rglob("*.py")))
+    ]
     return [
         change
         for file in files
@@ -322,7 +325,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="see the head of the file")
     parser.add_argument("--count", type=int, default=20, help="random changes")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--folders", nargs="+", default=PHYSICS)
+    parser.add_argument("--folders", nargs="+", default=PHYSICS, help="or files, below the package")
     parser.add_argument("--at", metavar="FILE:LINE", help="every change of this line of the package instead")
     parser.add_argument("--again", metavar="FILE", help="the survivors in a file of results instead")
     parser.add_argument("--near", action="store_true", help="only tests of files that name the module")
