@@ -42,3 +42,20 @@ def test_a_pressure_angle_that_the_points_do_not_go_on_from_is_refused(half: int
         points.FAMILY.check(drive)
     advised = float(error.value.remedy.split('"')[1].removesuffix(" deg"))
     assert advised == pytest.approx(np.degrees(LIU_NI.pressure_angle) + 3.0, abs=2e-3)
+
+
+def test_the_angle_is_held_beyond_the_points_and_its_slope_is_its_difference_between_them():
+    r = 0.003 * np.linspace(-6.0, 6.0, 13)
+    alpha = LIU_NI.pressure_angle + 0.05 * np.tanh(r / 0.009)
+    shape = points.Shape(np.stack([r * np.cos(alpha), r * np.sin(alpha)], axis=-1))
+    path = points.FAMILY.working_path(LIU_NI._replace(shape=shape))
+    between = np.concatenate([low + (high - low) * np.array([0.2, 0.7]) for low, high in pairwise(r)])
+    step = 1e-7
+    rise = path.pressure_angle(between + step) - path.pressure_angle(between - step)
+    np.testing.assert_allclose(path.pressure_angle_slope(between), rise / (2 * step), rtol=1e-6)
+    np.testing.assert_allclose(path.pressure_angle(r), alpha, rtol=1e-12)
+    for end, inside in ((r[0], 1.0), (r[-1], -1.0)):
+        beyond = end - inside * np.array([1e-6, 0.004])
+        np.testing.assert_array_equal(path.pressure_angle_slope(beyond), 0.0)
+        np.testing.assert_allclose(path.pressure_angle(beyond), path.pressure_angle(end), rtol=1e-12)
+        assert path.pressure_angle_slope(end) != 0.0
