@@ -6,7 +6,9 @@ from tests.support.states import random_place, random_state
 from tribodyn.dynamics.contact_forces import (
     GEAR_SPEED,
     NORMAL_LOAD,
+    PEAK,
     PINION_SPEED,
+    RADIUS,
     RELATIVE_VELOCITY,
     SLIDING,
     contact_forces,
@@ -42,6 +44,7 @@ from tribodyn.dynamics.extremes import (
     THINNER,
     alike,
     extreme_of,
+    highest_loaded,
     measure,
     measure_end,
     measure_inside,
@@ -100,6 +103,36 @@ def test_measures_are_what_is_recorded(overrides, prepared, rng):
                 np.testing.assert_allclose(sign * found[first + row], recorded[name][pair], rtol=1e-12)
             squared = found[first + PRESSURE] * model.surfaces.effective_modulus / (2.0 * np.pi)
             np.testing.assert_allclose(np.sqrt(squared), recorded["hertz_pressure"][pair], rtol=1e-12)
+
+
+@pytest.mark.parametrize("sliding", ["kinematic", "dynamic"])
+def test_surfaces_are_those_of_the_highest_line_load(sliding, prepared, rng):
+    """Of a face on which the highest line load is 1.3 times the mean."""
+    even = prepared("crc-23-47", **{"friction.sliding": sliding}).model
+    channel = np.array(even.table.channel)
+    channel[..., PEAK, :] = [1.3, 0.0, 0.0, 0.0]
+    model = even._replace(table=even.table._replace(channel=channel))
+    loaded = 0
+    for _ in range(3):
+        y = random_state(rng)
+        phase, segment = random_place(rng, model.table.boundary)
+        place = locate(phase, segment, model.table)
+        work: dict = {}
+        contact_forces(segment, *place, y, model, work)
+        recorded = {name: values[0] for name, values in outputs(np.array([phase]), y[None], model).items()}
+        for i in np.flatnonzero(recorded["normal_load"] > 0.0):
+            contact = highest_loaded(i, segment, *place[:2], model, work)
+            line_load = 1.3 * recorded["normal_load"][i] / model.table.face_width
+            assert contact.line_load == pytest.approx(line_load, rel=1e-12)
+            assert 1.0 / contact.curvature == pytest.approx(work[RADIUS, i], rel=1e-12)
+            speeds = work[PINION_SPEED, i], work[GEAR_SPEED, i]
+            assert contact.entrainment == pytest.approx(np.mean(speeds), rel=1e-12)
+            assert (contact.pinion_speed, contact.gear_speed) == speeds
+            assert contact.sliding == work[RELATIVE_VELOCITY if sliding == "dynamic" else SLIDING, i]
+            pressure = np.sqrt(line_load * model.surfaces.effective_modulus / (2 * np.pi * work[RADIUS, i]))
+            assert recorded["hertz_pressure"][i] == pytest.approx(pressure, rel=1e-12)
+            loaded += 1
+    assert loaded > 1
 
 
 def test_every_measure_has_its_extreme():
