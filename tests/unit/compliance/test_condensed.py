@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from tests.support.faces_in_slices import CASES, model, table
+from tribodyn.compliance.condensed import _stiff_together
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
@@ -85,3 +86,26 @@ def test_errors_of_single_teeth_are_refused_in_the_dynamics(case):
     one = FlankModification(pitch_error=(1e-6,) * 18)
     with pytest.raises(InputError, match="pitch_errors"):
         table(case, Modifications(pinion=one), 1)
+
+
+def test_slices_that_touch_are_springs_side_by_side(rng):
+    """A slice that carries less than a fifth of the mean counts in part, an idle one not at all."""
+    own = rng.uniform(1e-9, 2e-9, (1, 2, 4, 4))
+    own = own + np.swapaxes(own, -1, -2) + 6e-9 * np.eye(4)
+    secant = rng.uniform(2e-9, 4e-9, (1, 2, 4))
+    load = np.array([[[30.0, 50.0, 90.0, 0.0], [1.0, 70.0, 60.0, 40.0]]])
+    compliance, share = _stiff_together(own, secant, load)
+    np.testing.assert_allclose(share.sum(axis=-1), 1.0, rtol=1e-12)
+    # the last slice idle: three springs, all at the same deflection
+    three = own[0, 0, :3, :3] + np.diag(secant[0, 0, :3])
+    one_each = np.linalg.solve(three, np.ones(3))
+    assert compliance[0, 0] == pytest.approx(1.0 / one_each.sum(), rel=1e-12)
+    np.testing.assert_allclose(share[0, 0], [*(one_each / one_each.sum()), 0.0], rtol=1e-12)
+    # the first at 1/42.75 of the mean: between none and all of it
+    without = np.linalg.solve(own[0, 1, 1:, 1:] + np.diag(secant[0, 1, 1:]), np.ones(3)).sum()
+    whole = np.linalg.solve(own[0, 1] + np.diag(secant[0, 1]), np.ones(4)).sum()
+    assert without < 1.0 / compliance[0, 1] < whole
+    joined = 1.0 / 42.75 / 0.2
+    weight = joined**2 * (3.0 - 2.0 * joined)
+    springs = own[0, 1] + np.diag(secant[0, 1] / np.array([weight, 1.0, 1.0, 1.0]))
+    assert 1.0 / compliance[0, 1] == pytest.approx(np.linalg.solve(springs, np.ones(4)).sum(), rel=1e-9)

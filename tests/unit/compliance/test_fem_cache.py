@@ -98,11 +98,15 @@ def any_ends(waves: int, width: float = 1.0) -> FreeEnds:
 
 def test_loads_that_vary_are_solved_only_where_asked_for_and_kept_apart(folder, monkeypatch):
     ends = "tribodyn.compliance.free_ends.free_ends"
-    monkeypatch.setattr(ends, lambda *given: any_ends(len(given[-2]), given[-1]))
+    asked = []
+    monkeypatch.setattr(ends, lambda *given: asked.append(given) or any_ends(len(given[-2]), given[-1]))
     plane = solve()
     assert plane.lead is None
     first = solve(width=0.02)
     assert same(plane, first._replace(lead=None, ends=None))
+    assert first.lead is not None
+    for waves in (first.lead.wave_number, asked[0][-2]):  # over the module
+        assert 0.2 < waves[-1] * DRIVE.module < 20.0
     assert {"ends", "lead"} < {file.name.partition("-")[0] for file in folder.iterdir()}
     monkeypatch.setattr("tribodyn.compliance.fem.gear_compliance", None)
     monkeypatch.setattr("tribodyn.compliance.fem.lead_harmonics", None)

@@ -5,8 +5,9 @@ import pytest
 
 from tests.support.sample_drives import STANDARD
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.deviations import Limits, profile_curve, sampled, summed
+from tribodyn.geometry.deviations import Limits, deviating, profile_curve, sampled, summed
 from tribodyn.geometry.families import involute
+from tribodyn.geometry.modification import FlankModification, Misalignment, Modifications
 
 LIMITS = Limits(8e-6, 30e-6, 7e-6, 9e-6, 8e-6)
 SAMPLES = [sampled(LIMITS, 40, seed, 0) for seed in range(400)]
@@ -62,3 +63,48 @@ def test_curves_are_added_at_the_points_of_both():
     at, total = summed(one, (np.array([0.5, 3.0]), np.array([1.0, 1.0])))
     assert at.tolist() == [0.0, 0.5, 1.0, 2.0, 3.0]
     assert total.tolist() == [1.0, 2.0, 3.0, 1.0, 1.0]
+
+
+@pytest.mark.parametrize("every_tooth", [False, True])
+def test_deviations_are_added_to_what_each_gear_has(every_tooth: bool):
+    pair = assemble(involute.FAMILY, STANDARD)
+    pinion, gear = sampled(LIMITS, 20, 3, 0), sampled(LIMITS, 36, 4, 1)
+    given = np.linspace(-1e-6, 2e-6, 20)
+    ends = np.array([float(limit) for limit in pair.roll_limits])
+    curve = ends, np.array([3e-6, 1e-6])
+    stand = Misalignment(in_plane=40e-6, out_of_plane=70e-6)
+    before = Modifications(
+        FlankModification(pitch_error=tuple(given), profile_error=curve),
+        FlankModification(both_flanks=True),
+        stand,
+    )
+    after = deviating(before, pair, pinion, gear, every_tooth)
+    widths = STANDARD.pinion.face_width, STANDARD.gear.face_width
+    assert after.misalignment.in_plane == pytest.approx(
+        40e-6 + pinion.helix / widths[0] + gear.helix / widths[1], rel=1e-12
+    )
+    assert after.misalignment.out_of_plane == 70e-6
+    assert (after.pinion.both_flanks, after.gear.both_flanks) == (False, True)
+    assert after.gear.profile_error is None
+    if every_tooth:
+        np.testing.assert_allclose(after.pinion.pitch_error, pinion.pitch + given, rtol=1e-12)
+        np.testing.assert_allclose(after.gear.pitch_error, gear.pitch, rtol=1e-12)
+    else:
+        assert after.pinion.pitch_error == tuple(given)
+        assert len(after.gear.pitch_error) == 0
+    roll, own = profile_curve(pair, pinion, gear, base_pitch=not every_tooth)
+    assert after.pinion.profile_error is not None
+    at, total = after.pinion.profile_error
+    assert total == pytest.approx(np.interp(at, roll, own) + np.interp(at, *curve), abs=1e-18)
+
+
+def test_form_is_a_wave_of_half_its_deviation():
+    """Between crest and trough of whole waves; the gear's phase runs from the other end."""
+    pair = assemble(involute.FAMILY, STANDARD)
+    none = SAMPLES[0]._replace(slope=0.0, form=0.0, single_pitch=0.0)
+    wavy = none._replace(form=4e-6, waves=2, phase=0.7)
+    roll, own = profile_curve(pair, wavy, none, base_pitch=False)
+    assert np.ptp(own) == pytest.approx(4e-6, rel=5e-3)
+    share = (roll - roll[0]) / (roll[-1] - roll[0])
+    assert own == pytest.approx(2e-6 * np.cos(4 * np.pi * share + 0.7), abs=1e-15)
+    assert profile_curve(pair, none, wavy, base_pitch=False)[1] == pytest.approx(own[::-1], abs=1e-15)

@@ -3,11 +3,12 @@
 import dataclasses
 import math
 
+import numpy as np
 import pytest
 
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
-from tribodyn.mesh.stiffness import single_pair
+from tribodyn.mesh.stiffness import single_pair, total_stiffness
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 from tribodyn.studies.load import load_scenario
 
@@ -52,3 +53,23 @@ def test_a_contact_that_stiffens_is_taken_at_its_tangent():
 def test_the_sign_of_the_torque_does_not_matter():
     _, cycle, pair = pair_of("crc-23-47")
     assert single_pair(cycle, -TORQUE) == pair
+
+
+def test_the_pair_is_as_stiff_as_at_the_pitch_point():
+    """Among the nodes beside it; the numerical derivative of the compliance there is far from zero."""
+    _, cycle, pair = pair_of("involute-23-47")
+    roll, there = cycle.signed_distance[..., : cycle.front_pairs], cycle.in_contact[:, : cycle.front_pairs]
+    inside = np.broadcast_to(there[:, None] > 0, roll.shape)
+    at, compliance = roll[inside], cycle.compliance[..., : cycle.front_pairs][inside]
+    order = np.argsort(at)
+    after = int(np.searchsorted(at[order], 0.0))
+    beside = compliance[order][[after - 1, after]]
+    assert beside.min() <= 1.0 / pair.stiffness <= beside.max()
+    assert np.ptp(beside) < 2e-2 * beside.min() < np.ptp(compliance)
+
+
+def test_stiffnesses_of_pairs_add_up_along_the_pitch_tangent():
+    stiffness = np.array([[2.0, 3.0], [5.0, 0.0]])
+    angle = np.array([[0.4, 0.2], [0.3, np.nan]])
+    wanted = [2 * math.cos(0.4) ** 2 + 3 * math.cos(0.2) ** 2, 5 * math.cos(0.3) ** 2]
+    assert total_stiffness(stiffness, angle) == pytest.approx(wanted)
