@@ -114,8 +114,14 @@ def _until_corner(a, step, corner, direction, on_corner):
     while t < step:
         distance = direction * (corner - _value(a, t))
         away = -direction * _slope(a, t)
-        advance = (away + math.sqrt(away * away + 2.0 * bound * max(distance, 0.0))) / bound
-        if away <= 0.0 and (distance <= TOUCH or advance <= TOUCH):
+        root = math.sqrt(away * away + 2.0 * bound * max(distance, 0.0))
+        if away > 0.0:
+            t += (away + root) / bound
+            continue
+        if distance <= TOUCH:
+            return t
+        advance = 2.0 * distance / (root - away)  # the same, without a difference of equal numbers
+        if advance <= TOUCH:
             return t
         t += advance
     return step

@@ -43,9 +43,8 @@ def test_resonance_and_where_contact_is_lost():
     def amplitude(frequency):
         return float(linear_amplitude(one, np.array([frequency]))[0])
 
-    top = minimize_scalar(
-        lambda f: -amplitude(f), bounds=(0.8, 1.2), method="bounded", options={"xatol": 1e-9}
-    )
+    options = {"xatol": 1e-9}
+    top: Any = minimize_scalar(lambda f: -amplitude(f), bounds=(0.8, 1.2), method="bounded", options=options)
     assert found["resonance"] == pytest.approx(top.x, rel=1e-6)
     lost = brentq(lambda f: amplitude(f) - 0.3, 0.3, top.x)
     assert found["contact_loss_from"] == pytest.approx(lost, rel=1e-9)

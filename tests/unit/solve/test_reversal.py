@@ -1,0 +1,86 @@
+"""Where friction reverses: on a table whose distances are parabolas over the phase, with known roots."""
+
+from types import SimpleNamespace
+from typing import Any, cast
+
+import numpy as np
+import pytest
+
+from tribodyn.dynamics.parameters import SLIDING_DYNAMIC, SLIDING_KINEMATIC
+from tribodyn.mesh.cycle import CHANNELS
+from tribodyn.solve.reversal import SHARES, filled_up, passages, stops, stops_of_many
+
+DISTANCE = CHANNELS.index("signed_distance")
+BOUNDARY = np.array([0.0, 0.37, 1.0])
+CELLS = 7
+#: Distance of each pair over the phase, mm: coefficients from the constant term on.
+PAIRS = ((-0.9, 2.0, 0.7), (0.8, -1.3, -0.4), (-2.0, 0.1, 0.0))
+
+
+def model(in_contact=((1, 1, 1), (1, 0, 1)), width=0.05, sliding=SLIDING_KINEMATIC):
+    channel = np.zeros((2, CELLS, 3, len(CHANNELS), 4))
+    for segment in range(2):
+        start, end = BOUNDARY[segment : segment + 2]
+        size = (end - start) / CELLS
+        for cell in range(CELLS):
+            left = start + cell * size
+            for slot, (a, b, c) in enumerate(PAIRS):
+                place = a + b * left + c * left**2, (b + 2 * c * left) * size, c * size**2, 0.0
+                channel[segment, cell, slot, DISTANCE] = place
+    return cast(
+        Any,
+        SimpleNamespace(
+            table=SimpleNamespace(boundary=BOUNDARY, channel=channel, in_contact=np.array(in_contact)),
+            mechanics=SimpleNamespace(reversal_width=width),
+            options=SimpleNamespace(sliding=sliding),
+        ),
+    )
+
+
+def roots(pair, distance, low, high):
+    a, b, c = PAIRS[pair]
+    found = np.roots([c, b, a - distance]) if c else np.array([(distance - a) / b])
+    return [float(one.real) for one in found if abs(one.imag) < 1e-12 and low <= one.real <= high]
+
+
+@pytest.mark.parametrize("distance", [-0.35, 0.0, 0.02, 0.31])
+def test_passages_are_the_roots_of_the_distance(distance):
+    for segment in range(2):
+        low, high = BOUNDARY[segment : segment + 2]
+        touching = [pair for pair in range(3) if model().table.in_contact[segment][pair]]
+        expected = sorted(phase for pair in touching for phase in roots(pair, distance, low, high))
+        assert sorted(passages(model(), segment, distance)) == pytest.approx(expected, abs=1e-12)
+
+
+def test_steps_end_on_every_share_of_the_width_and_on_the_segments_end():
+    found = stops(model())
+    rows = []
+    for segment in range(2):
+        low, high = BOUNDARY[segment : segment + 2]
+        touching = [pair for pair in range(3) if model().table.in_contact[segment][pair]]
+        inside = [one for pair in touching for s in SHARES for one in roots(pair, 0.05 * s, low, high)]
+        rows.append([*sorted(inside), high])
+    assert len(rows[0]) != len(rows[1])
+    count = max(map(len, rows))
+    assert found.shape == (2, count)
+    for row, expected in zip(found, rows, strict=True):
+        np.testing.assert_allclose(row, expected + expected[-1:] * (count - len(expected)), rtol=1e-12)
+    assert list(SHARES) == sorted(SHARES) == [-one for one in reversed(SHARES)]
+
+
+def test_with_the_bodies_own_sliding_steps_end_on_segments_only():
+    np.testing.assert_array_equal(stops(model(sliding=SLIDING_DYNAMIC)), BOUNDARY[1:, None])
+
+
+def test_stops_of_many_cases_are_those_of_each():
+    wide, narrow = model(), model(width=0.01)
+    moving = model(sliding=SLIDING_DYNAMIC)
+    same = SimpleNamespace(table=wide.table, mechanics=wide.mechanics, options=wide.options)
+    other = SimpleNamespace(table=wide.table, mechanics=narrow.mechanics, options=wide.options)
+    found = stops_of_many(cast(Any, [wide, moving, same, other]))
+    count = found.shape[2]
+    assert count == max(stops(one).shape[1] for one in (wide, moving, narrow))
+    for row, one in zip(found, (wide, moving, wide, narrow), strict=True):
+        np.testing.assert_array_equal(row, filled_up(stops(one), count))
+    np.testing.assert_array_equal(found[0], found[2])
+    assert np.any(found[0] != found[3])

@@ -1,0 +1,118 @@
+"""When switching within the mesh cycle changes its method, and how it tells stiffness."""
+
+import numpy as np
+import pytest
+
+from tests.support.plain_kernels import make_plain, plain
+from tribodyn.dynamics.parameters import MECHANICAL, STATES
+from tribodyn.solve import dormand_prince
+from tribodyn.solve.marching import SCRATCH, STATE
+from tribodyn.solve.methods import dopri5, rodas4, switching
+from tribodyn.solve.methods.switching import COUNT, EXPLICIT_RUN, MODE, STIFFNESS, WHICH
+
+
+@pytest.fixture(autouse=True)
+def plainly(monkeypatch):
+    make_plain(monkeypatch, switching, dopri5, rodas4)
+
+
+def stages(rates, step):
+    """Rates of the stages of an explicit step of y' = f(y) from ones."""
+    y, k, stage = np.ones(STATES), np.zeros((7, STATES)), np.ones(STATES)
+    k[0] = rates(y)
+    for s in range(1, 7):
+        dormand_prince.stage_state(s, step, y, k, stage)
+        stage[MECHANICAL:] = 0.0
+        k[s] = rates(stage)
+    return k
+
+
+@pytest.mark.parametrize("fastest", [7.0, 40.0])
+def test_stiffness_of_one_decay_is_its_rate_times_the_step(fastest):
+    """All velocities decay alike: the last two stages tell it exactly; displacements say nothing."""
+    decay = np.zeros(STATES)
+    decay[MECHANICAL // 2 : MECHANICAL] = -fastest
+    k = stages(lambda y: decay * y, 0.2)
+    # both stages stand at the same phase: f(y7) − f(y6) = −λ (y7 − y6), and y7 − y6 = h Σ (a7 − a6) k
+    assert np.sqrt(switching.explicit_stiffness(k)) == pytest.approx(0.2 * fastest, rel=1e-9)
+    k[:, : MECHANICAL // 2] = 1e9
+    assert np.sqrt(switching.explicit_stiffness(k)) == pytest.approx(0.2 * fastest, rel=1e-9)
+    assert switching.explicit_stiffness(np.zeros((7, STATES))) == 0.0
+
+
+def after(steps, stiffness, which=0.0):
+    """Row of the choice after so many accepted steps, and whether the last begins fresh."""
+    buffer = switching.buffer()
+    buffer[MODE, WHICH] = which
+    fresh = None
+    for one in np.broadcast_to(stiffness, steps):
+        buffer[MODE, STIFFNESS] = one
+        fresh = switching.accept(buffer)
+    return buffer[MODE], fresh
+
+
+def test_twelve_stiff_steps_in_a_row_hand_over():
+    """Above 3 time constants a step, of which the square is kept; any other step begins the count anew."""
+    mode, fresh = after(11, 9.1)
+    assert (mode[WHICH], mode[COUNT], fresh) == (0.0, 11.0, False)
+    mode, fresh = after(12, 9.1)
+    assert (mode[WHICH], mode[COUNT], mode[EXPLICIT_RUN], fresh) == (1.0, 0.0, 0.0, True)
+    mode, _ = after(12, 8.9)
+    assert (mode[WHICH], mode[COUNT]) == (0.0, 0.0)
+    mode, _ = after(20, [9.1] * 11 + [8.9] + [9.1] * 8)
+    assert (mode[WHICH], mode[COUNT]) == (0.0, 8.0)
+
+
+def test_five_hundred_explicit_steps_hand_over_for_a_try():
+    assert after(499, 1.0)[0][WHICH] == 0.0
+    mode, fresh = after(500, 1.0)
+    assert (mode[WHICH], mode[EXPLICIT_RUN], fresh) == (1.0, 0.0, True)
+
+
+def test_three_steps_that_are_not_stiff_hand_back():
+    mode, fresh = after(2, 11.9, which=1.0)
+    assert (mode[WHICH], mode[COUNT], fresh) == (1.0, 2.0, True)
+    mode, fresh = after(3, 11.9, which=1.0)
+    assert (mode[WHICH], mode[COUNT], fresh) == (0.0, 0.0, True)
+    assert after(3, 12.1, which=1.0)[0][WHICH] == 1.0
+    mode, _ = after(5, [11.0, 11.0, 12.5, 11.0, 11.0], which=1.0)
+    assert (mode[WHICH], mode[COUNT]) == (1.0, 2.0)
+
+
+def test_each_step_is_that_of_the_method_in_use(monkeypatch):
+    """Attempt, samples, contacts and the next step."""
+    said = []
+
+    def named(name, value=None):
+        return lambda *arguments: said.append(name) or value
+
+    for one, module in (("explicit", dopri5), ("stiff", rodas4)):
+        for what in ("attempt", "sample", "adapted", "contacts"):
+            monkeypatch.setattr(module, what, named(f"{one} {what}", 7))
+    monkeypatch.setattr(rodas4, "stiffness", named("stiffness", 5.5))
+    for which, name in ((0.0, "explicit"), (1.0, "stiff")):
+        said.clear()
+        buffer = switching.buffer()
+        buffer[MODE, WHICH] = which
+        assert switching.attempt(True, 1e-3, None, None, None, None, None, buffer) == 7
+        assert buffer[MODE, STIFFNESS] == (5.5 if which else 0.0)
+        switching.sample(0.5, 1e-3, None, buffer, None)
+        assert switching.adapted(1e-3, 0.5, 0.5, buffer) == 7
+        switching.contacts(0.1, 0, None, None, buffer)
+        kernels = [one for one in said if one != "stiffness"]
+        assert kernels == [f"{name} {what}" for what in ("attempt", "sample", "adapted", "contacts")]
+
+
+def test_the_row_of_the_choice_lies_behind_those_of_both_methods():
+    assert len(switching.buffer()) == MODE + 1
+    assert len(rodas4.buffer()) <= MODE >= len(dopri5.buffer())
+    assert STATE < SCRATCH
+
+
+def test_the_explicit_methods_last_rates_are_the_next_steps_first(rng):
+    buffer = dopri5.buffer()
+    buffer[:] = rng.normal(size=buffer.shape)
+    last = buffer[SCRATCH + 6].copy()
+    assert dopri5.accept(buffer) is False
+    np.testing.assert_array_equal(buffer[SCRATCH], last)
+    assert plain(rodas4.METHOD.accept)(buffer) is True
