@@ -55,7 +55,7 @@ def over_pins(gear: Involute, pin_diameter: float, allowance: float = 0.0) -> fl
     """Dimension M over two pins of diameter D_M in opposite gaps.
 
     M = d_b/cos α_K + D_M with inv α_K = inv α + D_M/(m z cos α) − (π/2 − 2 x tan α − A_sn/m)/z; for an odd
-    number of teeth d_b is taken times cos(π/(2 z)).
+    number of teeth d_b is taken times cos(π/(2 z)). NaN for pins so thin that they drop between the flanks.
     """
     centre = gear.base_diameter / math.cos(_pin_angle(gear, pin_diameter, allowance))
     return centre * _opposite(gear) + pin_diameter
@@ -77,7 +77,9 @@ def pin_contact_diameter(gear: Involute, pin_diameter: float, allowance: float =
 
 
 def _pin_angle(gear: Involute, pin_diameter: float, allowance: float) -> float:
-    return float(inverse_involute(_pin_involute(gear, pin_diameter, allowance)))
+    """α_K; NaN for pins that touch no involute: they drop between the flanks."""
+    involute = _pin_involute(gear, pin_diameter, allowance)
+    return float(inverse_involute(involute)) if involute > 0.0 else math.nan
 
 
 def _pin_involute(gear: Involute, pin_diameter: float, allowance: float) -> float:

@@ -132,10 +132,13 @@ def _impossible_measure(drive: DriveTable, key: str, gear: Gear, measure: str) -
     if abs(allowance) <= 0.5 * drive.module:  # not where it is NaN
         return
     if measure == "span":
-        nominal = f"{1e3 * span(involute, gear.span_teeth or 1):.6g} mm over {gear.span_teeth} teeth"
+        length, over = span(involute, gear.span_teeth or 1), f"{gear.span_teeth} teeth"
     else:
-        nominal = f"{1e3 * over_pins(involute, gear.pin_diameter or 0.0):.6g} mm over these pins"
-    rule = f"leaves no such tooth: one of nominal thickness measures {nominal}"
+        length, over = over_pins(involute, gear.pin_diameter or 0.0), "these pins"
+    says = f"one of nominal thickness measures {1e3 * length:.6g} mm over {over}"
+    if math.isnan(length):
+        says = "these pins drop between teeth of nominal thickness"
+    rule = f"leaves no such tooth: {says}"
     remedy = f"check it, {_WITH[measure]} and profile_shift"
     yield InputError(f"{key}.{measure}", _shown(gear, measure), rule, remedy)
 

@@ -109,6 +109,23 @@ def test_what_is_outside_is_named(change, phrase):
     assert phrase in said
 
 
+@pytest.mark.parametrize(
+    ("key", "last", "beyond"),
+    [
+        ("profile_shift", (0.05, -0.55), (0.05, -0.56)),
+        ("profile_shift", (1.1, 0.9), (1.1, 0.91)),
+        ("pressure_angle", math.radians(15.0), math.radians(14.99)),
+        ("pressure_angle", math.radians(25.0), math.radians(25.01)),
+        ("contact_ratio", 1.2, 1.19),
+        ("contact_ratio", 2.5, 2.51),
+        ("line_load", 1600e3, 1601e3),
+    ],
+)
+def test_limits_are_those_of_the_standard(key, last, beyond):
+    assert outside(PAIR._replace(**{key: last})) == []
+    assert len(outside(PAIR._replace(**{key: beyond}))) == 1
+
+
 def drive(pinion, gear):
     return assemble(involute.FAMILY, Drive(0.003, math.radians(20.0), pinion, gear))
 

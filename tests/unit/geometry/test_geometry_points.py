@@ -59,3 +59,25 @@ def test_the_angle_is_held_beyond_the_points_and_its_slope_is_its_difference_bet
         np.testing.assert_array_equal(path.pressure_angle_slope(beyond), 0.0)
         np.testing.assert_allclose(path.pressure_angle(beyond), path.pressure_angle(end), rtol=1e-12)
         assert path.pressure_angle_slope(end) != 0.0
+
+
+@pytest.mark.parametrize("half", [-1, 1])
+def test_each_side_of_the_pitch_point_needs_its_points(half: int):
+    least = points._MINIMUM_POINTS
+
+    def drive_with(count):
+        r = 0.003 * half * np.sort(np.append(np.arange(-6.0, 1.0), np.arange(1.0, count + 1.0)))
+        x = np.sort(r)
+        angle = LIU_NI.pressure_angle
+        return LIU_NI._replace(shape=points.Shape(np.stack([x * np.cos(angle), x * np.sin(angle)], axis=-1)))
+
+    def refusal(count):
+        try:
+            points.FAMILY.check(drive_with(count))
+        except InputError as error:
+            return f"{error.value} {error.rule}"
+        return ""
+
+    side = "after" if half > 0 else "before"
+    assert refusal(least - 1) == f"{least - 1} points fewer than {least} {side} the pitch point"
+    assert "fewer than" not in refusal(least)  # whether or not it is long enough for the teeth

@@ -13,7 +13,7 @@ from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.checks import check
 from tribodyn.geometry.drive import SIDES, Drive
 from tribodyn.geometry.families import family, involute
-from tribodyn.geometry.families.spline import FAMILY, Shape, even_places
+from tribodyn.geometry.families.spline import FAMILY, Shape, _advice, even_places
 from tribodyn.geometry.path import kinematics, position
 from tribodyn.geometry.spline_fit import fit_spline, flank_deviation
 from tribodyn.geometry.tooth import flank_point, thickness_half_angle
@@ -245,3 +245,10 @@ def test_the_value_named_is_the_one_beside_the_swing(steep):
             check(FAMILY, with_shape(angles=angles))
         named.append(int(str(caught.value.key).rpartition(".")[2]))
     assert named[0] + named[1] == 6
+
+
+@pytest.mark.parametrize(("half", "place"), [(-1, 0), (1, len(ANGLES) - 1)])
+def test_advice_names_the_outermost_angle_of_the_half(half, place):
+    key, value, _ = _advice(FREE, half)
+    assert key == f"shape.angles.{place}"
+    assert float(value.removesuffix(" deg")) == pytest.approx(np.degrees(ANGLES[place]), rel=1e-3)

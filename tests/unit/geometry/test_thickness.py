@@ -9,6 +9,7 @@ from tests.support.sample_drives import SHIFTED, STANDARD
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import body_of
 from tribodyn.geometry.families import involute
+from tribodyn.geometry.measures import Gauge, thickness_lines
 from tribodyn.geometry.rack_profile import PROFILES
 from tribodyn.geometry.thickness import (
     Involute,
@@ -101,3 +102,18 @@ def test_racks_of_iso_53():
     )
     assert {name: one.fillet_radius for name, one in found.items()} == dict(A=0.38, B=0.3, C=0.25, D=0.39)
     assert all(one.pressure_angle == math.radians(20) for one in found.values())
+
+
+@pytest.mark.parametrize("side", ["pinion", "gear"])
+def test_the_sheet_has_what_gauges_measure_in_millimetres(side):
+    thin = SHIFTED._replace(**{side: body_of(SHIFTED, side)._replace(thickness_allowance=ALLOWANCE)})
+    gear, pair = gear_of(SHIFTED, side), assemble(involute.FAMILY, thin)
+    lines = thickness_lines(pair, side, Gauge(span_teeth=3, pin_diameter=6.6e-3))
+    assert lines["deviation of tooth thickness"] == (pytest.approx(-0.09), "mm")
+    assert lines["teeth of the span"] == (3.0, "")
+    assert lines["span"] == (pytest.approx(1e3 * span(gear, 3, ALLOWANCE), rel=1e-12), "mm")
+    assert lines["pin diameter"] == (pytest.approx(6.6), "mm")
+    assert lines["dimension over pins"] == (pytest.approx(1e3 * over_pins(gear, 6.6e-3, ALLOWANCE)), "mm")
+    # a pin that drops between the flanks, and a span beyond the tips, are left out
+    beside = thickness_lines(pair, side, Gauge(span_teeth=9, pin_diameter=2e-3))
+    assert set(beside) == {"deviation of tooth thickness"}

@@ -93,6 +93,8 @@ def test_contradictions_are_named():
     assert "there is: ISO 53 A, ISO 53 B" in refused(rack="ISO 53")
     far = refused(pinion__span="32.4 mm", pinion__span_teeth=3)
     assert "one of nominal thickness measures 23.6018 mm over 3 teeth" in far
+    thin = refused(pinion__over_pins="65 mm", pinion__pin_diameter="0.2 mm")
+    assert "these pins drop between teeth of nominal thickness" in thin
     both = {key: value for key, value in PAIR.items() if key != "mean_roughness"}
     with pytest.raises(InputError, match="roughness: missing"):
         load_drive(both)
