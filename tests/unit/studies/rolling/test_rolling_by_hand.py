@@ -1,0 +1,221 @@
+"""Statistics, refusals and drawings of the gear with rolling elements, in plain loops and by hand."""
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle
+
+from tribodyn.errors import InputError
+from tribodyn.record.reader import open_record
+from tribodyn.studies.load import load_scenario
+from tribodyn.studies.rolling import engagement, gear_picture, run
+from tribodyn.studies.rolling.case import RollingCase
+from tribodyn.studies.rolling.checks import element_radius_limits
+from tribodyn.studies.rolling.engagement import element_angles, engage
+from tribodyn.studies.rolling.geometry import RollingDrive, centre_path_curvature
+from tribodyn.studies.rolling.sheet import geometry_sheet
+
+SAMPLES = 6
+
+
+@pytest.fixture(scope="module")
+def case() -> RollingCase:
+    found: RollingCase = (
+        load_scenario("irefc").case if hasattr(load_scenario("irefc"), "case") else load_scenario("irefc")
+    )
+    drive = RollingDrive(0.05, 11, 1.3, 0.0025)
+    return replace(found, drive=drive, samples_per_cycle=SAMPLES, input_power=900.0, input_speed=70.0)
+
+
+@pytest.fixture(scope="module")
+def made(case: RollingCase, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[float]]:
+    told: list[float] = []
+    path = run.run(case, tmp_path_factory.mktemp("r") / "r.h5", progress=told.append).path
+    return path, told
+
+
+def test_progress_reaches_the_whole(made: tuple[Path, list[float]]):
+    assert made[1][-1] == 1.0
+
+
+def test_a_sheet_is_in_the_units_of_a_drawing():
+    drive = RollingDrive(0.02, 26, 1.4, 0.002)
+    sheet = geometry_sheet(drive)
+    expected = {
+        "rolling elements": 26,
+        "teeth of the cam": 25,
+        "teeth of the crown": 27,
+        "ratio of input to cam, which turns the other way": 12.5,
+        "element radius": 2.0,
+        "displacement coefficient": 1.4,
+        "pitch radius of the cage": 20.0,
+        "pitch radius of the cam": 20.0 * 25.0 / 26.0,
+        "pitch radius of the crown": 20.0 * 27.0 / 26.0,
+        "radius of the elements' centres": 28.0,
+        "eccentricity": 40.0 / 26.0,
+        "element radius at which neighbouring elements overlap": 28.0 * math.sin(math.pi / 26.0),
+    }
+    for name, value in expected.items():
+        assert sheet[name][0] == pytest.approx(value), name
+    assert {unit for value, unit in sheet.values() if isinstance(value, float)} <= {"", "mm"}
+    angle = np.linspace(0.0, np.pi, 20001)
+    cam, crown = centre_path_curvature(drive, angle)
+    for name, radius in (("cam", 1.0 / np.max(cam)), ("crown", -1.0 / np.min(crown))):
+        limit = sheet[f"element radius at which the protrusions of the {name} are undercut"]
+        assert limit == (pytest.approx(1e3 * radius, rel=1e-6), "mm")
+
+
+def test_limits_are_written_so_that_they_may_be_used():
+    from tribodyn.studies.rolling.checks import _millimetres
+
+    for length, text in (
+        (1.23456e-3, "1.234 mm"),
+        (12.3456e-3, "12.34 mm"),
+        (0.123456e-3, "0.1234 mm"),
+        (-1.0, "0 mm"),
+    ):
+        assert _millimetres(length) == text
+    assert _millimetres(0.0) == "0 mm"
+
+
+def test_the_summary_of_a_revolution_in_plain_loops(case: RollingCase):
+    """All samples but the last, which is the first one again; extremes over all."""
+    drive = case.drive
+    turn = 2.0 * np.pi * np.arange(SAMPLES * 12 + 1) / (SAMPLES * 12)
+    states = [
+        engage(drive, element_angles(drive, np.array([one])), 900.0, 70.0, case.friction) for one in turn
+    ]
+    count = len(states) - 1
+    found = run.figures(case)
+
+    def mean(values: list[float]) -> float:
+        return sum(values[:count]) / count
+
+    power_in = mean([float(one.power_in[0]) for one in states])
+    power_out = mean([float(one.power_out[0]) for one in states])
+    cam = mean([float(np.sum(one.power_cam)) for one in states])
+    crown = mean([float(np.sum(one.power_crown)) for one in states])
+    assert found["power_in_mean"] == pytest.approx(power_in)
+    assert found["power_cam_mean"] == pytest.approx(cam)
+    assert found["power_crown_mean"] == pytest.approx(crown)
+    assert found["power_friction_mean"] == pytest.approx(cam + crown)
+    assert found["efficiency"] == found["efficiency_by_energy"] == pytest.approx(power_out / power_in)
+    assert found["energy_residual"] == pytest.approx(0.0, abs=1e-12)
+    torque = [float(one.power_out[0]) * 5.0 / 70.0 for one in states]  # the cam turns five times slower
+    assert found["output_torque_mean"] == pytest.approx(sum(torque) / len(torque))
+    assert found["output_torque_peak_to_peak"] == pytest.approx(max(torque) - min(torque))
+    for name in ("normal_load", "slip_speed", "spin_speed"):
+        assert found[f"{name}_max"] == pytest.approx(
+            max(np.max(np.abs(getattr(one, name))) for one in states)
+        )
+    loaded = [int(np.sum(one.normal_load > 1e-6 * found["normal_load_max"])) for one in states]
+    assert (found["elements_loaded_min"], found["elements_loaded_max"]) == (min(loaded), max(loaded))
+    assert found["mesh_frequency"] == pytest.approx(12.0 * 70.0 / (2.0 * math.pi))
+    assert (found["ratio"], found["eccentricity"]) == (5.0, pytest.approx(0.1 / 11.0))
+
+
+def test_a_record_is_the_revolution(case: RollingCase, made: tuple[Path, list[float]]):
+    path, told = made
+    turn = 2.0 * np.pi * np.arange(SAMPLES * 12 + 1) / (SAMPLES * 12)
+    state = engage(case.drive, element_angles(case.drive, turn), 900.0, 70.0, case.friction)
+    assert told[-1] == 1.0
+    np.testing.assert_allclose(told[:3], np.array([1, 2, 3]) * SAMPLES / len(turn))
+    with open_record(path) as record:
+        np.testing.assert_allclose(record["time"], turn / 70.0)
+        np.testing.assert_allclose(record["input_angle"], turn)
+        np.testing.assert_allclose(record["normal_load"], state.normal_load, atol=1e-9)
+        np.testing.assert_allclose(
+            record["power_friction"], (state.power_cam + state.power_crown).sum(axis=1)
+        )
+        np.testing.assert_array_equal(record["element"], np.arange(1, 12))
+        sizes = record.geometry
+        assert sizes["centre_circle_radius"] == pytest.approx(0.065)
+        assert record.summary["efficiency"] == pytest.approx(run.figures(case)["efficiency"])
+
+
+def test_the_picture_is_in_millimetres_about_the_shaft(case: RollingCase, made: tuple[Path, list[float]]):
+    state = engage(case.drive, element_angles(case.drive, np.zeros(1)), 900.0, 70.0, case.friction)
+    axes = Figure().subplots()
+    with open_record(made[0]) as record:
+        gear_picture.draw_gear(axes, record)
+    # in mm: cam and cage beside the shaft by two and one distances of centres
+    circles = [one for one in axes.patches if isinstance(one, Circle)]
+    pitch = {round(one.radius, 6): one.center[0] for one in circles[1:4]}
+    distance = 50.0 / 11.0
+    assert pitch == pytest.approx(
+        {round(50.0 + distance, 6): 0.0, 50.0: distance, round(50.0 - distance, 6): 2.0 * distance}
+    )
+    elements = circles[4:]
+    assert len(elements) == record_elements(case)
+    for number, one in enumerate(elements):
+        angle = 2.0 * math.pi * number / len(elements)
+        assert one.radius == pytest.approx(2.5)
+        assert one.center == pytest.approx((distance + 65.0 * math.cos(angle), 65.0 * math.sin(angle)))
+    arrows = [one for one in axes.texts if getattr(one, "arrow_patch", None) is not None]
+    loads, angles = state.normal_load[0], state.element_angle[0]
+    top = max(loads)
+    expected = [n for n in range(11) if 6.0 * loads[n] / top > 0.02]
+    assert len(arrows) == len(expected)
+    for arrow, n in zip(arrows, expected, strict=True):
+        centre = np.array([distance + 65.0 * math.cos(angles[n]), 65.0 * math.sin(angles[n])])
+        along = centre - np.array([50.0 + distance, 0.0])
+        along = along / math.hypot(*along)
+        tip = centre - 2.5 * along
+        np.testing.assert_allclose(arrow.xyann, tip, rtol=1e-9)  # pyright: ignore[reportAttributeAccessIssue]
+        tail = tip - 6.0 * 2.5 * loads[n] / top * along
+        np.testing.assert_allclose(arrow.xy, tail, rtol=1e-9, atol=1e-9)  # pyright: ignore[reportAttributeAccessIssue]
+
+
+def record_elements(case: RollingCase) -> int:
+    """Of the scenario, whose text stands in the record: the drive itself is made up here."""
+    import tomllib
+
+    return int(tomllib.loads(case.toml)["drive"]["elements"])
+
+
+def test_as_published_it_is_one_position(case: RollingCase):
+    published = replace(case, mode="as_published")
+    angles = run._shaft_angles(published)
+    assert list(angles) == [0.0]
+    state = run._engage(published, angles)
+    assert state.normal_load.shape == (1, 6)
+    found = run.figures(published)
+    assert found["efficiency"] == float(state.efficiency[0])
+    assert found["power_in_mean"] == float(state.power_in[0])
+    assert len(run._shaft_angles(case)) == SAMPLES * 12 + 1
+    blocks = list(run._blocks(np.arange(14.0), 6))
+    assert [(start, len(part)) for start, part in blocks] == [(0, 6), (6, 6), (12, 2)]
+    assert [run._whole(done, np.zeros(14)) for done in (6, 13, 14)] == [True, True, False]
+    assert run._whole(1, np.zeros(1))
+
+
+@pytest.mark.parametrize(
+    ("arm", "sliding", "key"), [(1.0, 0.05, "rolling_arm"), (1e-5, 900.0, "sliding_coefficient")]
+)
+def test_friction_that_locks_is_refused_with_the_limit(
+    case: RollingCase, arm: float, sliding: float, key: str
+):
+    """At 0.99 of the limit that is named the gear turns, at 1.01 it locks."""
+    heavy = engagement.RollingFriction(
+        rolling_arm=arm * 1e-2 if arm < 1.0 else arm, sliding_coefficient=sliding
+    )
+    with pytest.raises(InputError) as caught:
+        run.prepare(replace(case, friction=heavy))
+    assert caught.value.key == f"friction.{key}"
+    limit = float(caught.value.remedy.split()[3])
+    limit *= 1e-3 if key == "rolling_arm" else 1.0
+    run.prepare(replace(case, friction=heavy._replace(**{key: 0.985 * limit})))
+    with pytest.raises(InputError, match="the gear locks"):
+        run.prepare(replace(case, friction=heavy._replace(**{key: 1.015 * limit})))
+
+
+def test_elements_at_the_limit_are_refused():
+    for drive in (RollingDrive(0.05, 11, 1.3, 0.0025), RollingDrive(0.02, 40, 2.2, 0.001)):
+        limits = element_radius_limits(drive)
+        assert limits["neighbouring elements overlap"] == pytest.approx(
+            drive.displacement * drive.pitch_radius * math.sin(math.pi / drive.elements)
+        )
