@@ -1,13 +1,24 @@
-"""What a case is made into: enough sweeps over the coupled pairs, however strongly they are coupled."""
+"""What a case is made into: the numbers of its mechanics, and enough sweeps over the coupled pairs."""
+
+import math
+from itertools import product
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
+from tribodyn.dynamics import parameters
 from tribodyn.dynamics.contact_forces import ELASTIC_LOAD, XI
+from tribodyn.dynamics.data import BearingData, OperatingData
 from tribodyn.dynamics.equations import strain_energy
 from tribodyn.dynamics.parameters import STATES
 from tribodyn.mesh.cycle import polynomials
+from tribodyn.studies.gear_pair import prepare as preparing
 from tribodyn.studies.gear_pair.prepare import prepare, tables
+
+PINION, GEAR = (1.7, 0.0021), (9.3, 0.047)
+RADII = 0.031, 0.083
 
 
 @pytest.mark.parametrize(("factor", "sweeps"), [(0.0, 1), (1.0, 4), (1.8, 8)])
@@ -31,3 +42,158 @@ def test_loads_settle_where_one_pair_separates(prepared, factor: float, sweeps: 
         separated += min(loads[1]) == 0.0 < max(loads[1])
         np.testing.assert_allclose(loads[0], loads[1], rtol=0, atol=1e-4 * max(loads[1]))
     assert separated > 2
+
+
+def described(**operating: Any) -> Any:
+    """What the mechanics read of a case."""
+    return SimpleNamespace(
+        operating=OperatingData(
+            **{"source": "torque", "pinion_speed": 130.0, "gear_torque": 410.0} | operating
+        ),
+        bearings=(BearingData(3e8, 5e8, 0.02, 0.03), BearingData(7e8, 11e8, 0.05, 0.07)),
+        mesh=SimpleNamespace(damping_ratio=0.06, contact_width=2e-7, formulation="classical"),
+        friction=SimpleNamespace(reversal_width=4e-5, sliding="dynamic"),
+    )
+
+
+def cycle_of(**changed: Any) -> Any:
+    """What they read of a table."""
+    radii = {"pinion_pitch_radius": RADII[0], "gear_pitch_radius": RADII[1]}
+    return SimpleNamespace(**radii | {"hertz_coefficient": 0.0, "pitch_point_length": 0.0} | changed)
+
+
+def slopes_by_hand(times: list[float], values: list[float]) -> list[float]:
+    """Fritsch and Butland's weighted harmonic means, 0 at extremes and at the ends of a table."""
+    slopes = [0.0]
+    for before, here, after, a, b, c in zip(
+        times, times[1:], times[2:], values, values[1:], values[2:], strict=False
+    ):
+        left, right = (b - a) / (here - before), (c - b) / (after - here)
+        near, far = 2.0 * (after - here) + (here - before), (after - here) + 2.0 * (here - before)
+        slopes.append((near + far) / (near / left + far / right) if left * right > 0.0 else 0.0)
+    return [*slopes, 0.0]
+
+
+TABLE = (0.0, 0.2, 0.5, 0.6, 1.3), (0.0, 30.0, 90.0, 70.0, 75.0)
+SHAFT = {"drive_inertia": 0.013, "shaft_stiffness": 4100.0, "shaft_damping": 0.9, "pinion_torque": 170.0}
+RIGID = {"drive_inertia": 0.013, "speed_regulation": 0.3, "load_damping": 0.4, "load_inertia": 0.21}
+
+
+@pytest.mark.parametrize(
+    "operating",
+    [SHAFT, RIGID | {"torque_table": TABLE, "torque_harmonics": ((11.0, 300.0, 0.4), (7.0, 900.0, -0.2))}],
+    ids=["shaft", "rigid"],
+)
+def test_numbers_of_the_mechanics(operating: dict[str, Any]):
+    """Every one of them from what is given, the mass along the path from both inertias."""
+    case = described(**operating)
+    found = preparing._mechanics(case, PINION, GEAR, cycle_of())
+    given, (first, second) = case.operating, case.bearings
+    shaft = "shaft_stiffness" in operating
+    mass = 1.0 / (RADII[0] ** 2 / PINION[1] + RADII[1] ** 2 / GEAR[1])
+    harmonics = given.torque_harmonics
+    times, torques = given.torque_table or ((), ())
+    expected = {
+        "pinion_mass": 1.7,
+        "gear_mass": 9.3,
+        "pinion_inertia": 0.0021 if shaft else 0.0021 + 0.013,
+        "gear_inertia": 0.047 if shaft else 0.047 + 0.21,
+        "pinion_stiffness_x": 3e8,
+        "pinion_stiffness_y": 5e8,
+        "gear_stiffness_x": 7e8,
+        "gear_stiffness_y": 11e8,
+        "pinion_damping_x": 2.0 * first.damping_ratio_x * math.sqrt(3e8 * 1.7),
+        "pinion_damping_y": 2.0 * first.damping_ratio_y * math.sqrt(5e8 * 1.7),
+        "gear_damping_x": 2.0 * second.damping_ratio_x * math.sqrt(7e8 * 9.3),
+        "gear_damping_y": 2.0 * second.damping_ratio_y * math.sqrt(11e8 * 9.3),
+        # c = 2 ζ √(k m) of a stiffness k = 1
+        "mesh_damping": 2.0 * 0.06 * math.sqrt(mass),
+        "contact_width": 2e-7,
+        "reversal_width": 4e-5,
+        "nominal_speed": 130.0,
+        # both forces along the path of contact are equal
+        "drive_torque": 170.0 if shaft else 410.0 / 0.083 * 0.031,
+        "speed_regulation": 0.0 if shaft else 0.3,
+        "drive_inertia": 0.013,
+        "shaft_stiffness": 4100.0 if shaft else 0.0,
+        "shaft_damping": 0.9 if shaft else 0.0,
+        "load_torque": 410.0,
+        "load_damping": 0.0 if shaft else 0.4,
+        "load_times": times,
+        "load_torques": torques,
+        "load_slopes": [] if shaft else slopes_by_hand(*map(list, TABLE)),
+        "load_amplitudes": [one[0] for one in harmonics],
+        "load_frequencies": [one[1] for one in harmonics],
+        "load_phases": [one[2] + 0.5 * math.pi for one in harmonics],
+    }
+    assert set(expected) == set(found._fields)
+    for name, value in expected.items():
+        np.testing.assert_allclose(getattr(found, name), value, rtol=1e-12, err_msg=name)
+
+
+@pytest.mark.parametrize(
+    ("source", "stiffness", "drive"),
+    [("speed", None, "DRIVE_SPEED"), ("torque", None, "DRIVE_TORQUE"), ("torque", 50.0, "DRIVE_SHAFT")],
+)
+def test_what_is_switched(source: str, stiffness: float | None, drive: str):
+    case = described(source=source, shaft_stiffness=stiffness)
+    laws: Any = SimpleNamespace(
+        film=SimpleNamespace(functions="of film"), friction=SimpleNamespace(functions="of friction")
+    )
+    for sliding, formulation, hertz, length in product(
+        ("kinematic", "dynamic"), ("classical", "energy-consistent"), (0.0, 1e-13), (0.0, 2e-4)
+    ):
+        case.friction.sliding, case.mesh.formulation = sliding, formulation
+        cycle = cycle_of(
+            hertz_coefficient=hertz,
+            pitch_point_length=length,
+            coupling=np.zeros((1, 2, 1, 1)),
+            compliance=np.ones((1, 2, 1)),
+        )
+        found = preparing._options(case, cycle, laws)
+        assert (found.film, found.friction) == ("of film", "of friction")
+        assert found.drive == getattr(parameters, drive)
+        assert found.sliding == getattr(parameters, f"SLIDING_{sliding.upper()}")
+        assert found.formulation == getattr(parameters, formulation.upper().replace("-", "_"))
+        assert found.hertz == (parameters.HERTZ_POWER_LAW if hertz else parameters.HERTZ_IN_TABLE)
+        assert (found.averaged, found.sweeps) == (int(length > 0.0), 1)
+
+
+def test_sweeps_by_how_strongly_pairs_that_touch_are_coupled():
+    """By the square of the coupling over what each deflects alone, at the worst place."""
+    coupling, alone = np.zeros((2, 3, 2, 2)), np.ones((2, 3, 2)) * np.array([2e-9, 5e-9])
+    both = np.ones((2, 2))
+
+    def sweeps(share: float, touching: np.ndarray = both, hertz: float = 0.0) -> int:
+        coupling[1, 2, [0, 1], [1, 0]] = math.sqrt(share * 2e-9 * 5e-9)
+        cycle = cycle_of(hertz_coefficient=hertz, coupling=coupling, compliance=alone, in_contact=touching)
+        return preparing._sweeps(cycle)
+
+    assert sweeps(0.0) == 1
+    assert sweeps(0.095) < sweeps(0.105) < sweeps(0.105, hertz=1e-13) == sweeps(0.095, hertz=1e-13)
+    assert sweeps(0.105, np.array([[1.0, 1.0], [0.0, 1.0]])) == sweeps(0.095)
+
+
+def test_the_loss_of_slow_rotation_is_what_is_lost_in_a_second(monkeypatch: pytest.MonkeyPatch):
+    """Energy per radian of the pinion times its speed; nothing is made without a load."""
+    split: Any = cycle_of(pitch_point_length=3e-4)
+    made: Any = SimpleNamespace(split=lambda: split)
+    monkeypatch.setattr(preparing, "closure_of", lambda case: case.laws)
+    monkeypatch.setattr(preparing, "contacts", lambda *given: given)
+    monkeypatch.setattr(preparing, "engaged", lambda cycle, torque, found: (cycle, torque, found))
+    monkeypatch.setattr(preparing, "friction_loss", lambda cycle, *loads: 0.35 if loads[0] is cycle else 0.0)
+    lost = preparing._quasi_static_loss(made)
+    case: Any = SimpleNamespace(
+        operating=OperatingData("speed", pinion_speed=120.0, gear_torque=80.0), laws="laws"
+    )
+    assert lost(case) == pytest.approx(0.35 * 120.0)
+    seen: list[Any] = []
+    monkeypatch.setattr(preparing, "friction_loss", lambda cycle, *loads: seen.append(loads) or 1.0)
+    lost(case)
+    assert seen == [(split, 80.0, (split, 80.0, 120.0, "laws", True))]
+    made.split = lambda: cycle_of()
+    lost(case)
+    assert seen[-1][2][-1] is False
+    idle: Any = SimpleNamespace(operating=OperatingData("speed", pinion_speed=120.0, gear_torque=0.0))
+    made.split = None
+    assert lost(idle) == 0.0
