@@ -159,3 +159,13 @@ def test_bodies_and_tips_that_the_series_is_not_for():
     assert "rim of the pinion" in said
     (said,) = bodies_outside(drive(gear(23), gear(47, addendum=1.2)))
     assert "addendum of the gear 1.2" in said
+
+
+def test_the_series_is_the_standards():
+    """(82) with the coefficients of its table, at shifts of both gears that let every term count."""
+    table = (0.04723, 0.15551, 0.25791, -0.00635, -0.11654, -0.00193, -0.24188, 0.00529, 0.00182)
+    for z1, z2, x1, x2 in ((17.0, 43.0, 0.6, 0.3), (23.0, 47.0, 0.9, -0.7), (13.0, 90.0, 0.4, 0.4)):
+        terms = (1.0, 1 / z1, 1 / z2, x1, x1 / z1, x2, x2 / z2, x1**2, x2**2)
+        flexibility = sum(c * term for c, term in zip(table, terms, strict=True))
+        found = theoretical_stiffness((z1, z2), (x1, x2))
+        assert found / 1e9 == pytest.approx(1.0 / flexibility, rel=1e-12)

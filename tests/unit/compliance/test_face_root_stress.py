@@ -1,0 +1,131 @@
+"""Roots under loads on the face: sums over teeth, harmonics and places in plain loops; waves integrated."""
+
+from types import SimpleNamespace
+from typing import Any, cast
+
+import numpy as np
+import pytest
+
+from tribodyn.compliance.face_compliance import _add_free_ends, end_modes
+from tribodyn.compliance.face_root_stress import _of_free_ends, _of_one_gear
+from tribodyn.compliance.gear_compliance import NEIGHBOURS, FreeEnds
+from tribodyn.compliance.lead_harmonics import spline_weights
+from tribodyn.compliance.loaded_contact import _ages
+
+POSITIONS, PAIRS, WAVES, POINTS, RADII, SLICES = 2, 4, 5, 2, 3, 4
+SECTORS = 2 * NEIGHBOURS + 1
+
+
+def sector(sign, read, loaded):
+    """Pairs are counted from the one that entered first; None where the teeth are too far apart."""
+    pitches = loaded - read
+    return NEIGHBOURS + sign * pitches if abs(pitches) <= NEIGHBOURS else None
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_every_tooth_feels_its_own_load_and_its_neighbours(rng, sign):
+    per_load = rng.normal(size=(WAVES, SECTORS, 2, POINTS, RADII))
+    place = rng.normal(size=(POSITIONS, PAIRS, RADII))
+    amplitude = rng.normal(size=(POSITIONS, PAIRS, WAVES))
+    expected = np.zeros((2 * POINTS, POSITIONS, PAIRS, WAVES))
+    for t, n, read, loaded in np.ndindex(POSITIONS, WAVES, PAIRS, PAIRS):
+        if (there := sector(sign, read, loaded)) is not None:
+            seen = per_load[n, there].reshape(2 * POINTS, RADII) @ place[t, loaded]
+            expected[:, t, read, n] += seen * amplitude[t, loaded, n]
+    np.testing.assert_allclose(_of_one_gear(per_load, place, amplitude, sign), expected, rtol=1e-12)
+    alike = _of_one_gear(per_load[:1], place, amplitude, sign)
+    np.testing.assert_allclose(alike[..., 0], expected[..., 0], rtol=1e-12)
+    repeated = np.broadcast_to(per_load[:1], per_load.shape)
+    np.testing.assert_allclose(alike, _of_one_gear(repeated, place, amplitude, sign), rtol=1e-12)
+
+
+@pytest.fixture
+def ends(rng):
+    return FreeEnds(
+        np.linspace(0.0, 800.0, WAVES) ** 1.1,
+        np.linspace(20e-3, 24e-3, RADII),
+        rng.normal(size=(2, WAVES, WAVES, RADII)),
+        rng.normal(size=(2, WAVES, WAVES, SECTORS, RADII, RADII)),
+        rng.normal(size=(2, WAVES, WAVES, SECTORS, 2, POINTS, RADII)),
+    )
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_free_ends_add_stress_of_either_parity(rng, ends, sign):
+    along = rng.normal(size=(2, SLICES, WAVES))
+    place = rng.normal(size=(POSITIONS, PAIRS, RADII))
+    load = rng.normal(size=(POSITIONS, PAIRS, SLICES))
+    expected = np.zeros((2 * POINTS, POSITIONS, PAIRS, SLICES))
+    for t, parity, read, loaded in np.ndindex(POSITIONS, 2, PAIRS, PAIRS):
+        if (there := sector(sign, read, loaded)) is not None:
+            rows = ends.root_stress[parity, :, :, there].reshape(WAVES, WAVES, 2 * POINTS, RADII)
+            counted = along[parity].T @ load[t, loaded]
+            stress = np.einsum("klpm,m,l->pk", rows, place[t, loaded], counted)
+            expected[:, t, read] += stress @ along[parity].T
+    np.testing.assert_allclose(
+        _of_free_ends(ends, along, place, load, sign), expected, rtol=1e-11, atol=1e-11
+    )
+
+
+def test_waves_are_means_over_slices_of_cosines_from_one_end(ends):
+    """By integration; a cosine to the half wave's parity, faded over the last octave, read off the spline."""
+    width, slices = 30e-3, 6
+    count = int(ends.wave_number[-1] * width / np.pi) + 1
+    assert count > 8
+    expected = np.zeros((2, slices, WAVES))
+    fine = (np.arange(2000) + 0.5) / 2000 * width / slices
+    for n in range(count):
+        k = n * np.pi / width
+        share = k / ends.wave_number[-1]
+        fade = 1.0 if share <= 0.5 else np.cos(np.pi * (share - 0.5)) ** 2
+        weight = spline_weights(ends.wave_number, np.array([k]))[0]
+        for s in range(slices):
+            mean = np.mean(np.cos(k * (s * width / slices + fine)))
+            expected[n % 2, s] += (2.0 if n else 1.0) / width * fade * mean * weight
+    np.testing.assert_allclose(end_modes(ends, width, slices), expected, rtol=1e-5, atol=1e-6 / width)
+
+
+def test_free_ends_add_deflection_of_either_parity_and_neighbour(rng, ends):
+    """Both gears, each other's teeth on opposite sides; a matrix that stays symmetric in places and pairs."""
+    width, moduli = 21e-3, (2.0, 5.0)
+    other = ends._replace(own=2.0 * ends.own + 1.0, between=ends.between[..., ::-1, :, :] - 0.3)
+    gears = [SimpleNamespace(ends=one) for one in (ends, other)]
+    materials = [SimpleNamespace(youngs_modulus=one) for one in moduli]
+    reach = (
+        ends.radius[[0, 2, 1, 0]][None].repeat(POSITIONS, axis=0),
+        ends.radius[[1, 1, 2, 0]][None].repeat(2, 0),
+    )
+    flexible: Any = SimpleNamespace(gears=gears, materials=materials, width=width)
+    geometry: Any = SimpleNamespace(pinion_radius=reach[0], gear_radius=reach[1])
+    found = np.zeros((POSITIONS, PAIRS, SLICES, PAIRS, SLICES))
+    _add_free_ends(found, flexible, geometry)
+    expected = np.zeros_like(found)
+    along = end_modes(ends, width, SLICES)
+    numbers = [[0, 2, 1, 0], [1, 1, 2, 0]]
+    for body, sign in ((0, 1), (1, -1)):
+        one = (ends, other)[body]
+        for parity in (0, 1):
+            for later in range(PAIRS):
+                at = numbers[body][later]
+                wave = along[parity] @ one.own[parity, :, :, at] @ along[parity].T
+                expected[:, later, :, later] += wave / moduli[body]
+                for earlier in range(max(0, later - NEIGHBOURS), later):
+                    there = NEIGHBOURS + sign * (later - earlier)
+                    rows = one.between[parity, :, :, there, numbers[body][earlier], at]
+                    wave = along[parity] @ rows @ along[parity].T / moduli[body]
+                    expected[:, earlier, :, later] += wave
+                    expected[:, later, :, earlier] += wave.T
+    np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-9 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("limits", [(-0.31, 0.42), (-0.2, 0.2), (0.05, 0.12)])
+def test_pairs_that_can_touch_are_counted_in_whole_pitches(limits):
+    """Those whose angle lies between the limits at some time within a pitch, the oldest in front."""
+    start, pitch = -0.17, 0.11
+    phase = np.linspace(0.0, 1.0, 2000, endpoint=False)
+    expected = [
+        age
+        for age in range(20, -20, -1)
+        if np.any((start + (age + phase) * pitch > limits[0]) & (start + (age + phase) * pitch < limits[1]))
+    ]
+    assert _ages(cast(Any, limits), start, pitch).tolist() == expected
