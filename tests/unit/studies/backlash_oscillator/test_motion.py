@@ -108,3 +108,55 @@ def test_what_nothing_accelerates_reaches_the_flank_in_its_time():
     np.testing.assert_allclose(found[:6, 0], free, rtol=1e-12)
     inside = np.arange(7, 10) - 1.9 / 0.3
     np.testing.assert_allclose(found[6:, 0], 1.0 + 0.3 * np.sin(inside), rtol=1e-10)
+
+
+def test_the_last_terms_of_a_step_are_as_small_as_rounding():
+    """The larger of both is just as small, as a share of position and velocity, and of 1 at least."""
+    for first, (last, before) in (
+        (0.3, (2.0, 7.0)),
+        (-40.0, (9.0, 1e-9)),
+        (0.3, (0.0, 5.0)),
+        (60.0, (1e-4, 0.0)),
+    ):
+        for velocity in (0.2, -50.0):
+            a = np.zeros(motion.DEGREE + 1)
+            a[0], a[1], a[-1], a[-2] = first, velocity, last, -before
+            step = motion._longest(a)
+            terms = last * step**motion.DEGREE, before * step ** (motion.DEGREE - 1)
+            assert max(terms) == pytest.approx(
+                motion.ROUNDING * max(1.0, abs(first), abs(velocity)), rel=1e-9
+            )
+    assert motion._longest(np.zeros(motion.DEGREE + 1)) > 100.0
+
+
+def test_integrals_and_extremes_of_a_polynomial(rng):
+    """Of any degree that a step has, by NumPy's polynomials."""
+    for side in (-1, 0, 1):
+        a = rng.normal(size=motion.DEGREE + 1)
+        step = 0.9
+        # a step begins where the one before it ended
+        figures = np.array([0.5, 0.25, 0.125, 0.0625, a[0], a[0]])
+        motion._record(a, step, side, figures)
+        x = np.polynomial.Polynomial(a)
+        t = np.linspace(0.0, step, 20001)
+        assert figures[motion.INTEGRAL] == pytest.approx(0.5 + x.integ()(step), rel=1e-12)
+        assert figures[motion.SQUARE] == pytest.approx(0.25 + (x**2).integ()(step), rel=1e-12)
+        assert figures[motion.FREE] == 0.125 + (step if side == 0 else 0.0)
+        assert figures[motion.BACK] == 0.0625 + (step if side == -1 else 0.0)
+        assert figures[motion.MAXIMUM] == pytest.approx(np.max(x(t)), abs=1e-7)
+        assert figures[motion.MINIMUM] == pytest.approx(np.min(x(t)), abs=1e-7)
+
+
+@pytest.mark.parametrize("direction", [1.0, -1.0])
+def test_no_corner_is_passed_by(direction, rng):
+    """The first of two passages close together is found, however far away the motion was."""
+    for _ in range(60):
+        first, gap = rng.uniform(0.2, 0.7), 10.0 ** rng.uniform(-3.0, -1.0)
+        # a motion that goes through the corner and back, times one that has no root there
+        others = rng.uniform(1.1, 1.6, 7) * rng.choice([-1.0, 1.0], 7)
+        x = np.polynomial.Polynomial.fromroots([first, first + gap, *others])
+        x = x * (-0.5 * direction / x(0.0))
+        a = np.zeros(motion.DEGREE + 1)
+        a[:10] = x.coef
+        a[0] += 0.3
+        assert motion._until_corner(a, 1.0, 0.3, direction, False) == pytest.approx(first, abs=1e-3 * gap)

@@ -1,0 +1,422 @@
+"""Keys, quantities and tolerances of a search one by one; exact slopes; what is handed to NSGA-II."""
+
+import math
+import sys
+from dataclasses import replace
+from types import ModuleType, SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tribodyn.errors import InputError
+from tribodyn.studies.design import run as running
+from tribodyn.studies.design import slopes as differentiating
+from tribodyn.studies.design.archive import Archive
+from tribodyn.studies.design.case import DRAWN, START, Constraint, DesignCase, Free, Objective, Tolerance
+from tribodyn.studies.design.deviations import deviating
+from tribodyn.studies.design.judged import Judge
+from tribodyn.studies.design.left import NOTHING_LEFT, Left
+from tribodyn.studies.design.methods.front import nsga2
+from tribodyn.studies.design.methods.local import slopes_of
+from tribodyn.studies.design.methods.views import Scalar
+from tribodyn.studies.design.naming import apart, flat, naming_key
+from tribodyn.studies.design.parts import _number, _varied
+from tribodyn.studies.design.short_form import loaded_search
+from tribodyn.studies.design.slopes import Derivatives, _over_samples
+from tribodyn.studies.design.sources import (
+    in_unit,
+    own,
+    require_key,
+    sources_of,
+    split,
+    standing,
+    unknown_part,
+)
+
+KEYS = ("drive.pinion.profile_shift", "drive.gear.profile_shift")
+F, G = "peak_to_peak", "contact_ratio"
+SCENARIOS: Any = {
+    "": {"kind": "load-contact", "drive": {"module": "3 mm", "gear": {"teeth": 36}}, "list": [4, {"x": 5}]},
+    "losses": {"kind": "efficiency", "operating": {"pinion_speed": "9 rad/s"}},
+}
+
+
+def case_of(**design: Any) -> DesignCase:
+    given = {"free": [{"key": key, "from": -1.0, "to": 3.0} for key in KEYS], "minimise": F} | design
+    return loaded_search("load-contact-18-36", given, {}).case
+
+
+@pytest.fixture(scope="module")
+def case() -> DesignCase:
+    return case_of()
+
+
+def test_keys_belong_to_the_source_that_they_name():
+    """A part takes those of the others that it knows too; its own take their place."""
+    sources = sources_of(SCENARIOS)
+    given = {
+        "drive.module": 1,
+        "mesh.slices": 2,
+        "output.positions_per_cycle": 3,
+        "losses.drive.module": 4,
+        "losses.output.samples_per_cycle": 5,
+        "losses": 6,
+    }
+    assert split("losses.drive.module", SCENARIOS) == ("losses", "drive.module")
+    assert split("loss.drive.module", SCENARIOS) == ("", "loss.drive.module")
+    assert split("losses", SCENARIOS) == ("", "losses")
+    base = {"drive.module": 1, "mesh.slices": 2, "output.positions_per_cycle": 3, "losses": 6}
+    assert own("", sources[""].schema, given, ["losses"]) == base
+    found = own("losses", sources["losses"].schema, given, ["losses"])
+    assert {name: found[name] for name in ("drive.module", "output.samples_per_cycle")} == {
+        "drive.module": 4,
+        "output.samples_per_cycle": 5,
+    }
+    assert found["mesh.slices"] == 2
+    assert "output.positions_per_cycle" not in found
+    assert require_key("place", "losses.output.samples_per_cycle", sources)[1] == "output.samples_per_cycle"
+    with pytest.raises(InputError, match="positions_per_cycle"):
+        require_key("place", "output.positions_per_cycl", sources)
+
+
+def test_a_key_is_known_as_far_as_its_schema_says():
+    schema = sources_of(SCENARIOS)[""].schema
+    for key in ("drive.module", "drive.pinion.modification.pitch_errors.3", "friction.anything"):
+        assert unknown_part(key, schema) is None or key.startswith("friction")
+    above, name, known = unknown_part("drive.pinion.teth", schema) or ([], "", [])
+    assert (above, name) == (["drive", "pinion"], "teth")
+    assert "teeth" in known
+
+
+def test_what_stands_at_a_key():
+    for key, value in (
+        ("drive.module", "3 mm"),
+        ("drive.gear.teeth", 36),
+        ("list.0", 4),
+        ("list.1.x", 5),
+        ("list.2", None),
+        ("list.x", None),
+        ("drive.module.x", None),
+        ("drive.pinion.teeth", None),
+        ("losses.operating.pinion_speed", "9 rad/s"),
+        ("losses.drive.module", None),
+    ):
+        assert standing(SCENARIOS, key) == value
+
+
+def test_numbers_in_a_unit():
+    for value, unit, si, number in (
+        (3, "mm", 1e-3, 3.0),
+        (2.5, "", 1.0, 2.5),
+        (True, "", 1.0, None),
+        (None, "mm", 1e-3, None),
+        ("40 um", "um", 1e-6, 40.0),
+        ("0.04 mm", "um", 1e-6, 40.0),
+        ("3 mm", "m", 1.0, 0.003),
+        ("linear", "um", 1e-6, None),
+    ):
+        assert in_unit(value, unit, si) == pytest.approx(number)
+
+
+def test_quantities_without_a_kind_keep_their_unit():
+    assert _number("place", "3 mm", None) == (pytest.approx(0.003), "mm", "m")
+    assert _number("place", "0.2 kN*m", None)[:2] == (pytest.approx(200.0), "kN*m")
+    assert _number("place", 0.25, None) == (0.25, "", "1")
+    with pytest.raises(InputError, match="neither a number"):
+        _number("place", True, None)
+    with pytest.raises(InputError, match="not a finite number"):
+        _number("place", math.inf, None)
+
+
+@pytest.mark.parametrize(
+    "key", ["title", "kind", "output.positions_per_cycle", "losses.output.samples_per_cycle", "drive..module"]
+)
+def test_what_the_physics_does_not_depend_on_cannot_be_free(key: str):
+    with pytest.raises(InputError, match="cannot be free"):
+        _varied("place", key, sources_of(SCENARIOS))
+
+
+def test_limits_are_read_with_sign_and_unit():
+    signs = {"<=": 1.0, "<": 1.0, "≤": 1.0, ">=": -1.0, ">": -1.0, "≥": -1.0}
+    texts = [f"hertz_pressure_max {sign} {1.5 if value > 0 else 0.5} GPa" for sign, value in signs.items()]
+    # one limit that only touches another does not contradict it
+    touching = [f"{G} >= start", f"{G} <= 2.25", f"{G} >= 2.25"]
+    terms = [{"figure": F, "weight": -0.5}, {"figure": G}]
+    case = case_of(subject_to=[*texts, *touching], minimise=terms)
+    for one, value in zip(case.constraints, signs.values(), strict=False):
+        assert (one.figure, one.sign) == ("hertz_pressure_max", value)
+        assert one.limit == pytest.approx(1.5e9 if value > 0 else 0.5e9)
+    assert [one[1:] for one in case.constraints[6:]] == [(G, -1.0, START), (G, 1.0, 2.25), (G, -1.0, 2.25)]
+    (weighted,) = case.objectives
+    assert [factor for _, factor in weighted.terms] == [-0.5, 1.0]
+
+
+def test_duties_and_tolerances_are_named_and_in_their_units():
+    duty = {"set": {"operating": {"gear_torque": "20 N*m"}, "mesh.slices": 3}, "weight": 2.5}
+    tolerances = [
+        {"key": "operating.gear_torque", "plus_minus": "0.02 kN*m", "distribution": "normal"},
+        {"key": "mesh.deviation_sample"},
+        {"key": "drive.pinion.addendum", "plus_minus": 0.05},
+    ]
+    case = case_of(duty=[duty], tolerance=tolerances)
+    (one,) = case.duties
+    assert (one.weight, one.name) == (2.5, "gear_torque 20 N*m, slices 3")
+    assert one.set == {"operating.gear_torque": "20 N*m", "mesh.slices": 3}
+    torque, sample, tip = case.tolerances
+    assert torque[2:] == (pytest.approx(0.02), "kN*m", "normal")
+    assert (sample.plus_minus, sample.unit, sample.distribution) == (0.0, "", DRAWN)
+    assert tip[2:4] == (0.05, "")
+    assert [name.name for name in case.tolerances] == ["gear_torque", "deviation_sample", "pinion_addendum"]
+
+
+def test_shortest_names_and_dotted_keys():
+    assert apart(["drive.module", "drive.pinion.teeth"]) == ["module", "pinion_teeth"]
+    assert apart(["a.x", "b.x"]) == ["a_x", "b_x"]
+    assert apart(["drive.pinion.relief.length", "drive.gear.relief.length"]) == [
+        "pinion_length",
+        "gear_length",
+    ]
+    assert apart(["p.q.x", "p.r.x", "s.q.x"]) == ["p_q_x", "p_r_x", "s_q_x"]
+    assert naming_key(["drive.pinion.teeth", "drive.gear.teeth"]) == "drive.teeth"
+    assert naming_key(["a.b", "c.d"]) == "a.b"
+    assert naming_key("a.b") == "a.b"
+    assert flat({"a": {"b": 1, "c": {"d": 2}}, "e": 3}) == {"a.b": 1, "a.c.d": 2, "e": 3}
+
+
+def test_what_tolerances_make_of_values():
+    """About what stands, in the unit of the tolerance; about zero where nothing stands."""
+    standing_at: dict[str, Any] = {"torque": "0.3 kN*m", "addendum": 1.1, "gear.teeth": 5}
+    path = SimpleNamespace(pinion_pitch_radius=0.027, gear_pitch_radius=0.054)
+    nominal: Any = SimpleNamespace(
+        at=standing_at.get, gears=SimpleNamespace(path=path, roll_limits=(-0.2, 0.3))
+    )
+
+    def moved(key: str, size: float, unit: str, deviation: float, distribution: str = "uniform") -> Any:
+        ((found, value),) = deviating(
+            Tolerance(key, "", size, unit, distribution), deviation, nominal
+        ).items()
+        assert found == key
+        return value
+
+    number, unit = moved("torque", 20.0, "N*m", -0.25).split()
+    assert (float(number), unit) == (pytest.approx(295.0), "N*m")
+    assert moved("addendum", 0.2, "", 0.5) == pytest.approx(1.2)
+    assert moved("relief", 8.0, "um", 0.5) == "4.0 um"
+    assert float(moved("drive.centre_distance", 40.0, "um", 0.5).split()[0]) == pytest.approx(81020.0)
+    assert deviating(Tolerance("torque", "", 20.0, "N*m", "uniform"), 0.0, nominal) == {}
+    errors = moved("gear.modification.pitch_errors", 6.0, "um", 0.3)
+    values = [float(one.split()[0]) for one in errors]
+    assert len(set(values)) == 5
+    assert max(map(abs, values)) <= 6.0
+    assert errors == moved("gear.modification.pitch_errors", 6.0, "um", 0.3)
+    assert errors != moved("gear.modification.pitch_errors", 6.0, "um", 0.31)
+    samples = {moved("mesh.deviation_sample", 0.0, "", one, DRAWN) for one in (-0.9, 0.1, 0.100001, 0.8)}
+    assert len(samples) >= 3
+    assert all(isinstance(one, int) and one > 0 for one in samples)
+    curve = moved("gear.modification.profile_error", 3.0, "um", 0.4)
+    np.testing.assert_allclose(
+        curve["roll_angle"]["values"], [-0.325 + 0.125 * one for one in range(7)], atol=1e-15
+    )
+    assert max(map(abs, curve["error"]["values"])) <= 3.0
+    nominal.gears = None
+    assert deviating(Tolerance("x.profile_error", "", 3.0, "um", "uniform"), 0.4, nominal) == {}
+    assert deviating(Tolerance("drive.centre_distance", "", 3.0, "mm", "uniform"), 0.5, nominal) == {
+        "drive.centre_distance": "1.5 mm"
+    }
+
+
+def test_the_sample_of_a_quantile(rng: np.random.Generator):
+    """The nearest in order: of eleven samples at 0.8 the ninth of those that a limit of this sign fears."""
+    judge: Any = SimpleNamespace(case=SimpleNamespace(robust=SimpleNamespace(quantile=0.8)))
+    values = rng.permutation(11).astype(float).tolist()
+    slopes = [np.array([one, -one]) for one in values]
+    for sign, over, wanted in (
+        (1.0, "quantile", 8.0), (-1.0, "quantile", 2.0), (1.0, "worst", 10.0), (-1.0, "worst", 0.0),
+        (1.0, "mean", 5.0),
+    ):  # fmt: skip
+        value, slope = _over_samples(judge, values, slopes, sign, over)
+        assert (value, *slope) == (wanted, wanted, -wanted)
+
+
+def test_derivatives_sum_over_the_keys_of_a_free_value(case: DesignCase, monkeypatch: pytest.MonkeyPatch):
+    """Slopes by shares: by the range in SI times the sum over all keys that move together."""
+    free = (
+        Free(("a", "b"), "ab", -1.0, 3.0, "um", 1e-6),
+        Free(("c",), "c", 2.0, 4.5),
+    )
+    both = Constraint("f", F, 1.0, 0.0), Constraint("g", G, 1.0, 0.0)
+    aim = (Objective(F, ((F, 1.0),)),)
+    two = replace(case, free=free, objectives=aim, constraints=both, duties=case.duties * 2)
+    jacobian = np.array([[1.0, 20.0, 300.0], [4.0, 50.0, 600.0]])
+    study = SimpleNamespace(batch=lambda: None, has_gears=True)
+    made: list[Any] = []
+
+    class Differentiable:
+        at = "at"
+
+        def __init__(self, number: int, table: str, names: Any, keys: Any) -> None:
+            made.append((number, table, names, keys))
+            self.number = number
+
+        def jacobian(self, at: str) -> Any:
+            assert at == "at"
+            return None, jacobian * self.number
+
+    def loaded(base: Any, overrides: int) -> Any:
+        return SimpleNamespace(case=overrides, study=SimpleNamespace(table=lambda: "table"))
+
+    monkeypatch.setattr(differentiating, "study_of", lambda _: study)
+    monkeypatch.setattr(differentiating, "start_of", lambda _: "start")
+    monkeypatch.setattr(differentiating, "chosen", lambda _, shares: shares)
+    monkeypatch.setattr(differentiating, "cases_of", lambda _, values: [1, 2, 3, 4])
+    monkeypatch.setattr(differentiating, "loaded_case", loaded)
+    monkeypatch.setattr(differentiating, "Differentiable", Differentiable)
+    derivatives = Derivatives(two)
+    assert made == [(1, "table", (F, G), ("a", "b", "c"))]
+    found = derivatives.at([0.5, 0.5])
+    assert [len(row) for row in found] == [2, 2]
+    for duty in range(2):
+        for sample in range(2):
+            number = 2 * duty + sample + 1
+            np.testing.assert_allclose(found[duty][sample][F], [number * 4e-6 * 21.0, number * 2.5 * 300.0])
+            np.testing.assert_allclose(found[duty][sample][G], [number * 4e-6 * 54.0, number * 2.5 * 600.0])
+    refused = [
+        replace(two, parts={"losses": {}}),
+        replace(two, free=(free[0]._replace(choices=(1, 2)), free[1])),
+    ]
+    for one in refused:
+        with pytest.raises(InputError, match="cannot be differentiated"):
+            Derivatives(one)
+    for changed in ({"batch": lambda: "batch"}, {"has_gears": False}):
+        monkeypatch.setattr(
+            differentiating, "study_of", lambda _, changed=changed: SimpleNamespace(**vars(study) | changed)
+        )
+        with pytest.raises(InputError, match="cannot be differentiated"):
+            Derivatives(two)
+
+
+class Linear:
+    """Stands for the pool: 4 + x − 3 y and 2 + x/2 + y/4; nothing where x is above 2.5."""
+
+    name, workers = "linear", 1
+
+    def submit(self, several: Any) -> Any:
+        found = []
+        for one in several:
+            x, y = (float(one.get(key, 0.0)) for key in KEYS)
+            found.append({F: 4.0 + x - 3.0 * y, G: 2.0 + 0.5 * x + 0.25 * y} if x < 2.5 else "undercut")
+        return SimpleNamespace(result=lambda: found)
+
+
+def test_exact_slopes_are_used_where_there_are_figures(case: DesignCase):
+    """Without figures and under a bound, by differences; the distance of shapes always."""
+    constraint = Constraint("g", G, -1.0, 1.6)
+    given = replace(
+        case, objectives=(Objective(F, ((F, 1.0),)), Objective(G, ((G, 1.0),))), constraints=(constraint,)
+    )
+    pool: Any = Linear()
+    archive = Archive(given, Judge(given, pool.submit([{}]).result()), pool, lambda _: None)
+    archive._shaped = True
+    # linear in the shares; of nothing that lies beyond, a distance of zero
+    archive.shape_of = lambda values: 0.7 * values[KEYS[0]] - 0.2 * values[KEYS[1]]
+    asked: list[Any] = []
+
+    def at(shares: np.ndarray) -> Any:
+        asked.append(tuple(shares))
+        return [[{F: np.array([4.0, -12.0]), G: np.array([2.0, 1.0])}]]
+
+    derivatives: Any = SimpleNamespace(at=at)
+    here = np.array([0.5, 0.25])
+    archive.ask(here)
+    scale = archive.evaluations[0].judged.objectives[0]
+    value, margins = slopes_of(Scalar(archive), derivatives)
+    np.testing.assert_allclose(value(here), np.array([4.0, -12.0]) / scale, rtol=1e-9)
+    np.testing.assert_allclose(margins(here), [[2.0 / 1.6, 1.0 / 1.6], [2.8, -0.8]], rtol=1e-6)
+    assert set(asked) == {(0.5, 0.25)}
+    evaluated = len(archive.evaluations)
+    assert evaluated == 1
+    # at the end of a range too, where there is room on one side only
+    end = np.array([0.5, 1.0])
+    np.testing.assert_allclose(margins(end), [[2.0 / 1.6, 1.0 / 1.6], [2.8, -0.8]], rtol=1e-6)
+    asked.clear()
+    gone = np.array([0.95, 0.25])
+    assert value(gone).shape == (2,)
+    np.testing.assert_allclose(
+        slopes_of(Scalar(archive, 0, 5.0), derivatives)[0](here), [4.0 / scale, -12.0 / scale], rtol=1e-6
+    )
+    assert asked == []
+
+
+@pytest.mark.parametrize(("resume", "force", "left", "forced"), [
+    (False, False, False, False), (True, False, True, True), (True, False, False, False),
+    (True, True, True, True), (False, True, True, True),
+])  # fmt: skip
+def test_a_search_that_goes_on_takes_the_place_of_its_record(
+    case: DesignCase, monkeypatch: pytest.MonkeyPatch, resume: bool, force: bool, left: bool, forced: bool
+):
+    seen: list[Any] = []
+
+    def target(_: Any, path: Any, given: bool) -> Any:
+        seen.append((path.name, given))
+        raise InputError("output", rule="seen")
+
+    found = Left((), None, {}) if left else NOTHING_LEFT
+    monkeypatch.setattr(running, "method_of", lambda _: ("cobyqa", ""))
+    monkeypatch.setattr(running, "_left", lambda *_: found)
+    monkeypatch.setattr(running, "target", target)
+    with pytest.raises(InputError, match="seen"):
+        running.run(case, "a/record.h5", force=force, resume=resume)
+    assert seen == [("record.h5", forced)]
+
+
+def test_nsga2_is_given_both_objectives_and_all_constraints(
+    case: DesignCase, monkeypatch: pytest.MonkeyPatch
+):
+    """Constraints that hold are not positive to it; the last of them is that there are figures."""
+    given = replace(
+        case,
+        objectives=(Objective(F, ((F, 1.0),)), Objective(G, ((G, 1.0),))),
+        constraints=(Constraint("g", G, -1.0, 1.6),),
+        search=case.search._replace(evaluations=100, seed=7),
+    )
+    pool: Any = Linear()
+    archive = Archive(given, Judge(given, pool.submit([{}]).result()), pool, lambda _: None)
+    archive._shaped = False
+    asked: dict[str, Any] = {}
+
+    class Problem:
+        def __init__(self, **of: Any) -> None:
+            asked.update(of)
+
+    def minimize(problem: Any, algorithm: Any, until: Any, seed: int) -> None:
+        asked.update(size=algorithm, until=until, seed=seed)
+        out: dict[str, Any] = {}
+        problem._evaluate(np.array([[0.5, 0.25], [0.25, 0.5], [0.99, 0.5]]), out)
+        asked.update(out)
+
+    parts = {
+        "pymoo.algorithms.moo.nsga2": {"NSGA2": lambda pop_size: pop_size},
+        "pymoo.core.problem": {"Problem": Problem},
+        "pymoo.optimize": {"minimize": minimize},
+    }
+    for name in ("pymoo", "pymoo.algorithms", "pymoo.algorithms.moo", "pymoo.core"):
+        monkeypatch.setitem(sys.modules, name, ModuleType(name))
+    for name, content in parts.items():
+        module = ModuleType(name)
+        vars(module).update(content)
+        monkeypatch.setitem(sys.modules, name, module)
+    archive.ask(np.array([0.5, 0.25]))
+    nsga2(archive, np.array([0.5, 0.5]))
+    assert (asked["n_var"], asked["n_obj"], asked["n_ieq_constr"], asked["xl"], asked["xu"]) == (
+        2,
+        2,
+        2,
+        0.0,
+        1.0,
+    )
+    assert (asked["until"], asked["seed"]) == (("n_gen", max(2, 100 // asked["size"])), 7)
+    # x, y = 1, 0 and 0, 1; scales are the first values, 5 and 2.5
+    np.testing.assert_allclose(asked["F"][:2], [[1.0, 1.0], [0.2, 0.9]], rtol=1e-12)
+    np.testing.assert_allclose(asked["G"][:2], [[-0.9 / 1.6, 0.0], [-0.65 / 1.6, 0.0]], rtol=1e-12)
+    assert np.all(asked["G"][2] > 0.0)
