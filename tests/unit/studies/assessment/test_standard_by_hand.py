@@ -4,13 +4,15 @@ Formulas of ISO/TR 15144-1:2014 and ISO 6336-1, method B, in their own units (mm
 """
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
 from tests.support.short_studies import written_template
+from tribodyn.standards import integral_temperature
 from tribodyn.studies.assessment.run import prepare
-from tribodyn.studies.assessment.standard import iso_part, standard_of
+from tribodyn.studies.assessment.standard import Standard, iso_part, standard_of
 from tribodyn.studies.load import load_scenario
 
 TEETH, SHIFT, MODULE, WIDTH, CENTRE = (25, 60), (0.2, 0.1), 3.0, 40.0, 129.0
@@ -67,10 +69,25 @@ def deviations() -> tuple[float, float]:
 
 
 @pytest.fixture(scope="module")
-def found(tmp_path_factory: pytest.TempPathFactory) -> tuple[dict[str, Any], Any]:
-    case = load_scenario(written_template("assessment", tmp_path_factory.mktemp("hand")))
+def case(tmp_path_factory: pytest.TempPathFactory) -> Any:
+    return load_scenario(written_template("assessment", tmp_path_factory.mktemp("hand")))
+
+
+@pytest.fixture(scope="module")
+def found(case: Any) -> tuple[dict[str, Any], Any]:
     standard = standard_of(case, prepare(case), 1.0)
     return iso_part(case, standard), standard
+
+
+#: K_A, K_Hβ and X_S of oil that is sprayed in.
+APPLICATION, FACE, SPRAYED = 1.25, 1.3, 1.2
+
+
+@pytest.fixture(scope="module")
+def harder(case: Any) -> Standard:
+    settings = replace(case.settings, application_factor=APPLICATION, lubrication="spray")
+    loaded = replace(case, settings=settings)
+    return standard_of(loaded, prepare(loaded), FACE)
 
 
 def test_stiffness_and_load_factors(found: tuple[dict[str, Any], Any]):
@@ -156,3 +173,68 @@ def test_film_at_every_point(found: tuple[dict[str, Any], Any]):
         assert iso["lambda_GF"][name] == pytest.approx(film / ROUGHNESS, rel=1e-6), name
     assert iso["h_Y"]["worst"] == pytest.approx(min(films.values()) * 1e-6, rel=1e-6)
     assert iso["lambda_GF"]["worst"] == pytest.approx(min(films.values()) / ROUGHNESS, rel=1e-6)
+
+
+def test_load_factors_under_more_load(harder: Standard):
+    """K_A makes the teeth stiffer below 100 N/mm; K_A K_v K_Hβ share deviations among more pairs."""
+    line = APPLICATION * TORQUE * 1e3 / (MODULE * TEETH[0] / 2.0) / WIDTH
+    single, mesh = (one * APPLICATION**0.25 for one in stiffness())
+    pitch, _ = deviations()
+    assert line < 100.0
+    assert harder.single_stiffness == pytest.approx(single * 1e9, rel=1e-9)
+    assert harder.mesh_stiffness == pytest.approx(mesh * 1e9, rel=1e-9)
+    assert harder.mesh_stiffness_face == pytest.approx(0.85 * mesh * 1e9, rel=1e-9)
+    transverse = RATIO / 2.0 * (0.9 + 0.4 * mesh * pitch / (line * harder.dynamic.factor * FACE))
+    assert harder.transverse == pytest.approx(min(max(transverse, 1.0), 3.0 / (4.0 - RATIO)), rel=1e-9)
+    assert harder.face == FACE
+
+
+def test_flash_temperature_place_by_place(harder: Standard):
+    """ISO/TR 13989-1, (3) and (22) to (28), at 201 places of the path; w of the base circle for the rise."""
+    factor = APPLICATION * harder.dynamic.factor * harder.transverse * FACE
+    reference = factor * TORQUE * 1e3 / (MODULE * TEETH[0] / 2.0) / WIDTH
+    line = factor * TORQUE * 1e3 / BASE[0] / WIDTH
+    at_pitch = [base * math.tan(WORKING) for base in BASE]
+    radius = at_pitch[0] * at_pitch[1] / sum(at_pitch)
+    speeds = 2.0 * SPEED * at_pitch[0] * 1e-3
+    oil = (1e3 * viscosity(OIL)) ** -0.05
+    friction = 0.060 * (reference / (speeds * radius)) ** 0.2 * oil * ROUGHNESS**0.25
+    length = RATIO * PITCH
+    from_start, double = TANGENTS[0] - length, length - PITCH
+    modulus = MODULUS / (1.0 - POISSON**2)
+    rises = []
+    for number in range(201):
+        distance = length * number / 200.0
+        first = from_start + distance
+        second = CENTRE * math.sin(WORKING) - first
+        share = min(1.0 / 3.0 + min(distance, length - distance) / double / 3.0, 1.0)
+        share = 1.0 if min(distance, length - distance) > double * (1.0 - 1e-9) else share
+        v1, v2 = SPEED * first * 1e-3, SPEED * TEETH[0] / TEETH[1] * second * 1e-3
+        curved = first * second / (first + second)
+        half = math.sqrt(8.0 * line * share * curved / (math.pi * modulus))  # mm
+        heat = 1.11 * friction * line * share * 1e3 * abs(v1 - v2)
+        rises.append(heat / (math.sqrt(2e-3 * half) * CONTACT * (math.sqrt(v1) + math.sqrt(v2))))
+    bulk = OIL + 273.15 + 0.47 * SPRAYED * sum(rises) / len(rises)
+    assert harder.flash_bulk == pytest.approx(bulk, rel=1e-6)
+    assert harder.flash_contact == pytest.approx(bulk + max(rises), rel=1e-6)
+
+
+def test_integral_temperature_is_of_drawing_and_data_sheet(harder: Standard):
+    """What ISO/TR 13989-2 asks for, in SI; the line load is that of the reference circle."""
+    factor = APPLICATION * harder.dynamic.factor * harder.transverse * FACE
+    radius = MODULE * TEETH[0] / 2.0 * 1e-3
+    mesh = integral_temperature.Mesh(
+        line_load=factor * TORQUE / radius / (WIDTH * 1e-3),
+        pitch_speed=SPEED * radius,
+        viscosity=viscosity(OIL),
+        oil_temperature=OIL + 273.15,
+        roughness=ROUGHNESS * 1e-6,
+        reduced_modulus=MODULUS * 1e6 / (1.0 - POISSON**2),
+        thermal_contact=CONTACT,
+        pressure_angle=ANGLE,
+        lubrication=SPRAYED,
+    )
+    expected = integral_temperature.integral_temperature(harder.path, mesh).integral
+    assert harder.integral == pytest.approx(expected, rel=1e-7)
+    assert harder.path.tip_contact_ratios == pytest.approx(PARTS, rel=1e-9)
+    assert harder.path.pressure_angle == pytest.approx(WORKING, rel=1e-9)
