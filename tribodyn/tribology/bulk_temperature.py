@@ -172,7 +172,8 @@ def fixed_point(
     SimulationError
         If there are none: the loss grows with the temperature faster than the heat leaves.
     """
-    here, last, weight, worst, reach = start, (0.0, 0.0), 1.0, 0.0, FARTHEST
+    here, last, pace = start, (0.0, 0.0), _Pace(1.0, FARTHEST)
+    worst = 0.0
     for number in range(STEPS):
         there = step(here)
         change = (there[0] - here[0], there[1] - here[1])
@@ -180,17 +181,38 @@ def fixed_point(
         if worst < TOLERANCE:
             return there
         if number:
-            turned = (change[0] - last[0], change[1] - last[1])
-            length = turned[0] ** 2 + turned[1] ** 2
-            along = last[0] * turned[0] + last[1] * turned[1]
-            back = change[0] * last[0] + change[1] * last[1] < 0.0
-            reach = 0.5 * reach if back else min(1.5 * reach, FARTHEST)
-            weight = min(max(-weight * along / length, LEAST_WEIGHT), 1.0) if length else 1.0
-        moved = tuple(
-            min(max(old + min(max(weight * one, -reach), reach), bounds[0]), bounds[1])
-            for old, one in zip(here, change, strict=True)
-        )
-        if max(abs(new - old) for new, old in zip(moved, here, strict=True)) < LEAST_WEIGHT * TOLERANCE:
+            pace = _relaxed(pace, change, last)
+        moved = _moved(here, change, pace, bounds)
+        if max(abs(moved[0] - here[0]), abs(moved[1] - here[1])) < LEAST_WEIGHT * TOLERANCE:
             return there  # held by a bound
-        here, last = (moved[0], moved[1]), change
+        here, last = moved, change
     raise SimulationError(f"the bulk temperature does not settle: still moving by {worst:.2g} K")
+
+
+class _Pace(NamedTuple):
+    """Share of a change that is gone, and how far at most, K."""
+
+    weight: float
+    reach: float
+
+
+def _relaxed(pace: _Pace, change: tuple[float, float], last: tuple[float, float]) -> _Pace:
+    """Return the pace after two changes."""
+    turned = (change[0] - last[0], change[1] - last[1])
+    length = turned[0] ** 2 + turned[1] ** 2
+    along = last[0] * turned[0] + last[1] * turned[1]
+    back = change[0] * last[0] + change[1] * last[1] < 0.0
+    reach = 0.5 * pace.reach if back else min(1.5 * pace.reach, FARTHEST)
+    return _Pace(min(max(-pace.weight * along / length, LEAST_WEIGHT), 1.0) if length else 1.0, reach)
+
+
+def _moved(
+    here: tuple[float, float], change: tuple[float, float], pace: _Pace, bounds: tuple[float, float]
+) -> tuple[float, float]:
+    """Return the temperatures a step further, within the bounds."""
+
+    def one(old: float, by: float) -> float:
+        step = min(max(pace.weight * by, -pace.reach), pace.reach)
+        return min(max(old + step, bounds[0]), bounds[1])
+
+    return one(here[0], change[0]), one(here[1], change[1])
