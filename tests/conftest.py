@@ -12,6 +12,7 @@ from hypothesis import HealthCheck, settings
 
 from tests.support.durations import Durations, add_options
 from tests.support.forked_verbs import ForkedVerbs
+from tests.support.relative import approx
 from tests.support.short_studies import ShortRuns
 from tribodyn.numerics.cache import trusted_folder
 from tribodyn.studies.gear_pair.prepare import Prepared, prepare
@@ -23,6 +24,8 @@ NO_MATTER = [HealthCheck.too_slow, HealthCheck.filter_too_much]
 settings.register_profile("same", derandomize=True, deadline=None, suppress_health_check=NO_MATTER)
 settings.register_profile("search", settings.get_profile("same"), derandomize=False, print_blob=True)
 settings.load_profile("same")
+
+pytest.approx = approx
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

@@ -131,14 +131,14 @@ def test_native_run_is_faster_than_lsoda_on_the_compiled_right_hand_side(case, c
 
 
 def test_a_steady_sweep_is_20_times_faster_than_marching_with_lsoda(capsys):
-    """All of the sweep but the compilation, against LSODA at two speeds.
+    """All of the sweep but the compilation, against LSODA at a speed.
 
     LSODA is given the number of cycles after which the motion repeats.
     """
     speeds = steady.grid(0.05, 32)
     steady.sweep(speeds)  # compiles
     ours = steady.sweep(speeds)
-    theirs = steady.lsoda(speeds, [8, 20], ours)
+    theirs = steady.lsoda(speeds, [14], ours)
     with capsys.disabled():
         print(
             f"\n32 steady speeds: {ours.seconds:.2f} s of one core, "
@@ -206,7 +206,7 @@ def test_extremes_cost_lanes_at_most_a_tenth(prepared):
     def marched(extremes):
         march(models, states, cycles=20, window=5, samples=SAMPLES, rtol=RTOL, workers=1, extremes=extremes)
 
-    ratio = calm_ratio(lambda: marched(True), lambda: marched(False), 1.1, least=8)
+    ratio = calm_ratio(lambda: marched(True), lambda: marched(False), 1.1, least=5)
     print(f"lanes with extremes take {ratio:.3f} of those without")
     assert ratio < 1.1
 
@@ -224,7 +224,7 @@ def test_extremes_cost_steady_states_at_most_a_tenth(prepared, monkeypatch):
         monkeypatch.setattr(GearMap, "integrate", integrate)
         steady_states(models, samples=SAMPLES, workers=1)
 
-    ratio = calm_ratio(lambda: found(True), lambda: found(False), 1.1, least=6)
+    ratio = calm_ratio(lambda: found(True), lambda: found(False), 1.1, least=4)
     print(f"steady states with extremes take {ratio:.3f} of those without")
     assert ratio < 1.1
 

@@ -2,8 +2,7 @@
 
 Processor time of whole processes, the minimum of several: the machine may be busy. The peers are a start of
 Python with the libraries that a run stands on, and a loop of additions in pure Python. Where the loop takes
-0.7 s the targets, 0.5 s for a run and 6 s for the first one, are 0.7 and 8.5 loops. The first run misses its
-target: the kernels that seek extremes and turns of friction compile for 12 to 15 loops.
+0.7 s the target, 0.5 s for a run, is 0.7 loops. The first run, which compiles, is in `tests/cli`.
 
 With its picture a run is more than twice the work, of two processes, which slow each other where their cores
 share caches: by up to 1.3 here. By the clock, where both cores are free, it takes half as long again, which
@@ -25,12 +24,9 @@ LIBRARIES = [sys.executable, "-c", "import numpy, h5py, pydantic"]
 LOOP = [sys.executable, "-c", "x = 0\nfor i in range(10_000_000):\n    x += i"]
 
 
-def times_of(command, folder, cache):
+def times_of(command, folder):
     """Seconds of processor time and by the clock of a command, with Python's bytecode kept as usual."""
-    environment = {
-        **{name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"},
-        "TRIBODYN_CACHE": str(cache),
-    }
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
     before, begun = os.times(), perf_counter()
     subprocess.run(command, cwd=folder, env=environment, check=True, stdout=subprocess.DEVNULL)
     after, ended = os.times(), perf_counter()
@@ -41,16 +37,13 @@ def times_of(command, folder, cache):
 @pytest.fixture(scope="module")
 def figures(tmp_path_factory):
     folder = tmp_path_factory.mktemp("runs")
-    first, _ = times_of(RUN, folder, folder / "cache")
     others = {"run": RUN, "picture": PICTURE, "libraries": LIBRARIES, "loop": LOOP}
     times = {name: [] for name in others}
-    for turn in range(3):
+    for _ in range(2):
         for name, command in others.items():
-            if name != "picture" or turn < 2:
-                times[name].append(times_of(command, folder, folder / "cache"))
+            times[name].append(times_of(command, folder))
     least = {name: [min(one) for one in zip(*values, strict=True)] for name, values in times.items()}
     return {
-        "first": first,
         **{name: time for name, (time, _) in least.items()},
         **{f"{name} by the clock": time for name, (_, time) in least.items()},
     }
@@ -77,13 +70,3 @@ def test_a_picture_is_less_than_the_work_of_two_and_a_half_runs(figures, capsys)
             f"{by_the_clock:.2f} times"
         )
     assert ratio < 3.5
-
-
-def test_the_first_run_compiles_in_the_time_of_twenty_loops(figures, capsys):
-    ratio = figures["first"] / figures["loop"]
-    with capsys.disabled():
-        print(
-            f"\ntribodyn run, the first: {figures['first']:.1f} s of processor time, "
-            f"{ratio:.1f} times 10^7 additions"
-        )
-    assert ratio < 20.0

@@ -103,7 +103,8 @@ def test_its_summary_has_its_lines(kind: str, short_runs):
         assert summary_table(record).renderables
 
 
-@pytest.mark.parametrize("kind", RUNS)
+# those of gear pairs: gear_pair/test_plots.py
+@pytest.mark.parametrize("kind", [kind for kind in RUNS if kind != "gear-pair"])
 def test_every_figure_draws(kind: str, short_runs, tmp_path: Path):
     with open_record(short_runs(kind).path) as record:
         drawn = names([record])
