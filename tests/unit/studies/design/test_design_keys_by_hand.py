@@ -3,13 +3,15 @@
 import math
 import sys
 from dataclasses import replace
+from io import StringIO
 from types import ModuleType, SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
-from tribodyn.errors import InputError
+from tribodyn.errors import InputError, SimulationError
+from tribodyn.studies.design import archive as archiving
 from tribodyn.studies.design import run as running
 from tribodyn.studies.design import slopes as differentiating
 from tribodyn.studies.design.archive import Archive
@@ -17,11 +19,13 @@ from tribodyn.studies.design.case import DRAWN, START, Constraint, DesignCase, F
 from tribodyn.studies.design.deviations import deviating
 from tribodyn.studies.design.judged import Judge
 from tribodyn.studies.design.left import NOTHING_LEFT, Left
+from tribodyn.studies.design.methods import front as fronts
 from tribodyn.studies.design.methods.front import nsga2
 from tribodyn.studies.design.methods.local import slopes_of
 from tribodyn.studies.design.methods.views import Scalar
 from tribodyn.studies.design.naming import apart, flat, naming_key
 from tribodyn.studies.design.parts import _number, _varied
+from tribodyn.studies.design.pool import Pool
 from tribodyn.studies.design.short_form import loaded_search
 from tribodyn.studies.design.slopes import Derivatives, _over_samples
 from tribodyn.studies.design.sources import (
@@ -420,3 +424,68 @@ def test_nsga2_is_given_both_objectives_and_all_constraints(
     np.testing.assert_allclose(asked["F"][:2], [[1.0, 1.0], [0.2, 0.9]], rtol=1e-12)
     np.testing.assert_allclose(asked["G"][:2], [[-0.9 / 1.6, 0.0], [-0.65 / 1.6, 0.0]], rtol=1e-12)
     assert np.all(asked["G"][2] > 0.0)
+
+
+def test_the_distance_of_shapes_is_of_the_keys_of_the_gears(
+    case: DesignCase, monkeypatch: pytest.MonkeyPatch
+):
+    """Keys of a part are not among them; without keys that shape the gears there is none."""
+    seen: list[Any] = []
+    pool: Any = Linear()
+    given = replace(case, parts={"losses": {"kind": "efficiency"}})
+    archive = Archive(given, Judge(case, pool.submit([{}]).result()), pool, lambda _: None)
+    monkeypatch.setattr(
+        archiving, "distance_from_limits", lambda base, keys: seen.append((base, keys)) or 0.4
+    )
+    values = {KEYS[0]: 0.5, "losses.operating.pinion_speed": "9 rad/s"}
+    archive._shaped = True
+    assert archive.shape_of(values) == 0.4
+    assert seen == [(case.base, {KEYS[0]: 0.5})]
+    archive._shaped = False
+    assert archive.shape_of(values) is None
+
+
+def test_a_front_of_two_is_searched_between(case: DesignCase, monkeypatch: pytest.MonkeyPatch):
+    """And one of a single candidate has nothing between its ends."""
+    pool: Any = Linear()
+    two = replace(
+        case,
+        objectives=(Objective(F, ((F, 1.0),)), Objective(G, ((G, -1.0),))),
+        search=case.search._replace(points=4, evaluations=60),
+    )
+    for ends, bounds in ((2, 2), (1, 0)):
+        archive = Archive(two, Judge(two, pool.submit([{}]).result()), pool, lambda _: None)
+        archive._shaped = False
+        asked: list[Any] = []
+
+        def minimise(name: str, view: Any, place: np.ndarray, most: int, asked: Any = asked) -> None:
+            asked.append(view.bound)
+
+        for share in (0.1, 0.6)[:ends]:
+            archive.ask(np.array([share, 0.5]))
+        monkeypatch.setattr(fronts, "first_look", lambda view, start: [start])
+        monkeypatch.setattr(fronts, "minimise", minimise)
+        fronts.epsilon_constraint(archive, np.array([0.5, 0.5]))
+        assert [one is None for one in asked] == [True, True] + [False] * bounds
+
+
+def test_a_process_that_evaluates_is_asked_by_lines():
+    """The first thread has none of its own; one that answers nothing has ended."""
+    pool = Pool.__new__(Pool)
+    pool.scenarios, pool.workers = {"": {"kind": "load-contact"}}, 2
+    written = StringIO()
+    process = SimpleNamespace(stdin=written, stdout=StringIO('[{"a": 1.5}]\n'))
+    pool._own = SimpleNamespace(process=process)  # pyright: ignore[reportAttributeAccessIssue]
+    assert pool._evaluate([{"drive.module": "3 mm"}]) == [{"a": 1.5}]
+    assert written.getvalue() == '[{"drive.module": "3 mm"}]\n'
+    with pytest.raises(SimulationError, match="ended"):
+        pool._evaluate([{}])
+
+
+@pytest.mark.parametrize(("workers", "threads"), [(1, None), (3, 1)])
+def test_a_pool_of_one_has_all_cores(monkeypatch: pytest.MonkeyPatch, workers: int, threads: int | None):
+    pool = Pool.__new__(Pool)
+    pool.scenarios, pool.workers = {"": {"kind": "load-contact"}}, workers
+    pool._own = SimpleNamespace(process=None)  # pyright: ignore[reportAttributeAccessIssue]
+    monkeypatch.setattr("tribodyn.studies.design.pool.evaluate", lambda *given: given)
+    assert pool._evaluate([{"a": 1}]) == (pool.scenarios, [{"a": 1}], threads)

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -567,3 +568,63 @@ def test_shear_and_heat_of_steady_contacts_lie_on_one_grid(
     for n, closure, rise in zip((1, 2), found.closures, found.rises, strict=True):
         np.testing.assert_allclose(closure, [n + 2.0 * grid.node, n * grid.node])
         np.testing.assert_allclose(rise, [grid.node, n - grid.node])
+
+
+class Simulated:
+    """A record of a gear pair over time, of three driving slots and one of back flanks."""
+
+    axis, groups = "time", ("mesh_cycle",)
+    mesh_cycle = {"contact_ratio": 2.3, "roll_start": -0.4, "pinion_teeth": 20.0}  # noqa: RUF012
+
+    def __init__(self, samples: int) -> None:
+        self.data = {
+            "pair": np.array([-1, 0, 1, 2]),
+            "normal_load": np.arange(4.0 * samples).reshape(samples, 4),
+        }
+        self.data["normal_load"][3, 2] = np.nan
+
+    def __enter__(self) -> "Simulated":
+        return self
+
+    def __exit__(self, *_: object) -> None: ...
+
+    def __contains__(self, name: str) -> bool:
+        return name in self.data
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self.data[name]
+
+
+def test_the_last_pair_is_followed_from_slot_to_slot(monkeypatch: pytest.MonkeyPatch):
+    """It is number 1 over the cycle that it enters in, then 0, then −1; nothing where it does not touch."""
+    record, asked = Simulated(30), []
+
+    def window(of: Any, cycles: int) -> Any:
+        asked.append(cycles)
+        phase = np.arange(13) / 4.0
+        return SimpleNamespace(phase=phase[: last + 1], part=slice(5, 18))
+
+    last = 12
+    monkeypatch.setattr(loads, "open_record", lambda path: record)
+    monkeypatch.setattr(loads, "last_cycles", window)
+    found = loads.loads_of_record(Path("run.h5"), "contact.loads")
+    assert asked == [3]
+    roll, load = (found[name]["values"] for name in ("roll_angle", "normal_load"))
+    assert (found["roll_angle"]["unit"], found["normal_load"]["unit"]) == ("rad", "N")
+    # phases 0 … 2.25 of the pair's way of 2.3 pitches
+    assert len(roll) == len(load) == 10
+    for number in range(10):
+        assert roll[number] == pytest.approx(-0.4 + 2.0 * math.pi / 20.0 * number / 4.0)
+        slot = 2 - number // 4
+        assert load[number] == record.data["normal_load"][5 + number, slot]
+    record.data["normal_load"][6, 2] = np.nan
+    assert loads.loads_of_record(Path("run.h5"), "contact.loads")["normal_load"]["values"][1] == 0.0
+    last = 8
+    with pytest.raises(InputError, match="ends before a pair has passed"):
+        loads.loads_of_record(Path("run.h5"), "contact.loads")
+    for name, value in (("axis", "phase"), ("groups", ()), ("data", {"pair": record.data["pair"]})):
+        other = Simulated(30)
+        setattr(other, name, value)
+        monkeypatch.setattr(loads, "open_record", lambda path, other=other: other)
+        with pytest.raises(InputError, match="holds no loads of pairs over time"):
+            loads.loads_of_record(Path("run.h5"), "contact.loads")

@@ -8,11 +8,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from matplotlib.cm import ScalarMappable
 from matplotlib.figure import Figure
 
 from tests.support import synthetic_load_contact
 from tests.support.synthetic_load_contact import PITCH, START, TEETH, WIDTH
-from tribodyn.errors import SimulationError
+from tribodyn.errors import InputError, SimulationError
 from tribodyn.record.reader import Record, open_record
 from tribodyn.studies.load_contact import assess, film, maps, rolled, run
 
@@ -170,6 +171,11 @@ def test_pairs_are_numbered_by_when_they_entered():
     assert run.pair_numbers(study, loaded_with()).tolist() == [-1, 0, 1]
     later = loaded_with(phase=np.array([0.9, 1.0]), roll=START + PITCH * (0.9 + np.array([[1.0, 0.0, -1.0]])))
     assert run.pair_numbers(study, later).tolist() == [0, 1, 2]
+    # the first position counts, whatever the next one is
+    coarse = loaded_with(
+        phase=np.array([0.1, 0.8]), roll=START + PITCH * (0.1 + np.array([[1.0, 0.0, -1.0]]))
+    )
+    assert run.pair_numbers(study, coarse).tolist() == [0, 1, 2]
     scales = run._scales(study_with(gear_torques=(1.0, 2.0)), loaded_with())
     assert (list(scales["pair"]), list(scales["torque"])) == ([-1, 0, 1], [1.0, 2.0])
     np.testing.assert_allclose(scales["slice"], np.linspace(-0.01, 0.01, SLICES))
@@ -389,3 +395,77 @@ def test_a_tooth_stands_ahead_of_all_others_in_an_assessment():
         "pitch_errors": ["-3e-06 m", "0 m", "0 m", "0 m"],
     }
     assert "pitch_errors" not in drive["pinion"]["modification"]
+
+
+def test_only_what_varies_over_the_face_has_a_cross(tmp_path: Path):
+    """From a millionth of the maximum on."""
+    for number, (tilt, crosses) in enumerate(((3e-7, 0), (3e-6, 2))):
+        record = open_record(synthetic_load_contact.write(tmp_path / f"{number}.h5", tilt=tilt, slices=3))
+        axes = Figure().subplots()
+        maps.draw_map(axes, [record], record, maps.PRESSURE._replace(dataset="line_load", factor=1.0))
+        assert len(axes.lines) == crosses + 1
+
+
+@pytest.mark.parametrize("count", [1, 2, 5])
+def test_maps_stand_in_a_grid_with_labels_at_its_edges(monkeypatch: pytest.MonkeyPatch, count: int):
+    """Face at the left, roll angle at the bottom of every column; one colour bar for several maps."""
+    columns = {1: 1, 2: 2, 5: 3}[count]
+    drawn: list[Any] = []
+
+    def one(axes: Any, records: Any, record: Any, quantity: Any) -> Any:
+        axes.set_xlabel("roll angle")
+        axes.set_ylabel("face")
+        drawn.append((axes, record))
+        return ScalarMappable()
+
+    monkeypatch.setattr(maps, "draw_map", one)
+    monkeypatch.setattr(maps, "record_label", lambda record: record)
+    names: Any = [f"record {number}" for number in range(count)]
+    figure = Figure()
+    maps._maps(figure, names, maps.FILM)
+    assert [record for _, record in drawn] == names
+    rows = math.ceil(count / columns)
+    for number, (axes, _) in enumerate(drawn):
+        place = axes.get_subplotspec()
+        assert (place.rowspan.start, place.colspan.start) == divmod(number, columns)
+        bottom = number + columns >= count
+        assert bool(axes.get_ylabel()) == (number % columns == 0)
+        assert bool(axes.get_xlabel()) == bottom
+        assert axes.xaxis.get_tick_params()["labelbottom"] == bottom
+        assert (axes.get_xlabel() == "roll angle") == (bottom and columns <= 2)
+    bars = [axes for axes in figure.axes if axes not in [axes for axes, _ in drawn]]
+    assert len(bars) == (1 if count > 1 else 0)
+    assert all(bar.get_ylabel() == maps.FILM.label for bar in bars)
+
+
+@pytest.mark.parametrize(("count", "rows"), [(1, 1), (2, 1), (5, 2)])
+def test_figures_have_room_for_their_maps(monkeypatch: pytest.MonkeyPatch, count: int, rows: int):
+    """The course over the face stands below them, from zero, a colour per record."""
+
+    def steps(axes: Any, record: Any, quantity: Any, color: str) -> None:
+        axes.plot([0, 1], [3.0, 9.0], color=color, label=record)
+
+    names: Any = [f"record {number}" for number in range(count)]
+    monkeypatch.setattr(maps, "_head", lambda *_: None)
+    monkeypatch.setattr(maps, "_maps", lambda *_: None)
+    monkeypatch.setattr(maps, "draw_across_face", steps)
+    alone, below = maps.face_map_figure(names, maps.FILM), maps.line_load_figure(names)
+    assert alone.get_figheight() == pytest.approx(rows * maps.PANEL_HEIGHT + 0.6)
+    assert below.get_figheight() == pytest.approx((rows + 1) * maps.PANEL_HEIGHT + 0.4)
+    (across,) = below.axes
+    assert across.get_ylim()[0] == 0.0
+    assert len({line.get_color() for line in across.lines}) == len(across.lines) == count
+    assert (across.get_legend() is not None) == (count > 1)
+
+
+def test_a_study_of_one_cycle_is_shown_twice_and_of_more_once(tmp_path: Path):
+    for cycles, copies in ((1, 2), (3, 1)):
+        path = synthetic_load_contact.write(tmp_path / f"{cycles}.h5", slices=2, cycles=cycles, positions=6)
+        with open_record(path) as record:
+            x, values = rolled.over_phase(record, "loaded_transmission_error")
+            np.testing.assert_allclose(x, np.arange(copies * cycles * 6 + 1) / 6.0)
+            once = record["loaded_transmission_error"]
+            np.testing.assert_array_equal(values, [*np.tile(once, copies), once[0]])
+    rolled.require_positions(SimpleNamespace(samples=2))  # pyright: ignore[reportArgumentType]
+    with pytest.raises(InputError, match="no samples"):
+        rolled.require_positions(SimpleNamespace(samples=1, path="r.h5"))  # pyright: ignore[reportArgumentType]

@@ -15,8 +15,13 @@ from tribodyn.studies.load import load_scenario
 from tribodyn.studies.rolling import engagement, gear_picture, run
 from tribodyn.studies.rolling.case import RollingCase
 from tribodyn.studies.rolling.checks import element_radius_limits
-from tribodyn.studies.rolling.engagement import element_angles, engage
-from tribodyn.studies.rolling.geometry import RollingDrive, centre_path_curvature
+from tribodyn.studies.rolling.engagement import RollingFriction, element_angles, engage, normal_loads
+from tribodyn.studies.rolling.geometry import (
+    RollingDrive,
+    centre_path_curvature,
+    element_centres,
+    normal_direction,
+)
 from tribodyn.studies.rolling.sheet import geometry_sheet
 
 SAMPLES = 6
@@ -219,3 +224,73 @@ def test_elements_at_the_limit_are_refused():
         assert limits["neighbouring elements overlap"] == pytest.approx(
             drive.displacement * drive.pitch_radius * math.sin(math.pi / drive.elements)
         )
+
+
+def turned(points: np.ndarray, angle: np.ndarray) -> np.ndarray:
+    """Points as they are seen from what turns by an angle."""
+    return np.stack(
+        [
+            points[:, 0] * np.cos(angle) + points[:, 1] * np.sin(angle),
+            points[:, 1] * np.cos(angle) - points[:, 0] * np.sin(angle),
+        ],
+        axis=1,
+    )
+
+
+@pytest.mark.parametrize("drive", [RollingDrive(0.05, 11, 1.3, 0.0025), RollingDrive(0.04, 8, 1.15, 0.002)])
+def test_curvatures_of_the_paths_of_an_element(drive: RollingDrive):
+    """By finite differences of its centre, as cam and crown see it; the eccentric stands still."""
+    angle, step = np.array([0.3, 0.9, 1.7, 2.6, 3.9, 5.2]), 1e-4
+    # relative to the eccentric the cage turns by φ, the bodies with their teeth's share of that
+    for teeth, shift, found in (
+        (drive.elements - 1, drive.eccentricity, centre_path_curvature(drive, angle)[0]),
+        (drive.elements + 1, 0.0, centre_path_curvature(drive, angle)[1]),
+    ):
+        before, here, after = (
+            turned(element_centres(drive, at) - np.array([shift, 0.0]), at * drive.elements / teeth)
+            for at in (angle - step, angle, angle + step)
+        )
+        rate, bend = (after - before) / (2.0 * step), (after - 2.0 * here + before) / step**2
+        towards = turned(-normal_direction(drive, angle), angle * drive.elements / teeth)
+        np.testing.assert_allclose(
+            found, np.sum(bend * towards, axis=1) / np.sum(rate**2, axis=1), rtol=2e-5, atol=1e-3
+        )
+
+
+def test_distances_powers_and_torques_of_an_instant():
+    """Element by element; the cam lies within the elements, the crown around them."""
+    drive, friction = RollingDrive(0.05, 11, 1.3, 0.0025), RollingFriction(1e-5, 0.08)
+    angle = element_angles(drive, np.array([0.0, 0.13, 0.31]))
+    found = engage(drive, angle, 900.0, 70.0, friction)
+    for at in range(3):
+        lost, turned_cam = 0.0, 0.0
+        for n, phi in enumerate(angle[at]):
+            x, y = 1.3 * 0.05 * math.cos(phi) - 0.05, 1.3 * 0.05 * math.sin(phi)
+            distance = math.hypot(x, y)
+            assert found.cam_distance[at, n] == pytest.approx(distance - 0.0025)
+            assert found.crown_distance[at, n] == pytest.approx(distance + 0.0025)
+            load = float(found.normal_load[at, n])
+            rolling = load * 1e-5 * float(found.spin_speed[at, n])
+            sliding = load * 0.08 * abs(float(found.slip_speed[at, n]))
+            assert found.power_crown[at, n] == pytest.approx(rolling)
+            assert found.power_cam[at, n] == pytest.approx(rolling + sliding)
+            lost += 2.0 * rolling + sliding
+            turned_cam += load * drive.cam_pitch_radius * y / distance
+        assert found.power_in[at] == pytest.approx(900.0)
+        assert found.power_out[at] == pytest.approx(70.0 / drive.ratio * turned_cam - lost)
+        assert found.power_out[at] == pytest.approx(900.0 - lost)
+        assert found.efficiency[at] == pytest.approx(1.0 - lost / 900.0)
+    # one element alone presses where the others have no arm; a load of two is in proportion to their arms
+    two = normal_loads(drive, np.array([[0.4, 2.2, 3.5], [0.8, 4.0, 5.0]]), 7.0)
+    assert two[1, 1] == two[1, 2] == two[0, 2] == 0.0
+    arms = [
+        0.05
+        * 1.3
+        * 0.05
+        * math.sin(phi)
+        / math.hypot(1.3 * 0.05 * math.cos(phi) - 0.05, 1.3 * 0.05 * math.sin(phi))
+        for phi in (0.4, 2.2, 0.8)
+    ]
+    assert two[0, 0] / two[0, 1] == pytest.approx(arms[0] / arms[1])
+    assert two[0, 0] * arms[0] + two[0, 1] * arms[1] == pytest.approx(7.0 * 11 / 2.0)
+    assert two[1, 0] * arms[2] == pytest.approx(7.0 * 11 / 2.0)
