@@ -424,7 +424,6 @@ def test_maps_stand_in_a_grid_with_labels_at_its_edges(monkeypatch: pytest.Monke
     figure = Figure()
     maps._maps(figure, names, maps.FILM)
     assert [record for _, record in drawn] == names
-    rows = math.ceil(count / columns)
     for number, (axes, _) in enumerate(drawn):
         place = axes.get_subplotspec()
         assert (place.rowspan.start, place.colspan.start) == divmod(number, columns)
