@@ -109,6 +109,18 @@ def test_stress_along_a_stretched_bar_is_that_of_plane_strain():
     np.testing.assert_allclose(own @ bar.opening.place[0] * (1 - POISSON**2) / POISSON, edge_points(place)[0])
 
 
+def test_harmonics_beyond_those_solved_fall_with_the_fourth_power():
+    """Sums over even and odd numbers of half waves, the uniform one counted once, in a plain loop."""
+    width, values = 1.7, np.array([2.0, -1.0, 0.5, 3.0, 1.5])
+    solved = np.array([0.0, 2.0, 5.0, 9.0, 14.0])
+    expected = np.zeros(2)
+    for n in range(200):
+        k = n * np.pi / width
+        value = spline_weights(solved, np.array([min(k, 14.0)]))[0] @ values
+        expected[n % 2] += (2.0 if n else 1.0) / width * value * min(1.0, (14.0 / max(k, 1.0)) ** 4)
+    np.testing.assert_allclose(parity_weights(solved, width) @ values, expected, rtol=1e-3)
+
+
 def test_without_poisson_s_ratio_a_uniform_load_does_not_notice_the_ends():
     bar = stretched_bar(poisson=0.0)
     assert np.max(np.abs(bar.reached[0])) < 1e-15

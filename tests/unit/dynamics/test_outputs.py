@@ -83,3 +83,17 @@ def test_every_sample_is_what_its_name_says(prepared, rng, overrides):
                 assert found["sliding_speed"][k, i] == pytest.approx(sliding, rel=1e-9)
                 slope = np.tan(found["pressure_angle"][k, i]) * float(work[contact.COS, i])
                 assert slope == pytest.approx(float(work[contact.SIN, i]), rel=1e-9)
+
+
+def test_the_smallest_load_is_a_contact(prepared):
+    """A flank that presses with less than a newton has a film and a stiffness; one that is apart has none."""
+    case = prepared("crc-23-47")
+    states = np.zeros((2, random_state(np.random.default_rng(1)).size))
+    states[:, XI] = 1e-9, -1e-9
+    found = outputs(np.full(2, 0.6), states, case.model)
+    inside = np.isfinite(found["transmission_error"][0])
+    assert np.all((found["normal_load"][0, inside] > 0.0) & (found["normal_load"][0, inside] < 1.0))
+    assert np.all(np.isfinite(found["central_film_thickness"][0, inside]))
+    assert np.all(found["mesh_stiffness"][0, inside] > 0.0)
+    assert not np.any(found["normal_load"][1])
+    assert not np.any(np.isfinite(found["central_film_thickness"][1]))

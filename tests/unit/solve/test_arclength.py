@@ -13,9 +13,23 @@ from tribodyn.solve.continuation import Leg, follow
 from tribodyn.solve.unstable_branch import unstable_branches
 
 
+def followed(step):
+    """A map with a second state, which follows the first and settles."""
+    return lambda x, a: np.stack([step(x[:, :1], a)[:, 0], 0.3 * x[:, 1] + 0.5 * x[:, 0]], axis=1)
+
+
+#: By itself, and beside a state that takes no part.
+SIZES = pytest.mark.parametrize("size", [1, 2])
+
+
+def lines(step, size):
+    return Lines(step if size == 1 else followed(step), size)
+
+
 def beyond(family, start, target, state, period, span):
     """The branch beyond the only end on the way from one value to another."""
-    leg = Leg(0, start, target, np.array(state, dtype=float), period, reach=max(map(abs, span)))
+    state = np.append(state, 0.6 * np.ones(family.size))[: family.size]
+    leg = Leg(0, start, target, state, period, reach=max(map(abs, span)))
     (arrival,) = follow(family, [leg], tolerance=1e-9)
     (end,), (branch,) = arrival.ends, unstable_branches(family, 0, arrival.seeds, span, tolerance=1e-9)
     assert branch is not None
@@ -24,10 +38,11 @@ def beyond(family, start, target, state, period, span):
     return end, branch
 
 
+@SIZES
 @pytest.mark.parametrize("way", [1.0, -1.0])
-def test_round_a_fold_to_the_other_fold(way):
+def test_round_a_fold_to_the_other_fold(way, size):
     """a = x³ − x between both folds of the cubic map, with the multiplier 1 + (1 − 3 x²)/4."""
-    end, branch = beyond(Lines(cubic, 1), -0.7 * way, 0.5 * way, [-1.2 * way], 1, (-1.0, 1.0))
+    end, branch = beyond(lines(cubic, size), -0.7 * way, 0.5 * way, [-1.2 * way], 1, (-1.0, 1.0))
     fold = 2.0 / np.sqrt(27.0)
     assert end.kind == FOLD
     assert branch.finish is not None
@@ -41,9 +56,10 @@ def test_round_a_fold_to_the_other_fold(way):
     assert np.ptp(x) > 0.95 * 2.0 / np.sqrt(3.0)
 
 
-def test_beyond_a_period_doubling_to_the_border_of_the_range():
+@SIZES
+def test_beyond_a_period_doubling_to_the_border_of_the_range(size):
     """The fixed point 1 − 1/r of the logistic map, with the multiplier 2 − r."""
-    end, branch = beyond(Lines(logistic, 1), 2.8, 3.2, [1.0 - 1.0 / 2.8], 1, (2.8, 3.4))
+    end, branch = beyond(lines(logistic, size), 2.8, 3.2, [1.0 - 1.0 / 2.8], 1, (2.8, 3.4))
     assert end.kind == PERIOD_DOUBLING
     assert branch.finish is None
     np.testing.assert_allclose(branch.states[:, 0], 1.0 - 1.0 / branch.values, atol=1e-8)
@@ -52,9 +68,10 @@ def test_beyond_a_period_doubling_to_the_border_of_the_range():
     assert np.max(np.diff(branch.values)) <= 0.035
 
 
-def test_behind_a_merging_the_motion_of_fewer_periods_is_unstable():
+@SIZES
+def test_behind_a_merging_the_motion_of_fewer_periods_is_unstable(size):
     state = (4.2 - np.sqrt(4.2 * 0.2)) / 6.4
-    end, branch = beyond(Lines(logistic, 1), 3.2, 2.9, [state], 2, (2.8, 3.4))
+    end, branch = beyond(lines(logistic, size), 3.2, 2.9, [state], 2, (2.8, 3.4))
     assert (end.kind, end.period, branch.period) == (MERGING, 2, 1)
     np.testing.assert_allclose(branch.states[:, 0], 1.0 - 1.0 / branch.values, atol=1e-8)
     assert branch.values[0] == pytest.approx(3.0, abs=0.01)
@@ -76,9 +93,10 @@ def subcritical(x, a):
     return -(1.0 + a[:, None]) * x - x**3 + 0.25 * x**5
 
 
-def test_a_doubled_motion_ends_where_it_merges():
+@SIZES
+def test_a_doubled_motion_ends_where_it_merges(size):
     """From its fold, where it is met stable, to the doubling of the motion of one period."""
-    family = Lines(subcritical, 1)
+    family = lines(subcritical, size)
     x = np.sqrt(2.0 + 2.0 * np.sqrt(0.1))
     end, branch = beyond(family, -0.9, -1.05, [x], 2, (-1.2, 0.2))
     assert (end.kind, end.period, branch.period) == (FOLD, 2, 2)
@@ -113,3 +131,16 @@ def test_the_parameter_turns_at_the_vertex_of_a_parabola():
     assert found is ends[0]
     assert value == pytest.approx(0.9, abs=1e-8)
     assert within == pytest.approx(9e-8, rel=1e-2)
+
+
+def test_it_begins_at_the_value_of_the_seed():
+    """On the plane of equal parameters, whatever the state that is given: x = y = 1 − 1/a of the map."""
+    for way in (1.0, -1.0):
+        seed = Seed(2.3, np.array([0.52, 0.61]), 1, way)
+        along = Arclength(Lines(delayed, 2), 0, seed, 2.3, 1e-9)
+        place = along.begin()
+        assert place is not None
+        np.testing.assert_allclose(place.point * along.units, [1 - 1 / 2.3, 1 - 1 / 2.3, 2.3], rtol=1e-8)
+        slope = place.tangent[:2] * along.units[:2] / (place.tangent[2] * along.units[2])
+        np.testing.assert_allclose(slope, 1 / 2.3**2, rtol=1e-4)
+        assert way * place.tangent[2] > 0.0
