@@ -13,7 +13,8 @@ import pytest
 
 from tribodyn.errors import InputError
 from tribodyn.record.sweep_schema import DONE, FAILED
-from tribodyn.studies.assessment import local, page, parts
+from tribodyn.studies.assessment import local, page, parts, said
+from tribodyn.studies.assessment import run as assessing
 from tribodyn.studies.assessment.judged import judged
 from tribodyn.studies.assessment.local import bulk_of, local_of, point_angles
 from tribodyn.studies.efficiency import assess as of_losses
@@ -354,9 +355,9 @@ def test_the_page_says_which_limits_hold():
     assert rows["Loaded error, peak to peak"] == ["4", "≤ 5", "µm", "holds"]
     assert rows["Micropitting S_λ"] == ["1.25", "≥ 1", "", "holds"]
     record: Any = SimpleNamespace(summary=summary, message="")
-    said = page._verdict(record, summary)
-    assert "Limits exceeded: Hertz pressure with K_v." in said
-    assert "Loaded error, peak to peak (6 at 95 %)" in said
+    verdict = page._verdict(record, summary)
+    assert "Limits exceeded: Hertz pressure with K_v." in verdict
+    assert "Loaded error, peak to peak (6 at 95 %)" in verdict
     kept = {"limits": {"dynamic_factor": summary["limits"]["dynamic_factor"]}}
     assert "All 1 limits hold." in page._verdict(record, kept)
 
@@ -523,3 +524,105 @@ def test_of_a_part_the_first_record_is_shown(monkeypatch: pytest.MonkeyPatch):
     assert opened == [Path("first")]
     assert "<h2>Losses</h2><p><img of record Losses></p>['record'] ['lines']" in found
     assert page._part(study, "Losses", done[:1]) == ""
+
+
+def test_what_is_put_together_of_the_parts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """Figures of all, scatter over those samples that are known, margins beside them; no empty tables."""
+    one: Any = SimpleNamespace(
+        figures={"face_load_factor": 1.3, "film_min": 2e-7},
+        along={"roll_angle": "roll"},
+        spread={"dynamic_factor": np.array([1.4, 1.2, np.nan, 1.3])},
+    )
+    other: Any = SimpleNamespace(figures={"efficiency": 0.98}, along={}, spread={})
+    films = SimpleNamespace(bulk_temperature=360.0, flash_rise=np.array([np.nan, 25.0, 15.0]))
+    local: Any = SimpleNamespace(films=films, points=np.arange(7.0))
+    seen: list[Any] = []
+    simple: dict[str, Any] = {
+        "prepare": lambda _: SimpleNamespace(family=SimpleNamespace(involute=False)),
+        "local_of": lambda case, assembly, along, figures: seen.append((along, dict(figures))) or local,
+        "simulated_part": lambda *_: {"lambda_GF": {"worst": 0.25}},
+        "strength_of": lambda _: "strength",
+        "judged": lambda case, found, *_: {
+            "margins": {"simulated": {"S_B": 2.0}},
+            "limits": {},
+            "found": found,
+        },
+        "assumed": lambda case, involute: ["first", "second"] if not involute else [],
+        "extrapolated": lambda *_: [],
+    }
+    for name, stand_in in simple.items():
+        monkeypatch.setattr(assessing, name, stand_in)
+    done = {
+        "a": Done(tmp_path, {"trust": "outside the model", "trust_reasons": {"deflection": 1}}),
+        "b": Done(tmp_path, {"trust": "inside the model"}),
+        "c": Done(tmp_path),
+    }
+    monkeypatch.setattr(parts, "asked_of", lambda _: "asked")
+    monkeypatch.setattr(parts, "parts", lambda _: "parts")
+    monkeypatch.setattr(parts, "results", lambda *_: done)
+    monkeypatch.setattr(parts, "answers", lambda *_: [("part", one), ("part", other)])
+    case: Any = SimpleNamespace(pinion_speed=100.0, gear_torque=96.0, oil_temperature=353.0)
+    found, summary = assessing.assessed(case, tmp_path)
+    assert found is local
+    assert seen == [({"roll_angle": "roll"}, {"face_load_factor": 1.3, "film_min": 2e-7, "efficiency": 0.98})]
+    assert summary["contact_temperature_max"] == 385.0
+    assert summary["duty"] == {"pinion_speed": 100.0, "gear_torque": 96.0, "oil_temperature": 353.0}
+    assert summary["dynamic_factor_spread"][0] == pytest.approx(1.3)
+    assert summary["point_angles"] == dict(
+        zip(("A", "AB", "B", "C", "D", "DE", "E"), map(float, range(7)), strict=True)
+    )
+    assert summary["assumed"] == {"01": "first", "02": "second"}
+    assert (summary["trust"], summary["trust_reasons"]) == ("outside the model", {"deflection": 1})
+    assert not {"limits", "iso", "extrapolated", "transverse_load_factor_method_b"} & summary.keys()
+    assert summary["found"] is None
+    assert (summary["units"]["film_min"], summary["units"]["pinion_speed"]) == ("m", "rad/s")
+    assert assessing._scatter(np.array([1.0, np.nan, 3.0]))["samples"] == 2
+    assert assessing._trust({"b": done["b"], "c": done["c"]}) == {"trust": "inside the model"}
+    assert assessing._trust({"c": done["c"]}) == {}
+
+
+def test_datasets_along_the_path():
+    films = SimpleNamespace(
+        bulk_temperature=360.0,
+        flash_rise=np.array([5.0, 7.0]),
+        pressure="p",
+        film_thickness="h",
+        specific_film="l",
+    )
+    local: Any = SimpleNamespace(films=films, roll_angle="roll", normal_load="load", radius="r", sliding="v")
+    found = assessing._arrays(local)
+    np.testing.assert_array_equal(found["contact_temperature"], [365.0, 367.0])
+    assert (found["hertz_pressure"], found["film_thickness"]) == ("p", "h")
+    assert (found["equivalent_radius"], found["sliding_speed"], found["specific_film"]) == ("r", "v", "l")
+
+
+def test_laws_beyond_their_range_are_said(monkeypatch: pytest.MonkeyPatch):
+    """Of needed tasks in their sentences, of the others in one; failures of all."""
+    one = Task("one", "film and losses", {})
+    other = Task("other", "losses by another law", {}, needed=False)
+    third = Task("third", "losses by a third law", {}, needed=False)
+    lost = Task("lost", "lost", {}, needed=False)
+
+    class Opened:
+        def __enter__(self) -> str:
+            return "record"
+
+        def __exit__(self, *_: object) -> None: ...
+
+    monkeypatch.setattr(said, "open_record", lambda _: Opened())
+    sentences = ["The film law is extrapolated.", "All is well."]
+    study = SimpleNamespace(sentences=lambda record: sentences)
+    taking: Any = (SimpleNamespace(study=study, tasks=(one, other, third, lost)),)
+    done = {
+        "one": Done(Path("one"), {"a": 1}),
+        "other": Done(Path("other"), {"friction_in_range_fraction": 0.99}),
+        "third": Done(Path("third"), {"friction_in_range_fraction": 1.0}),
+        "lost": Done(Path("lost"), failures=("lost: why", "lost: why")),
+    }
+    assert said.extrapolated(taking, done) == [
+        "Film and losses: The film law is extrapolated.",
+        "lost: why",
+        "For comparison only, outside the range of the law in part or all: losses by another law.",
+    ]
+    sentences.append(f"{said.EXCEEDED} much.")
+    assert said.extrapolated(taking, done)[0].endswith(f"{said.EXCEEDED} much.")

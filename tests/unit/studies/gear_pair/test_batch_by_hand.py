@@ -385,6 +385,7 @@ def test_an_outcome_fills_the_row_of_its_case(monkeypatch: pytest.MonkeyPatch):
     np.testing.assert_array_equal(error[2], range(100, 100 + room))
     assert rows["status"].tolist() == [0, DONE, DONE, FAILED]
     assert rows["message"].tolist()[3] == "why"
+    assert (rows["period"][3], rows["stable"][3]) == (0, -1)
     assert rows["cycles"].tolist() == [0, 12, 12, 5]
     assert rows["solution"].tolist() == ["", "sort", "sort", "failed"]
     assert (rows["period"][1], rows["stable"][1], rows["multiplier_max"][1]) == (3, 1, 0.7)
@@ -606,3 +607,72 @@ def test_figures_of_cases_or_why_there_are_none():
     ours: Any = Ours()
     assert batched(ours, cases, ["loss"], 3) == [{"loss": 4.0}, "why not", "lost"]
     assert batched(ours, ["no", "none"], ["loss"], 3) == ["no", "none"]
+
+
+def test_an_equilibrium_is_sought_once(monkeypatch: pytest.MonkeyPatch):
+    """In creep, without friction, whatever the speed; another table has another one."""
+    sought: list[Any] = []
+
+    class Numbers(tuple[Any, ...]):
+        __slots__ = ()
+
+        def _replace(self, **changed: Any) -> "Numbers":
+            assert changed == {"nominal_speed": evaluating.CREEP}
+            return Numbers(self[1:])
+
+    class Model(SimpleNamespace):
+        def _replace(self, **changed: Any) -> "Model":
+            return Model(**vars(self) | changed)
+
+    def equilibrium(model: Any) -> np.ndarray:
+        sought.append(model.mechanics)
+        return np.full(STATES, float(len(sought)))
+
+    monkeypatch.setattr(evaluating, "_equilibria", type(evaluating._equilibria)())
+    monkeypatch.setattr(evaluating, "frictionless", lambda model: model)
+    monkeypatch.setattr(evaluating, "static_equilibrium", equilibrium)
+    monkeypatch.setattr(evaluating, "initial_state", lambda model, name: name)
+    tables = [SimpleNamespace(number=number) for number in range(40)]
+
+    def start(table: int, speed: float, settings: Settings = SETTINGS, initial: str = "static") -> Any:
+        model = Model(table=tables[table], options="options", mechanics=Numbers((speed, 7.0)))
+        solver = SimpleNamespace(initial=initial)
+        prepared: Any = SimpleNamespace(model=model, case=case_of(solver=solver))
+        return evaluating._start(prepared, settings)
+
+    assert start(0, 10.0)[0] == start(0, 20.0)[0] == 1.0
+    assert start(1, 10.0)[0] == 2.0
+    assert start(0, 30.0)[0] == 1.0
+    changed = start(0, 30.0)
+    changed += 5.0
+    assert start(0, 30.0)[0] == 1.0
+    assert sought == [(7.0,), (7.0,)]
+    assert start(0, 10.0, SETTINGS._replace(steady=False)) == "static"
+    assert start(0, 10.0, initial="unloaded") == "unloaded"
+    # what was kept at this place belongs to another table
+    evaluating._equilibria[next(iter(evaluating._equilibria))] = (tables[5], np.zeros(STATES))
+    assert start(0, 10.0)[0] == 3.0
+    for number in range(40):
+        start(number, 10.0)
+    assert len(evaluating._equilibria) < 40
+    count = len(sought)
+    start(39, 90.0)
+    assert len(sought) == count
+
+
+def test_a_table_is_made_once_for_cases_that_share_it(monkeypatch: pytest.MonkeyPatch):
+    made: list[int] = []
+    monkeypatch.setattr(evaluating, "_tables", type(evaluating._tables)())
+    monkeypatch.setattr(evaluating, "table_key", lambda case: case // 2)
+    monkeypatch.setattr(evaluating, "tables", lambda case: made.append(case) or f"table {case}")
+    assert [evaluating.tabulated(case) for case in (0, 1, 2, 0)] == [
+        "table 0",
+        "table 0",
+        "table 2",
+        "table 0",
+    ]
+    for case in range(0, 100, 2):
+        evaluating.tabulated(case)
+        evaluating.tabulated(0)  # what is used stays
+    assert made.count(0) == 1
+    assert len(evaluating._tables) < 50

@@ -468,3 +468,30 @@ def test_a_study_of_one_cycle_is_shown_twice_and_of_more_once(tmp_path: Path):
     rolled.require_positions(SimpleNamespace(samples=2))  # pyright: ignore[reportArgumentType]
     with pytest.raises(InputError, match="no samples"):
         rolled.require_positions(SimpleNamespace(samples=1, path="r.h5"))  # pyright: ignore[reportArgumentType]
+
+
+@pytest.mark.parametrize(("cycles", "first"), [(2, False), (3, True), (5, True)])
+def test_of_several_cycles_the_first_pair_that_is_seen_whole(tmp_path: Path, cycles: int, first: bool):
+    """It is pair 1 in cycle 0, pair 0 in cycle 1, pair −1 in cycle 2; of fewer cycles all pairs are alike."""
+    with open_record(
+        synthetic_load_contact.write(tmp_path / "several.h5", slices=2, cycles=cycles, positions=6)
+    ) as record:
+        values = np.arange(cycles * 6 * 3.0).reshape(cycles * 6, 3)
+        roll, found = rolled.over_roll(record, values)
+        rows = [(2 - slot if first else 0, slot) for slot in range(3)]
+        expected = [
+            (record["roll_angle"][6 * cycle + k, slot], values[6 * cycle + k, slot])
+            for cycle, slot in rows
+            for k in range(6)
+        ]
+        expected.sort(key=lambda one: one[0])
+        np.testing.assert_allclose(roll, [one[0] for one in expected])
+        np.testing.assert_array_equal(found, [one[1] for one in expected])
+        x, pair = rolled.pair_over_phase(record, "normal_load", 0)
+        load = record["normal_load"]
+        for at, value in zip(x, pair, strict=True):
+            if np.isfinite(at) and np.isfinite(value):
+                k = round(float(at) * 6)
+                # at the end of a cycle it is what is pair −1 then
+                assert value in (load[k % len(load), 1], load[k % len(load), 0])
+        assert np.sum(np.isnan(x)) == (2 if cycles == 1 else cycles)
