@@ -32,7 +32,7 @@ KIND = np.array(
 
 def beyond(end: int, values: list[float], finish: BranchEnd | None) -> Any:
     count = len(values)
-    branch = SimpleNamespace(
+    branch: Any = SimpleNamespace(
         values=np.array(values),
         period=2,
         multipliers=np.array([[1.5j * one, 0.1] for one in range(1, count + 1)]),
@@ -42,7 +42,7 @@ def beyond(end: int, values: list[float], finish: BranchEnd | None) -> Any:
     )
     return unstable.Beyond(
         end, branch, np.array(values) * 2.0, np.array(values) * 3.0, np.array(values) / 10.0
-    )  # pyright: ignore[reportArgumentType]
+    )
 
 
 def response(**changed: Any) -> Response:

@@ -210,7 +210,7 @@ def test_beyond_a_grid_there_is_no_pressure():
 def test_traction_is_that_of_the_highest_load(study: Prepared, over: Way, monkeypatch: pytest.MonkeyPatch):
     seen: list[tuple[float, ...]] = []
 
-    def solved_at(contact: Any, *duty: float, step: float) -> Any:
+    def solved_at(contact: Any, *duty: Any, step: float) -> Any:
         seen.append(duty)
         return None if len(seen) == 2 else solution(*duty)
 
@@ -461,6 +461,7 @@ def test_between_positions_everything_changes_steadily():
         assert found.problem.sliding_speed == pytest.approx(5.0 - 3.0 * time)
         line = 4.0 + 2.0 * (time + 1.0) if time < 2.0 else 10.0 - 3.0 * (time - 2.0)
         assert found.problem.line_load == pytest.approx(line)
+        assert found.closure is not None
         for row in found.closure:
             np.testing.assert_allclose(row, expected)
 

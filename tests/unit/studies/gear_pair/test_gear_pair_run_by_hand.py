@@ -1,5 +1,6 @@
 """A run of a gear pair with stand-ins for what it is made of: what its record and its summary hold."""
 
+from collections.abc import Sequence
 from contextlib import contextmanager
 from types import SimpleNamespace
 from typing import Any
@@ -54,7 +55,7 @@ def test_extremes_in_plain_loops(rng: np.random.Generator):
     for part in (slice(0, 11), slice(11, 11), slice(11, 30)):
         found.add(cycles[part], {name: values[part] for name, values in block.items()})
 
-    def extreme(values: list[tuple[float, int, int | None]], sign: int) -> tuple[Any, ...]:
+    def extreme(values: Sequence[tuple[float, int, int | None]], sign: int) -> tuple[Any, ...]:
         value, row, pair = max(values, key=lambda one: sign * one[0])
         return value, block["time"][row], cycles[row], pair
 
