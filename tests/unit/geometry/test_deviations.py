@@ -56,6 +56,10 @@ def test_a_deviation_of_base_pitch_opens_by_itself_from_pair_to_pair():
     roll, error = profile_curve(pair, none._replace(single_pitch=6e-6), none, base_pitch=True)
     a_pitch_later = np.interp(roll[0] + pair.pitch_angle, roll, error) - error[0]
     assert a_pitch_later == pytest.approx(6e-6 * np.cos(STANDARD.pressure_angle), rel=1e-9)
+    # in the middle of the path the pair is where it would be without
+    np.testing.assert_allclose(error + error[::-1], 0.0, atol=1e-18)
+    _, other = profile_curve(pair, none, none._replace(single_pitch=6e-6), base_pitch=True)
+    np.testing.assert_allclose(other, error, rtol=1e-12, atol=1e-18)
 
 
 def test_curves_are_added_at_the_points_of_both():

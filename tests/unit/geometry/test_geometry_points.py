@@ -5,6 +5,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from scipy.interpolate import CubicSpline
 
 from tests.support.sample_drives import LIU_NI
 from tribodyn.errors import InputError
@@ -81,3 +82,32 @@ def test_each_side_of_the_pitch_point_needs_its_points(half: int):
     side = "after" if half > 0 else "before"
     assert refusal(least - 1) == f"{least - 1} points fewer than {least} {side} the pitch point"
     assert "fewer than" not in refusal(least)  # whether or not it is long enough for the teeth
+
+
+def test_each_half_is_the_spline_through_its_points():
+    """Not-a-knot by itself, so that the angle may bend at P."""
+    r = 0.003 * np.array([-6.0, -4.7, -3.9, -2.2, -1.0, 0.0, 0.8, 2.1, 2.9, 4.4, 6.0])
+    alpha = LIU_NI.pressure_angle + np.where(r < 0, 3.0, 5.0) * np.abs(r) + 0.02 * np.sin(400.0 * r)
+    shape = points.Shape(np.stack([r * np.cos(alpha), r * np.sin(alpha)], axis=-1))
+    path = points.FAMILY.working_path(LIU_NI._replace(shape=shape))
+    for half in (slice(0, 6), slice(5, 11)):
+        spline = CubicSpline(r[half], alpha[half], bc_type="not-a-knot")
+        at = np.linspace(r[half][0], r[half][-1], 40)[1:-1]
+        np.testing.assert_allclose(path.pressure_angle(at), spline(at), rtol=1e-10)
+        np.testing.assert_allclose(path.pressure_angle_slope(at), spline(at, 1), rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ((3, (-14.0, 1.0)), "(-14, 1) mm, point 4: the path doubles back"),
+        ((6, (0.3, -0.2)), "(0.3, -0.2) mm, point 7: the path misses the pitch point"),
+    ],
+)
+def test_points_that_make_no_path_are_named_in_millimetres(change, said):
+    r = 0.003 * np.linspace(-6.0, 6.0, 13)
+    place = np.stack([r * np.cos(LIU_NI.pressure_angle), r * np.sin(LIU_NI.pressure_angle)], axis=-1)
+    place[change[0]] = 1e-3 * np.array(change[1])
+    with pytest.raises(InputError) as error:
+        points.FAMILY.check(LIU_NI._replace(shape=points.Shape(place)))
+    assert f"{error.value.value}, {error.value.rule}".startswith(said)

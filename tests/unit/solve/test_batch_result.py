@@ -1,0 +1,32 @@
+"""Results of a part of the cases go to their places."""
+
+import numpy as np
+
+from tribodyn.dynamics.extremes import no_extremes
+from tribodyn.dynamics.parameters import STATES
+from tribodyn.solve.batch_result import nothing_yet, put
+
+
+def test_every_field_of_a_part_is_put_in_its_place(rng):
+    whole = nothing_yet(np.zeros((5, STATES)), 3)
+    assert np.all(np.isnan(whole.samples))
+    part = nothing_yet(rng.normal(size=(2, STATES)), 3)
+    part.samples[:] = rng.normal(size=part.samples.shape)
+    part.status[:], part.reached[:] = (3, 1), (0.25, 7.5)
+    part.steps[:], part.evaluations[:] = (40, 70), (300, 500)
+    put(whole, np.array([4, 1]), part)
+    for all_of_it, some in zip(whole[:-1], part[:-1], strict=True):
+        np.testing.assert_array_equal(all_of_it[[4, 1]], some)
+        assert not np.any(np.nan_to_num(all_of_it[[0, 2, 3]]))
+    assert len(whole.extremes.measure) == len(no_extremes(0).measure) == 0
+
+
+def test_extremes_of_a_part_are_put_in_their_places(rng):
+    whole, part = (nothing_yet(np.zeros((count, STATES)), 1, extremes=True) for count in (4, 2))
+    for one in part.extremes:
+        one[:] = rng.integers(1, 9, size=one.shape)
+    put(whole, np.array([2, 0]), part)
+    empty = no_extremes(4)
+    for all_of_it, some, before in zip(whole.extremes, part.extremes, empty, strict=True):
+        np.testing.assert_array_equal(all_of_it[[2, 0]], some)
+        np.testing.assert_array_equal(all_of_it[[1, 3]], before[[1, 3]])
