@@ -22,6 +22,7 @@ from tribodyn.studies.design.left import NOTHING_LEFT, Left
 from tribodyn.studies.design.methods import front as fronts
 from tribodyn.studies.design.methods.front import nsga2
 from tribodyn.studies.design.methods.local import slopes_of
+from tribodyn.studies.design.methods.population import cma_es
 from tribodyn.studies.design.methods.views import Scalar
 from tribodyn.studies.design.naming import apart, flat, naming_key
 from tribodyn.studies.design.parts import _number, _varied
@@ -489,3 +490,38 @@ def test_a_pool_of_one_has_all_cores(monkeypatch: pytest.MonkeyPatch, workers: i
     pool._own = SimpleNamespace(process=None)  # pyright: ignore[reportAttributeAccessIssue]
     monkeypatch.setattr("tribodyn.studies.design.pool.evaluate", lambda *given: given)
     assert pool._evaluate([{"a": 1}]) == (pool.scenarios, [{"a": 1}], threads)
+
+
+def test_cma_es_begins_inside_and_is_told_merits(case: DesignCase, monkeypatch: pytest.MonkeyPatch):
+    """Two generations of eight within 0 … 1; a start at an edge is moved off it."""
+    pool: Any = Linear()
+    given = replace(case, objectives=(Objective(F, ((F, 1.0),)),), search=case.search._replace(seed=6))
+    archive = Archive(given, Judge(given, pool.submit([{}]).result()), pool, lambda _: None)
+    archive._shaped = False
+    told: list[Any] = []
+
+    class Strategy:
+        def __init__(self, start: np.ndarray, width: float, settings: dict[str, Any]) -> None:
+            told.append((start.tolist(), width, settings))
+
+        def stop(self) -> bool:
+            return len(told) > 2
+
+        def ask(self) -> list[np.ndarray]:
+            return [np.array([0.5, 0.25]), np.array([0.25, 0.5])]
+
+        def tell(self, candidates: Any, merits: list[float]) -> None:
+            told.append(merits)
+
+    module = ModuleType("cma")
+    vars(module)["CMAEvolutionStrategy"] = Strategy
+    monkeypatch.setitem(sys.modules, "cma", module)
+    archive.ask(np.array([0.5, 0.25]))
+    cma_es(archive, np.array([0.0, 1.0]))
+    (start, width, settings), *merits = told
+    assert start == [0.05, 0.95]
+    assert 0.0 < width < 0.5
+    assert (settings["bounds"], settings["seed"], settings["popsize"]) == ([0.0, 1.0], 7, 8)
+    assert settings["tolx"] == given.search.accuracy
+    # 5 and 1, over the first of them
+    assert merits == [pytest.approx([1.0, 0.2])] * 2

@@ -11,6 +11,7 @@ from scipy.interpolate import CubicSpline
 from tests.support.closures import of_case
 from tribodyn.studies.efficiency import load_contact as by_contact
 from tribodyn.studies.efficiency import run as running
+from tribodyn.studies.efficiency.along_path import engage
 from tribodyn.studies.efficiency.arrays import record_arrays
 from tribodyn.studies.efficiency.dynamic import dynamic_efficiency
 from tribodyn.studies.efficiency.load_contact import load_contact
@@ -405,3 +406,38 @@ def test_the_efficiency_of_a_run_is_of_its_last_cycles():
         assert found.work_damping == found.stored == pytest.approx(grown)
         assert found.efficiency == pytest.approx(1.0 - 3.0 / 50.0)
         assert found.overall == pytest.approx(0.9)
+
+
+def test_friction_and_pressure_see_an_uneven_face(study: Prepared):
+    """Friction at exp⟨s ln s⟩ of the mean line load, pressure at the maximum; both as if the load were so."""
+    mesh = places(study.cycle, study.path, np.array([0.13, 0.41, 0.86]))
+    duty = study.duty
+    shares = np.array([0.2, 0.5, 1.1, 2.2])
+    load = np.where(mesh.carrying > 0.0, [[900.0, 2100.0], [0.0, 3000.0], [700.0, 2500.0]], 0.0)
+    given: list[Any] = []
+
+    def engaged(factor: float, slices: np.ndarray) -> Any:
+        def share(roll: np.ndarray, torque: float, friction: np.ndarray) -> Any:
+            given.append((roll is mesh.roll, torque))
+            scaled = factor * load
+            return SimpleNamespace(
+                normal_load=scaled, deflection=np.full(3, 1e-5), slice_load=scaled[..., None] * slices
+            )
+
+        return engage(mesh._replace(flanks=SimpleNamespace(share=share)), duty)  # pyright: ignore[reportArgumentType]
+
+    found = engaged(1.0, shares)
+    even = math.exp(sum(s * math.log(s) for s in shares) / 4.0)
+    touching = load > 0.0
+    for factor, names in (
+        (even, ("friction_coefficient",)),
+        (2.2, ("hertz_pressure", "central_film_thickness")),
+    ):
+        other = engaged(factor, np.ones(4))
+        for name in names:
+            np.testing.assert_allclose(
+                getattr(found, name)[touching], getattr(other, name)[touching], rtol=1e-9
+            )
+    assert np.all(given == np.array([True, 410.0]))
+    np.testing.assert_array_equal(found.normal_load, load)
+    np.testing.assert_array_equal(found.deflection, duty.way * np.full(3, 1e-5))
