@@ -18,7 +18,8 @@ from tribodyn.studies.design.archive import Archive
 from tribodyn.studies.design.case import DRAWN, START, Constraint, DesignCase, Free, Objective, Tolerance
 from tribodyn.studies.design.deviations import deviating
 from tribodyn.studies.design.judged import Judge
-from tribodyn.studies.design.left import NOTHING_LEFT, Left
+from tribodyn.studies.design.layout import LOWER, START_FIGURES, UPPER
+from tribodyn.studies.design.left import NOTHING_LEFT, Left, left_in
 from tribodyn.studies.design.methods import front as fronts
 from tribodyn.studies.design.methods.front import nsga2
 from tribodyn.studies.design.methods.local import slopes_of
@@ -525,3 +526,34 @@ def test_cma_es_begins_inside_and_is_told_merits(case: DesignCase, monkeypatch: 
     assert settings["tolx"] == given.search.accuracy
     # 5 and 1, over the first of them
     assert merits == [pytest.approx([1.0, 0.2])] * 2
+
+
+def test_what_an_unfinished_search_left(case: DesignCase):
+    """Candidates of which every case was worked out, or why not; numbers become values in their units."""
+    free = (
+        Free(("a", "b"), "module", 2.0, 6.0, "mm", 1e-3, "m"),
+        Free(("c",), "shape", 0.0, 1.0, choices=("linear", "parabolic")),
+    )
+    nan = math.nan
+    record: Any = {
+        "figure": [b"one".decode(), "two"],
+        "free_module": np.array([0.003, 0.0045, 0.006]),
+        "free_shape": np.array([0.0, 1.0, 0.0]),
+        "case_figures": np.array(
+            [[[1.0, 2.0], [3.0, nan]], [[nan, nan], [5.0, 6.0]], [[nan, nan], [nan, nan]]]
+        ),
+        "message": ["", "undercut", ""],
+        "figures_start": np.array([[7.0, 8.0], [nan, nan]]),
+        LOWER: np.array([nan, 0.5]),
+        UPPER: np.array([0.25, nan]),
+    }
+    record[START_FIGURES] = record.pop("figures_start")
+    found = left_in(replace(case, free=free), record)
+    assert found.known == [
+        ({"a": "3.0 mm", "b": "3.0 mm", "c": "linear"}, [{"one": 1.0, "two": 2.0}, {"one": 3.0}]),
+        ({"a": "4.5 mm", "b": "4.5 mm", "c": "parabolic"}, ["undercut", {"one": 5.0, "two": 6.0}]),
+    ]
+    assert found.start is None
+    assert found.moved == {(1, LOWER): 0.5, (0, UPPER): 0.25}
+    record[START_FIGURES] = record[START_FIGURES][:1]
+    assert left_in(replace(case, free=free), record).start == [{"one": 7.0, "two": 8.0}]

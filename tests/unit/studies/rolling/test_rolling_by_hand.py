@@ -3,6 +3,8 @@
 import math
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -294,3 +296,24 @@ def test_distances_powers_and_torques_of_an_instant():
     assert two[0, 0] / two[0, 1] == pytest.approx(arms[0] / arms[1])
     assert two[0, 0] * arms[0] + two[0, 1] * arms[1] == pytest.approx(7.0 * 11 / 2.0)
     assert two[1, 0] * arms[2] == pytest.approx(7.0 * 11 / 2.0)
+
+
+@pytest.mark.parametrize(
+    ("friction", "key", "limit"),
+    [(160.0, "rolling_arm", "18 mm"), (300.0, "sliding_coefficient", "0.09")],
+)
+def test_the_limit_leaves_what_the_other_loss_leaves(friction: float, key: str, limit: str):
+    """At the worst instant 150 W are put in and rolling takes 100 W; sliding takes 60 W, or 200 W."""
+    crown = np.array([[1.0, 2.0], [30.0, 20.0], [9.0, 9.0]])
+    cycle: Any = SimpleNamespace(
+        power_out=np.array([5.0, -10.0, -2.0]),
+        power_crown=crown,
+        power_friction=np.array([20.0, friction, 30.0]),
+        power_in=np.array([150.0, 150.0, 150.0]),
+    )
+    asked: Any = SimpleNamespace(friction=RollingFriction(0.02, 0.12))
+    with pytest.raises(InputError, match=f"use less than {limit}") as caught:
+        run._refuse_locking(asked, cycle)
+    assert caught.value.key == f"friction.{key}"
+    assert f"{friction:g} W of the 150 W" in str(caught.value)
+    run._refuse_locking(asked, SimpleNamespace(power_out=np.array([5.0, 1e-3])))  # pyright: ignore[reportArgumentType]
