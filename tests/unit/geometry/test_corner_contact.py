@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 
 from tests.support.sample_drives import LIU_NI, STANDARD
-from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.assembly import assemble, tip_corner_gap
 from tribodyn.geometry.corner_contact import pair_geometry
+from tribodyn.geometry.drive import reference_radius
 from tribodyn.geometry.families import crc, involute
-from tribodyn.geometry.tooth import flank_point
+from tribodyn.geometry.tooth import fillet_point, flank_point
 
 OFF = (-1.5e-3, -0.4e-3, 0.5e-3, 1.2e-3)
 
@@ -76,3 +77,36 @@ def test_the_gap_is_what_the_pinion_must_turn_until_drawn_flanks_touch(place):
     assert found.gap[0] > 1e-7
     reached = found.pinion_radius[0] if before else found.gear_radius[0]
     assert reached == pytest.approx(reach, rel=1e-7)
+
+
+@pytest.mark.parametrize("side", ["pinion", "gear"])
+def test_the_tip_passes_the_fillet_at_the_gap_that_drawn_teeth_leave(side):
+    """The corner of the mate's tip, turned with its gear from the lowest contact to the line of centres."""
+    assembly = assemble(involute.FAMILY, STANDARD)
+    mate = "gear" if side == "pinion" else "pinion"
+    tooth, tip = assembly.tooth(side), float(assembly.tooth(mate).tip_radius)
+    own, other = (float(reference_radius(STANDARD, one)) for one in (side, mate))
+    base, other_base = (r * np.cos(STANDARD.pressure_angle) for r in (own, other))
+    # the corner on the line of action, where contact begins on this flank
+    reach = (own + other) * np.sin(STANDARD.pressure_angle) - np.sqrt(tip**2 - other_base**2)
+    radius = np.hypot(base, reach)
+    along = own * np.sin(STANDARD.pressure_angle) - reach
+    x, y = along * np.cos(STANDARD.pressure_angle), other + along * np.sin(STANDARD.pressure_angle)
+    begin = np.arctan2(x, y)
+    assert np.hypot(x, y) == pytest.approx(tip, rel=1e-12)
+    at = np.linspace(begin, 0.0, 4001)
+    x, y = tip * np.sin(at), own + other - tip * np.cos(at)
+    # in the frame of this gear, from where the corner touches its flank
+    turned = (begin - at) * other / own
+    angle = np.arctan2(x, y) - np.arctan2(x[0], y[0]) + turned
+    profile = np.linspace(float(tooth.form_distance), float(tooth.tip_distance), 4001)
+    flank_x, flank_y = flank_point(tooth, profile)
+    touched = np.interp(radius, np.hypot(flank_x, flank_y), np.arctan2(flank_y, flank_x))
+    fillet = fillet_point(tooth, np.linspace(np.pi / 2, float(tooth.form_angle), 4001))
+    distance = np.hypot(x, y)
+    half = np.interp(distance, np.hypot(*fillet), np.arctan2(fillet[1], fillet[0]))
+    below = distance < float(tooth.form_radius)
+    # it is the flank on the other side of the tooth, seen from there
+    gap = np.min(((touched - angle - half) * distance)[below])
+    assert float(tip_corner_gap(assembly, side)) == pytest.approx(gap, rel=0.03)  # of 129 places
+    assert gap > 1e-5

@@ -34,6 +34,7 @@ def beyond(family, start, target, state, period, span):
     (end,), (branch,) = arrival.ends, unstable_branches(family, 0, arrival.seeds, span, tolerance=1e-9)
     assert branch is not None
     assert np.max(branch.residuals) <= 1e-9
+    assert branch.states.shape == (len(branch.values), family.size)
     assert np.all(np.abs(branch.multipliers[:, 0]) > 1.0)
     return end, branch
 
