@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.sparse.linalg import spsolve
 
-from tests.support.twelve_teeth import POISSON, TOOTH, whole_ring
+from tests.support.twelve_teeth import POISSON, TOOTH, few_cells, whole_ring
 from tribodyn.compliance.fem import gear_compliance
 from tribodyn.compliance.gear_compliance import NEIGHBOURS
 from tribodyn.compliance.ring_mesh import graded, sector_mesh
@@ -130,9 +130,19 @@ def test_rim_too_thin_for_the_mesh_is_refused():
         gear_compliance(tooth, 8, 0.97 * tooth.root_radius, POISSON, 0.75e-3, 1)
 
 
+def test_one_sector_of_few_cells_is_the_whole_ring(monkeypatch):
+    few_cells(monkeypatch)
+    check_whole_ring(5)
+
+
 def test_one_sector_with_cyclic_symmetry_is_the_whole_ring():
-    gear = gear_compliance(TOOTH, 12, 8e-3, POISSON, 0.75e-3, 1)
-    basis, mesh = whole_ring(1)
+    check_whole_ring(12)
+
+
+def check_whole_ring(teeth):
+    """Load a flank in its middle, and read the flanks of five teeth there."""
+    gear = gear_compliance(TOOTH, teeth, 8e-3, POISSON, 0.75e-3, 1)
+    basis, mesh = whole_ring(1, teeth)
     place = basis.doflocs
     flank = mesh.nodes[:, mesh.flank]
     r = np.linspace(TOOTH.form_distance, TOOTH.tip_distance, 400_001)
@@ -151,7 +161,8 @@ def test_one_sector_with_cyclic_symmetry_is_the_whole_ring():
     u = np.zeros(2 * basis.N)
     u[free] = spsolve(matrix[free][:, free].tocsc(), load[free])
     for tooth in (-2, -1, 0, 1, 2):
-        c, s = np.cos(tooth * np.pi / 6), np.sin(tooth * np.pi / 6)
+        angle = 2 * np.pi * tooth / teeth
+        c, s = np.cos(angle), np.sin(angle)
         turn = np.array([[c, -s], [s, c]])
         node = np.argmin(np.hypot(*(place - (turn @ flank)[:, [middle]])))
         expected = u[2 * node : 2 * node + 2] @ (turn @ inward)

@@ -2,23 +2,24 @@
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 from scipy.sparse import csc_matrix, diags, kron
 from scipy.sparse.linalg import splu
 from scipy.spatial import KDTree
 
-from tests.support.twelve_teeth import BODY, TOOTH
-from tribodyn.compliance.end_faces import openings
+from tests.support.twelve_teeth import BODY, TOOTH, few_cells
+from tribodyn.compliance.end_faces import openings, parity_weights
 from tribodyn.compliance.face_compliance import slice_compliance
-from tribodyn.compliance.free_ends import at_phase, face_of, harmonic_of
+from tribodyn.compliance.free_ends import at_phase, face_of, free_ends, harmonic_of
 from tribodyn.compliance.gear_compliance import without_neighbours
 from tribodyn.compliance.gear_model import gear_model
 from tribodyn.compliance.ring_mesh import sector_mesh
-from tribodyn.compliance.root_stress import edge_values, stress_rows
+from tribodyn.compliance.root_stress import edge_parameters, edge_values, stress_rows
 from tribodyn.compliance.slices import pair_harmonics
 from tribodyn.compliance.strips import curved_basis, strip_stiffness
 from tribodyn.geometry.corner_contact import pair_geometry
 
-TEETH, POISSON = 12, 0.3
+TEETH, POISSON = 6, 0.3  # of the teeth of twelve
 
 
 def tied(place, components, phase, turned):
@@ -39,50 +40,113 @@ def tied(place, components, phase, turned):
     return csc_matrix(whole)[:, (components * free[:, None] + np.arange(components)).ravel()]
 
 
-def whole_sector(model, wave_number, phase):
-    """Stiffness of the openings, stress that flank loads make on the held face, stress along both roots."""
-    mesh = sector_mesh(TOOTH, TEETH, BODY.bore_radius, 1)
-    basis = curved_basis(mesh.nodes, mesh.cells)
-    opening, nodes = openings(basis, POISSON), KDTree(basis.doflocs.T)
-    matrices = strip_stiffness(basis, POISSON)
-    stiffness = matrices[0] + wave_number * matrices[1] + wave_number**2 * matrices[2]
-    body, face = tied(basis.doflocs, 3, phase, True), tied(opening.place, 1, phase, False)
-    loads = np.zeros((3 * basis.N, model.loads.shape[1]))
-    flank = model.loads.reshape(-1, 2, loads.shape[1])
-    at, column = np.nonzero(np.any(flank != 0, axis=1))
-    near = nodes.query(model.basis.doflocs[:, at].T)[1]
-    for component in (0, 1):
-        loads[3 * near + component, column] = flank[at, component, column]
-    forces = opening.forces(wave_number) @ face
-    solver = splu(csc_matrix(body.conj().T @ stiffness @ body))
-    by_opening = body @ solver.solve(np.asarray(body.conj().T @ forces))
-    by_loads = body @ solver.solve(np.asarray(body.conj().T @ loads.astype(complex)))
-    held = face.conj().T @ opening.stiffness @ face - forces.conj().T @ by_opening
-    stresses = []
-    for sign in (1.0, -1.0):
-        place = model.root_position * np.array([[1.0], [sign]])
-        root = np.asarray(nodes.query(place.T)[1])
-        corners = np.asarray(KDTree(opening.place.T).query(place[:, ::2].T)[1])
-        own = edge_values(corners, opening.place.shape[1]) * POISSON / (1 - POISSON**2)
-        rows = stress_rows(place, root, 3 * basis.N, POISSON, wave_number)
-        stresses.append(rows @ by_opening - own @ face)
-    return np.asarray(held), forces.conj().T @ by_loads, np.concatenate(stresses)
+class Sector:
+    """A whole sector of a gear, its end faces held or opened."""
+
+    def __init__(self):
+        mesh = sector_mesh(TOOTH, TEETH, BODY.bore_radius, 1)
+        self.basis = curved_basis(mesh.nodes, mesh.cells)
+        self.opening, self.matrices = openings(self.basis, POISSON), strip_stiffness(self.basis, POISSON)
+
+    def under(self, model, wave_number, phase):
+        """Stiffness of the openings, stress that flank loads make on the held face, and along both roots."""
+        basis, opening, matrices = self.basis, self.opening, self.matrices
+        nodes = KDTree(basis.doflocs.T)
+        stiffness = matrices[0] + wave_number * matrices[1] + wave_number**2 * matrices[2]
+        body, face = tied(basis.doflocs, 3, phase, True), tied(opening.place, 1, phase, False)
+        loads = np.zeros((3 * basis.N, model.loads.shape[1]))
+        flank = model.loads.reshape(-1, 2, loads.shape[1])
+        at, column = np.nonzero(np.any(flank != 0, axis=1))
+        near = nodes.query(model.basis.doflocs[:, at].T)[1]
+        for component in (0, 1):
+            loads[3 * near + component, column] = flank[at, component, column]
+        forces = opening.forces(wave_number) @ face
+        solver = splu(csc_matrix(body.conj().T @ stiffness @ body))
+        by_opening = body @ solver.solve(np.asarray(body.conj().T @ forces))
+        by_loads = body @ solver.solve(np.asarray(body.conj().T @ loads.astype(complex)))
+        held = face.conj().T @ opening.stiffness @ face - forces.conj().T @ by_opening
+        stresses = []
+        for sign in (1.0, -1.0):
+            place = model.root_position * np.array([[1.0], [sign]])
+            root = np.asarray(nodes.query(place.T)[1])
+            corners = np.asarray(KDTree(opening.place.T).query(place[:, ::2].T)[1])
+            own = edge_values(corners, opening.place.shape[1]) * POISSON / (1 - POISSON**2)
+            rows = stress_rows(place, root, 3 * basis.N, POISSON, wave_number)
+            stresses.append(rows @ by_opening - own @ face)
+        return np.asarray(held), forces.conj().T @ by_loads, np.concatenate(stresses)
 
 
-@pytest.mark.parametrize(("harmonic", "wave_number"), [(0, 300.0), (2, 0.0), (2, 300.0), (6, 300.0)])
-def test_half_a_sector_stands_for_a_whole_one(harmonic, wave_number):
+def half_and_whole():
+    """Model, face, matrices and whole sector of one mesh."""
     model = gear_model(TOOTH, TEETH, BODY.bore_radius, 0.75e-3, 1)
     face = face_of(model, openings(model.basis, POISSON))
-    matrices = strip_stiffness(model.basis, POISSON)
+    return model, face, strip_stiffness(model.basis, POISSON), Sector()
+
+
+@pytest.fixture(scope="module")
+def few():
+    with pytest.MonkeyPatch.context() as patch:
+        few_cells(patch)
+        return half_and_whole()
+
+
+@pytest.mark.parametrize(("harmonic", "wave_number"), [(1, 0.0), (0, 300.0), (1, 300.0), (3, 300.0)])
+def test_half_a_sector_of_few_cells_stands_for_a_whole_one(few, harmonic, wave_number):
+    check_half_a_sector(few, harmonic, wave_number)
+
+
+def test_half_a_sector_stands_for_a_whole_one():
+    check_half_a_sector(half_and_whole(), 1, 300.0)
+
+
+def check_half_a_sector(parts, harmonic, wave_number):
+    """Compare what openings and loads do, on a half and on a whole sector."""
+    model, face, matrices, sector = parts
     half = harmonic_of(model, face.openings, matrices, POISSON, wave_number)
     phase = complex(np.exp(2j * np.pi * harmonic / TEETH))
     held, reached, seen = at_phase([half], face, phase)
-    whole = whole_sector(model, wave_number, phase)
+    whole = sector.under(model, wave_number, phase)
     opened, expected = np.linalg.solve(held[0], reached), np.linalg.solve(whole[0], whole[1])
     more = whole[1].conj().T @ expected
     np.testing.assert_allclose(reached.conj().T @ opened, more, atol=1e-8 * np.max(np.abs(more)))
     stress = whole[2] @ expected
     np.testing.assert_allclose(seen @ opened, stress, atol=1e-7 * np.max(np.abs(stress)))
+
+
+def test_a_load_on_one_tooth_is_all_harmonics_around_the_ring(monkeypatch, few):
+    """Every harmonic by itself, none by its conjugate; openings of the ends by the energy of all harmonics."""
+    few_cells(monkeypatch)
+    width, waves = 20e-3, np.array([0.0, 90.0, 600.0, 1900.0])
+    arguments = TOOTH, TEETH, BODY.bore_radius, POISSON, 0.75e-3
+    found = free_ends(*arguments, 2, waves, width)
+    model, face, matrices, _ = few
+    harmonics = [harmonic_of(model, face.openings, matrices, POISSON, k) for k in waves]
+    count, flank, roots = len(waves), len(found.radius), harmonics[0].on_root.shape[0]
+    weights = parity_weights(waves, width)
+    flanks = np.zeros((2, count, count, 5, flank, flank), complex)
+    stress = np.zeros((2, count, count, 5, 2, roots, flank), complex)
+    for n in range(TEETH):
+        phase = complex(np.exp(2j * np.pi * n / TEETH))
+        held, reached, seen = at_phase(harmonics, face, phase)
+        reached, seen = reached.reshape(-1, count, flank), seen.reshape(count, 2, roots, -1)
+        for parity in (0, 1):
+            opened = np.einsum(
+                "oq,qlm->olm",
+                np.linalg.inv(sum(w * one for w, one in zip(weights[parity], held, strict=True))),
+                reached,
+            )
+            for sector in range(-2, 3):
+                turn = phase**sector / TEETH
+                flanks[parity, :, :, sector + 2] += turn * np.einsum("okm,oln->klmn", reached.conj(), opened)
+                stress[parity, :, :, sector + 2] += turn * np.einsum("kspo,olm->klspm", seen, opened)
+    scale = np.abs(flanks).max()
+    np.testing.assert_allclose(found.between, flanks, rtol=1e-9, atol=1e-11 * scale)
+    np.testing.assert_allclose(found.own, np.einsum("pklmm->pklm", flanks[..., 2, :, :]), atol=1e-11 * scale)
+    np.testing.assert_allclose(found.radius, np.hypot(*model.position))
+    # along the root a cubic through the points of the elements, read at those of a mesh twice as fine
+    edges = roots // 2
+    at = CubicSpline(edge_parameters(edges, 1), stress, axis=5)(edge_parameters(edges, 2))
+    np.testing.assert_allclose(found.root_stress, at, rtol=1e-9, atol=1e-10 * np.abs(at).max())
 
 
 def added(pair, roll, slices):

@@ -6,7 +6,7 @@ from scipy.sparse.linalg import spsolve
 
 from tribodyn.compliance.fem import lead_harmonics
 from tribodyn.compliance.ring_mesh import half_sector_mesh
-from tribodyn.compliance.root_stress import edge_points, stress_rows
+from tribodyn.compliance.root_stress import edge_parameters, edge_points, edge_values, stress_rows
 from tribodyn.compliance.strips import COMPONENTS, curved_basis, plane_stiffness, strip_stiffness
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families.involute import FAMILY
@@ -179,3 +179,38 @@ def test_loaded_side_is_pulled_and_the_other_pressed():
     assert np.all(np.min(own[1], axis=0) < 0)
     # the thrust adds to the bending where it presses
     assert np.all(-np.min(own[1], axis=0) > np.max(own[0], axis=0))
+
+
+def test_stress_follows_from_the_strains_of_a_curved_surface(rng):
+    """Displacements and shape interpolated by the parabola through three nodes, differentiated by steps."""
+    edges, size, k = 2, 30, 2.7
+    place, nodes = rng.normal(size=(2, 2 * edges + 1)), rng.permutation(size // 3)[: 2 * edges + 1]
+    displacement = rng.normal(size=size)
+    stress, points = [], []
+    for edge in range(edges):
+        three = slice(2 * edge, 2 * edge + 3)
+        bent = np.polyfit([-1.0, 0.0, 1.0], place[:, three].T, 2)
+        moved = np.polyfit([-1.0, 0.0, 1.0], displacement.reshape(-1, 3)[nodes[three]], 2)
+        for at in (-np.sqrt(1 / 3), np.sqrt(1 / 3)):
+            powers, rates = np.array([at**2, at, 1.0]), np.array([2 * at, 1.0, 0.0])
+            along = rates @ bent
+            length = np.hypot(*along)
+            strain = (along / length) @ ((rates @ moved)[:2] / length)
+            stress.append((strain + POISSON * k * (powers @ moved)[2]) / (1 - POISSON**2))
+            points.append(powers @ bent)
+    np.testing.assert_allclose(stress_rows(place, nodes, size, POISSON, k) @ displacement, stress, rtol=1e-9)
+    np.testing.assert_allclose(edge_points(place), np.transpose(points), rtol=1e-9)
+
+
+def test_points_of_an_edge_cut_into_more_stand_where_gauss_has_them():
+    assert edge_parameters(1, 1) == pytest.approx([0.5 - 0.75**0.5 / 3, 0.5 + 0.75**0.5 / 3])
+    whole, cut = edge_parameters(6, 1), edge_parameters(2, 3)
+    np.testing.assert_allclose(cut, whole / 3, rtol=1e-14)
+
+
+def test_values_at_corners_run_linearly_along_the_edges(rng):
+    corners, size = np.array([4, 0, 3, 1]), 6
+    value = rng.normal(size=size)
+    at = edge_parameters(3, 1)
+    expected = np.interp(at, np.arange(4), value[corners])
+    np.testing.assert_allclose(edge_values(corners, size) @ value, expected, rtol=1e-12)
