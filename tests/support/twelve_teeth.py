@@ -15,7 +15,7 @@ TOOTH = cut_tooth(FAMILY, Drive(3e-3, np.radians(20.0), BODY, BODY), "pinion")
 
 
 def whole_ring(level: int, teeth: int = 12):
-    """Nodes and cells of all teeth, or a ring of fewer of the same teeth, and the flanks' nodes of tooth 0 and its neighbour towards +y."""
+    """Basis of all teeth, or of fewer of the same teeth; mesh of one sector."""
     mesh = sector_mesh(TOOTH, teeth, 8e-3, level)
     parts = []
     for k in range(teeth):

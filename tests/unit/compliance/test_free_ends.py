@@ -114,7 +114,7 @@ def check_half_a_sector(parts, harmonic, wave_number):
 
 
 def test_a_load_on_one_tooth_is_all_harmonics_around_the_ring(monkeypatch, few):
-    """Every harmonic by itself, none by its conjugate; openings of the ends by the energy of all harmonics."""
+    """Every harmonic by itself, none by its conjugate; openings that leave the ends free on the whole."""
     few_cells(monkeypatch)
     width, waves = 20e-3, np.array([0.0, 90.0, 600.0, 1900.0])
     arguments = TOOTH, TEETH, BODY.bore_radius, POISSON, 0.75e-3
