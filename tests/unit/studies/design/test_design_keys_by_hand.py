@@ -158,6 +158,12 @@ def test_limits_are_read_with_sign_and_unit():
     assert [factor for _, factor in weighted.terms] == [-0.5, 1.0]
 
 
+def test_more_of_a_figure_is_less_of_its_opposite():
+    free = [{"key": KEYS[0], "from": -1.0, "to": 3.0}]
+    (aim,) = loaded_search("load-contact-18-36", {"free": free, "maximise": G}, {}).case.objectives
+    assert (aim.name, aim.terms) == (f"-{G}", ((G, -1.0),))
+
+
 def test_duties_and_tolerances_are_named_and_in_their_units():
     duty = {"set": {"operating": {"gear_torque": "20 N*m"}, "mesh.slices": 3}, "weight": 2.5}
     tolerances = [
