@@ -347,6 +347,11 @@ def test_why_there_is_no_best():
         archive.ask(shares_of(x, 0.5))
     said = _why_none(archive.case, archive)  # 3 where 2 is the most
     assert said.endswith(f"{KEYS[0]} = -1.0, {KEYS[1]} = 0.5, misses f low by 50 %")
+    without: Any = [
+        SimpleNamespace(judged=Judged((), (), (), {}, message)) for message in ("pointed", "undercut")
+    ]
+    archive.evaluations[:] = without
+    assert _why_none(archive.case, archive) == "no candidate has figures: undercut"
 
 
 def test_about_the_best_every_key_and_tolerance_moves_alone():

@@ -441,3 +441,20 @@ def test_friction_and_pressure_see_an_uneven_face(study: Prepared):
     assert np.all(given == np.array([True, 410.0]))
     np.testing.assert_array_equal(found.normal_load, load)
     np.testing.assert_array_equal(found.deflection, duty.way * np.full(3, 1e-5))
+
+
+def test_contact_ratio_under_load_is_of_one_cycle(study: Prepared, monkeypatch: pytest.MonkeyPatch):
+    """Without the last position, which is the first one again; friction against the sliding of its flanks."""
+    _, mesh, state = _sampled(study)
+    asked: list[Any] = []
+    flanks = SimpleNamespace(share=lambda *given: asked.append(given) or "shared")
+    monkeypatch.setattr(running, "effective_contact_ratio", lambda *given: given)
+    assert running._effective_contact_ratio(mesh, state, study.duty) == {}
+    cornered = mesh._replace(flanks=flanks)  # pyright: ignore[reportArgumentType]
+    found: Any = running._effective_contact_ratio(cornered, state, study.duty)["contact_ratio_effective"]
+    ((roll, torque, friction),) = asked
+    assert (torque, found[1]) == (410.0, "shared")
+    np.testing.assert_array_equal(roll, mesh.roll[: len(mesh.roll) - 1])
+    np.testing.assert_array_equal(found[0], roll)
+    np.testing.assert_array_equal(friction, study.duty.way * state.friction_coefficient[: len(roll)])
+    assert found[2] == pytest.approx(2.0 * math.pi / 18.0)

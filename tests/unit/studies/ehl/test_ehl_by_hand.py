@@ -1,6 +1,7 @@
 """The study of the solved contact around its solver: what it asks, and what it makes of known solutions."""
 
 import math
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -629,3 +630,61 @@ def test_the_last_pair_is_followed_from_slot_to_slot(monkeypatch: pytest.MonkeyP
         monkeypatch.setattr(loads, "open_record", lambda path, other=other: other)
         with pytest.raises(InputError, match="holds no loads of pairs over time"):
             loads.loads_of_record(Path("run.h5"), "contact.loads")
+
+
+@pytest.mark.parametrize("solved", [0, 3])
+def test_a_record_without_any_solution_has_failed(
+    study: Prepared, over: Way, monkeypatch: pytest.MonkeyPatch, solved: int
+):
+    """The others hold every dataset of the layout, laws side by side, and a row per slide-to-roll ratio."""
+    written: list[Any] = []
+    count = len(over.roll)
+    laws = {
+        "film": {"one": np.full(count, 1.0), "two": np.full(count, 2.0)},
+        "friction": {"three": np.full(count, 3.0)},
+    }
+
+    class Writer:
+        def write(self, at: int, values: dict[str, Any]) -> None:
+            written.append((at, values))
+
+        def put(self, row: int, values: dict[str, Any]) -> None:
+            written.append((row, values))
+
+        def fail(self, message: str, summary: Any) -> str:
+            written.append(message)
+            return "path"
+
+        def finish(self, summary: Any) -> str:
+            written.append("finished")
+            return "path"
+
+    @contextmanager
+    def writer(case: Any, path: Any, layout: Any, samples: int, scales: Any, **given: Any) -> Any:
+        written.append((samples, scales, given["force"]))
+        yield Writer()
+
+    names = {*run.layout_of(False).samples, "phase"}
+    arrays = {name: np.zeros(count) for name in names}
+    monkeypatch.setattr(run, "target", lambda *_: "path")
+    monkeypatch.setattr(run, "prepare", lambda _: study)
+    monkeypatch.setattr(run, "way", lambda _: over)
+    monkeypatch.setattr(run, "by_laws", lambda *_: laws)
+    monkeypatch.setattr(run, "solve", lambda *_: arrays)
+    monkeypatch.setattr(run, "_figures", lambda *_: {"positions_solved": solved})
+    monkeypatch.setattr(run, "_traction", lambda *_: iter([0.01, 0.02]))
+    monkeypatch.setattr(run, "writer", writer)
+    made = run.run(study.case, force=True)
+    (samples, scales, force), *rest = written
+    assert (samples, force) == (study.case.positions, True)
+    assert (list(scales["film_law"]), list(scales["friction_law"])) == (["one", "two"], ["three"])
+    np.testing.assert_array_equal(scales["slide_to_roll"], run.TRACTION)
+    if not solved:
+        assert (made.status, rest) == ("failed", [made.message])
+        return
+    (at, values), first, second, last = rest
+    assert (at, set(values), last) == (0, names, "finished")
+    np.testing.assert_array_equal(values["film_by_law"], np.tile([1.0, 2.0], (count, 1)))
+    np.testing.assert_array_equal(values["friction_by_law"], np.full((count, 1), 3.0))
+    assert (first, second) == ((0, {"traction": 0.01}), (1, {"traction": 0.02}))
+    assert made.status == "complete"

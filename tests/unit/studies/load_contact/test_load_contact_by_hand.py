@@ -400,7 +400,9 @@ def test_a_tooth_stands_ahead_of_all_others_in_an_assessment():
 def test_only_what_varies_over_the_face_has_a_cross(tmp_path: Path):
     """From a millionth of the maximum on."""
     for number, (tilt, crosses) in enumerate(((3e-7, 0), (3e-6, 2))):
-        record = open_record(synthetic_load_contact.write(tmp_path / f"{number}.h5", tilt=tilt, slices=3))
+        record = open_record(
+            synthetic_load_contact.write(tmp_path / f"{number}.h5", tilt=tilt, slices=3, positions=6)
+        )
         axes = Figure().subplots()
         maps.draw_map(axes, [record], record, maps.PRESSURE._replace(dataset="line_load", factor=1.0))
         assert len(axes.lines) == crosses + 1
@@ -495,3 +497,19 @@ def test_of_several_cycles_the_first_pair_that_is_seen_whole(tmp_path: Path, cyc
                 # at the end of a cycle it is what is pair −1 then
                 assert value in (load[k % len(load), 1], load[k % len(load), 0])
         assert np.sum(np.isnan(x)) == (2 if cycles == 1 else cycles)
+
+
+@pytest.mark.parametrize(
+    ("carrying", "first", "last"), [((3, 4, 5), 2, 6), ((0, 1), 0, 2), ((6, 7), 5, 7), ((), 0, 7)]
+)
+def test_a_map_has_one_place_more_than_carries(
+    monkeypatch: pytest.MonkeyPatch, carrying: tuple[int, ...], first: int, last: int
+):
+    load = np.array([1.0 if number in carrying else 0.0 for number in range(8)])
+    over = np.arange(8.0)
+    monkeypatch.setattr(rolled, "over_roll", lambda record, values: (over, values))
+    record: Any = {"normal_load": load, "slice": "face", "line_load": 10.0 * over}
+    found = rolled.face_map(record, "line_load")
+    np.testing.assert_array_equal(found.roll, over[first : last + 1])
+    np.testing.assert_array_equal(found.values, 10.0 * over[first : last + 1])
+    assert found.face == "face"
