@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from tests.support.faces_in_slices import CASES, model, table
-from tribodyn.compliance.condensed import _stiff_together
+from tribodyn.compliance.condensed import _condensed, _stiff_together
+from tribodyn.compliance.load_sharing import contact_deflection, press_pairs
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
@@ -109,3 +110,66 @@ def test_slices_that_touch_are_springs_side_by_side(rng):
     weight = joined**2 * (3.0 - 2.0 * joined)
     springs = own[0, 1] + np.diag(secant[0, 1] / np.array([weight, 1.0, 1.0, 1.0]))
     assert 1.0 / compliance[0, 1] == pytest.approx(np.linalg.solve(springs, np.ones(4)).sum(), rel=1e-9)
+
+
+def test_a_pair_is_its_slices_under_their_loads(rng, pair):
+    """Springs of secants side by side, the neighbour's push on them, a gap that makes the state exact."""
+    positions, pairs, slices, width = 2, 2, 3, pair.width / 3
+    curvature = np.array([[90.0, 140.0], [120.0, 70.0]])
+    root = rng.uniform(-1e-5, 1e-5, (positions, pairs * slices, pairs * slices))
+    matrix = root @ np.swapaxes(root, 1, 2) + 3e-10 * np.eye(pairs * slices)
+    matrix = matrix.reshape(positions, pairs, slices, pairs, slices)
+    gap = rng.uniform(0.0, 2e-6, (positions, pairs, slices))
+    gap[1, 1] += 1e-4  # one pair does not touch
+    one = np.ones((positions, pairs))
+    shared = press_pairs(pair, curvature, matrix, one, one, gap, np.array([4000.0, 900.0]))
+    total, minimum = shared.normal_load, 0.1
+    found = _condensed(pair, curvature, matrix, gap, shared.slice_load, minimum)
+    assert np.all(shared.slice_load[0] > 0.0)
+    assert total[1, 1] == 0.0
+    for t in range(positions):
+        stiff, shares = np.zeros(pairs), np.zeros((pairs, slices))
+        for j in range(pairs):
+            load = shared.slice_load[t, j]
+            if total[t, j] == 0.0:
+                continue
+            own = np.array(matrix[t, j, :, j])
+            for m in range(slices):
+                u = contact_deflection(pair, np.array(curvature[t, j]), np.array(load[m] / width))[0]
+                own[m, m] += float(u) / load[m] if load[m] else 1e6
+            each = np.linalg.solve(own, np.ones(slices))
+            stiff[j], shares[j] = each.sum(), each / each.sum()
+            assert found.compliance[t, j] == pytest.approx(1.0 / stiff[j], rel=1e-6)
+            assert found.line_load_peak[t, j] == pytest.approx(slices * max(load) / sum(load), rel=1e-4)
+        for j in range(pairs):
+            assert found.coupling[t, j, j] == 0.0
+            reached = found.gap[t, j] + found.compliance[t, j] * total[t, j] + found.coupling[t, j] @ total[t]
+            if total[t, j] > 0.0:
+                assert reached == pytest.approx(shared.deflection[t], rel=1e-6)
+            else:
+                left = [
+                    gap[t, j, m] + matrix[t, j, m].ravel() @ shared.slice_load[t].ravel()
+                    for m in range(slices)
+                ]
+                assert reached == pytest.approx(min(left), rel=1e-9)
+            k = 1 - j
+            if total[t, j] > 0.0 and total[t, k] > 0.0:
+                pushed = shares[j] @ matrix[t, j, :, k] @ shares[k]
+                assert found.coupling[t, j, k] == pytest.approx(pushed, rel=1e-5, abs=1e-16)
+
+
+def test_an_idle_pair_is_taken_at_the_minimum_load(rng, pair):
+    """Pressed alone, as the other's load leaves its flank: as a pair that is by itself under that load."""
+    matrix = np.zeros((1, 2, 3, 2, 3))
+    own = rng.uniform(-1e-5, 1e-5, (3, 3))
+    own = own @ own.T + 3e-10 * np.eye(3)
+    matrix[0, 0, :, 0], matrix[0, 1, :, 1] = own, own
+    matrix[0, 0, :, 1] = matrix[0, 1, :, 0] = 2e-10
+    gap = np.array([[[0.0, 1e-7, 3e-7], [2e-4, 2e-4 + 2e-7, 2e-4]]])
+    load, minimum = np.array([[[500.0, 400.0, 300.0], [0.0, 0.0, 0.0]]]), 35.0
+    found = _condensed(pair, np.full((1, 2), 100.0), matrix, gap, load, minimum)
+    one = np.ones((1, 1))
+    alone = press_pairs(pair, 100.0 * one, matrix[:, 1:, :, 1:], one, one, gap[:, 1:], np.array([minimum]))
+    by_itself = _condensed(pair, 100.0 * one, matrix[:, 1:, :, 1:], gap[:, 1:], alone.slice_load, 1e-9)
+    assert found.compliance[0, 1] == pytest.approx(by_itself.compliance[0, 0], rel=1e-6)
+    assert found.line_load_peak[0, 1] == pytest.approx(by_itself.line_load_peak[0, 0], rel=1e-6)

@@ -2,11 +2,13 @@
 
 import numpy as np
 import pytest
+from scipy.interpolate import PchipInterpolator
 
 from tribodyn.compliance.flank_gap import (
     check_modifications,
     flank_gap,
     lead_gap,
+    maximum_along_lead,
     misalignment_gap,
     pitch_gap,
     profile_gap,
@@ -16,6 +18,7 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.drive import Drive, GearBody
+from tribodyn.geometry.families import cycloidal, family
 from tribodyn.geometry.families.involute import FAMILY
 from tribodyn.geometry.modification import (
     UNMODIFIED,
@@ -125,6 +128,14 @@ def test_lead_relief_is_a_parabola_on_either_side_of_a_straight_part():
     np.testing.assert_allclose(found, [8e-6, 2e-6, 0, 0, 0, 1e-6, 4e-6], atol=1e-18)
 
 
+def test_crowning_is_a_parabola_over_each_gear_s_own_face():
+    wide = DRIVE._replace(gear=DRIVE.gear._replace(face_width=1.25 * WIDTH))
+    pinion, gear = (FlankModification(lead=LeadRelief(crowning=one)) for one in (16e-6, 25e-6))
+    where = np.array([-0.5, -0.25, 0.0, 0.125, 0.5]) * WIDTH
+    found = lead_gap(assemble(FAMILY, wide), Modifications(pinion, gear), where)
+    np.testing.assert_allclose(found, [32e-6, 8e-6, 0.0, 2e-6, 32e-6], rtol=1e-12)
+
+
 def test_in_plane_misalignment_is_the_gap_and_out_of_plane_only_what_curvature_makes():
     where = np.linspace(-0.5, 0.5, 5) * WIDTH
     roll = np.array([START, 0.0, 0.1, END])
@@ -137,6 +148,37 @@ def test_in_plane_misalignment_is_the_gap_and_out_of_plane_only_what_curvature_m
     expected = np.hypot(apart, 0.02 * where) - apart
     np.testing.assert_allclose(crossed, np.broadcast_to(expected, (4, 5)), atol=1e-12)
     assert np.max(misalignment_gap(ASSEMBLY, Misalignment(out_of_plane=1e-3), geometry, where)) < 4e-9
+
+
+@pytest.mark.parametrize("name", ["cycloidal", "circular-arc"])
+def test_circles_on_inclined_axes_stand_apart_along_and_across_the_normal(name):
+    """Paths of contact that are curved: each slice is moved in the plane of the pitch point's normal."""
+    assembly = assemble(family(name), DRIVE._replace(shape=cycloidal.Shape(28e-3, 33e-3)))
+    roll = np.linspace(*assembly.roll_limits, 7)[[1, 2, 4, 5]]
+    geometry, face = pair_geometry(assembly, roll), np.array([-0.5, 0.2, 0.5]) * WIDTH
+    tilt = Misalignment(in_plane=0.03, out_of_plane=0.05)
+    found = misalignment_gap(assembly, tilt, geometry, face)
+    first = float(assembly.path.pressure_angle(0.0))
+    turns = set()
+    for n, k in np.ndindex(found.shape):
+        motion = type(geometry.motion)(*(field[n] for field in geometry.motion))
+        turn = motion.pressure_angle - first
+        turns.add(round(float(turn), 6))
+        moved = face[k] * np.array([tilt.in_plane, tilt.out_of_plane])
+        normal, along = np.array([np.cos(turn), np.sin(turn)]), np.array([-np.sin(turn), np.cos(turn)])
+        radii = 1.0 / motion.pinion_curvature + 1.0 / motion.gear_curvature
+        expected = moved @ normal + np.sign(radii) * (np.hypot(radii, moved @ along) - abs(radii))
+        assert found[n, k] == pytest.approx(expected, rel=1e-6)
+    assert len(turns) > 2
+
+
+def test_pitch_errors_of_both_gears_add_up():
+    pinion, gear = np.arange(18) * 1e-6, np.sin(np.arange(36)) * 1e-6
+    modified = Modifications(
+        FlankModification(pitch_error=tuple(pinion)), FlankModification(pitch_error=tuple(gear))
+    )
+    numbers = np.array([[0, 5], [-3, 41]])
+    np.testing.assert_allclose(pitch_gap(modified, numbers), pinion[numbers % 18] + gear[numbers % 36])
 
 
 def test_pitch_errors_follow_the_teeth_around():
@@ -178,6 +220,110 @@ def test_kinks_of_linear_reliefs_are_known():
 def test_what_is_no_modification_is_refused(flank, key):
     with pytest.raises(InputError, match=rf"drive\.gear\.modification\.{key}"):
         check_modifications(ASSEMBLY, Modifications(gear=flank))
+
+
+def test_only_reliefs_with_a_corner_make_kinks_and_on_the_path_alone():
+    path = ASSEMBLY.r_end - ASSEMBLY.r_start
+    rolls = {"pinion": {"root": START, "tip": END}, "gear": {"tip": START, "root": END}}
+    for side, ends in rolls.items():
+        for name, end in ends.items():
+            sign = 1.0 if end == START else -1.0
+            for relief, kink in (
+                (Relief(9e-6, 3e-3, 1.0), True),
+                (Relief(9e-6, 3e-3, 1.9), True),
+                (Relief(9e-6, 3e-3, 2.0), False),
+                (Relief(0.0, 3e-3, 1.0), False),
+                (Relief(9e-6, 1.001 * path, 1.0), False),
+            ):
+                flank = FlankModification(**{name: relief})
+                found = relief_rolls(ASSEMBLY, Modifications(**{side: flank}))
+                np.testing.assert_allclose(found, [end + sign * 3e-3 / BASE] if kink else [])
+
+
+@pytest.mark.parametrize("side", ["pinion", "gear"])
+@pytest.mark.parametrize(("shift", "of_the_tip"), [(1.0, True), (-0.1, False)])
+def test_a_relief_of_a_tip_leaves_half_of_its_thickness(side, shift, of_the_tip):
+    """Of a pointed tooth; of others a tenth of the module, as everything else."""
+    body = GearBody(23, shift, 1.1, 1.25, 0.25, WIDTH, 12e-3)
+    assembly = assemble(FAMILY, Drive(3e-3, ANGLE, body, body))
+    tooth = assembly.tooth(side)
+    x, y = flank_point(tooth, np.array(tooth.tip_distance))
+    thickness = 2.0 * tooth.tip_radius * float(np.arctan2(y, x))
+    assert (thickness / 4 < 0.3e-3) == of_the_tip
+    most = {"tip": min(thickness / 4, 0.3e-3), "root": 0.3e-3}
+    length = float(assembly.r_end - assembly.r_start)
+    for name, amount in most.items():
+        good, deep, long = (
+            FlankModification(**{name: Relief(share * amount, reach)})
+            for share, reach in ((0.999, 0.999 * length), (1.001, 1e-3), (0.5, 1.001 * length))
+        )
+        check_modifications(assembly, Modifications(**{side: good}))
+        with pytest.raises(InputError, match=f"{name}_relief = .*deepest relief"):
+            check_modifications(assembly, Modifications(**{side: deep}))
+        with pytest.raises(InputError, match=f"{name}_relief_length = .*path of contact"):
+            check_modifications(assembly, Modifications(**{side: long}))
+
+
+def test_errors_and_reliefs_of_the_lead_are_at_most_a_tenth_of_the_module():
+    roll = np.linspace(START, END, 5)
+
+    def flanks(most):
+        yield FlankModification(lead=LeadRelief(start=most))
+        yield FlankModification(lead=LeadRelief(end=most))
+        yield FlankModification(lead=LeadRelief(crowning=most))
+        for sign in (1.0, -1.0):
+            yield FlankModification(profile_error=(roll, sign * most * np.array([0.0, 0.3, 1.0, 0.2, 0.1])))
+            yield FlankModification(pitch_error=(*([0.0] * 35), sign * most))
+
+    for good, bad in zip(flanks(0.2999e-3), flanks(0.3001e-3), strict=True):
+        check_modifications(ASSEMBLY, Modifications(gear=good))
+        with pytest.raises(InputError, match="at most 300 um, the tenth of the module"):
+            check_modifications(ASSEMBLY, Modifications(gear=bad))
+
+
+@pytest.mark.parametrize(
+    ("modified", "key", "value"),
+    [
+        # 13.35 mm to an end of the face: a milliradian is 13.35 µm there
+        (
+            Modifications(misalignment=Misalignment(1e-3, 4e-3)),
+            "mesh.misalignment.in_plane",
+            "3.43775 arcmin",
+        ),
+        (
+            Modifications(
+                FlankModification(lead=LeadRelief(13e-6, 12e-6)),
+                FlankModification(lead=LeadRelief(crowning=14e-6)),
+                Misalignment(1e-3),
+            ),
+            "drive.gear.modification.crowning",
+            "14 um",
+        ),
+        (
+            Modifications(
+                FlankModification(lead=LeadRelief(14e-6, 15e-6)), UNMODIFIED.gear, Misalignment(1e-3)
+            ),
+            "drive.pinion.modification.lead_relief_end",
+            "15 um",
+        ),
+    ],
+)
+def test_what_opens_the_flanks_most_is_named(modified, key, value):
+    assert maximum_along_lead(ASSEMBLY, modified) == (key, value)
+
+
+def test_profile_errors_are_read_at_the_roll_angle_where_each_flank_is_touched():
+    roll = np.linspace(START, END, 9)
+    errors = np.random.default_rng(3).normal(size=(2, 9)) * 1e-6
+    modified = Modifications(*(FlankModification(profile_error=(roll, one)) for one in errors))
+    inner, outside = at(*roll[1:-1]), at(END + 0.005)
+    np.testing.assert_allclose(
+        profile_gap(ASSEMBLY, modified, inner), np.sum(errors, axis=0)[1:-1], rtol=1e-9
+    )
+    # beyond the end the pinion's tip stays, and the gear is touched where an earlier contact was
+    place = outside.gear_place[0] / BASE
+    expected = errors[0, -1] + PchipInterpolator(roll, errors[1])(place)
+    assert profile_gap(ASSEMBLY, modified, outside)[0] == pytest.approx(expected, rel=1e-6)
 
 
 def test_a_flank_point_lies_where_its_place_says():

@@ -13,6 +13,7 @@ from tribodyn.compliance.foundation import (
     SELF_HARMONICS,
     _ring_receptance,
     foundation_compliance,
+    outside_fitted_range,
     ring_compliance,
     ring_foundation,
     sainsot_velex,
@@ -148,6 +149,33 @@ def test_ring_follows_finite_elements_down_to_thin_rims(teeth, ratio):
     own = float((ring.total - ring.foundation)[0]) + float(ring.foundation[0]) * 0.02
     assert 1.0 < own / elements < 1.13
     assert polynomials_over_ring(tooth, steel) > 1.2 or ratio > 1.2
+
+
+def test_polynomials_are_those_of_the_paper():
+    """P. Sainsot, P. Velex, O. Duverger (2004), table 1."""
+    h, t = 2.3, 0.07
+    printed = (
+        -5.574e-5 / t**2 - 1.9986e-3 * h**2 - 2.3015e-4 * h / t + 4.7702e-3 / t + 0.0271 * h + 6.8045,
+        60.111e-5 / t**2 + 28.100e-3 * h**2 - 83.431e-4 * h / t - 9.9256e-3 / t + 0.1624 * h + 0.9086,
+        -50.952e-5 / t**2 + 185.50e-3 * h**2 + 0.0538e-4 * h / t + 53.300e-3 / t + 0.2895 * h + 0.9236,
+        -6.2042e-5 / t**2 + 9.0889e-3 * h**2 - 4.0964e-4 * h / t + 7.8297e-3 / t - 0.1472 * h + 0.6904,
+    )
+    assert sainsot_velex(h, t) == pytest.approx(printed, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("ratio", "angle", "said"),
+    [
+        (1.4, 0.01, []),
+        (7.0, 0.12, []),
+        (1.39, 0.12, ["root radius over bore radius 1.39, fitted from 1.4 to 7"]),
+        (7.01, 0.01, ["root radius over bore radius 7.01, fitted from 1.4 to 7"]),
+        (2.0, 0.0099, ["half angle of the root 0.0099 rad, fitted from 0.01 to 0.12"]),
+        (2.0, 0.121, ["half angle of the root 0.121 rad, fitted from 0.01 to 0.12"]),
+    ],
+)
+def test_what_is_outside_the_fit_is_named(ratio, angle, said):
+    assert outside_fitted_range(ratio, angle) == said
 
 
 class TestSainsotVelex:

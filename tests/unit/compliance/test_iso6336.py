@@ -70,6 +70,8 @@ def test_factors_of_the_rack():
 def test_factor_of_the_blank():
     assert blank_factor(1.0, 3.0) == 1.0
     assert blank_factor(0.5, 3.0) == pytest.approx(1.0 + math.log(0.5) / (5.0 * math.exp(0.6)))
+    for web, rim in ((0.21, 1.02), (1.19, 4.0)):
+        assert blank_factor(web, rim) == pytest.approx(1.0 + math.log(web) / (5.0 * math.exp(rim / 5.0)))
     assert blank_factor(0.1, 0.5) == blank_factor(0.2, 1.0)
     assert blank_factor(3.0, 2.0) == blank_factor(1.2, 2.0) > 1.0
     webbed = reference_stiffness(PAIR._replace(blank=blank_factor(0.3, 2.0)))

@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.sparse.linalg import spsolve
 
-from tests.support.twelve_teeth import BODY, POISSON, TOOTH, whole_ring
+from tests.support.twelve_teeth import BODY, POISSON, TOOTH, few_cells, whole_ring
 from tribodyn.compliance.fem import gear_compliance, lead_harmonics
 from tribodyn.compliance.gear_compliance import NEIGHBOURS, GearCompliance
 from tribodyn.compliance.gear_model import gear_model
@@ -138,10 +138,20 @@ def test_compliance_does_not_depend_on_the_depth_of_the_local_region():
     assert np.max(np.abs(np.array(total) / total[1] - 1)) < 3e-3
 
 
+def test_one_sector_of_few_cells_is_the_whole_ring_for_waves_too(monkeypatch):
+    few_cells(monkeypatch)
+    check_whole_ring(5)
+
+
 def test_one_sector_is_the_whole_ring_for_waves_too():
+    check_whole_ring(12)
+
+
+def check_whole_ring(teeth):
+    """Load a flank in its middle with a wave, and read flanks and roots of three teeth."""
     k = 0.4 / MODULE
-    lead = lead_harmonics(TOOTH, 12, BODY.bore_radius, POISSON, DEPTH, 1, np.array([k]))
-    basis, mesh = whole_ring(1)
+    lead = lead_harmonics(TOOTH, teeth, BODY.bore_radius, POISSON, DEPTH, 1, np.array([k]))
+    basis, mesh = whole_ring(1, teeth)
     flank, root = mesh.nodes[:, mesh.flank], mesh.nodes[:, mesh.root]
     middle = len(mesh.flank) // 2
     place = basis.doflocs
@@ -149,7 +159,7 @@ def test_one_sector_is_the_whole_ring_for_waves_too():
     def nodes(points):
         return np.array([np.argmin(np.hypot(*(place - point[:, None]))) for point in points.T])
 
-    model = gear_model(TOOTH, 12, BODY.bore_radius, DEPTH, 1)
+    model = gear_model(TOOTH, teeth, BODY.bore_radius, DEPTH, 1)
     inward = model.loads[:, middle].reshape(-1, 2)
     inward = inward[np.any(inward != 0, axis=1)][0]
     constant, linear, square = strip_stiffness(basis, POISSON)
@@ -160,7 +170,8 @@ def test_one_sector_is_the_whole_ring_for_waves_too():
     found = np.zeros(3 * basis.N)
     found[free] = spsolve(matrix[free][:, free], load[free])
     for tooth in (-2, 0, 1):
-        c, s = np.cos(tooth * np.pi / 6), np.sin(tooth * np.pi / 6)
+        angle = 2 * np.pi * tooth / teeth
+        c, s = np.cos(angle), np.sin(angle)
         turn = np.array([[c, -s], [s, c]])
         node = nodes(turn @ flank[:, [middle]])[0]
         expected = found[3 * node : 3 * node + 2] @ (turn @ inward)

@@ -1,5 +1,6 @@
 """Memory of the finite elements: the estimate, and the refusal of a mesh that does not fit."""
 
+import math
 import subprocess
 import sys
 from pathlib import Path
@@ -8,6 +9,7 @@ import pytest
 
 from tests.support.twelve_teeth import TOOTH
 from tribodyn.compliance import mesh_memory
+from tribodyn.compliance.cyclic_symmetry import half_sector
 from tribodyn.compliance.fem import gear_compliance, lead_harmonics
 from tribodyn.compliance.mesh_memory import check_level, memory_needed
 from tribodyn.compliance.ring_mesh import half_sector_cells, half_sector_mesh
@@ -19,6 +21,7 @@ SOLVE = """
 import sys
 from pathlib import Path
 from tests.support.twelve_teeth import TOOTH
+from tribodyn.compliance.cyclic_symmetry import half_sector
 from tribodyn.compliance.fem import gear_compliance, lead_harmonics
 def peak():
     lines = Path("/proc/self/status").read_text().splitlines()
@@ -36,8 +39,30 @@ print(peak() - before)
 def test_number_of_cells_is_the_mesh_s():
     for level in (1, 3):
         mesh = half_sector_mesh(TOOTH, 12, 8e-3, level)
-        cells, flank, root, _ = half_sector_cells(level)
+        cells, flank, root, edge = half_sector_cells(level)
         assert (cells, flank + 1, 2 * root + 1) == (mesh.cells.shape[1], len(mesh.flank), len(mesh.root))
+        assert 2 * edge == len(half_sector(mesh.nodes, 12, 8e-3).edge)
+
+
+@pytest.mark.parametrize("level", [1, 3])
+@pytest.mark.parametrize("components", [2, 3])
+def test_estimate_counts_what_there_is(monkeypatch, level, components):
+    """Two dense matrices of the edge and of the readers, and factors that grow like n log n."""
+    monkeypatch.setattr(mesh_memory, "_ENDS", 0.0)
+    mesh = half_sector_mesh(TOOTH, 12, 8e-3, level)
+    half = half_sector(mesh.nodes, 12, 8e-3)
+    sides, points = components * len(half.edge), len(mesh.root) - 1
+    # flank loads and readings at two depths; root stress on both sides of the tooth
+    readers = 3 * len(mesh.flank) + (2 * points if components == 3 else 0)
+    unknowns = components * half.nodes
+    dense = 8.0 * 3.0 * unknowns * (sides + readers)
+    factors = 24.0 * {2: 10.5, 3: 12.5}[components] * unknowns * math.log2(unknowns)
+    assert memory_needed(level, components) == pytest.approx(dense + factors, rel=0.13 / level)
+
+
+def test_end_faces_need_theirs_whatever_the_level():
+    assert memory_needed(1, 3) == mesh_memory._ENDS < memory_needed(8, 3)
+    assert memory_needed(1, 2) < memory_needed(1, 3)
 
 
 @pytest.mark.skipif(not STATUS.exists(), reason="the system does not tell a process's peak of memory")
@@ -56,14 +81,45 @@ def test_mesh_beyond_the_memory_is_refused_at_once(solve):
         solve(TOOTH, 12, 8e-3, 0.3, 0.75e-3, 100_000, *waves)
 
 
-def test_the_level_that_is_named_fits(monkeypatch):
-    monkeypatch.setattr(mesh_memory, "available_memory", lambda: 2.0**30)
-    for components in (2, 3):
-        with pytest.raises(InputError) as refused:
-            check_level(500, components)
-        level = int(refused.value.remedy.split("at most ")[1].split(";")[0])
-        assert memory_needed(level, components) < 2.0**30 < memory_needed(2 * level, components)
-        check_level(level, components)
+@pytest.mark.parametrize("components", [2, 3])
+@pytest.mark.parametrize("available", [2.0**28, 3e9, 2.0**37])
+def test_the_level_that_is_named_fits(monkeypatch, components, available):
+    """Into four fifths of the memory, and is hardly less than the largest that does."""
+    monkeypatch.setattr(mesh_memory, "available_memory", lambda: available)
+    with pytest.raises(InputError) as refused:
+        check_level(5000, components)
+    level = int(refused.value.remedy.split("at most ")[1].split(";")[0])
+    assert memory_needed(level, components) <= 0.8 * available
+    assert memory_needed(level + 1 + (level // 9 if level > 17 else 0), components) > 0.8 * available
+    check_level(level, components)
+    said = f"{memory_needed(5000, components) / 2**30:.3g} GiB of memory, and {available / 2**30:.3g} GiB"
+    assert said in str(refused.value)
+
+
+def test_all_of_the_memory_may_be_used(monkeypatch):
+    monkeypatch.setattr(mesh_memory, "available_memory", lambda: memory_needed(7, 2))
+    check_level(7, 2)
+    with pytest.raises(InputError):
+        check_level(8, 2)
+
+
+@pytest.mark.parametrize(
+    ("lines", "limit", "used", "expected"),
+    [
+        ("MemTotal: 9 kB\nMemAvailable:   700 kB\nMemFree: 1 kB\n", "max", "5", 700 * 1024.0),
+        ("MemAvailable:   700 kB\n", "600000", "100000", 500000.0),
+        ("MemAvailable:   400 kB\n", "600000", "100000", 400 * 1024.0),
+        (None, "600000", "100000", 500000.0),
+        (None, None, None, float("inf")),
+    ],
+)
+def test_memory_is_what_system_and_container_leave(tmp_path, monkeypatch, lines, limit, used, expected):
+    for name, text in (("meminfo", lines), ("max", limit), ("current", used)):
+        if text is not None:
+            (tmp_path / name).write_text(text)
+    monkeypatch.setattr(mesh_memory, "Path", lambda path: tmp_path / path.rpartition("/")[2])
+    monkeypatch.setattr(mesh_memory, "_LIMITS", (tmp_path / "max", tmp_path / "current"))
+    assert mesh_memory.available_memory() == expected
 
 
 def test_level_below_one_is_refused():
