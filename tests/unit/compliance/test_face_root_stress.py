@@ -6,11 +6,13 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
+from tribodyn.compliance import face_root_stress
 from tribodyn.compliance.face_compliance import _add_free_ends, end_modes
 from tribodyn.compliance.face_root_stress import _of_free_ends, _of_one_gear
-from tribodyn.compliance.gear_compliance import NEIGHBOURS, FreeEnds
-from tribodyn.compliance.lead_harmonics import spline_weights
+from tribodyn.compliance.gear_compliance import NEIGHBOURS, FreeEnds, at_radii
+from tribodyn.compliance.lead_harmonics import at_wave_numbers, spline_weights
 from tribodyn.compliance.loaded_contact import _ages
+from tribodyn.geometry.corner_contact import pair_geometry
 
 POSITIONS, PAIRS, WAVES, POINTS, RADII, SLICES = 2, 4, 5, 2, 3, 4
 SECTORS = 2 * NEIGHBOURS + 1
@@ -37,6 +39,47 @@ def test_every_tooth_feels_its_own_load_and_its_neighbours(rng, sign):
     np.testing.assert_allclose(alike[..., 0], expected[..., 0], rtol=1e-12)
     repeated = np.broadcast_to(per_load[:1], per_load.shape)
     np.testing.assert_allclose(alike, _of_one_gear(repeated, place, amplitude, sign), rtol=1e-12)
+
+
+@pytest.mark.parametrize(("slices", "coupled"), [(1, True), (3, False), (3, True)])
+def test_roots_feel_all_loads_and_ends_at_once(monkeypatch, rng, pair, slices, coupled):
+    """Of both gears and both fillets, at the middles of slices, in whatever batches."""
+    monkeypatch.setattr(face_root_stress, "_BATCH", 1)
+    roll = np.array([[0.11, -0.23], [0.2, -0.14]]) * [[1.0, 1.0]] + [0.0, 0.34 - 2 * np.pi / 18]
+    line_load = rng.uniform(1e5, 3e5, (2, 2, slices)) * [[[1.0], [0.3]], [[0.5], [1.0]]]
+    geometry = pair_geometry(pair.assembly, roll)
+    tension, compression = face_root_stress.root_stress(pair, geometry, line_load, coupled)
+    count = slices if coupled else 1
+    place = (np.arange(slices) + 0.5) / slices
+    for body, (gear, reach) in enumerate(
+        zip(pair.gears, (geometry.pinion_radius, geometry.gear_radius), strict=True)
+    ):
+        lead = at_wave_numbers(gear, np.arange(count) * np.pi / pair.width, 0.3)
+        weight = at_radii(gear.radius, reach)
+        points = 2 * lead.root_stress.shape[3]
+        extra = end_modes(gear.ends, pair.width, slices)
+        at_end = at_radii(gear.ends.radius, reach)
+        for t, read in np.ndindex(2, 2):
+            stress = np.zeros((points, slices))
+            for loaded in range(2):
+                there = sector((1, -1)[body], read, loaded)
+                seen = lead.root_stress[:, there].reshape(count, points, -1) @ weight[t, loaded]
+                for n in range(count):
+                    if not coupled:
+                        stress += seen[0][:, None] * line_load[t, loaded]
+                        continue
+                    # cosines from one end, which the loads of slices make in the mean
+                    wave = np.cos(n * np.pi * place)
+                    share = np.mean(wave * line_load[t, loaded]) / np.mean(wave**2)
+                    stress += seen[n][:, None] * share * wave
+                if coupled and slices > 1:
+                    force = line_load[t, loaded] * pair.width / slices
+                    for parity in (0, 1):
+                        rows = gear.ends.root_stress[parity, :, :, there]
+                        rows = rows.reshape(*rows.shape[:2], points, -1) @ at_end[t, loaded]
+                        stress += np.einsum("sk,klp,l->ps", extra[parity], rows, extra[parity].T @ force)
+            np.testing.assert_allclose(tension[body, t, read], stress.max(axis=0), rtol=1e-9)
+            np.testing.assert_allclose(compression[body, t, read], stress.min(axis=0), rtol=1e-9)
 
 
 @pytest.fixture

@@ -194,6 +194,92 @@ def test_relief_of_the_tips_is_best_near_its_design_torque(pair):
     assert relieved[4] > 3 * relieved[2]
 
 
+def gaps(assembly, modified, roll, face):
+    """Minimum gap of one pair along the face, m, and that on the pitch circles."""
+    geometry = pair_geometry(assembly, np.array([roll]))
+    whole = geometry.gap[0] + flank_gap(assembly, modified, geometry, face)[0]
+    return float(np.min(whole)), float(np.min(whole) / np.cos(geometry.motion.pressure_angle[0]))
+
+
+@pytest.mark.parametrize("factor", [1.3, 2.0])
+def test_pairs_reach_as_far_as_deflections_gaps_and_errors_let_their_corners_touch(pair, factor):
+    modified = EVERYTHING._replace(
+        pinion=EVERYTHING.pinion._replace(pitch_error=tuple(3e-6 * np.sin(np.arange(18.0)))),
+        gear=EVERYTHING.gear._replace(tip=Relief(20e-6, 5.4e-3), pitch_error=(5e-6, *[0.0] * 34, -2e-6)),
+    )
+    assembly, face = pair.assembly, face_positions(pair.width, 3)
+    limits = reach(pair, modified, TORQUE, 3, True, factor)
+    start, end = assembly.roll_limits
+    # of one pair at the pitch point, from first touch
+    middle = np.zeros((1, 1))
+    gap = flank_gap(assembly, modified, pair_geometry(assembly, middle), face)
+    most = share_load(pair, middle, TORQUE, 0.0, gap, 3).deflection[0] * np.cos(ANGLE) - np.min(gap)
+    most *= factor
+    # what is open at the worst phase while nothing is loaded
+    left = []
+    for phase in range(60):
+        rolls = [start + PITCH * (n + phase / 60) for n in range(3)]
+        left.append(min(gaps(assembly, modified, roll, face)[0] for roll in rolls if roll < end))
+    most += max(left) + sum(np.ptp(one.pitch_error) for one in (modified.pinion, modified.gear))
+    assert max(left) > 1e-6
+    for limit, path_end in zip(limits, (start, end), strict=True):
+        nominal = pair_geometry(assembly, np.array([limit])).gap[0]
+        assert 0.0 < abs(limit - path_end) < PITCH
+        assert nominal + gaps(assembly, modified, path_end, face)[0] == pytest.approx(most, rel=1e-6)
+
+
+def test_pairs_follow_their_teeth_through_several_cycles(pair):
+    """Pair n enters in cycle n, with its teeth's errors; the first to touch makes the unloaded error."""
+    errors = 4e-6 * np.cos(1.7 * np.arange(18.0))
+    modified = Modifications(LONG._replace(pitch_error=tuple(errors)), LONG)
+    positions, cycles = 3, 2
+    found = roll_through(pair, modified, TORQUE, positions, cycles)
+    start, _ = pair.assembly.roll_limits
+    arm = 54e-3 * np.cos(ANGLE)
+    for t in range(positions * cycles):
+        cycle, time = t // positions, t / positions
+        assert found.phase[t] == pytest.approx(time, abs=1e-15)
+        open_between = []
+        for n in range(cycle - 3, cycle + 4):
+            roll = start + PITCH * (time - n)
+            _, along = gaps(pair.assembly, modified, roll, np.zeros(1))
+            open_between.append(along + errors[n % 18] / np.cos(ANGLE))
+            if found.roll[t].min() - 1e-9 < roll < found.roll[t].max() + 1e-9:
+                assert np.min(np.abs(found.roll[t] - roll)) < 1e-12
+        assert found.unloaded[t] == pytest.approx(min(open_between), abs=1e-12)
+        assert found.normal_load[t].sum() * arm == pytest.approx(TORQUE, rel=1e-9)
+    assert np.ptp(found.unloaded) > 1e-6
+    assert found.peak_to_peak == pytest.approx(max(found.deflection) - min(found.deflection), rel=1e-12)
+
+
+def test_stiffness_is_the_slope_of_the_force_on_the_pitch_circles(pair):
+    found = roll_through(pair, TIPS, TORQUE, 2, friction_coefficient=0.04)
+    error, more = found.deflection, loaded_error(pair, TIPS, 1.001 * TORQUE, 2, friction_coefficient=0.04)
+    # one pitch circle's force is the torque over its radius; the local part stiffens with the load
+    np.testing.assert_allclose(found.mesh_stiffness, 1e-3 * TORQUE / 54e-3 / (more - error), rtol=2e-4)
+
+
+def test_slices_are_pressed_as_hertz_says(pair):
+    found = roll_through(pair, EVERYTHING, TORQUE, 2, slices=4)
+    np.testing.assert_allclose(found.slice_position, WIDTH * np.array([-3.0, -1.0, 1.0, 3.0]) / 8, rtol=1e-12)
+    modulus = 207e9 / 2 / (1 - 0.3**2)
+    carried = 0
+    for t, j in np.ndindex(found.roll.shape):
+        curvature = pair_geometry(pair.assembly, found.roll[t, j : j + 1]).motion.relative_curvature[0]
+        load = found.line_load[t, j]
+        assert found.normal_load[t, j] == pytest.approx(np.sum(load) * WIDTH / 4, rel=1e-12)
+        half = np.sqrt(4 * load / (np.pi * modulus * curvature))
+        np.testing.assert_allclose(found.half_width[t, j], half, rtol=1e-9)
+        pressure = np.sqrt(load * modulus * curvature / np.pi)
+        np.testing.assert_allclose(found.pressure[t, j], pressure, rtol=1e-9)
+        if np.any(load):
+            carried += 1
+            assert found.face_load_factor[t, j] == pytest.approx(np.max(load) / np.mean(load), rel=1e-12)
+        else:
+            assert np.isnan(found.face_load_factor[t, j])
+    assert 1 < carried < found.roll.size
+
+
 @pytest.mark.parametrize("positions", [8, 13, 50])
 @pytest.mark.parametrize("begin", [0.0, 0.31, 0.77, 0.93, 0.985])
 def test_contact_ratio_under_load_counts_across_the_seam_of_cycles(positions, begin):

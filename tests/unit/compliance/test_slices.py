@@ -1,12 +1,17 @@
 """Slices of the face: closed forms of springs, Hertz's elliptical contact, and the algebra of the modes."""
 
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
 from scipy.optimize import brentq, nnls
 from scipy.special import ellipe, ellipk
 
 from tests.support.faces_in_slices import WIDTH
+from tribodyn.compliance import slices as slices_of_faces
 from tribodyn.compliance.active_set import press
+from tribodyn.compliance.gear_compliance import NEIGHBOURS
 from tribodyn.compliance.lead_harmonics import half_space_surface
 from tribodyn.compliance.load_sharing import half_width, press_pairs
 from tribodyn.compliance.slices import by_slices, face_positions, modes, pair_harmonics
@@ -160,3 +165,62 @@ def test_a_crowned_half_space_carries_hertzs_ellipse(pair, lead_radius, force, s
     half = float(half_width(pair, np.array(1 / radius), line_load.max()))
     assert half == pytest.approx(width, rel=3e-3)
     assert 2 * line_load.max() / (np.pi * half) == pytest.approx(pressure, rel=3e-3)
+
+
+@pytest.mark.parametrize("alike", [True, False])
+def test_both_gears_add_their_own_and_their_neighbours_deflections(monkeypatch, rng, alike):
+    """In plain loops, read at radii that were solved; the earlier tooth is on opposite sides of both gears."""
+    positions, pairs, count, width = 2, 4, 1 if alike else 3, 21e-3
+    radii = np.array([[20.0, 21.0, 22.5, 24.0, 24.5], [40.0, 40.5, 42.0, 43.0, 44.0]]) * 1e-3
+    own = rng.normal(size=(2, count, 5))
+    between = rng.normal(size=(2, count, 2 * NEIGHBOURS + 1, 5, 5))
+    moduli, ratios = (2.0, 5.0), (0.3, 0.25)
+    gears = [SimpleNamespace(number=body, radius=radii[body]) for body in (0, 1)]
+
+    def responses(gear, poisson_ratio, wave_number):
+        assert poisson_ratio == ratios[gear.number]
+        np.testing.assert_allclose(wave_number, np.arange(count) * np.pi / width)
+        return own[gear.number], between[gear.number]
+
+    monkeypatch.setattr(slices_of_faces, "_responses", responses)
+    materials = [
+        SimpleNamespace(youngs_modulus=one, poisson_ratio=other)
+        for one, other in zip(moduli, ratios, strict=True)
+    ]
+    at = rng.integers(0, 5, (2, positions, pairs))
+    reach = [radii[body][at[body]] for body in (0, 1)]
+    reach[1] = np.where(at[1] == 4, 50e-3, reach[1])  # beyond the last it counts as there
+    flexible: Any = SimpleNamespace(gears=gears, materials=materials, width=width)
+    geometry: Any = SimpleNamespace(
+        gap=np.zeros((positions, pairs)), pinion_radius=reach[0], gear_radius=reach[1]
+    )
+    found = pair_harmonics(flexible, geometry, 3, coupled=not alike)
+    expected = np.zeros((count, positions, pairs, pairs))
+    for n, t, j, k, body in np.ndindex(count, positions, pairs, pairs, 2):
+        scale = moduli[body] * width
+        if j == k:
+            expected[n, t, j, j] += own[body, n, at[body, t, j]] / scale
+        elif abs(j - k) <= NEIGHBOURS:
+            earlier, later = sorted((j, k))
+            there = NEIGHBOURS + (1, -1)[body] * (later - earlier)
+            expected[n, t, j, k] += between[body, n, there, at[body, t, earlier], at[body, t, later]] / scale
+    np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-9 * np.abs(expected).max())
+    matrix = by_slices(found, 3)
+    for t, j, m, k, n in np.ndindex(positions, pairs, 3, pairs, 3):
+        if alike:
+            wanted = 3.0 * found[0, t, j, k] * (m == n)  # a third of the face is three times as soft
+        else:
+            wanted = found[0, t, j, k]
+            for i in (1, 2):
+                wave = np.cos(np.pi * i * (m + 0.5) / 3) * np.cos(np.pi * i * (n + 0.5) / 3)
+                wanted += 2.0 * wave * found[i, t, j, k]
+        assert matrix[t, j, m, k, n] == pytest.approx(wanted, rel=1e-9, abs=1e-12 * np.abs(found).max())
+
+
+def test_without_waves_a_gear_answers_as_in_the_plane(pair):
+    gear = pair.gears[0]
+    own, between = slices_of_faces._responses(gear, 0.3, np.zeros(1))
+    # what the tooth has more than a half-plane between both depths it has again above
+    more = gear.inside[0] - gear.inside[1] - 2 * (1 - 0.3**2) / np.pi * np.log(2.0)
+    np.testing.assert_allclose(own, (gear.inside[0] + more)[None], rtol=1e-12)
+    np.testing.assert_allclose(between[0], gear.between, rtol=1e-12)
