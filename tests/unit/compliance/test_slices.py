@@ -169,7 +169,7 @@ def test_a_crowned_half_space_carries_hertzs_ellipse(pair, lead_radius, force, s
 
 @pytest.mark.parametrize("alike", [True, False])
 def test_both_gears_add_their_own_and_their_neighbours_deflections(monkeypatch, rng, alike):
-    """In plain loops, read at radii that were solved; the earlier tooth is on opposite sides of both gears."""
+    """In plain loops, at radii that were solved; the earlier tooth is on opposite sides of both gears."""
     positions, pairs, count, width = 2, 4, 1 if alike else 3, 21e-3
     radii = np.array([[20.0, 21.0, 22.5, 24.0, 24.5], [40.0, 40.5, 42.0, 43.0, 44.0]]) * 1e-3
     own = rng.normal(size=(2, count, 5))
