@@ -3,6 +3,7 @@
 import json
 import math
 import re
+from contextlib import nullcontext
 from html import unescape
 from pathlib import Path
 from types import SimpleNamespace
@@ -81,6 +82,7 @@ def test_motions_over_the_speed():
     assert alone.spread == {}
     assert "contact_loss_from" not in alone.figures
     assert first.scenario["mesh"] == {"compliance": "fem", "damping_ratio": 0.07}
+    assert first.scenario["friction"] == {"law": "xu"}
     assert first.values == [f"{speed!r} rad/s" for speed in asked.speeds]
     assert samples.scenario["mesh"]["slices"] > 1
     assert (samples.values, samples.needed) == (["1", "2", "3"], False)
@@ -626,3 +628,21 @@ def test_laws_beyond_their_range_are_said(monkeypatch: pytest.MonkeyPatch):
     ]
     sentences.append(f"{said.EXCEEDED} much.")
     assert said.extrapolated(taking, done)[0].endswith(f"{said.EXCEEDED} much.")
+
+
+@pytest.mark.parametrize(
+    ("sha256", "made_by", "status", "taken"),
+    [("own", "7.0", "complete", True), ("other", "7.0", "complete", False), ("own", "6.9", "complete", False),
+     ("own", "7.0", "partial", False)],
+)  # fmt: skip
+def test_a_run_is_taken_up_where_it_is_complete_and_of_this_version(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, sha256: str, made_by: str, status: str, taken: bool
+):
+    attrs = {"scenario_sha256": sha256, "tribodyn_version": made_by}
+    record = SimpleNamespace(attrs=attrs, status=status, summary={"a": 1})
+    (tmp_path / "one.h5").write_bytes(b"stands for a record")
+    monkeypatch.setattr(parts, "open_record", lambda path: nullcontext(record))
+    monkeypatch.setattr(parts, "case_of", lambda task: SimpleNamespace(sha256="own"))
+    monkeypatch.setattr(parts, "version", lambda package: "7.0")
+    found = parts._kept_run(Task("one", "the first", {}), tmp_path)
+    assert found == (Done(tmp_path / "one.h5", {"a": 1}) if taken else None)

@@ -160,3 +160,16 @@ def test_no_corner_is_passed_by(direction, rng):
         a[:10] = x.coef
         a[0] += 0.3
         assert motion._until_corner(a, 1.0, 0.3, direction, False) == pytest.approx(first, abs=1e-3 * gap)
+
+
+@pytest.mark.parametrize("direction", [1.0, -1.0])
+def test_a_corner_that_is_met_with_growing_acceleration(direction):
+    """From rest half a unit before it, as t^k: it is met at the k-th root of a half, and not behind it."""
+    for power in range(2, motion.DEGREE + 1):
+        a = np.zeros(motion.DEGREE + 1)
+        a[0], a[power] = 0.3 - 0.5 * direction, direction
+        assert motion._until_corner(a, 1.0, 0.3, direction, False) == pytest.approx(
+            0.5 ** (1.0 / power), abs=1e-9
+        )
+        a[power] *= 0.49
+        assert motion._until_corner(a, 1.0, 0.3, direction, False) == 1.0
