@@ -13,9 +13,11 @@ from tribodyn.compliance.energy import (
     hertz_linear,
     loaded_tooth,
     neighbour_coupling,
+    polynomials_over_ring,
     section_integrals,
     tooth_compliance,
 )
+from tribodyn.compliance.foundation import ring_compliance, sainsot_velex
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import SIDES, Drive, GearBody
 from tribodyn.geometry.families import crc, involute
@@ -89,6 +91,8 @@ class TestBeam:
             shear = np.trapezoid(1.2 * math.cos(angle) ** 2 / (2 * half), s) * 2.6 / (207e9 * 0.02)
             assert result.bending[i] == pytest.approx(bending, rel=1e-6)
             assert result.shear[i] == pytest.approx(shear, rel=1e-6)
+            axial = np.trapezoid(math.sin(angle) ** 2 / (2 * half), s) / (207e9 * 0.02)
+            assert result.axial[i] == pytest.approx(axial, rel=1e-6)
 
     @pytest.mark.parametrize("shift", [0.5, 0.55, 0.565])
     def test_tips_down_to_an_edge(self, shift):
@@ -120,6 +124,61 @@ class TestBeam:
             bending += np.trapezoid((lever - fillet_x) ** 2 * 1.5 / fillet_y**3, fillet_x)
             bending *= math.cos(contact.load_angle[i]) ** 2 / (207e9 * 0.02)
             assert result.bending[i] == pytest.approx(bending, rel=1e-6)
+
+
+class TestBody:
+    @pytest.mark.parametrize("side", SIDES)
+    @pytest.mark.parametrize("kind", ["sainsot-velex", "ring"])
+    def test_the_load_is_carried_down_to_the_root_circle(self, side, kind):
+        """By statics; the body then gives way over its own width, and the whole is the sum of the parts."""
+        pair = drive(22.81, body(23, 0.015, 0.03), body(47, 0.025, 0.024))
+        tooth, soft = loaded(involute.FAMILY, pair, side), replace(STEEL, youngs_modulus=110e9)
+        r = np.array([-3e-3, 1e-3, 4e-3])
+        result = tooth_compliance(tooth, soft, 0.02, r, kind)
+        contact = contact_in_tooth_frame(tooth.path, tooth.pitch_half_angle, r if side == "pinion" else -r)
+        root = tooth.tooth.root_radius
+        wide = 0.03 if side == "pinion" else 0.024
+        outline = tooth_outline(tooth.tooth, 50, 50)
+        half_angle = np.arctan2(outline.fillet_y[0], outline.fillet_x[0])
+        assert np.hypot(outline.fillet_x[0], outline.fillet_y[0]) == pytest.approx(root)
+        for i in range(3):
+            inwards, across = math.sin(contact.load_angle[i]), math.cos(contact.load_angle[i])
+            moment = across * (contact.x[i] - root) - inwards * contact.y[i]
+            np.testing.assert_allclose(result.root_load[i], [inwards, across, moment / root], rtol=1e-10)
+            if kind == "ring":
+                flexibility = ring_compliance(0.0, half_angle, root / tooth.body.bore_radius, 0.3, 2048)
+                expected = result.root_load[i] @ flexibility @ result.root_load[i] / (110e9 * wide)
+            else:
+                l_star, m_star, p_star, q_star = sainsot_velex(root / tooth.body.bore_radius, half_angle)
+                share = moment / across / (2 * half_angle * root)
+                # L* (u/S)² + M* u/S + P* (1 + Q* tan² α), times cos² α
+                shape = l_star * share**2 + m_star * share + p_star * (1 + q_star * (inwards / across) ** 2)
+                expected = across**2 * shape / (110e9 * wide)
+            assert result.foundation[i] == pytest.approx(expected, rel=1e-8)
+        parts = result.bending + result.shear + result.axial + result.foundation
+        np.testing.assert_allclose(result.total, parts, rtol=1e-14)
+        # the beam is as wide as the contact, the body as the gear
+        thin = tooth_compliance(tooth, soft, 0.01, r, kind)
+        np.testing.assert_allclose(thin.total - thin.foundation, 2 * (result.total - result.foundation))
+
+    @pytest.mark.parametrize("pitches", [1, 2])
+    def test_a_neighbour_is_whole_pitches_away_on_the_side_that_entered_first(self, pitches):
+        pair = drive(22.81, body(23, 0.015, 0.03), body(47, 0.025, 0.024))
+        for side, teeth, wide, sense in (("pinion", 23, 0.03, 1), ("gear", 47, 0.024, -1)):
+            tooth = loaded(involute.FAMILY, pair, side)
+            angle = sense * 2 * math.pi * pitches / teeth
+            ratio = tooth.tooth.root_radius / tooth.body.bore_radius
+            ring = ring_compliance(angle, tooth.root_half_angle, ratio, 0.3) / (207e9 * wide)
+            found = neighbour_coupling(tooth, STEEL, pitches)
+            np.testing.assert_allclose(found, ring, rtol=1e-8, atol=1e-10 * np.abs(ring).max())
+
+    def test_polynomials_over_the_ring_is_their_ratio_at_the_pitch_point(self):
+        tooth = loaded(involute.FAMILY, drive(), "gear")
+        fitted, ring = (
+            tooth_compliance(tooth, STEEL, 1.0, np.zeros(1), kind).foundation
+            for kind in ("sainsot-velex", "ring")
+        )
+        assert polynomials_over_ring(tooth, STEEL) == pytest.approx(fitted[0] / ring[0], rel=1e-12)
 
 
 class TestPair:
@@ -175,3 +234,13 @@ class TestHertz:
         # the same formula in N and mm
         in_millimetres = 1.275 / (207e3**0.9 * 26.7**0.8) * 1e-3
         assert hertz_coefficient(STEEL, STEEL, 0.0267) == pytest.approx(in_millimetres, rel=1e-12)
+
+    def test_of_two_materials_each_brings_its_part(self):
+        soft = replace(STEEL, youngs_modulus=110e9, poisson_ratio=0.25)
+        halves = [2 * (1 - m.poisson_ratio**2) / (math.pi * m.youngs_modulus * 0.02) for m in (STEEL, soft)]
+        assert hertz_linear(STEEL, soft, 0.02) == pytest.approx(sum(halves), rel=1e-14)
+        mean = 2 * 207e9 * 110e9 / (207e9 + 110e9)
+        expected = hertz_coefficient(
+            replace(STEEL, youngs_modulus=mean), replace(STEEL, youngs_modulus=mean), 0.02
+        )
+        assert hertz_coefficient(STEEL, soft, 0.02) == pytest.approx(expected, rel=1e-12)

@@ -7,7 +7,7 @@ from scipy.sparse.linalg import spsolve
 
 from tests.support.twelve_teeth import BODY, POISSON, TOOTH, few_cells, whole_ring
 from tribodyn.compliance.fem import gear_compliance, lead_harmonics
-from tribodyn.compliance.gear_compliance import NEIGHBOURS, GearCompliance
+from tribodyn.compliance.gear_compliance import NEIGHBOURS, GearCompliance, LeadHarmonics
 from tribodyn.compliance.gear_model import gear_model
 from tribodyn.compliance.lead_harmonics import (
     LARGEST,
@@ -181,6 +181,81 @@ def check_whole_ring(teeth):
             rows = stress_rows(points, nodes(points), 3 * basis.N, POISSON, k)
             stress = lead.root_stress[0, NEIGHBOURS + tooth, side, :, middle]
             np.testing.assert_allclose(stress, rows @ found, rtol=1e-5, atol=1e-6 * np.max(np.abs(stress)))
+
+
+def any_gear(rng, waves, depth):
+    """A gear whose responses are smooth and even in the wave number, made up, with a half-space inside."""
+    positions, points = 3, 4
+    shapes = [(2, positions), (5, positions, positions), (5, 2, points, positions)]
+    parts = []
+    for shape in shapes:
+        size = rng.uniform(0.5, 1.5, shape)
+        decay = rng.uniform(2.0, 6.0, shape) * 1e-3
+        parts.append(np.stack([size / (1.0 + (decay * one) ** 2) for one in waves]))
+    # own deflections that leave the half-space's logarithm towards k = 0, as a tooth's do
+    logarithm = half_space_surface(np.hypot(waves, 200.0), depth, POISSON)
+    surface = half_space_surface(np.maximum(waves, 1e-9), depth, POISSON)
+    parts[0] += np.where(waves > 0.0, logarithm - surface, logarithm)[:, None, None]
+    excess = parts[0].copy()
+    for which in (0, 1):
+        deep = half_space((1 + which) * depth, waves[1:], POISSON)
+        parts[0][1:, which] += deep[:, None]
+    lead = LeadHarmonics(waves, *parts[:2], np.zeros((2, points)), parts[2])
+    return GearCompliance(np.linspace(20e-3, 22e-3, positions), np.empty(0), np.empty(0), depth, lead), excess
+
+
+def test_what_is_more_than_a_half_space_is_taken_on_to_the_surface(rng):
+    waves, depth = wave_numbers(MODULE, 15e-3), 0.6e-3
+    gear, excess = any_gear(rng, waves, depth)
+    found = own_at_solved(gear, POISSON)
+    for n, k in enumerate(waves):
+        for m in range(3):
+            if n == 0:
+                inside = gear.lead.inside[0, :, m]
+                expected = 2 * inside[0] - inside[1] - 2 * (1 - POISSON**2) / np.pi * np.log(2)
+            else:
+                logarithm = -np.log(k * depth / 2) - np.euler_gamma
+                surface = (1 + POISSON) / np.pi * (1 + 2 * (1 - POISSON) * logarithm)
+                expected = surface + 2 * excess[n, 0, m] - excess[n, 1, m]
+            assert found[n, m] == pytest.approx(expected, rel=1e-9)
+
+
+def test_responses_are_read_between_and_beyond_the_waves_that_were_solved(rng):
+    waves, depth = wave_numbers(MODULE, 15e-3), 0.6e-3
+    gear, _ = any_gear(rng, waves, depth)
+    at_solved = at_wave_numbers(gear, waves, POISSON)
+    np.testing.assert_allclose(at_solved.own, own_at_solved(gear, POISSON), rtol=1e-9)
+    np.testing.assert_allclose(at_solved.between, gear.lead.between, rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(at_solved.root_stress, gear.lead.root_stress, rtol=1e-9, atol=1e-12)
+    beyond = waves[-1] * np.array([1.1, 2.5])
+    further = at_wave_numbers(gear, beyond, POISSON)
+    for n, k in enumerate(beyond):
+        less = 2 * (1 - POISSON**2) / np.pi * np.log(k / waves[-1])
+        np.testing.assert_allclose(further.own[n], at_solved.own[-1] - less, rtol=1e-9)
+    assert not np.any(further.between)
+    assert not np.any(further.root_stress)
+    # a gear solved at other wave numbers, closer together, says the same in between
+    fine = np.sort(np.concatenate([waves, (waves[1:] + waves[:-1]) / 2]))
+    denser, _ = any_gear(np.random.default_rng(5), fine, depth)
+    coarse, _ = any_gear(np.random.default_rng(5), waves, depth)
+    middle = (waves[3:] + waves[2:-1]) / 2
+    exact = at_wave_numbers(denser, middle, POISSON)
+    read = at_wave_numbers(coarse, middle, POISSON)
+    for one, other in zip(read, exact, strict=True):
+        np.testing.assert_allclose(one, other, atol=3e-3 * np.abs(other).max())
+
+
+@pytest.mark.parametrize(("module", "root", "most"), [(3e-3, 16e-3, 6.0), (2e-3, 60e-3, 12.0)])
+def test_wave_numbers_are_even_near_zero_and_geometric_at_last(module, root, most):
+    waves = wave_numbers(module, root, most)
+    assert waves[0] == 0.0
+    assert waves[-1] == pytest.approx(most / module, rel=1e-12)
+    steps = np.diff(np.arcsinh(waves * root / 0.6))
+    np.testing.assert_allclose(steps, steps[0], rtol=1e-9)
+    assert 0.42 * (1 - 1 / len(steps)) < steps[0] <= 0.42
+    # close to zero a step of 0.42 of the turn, then a factor exp(0.42)
+    assert waves[1] * root / 0.6 == pytest.approx(np.sinh(steps[0]))
+    assert waves[-1] / waves[-2] == pytest.approx(np.exp(steps[0]), rel=2e-2)
 
 
 def test_a_gear_solved_in_the_plane_says_so():
