@@ -1,18 +1,23 @@
 """How positions are parted and pairs counted; the batches of a face do not change its loads."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from tests.support.faces_in_slices import DRIVE
+from tests.support.faces_in_slices import DRIVE, STEEL
 from tribodyn.compliance import load_sharing
 from tribodyn.compliance.load_sharing import (
     SharedLoad,
+    contact_deflection,
     effective_contact_ratio,
     extended_rolls,
+    half_width,
     in_batches,
     share_load,
 )
 from tribodyn.geometry.assembly import assemble
+from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.families.involute import FAMILY
 
 
@@ -53,6 +58,43 @@ def test_batches_are_all_positions_and_bound_the_memory(monkeypatch, positions, 
     sizes = [rows.stop - rows.start for rows in batches]
     assert all(size == 1 or size * places <= 5000 for size in sizes)
     assert all(size == positions or (size + 1) * places > 5000 for size in sizes[:-1])
+
+
+def test_the_contact_flattens_both_bodies(pair):
+    """Hertz's width of unlike materials, and each gear's own deflection down to its own depth."""
+    soft = replace(STEEL, youngs_modulus=110e9, poisson_ratio=0.25)
+    gears = pair.gears[0], pair.gears[1]._replace(depth=2.3e-3)
+    unlike = pair._replace(materials=(STEEL, soft), gears=gears)
+    load, curvature = np.array([40e3, 300e3]), np.array([90.0, 260.0])
+    softness = (1 - 0.3**2) / 207e9 + (1 - 0.25**2) / 110e9
+    half = np.sqrt(4 * load * softness / (np.pi * curvature))
+    np.testing.assert_allclose(half_width(unlike, curvature, load), half, rtol=1e-12)
+    expected = 0.0
+    for material, depth in ((STEEL, gears[0].depth), (soft, 2.3e-3)):
+        nu = material.poisson_ratio
+        # C. Weber, K. Banaschek, far below the surface: 2 (1 - ν²)/(π E) q [ln(2 h/b) - ν/(2 (1 - ν))]
+        logarithm = np.log(2 * depth / half) - nu / (2 * (1 - nu))
+        expected = expected + 2 * (1 - nu**2) / (np.pi * material.youngs_modulus) * load * logarithm
+    value, slope = contact_deflection(unlike, curvature, load)
+    np.testing.assert_allclose(value, expected, rtol=0.02)
+    more, less = (contact_deflection(unlike, curvature, load * (1 + step))[0] for step in (1e-5, -1e-5))
+    np.testing.assert_allclose(slope, (more - less) / (2e-5 * load), rtol=1e-6)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.07])
+def test_torques_balance_with_the_friction_s_arm(pair, friction):
+    """About the gear's axis: normal loads, and friction that turns at the pitch point."""
+    roll = np.array([[0.21, -0.139], [0.3, -0.049], [0.02, -0.329]])
+    shared = share_load(pair, roll, 150.0, friction)
+    base = 54e-3 * np.cos(np.radians(20.0))
+    for t in range(3):
+        torque = 0.0
+        for angle, load in zip(roll[t], shared.normal_load[t], strict=True):
+            geometry = pair_geometry(pair.assembly, np.array([angle]))
+            # the contact's distance from the foot of the gear's base circle, along the line of action
+            along = 54e-3 * np.sin(np.radians(20.0)) - geometry.motion.signed_distance[0]
+            torque += load * (base + np.sign(geometry.motion.signed_distance[0]) * friction * along)
+        assert torque == pytest.approx(150.0, rel=1e-9)
 
 
 def test_loads_do_not_know_of_batches(monkeypatch, pair):

@@ -79,6 +79,9 @@ def test_mesh_beyond_the_memory_is_refused_at_once(solve):
     waves = [[100.0]] if solve is lead_harmonics else []
     with pytest.raises(InputError, match=r"level = 100000: .* GiB of memory.*use at most \d+"):
         solve(TOOTH, 12, 8e-3, 0.3, 0.75e-3, 100_000, *waves)
+    needed = memory_needed(100_000, 3 if waves else 2)
+    with pytest.raises(InputError, match=f"would need {needed / 2**30:.3g} GiB".replace("+", r"\+")):
+        solve(TOOTH, 12, 8e-3, 0.3, 0.75e-3, 100_000, *waves)
 
 
 @pytest.mark.parametrize("components", [2, 3])

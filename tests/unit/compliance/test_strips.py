@@ -6,6 +6,7 @@ from scipy.sparse.linalg import spsolve
 from skfem import Basis, ElementHex2, ElementVector, MeshHex
 
 from tests.support.solid_elements import POISSON, node_at, plate, solid_energy
+from tribodyn.compliance.end_faces import openings
 from tribodyn.compliance.root_stress import edge_points, stress_rows
 from tribodyn.compliance.strips import plane_stiffness, strip_stiffness
 
@@ -157,3 +158,53 @@ def test_without_waves_the_strips_are_plane_strain():
     difference = constant[in_plane][:, in_plane] - plane_stiffness(basis, POISSON)
     assert abs(difference).max() < 1e-15
     assert abs(constant[in_plane][:, 2::3]).max() == 0.0
+
+
+def quadratic(coefficients, x, y):
+    """Values and slopes along x and y, (3, point), of three quadratic functions of (3, 6) coefficients."""
+    one, none = np.ones_like(x), np.zeros_like(x)
+    terms = (
+        [one, x, y, x * x, x * y, y * y],
+        [none, one, none, 2 * x, y, none],
+        [none, none, one, none, x, 2 * y],
+    )
+    return [coefficients @ np.stack(rows) for rows in terms]
+
+
+@pytest.mark.parametrize("poisson", [0.3, 0.18])
+@pytest.mark.parametrize("k", [0.0, 1.7])
+def test_work_of_one_field_on_another_is_that_of_their_strains(rng, k, poisson):
+    """Strains written out and integrated point by point, of displacements that the cells hold."""
+    basis = plate(2, 1, 1.3, 0.8)
+    nodes, weights = np.polynomial.legendre.leggauss(5)
+    x, y = 0.65 * (1 + nodes[:, None]) + 0 * nodes, 0.4 * nodes + 0 * nodes[:, None]
+    x, y, weight = x.ravel(), y.ravel(), np.outer(0.65 * weights, 0.4 * weights).ravel()
+    shear, lame = 0.5 / (1 + poisson), poisson / ((1 + poisson) * (1 - 2 * poisson))
+    fields, strains = [], []
+    for _ in range(2):
+        coefficients = rng.normal(size=(3, 6))
+        value, _, _ = quadratic(coefficients, *basis.doflocs)
+        fields.append(value.T.ravel())
+        (u, v, w), (u_x, v_x, w_x), (u_y, v_y, w_y) = quadratic(coefficients, x, y)
+        strains.append((u_x, v_y, k * w, u_y + v_x, w_x - k * u, w_y - k * v))
+    one, other = strains
+    work = lame * sum(one[:3]) * sum(other[:3])
+    work = work + 2 * shear * sum(a * b for a, b in zip(one[:3], other[:3], strict=True))
+    work = work + shear * sum(a * b for a, b in zip(one[3:], other[3:], strict=True))
+    constant, linear, square = strip_stiffness(basis, poisson)
+    found = fields[0] @ (constant + k * linear + k**2 * square) @ fields[1]
+    assert found == pytest.approx(weight @ work, rel=1e-10)
+    # the opening of an end face that is linear in the cells: stress across it times the opening
+    opening = openings(basis, poisson)
+    slope = rng.normal(size=3)
+    open_by = slope @ [np.ones_like(opening.place[0]), *opening.place]
+    at_points = slope @ [np.ones_like(x), x, y]
+    stress = lame * sum(one[:3]) + 2 * shear * one[2]
+    assert fields[0] @ opening.forces(k) @ open_by == pytest.approx(weight @ (stress * at_points), rel=1e-10)
+    stiffness = (lame + 2 * shear) * weight @ at_points**2
+    assert open_by @ opening.stiffness @ open_by == pytest.approx(stiffness, rel=1e-10)
+    if k == 0.0:
+        flat = np.delete(fields[0], np.s_[2::3]), np.delete(fields[1], np.s_[2::3])
+        plane = lame * (one[0] + one[1]) * (other[0] + other[1]) + shear * one[3] * other[3]
+        plane = plane + 2 * shear * (one[0] * other[0] + one[1] * other[1])
+        assert flat[0] @ plane_stiffness(basis, poisson) @ flat[1] == pytest.approx(weight @ plane, rel=1e-10)
