@@ -79,6 +79,8 @@ def test_figures_of_a_sweep():
     # two thousandths apart at 0.6: 0.0007 of 0.6007; less at 0.5
     assert branches_apart(response()).tolist() == [False, True, True, False, False]
     assert (found["bistable_from"], found["bistable_to"]) == (0.6, 0.7)
+    stable = response(kind=np.full((5, 2), STABLE), rms=np.array([[1.0, 1.0], *[[1.0, 2.0]] * 4]))
+    assert [response_figures(stable)[f"bistable_{end}"] for end in ("from", "to")] == [0.6, 0.9]
     assert found["end_1"] == "fold of period 1 at 0.8, up"
     assert found["end_2"] == "period doubling of period 2 at 0.7, down"
     assert found["unstable_2"].startswith("period 2 between 0.7 and 0.8, multiplier at most 4.5: fold at 0.8")

@@ -14,10 +14,10 @@ from tribodyn.errors import InputError, SimulationError
 from tribodyn.studies.design import archive as archiving
 from tribodyn.studies.design import run as running
 from tribodyn.studies.design import slopes as differentiating
-from tribodyn.studies.design.archive import Archive
+from tribodyn.studies.design.archive import Archive, Evaluation
 from tribodyn.studies.design.case import DRAWN, START, Constraint, DesignCase, Free, Objective, Tolerance
 from tribodyn.studies.design.deviations import deviating
-from tribodyn.studies.design.judged import Judge
+from tribodyn.studies.design.judged import Judge, Judged
 from tribodyn.studies.design.layout import LOWER, START_FIGURES, UPPER
 from tribodyn.studies.design.left import NOTHING_LEFT, Left, left_in
 from tribodyn.studies.design.methods import front as fronts
@@ -26,6 +26,7 @@ from tribodyn.studies.design.methods.local import slopes_of
 from tribodyn.studies.design.methods.population import cma_es
 from tribodyn.studies.design.methods.views import Scalar
 from tribodyn.studies.design.naming import apart, flat, naming_key
+from tribodyn.studies.design.outcome import chosen_best
 from tribodyn.studies.design.parts import _number, _varied
 from tribodyn.studies.design.pool import Pool
 from tribodyn.studies.design.short_form import loaded_search
@@ -563,3 +564,20 @@ def test_what_an_unfinished_search_left(case: DesignCase):
     assert found.moved == {(1, LOWER): 0.5, (0, UPPER): 0.25}
     record[START_FIGURES] = record[START_FIGURES][:1]
     assert left_in(replace(case, free=free), record).start == [{"one": 7.0, "two": 8.0}]
+
+
+def test_the_nearest_of_a_front_by_shares_of_both_spans(case: DesignCase):
+    """By the sum of squares: (0.1, 0.8) before (0.58, 0.58), wherever zero is, in any unit."""
+    places = [(0.0, 1.0), (0.1, 0.8), (0.58, 0.58), (1.0, 0.0)]
+    for (low, span), (other, width) in (((10.0, 2.0), (0.0, 1e-6)), ((-3.0, 0.5), (7.0, 40.0))):
+        evaluations = [
+            Evaluation({}, (u, v), [], Judged((low + span * u, other + width * v), (), (), {}))
+            for u, v in places
+        ]
+        archive: Any = SimpleNamespace(evaluations=evaluations)
+        two = replace(case, objectives=(Objective(F, ((F, 1.0),)), Objective(G, ((G, 1.0),))))
+        assert chosen_best(two, archive) is evaluations[1]
+        archive.evaluations = evaluations[:1]
+        assert chosen_best(two, archive) is evaluations[0]
+        archive.evaluations = []
+        assert chosen_best(two, archive) is None
