@@ -3,10 +3,12 @@
 import numpy as np
 import pytest
 from scipy.sparse.linalg import spsolve
+from scipy.spatial import KDTree
 
 from tests.support.twelve_teeth import POISSON, TOOTH, few_cells, whole_ring
 from tribodyn.compliance.fem import gear_compliance
 from tribodyn.compliance.gear_compliance import NEIGHBOURS
+from tribodyn.compliance.gear_model import gear_model
 from tribodyn.compliance.ring_mesh import graded, sector_mesh
 from tribodyn.compliance.strips import curved_basis, plane_stiffness
 from tribodyn.errors import InputError
@@ -14,6 +16,8 @@ from tribodyn.geometry.body import section_area_and_inertia
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families.involute import FAMILY
 from tribodyn.geometry.tooth import cut_tooth, flank_point, tooth_outline
+
+DEEP = 1.5e-3  # twice that is beyond the tooth's axis
 
 
 def block(columns: int, rows: int, length: float = 1.0, height: float = 1.0, bend: float = 0.0):
@@ -130,18 +134,9 @@ def test_rim_too_thin_for_the_mesh_is_refused():
         gear_compliance(tooth, 8, 0.97 * tooth.root_radius, POISSON, 0.75e-3, 1)
 
 
-def test_one_sector_of_few_cells_is_the_whole_ring(monkeypatch):
-    few_cells(monkeypatch)
-    check_whole_ring(5)
-
-
-def test_one_sector_with_cyclic_symmetry_is_the_whole_ring():
-    check_whole_ring(12)
-
-
-def check_whole_ring(teeth):
-    """Load a flank in its middle, and read the flanks of five teeth there."""
-    gear = gear_compliance(TOOTH, teeth, 8e-3, POISSON, 0.75e-3, 1)
+def solved_ring(teeth):
+    """A gear, a basis of its whole ring, loaded at the middle of the flank, and all displacements."""
+    gear = gear_compliance(TOOTH, teeth, 8e-3, POISSON, DEEP, 1)
     basis, mesh = whole_ring(1, teeth)
     place = basis.doflocs
     flank = mesh.nodes[:, mesh.flank]
@@ -160,6 +155,35 @@ def check_whole_ring(teeth):
     matrix = plane_stiffness(basis, POISSON).tocsr()
     u = np.zeros(2 * basis.N)
     u[free] = spsolve(matrix[free][:, free].tocsc(), load[free])
+    return gear, place, u, flank, inward
+
+
+@pytest.fixture(scope="module")
+def few():
+    with pytest.MonkeyPatch.context() as patch:
+        few_cells(patch)
+        return 5, gear_model(TOOTH, 5, 8e-3, DEEP, 1), *solved_ring(5)
+
+
+def test_a_ring_is_held_at_its_bore_and_gives_way_to_the_load(few):
+    _, _, _, place, u, flank, inward = few
+    moved = u.reshape(-1, 2)
+    assert moved[np.argmin(np.hypot(*(place - flank[:, [flank.shape[1] // 2]])))] @ inward > 0
+    assert not np.any(moved[np.hypot(*place) < 8e-3 * (1 + 1e-9)])
+
+
+def test_one_sector_of_few_cells_is_the_whole_ring(few):
+    check_teeth(*few)
+    check_inside(*few)
+
+
+def test_one_sector_with_cyclic_symmetry_is_the_whole_ring():
+    check_teeth(12, None, *solved_ring(12))
+
+
+def check_teeth(teeth, _, gear, place, u, flank, inward):
+    """Read the flanks of five teeth in the middle."""
+    middle = flank.shape[1] // 2
     for tooth in (-2, -1, 0, 1, 2):
         angle = 2 * np.pi * tooth / teeth
         c, s = np.cos(angle), np.sin(angle)
@@ -167,6 +191,18 @@ def check_whole_ring(teeth):
         node = np.argmin(np.hypot(*(place - (turn @ flank)[:, [middle]])))
         expected = u[2 * node : 2 * node + 2] @ (turn @ inward)
         assert gear.between[NEIGHBOURS + tooth, middle, middle] == pytest.approx(expected, rel=1e-5)
+
+
+def check_inside(_, model, gear, place, u, flank, __):
+    """Read at the depths below the load, by the half sector's functions on the ring's own displacements."""
+    middle, count = flank.shape[1] // 2, len(gear.radius)
+    assert model.beyond[[middle, count + middle]].tolist() == [False, True]
+    for which, mirror in enumerate(([1.0, 1.0], [1.0, -1.0])):
+        half = model.basis.doflocs * np.array(mirror)[:, None]
+        numbers = KDTree(place.T).query(half.T)[1]
+        moved = u.reshape(-1, 2)[numbers] * mirror
+        expected = model.inner[which * count + middle] @ moved.ravel()
+        assert gear.inside[which, middle] == pytest.approx(expected, rel=1e-5)
 
 
 def test_compliances_are_reciprocal_and_fall_with_distance():

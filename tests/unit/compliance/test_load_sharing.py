@@ -7,6 +7,7 @@ import pytest
 
 from tests.support.faces_in_slices import DRIVE, STEEL
 from tribodyn.compliance import load_sharing
+from tribodyn.compliance.gear_compliance import GearCompliance
 from tribodyn.compliance.load_sharing import (
     SharedLoad,
     contact_deflection,
@@ -16,9 +17,12 @@ from tribodyn.compliance.load_sharing import (
     in_batches,
     share_load,
 )
+from tribodyn.compliance.pair_flexibility import PairFlexibility
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.corner_contact import pair_geometry
+from tribodyn.geometry.families import cycloidal
 from tribodyn.geometry.families.involute import FAMILY
+from tribodyn.geometry.pitch_point import pitch_point
 
 
 def of_overlap(overlap):
@@ -79,6 +83,20 @@ def test_the_contact_flattens_both_bodies(pair):
     np.testing.assert_allclose(value, expected, rtol=0.02)
     more, less = (contact_deflection(unlike, curvature, load * (1 + step))[0] for step in (1e-5, -1e-5))
     np.testing.assert_allclose(slope, (more - less) / (2e-5 * load), rtol=1e-6)
+
+
+def test_where_the_radii_vanish_the_contact_s_own_width_sees_more_of_them():
+    """At the pitch point of a cycloid ρ̄² = M a, the mean over the half width a; and a² = 8 q ρ̄/(π E')."""
+    soft = replace(STEEL, youngs_modulus=110e9, poisson_ratio=0.25)
+    drive = DRIVE._replace(shape=cycloidal.Shape(28e-3, 33e-3))
+    assembly = assemble(cycloidal.FAMILY, drive)
+    none = GearCompliance(np.empty(0), np.empty(0), np.empty(0), 1e-3)
+    flexible = PairFlexibility(assembly, (STEEL, soft), float(drive.pinion.face_width), (none, none))
+    modulus = 2 / ((1 - 0.3**2) / 207e9 + (1 - 0.25**2) / 110e9)
+    for load in (20e3, 400e3):
+        half = half_width(flexible, np.array([1e15]), np.array([load]))[0]
+        mean = np.sqrt(pitch_point(assembly.path).length * half)
+        assert half**2 == pytest.approx(8 * load * mean / (np.pi * modulus), rel=1e-6)
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.07])
