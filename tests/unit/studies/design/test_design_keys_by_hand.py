@@ -160,9 +160,13 @@ def test_limits_are_read_with_sign_and_unit():
 
 
 def test_more_of_a_figure_is_less_of_its_opposite():
-    free = [{"key": KEYS[0], "from": -1.0, "to": 3.0}]
-    (aim,) = loaded_search("load-contact-18-36", {"free": free, "maximise": G}, {}).case.objectives
+    free: list[dict[str, Any]] = [{"key": KEYS[0], "from": -1.0, "to": 3.0}]
+    free.append({"key": "drive.pinion.teeth", "choices": [17, 19, 23]})
+    case = loaded_search("load-contact-18-36", {"free": free, "maximise": G}, {}).case
+    (aim,) = case.objectives
     assert (aim.name, aim.terms) == (f"-{G}", ((G, -1.0),))
+    # of choices their number is what is recorded
+    assert (case.free[1].low, case.free[1].high, case.free[1].choices) == (0.0, 2.0, (17, 19, 23))
 
 
 def test_duties_and_tolerances_are_named_and_in_their_units():

@@ -688,3 +688,46 @@ def test_a_record_without_any_solution_has_failed(
     np.testing.assert_array_equal(values["friction_by_law"], np.full((count, 1), 3.0))
     assert (first, second) == ((0, {"traction": 0.01}), (1, {"traction": 0.02}))
     assert made.status == "complete"
+
+
+def test_every_law_is_evaluated_along_the_way(study: Prepared, over: Way, monkeypatch: pytest.MonkeyPatch):
+    """But the solved one and none; not those that want values of their own; a number holds everywhere."""
+
+    def seen(of: Any, along: Any, film: str | None, friction: str) -> Any:
+        if friction == "coulomb":
+            raise InputError("friction.coefficient", rule="missing")
+        value = -0.05 if friction == "xu" else 0.01 * np.arange(len(over.roll))
+        surface = SimpleNamespace(central_film_thickness=f"film by {film}", friction_coefficient=value)
+        return SimpleNamespace(surface=surface)
+
+    monkeypatch.setattr(along_path, "seen_by", seen)
+    found = along_path.by_laws(study, over)
+    assert {"solved", "none", "coulomb"}.isdisjoint({*found["film"], *found["friction"]})
+    np.testing.assert_array_equal(found["friction"]["xu"], np.full(len(over.roll), 0.05))
+    np.testing.assert_allclose(found["friction"]["schlenk"], 0.01 * np.arange(len(over.roll)))
+    assert {name: str(film) for name, film in found["film"].items()} == {
+        name: f"film by {name}" for name in found["film"]
+    }
+    assert len(found["film"]) > 2
+
+
+@pytest.mark.parametrize("squeeze", [False, True])
+def test_progress_is_shared_with_squeeze(
+    study: Prepared, over: Way, monkeypatch: pytest.MonkeyPatch, squeeze: bool
+):
+    """It never falls, and ends at the whole."""
+    told: list[float] = []
+
+    def with_squeeze(way: Any, case: Any, contact: Any, steady: Any, progress: Any) -> dict[str, Any]:
+        for share in (0.25, 1.0):
+            progress(share)
+        return {"restarts": 0}
+
+    monkeypatch.setattr(run, "solved_at", solver())
+    monkeypatch.setattr(run, "kept", lambda found: found)
+    monkeypatch.setattr(run, "squeezed", with_squeeze)
+    found = run.solve(study._replace(case=replace(study.case, transient=squeeze)), over, told.append)
+    assert told == sorted(told)
+    assert told[-1] == pytest.approx(1.0)
+    assert 0.0 < told[0] < told[-1]
+    assert ("restarts" in found) == squeeze

@@ -317,3 +317,15 @@ def test_the_limit_leaves_what_the_other_loss_leaves(friction: float, key: str, 
     assert caught.value.key == f"friction.{key}"
     assert f"{friction:g} W of the 150 W" in str(caught.value)
     run._refuse_locking(asked, SimpleNamespace(power_out=np.array([5.0, 1e-3])))  # pyright: ignore[reportArgumentType]
+
+
+def test_as_published_every_element_takes_its_share_of_the_rest():
+    """η as the product over the elements of 1 less their loss over the power."""
+    drive, friction = RollingDrive(0.05, 11, 1.3, 0.0025), RollingFriction(1e-5, 0.08)
+    angle = element_angles(drive, np.array([0.05, 0.2]))
+    found = engage(drive, angle, 900.0, 70.0, friction, "as_published")
+    for at in range(2):
+        left = 1.0
+        for n in range(11):
+            left *= 1.0 - float(found.power_cam[at, n] + found.power_crown[at, n]) / 900.0
+        assert found.efficiency[at] == pytest.approx(left)
