@@ -13,6 +13,8 @@ _approx = pytest.approx
 
 def approx(expected: Any, rel: Any = None, abs: Any = None, nan_ok: bool = False) -> Any:
     """As `pytest.approx`, but that a number counts by its own size, and a zero by that of those beside it."""
+    if getattr(expected, "ndim", None) == 0 and hasattr(expected, "item"):
+        expected = expected.item()
     if abs is None and (largest := _largest(expected)) is not None:
         alone = isinstance(expected, int | float | complex | np.generic)
         abs = 0.0 if alone and largest else ABSOLUTE * (largest or 1.0)
