@@ -40,7 +40,9 @@ def _between(first: Any, last: Any, share: float) -> Any:
     if isinstance(first, tuple) and isinstance(last, tuple) and len(first) == len(last):
         parts = [_between(one, other, share) for one, other in zip(first, last, strict=True)]
         return type(first)(*parts) if hasattr(first, "_fields") else tuple(parts)
-    if isinstance(first, np.ndarray) and isinstance(last, np.ndarray) and first.shape == last.shape:
+    if isinstance(first, np.ndarray) and isinstance(last, np.ndarray):
+        if first.shape != last.shape:
+            raise NothingBetween
         return first if np.array_equal(first, last) else first + share * (last - first)
     if isinstance(first, dict) and isinstance(last, dict) and first.keys() == last.keys():
         return {key: _between(first[key], last[key], share) for key in first}
