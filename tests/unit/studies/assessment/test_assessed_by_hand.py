@@ -646,3 +646,57 @@ def test_a_run_is_taken_up_where_it_is_complete_and_of_this_version(
     monkeypatch.setattr(parts, "version", lambda package: "7.0")
     found = parts._kept_run(Task("one", "the first", {}), tmp_path)
     assert found == (Done(tmp_path / "one.h5", {"a": 1}) if taken else None)
+
+
+def test_a_page_is_put_together_of_its_pieces(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """In their order; parts that do not lie beside the record are left out."""
+    summary = summary_with() | {"assumed": {"01": "hard steel"}, "extrapolated": {}}
+    attrs = {"scenario": "a = 1", "scenario_sha256": "0123", "created": "2026-01-02T03:04"}
+    attrs |= {"tribodyn_version": "7.0"}
+    record: Any = SimpleNamespace(
+        summary=summary,
+        attrs=attrs,
+        path=str(tmp_path / "r.h5"),
+        scenario={"title": "A & B"},
+        label="r",
+        message="",
+    )
+    task = Task("one", "the first", {})
+    part = SimpleNamespace(study="study", role=SimpleNamespace(title="Losses"), tasks=(task,))
+    tables = [("Pair", ("quantity", "value"), [("teeth", "25")])]
+    simple: dict[str, Any] = {
+        "load": lambda path: SimpleNamespace(case=path.read_text(encoding="utf-8")),
+        "pictures": lambda of, curves: f"pictures {curves}",
+        "inline": lambda picture, about: f"<img {picture}>",
+        "check": lambda case: SimpleNamespace(tables=tables),
+        "_asked": lambda case: f"<p>asked {case}</p>",
+        "_part": lambda study, title, done: f"<section>{study} {title} {done}</section>",
+    }
+    for name, stand_in in simple.items():
+        monkeypatch.setattr(page, name, stand_in)
+    monkeypatch.setattr(parts, "asked_of", lambda case: "asked")
+    monkeypatch.setattr(parts, "parts", lambda asked: (part,))
+    monkeypatch.setattr(parts, "answers", lambda *_: [(part, SimpleNamespace(curves=("curve",)))])
+    left: list[Any] = [None, {"one": "done"}]
+    monkeypatch.setattr(parts, "kept", lambda taking, folder: left[0])
+    bare = page.page(record)
+    left.pop(0)
+    found = page.page(record)
+    assert "<section>study Losses ['done']</section>" in found
+    assert "<section>study Losses" not in bare
+    assert "<img pictures ['curve']>" in found
+    assert "<img pictures []>" in bare
+    pieces = [
+        "A &amp; B",
+        "asked a = 1",
+        "<h2>Limits</h2>",
+        "hard steel",
+        "<h2>Standard and simulation</h2>",
+        "<h2>Along the path of contact</h2>",
+        "<h2>Gears and oil</h2>",
+        "scenario sha256 0123",
+    ]
+    places = [found.index(one) for one in pieces]
+    assert places == sorted(places)
+    assert "Nothing." in found
+    assert found.index("<h2>Gears and oil</h2>") < found.index(">25<") < found.index("Scenario and origin")

@@ -9,6 +9,7 @@ import pytest
 
 from tribodyn.errors import SimulationError
 from tribodyn.solve.branch_end import BranchEnd
+from tribodyn.studies.backlash_oscillator import response as responding
 from tribodyn.studies.backlash_oscillator import run as running
 from tribodyn.studies.backlash_oscillator import unstable
 from tribodyn.studies.backlash_oscillator.response import (
@@ -206,3 +207,26 @@ def test_unstable_motions_are_measured_over_their_periods():
         assert found.rms[k] == pytest.approx(variance**0.5)
         assert found.free[k] == pytest.approx(3.0 / duration)
         assert found.peak_to_peak[k] == 3.5
+
+
+def test_branches_go_on_over_the_whole_range(monkeypatch: pytest.MonkeyPatch):
+    """Those of a leg stand behind the ends that were met before it; one that is lost leaves its place."""
+    given = response(beyond=[])
+    asked: list[Any] = []
+
+    def branches(family: Any, direction: int, seeds: Any, span: Any) -> Any:
+        asked.append((direction, seeds, span))
+        return ["first", None, "third"]
+
+    branch = SimpleNamespace(values="frequencies")
+    monkeypatch.setattr(
+        responding, "unstable_branches", lambda *of: [one and branch for one in branches(*of)]
+    )
+    monkeypatch.setattr(responding, "oscillator_at", lambda case, values: (case, values))
+    monkeypatch.setattr(responding, "measured", lambda *of: of)
+    family: Any = SimpleNamespace(case="case")
+    arrival: Any = SimpleNamespace(seeds="seeds")
+    responding._go_on(given, family, DOWN, arrival)
+    assert asked == [(DOWN, "seeds", (0.5, 0.9))]
+    oscillator = ("case", "frequencies")
+    assert given.beyond == [(2, branch, oscillator), (4, branch, oscillator)]

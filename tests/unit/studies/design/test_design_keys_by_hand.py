@@ -4,6 +4,7 @@ import math
 import sys
 from dataclasses import replace
 from io import StringIO
+from pathlib import Path
 from types import ModuleType, SimpleNamespace
 from typing import Any
 
@@ -26,8 +27,8 @@ from tribodyn.studies.design.methods.local import slopes_of
 from tribodyn.studies.design.methods.population import cma_es
 from tribodyn.studies.design.methods.views import Scalar
 from tribodyn.studies.design.naming import apart, flat, naming_key
-from tribodyn.studies.design.outcome import chosen_best
-from tribodyn.studies.design.parts import _number, _varied
+from tribodyn.studies.design.outcome import HEAD, check_targets, chosen_best
+from tribodyn.studies.design.parts import _constraint, _contradictions, _number, _objectives, _varied
 from tribodyn.studies.design.pool import Pool
 from tribodyn.studies.design.short_form import loaded_search
 from tribodyn.studies.design.slopes import Derivatives, _over_samples
@@ -38,6 +39,7 @@ from tribodyn.studies.design.sources import (
     sources_of,
     split,
     standing,
+    units_by_figure,
     unknown_part,
 )
 
@@ -145,18 +147,31 @@ def test_what_the_physics_does_not_depend_on_cannot_be_free(key: str):
 
 
 def test_limits_are_read_with_sign_and_unit():
-    signs = {"<=": 1.0, "<": 1.0, "≤": 1.0, ">=": -1.0, ">": -1.0, "≥": -1.0}
-    texts = [f"hertz_pressure_max {sign} {1.5 if value > 0 else 0.5} GPa" for sign, value in signs.items()]
+    studies = {"": sources_of(SCENARIOS)[""].study}
+    units = units_by_figure(studies)
+
+    def limit(text: str) -> Constraint:
+        return _constraint("place", text, studies, units)
+
+    for sign, value in {"<=": 1.0, "<": 1.0, "≤": 1.0, ">=": -1.0, ">": -1.0, "≥": -1.0}.items():
+        one = limit(f"hertz_pressure_max {sign} 1.5 GPa")
+        assert (one.figure, one.sign, one.limit) == ("hertz_pressure_max", value, pytest.approx(1.5e9))
+        assert limit(f"{G} {sign} start")[1:] == (G, value, START)
+        assert limit(f"{G} {sign} 2.25")[1:] == (G, value, 2.25)
     # one limit that only touches another does not contradict it
-    touching = [f"{G} >= start", f"{G} <= 2.25", f"{G} >= 2.25"]
-    terms = [{"figure": F, "weight": -0.5}, {"figure": G}]
-    case = case_of(subject_to=[*texts, *touching], minimise=terms)
-    for one, value in zip(case.constraints, signs.values(), strict=False):
-        assert (one.figure, one.sign) == ("hertz_pressure_max", value)
-        assert one.limit == pytest.approx(1.5e9 if value > 0 else 0.5e9)
-    assert [one[1:] for one in case.constraints[6:]] == [(G, -1.0, START), (G, 1.0, 2.25), (G, -1.0, 2.25)]
-    (weighted,) = case.objectives
-    assert [factor for _, factor in weighted.terms] == [-0.5, 1.0]
+    for low, contradict in ((1.5, False), (1.6, True)):
+        pair = [limit(f"{G} >= {low}"), limit(f"{G} <= 1.5")]
+        assert bool(_contradictions(pair)) == bool(_contradictions(pair[::-1])) == contradict
+    others = [
+        limit(f"{G} >= 9"),
+        limit("hertz_pressure_max <= 1 Pa"),
+        limit(f"{G} <= start"),
+        limit(f"{G} >= 8"),
+    ]
+    assert _contradictions(others) == []
+    asked: Any = SimpleNamespace(maximise=None, minimise=[{"figure": G, "weight": -0.5}, {"figure": G}])
+    (weighted,) = _objectives(asked, studies)
+    assert weighted.terms == ((G, -0.5), (G, 1.0))
 
 
 def test_more_of_a_figure_is_less_of_its_opposite():
@@ -585,3 +600,16 @@ def test_the_nearest_of_a_front_by_shares_of_both_spans(case: DesignCase):
         assert chosen_best(two, archive) is evaluations[0]
         archive.evaluations = []
         assert chosen_best(two, archive) is None
+
+
+def test_only_what_no_search_wrote_is_in_the_way(case: DesignCase, tmp_path: Path):
+    """A file with the best of an earlier search is replaced, also that of a part; another is not."""
+    parted = replace(case, parts={"losses": {"kind": "efficiency"}})
+    record = tmp_path / "found.h5"
+    check_targets(parted, record)
+    (tmp_path / "found-best.toml").write_text(f"{HEAD}an earlier one\n", encoding="utf-8")
+    check_targets(parted, record)
+    (tmp_path / "found-best-losses.toml").write_text("mine", encoding="utf-8")
+    check_targets(case, record)
+    with pytest.raises(InputError, match="no search wrote it"):
+        check_targets(parted, record)
