@@ -111,7 +111,7 @@ def numbered(rows: int, first: float) -> np.ndarray:
     return np.arange(first, first + rows)[:, None] * np.ones(STATES)
 
 
-@pytest.mark.parametrize(("cycles", "window", "points"), [(20, 4, 6), (20, 4, 2), (4, 4, 3)])
+@pytest.mark.parametrize(("cycles", "window", "points"), [(20, 4, 6), (20, 4, 2), (4, 4, 3), (5, 4, 3)])
 def test_a_march_leads_to_its_window(monkeypatch: pytest.MonkeyPatch, cycles: int, window: int, points: int):
     """The second case stops on the way, the third in the window; of the others the last states are kept."""
     samples, calls = 3, []
