@@ -259,6 +259,16 @@ def test_stiffness_is_the_slope_of_the_force_on_the_pitch_circles(pair):
     np.testing.assert_allclose(found.mesh_stiffness, 1e-3 * TORQUE / 54e-3 / (more - error), rtol=2e-4)
 
 
+def test_unless_said_flanks_have_no_friction(pair):
+    """And the face is one slice; both ways to the deflection say the same."""
+    found, without = (
+        loaded_error(pair, TIPS, TORQUE, 2),
+        loaded_error(pair, TIPS, TORQUE, 2, friction_coefficient=0.0, slices=1),
+    )
+    np.testing.assert_array_equal(found, without)
+    np.testing.assert_array_equal(roll_through(pair, TIPS, TORQUE, 2).deflection, without)
+
+
 def test_slices_are_pressed_as_hertz_says(pair):
     found = roll_through(pair, EVERYTHING, TORQUE, 2, slices=4)
     np.testing.assert_allclose(found.slice_position, WIDTH * np.array([-3.0, -1.0, 1.0, 3.0]) / 8, rtol=1e-12)

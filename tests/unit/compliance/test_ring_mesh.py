@@ -89,3 +89,30 @@ def test_the_profile_is_the_tooth_s(teeth, shift, level):
     assert gone[near[half]] == pytest.approx((gone[20_001] + gone[40_001]) / 2, rel=5e-3)
     for part in (steps[:half], steps[half : 2 * along_root]):
         np.testing.assert_allclose(part, np.mean(part), rtol=1e-2)
+
+
+@pytest.mark.parametrize(("bore", "thin"), [(0.3, False), (0.6, False), (0.9, True)])
+@pytest.mark.parametrize(("teeth", "shift"), [(14, 0.3), (40, 0.0)])
+def test_three_blocks_share_the_straight_angle_under_the_fillet(teeth, shift, bore, thin):
+    """About a third each, where five cells meet; over a thin rim the seam ends at least half way up."""
+    tooth, bore_radius = cut(teeth, shift, bore)
+    mesh = half_sector_mesh(tooth, teeth, bore_radius, 1)
+    numbers, counts = np.unique(mesh.cells[:4], return_counts=True)
+    [corner] = numbers[counts == 5]
+    angles = []
+    for cell in mesh.cells[:4, np.any(mesh.cells[:4] == corner, axis=0)].T:
+        k = cell.tolist().index(corner)
+        before, at, after = (mesh.nodes[:, cell[(k + n) % 4]] for n in (-1, 0, 1))
+        one, other = after - at, before - at
+        angles.append(np.degrees(np.arctan2(one[0] * other[1] - one[1] * other[0], one @ other)))
+    assert sum(angles) == pytest.approx(360.0)
+    narrow = sorted(angles)[:3]
+    assert sum(narrow) == pytest.approx(180.0, abs=25.0)
+    if not thin:
+        assert narrow == pytest.approx([60.0] * 3, abs=26.0)
+    corners = np.unique(mesh.cells[:4])
+    axis = np.sort(mesh.nodes[0, corners[np.abs(mesh.nodes[1, corners]) < 1e-12]])
+    _, _, _, edge = half_sector_cells(1)
+    seam_end = axis[edge - 1]  # one cell less than on the edge, where the layer is
+    assert seam_end >= (bore_radius + np.hypot(*mesh.nodes[:, corner])) / 2 * (1 - 1e-9)
+    assert seam_end < mesh.nodes[0, corner]
