@@ -81,6 +81,10 @@ def test_every_sample_is_what_its_name_says(prepared, rng, overrides):
                 force, sliding = (float(work[row, i]) for row in (contact.FRICTION_FORCE, contact.SLIDING))
                 assert found["friction_force"][k, i] == pytest.approx(force, rel=1e-8, abs=1e-9)
                 assert found["sliding_speed"][k, i] == pytest.approx(sliding, rel=1e-9)
+                mean = (float(work[contact.PINION_SPEED, i]) + float(work[contact.GEAR_SPEED, i])) / 2.0
+                assert found["entrainment_speed"][k, i] == pytest.approx(mean, rel=1e-9)
+                radius = float(work[contact.RADIUS, i])
+                assert found["equivalent_radius"][k, i] == pytest.approx(radius, rel=1e-9)
                 slope = np.tan(found["pressure_angle"][k, i]) * float(work[contact.COS, i])
                 assert slope == pytest.approx(float(work[contact.SIN, i]), rel=1e-9)
 

@@ -109,6 +109,17 @@ def test_a_doubled_motion_ends_where_it_merges(size):
     )
 
 
+def test_the_end_is_at_its_value_in_the_parameters_own_unit():
+    """The same with the parameter counted from elsewhere and in another unit."""
+    elsewhere = Lines(lambda x, b: subcritical(x, b / 40.0 - 0.75), 1)
+    x = np.sqrt(2.0 + 2.0 * np.sqrt(0.1))
+    _, branch = beyond(elsewhere, 40.0 * -0.15, 40.0 * -0.3, [x], 2, (-18.0, 38.0))
+    assert branch.finish is not None
+    assert branch.finish.kind == MERGING
+    assert branch.finish.value == pytest.approx(30.0, abs=5e-3)
+    assert branch.finish.within <= 5e-3
+
+
 def test_where_nothing_goes_on_there_is_no_branch():
     """A place that is stable as far as the range goes."""
     (branch,) = unstable_branches(
