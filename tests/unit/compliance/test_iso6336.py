@@ -163,6 +163,17 @@ def test_bodies_and_tips_that_the_series_is_not_for():
     assert "addendum of the gear 1.2" in said
 
 
+def test_a_tip_that_only_the_profile_shift_moves_is_no_other_addendum():
+    shifted = gear(20, 0.4), gear(40, -0.3)
+    assert not any("addendum" in said for said in bodies_outside(drive(*shifted)))
+    higher = drive(gear(20, 0.4, addendum=1.35), gear(40, -0.3, addendum=0.7))
+    said = [one for one in bodies_outside(higher) if "addendum" in one]
+    assert [one.partition(", ")[0] for one in said] == [
+        "addendum of the pinion 1.35 modules",
+        "addendum of the gear 0.7 modules",
+    ]
+
+
 def test_the_series_is_the_standards():
     """(82) with the coefficients of its table, at shifts of both gears that let every term count."""
     table = (0.04723, 0.15551, 0.25791, -0.00635, -0.11654, -0.00193, -0.24188, 0.00529, 0.00182)
