@@ -94,6 +94,29 @@ class TestBeam:
             axial = np.trapezoid(math.sin(angle) ** 2 / (2 * half), s) / (207e9 * 0.02)
             assert result.axial[i] == pytest.approx(axial, rel=1e-6)
 
+    def test_flank_that_does_not_reach_the_pitch_point(self):
+        """All of it on one side, by a large profile shift; integrated point by point."""
+        one, other = body(60, 0.06), body(70, 0.06)
+        pair = drive(
+            20.0,
+            one._replace(profile_shift=1.3, addendum=0.8),
+            other._replace(profile_shift=-1.3, addendum=2.2, dedendum=1.25),
+        )
+        tooth = loaded(involute.FAMILY, pair, "pinion")
+        first = float(distance_at_radius(tooth.path, tooth.tooth.form_radius))
+        last = float(distance_at_radius(tooth.path, tooth.tooth.tip_radius))
+        assert first > 0.0
+        r = first + np.array([0.4, 0.9]) * (last - first)
+        result = tooth_compliance(tooth, STEEL, 0.02, r)
+        outline = tooth_outline(tooth.tooth, 4000, 4000)
+        x, y = np.r_[outline.fillet_x, outline.flank_x[1:]], np.r_[outline.fillet_y, outline.flank_y[1:]]
+        contact = contact_in_tooth_frame(tooth.path, tooth.pitch_half_angle, r)
+        for i in range(2):
+            below = x < contact.x[i]
+            s, half = np.r_[x[below], contact.x[i]], np.r_[y[below], contact.y[i]]
+            shear = np.trapezoid(1.2 * math.cos(contact.load_angle[i]) ** 2 / (2 * half), s) * 2.6
+            assert result.shear[i] == pytest.approx(shear / (207e9 * 0.02), rel=1e-6)
+
     @pytest.mark.parametrize("shift", [0.5, 0.55, 0.565])
     def test_tips_down_to_an_edge(self, shift):
         # eight teeth, tips 0.07 … 0.001 modules thick; Gauss-Legendre on intervals that shrink to the tip
