@@ -5,6 +5,7 @@ example alone, by pip, without a network.
 """
 
 import json
+import re
 import shutil
 import subprocess
 import sys
@@ -146,6 +147,7 @@ def test_own_keys_are_held_to_their_units(plugin, tmp_path):
     assert 'did you mean "thickness"?' in wrong.stderr
 
 
+@pytest.mark.soak
 def test_the_law_reduces_to_coulombs(plugin, tmp_path):
     """Without a decay; the film is the one that is given."""
     shipped = tmp_path / "shipped.toml"
@@ -192,13 +194,14 @@ def test_all_integrators_agree(plugin, tmp_path):
 
 
 def test_a_kernel_is_kept_until_the_source_changes(plugin, tmp_path):
-    """A second process compiles nothing; an edit of the law has a kernel of its own, which then runs."""
-    cache, steel, factor = plugin.cache, settings(*SHORT, "solver.method=dopri5"), 2.5
-    given = ("run", plugin.scenario(GEARS), "-o", "run.h5", "--no-plot", "--force", *steel)
-    plugin(*given, folder=tmp_path)
+    """A second process compiles nothing; an edit of the law has kernels of its own, which then run."""
+    cache, factor = plugin.cache, 2.5
+    given = ("run", plugin.scenario(GEARS), "-o", "run.h5", "--no-plot", "--force", *settings(*SHORT))
+    native, scipy = (settings(f"solver.method={one}") for one in ("dopri5", "radau"))
+    plugin(*given, *native, folder=tmp_path)
     first, before = kernels(cache), arrays(tmp_path / "run.h5")
     assert first
-    plugin(*given, folder=tmp_path)
+    plugin(*given, *native, folder=tmp_path)
     assert kernels(cache) == first
     source = plugin.packages / "tribodyn_example" / "stribeck.py"
     text = source.read_text(encoding="utf-8")
@@ -206,12 +209,13 @@ def test_a_kernel_is_kept_until_the_source_changes(plugin, tmp_path):
     assert text.count(formula) == 1
     try:
         source.write_text(text.replace(formula, f"exp(-{factor!r} * contact.entrainment"), encoding="utf-8")
-        plugin(*given, folder=tmp_path)
+        plugin(*given, *scipy, folder=tmp_path)
         after = arrays(tmp_path / "run.h5")
     finally:
         source.write_text(text, encoding="utf-8")
     later = kernels(cache)
     assert {name: later[name] for name in first} == first
+    assert any("rhs" in name for name in later.keys() - first.keys())
     expected = 0.03 + 0.09 * np.exp(-factor * np.abs(after["entrainment_speed"]) / 2.0)
     np.testing.assert_allclose(after["friction_coefficient"], expected, rtol=1e-12)
     assert np.max(after["friction_force"]) < np.max(before["friction_force"])
@@ -219,7 +223,7 @@ def test_a_kernel_is_kept_until_the_source_changes(plugin, tmp_path):
 
 def test_a_sweep_over_the_laws_own_key_runs_in_the_lanes(plugin, tmp_path):
     """Nine cases side by side, each as if it were alone; friction grows with the key."""
-    given = settings("solver.rtol=1e-8")
+    given = ("--transient", "20", *settings("solver.rtol=1e-8"))
     efficiency = {}
     for name, values in (("sweep", "1:9:1m/s"), ("alone", "5m/s")):
         vary = f"friction.reference_speed={values}"
@@ -238,7 +242,7 @@ def test_a_sweep_over_the_laws_own_key_runs_in_the_lanes(plugin, tmp_path):
 
 
 def test_the_efficiency_study_takes_family_and_law(plugin, tmp_path):
-    """Between the efficiencies of both of the law's ends, which are Coulomb's."""
+    """Between the efficiencies of both of the law's ends, which are Coulomb's to the last bit."""
     found = []
     for boundary, fluid in (("0.03", "0.03"), ("0.12", "0.03"), ("0.12", "0.12")):
         given = (f"friction.boundary_coefficient={boundary}", f"friction.fluid_coefficient={fluid}")
@@ -247,6 +251,16 @@ def test_the_efficiency_study_takes_family_and_law(plugin, tmp_path):
             found.append(record.summary["efficiency"])
         path.unlink()
     assert found[0] > found[1] > found[2]
+    for mu, of_the_law in (("0.03", found[0]), ("0.12", found[2])):
+        text = Path(plugin.scenario(EFFICIENCY)).read_text(encoding="utf-8")
+        shipped = re.sub(
+            r"(?s)\[friction\].*?(?=\n\[|\Z)", f'[friction]\nlaw = "coulomb"\ncoefficient = {mu}\n', text
+        )
+        (tmp_path / "coulomb.toml").write_text(shipped, encoding="utf-8")
+        path = run(plugin, tmp_path, "coulomb", scenario="coulomb.toml")
+        with open_record(path) as record:
+            assert record.summary["efficiency"] == of_the_law
+        path.unlink()
 
 
 def test_the_study_runs_draws_shows_and_compares(plugin, tmp_path):

@@ -123,7 +123,6 @@ def test_energy_balance_closes_without_load(prepared, method):
         "operating.pinion_speed": "40 rad/s",
         "mesh.backlash": "40 um",
         "mesh.transmission_error.harmonics": [{"order": 5, "amplitude": "15 um", "phase": "86 deg"}],
-        "friction.law": "none",
     }
     assert _closes(prepared("crc-23-47", **overrides), 1e-7, method=method) < 1e-6
 

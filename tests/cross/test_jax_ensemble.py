@@ -26,7 +26,8 @@ pytestmark = pytest.mark.slow
 
 #: Of the native engine and JAX alike, as a share of the transmission error's range, at rtol 1e-8.
 AGREE = 2e-6
-MOTOR = {"operating.source": "torque", "output.samples_per_cycle": 40}
+#: Kinematic sliding takes the same steps in both, and one program serves all.
+MOTOR = {"operating.source": "torque", "output.samples_per_cycle": 40, "friction.sliding": "kinematic"}
 
 
 @pytest.fixture(autouse=True)
@@ -45,7 +46,7 @@ def compiled():
 def motors(prepared):
     """Three motors that carry their load and one that does not: models and states."""
     balanced = 500.0 * 23 / 47
-    base = prepared("crc-23-47-300", **{"operating.source": "torque"}).model
+    base = prepared("crc-23-47-300", **MOTOR).model
     models = [
         base._replace(
             mechanics=base.mechanics._replace(
@@ -147,7 +148,6 @@ def test_the_verb_gives_the_record_of_the_native_engine(tmp_path: Path):
     """One speed of four takes more steps in a mesh cycle than it may."""
     words = ("--vary", "operating.pinion_speed=40,250,300,350rad/s", "--transient", "4")
     words += ("--set", "solver.max_steps=800", "--set", "solver.rtol=1e-8")
-    words += ("--set", "friction.sliding=kinematic")  # which takes the same steps in both
     native = swept("native", tmp_path / "native.h5", *words)
     mapped = swept("jax", tmp_path / "jax.h5", *words)
     assert_alike(mapped, native, 1e-5)

@@ -100,6 +100,7 @@ def test_limits_of_the_geometry_stand_beside_the_papers(closed_forms):
     assert "below 0.461" in closed_forms["jia/k2-max"].note
 
 
+@pytest.mark.soak
 def test_line_load_and_pressure_of_a_misaligned_crowned_pair():
     """The worst of the ratios: both parts of it by finite elements, as all others are obtained."""
     key = "jia/misaligned-parabolic-crowned-3"

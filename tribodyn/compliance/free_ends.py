@@ -169,7 +169,8 @@ def at_phase(
     harmonics: list[Harmonic], face: Face, phase: complex
 ) -> tuple[Complex[Array, "wave free free"], Complex[Array, "free load"], Complex[Array, "reading free"]]:
     """S (K, O, O); stress on the held faces per flank load (O, K M); on the roots per opening (K 2 P, O)."""
-    joined = face.joined(phase)
+    joined = csr_matrix(face.joined(phase))  # two entries per row at most
+    gathered = joined.conj().T
     held, reached, seen = [], [], []
     for harmonic in harmonics:
         count, roots = len(harmonic.stiffness), len(harmonic.on_root)
@@ -183,8 +184,8 @@ def at_phase(
                 [-reading[count : 2 * count], harmonic.stiffness - conjugate[:count]],
             ]
         )
-        held.append(joined.conj().T @ strain @ joined)
-        reached.append(joined.conj().T @ by_load)
+        held.append(gathered @ (strain @ joined))
+        reached.append(gathered @ by_load)
         upper, lower = reading[2 * count : 2 * count + roots], reading[2 * count + roots :]
         mirrored = conjugate[2 * count : 2 * count + roots], conjugate[2 * count + roots :]
         stress = np.block([[upper - harmonic.on_root, mirrored[1]], [lower, mirrored[0] - harmonic.on_root]])
