@@ -194,14 +194,13 @@ def test_all_integrators_agree(plugin, tmp_path):
 
 
 def test_a_kernel_is_kept_until_the_source_changes(plugin, tmp_path):
-    """A second process compiles nothing; an edit of the law has kernels of its own, which then run."""
-    cache, factor = plugin.cache, 2.5
-    given = ("run", plugin.scenario(GEARS), "-o", "run.h5", "--no-plot", "--force", *settings(*SHORT))
-    native, scipy = (settings(f"solver.method={one}") for one in ("dopri5", "radau"))
-    plugin(*given, *native, folder=tmp_path)
+    """A second process compiles nothing; an edit of the law has a kernel of its own, which then runs."""
+    cache, steel, factor = plugin.cache, settings(*SHORT, "solver.method=dopri5"), 2.5
+    given = ("run", plugin.scenario(GEARS), "-o", "run.h5", "--no-plot", "--force", *steel)
+    plugin(*given, folder=tmp_path)
     first, before = kernels(cache), arrays(tmp_path / "run.h5")
     assert first
-    plugin(*given, *native, folder=tmp_path)
+    plugin(*given, folder=tmp_path)
     assert kernels(cache) == first
     source = plugin.packages / "tribodyn_example" / "stribeck.py"
     text = source.read_text(encoding="utf-8")
@@ -209,13 +208,12 @@ def test_a_kernel_is_kept_until_the_source_changes(plugin, tmp_path):
     assert text.count(formula) == 1
     try:
         source.write_text(text.replace(formula, f"exp(-{factor!r} * contact.entrainment"), encoding="utf-8")
-        plugin(*given, *scipy, folder=tmp_path)
+        plugin(*given, folder=tmp_path)
         after = arrays(tmp_path / "run.h5")
     finally:
         source.write_text(text, encoding="utf-8")
     later = kernels(cache)
     assert {name: later[name] for name in first} == first
-    assert any("rhs" in name for name in later.keys() - first.keys())
     expected = 0.03 + 0.09 * np.exp(-factor * np.abs(after["entrainment_speed"]) / 2.0)
     np.testing.assert_allclose(after["friction_coefficient"], expected, rtol=1e-12)
     assert np.max(after["friction_force"]) < np.max(before["friction_force"])
