@@ -4,6 +4,7 @@
 # make soak   random drives, duties and options by the thousand, and other long checks (docs/soak.md)
 # make fuzz   100 000 mutated inputs: scenarios, options, curves, records, the cache (docs/fuzz.md)
 # make docs   the documentation site, into docs/_build/html
+# make wheel  what a package index gets, into dist: wheel and source distribution, checked
 # make durations  measure the tests anew: which are the quick ones, in which order all run
 PYTHON ?= python3
 # two test processes share the cores; a BLAS's own threads would only stand in their way
@@ -75,6 +76,7 @@ docs: $(VENV)/.documenting
 
 wheel: $(VENV)/.testing
 	$(BIN)/python -m build --outdir dist
+	$(BIN)/python -m twine check --strict dist/*
 
 $(VENV)/.created:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' \

@@ -30,6 +30,7 @@ READ_BY_HAND = {
     "wadler_lindig": "Apache-2.0",
     "jaxtyping": "MIT",
     "contourpy": "BSD-3-Clause",
+    "graphemeu": "MIT",
     "h5netcdf": "BSD-3-Clause",
     "kiwisolver": "BSD-3-Clause",
     "scipy": "BSD-3-Clause",

@@ -1,6 +1,7 @@
-"""The wheel carries models and scenarios: what is installed runs from any folder, with no checkout near."""
+"""What is published: the source distribution, and the wheel built from it, for any folder and any index."""
 
 import os
+import re
 import subprocess
 import sys
 import zipfile
@@ -8,19 +9,26 @@ from pathlib import Path
 
 import pytest
 
+from hatch_build import long_description
+
 ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture(scope="module")
-def installed(tmp_path_factory):
-    """The package unpacked from a freshly built wheel, as an installer would."""
-    folder = tmp_path_factory.mktemp("wheel")
-    build = [sys.executable, "-m", "build", "--wheel", "--no-isolation", "--outdir", str(folder), str(ROOT)]
+def built(tmp_path_factory):
+    """Folder with the source distribution and the wheel built from it."""
+    folder = tmp_path_factory.mktemp("built")
+    build = [sys.executable, "-m", "build", "--no-isolation", "--outdir", str(folder), str(ROOT)]
     subprocess.run(build, check=True, capture_output=True)
-    site = folder / "site"
-    with zipfile.ZipFile(next(folder.glob("*.whl"))) as wheel:
-        wheel.extractall(site)
-    return site
+    return folder
+
+
+@pytest.fixture(scope="module")
+def installed(built):
+    """The package unpacked from the wheel, as an installer would."""
+    with zipfile.ZipFile(next(built.glob("*.whl"))) as wheel:
+        wheel.extractall(built / "site")
+    return built / "site"
 
 
 def tribodyn(installed, folder, *arguments):
@@ -56,3 +64,23 @@ def test_installed_wheel_runs_from_an_empty_folder(installed, tmp_path):
     assert (tmp_path / "crc-23-47-overview.png").exists()
     where = tribodyn(installed, tmp_path, "--version")
     assert where.returncode == 0
+
+
+@pytest.mark.slow
+def test_a_package_index_shows_both_as_they_are(built):
+    pytest.importorskip("twine")
+    files = [str(file) for pattern in ("*.whl", "*.tar.gz") for file in built.glob(pattern)]
+    check = [sys.executable, "-m", "twine", "check", "--strict", *files]
+    done = subprocess.run(check, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert len(files) == done.stdout.count("PASSED") == 2
+
+
+@pytest.mark.parametrize("repository", ["", "https://example.org/someone/tribodyn"])
+def test_the_long_description_has_no_link_into_a_folder_that_an_index_does_not_have(repository):
+    text = long_description((ROOT / "README.md").read_text(encoding="utf-8"), repository)
+    targets = re.findall(r"\]\(([^)]*)\)", text)
+    assert all(target.startswith("https://") for target in targets)
+    files = [re.sub(r"^.*?/main/([^#]*).*", r"\1", target) for target in targets if repository in target]
+    assert bool(files) == bool(repository)
+    assert all((ROOT / file).is_file() for file in files)
