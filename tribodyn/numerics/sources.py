@@ -1,7 +1,10 @@
 """Which source files a module depends on, from its imports, and a digest of them: what a cached result is of.
 
 Imports inside functions count, those for a type checker alone do not. Only modules of the same distribution
-as the first ones and of this package are followed; of other libraries the version says enough.
+as the first ones and of this package are followed; of other libraries the version says enough. The
+packages that a module of another distribution lies in count, since its import runs them; those of this one do
+nothing but list names, so that one counts only where something is imported from it, and the outermost, which
+has the version, never.
 """
 
 import hashlib
@@ -11,6 +14,7 @@ from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 
+_OWN = __name__.partition(".")[0]
 #: ``from module import names`` and ``import module``, wherever they stand in the text: one in a docstring
 #: counts too, which only makes the digest depend on more.
 _FROM = re.compile(r"^[ \t]*from[ \t]+([\w.]+)[ \t]+import[ \t]+(\([^)]*\)|[^\n]*)", re.MULTILINE)
@@ -18,6 +22,9 @@ _IMPORT = re.compile(r"^[ \t]*import[ \t]+([\w. \t,]+)", re.MULTILINE)
 _FOR_TYPES = re.compile(r"^if (?:typing\.)?TYPE_CHECKING:\n(?:[ \t]+[^\n]*\n|\n)+", re.MULTILINE)
 _COMMENT = re.compile(r"#[^\n]*")
 _NAME = re.compile(r"(\w+)(?:[ \t]+as[ \t]+\w+)?")
+#: What no result depends on: lines of comments, and docstrings, which begin a file or stand below a colon.
+_REMARK = re.compile(rb"^[ \t]*#[^\n]*\n", re.MULTILINE)
+_DOCSTRING = re.compile(rb'(\A|:\n)\s*r?"""[^"\\]*(?:(?:\\.|"(?!""))[^"\\]*)*"""[ \t]*\n', re.DOTALL)
 
 
 def modules_behind(*names: str) -> dict[str, Path]:
@@ -28,12 +35,12 @@ def modules_behind(*names: str) -> dict[str, Path]:
     *names : str
         Names of modules, imported or not; those without a source file are left out.
     """
-    followed = {name.partition(".")[0] for name in names} | {__name__.partition(".")[0]}
+    followed = {name.partition(".")[0] for name in names} | {_OWN}
     files: dict[str, Path] = {}
     waiting = [part for name in names for part in _with_packages(name)]
     while waiting:
         name = waiting.pop()
-        if name in files or name.partition(".")[0] not in followed:
+        if name in files or name == _OWN or name.partition(".")[0] not in followed:
             continue
         file = _file_of(name)
         if file is not None:
@@ -43,16 +50,23 @@ def modules_behind(*names: str) -> dict[str, Path]:
 
 
 def digest_of(*names: str) -> bytes:
-    """SHA-256 over the sources of modules and of all that they import."""
+    """SHA-256 over the sources of modules and of all that they import, docstrings and comments left out."""
     digest = hashlib.sha256()
     for name, file in modules_behind(*names).items():
-        digest.update(name.encode() + b"\0" + hashlib.sha256(_text(file)).digest())
+        digest.update(name.encode() + b"\0" + hashlib.sha256(code_of(_text(file))).digest())
     return digest.digest()
 
 
+def code_of(text: bytes) -> bytes:
+    """Text of a source file without what no result depends on."""
+    return _DOCSTRING.sub(rb"\1", _REMARK.sub(b"", text))
+
+
 def _with_packages(name: str) -> list[str]:
-    """A module's name after those of the packages that it lies in, which its import runs too."""
+    """A module's name after those of the packages that it lies in, of which this one's do not count."""
     parts = name.split(".")
+    if parts[0] == _OWN:
+        return [name]
     return [".".join(parts[: i + 1]) for i in range(len(parts))]
 
 

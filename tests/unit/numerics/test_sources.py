@@ -1,15 +1,20 @@
 """The sources that a cached result depends on, and files that appear whole."""
 
+import ast
+import re
 import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
 
+import tribodyn
 from tribodyn.compliance import fem_cache
 from tribodyn.kernels.native import store
 from tribodyn.numerics import sources
 from tribodyn.numerics.cache import replacing
+from tribodyn.tribology.ehl import table
 
 FILES = {
     "__init__.py": "",
@@ -27,6 +32,8 @@ FILES = {
     "checked.py": "",
 }
 UNUSED = {"unused.py", "typed.py"}
+#: Laws that say that there is none, or that the solved contact begins with.
+FIRST_LAWS = ("film.dowson_higginson", "film.moes", "friction.none")
 
 
 def write_package(folder: Path, name: str) -> None:
@@ -44,13 +51,13 @@ def package(tmp_path, monkeypatch):
     """Make a package in which a file may be changed; gives the digest of its module `start`."""
     monkeypatch.syspath_prepend(str(tmp_path))
 
-    def digest(name: str, changed: str | None = None) -> bytes:
+    def digest(name: str, changed: str | None = None, addition: str = "x = 1\n") -> bytes:
         folder = tmp_path / name
         if not folder.is_dir():
             write_package(tmp_path, name)
         if changed:
             path = folder / changed
-            path.write_text(path.read_text() + "x = 1\n")
+            path.write_text(path.read_text() + addition)
         for function in (sources._file_of, sources._text, sources._imports):
             function.cache_clear()
         return sources.digest_of(f"{name}.start")
@@ -68,6 +75,72 @@ def test_changing_any_imported_file_changes_the_digest(package, file):
 @pytest.mark.parametrize("file", sorted(UNUSED))
 def test_a_file_that_is_not_imported_or_for_a_checker_alone_does_not(package, file):
     assert package("another_package") == package("another_package", file)
+
+
+FUNCTION = 'def function():\n    {}\n    return """{}"""\n'
+
+
+def test_words_about_the_code_do_not_and_texts_in_it_do(package, tmp_path):
+    package("third_package")
+    file = tmp_path / "third_package" / "lazy.py"
+    first = package("third_package", "lazy.py", FUNCTION.format('"""Doc."""', "a"))
+    assert package("third_package", "lazy.py", "# a comment\n") == first
+    file.write_text(FUNCTION.format('r"""More \\" of it."""', "a"))
+    assert package("third_package") == first
+    file.write_text(FUNCTION.format('"""Doc."""', "b"))
+    assert package("third_package") != first
+
+
+def test_of_the_own_sources_words_about_the_code_are_left_out_and_nothing_else():
+    compared = 0
+    for file in sources.modules_behind("tribodyn.solve.methods.rodas4").values():
+        text = file.read_bytes()
+        with suppress(SyntaxError):  # a body of a docstring alone is gone
+            without = ast.parse(sources.code_of(text))
+            assert without_docstrings(without) == without_docstrings(ast.parse(text)), file
+            compared += 1
+    assert compared >= 40
+
+
+def without_docstrings(tree: ast.Module) -> str:
+    for node in ast.walk(tree):
+        if (
+            isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef))
+            and ast.get_docstring(node) is not None
+        ):
+            del node.body[0]
+    return ast.dump(tree)
+
+
+#: What no compiled code, no finite elements and no solved contacts depend on.
+ELSEWHERE = ("cli", "drawing", "interface", "post", "record", "scenario", "studies", "sweep", "validation")
+
+
+def test_no_kept_result_depends_on_pages_verbs_the_version_or_laws_it_does_not_contain():
+    """A law in use is told by its own functions; only those that others begin with are imported."""
+    root = Path(tribodyn.__file__).parent
+    kernels = [file for file in root.rglob("*.py") if "\n@kernel\n" in file.read_text(encoding="utf-8")]
+    names = [".".join(file.relative_to(root.parent).with_suffix("").parts) for file in kernels]
+    assert len(names) >= 8
+    for starts in (*((name, store._COMPILER) for name in names), fem_cache._METHODS, (table.__name__,)):
+        behind = sources.modules_behind(*starts)
+        assert "tribodyn" not in behind
+        others = {name for name in behind if name.split(".")[1] in ELSEWHERE}
+        assert others <= set(starts), starts
+        laws = {name for name in behind if re.match(r"tribodyn\.tribology\.(film|friction)\.", name)}
+        assert laws <= {f"tribodyn.tribology.{one}" for one in FIRST_LAWS}, starts
+
+
+def test_own_packages_list_names_and_do_nothing_else_so_that_they_count_only_where_they_are_named():
+    kinds = (ast.Import, ast.ImportFrom, ast.Assign, ast.AnnAssign, ast.FunctionDef, ast.ClassDef)
+    root = Path(tribodyn.__file__).parent
+    for file in sorted(root.glob("*/**/__init__.py")):
+        body = ast.parse(file.read_text(encoding="utf-8")).body
+        done = [one for one in body if not isinstance(one, kinds)]
+        done = [
+            one for one in done if not (isinstance(one, ast.Expr) and isinstance(one.value, ast.Constant))
+        ]
+        assert not done, f"{file}:{done[0].lineno}"
 
 
 @pytest.mark.parametrize(
@@ -96,10 +169,11 @@ def test_every_module_that_compiling_a_kernel_loads_is_in_its_digest():
         "import tribodyn.kernels.native.compiler\n"
         "from tribodyn.numerics.sources import modules_behind\n"
         "behind = modules_behind('tribodyn.solve.methods.rodas4')\n"
-        "print(*(m for m in sys.modules if m.split('.')[0] == 'tribodyn' and m not in behind))\n"
+        "new = [m for m in sys.modules if m.startswith('tribodyn.') and m not in behind]\n"
+        "print(*(m for m in new if not hasattr(sys.modules[m], '__path__')))\n"
     )
     ended = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
-    assert ended.stdout.split() == []
+    assert ended.stdout.split() == ["tribodyn.numerics.registry"]  # of the laws, as a package lists them
 
 
 def test_a_kernel_depends_on_its_own_module_and_on_the_compiler():

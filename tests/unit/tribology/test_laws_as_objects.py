@@ -188,11 +188,10 @@ def _module(tmp_path, name, text):
 
 
 def test_a_changed_source_or_number_is_another_function(tmp_path):
-    text = "FACTOR = {}\ndef helper(x):\n    return FACTOR * x\ndef function(x):\n    return helper(x){}\n"
-    made = [
-        _module(tmp_path, f"module{i}", text.format(factor, tail)).function
-        for i, (factor, tail) in enumerate([("2.0", ""), ("3.0", ""), ("2.0", " + 1.0"), ("2.0", "")])
-    ]
+    helper = 'def helper(x):\n    """{}"""\n    return FACTOR * x\n'
+    text = "FACTOR = {}\n" + helper + "def function(x):\n    return helper(x){}\n"
+    texts = [("2.0", "", ""), ("3.0", "", ""), ("2.0", "", " + 1.0"), ("2.0", "Other words.", "  # same")]
+    made = [_module(tmp_path, f"module{i}", text.format(*one)).function for i, one in enumerate(texts)]
     identities = [packed(one).layout.identity for one in made]
     assert len(set(identities)) == 3
     assert identities[0] == identities[3]

@@ -15,6 +15,7 @@ from types import CellType, CodeType, FunctionType, ModuleType
 from typing import Any, NamedTuple
 
 from tribodyn.numerics import elementary
+from tribodyn.numerics.sources import code_of
 
 _serial = count()
 
@@ -79,7 +80,7 @@ def _parts(function: Callable[..., Any]) -> Iterator[bytes]:
             yield str(getattr(one, "__name__", "")).encode()  # compiled code has versions of its own
         elif isinstance(one, FunctionType):
             yield f"{one.__module__}.{one.__qualname__}".encode()
-            yield from _content(one.__code__)
+            yield from _content(one.__code__, one.__doc__)
             waiting += [one.__defaults__, *(one.__kwdefaults__ or {}).items()]
             waiting += [_inside(cell) for cell in one.__closure__ or ()]
             names = sorted(_names(one.__code__))
@@ -108,10 +109,10 @@ def _inside(cell: CellType) -> Any:
         raise _UnknownError from None
 
 
-def _content(code: CodeType) -> Iterator[bytes]:
-    """What code does, without the place where it is written."""
+def _content(code: CodeType, docstring: str | None = None) -> Iterator[bytes]:
+    """What code does, without the place where it is written and what it says of itself."""
     inner = [one for one in code.co_consts if isinstance(one, CodeType)]
-    constants = [one for one in code.co_consts if not isinstance(one, CodeType)]
+    constants = [one for one in code.co_consts if not isinstance(one, CodeType) and one is not docstring]
     yield repr((code.co_argcount, code.co_kwonlyargcount, code.co_flags, constants)).encode()
     yield repr((code.co_names, code.co_varnames, code.co_freevars, code.co_cellvars)).encode()
     yield code.co_code + code.co_exceptiontable
@@ -129,6 +130,6 @@ def _names(code: CodeType) -> set[str]:
 def _source(file: str) -> bytes:
     """Digest of a source file."""
     try:
-        return hashlib.sha256(Path(file).read_bytes()).digest()
+        return hashlib.sha256(code_of(Path(file).read_bytes())).digest()
     except OSError:
         raise _UnknownError from None

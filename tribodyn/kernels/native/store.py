@@ -23,7 +23,7 @@ from tribodyn.kernels.native.arguments import is_kept
 from tribodyn.kernels.native.code import Code, Compiled
 from tribodyn.kernels.native.internals import report_missing
 from tribodyn.numerics.cache import alone, keep, read_kept
-from tribodyn.numerics.sources import digest_of
+from tribodyn.numerics.sources import code_of, digest_of
 
 #: What turns any kernel into machine code.
 _COMPILER = "tribodyn.kernels.native.compiler"
@@ -81,7 +81,7 @@ def _place_of(function: Callable[..., Any], layout: Any) -> tuple[str, str] | No
     source = Path(function.__code__.co_filename)
     if function.__closure__ or not source.is_file() or not is_kept(layout):
         return None
-    digest = hashlib.sha256(repr(layout).encode() + source.read_bytes()).hexdigest()[:16]
+    digest = hashlib.sha256(repr(layout).encode() + code_of(source.read_bytes())).hexdigest()[:16]
     name = f"{function.__module__.removeprefix('tribodyn.')}.{function.__qualname__}-{digest}"
     return f"kernels-{_digest(function.__module__)}", name
 

@@ -4,7 +4,6 @@ import hashlib
 import json
 import tomllib
 from collections.abc import Iterator, Mapping
-from importlib.metadata import version
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -12,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import tomli_w
 
+from tribodyn import __version__
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.families import family
@@ -160,7 +160,7 @@ def _kept_run(task: Task, folder: Path) -> Done | None:
     try:
         with open_record(path) as record:
             made = record.attrs["scenario_sha256"], record.attrs["tribodyn_version"]
-            same = made == (case_of(task).sha256, version("tribodyn")) and record.status == COMPLETE
+            same = made == (case_of(task).sha256, __version__) and record.status == COMPLETE
             return Done(path, record.summary) if same else None
     except InputError:  # damaged: it is written anew
         return None
@@ -180,7 +180,7 @@ def _kept_rows(task: Task, folder: Path) -> Done | None:
 
 
 def _digest(task: Task) -> str:
-    asked = [dict(task.scenario), task.key, list(task.values), version("tribodyn")]
+    asked = [dict(task.scenario), task.key, list(task.values), __version__]
     return hashlib.sha256(json.dumps(asked, sort_keys=True).encode()).hexdigest()
 
 

@@ -643,7 +643,7 @@ def test_a_run_is_taken_up_where_it_is_complete_and_of_this_version(
     (tmp_path / "one.h5").write_bytes(b"stands for a record")
     monkeypatch.setattr(parts, "open_record", lambda path: nullcontext(record))
     monkeypatch.setattr(parts, "case_of", lambda task: SimpleNamespace(sha256="own"))
-    monkeypatch.setattr(parts, "version", lambda package: "7.0")
+    monkeypatch.setattr(parts, "__version__", "7.0")
     found = parts._kept_run(Task("one", "the first", {}), tmp_path)
     assert found == (Done(tmp_path / "one.h5", {"a": 1}) if taken else None)
 
