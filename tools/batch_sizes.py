@@ -17,7 +17,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tools.bench_peers import machine, problem
+from tools.bench_peers import problem
+from tools.machine import measured_on
 from tools.marked_block import put
 from tribodyn.dynamics.parameters import XI
 from tribodyn.solve import jax_ensemble
@@ -85,7 +86,7 @@ def table(engines: list[str], sizes: list[int]) -> str:
                 f"| {OPERATIONS / A_NANOSECOND / each:.1%} | {memory:.0f} MiB |"
             )
             print(rows[-1], f"{one.failed} failed" if one.failed else "", file=sys.stderr, flush=True)
-    return "\n".join([*rows, "", f"{machine()}; up to 1024 cases medians of {REPEATS}."])
+    return "\n".join([*rows, "", f"{measured_on()}; up to 1024 cases medians of {REPEATS}."])
 
 
 def measured(engine: str, cases: int, cycles: int, repeats: int) -> Measured:

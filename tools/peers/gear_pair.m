@@ -1,5 +1,6 @@
-% The gear pair of numpy_model.py in Octave, integrated by ode15s: octave-cli gear_pair.m FOLDER
-% reads FOLDER/case.mat and writes FOLDER/found.mat (xi at the samples, seconds of the integration).
+% The gear pair of numpy_model.py in Octave: octave-cli gear_pair.m FOLDER reads FOLDER/case.mat and writes
+% FOLDER/found.mat: of given states the derivatives (rates), otherwise what ode15s makes of the case (xi at the
+% samples, seconds of the integration).
 1;
 
 function dy = gear_pair(phase, y, k, p, channel, stiffness, first, last)
@@ -27,8 +28,11 @@ function dy = gear_pair(phase, y, k, p, channel, stiffness, first, last)
   normal = max(normal, 0);
   u_p = p.omega * speed;
   slip = p.omega * (1 + p.w) * r;
-  sliding = abs(slip);
   u_g = u_p - slip;
+  if p.dynamic
+    slip = slip + towards_rate * sine - across_rate * cosine - y(10) * r / p.gear_pitch_radius;
+  end
+  sliding = abs(slip);
 
   load = max(normal / p.face_width, 1);
   modulus = p.effective_modulus;
@@ -51,7 +55,7 @@ function dy = gear_pair(phase, y, k, p, channel, stiffness, first, last)
   newtonian = min(viscosity .* sliding ./ (limit .* film), 600);
   coefficient = p.asperity_friction * share - limit ./ pressure .* expm1(-newtonian);
 
-  turned = min(max(r / p.reversal_width, -1), 1);
+  turned = min(max(slip / p.reversed_at, -1), 1);
   tangential = coefficient .* normal .* 0.5 .* turned .* (3 - turned.^2);
   force_x = -sum(normal .* cosine + tangential .* sine);
   force_y = sum(tangential .* cosine - normal .* sine);
@@ -66,6 +70,15 @@ end
 
 folder = argv(){end};
 load(fullfile(folder, "case.mat"));
+if exist("states", "var")
+  rates = zeros(size(states));
+  for i = 1:columns(states)
+    k = segment(i);
+    rates(:, i) = gear_pair(phase(i), states(:, i), k, p, channel{k}, stiffness{k}, boundary(k), boundary(k + 1));
+  end
+  save("-v7", fullfile(folder, "found.mat"), "rates");
+  exit(0);
+end
 at = (0:samples - 1) / samples;
 y = y0;
 xi = [];

@@ -1,17 +1,18 @@
 """The gear pair's equations as an engineer would write them on NumPy, fast: arrays over the pairs in contact.
 
 For one kind of case only, the one the comparison is made on: prescribed speed, constant load torque,
-friction by Masjedi & Khonsari with kinematic sliding, a linear contact, pairs that stay in contact. Ten
-states: x and y of both gears, the rotational transmission error, and their rates. `check` compares it with
-tribodyn's own right-hand side, so that what is timed is the same mathematics.
+friction by Masjedi & Khonsari with kinematic or dynamic sliding, a linear contact, pairs that stay in
+contact. Ten states: x and y of both gears, the rotational transmission error, and their rates. `difference`
+compares it with tribodyn's own right-hand side, so that what is timed is the same mathematics.
 """
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from tribodyn.dynamics.equations import derivatives
-from tribodyn.dynamics.parameters import DISPLACEMENTS, STATES, VELOCITIES, Model
+from tribodyn.dynamics.parameters import DISPLACEMENTS, SLIDING_DYNAMIC, STATES, VELOCITIES, Model
 from tribodyn.mesh.cycle import CHANNELS
 
 Array = Any
@@ -47,12 +48,18 @@ class NumpyModel:
         self.w = float(self.t.pinion_pitch_radius) / float(self.t.gear_pitch_radius)
         self.omega = float(self.m.nominal_speed)
         self.rate = float(self.t.pitch_angle) / self.omega
+        self.dynamic = model.options.sliding == SLIDING_DYNAMIC
+        self.reversed_at = self.omega * (1.0 + self.w) * float(self.m.reversal_width)
         modulus, roughness = self.s.effective_modulus, self.s.roughness
         self.material = self.s.pressure_viscosity * modulus
         self.hardness = self.s.hardness / modulus
         factor = np.exp(model.film.log_asperity_factor)
         self.asperity = factor * roughness**6.015 * self.hardness**1.168 * self.material**-2.898
         self.rough = 0.2 * roughness**1.222 * self.hardness**0.223 * self.material**-0.842
+
+    def segment(self, phase: float) -> int:
+        """Which pairs are in contact at a phase, 0 … 1."""
+        return int(np.searchsorted(self.boundary, phase, side="right")) - 1
 
     def __call__(self, phase: float, y: Array, segment: int) -> Array:
         """Derivative of the ten states per mesh cycle."""
@@ -74,15 +81,18 @@ class NumpyModel:
         approach_rate = towards_rate * cosine + across_rate * sine + moved
         normal = np.maximum(stiffness @ approach, 0.0) + m.mesh_damping * approach_rate / np.sqrt(compliance)
         normal = np.maximum(normal, 0.0)
+        gear_radius = float(t.gear_pitch_radius)
         u_p = self.omega * speed
         sliding = self.omega * (1.0 + self.w) * r
-        turned = np.clip(r / m.reversal_width, -1.0, 1.0)
-        tangential = self.friction(normal / t.face_width, radius, u_p, u_p - sliding, np.abs(sliding))
+        u_g = u_p - sliding
+        if self.dynamic:
+            sliding = sliding + towards_rate * sine - across_rate * cosine - y[9] * r / gear_radius
+        turned = np.clip(sliding / self.reversed_at, -1.0, 1.0)
+        tangential = self.friction(normal / t.face_width, radius, u_p, u_g, np.abs(sliding))
         tangential = tangential * normal * 0.5 * turned * (3.0 - turned * turned)
 
         force_x = -np.sum(normal * cosine + tangential * sine)
         force_y = np.sum(tangential * cosine - normal * sine)
-        gear_radius = float(t.gear_pitch_radius)
         moment = np.sum(normal * gear_radius * cosine + tangential * (gear_radius * sine - r))
         acceleration = np.array(
             [
@@ -129,16 +139,36 @@ class NumpyModel:
         return c.asperity_friction * share - limit / pressure * np.expm1(-newtonian)
 
 
-def check(model: Model, states: Array, phases: Array) -> float:
-    """Maximum difference from tribodyn's right-hand side, over each rate's maximum, at given states."""
-    ours = NumpyModel(model)
-    expected, computed = [], []
+def numpy_rates(model: Model, phases: Array, states: Array) -> Array:
+    """Derivatives of the ten moving states at given phases: (time, 10)."""
+    function = NumpyModel(model)
+    return np.array(
+        [
+            function(float(phase), state, function.segment(phase))
+            for phase, state in zip(phases, states, strict=True)
+        ]
+    )
+
+
+def difference(
+    model: Model, phases: Array, states: Array, rates: Callable[[Model, Array, Array], Array] = numpy_rates
+) -> float:
+    """Maximum difference from tribodyn's right-hand side, over each rate's range at the given states.
+
+    Parameters
+    ----------
+    model : Model
+    phases : (time,)
+    states : (time, 10)
+    rates : callable
+        Another program's right-hand side: model, phases and states to derivatives (time, 10).
+    """
+    segment_at = NumpyModel(model).segment
+    ours = []
     for phase, state in zip(phases, states, strict=True):
-        segment = int(np.searchsorted(ours.boundary, phase, side="right")) - 1
-        full, rates = np.zeros(STATES), {}
-        full[MOVING] = state[MOVING]
-        derivatives(float(phase), 0.0, segment, full, model, {}, rates)
-        expected.append([rates[i] for i in MOVING])
-        computed.append(ours(float(phase), full[MOVING], segment))
-    difference = np.abs(np.array(computed) - np.array(expected))
-    return float(np.max(difference / np.max(np.abs(expected), axis=0)))
+        full, found = np.zeros(STATES), {}
+        full[MOVING] = state
+        derivatives(float(phase), 0.0, segment_at(phase), full, model, {}, found)
+        ours.append([found[i] for i in MOVING])
+    expected = np.array(ours)
+    return float(np.max(np.abs(rates(model, phases, states) - expected) / np.ptp(expected, axis=0)))

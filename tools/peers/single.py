@@ -13,7 +13,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.io import loadmat, savemat
 
-from tools.peers.numpy_model import MOVING, NumpyModel
+from tools.peers.numpy_model import MOVING, NumpyModel, numpy_rates
 from tribodyn.dynamics.parameters import STATES, XI, Model
 from tribodyn.kernels.native import packed
 from tribodyn.solve.integrator import Status
@@ -46,6 +46,22 @@ class Problem(NamedTuple):
 
 
 Runner = Callable[[Problem, float], Array]
+
+
+class Program(NamedTuple):
+    """A program of the comparison.
+
+    Attributes
+    ----------
+    run : callable
+        Problem and relative tolerance to samples of the transmission error, m; raises RuntimeError where it
+        gives up.
+    rates : callable or None
+        The right-hand side it brings along, as of `numpy_model.difference`; None: tribodyn's.
+    """
+
+    run: Runner
+    rates: Callable[[Model, Array, Array], Array] | None = None
 
 
 def tribodyn_engine(method: str) -> Runner:
@@ -81,6 +97,8 @@ def scipy_on_numpy(method: str) -> Runner:
                     t_eval=np.append(at, end),
                     args=(segment,),
                 )
+                if not solution.success:
+                    raise RuntimeError(f"{method}: {solution.message}")
                 samples.append(solution.y[4, :-1])
                 y = solution.y[:, -1]
         return np.concatenate(samples)
@@ -128,44 +146,54 @@ def octave(problem: Problem, rtol: float) -> Array:
 
 def octave_timed(problem: Problem, rtol: float) -> tuple[Array, float]:
     """Samples, and the seconds that Octave took for the integration alone."""
-    model = NumpyModel(problem.model)
+    output = _in_octave(
+        problem.model,
+        {
+            "y0": problem.state[MOVING][:, None],
+            "rtol": rtol,
+            "atol": problem.tolerances(rtol).atol[MOVING],
+            "cycles": float(problem.cycles),
+            "samples": float(problem.samples),
+        },
+    )
+    return output["xi"].ravel(), float(output["seconds"].item())
+
+
+def octave_rates(model: Model, phases: Array, states: Array) -> Array:
+    """Derivatives of the ten moving states at given phases by the model in Octave: (time, 10)."""
+    segment = [NumpyModel(model).segment(phase) + 1.0 for phase in phases]
+    return _in_octave(model, {"phase": phases, "states": states.T, "segment": segment})["rates"].T
+
+
+def _in_octave(model: Model, given: dict[str, Any]) -> dict[str, Any]:
+    numpy_model = NumpyModel(model)
     numbers = {
         name: np.asarray(value, dtype=float)
-        for part in (problem.model.mechanics, problem.model.surfaces, problem.model.friction)
+        for part in (model.mechanics, model.surfaces, model.friction)
         for name, value in part._asdict().items()
         if np.ndim(value) == 0
     }
-    table = problem.model.table
+    table = model.table
     numbers |= {
         "face_width": float(table.face_width),
         "gear_pitch_radius": float(table.gear_pitch_radius),
         "pitch_angle": float(table.pitch_angle),
-        "w": model.w,
-        "omega": model.omega,
-        "rate": model.rate,
-        "material": model.material,
-        "asperity": model.asperity,
-        "rough": model.rough,
+        "w": numpy_model.w,
+        "omega": numpy_model.omega,
+        "rate": numpy_model.rate,
+        "dynamic": float(numpy_model.dynamic),
+        "reversed_at": numpy_model.reversed_at,
+        "material": numpy_model.material,
+        "asperity": numpy_model.asperity,
+        "rough": numpy_model.rough,
     }
+    channel, stiffness = (np.empty(len(numpy_model.pairs), dtype=object) for _ in range(2))
+    for segment in range(len(numpy_model.pairs)):
+        channel[segment], stiffness[segment] = numpy_model.channel[segment], numpy_model.stiffness[segment]
+    case = {"p": numbers, "channel": channel, "stiffness": stiffness, "boundary": numpy_model.boundary}
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        channel, stiffness = (np.empty(len(model.pairs), dtype=object) for _ in range(2))
-        for segment in range(len(model.pairs)):
-            channel[segment], stiffness[segment] = model.channel[segment], model.stiffness[segment]
-        savemat(
-            folder / "case.mat",
-            {
-                "p": numbers,
-                "channel": channel,
-                "stiffness": stiffness,
-                "boundary": model.boundary,
-                "y0": problem.state[MOVING][:, None],
-                "rtol": rtol,
-                "atol": problem.tolerances(rtol).atol[MOVING],
-                "cycles": float(problem.cycles),
-                "samples": float(problem.samples),
-            },
-        )
+        savemat(folder / "case.mat", case | given)
         script = Path(__file__).with_name("gear_pair.m")
         subprocess.run(
             ["octave-cli", "--quiet", "--no-init-file", str(script), str(folder)],
@@ -173,26 +201,25 @@ def octave_timed(problem: Problem, rtol: float) -> tuple[Array, float]:
             capture_output=True,
             text=True,
         )
-        output: Any = loadmat(folder / "found.mat")
-    return output["xi"].ravel(), float(output["seconds"].item())
+        return loadmat(folder / "found.mat")
 
 
-def peers() -> dict[str, Runner]:
+def peers() -> dict[str, Program]:
     """All programs that can be run here, ours first."""
-    runners: dict[str, Runner] = {
-        "tribodyn dopri5": tribodyn_engine("dopri5"),
-        "tribodyn rodas4": tribodyn_engine("rodas4"),
-        "SciPy BDF, NumPy": scipy_on_numpy("BDF"),
-        "SciPy LSODA, NumPy": scipy_on_numpy("LSODA"),
-        "SciPy BDF, numba": tribodyn_engine("bdf"),
-        "SciPy LSODA, numba": tribodyn_engine("lsoda"),
-        "SciPy DOP853, numba": tribodyn_engine("dop853"),
-        "diffrax Tsit5": tribodyn_engine("tsit5"),
-        "diffrax Dopri8": tribodyn_engine("dopri8"),
-        "diffrax Kvaerno5": tribodyn_engine("kvaerno5"),
+    programs = {
+        "tribodyn dopri5": Program(tribodyn_engine("dopri5")),
+        "tribodyn rodas4": Program(tribodyn_engine("rodas4")),
+        "SciPy BDF, NumPy": Program(scipy_on_numpy("BDF"), numpy_rates),
+        "SciPy LSODA, NumPy": Program(scipy_on_numpy("LSODA"), numpy_rates),
+        "SciPy BDF, numba": Program(tribodyn_engine("bdf")),
+        "SciPy LSODA, numba": Program(tribodyn_engine("lsoda")),
+        "SciPy DOP853, numba": Program(tribodyn_engine("dop853")),
+        "diffrax Tsit5": Program(tribodyn_engine("tsit5")),
+        "diffrax Dopri8": Program(tribodyn_engine("dopri8")),
+        "diffrax Kvaerno5": Program(tribodyn_engine("kvaerno5")),
     }
     if find_spec("sksundae"):
-        runners["CVODE BDF, numba"] = cvode
+        programs["CVODE BDF, numba"] = Program(cvode)
     if shutil.which("octave-cli"):
-        runners["Octave ode15s"] = octave
-    return runners
+        programs["Octave ode15s"] = Program(octave, octave_rates)
+    return programs
