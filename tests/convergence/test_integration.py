@@ -248,3 +248,25 @@ def test_start_is_at_rest_in_equilibrium(prepared):
         )
     )
     assert moment == pytest.approx(500.0, rel=1e-9)
+
+
+@pytest.mark.parametrize("speed", ["100 rad/s", "300 rad/s"])
+def test_friction_does_its_work_on_the_recorded_sliding(speed, prepared):
+    """∫ Σ F_f v_s dt of the samples is the integrated work of friction.
+
+    Where F_f v_s is monotone between samples, jumps of an engagement included, the trapezoidal rule errs by
+    no more than half its change times the step.
+    """
+    model = prepared("crc-23-47", **{"friction.sliding": "dynamic", "operating.pinion_speed": speed}).model
+    state = initial_state(model, "static")
+    parts = transient(model, state, TransientSettings("dopri5", 1e-8, 3, 200000, 2000))
+    chunks = [part for part in parts if isinstance(part, SampledStates)]
+    cycles, states = (np.concatenate([getattr(c, of) for c in chunks]) for of in ("cycles", "states"))
+    found = outputs(cycles, states, model)
+    power = np.nansum(found["friction_force"] * found["sliding_speed"], axis=1)
+    step, change = np.diff(found["time"]), np.abs(np.diff(power))
+    work = found["work_friction"][-1] - found["work_friction"][0]
+    bound = np.sum(change * step) / 2
+    assert bound < 2e-3 * work
+    assert np.sum((power[1:] + power[:-1]) / 2 * step) == pytest.approx(work, rel=0, abs=bound)
+    np.testing.assert_allclose(power, found["power_friction"], rtol=1e-9, atol=1e-9 * np.max(power))

@@ -14,6 +14,7 @@ from tribodyn.solve.periodic import steady_states
 from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import SampledStates, TransientSettings, make_integrator, transient
 from tribodyn.studies.batch import Chunk
+from tribodyn.studies.gear_pair.batch import BATCH
 from tribodyn.studies.gear_pair.batch.evaluate import Settings, evaluate
 from tribodyn.studies.gear_pair.summary import RECORDED, RunningExtremes
 from tribodyn.studies.load import load_scenario
@@ -164,7 +165,7 @@ def test_a_summary_is_never_at_odds_with_its_record(samples, speed, cycles, tmp_
     with open_record(path) as record:
         summary = record.summary
         described = summary["extremes"]
-        window = slice(-samples * summary["averaging_cycles"] - 1, -1)
+        window = slice(-samples * summary["averaging_cycles"] - 1, None)
         for name, (recorded, sign) in RECORDED.items():
             whole, last = (sign * described[of][name]["value"] for of in ("run", "last_cycles"))
             assert whole >= np.nanmax(sign * record[recorded])
@@ -174,3 +175,23 @@ def test_a_summary_is_never_at_odds_with_its_record(samples, speed, cycles, tmp_
         assert summary["transmission_error_rotational_peak_to_peak"] >= np.ptp(error)
         newest = record["transmission_error"][window, record.pairs.index(1)]
         assert summary["transmission_error_peak_to_peak"] >= np.ptp(newest)
+
+
+def test_the_last_sample_may_be_the_extreme_of_a_run_and_of_a_sweep(tmp_path):
+    """There a new pair is in contact already; means are over whole cycles, which end before it."""
+    samples, cycles = 40, 3
+    case = load_scenario(
+        RATTLE[0], RATTLE[1] | {"solver.cycles": cycles, "output.samples_per_cycle": samples}
+    )
+    summary = run(case, tmp_path / "run.h5").summary
+    swept = evaluate(Chunk(np.arange(1), (case,)), BATCH.settings([case], cycles, "native"))
+    with open_record(tmp_path / "run.h5") as record:
+        film = record["central_film_thickness"][-samples - 1 :]
+        error = record["transmission_error_rotational"][-samples - 1 : -1]
+    assert np.nanmin(film) == np.nanmin(film[-1]) < 0.95 * np.nanmin(film[:-1])
+    assert summary["film_min"] == summary["extremes"]["last_cycles"]["film_min"]["value"] == np.nanmin(film)
+    assert summary["extremes"]["last_cycles"]["film_min"]["mesh_cycle"] == cycles
+    for name in (*RECORDED, "dynamic_factor", "efficiency"):
+        assert swept[name][0] == pytest.approx(summary[name], rel=1e-4, abs=1e-9), name
+    assert swept["transmission_error_mean"][0] == pytest.approx(np.mean(error), rel=1e-4)
+    assert swept["transmission_error_rms"][0] == pytest.approx(np.std(error), rel=1e-4)

@@ -126,7 +126,7 @@ def outputs(
         "film_parameter": result["central_film_thickness"] / model.surfaces.roughness,
         "equivalent_radius": contacting(per_pair(contact.RADIUS), inside),
         "entrainment_speed": contacting(0.5 * (speed_p + speed_g), inside),
-        "sliding_speed": contacting(per_pair(contact.SLIDING), inside),
+        "sliding_speed": contacting(contacts.sliding, inside),
         "mesh_stiffness": np.where(touching, per_pair(contact.STIFFNESS), 0.0),
         # where the film law states a range, 1 also where there is no contact
         "closure_in_range": np.where(

@@ -69,7 +69,7 @@ SAMPLES: dict[str, Variable] = {
         "entrainment speed, mean of both flanks' rolling speeds; averaged over the contact like the radius",
     ),
     "sliding_speed": Variable(
-        ("time", "pair"), "m/s", "sliding speed, pinion's less gear's; negative in approach"
+        ("time", "pair"), "m/s", "sliding speed that friction has, pinion's less gear's, by friction.sliding"
     ),
     "pressure_angle": Variable(
         ("time", "pair"), "rad", "angle of the pair's common normal to the pitch tangent"

@@ -191,13 +191,15 @@ class RunStatistics:
         if not self.ends:
             self.ends.append((part.states[0], block["stored_energy"][0]))
         self.ends[1:] = [(part.states[-1], block["stored_energy"][-1])]
-        inside = (part.cycles >= self.start - 1e-9) & (part.cycles < self.stop - 1e-9)
-        if inside.any():
-            if not self.blocks:
-                self.window_start = part.states[inside][0]
-            self.blocks.append({name: values[inside] for name, values in block.items()})
-            self.in_window.add(part.cycles[inside], self.blocks[-1])
+        last = part.cycles >= self.start - 1e-9
+        if last.any():
+            self.in_window.add(part.cycles[last], {name: values[last] for name, values in block.items()})
             self.in_window.add(at, extreme)
+        averaged = last & (part.cycles < self.stop - 1e-9)  # the last sample is a cycle after the first
+        if averaged.any():
+            if not self.blocks:
+                self.window_start = part.states[averaged][0]
+            self.blocks.append({name: values[averaged] for name, values in block.items()})
 
     def figures(self, complete: bool) -> dict[str, Any]:
         """Extremes of the last cycles, of an incomplete run of all; residual of the energy balance."""

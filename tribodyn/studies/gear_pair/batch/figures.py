@@ -7,6 +7,7 @@ import numpy as np
 from tribodyn.dynamics.outputs import outputs_with_extremes
 from tribodyn.dynamics.parameters import XI
 from tribodyn.record.trust import Judge
+from tribodyn.solve.engagement import engage_next
 from tribodyn.studies.gear_pair.assumptions import judge_block
 from tribodyn.studies.gear_pair.batch.outcome import Passage
 from tribodyn.studies.gear_pair.prepare import Prepared
@@ -27,15 +28,19 @@ def window_figures(
     samples : int
         Per mesh cycle of the window.
     """
-    cycles = passage.first_cycle + np.arange(len(passage.window)) / samples
-    block, extreme, at = outputs_with_extremes(cycles, passage.window, passage.extremes, prepared.model)
+    count, last = len(passage.window), passage.end.copy()
+    engage_next(last, prepared.model)
+    cycles = passage.first_cycle + np.arange(count + 1) / samples
+    states = np.concatenate([passage.window, last[None]])
+    block, extreme, at = outputs_with_extremes(cycles, states, passage.extremes, prepared.model)
     extremes = RunningExtremes(prepared.cycle)
     extremes.add(cycles, block)
     extremes.add(at, extreme)
     error = passage.window[:, XI]
     speed = prepared.case.operating.pinion_speed
     work = passage.end - passage.start
-    figures = steady_figures(block, work, prepared.cycle, samples, speed, extremes)
+    window = {name: values[:count] for name, values in block.items()}
+    figures = steady_figures(window, work, prepared.cycle, samples, speed, extremes)
     # a run's summary means the newest pair's; over a sweep only the error of the whole mesh is continuous
     figures |= extremes.values() | {
         "transmission_error_rms": float(np.std(error)),
