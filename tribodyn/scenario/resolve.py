@@ -15,7 +15,7 @@ from tribodyn.geometry.families import FAMILIES
 from tribodyn.scenario.bounds import TooMuch, broken_bounds, parsed
 from tribodyn.scenario.messages import Key, Origins
 from tribodyn.scenario.quantity import Reference, Table, csv_file, defaults_written_out, references
-from tribodyn.scenario.sources import SCENARIOS, find_model, is_file, read_curve, read_toml
+from tribodyn.scenario.sources import DRIVES, SCENARIOS, find_model, is_file, read_curve, read_toml
 
 #: In the table of a model: the name of a file that says everything which the table does not.
 LIKE = "like"
@@ -95,12 +95,14 @@ class _References(NamedTuple):
         return self.marks.get(tuple(map(str, key))) or self._of_family().get(key)
 
     def _of_family(self) -> dict[Key, Reference]:
-        """The points that a drive's family needs."""
-        name = _at(self.data, ("drive", "family"))
-        if not isinstance(name, str) or name not in FAMILIES:
-            return {}
-        paths = [one.name for one in FAMILIES[name].parameters if one.kind == "path"]
-        return {("drive", "shape", one): csv_file("x", "y") for one in paths}
+        """The points that the family of each drive needs; a scenario within this one has a drive as well."""
+        found: dict[Key, Reference] = {}
+        for drive in [key for key, mark in self.marks.items() if mark.folder == DRIVES]:
+            name = _at(self.data, (*drive, "family"))
+            if isinstance(name, str) and name in FAMILIES:
+                paths = [one.name for one in FAMILIES[name].parameters if one.kind == "path"]
+                found |= {(*drive, "shape", one): csv_file("x", "y") for one in paths}
+        return found
 
 
 def _marked(known: _References, table_of: TableOf) -> _References:

@@ -11,8 +11,8 @@ from tribodyn.errors import InputError, near_name, printable_path, quoted
 from tribodyn.scenario.bounds import MOST_CSV, MOST_POINTS, MOST_TOML, TooMuch, parsed
 
 _PACKAGE = Path(__file__).resolve().parents[1]
-#: Folder of `Reference`s that name a whole scenario.
-SCENARIOS = "scenarios"
+#: Folders of `Reference`s that name a whole scenario, and a drive.
+SCENARIOS, DRIVES = "scenarios", "drives"
 _HEADER = re.compile(r"\s*(?P<name>\w+)\s*\[(?P<unit>[^\]]*)\]\s*$")
 
 
@@ -54,7 +54,7 @@ def find_drive_or_scenario(name: str) -> Path:
     """Return the file of a drive or of a scenario that is given by path or by the name of a shipped one."""
     if name.endswith(".toml") or is_file(Path(name)):
         return find_scenario(name)
-    folders = [shipped("models") / "drives", shipped("scenarios")]
+    folders = [shipped("models") / DRIVES, shipped(SCENARIOS)]
     for folder in folders:
         if is_file(folder / f"{name}.toml"):
             return folder / f"{name}.toml"

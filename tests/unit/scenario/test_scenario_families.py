@@ -1,7 +1,10 @@
 """What a drive file says of its family's shape, and what is refused."""
 
+import tomllib
+
 import numpy as np
 import pytest
+import tomli_w
 
 from tribodyn.errors import InputError
 from tribodyn.studies.gear_pair.case import Case
@@ -190,3 +193,19 @@ def test_a_file_of_points_may_be_missing(tmp_path):
     with pytest.raises(InputError, match="no such file") as caught:
         load_scenario("points-23-47", {"drive.shape.points": str(tmp_path / "none.csv")})
     assert "x [unit],y [unit]" in str(caught.value)
+
+
+def test_a_search_opens_the_points_of_its_scenario(tmp_path):
+    """The file of points is named by the drive's file, which is named by the scenario within the scenario."""
+    design = {
+        "free": [{"key": "operating.gear_torque", "from": "100 N*m", "to": "200 N*m"}],
+        "minimise": "film_min",
+    }
+    path = tmp_path / "search.toml"
+    search = {"title": "A search", "kind": "design", "scenario": "points-23-47", "design": design}
+    path.write_text(tomli_w.dumps(search), encoding="utf-8")
+    inner = load_scenario("points-23-47")
+    assert load_scenario(path).base["drive"] == tomllib.loads(inner.toml)["drive"]
+    named = {"scenario.drive.shape.points": "none.csv"}
+    with pytest.raises(InputError, match=r"scenario\.drive\.shape\.points.*no such file"):
+        load_scenario(path, named)

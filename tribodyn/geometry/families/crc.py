@@ -136,7 +136,7 @@ def reach(ratio: Any, height: Any) -> Any:
     return xi
 
 
-@remembered
+@remembered(16)
 def working_path(drive: Drive) -> Path:
     """Path of contact from the depth of the pinion's rack to the depth of the gear's."""
     xp = namespace(drive)

@@ -1,6 +1,5 @@
 """From a case of the load contact study to its record: teeth in slow rotation at one torque or several."""
 
-from functools import lru_cache
 from pathlib import Path
 from time import perf_counter
 from typing import Any, NamedTuple
@@ -16,6 +15,7 @@ from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.families import family
 from tribodyn.geometry.material import MaterialData
 from tribodyn.geometry.outlines import geometry_arrays
+from tribodyn.numerics.remembered import remembered
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.record.trust import Judge
 from tribodyn.standards.load_factors import shared_load
@@ -48,7 +48,7 @@ def prepare(case: LoadContactCase) -> Prepared:
     return Prepared(case, flexible)
 
 
-@lru_cache(maxsize=2)
+@remembered(2)
 def _flexible(name: str, drive: Drive, materials: tuple[MaterialData, MaterialData]) -> PairFlexibility:
     """The pair as it is without modifications: cases that differ in those, or in their load, share it."""
     from tribodyn.geometry.checks import check
