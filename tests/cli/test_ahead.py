@@ -2,6 +2,7 @@
 
 import json
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -15,7 +16,7 @@ import json, sys
 import tribodyn.cli.ahead as ahead
 from tribodyn.cli import main
 if "broken" in sys.argv:
-    ahead.COMMAND = (sys.executable, "-c", sys.argv.pop())
+    ahead.TARGET = ("builtins:exec", sys.argv.pop())
     sys.argv.pop()
 sys.argv = ["tribodyn", "run", "irefc", "--set", "output.samples_per_cycle=8", "--json", *sys.argv[1:]]
 try:
@@ -46,7 +47,7 @@ def test_the_overview_is_drawn_by_another_process_as_by_its_own(tmp_path):
 
 def test_an_answer_that_is_none_is_no_picture(monkeypatch):
     for program in ("pass", "print('nonsense')", "import sys; sys.exit(3)"):
-        monkeypatch.setattr(ahead, "COMMAND", (sys.executable, "-c", program))
+        monkeypatch.setattr(ahead, "TARGET", ("builtins:exec", program))
         drawer = ahead.Drawer()
         drawer.draw(Path("no-such.h5"))
         assert drawer.pictures() is None
@@ -89,4 +90,4 @@ def test_it_ends_with_the_process_that_began_it(monkeypatch):
     ahead.begin(("run", "no-such-scenario"))
     process = ahead._begun.pop()._process
     said, _ = process.communicate(timeout=60)  # closes its input, as the end of this process would
-    assert (said, process.returncode) == ("", 0)
+    assert (said, process.returncode) == (b"", -signal.SIGKILL)

@@ -221,7 +221,7 @@ def kept():
 
 @needs_fork
 def test_all_ways_of_looking_agree(path: Path, kept):
-    ways = (lookout.forked, lookout._by_a_new_process, lambda look, path: kept(look).answer(path))
+    ways = (lookout.forked, lookout._in_itself, lambda look, path: kept(look).answer(path))
     for way in ways:
         assert way(soundness.unsound, path) == ""
     with h5py.File(path, "r+") as file:

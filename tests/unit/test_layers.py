@@ -213,3 +213,28 @@ def test_tests_share_through_support_alone():
         if any(shared.match(line.strip()) for line in path.read_text(encoding="utf-8").splitlines())
     ]
     assert not found, "\n".join(found)
+
+
+def test_one_module_starts_processes():
+    """Every other one goes through `numerics.child`, which isolates them; Dask's cluster too."""
+    programs = {"subprocess", "multiprocessing", "pty", "_posixsubprocess", "_winapi", "popen2", "webbrowser"}
+    calls = re.compile(
+        r"\bos\.(?:fork\w*|exec\w+|spawn\w+|posix_spawn\w*|system|popen|startfile)\b"
+        r"|\b(?:ProcessPoolExecutor|create_subprocess_\w+|Nanny|SSHCluster)\b"
+    )
+    found = []
+    for name, path in FILES.items():
+        if name == "tribodyn.numerics.child":
+            continue
+        text = path.read_text(encoding="utf-8")
+        found += [f"{name}: {call}" for call in calls.findall(text)]
+        if "LocalCluster(" in text:
+            found += [name] * (text.count("isolated_environment()") != text.count("LocalCluster("))
+    found += [
+        f"{one.importer}:{one.line} imports {one.imported}"
+        for one in imports(ROOT)
+        if one.imported.split(".")[0] in programs
+        and not one.typing_only
+        and one.importer != "tribodyn.numerics.child"
+    ]
+    assert not found, "\n".join(found)

@@ -7,6 +7,10 @@ def main() -> None:
     import os
     import sys
 
+    from tribodyn.numerics.child import safe_path
+
+    # `python -m` and an empty entry of PYTHONPATH would import from the current folder
+    sys.path[:] = safe_path()
     # start-up makes objects that stay: to look through them for cycles would be a tenth of its time
     gc.set_threshold(300_000)
     # the load contact model solves many small systems: a BLAS's threads spin over them for ten times the work

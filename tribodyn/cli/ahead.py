@@ -7,7 +7,6 @@ It is a convenience: where it cannot be had, or ends without an answer, the firs
 
 import json
 import os
-import subprocess
 import sys
 import threading
 from collections.abc import Iterator, Sequence
@@ -15,40 +14,37 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any, cast
 
+from tribodyn.numerics import child
 from tribodyn.numerics.work import usable_cores
 
-# no folder of the user's among the places of modules
-COMMAND = (sys.executable, "-P", "-c", "from tribodyn.cli.ahead import serve; serve()")
+#: What the process calls.
+TARGET = ("tribodyn.cli.ahead:serve",)
 #: How long it waits for a record, s: of a longer run the drawing takes a small share.
 PATIENCE = 60.0
+#: How long the first process waits for the pictures, s.
+LONGEST_DRAWING = 120.0
 
 
 class Drawer:
     """A process that draws the overview of a record, which is not there yet."""
 
     def __init__(self) -> None:
-        pipe = subprocess.PIPE
-        self._process = subprocess.Popen(
-            COMMAND, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, text=True
-        )
+        self._process = child.start(*TARGET)
 
     def draw(self, record: Path) -> None:
         """Begin to draw the overview of a record."""
         with suppress(OSError):
-            print(json.dumps(str(record)), file=self._process.stdin, flush=True)
+            child.tell(self._process, json.dumps(str(record)).encode() + b"\n")
 
     def pictures(self) -> list[Path] | None:
         """Return the pictures as soon as they are drawn; None where the process gives no answer."""
         with suppress(OSError, ValueError):
-            said, _ = self._process.communicate()
-            return [Path(one) for one in json.loads(said)]
+            return [Path(one) for one in json.loads(child.answer(self._process, LONGEST_DRAWING))]
         return None
 
     def close(self) -> None:
         """End the process, which has nothing left to do."""
-        self._process.kill()
-        with suppress(OSError, ValueError):
-            self._process.communicate()
+        child.end(self._process)
 
 
 _begun: list[Drawer] = []
@@ -87,18 +83,14 @@ def drawer(wanted: bool) -> Iterator[Drawer | None]:
 def serve() -> None:
     """Get ready, wait for the name of a record, draw it, write the names of the pictures."""
     import gc
-    import signal
 
     gc.disable()
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the first process ends, and with it the input
     timer = threading.Timer(PATIENCE, lambda: os._exit(0))
     timer.daemon = True
     timer.start()
     _get_ready()
     line = sys.stdin.readline()
     timer.cancel()
-    if not line:
-        return
     from tribodyn.cli.pictures import draw_pictures
     from tribodyn.record.soundness import remember_own
 

@@ -6,6 +6,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from tribodyn.errors import InputError
+from tribodyn.numerics.child import isolated_environment
 
 
 @contextmanager
@@ -32,6 +33,7 @@ def client_of(workers: int | None, scheduler: str | None) -> Iterator[Any]:
         ) from None
     if scheduler is None:
         with (
+            isolated_environment(),
             LocalCluster(
                 n_workers=workers,
                 threads_per_worker=1,

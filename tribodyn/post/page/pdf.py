@@ -1,11 +1,14 @@
 """Prints a page through a browser that is installed."""
 
-import shutil
-import subprocess
 import tempfile
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from tribodyn.errors import InputError, OutputError
+from tribodyn.numerics.child import installed_program, run_program
+
+if TYPE_CHECKING:
+    import subprocess
 
 BROWSERS = (
     "chromium",
@@ -30,10 +33,10 @@ TIME_LIMIT = 120.0
 
 def browser() -> str | None:
     """Path of a browser that can print without a window; None where there is none."""
-    return next((found for found in map(shutil.which, BROWSERS) if found), None)
+    return installed_program(BROWSERS)
 
 
-def run_browser(*options: str) -> subprocess.CompletedProcess[str]:
+def run_browser(*options: str) -> "subprocess.CompletedProcess[str]":
     """Run the browser without a window, in a profile of its own.
 
     Raises
@@ -53,7 +56,7 @@ def run_browser(*options: str) -> subprocess.CompletedProcess[str]:
     sandbox = ("--no-sandbox",) if hasattr(os, "geteuid") and os.geteuid() == 0 else ()
     with tempfile.TemporaryDirectory(prefix="tribodyn-", ignore_cleanup_errors=True) as profile:
         command = [found, *QUIET, *sandbox, f"--user-data-dir={profile}", *options]
-        return subprocess.run(command, capture_output=True, text=True, timeout=TIME_LIMIT, check=False)
+        return run_program(command, TIME_LIMIT)
 
 
 def print_page(page: Path) -> Path:
@@ -69,8 +72,10 @@ def print_page(page: Path) -> Path:
     target = page.with_suffix(".pdf")
     try:
         ended = run_browser("--no-pdf-header-footer", f"--print-to-pdf={target}", page.resolve().as_uri())
-    except subprocess.TimeoutExpired:
+    except TimeoutError:
         raise OutputError(str(target), f"the browser did not end within {TIME_LIMIT:g} s") from None
+    except OSError as error:
+        raise OutputError(str(target), f"the browser does not run: {error}") from None
     if ended.returncode or not target.is_file():
         raise OutputError(str(target), f"the browser ended with status {ended.returncode}")
     return target

@@ -1,8 +1,7 @@
-"""Evaluates cases of a base scenario: in this process, or as the program of a worker process."""
+"""Evaluates cases of a base scenario: in this process, or in a child process."""
 
 import copy
 import json
-import signal
 import sys
 from collections.abc import Mapping, Sequence
 from math import isfinite
@@ -114,13 +113,8 @@ def numbers(figures: Mapping[str, Any]) -> dict[str, float]:
 
 def serve() -> None:
     """Evaluate what comes in as lines of JSON: first the scenarios, then lists of overrides."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the first process ends, and with it the input
     answers, sys.stdout = sys.stdout, sys.stderr  # what a library prints is no answer
     scenarios = json.loads(sys.stdin.readline())
     for line in sys.stdin:
         answers.write(json.dumps(evaluate(scenarios, json.loads(line), workers=1)) + "\n")
         answers.flush()
-
-
-if __name__ == "__main__":
-    serve()

@@ -1,25 +1,24 @@
 """Evaluates candidates side by side, on this machine or on those of a cluster.
 
-On this machine one is evaluated in this process, the others in processes of their own. Those are programs
-that are handed lines of text. They import nothing of the user's program, which a process of
-`multiprocessing` would run again.
+On this machine one is evaluated in this process, the others in processes of their own, which are handed lines
+of text. They import nothing of the user's program, which a process of `multiprocessing` would run again.
 """
 
 import json
-import subprocess
-import sys
 import threading
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
-from contextlib import suppress
-from typing import Any, Protocol, Self
+from typing import TYPE_CHECKING, Any, Protocol, Self
 
 from tribodyn.errors import SimulationError
+from tribodyn.numerics import child
 from tribodyn.numerics.work import usable_cores
 from tribodyn.studies.cluster import workers_of
 from tribodyn.studies.design.evaluation import evaluate
 
-COMMAND = (sys.executable, "-m", "tribodyn.studies.design.evaluation")
+if TYPE_CHECKING:
+    import subprocess
+
 #: Evaluations that a process of its own is worth.
 WORTH = 24
 
@@ -61,7 +60,7 @@ class Pool:
         self.scenarios = scenarios
         self.workers = workers
         self._own = threading.local()
-        self._processes: list[subprocess.Popen[str]] = []
+        self._processes: list[subprocess.Popen[bytes]] = []
         self._seats = list(range(workers))
         self._lock = threading.Lock()
         self._threads = ThreadPoolExecutor(workers, initializer=self._seat)
@@ -72,10 +71,7 @@ class Pool:
     def __exit__(self, *_: object) -> None:
         self._threads.shutdown(wait=False, cancel_futures=True)
         for process in self._processes:
-            process.kill()
-        for process in self._processes:
-            with suppress(OSError, ValueError):
-                process.communicate()
+            child.end(process)
 
     def submit(self, several: Sequence[Mapping[str, Any]]) -> "Future[Figures]":
         """Evaluate cases by their overrides, as `evaluation.evaluate` does."""
@@ -87,25 +83,28 @@ class Pool:
             seat = self._seats.pop(0)
         self._own.process = None
         if seat:
-            pipe = subprocess.PIPE
-            process = subprocess.Popen(COMMAND, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, text=True)
+            process = child.start(f"{evaluate.__module__}:serve")
             with self._lock:
                 self._processes.append(process)
             self._own.process = process
-            print(json.dumps(self.scenarios), file=process.stdin, flush=True)
+            child.tell(process, _line(self.scenarios))
 
     def _evaluate(self, several: list[Mapping[str, Any]]) -> Figures:
         process = self._own.process
         if process is None:
             return evaluate(self.scenarios, several, None if self.workers == 1 else 1)
         try:
-            print(json.dumps(several), file=process.stdin, flush=True)
+            child.tell(process, _line(several))
             answer = process.stdout.readline()
         except OSError:
-            answer = ""
+            answer = b""
         if not answer:
             raise SimulationError("a process that evaluates designs ended: out of memory, or killed")
         return json.loads(answer)
+
+
+def _line(message: Any) -> bytes:
+    return json.dumps(message).encode() + b"\n"
 
 
 class Cluster:

@@ -1,19 +1,15 @@
-"""Contacts of a table: over which duties they are spread, and their solutions, one process per core.
-
-As a program it reads contact and duties, pickled, from the process that began it, and writes the solutions.
-"""
+"""Contacts of a table: over which duties they are spread, and their solutions, one process per core."""
 
 import math
-import os
 import pickle
-import subprocess
 import sys
 from contextlib import suppress
-from typing import Any, NamedTuple, cast
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from tribodyn.errors import SimulationError
+from tribodyn.numerics import child
 from tribodyn.numerics.work import steps, usable_cores
 from tribodyn.tribology.duty_range import DutyRange
 from tribodyn.tribology.ehl.asperities import Roughness
@@ -22,6 +18,9 @@ from tribodyn.tribology.ehl.fluid import Fluid
 from tribodyn.tribology.ehl.heat import Thermal
 from tribodyn.tribology.ehl.problem import LineContact
 from tribodyn.tribology.ehl.rheology import Rheology
+
+if TYPE_CHECKING:
+    import subprocess
 
 Array = Any
 
@@ -34,7 +33,6 @@ BOXED = 6
 _BESIDE = (0.02, 0.1)
 #: Contacts that a process of its own is worth.
 _WORTH = 40
-_COMMAND = (sys.executable, "-P", "-m", "tribodyn.tribology.ehl.table_points")
 
 
 class Contact(NamedTuple):
@@ -123,20 +121,15 @@ def solve_all(contact: Contact, duties: Array) -> Array:
     finally:
         for process in others:
             if process is not None:
-                process.kill()
-                process.wait()
-                cast(Any, process.stdout).close()
+                child.end(process)
     return values
 
 
 def _begun(contact: Contact, duties: Array) -> "subprocess.Popen[bytes] | None":
-    pipe, environment = subprocess.PIPE, {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
     with suppress(OSError):
-        process = subprocess.Popen(
-            _COMMAND, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, env=environment
-        )
-        with suppress(OSError), cast(Any, process.stdin) as stream:
-            stream.write(pickle.dumps((contact, duties)))
+        process = child.start(f"{__name__}:serve")
+        with suppress(OSError):
+            child.tell(process, pickle.dumps((contact, duties)))
         return process
     return None
 
@@ -144,20 +137,13 @@ def _begun(contact: Contact, duties: Array) -> "subprocess.Popen[bytes] | None":
 def _answer(process: "subprocess.Popen[bytes] | None") -> Array | None:
     if process is None:
         return None
-    with cast(Any, process.stdout) as stream:
-        said = stream.read()
+    assert process.stdout is not None
+    said = process.stdout.read()
     return pickle.loads(said) if process.wait() == 0 else None
 
 
-def main() -> None:
-    """Solve what the process that began this one asks for."""
-    # as the module that others import, whose classes the pickles name
-    from tribodyn.tribology.ehl.table_points import solve_one
-
+def serve() -> None:
+    """Solve what comes in, pickled, and write the solutions; in a child process."""
     contact, duties = pickle.load(sys.stdin.buffer)
     values = np.array([solve_one(contact, duty) for duty in duties])
     pickle.dump(values, sys.stdout.buffer)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,6 +1,7 @@
 """Tables of the solved contact: polynomials, error, cache, the duty of a mesh, and laws that read them."""
 
 import math
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -115,7 +116,7 @@ def test_processes_solve_what_one_solves(monkeypatch):
     monkeypatch.setattr(points, "_WORTH", 2)
     found = points.solve_all(contact, duties)
     np.testing.assert_array_equal(found, [points.solve_one(contact, one) for one in duties])
-    monkeypatch.setattr(points, "_COMMAND", ("no such program",))
+    monkeypatch.setattr(sys, "executable", "no such program")
     np.testing.assert_array_equal(points.solve_all(contact, duties), found)
 
 
