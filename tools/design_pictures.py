@@ -102,10 +102,10 @@ def main() -> None:
             raise SystemExit(str(error)) from None
         short = name.rpartition("-")[0].rpartition("-")[0]
         with open_record(path) as record:
-            print(save(overview(record), given.into / f"design-{short}.png"))
+            print(save(overview(record), given.into / f"design-{short}.png", force=True))
         if name in MAPS:
             with house_style():
-                print(save(draw_map(name, path, folder), given.into / f"design-{short}-map.png"))
+                print(save(draw_map(name, path, folder), given.into / f"design-{short}-map.png", force=True))
 
 
 if __name__ == "__main__":

@@ -94,7 +94,7 @@ def main() -> None:
             grid = figure.add_gridspec(2, 2, width_ratios=(1.4, 1))
             teeth(figure.add_subplot(grid[:, 0]), case)
             contact(figure.add_subplot(grid[0, 1]), figure.add_subplot(grid[1, 1]), case)
-            print(save(figure, folder / f"family-{name}.png"))
+            print(save(figure, folder / f"family-{name}.png", force=True))
 
 
 if __name__ == "__main__":

@@ -56,7 +56,7 @@ def main() -> None:
         grid = figure.add_gridspec(3, 2, width_ratios=(1.15, 1.0))
         teeth(figure.add_subplot(grid[:, 0]), pairs)
         along([figure.add_subplot(grid[row, 1]) for row in range(3)], pairs)
-        save(figure, given.output)
+        save(figure, given.output, force=True)
 
 
 if __name__ == "__main__":

@@ -69,7 +69,7 @@ def main() -> None:
                 record.label = label
                 records.append(record)
                 print(label, figures(record))
-            print(save(figure(name, records), folder / f"{picture}.png"))
+            print(save(figure(name, records), folder / f"{picture}.png", force=True))
 
 
 if __name__ == "__main__":

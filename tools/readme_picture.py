@@ -53,7 +53,7 @@ def main() -> None:
             case = load_scenario(name, {"solver.cycles": 4, "output.samples_per_cycle": 2000})
             result = run(case, Path(temporary) / f"{name}.h5")
             records.append(stack.enter_context(open_record(result.path)))
-        print(save(comparison(records), folder / "crc-and-involute.png"))
+        print(save(comparison(records), folder / "crc-and-involute.png", force=True))
 
 
 if __name__ == "__main__":

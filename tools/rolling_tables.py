@@ -89,7 +89,7 @@ def main() -> None:
         put(PAGE, "rolling-conclusions", conclusions(folder))
         path = run(load_scenario("irefc"), folder / "irefc.h5").path
         with open_record(path) as record:
-            print(save(overview(record), PICTURE))
+            print(save(overview(record), PICTURE, force=True))
 
 
 if __name__ == "__main__":

@@ -54,7 +54,7 @@ def main() -> None:
             write(record, compute(), f"Veciana et al. (2024), {name}")
         with house_style():
             figure = draw(read(record))
-        print(save(figure, folder / f"veciana-{name}.png"))
+        print(save(figure, folder / f"veciana-{name}.png", force=True))
 
 
 if __name__ == "__main__":

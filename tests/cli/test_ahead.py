@@ -49,7 +49,7 @@ def test_an_answer_that_is_none_is_no_picture(monkeypatch):
     for program in ("pass", "print('nonsense')", "import sys; sys.exit(3)"):
         monkeypatch.setattr(ahead, "TARGET", ("builtins:exec", program))
         drawer = ahead.Drawer()
-        drawer.draw(Path("no-such.h5"))
+        drawer.draw(Path("no-such.h5"), False)
         assert drawer.pictures() is None
         drawer.close()
 

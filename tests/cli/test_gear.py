@@ -145,7 +145,7 @@ def test_a_folder_that_cannot_be_made_is_bad_input(tmp_path: Path):
     (tmp_path / "file").write_text("", encoding="utf-8")
     refused = gear("liu-ni-crc-23-47", "-o", str(tmp_path / "file"))
     assert refused.exit_code == 2
-    assert "choose another folder with --output" in refused.stderr
+    assert "choose another name or folder" in refused.stderr
 
 
 def test_a_pair_as_a_free_form_one(tmp_path):

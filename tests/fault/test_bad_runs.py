@@ -58,7 +58,7 @@ COMMANDS = {
     "show text": (("show", "text.h5"), ("record = text.h5: not an HDF5 file",)),
     "plot nothing": (("plot", "nothing.h5"), ("record = nothing.h5: no such file",)),
     "plot no record": (("plot", "film"), ('record = "film": no such file',)),
-    "init over a file": (("init", "mine"), ('name = "mine.toml": the file exists', "--force")),
+    "init over a file": (("init", "mine"), ("mine.toml: the file exists", "--force")),
     "init into nowhere": (("init", "no/where"), ('name = "no/where.toml": the folder does not exist',)),
     "validate nothing": (("validate", "liu-ni-2202"), ("liu-ni-2022",)),
 }

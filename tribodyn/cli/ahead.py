@@ -31,10 +31,10 @@ class Drawer:
     def __init__(self) -> None:
         self._process = child.start(*TARGET)
 
-    def draw(self, record: Path) -> None:
-        """Begin to draw the overview of a record."""
+    def draw(self, record: Path, force: bool) -> None:
+        """Begin to draw the overview of a record; `force` as of `write_output`."""
         with suppress(OSError):
-            child.tell(self._process, json.dumps(str(record)).encode() + b"\n")
+            child.tell(self._process, json.dumps([str(record), force]).encode() + b"\n")
 
     def pictures(self) -> list[Path] | None:
         """Return the pictures as soon as they are drawn; None where the process gives no answer."""
@@ -94,9 +94,10 @@ def serve() -> None:
     from tribodyn.cli.pictures import draw_pictures
     from tribodyn.record.soundness import remember_own
 
-    record = Path(json.loads(line))
+    name, force = json.loads(line)
+    record = Path(name)
     remember_own(record)  # the first process has just written it
-    pictures = draw_pictures(record, everything=False)
+    pictures = draw_pictures(record, everything=False, force=force)
     sys.stdout.write(json.dumps([str(path) for path in pictures]))
     sys.stdout.flush()
     os._exit(0)  # to take matplotlib apart in order would let the first process wait

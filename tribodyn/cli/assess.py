@@ -29,7 +29,10 @@ def assess(
     ] = None,
     settings: SetOption = None,
     force: Annotated[
-        bool, typer.Option("--force", help="Replace the record of that folder; parts that fit are kept.")
+        bool,
+        typer.Option(
+            "--force", help="Replace the record, report and data of that folder; parts that fit are kept."
+        ),
     ] = False,
     allow_large: LargeOption = False,
     json: Annotated[bool, typer.Option("--json", help="Print everything as JSON.")] = False,
@@ -37,9 +40,10 @@ def assess(
     """Assess a drive: loads, vibration, film, temperatures, losses, margins; one folder, one report."""
     from tribodyn.cli.outcome import SIMULATION_FAILED, complain
     from tribodyn.cli.output import make_folder
-    from tribodyn.cli.printing import print_json, quoted_path
+    from tribodyn.cli.printing import print_json, quoted_path, write_json
     from tribodyn.cli.progress import progress_bar
     from tribodyn.cli.show import print_summary
+    from tribodyn.numerics.output_files import check_output
     from tribodyn.post.report import as_json
     from tribodyn.record.reader import open_record
     from tribodyn.studies.load import load
@@ -49,6 +53,8 @@ def assess(
     _require(loaded.study)
     folder = output or Path(loaded.case.name)
     make_folder(folder)
+    for name in (PAGE, DATA):
+        check_output(folder / name, force)
     with loaded.naming(), progress_bar(loaded.case.name) as progress:
         result = loaded.study.run(
             loaded.case, folder / RECORD, force=force, progress=progress, allow_large=allow_large
@@ -57,10 +63,10 @@ def assess(
         complain(f"{loaded.path}: the simulation failed: {result.message}; partial record: {result.path}")
         raise typer.Exit(SIMULATION_FAILED)
     with open_record(result.path) as record:
-        page = write_report([record], folder / PAGE)
+        page = write_report([record], folder / PAGE, force=force)
         head = as_json(record)
         data: dict[str, Any] = {**head.pop("summary"), **head, "report": str(page)}
-        _write(folder / DATA, data)
+        write_json(folder / DATA, data, force)
         if json:
             print_json(data)
             return
@@ -87,13 +93,3 @@ def _require(study: "Study") -> None:
     rule = "is run, not assessed"
     remedy = f"tribodyn {study.verb} it, or begin with: tribodyn init NAME --kind {kinds[0]}"
     raise InputError("kind", f'"{study.kind}"', rule, remedy)
-
-
-def _write(path: Path, data: dict[str, Any]) -> None:
-    import json
-
-    from tribodyn.cli.printing import plain
-    from tribodyn.numerics.cache import replacing
-
-    with replacing(path) as scratch:
-        scratch.write_text(json.dumps(plain(data), indent=2, ensure_ascii=False) + "\n", encoding="utf-8")

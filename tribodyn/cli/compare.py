@@ -38,7 +38,9 @@ def compare(
         Path | None, typer.Option("--output", "-o", help="Folder of the records and pictures.")
     ] = None,
     settings: SetOption = None,
-    force: Annotated[bool, typer.Option("--force", help="Replace records of that name.")] = False,
+    force: Annotated[
+        bool, typer.Option("--force", help="Replace records and pictures of that name.")
+    ] = False,
     allow_large: LargeOption = False,
     format: Annotated[Format, typer.Option(help="File format of the pictures.")] = Format.png,
     json: JsonOption = False,
@@ -69,7 +71,7 @@ def compare(
         records = [stack.enter_context(open_record(path)) for path in paths]
         compared = compare_records(records)
         if output is not None:
-            pictures = draw(records, names(records), folder / f"compare.{format.value}")
+            pictures = draw(records, names(records), folder / f"compare.{format.value}", force=force)
     ran = [path for word, path in zip(what, paths, strict=True) if word in scenarios and output is not None]
     if json:
         files = {"kept": [str(path) for path in ran], "pictures": [str(path) for path in pictures]}

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tribodyn.cli import completion
-from tribodyn.cli.options import JsonOption, SetOption, overrides
-from tribodyn.cli.output import make_folder, unwritable
+from tribodyn.cli.options import JsonOption, ReplaceOption, SetOption, overrides
+from tribodyn.cli.output import make_folder
 
 if TYPE_CHECKING:
     from tribodyn.geometry.assembly import Assembly
@@ -44,6 +44,7 @@ def gear(
             metavar="N",
         ),
     ] = None,
+    force: ReplaceOption = False,
     json: JsonOption = False,
 ) -> None:
     """Print a gear pair's geometry; draw it."""
@@ -58,7 +59,7 @@ def gear(
     loaded = load_drive(model, overrides(settings))
     written: list[Path] = []
     if as_spline is not None:
-        loaded, file = _fitted(loaded, as_spline, output or Path())
+        loaded, file = _fitted(loaded, as_spline, output or Path(), force)
         written.append(file)
     with loaded.origins.naming():
         assembly = check(family(loaded.family), loaded.drive)
@@ -67,7 +68,7 @@ def gear(
     sheet = geometry_sheet(assembly, masses, loaded.gauges)
     for side, lines in zip(("pinion", "gear"), loaded.tolerances, strict=True):
         sheet[side] |= lines
-    files = written + (_draw(loaded, assembly, output, points) if output is not None else [])
+    files = written + (_draw(loaded, assembly, output, points, force) if output is not None else [])
     if json:
         print_json(
             {
@@ -86,11 +87,11 @@ def gear(
         typer.echo(f"{file.suffix[1:]:8} {quoted_path(file)}")
 
 
-def _fitted(model: "DriveModel", values: int, folder: Path) -> "tuple[DriveModel, Path]":
+def _fitted(model: "DriveModel", values: int, folder: Path, force: bool) -> "tuple[DriveModel, Path]":
     """The pair with a free-form path, and the drive file that was written of it."""
     import tomli_w
 
-    from tribodyn.errors import InputError
+    from tribodyn.numerics.output_files import write_output
     from tribodyn.studies import spline_drive
     from tribodyn.studies.drive_file import load_drive
 
@@ -98,43 +99,37 @@ def _fitted(model: "DriveModel", values: int, folder: Path) -> "tuple[DriveModel
     if folder != Path():
         make_folder(folder)
     file = folder / f"{model.name}-spline.toml"
-    try:
-        with file.open("x", encoding="utf-8") as opened:
-            opened.write(tomli_w.dumps(fitted.table))
-    except FileExistsError:
-        rule, remedy = "the file exists", "remove it, or choose another folder with --output"
-        raise InputError("--as-spline", f'"{file}"', rule, remedy) from None
-    except OSError as error:
-        raise unwritable(file, error) from None
+    write_output(file, tomli_w.dumps(fitted.table), force=force)
     return load_drive(str(file)), file
 
 
-def _draw(model: "DriveModel", assembly: "Assembly", folder: Path, points: int) -> list[Path]:
+def _draw(model: "DriveModel", assembly: "Assembly", folder: Path, points: int, force: bool) -> list[Path]:
     """Write every drawing of a gear pair into a folder; return the files."""
     from tribodyn.cli.progress import progress_bar
     from tribodyn.drawing.dxf import write_gear, write_pair, write_rack
     from tribodyn.drawing.picture import pair_figure
     from tribodyn.drawing.profile import tooth_profile, write_profile
     from tribodyn.geometry.drive import SIDES
+    from tribodyn.numerics.output_files import check_output
     from tribodyn.post.style import save
 
     def file(what: str) -> Path:
         return folder / f"{model.name}-{what}"
 
     make_folder(folder)
-    try:
-        with progress_bar("drawing") as progress:
-            picture = pair_figure(assembly, model.title, points)
-            files = [save(picture, file(f"pair.{ending}")) for ending in ("svg", "png")]
-            progress(0.5)
-            files.append(write_pair(file("pair.dxf"), assembly, points))
-            for side in SIDES:
-                files += [
-                    write_gear(file(f"{side}.dxf"), assembly, side, points),
-                    write_rack(file(f"{side}-rack.dxf"), assembly, side, points),
-                    write_profile(file(f"{side}.csv"), tooth_profile(assembly, side, points)),
-                ]
-            progress(1.0)
-    except OSError as error:
-        raise unwritable(folder, error) from None
+    own = [f"{side}{what}" for side in SIDES for what in (".dxf", "-rack.dxf", ".csv")]
+    for what in ("pair.svg", "pair.png", "pair.dxf", *own):
+        check_output(file(what), force)
+    with progress_bar("drawing") as progress:
+        picture = pair_figure(assembly, model.title, points)
+        files = [save(picture, file(f"pair.{ending}"), force=force) for ending in ("svg", "png")]
+        progress(0.5)
+        files.append(write_pair(file("pair.dxf"), assembly, points, force=force))
+        for side in SIDES:
+            files += [
+                write_gear(file(f"{side}.dxf"), assembly, side, points, force=force),
+                write_rack(file(f"{side}-rack.dxf"), assembly, side, points, force=force),
+                write_profile(file(f"{side}.csv"), tooth_profile(assembly, side, points), force=force),
+            ]
+        progress(1.0)
     return files

@@ -28,6 +28,7 @@ def init(
     """Write a commented scenario to run and to edit."""
     from tribodyn.cli.printing import command_name, quoted_path
     from tribodyn.errors import InputError
+    from tribodyn.numerics.output_files import write_output
     from tribodyn.studies import DEFAULT, STUDIES
     from tribodyn.studies.template import filled
 
@@ -35,14 +36,5 @@ def init(
     template = filled(kind or DEFAULT, path.stem)
     if not path.parent.is_dir():
         raise InputError("name", f'"{path}"', "the folder does not exist", f"create {path.parent} first")
-    try:
-        with path.open("w" if force else "x", encoding="utf-8") as file:
-            file.write(template)
-    except FileExistsError:
-        raise InputError("name", f'"{path}"', "the file exists", "choose another name, or --force") from None
-    except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        raise InputError(
-            "name", f'"{path}"', f"cannot be written: {reason}", "choose another place"
-        ) from None
+    write_output(path, template, force=force)
     typer.echo(f"{path}\nrun it with: {command_name()} {STUDIES[kind or DEFAULT].verb} {quoted_path(path)}")

@@ -1,14 +1,13 @@
 """`tribodyn judge`: every film and friction law beside the solved contact."""
 
 import math
-from json import dumps
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from tribodyn.cli import completion
-from tribodyn.cli.options import JsonOption, SetOption, overrides
+from tribodyn.cli.options import JsonOption, ReplaceOption, SetOption, overrides
 from tribodyn.errors import InputError
 
 if TYPE_CHECKING:
@@ -43,6 +42,7 @@ def judge(
         Path | None,
         typer.Option("--output", "-o", help="Keep it in this file: .json, or a picture: .png, .svg, .pdf."),
     ] = None,
+    force: ReplaceOption = False,
     json: JsonOption = False,
 ) -> None:
     """Compare every film and friction law with the solved contact."""
@@ -51,14 +51,14 @@ def judge(
     from tribodyn.studies.ehl.judged import FACTORS, judgement
     from tribodyn.studies.load import load
 
-    _check(output)
+    _check(output, force)
     loaded = load(scenario, overrides(settings))
     factors = FACTORS if over_map else ()
     with progress_bar("judge") as progress, loaded.naming():
         judged = judgement(loaded.case, positions, factors, progress)
     found = judged.laws
     if output is not None:
-        _keep(judged, output)
+        _keep(judged, output, force)
     if json:
         print_json(judged.as_dict() | ({"files": [str(output)]} if output is not None else {}))
         return
@@ -87,8 +87,10 @@ def judge(
         typer.echo(f"kept     {quoted_path(output)}")
 
 
-def _check(output: Path | None) -> None:
+def _check(output: Path | None, force: bool) -> None:
     """Raise InputError at a file that could not be written in the end."""
+    from tribodyn.numerics.output_files import check_output
+
     if output is None:
         return
     if output.suffix not in ENDINGS:
@@ -96,22 +98,19 @@ def _check(output: Path | None) -> None:
         raise InputError("--output", str(output), rule, f'write "{output.with_suffix(".json")}"')
     if not output.absolute().parent.is_dir():
         raise InputError("--output", str(output), "its folder is not there", "make it, or choose another")
+    check_output(output, force)
 
 
-def _keep(judged: "Judgement", output: Path) -> None:
-    from tribodyn.cli.output import unwritable
-    from tribodyn.cli.printing import plain
+def _keep(judged: "Judgement", output: Path, force: bool) -> None:
+    if output.suffix == ".json":
+        from tribodyn.cli.printing import write_json
 
-    try:
-        if output.suffix == ".json":
-            output.write_text(dumps(plain(judged.as_dict()), indent=2, ensure_ascii=False) + "\n", "utf-8")
-            return
-        from tribodyn.post.style import save
-        from tribodyn.studies.ehl.judged_picture import picture
+        write_json(output, judged.as_dict(), force)
+        return
+    from tribodyn.post.style import save
+    from tribodyn.studies.ehl.judged_picture import picture
 
-        save(picture(judged), output)
-    except OSError as error:
-        raise unwritable(output, error) from None
+    save(picture(judged), output, force=force)
 
 
 def _share(value: float, without: str = "not stated") -> str:

@@ -29,7 +29,14 @@ LargeOption = Annotated[
     typer.Option("--allow-large", help="Also what takes very much memory, disk or time."),
 ]
 
-ForceOption = Annotated[bool, typer.Option("--force", help="Replace a record of that name.")]
+ForceOption = Annotated[
+    bool,
+    typer.Option("--force", help="Replace a record of that name, and what stands in place of its pictures."),
+]
+
+ReplaceOption = Annotated[
+    bool, typer.Option("--force", help="Replace also files that tribodyn did not make, and links.")
+]
 
 PlotOption = Annotated[
     bool | None,

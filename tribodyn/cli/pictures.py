@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-from tribodyn.cli.output import make_folder, unwritable
+from tribodyn.cli.output import make_folder
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -19,38 +19,52 @@ def draw(
     *,
     cycles: int | Literal["auto"] | None = "auto",
     against: str | None = None,
+    force: bool = False,
 ) -> list[Path]:
     """Draw figures by name into files named after `beside`: ``crc.png`` becomes ``crc-film.png``."""
     from tribodyn.studies.pictures import figure
 
-    return save_all(names, beside, lambda name: figure(name, records, cycles=cycles, against=against))
+    def make(name: str) -> "Figure":
+        return figure(name, records, cycles=cycles, against=against)
+
+    return save_all(names, beside, make, force=force)
 
 
-def draw_pictures(path: Path, *, everything: bool) -> list[Path]:
+def overview_path(record: Path) -> Path:
+    """Where the overview of a record is drawn."""
+    return _named(record.with_suffix(".png"), "overview")
+
+
+def draw_pictures(path: Path, *, everything: bool, force: bool = False) -> list[Path]:
     """Draw the overview of a record, or all its figures, beside it."""
     from tribodyn.record.reader import open_record
     from tribodyn.studies.pictures import names
 
     with open_record(path) as record:
         chosen = ["overview", *names([record])] if everything else ["overview"]
-        return draw([record], chosen, path.with_suffix(".png"))
+        return draw([record], chosen, path.with_suffix(".png"), force=force)
 
 
-def save_all(names: Iterable[str], beside: Path, make: Callable[[str], "Figure"]) -> list[Path]:
-    """Make figures by name and write them into files named after `beside`."""
+def save_all(
+    names: Iterable[str], beside: Path, make: Callable[[str], "Figure"], *, force: bool = False
+) -> list[Path]:
+    """Make figures by name and write them into files named after `beside`; raises as `write_output`."""
     from tribodyn.cli.progress import progress_bar
+    from tribodyn.numerics.output_files import check_output
     from tribodyn.post.style import save
 
     names = list(names)
+    for name in names:
+        check_output(_named(beside, name), force)
     pictures = []
     with progress_bar("drawing") as progress:
         for done, name in enumerate(names, start=1):
-            picture = beside.with_name(f"{beside.stem}-{name}{beside.suffix}")
             drawn = make(name)
             make_folder(beside.parent)
-            try:
-                pictures.append(save(drawn, picture))
-            except OSError as error:
-                raise unwritable(beside.parent, error) from None
+            pictures.append(save(drawn, _named(beside, name), force=force))
             progress(done / len(names))
     return pictures
+
+
+def _named(beside: Path, name: str) -> Path:
+    return beside.with_name(f"{beside.stem}-{name}{beside.suffix}")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tribodyn.cli import completion
+from tribodyn.cli.options import ReplaceOption
 
 if TYPE_CHECKING:
     from tribodyn.record.sweep_reader import SweepRecord
@@ -66,6 +67,7 @@ def plot(
             "--at", metavar="NAME=VALUE", help="The case of a sweep for poincare: pinion_speed=3000rpm."
         ),
     ] = None,
+    force: ReplaceOption = False,
     json: Annotated[bool, typer.Option("--json", help="Print the paths as JSON.")] = False,
 ) -> None:
     """Draw figures of records; several are compared."""
@@ -85,13 +87,14 @@ def plot(
         raise InputError("record", f'"{what[0]}"', "no such file", "name a record that tribodyn run wrote")
     beside = output / f"{'-'.join(Path(path).stem for path in paths)}.{format.value}"
     if is_sweep(paths[0]):
-        pictures = _draw_sweeps(paths, names, beside, at or [])
+        pictures = _draw_sweeps(paths, names, beside, at or [], force)
     else:
         with ExitStack() as stack:
             records = [stack.enter_context(open_record(path)) for path in paths]
             chosen = figure_names(records) if not names or "all" in names else names
             shown = "auto" if cycles is None else cycles or None
-            pictures = draw(records, chosen, beside, cycles=shown, against=against and against.value)
+            how = against and against.value
+            pictures = draw(records, chosen, beside, cycles=shown, against=how, force=force)
     if json:
         print_json({"pictures": [str(picture) for picture in pictures]})
     else:
@@ -99,7 +102,9 @@ def plot(
             typer.echo(f"picture  {quoted_path(picture)}")
 
 
-def _draw_sweeps(paths: Sequence[str], names: Sequence[str], beside: Path, at: Sequence[str]) -> list[Path]:
+def _draw_sweeps(
+    paths: Sequence[str], names: Sequence[str], beside: Path, at: Sequence[str], force: bool
+) -> list[Path]:
     """Draw figures of sweeps."""
     from contextlib import ExitStack
 
@@ -111,7 +116,7 @@ def _draw_sweeps(paths: Sequence[str], names: Sequence[str], beside: Path, at: S
         records = [stack.enter_context(SweepRecord(path)) for path in paths]
         place = _place(records[0], at)
         chosen = sweep_names(records) if not names or "all" in names else names
-        return save_all(chosen, beside, lambda name: sweep_figure(name, records, place))
+        return save_all(chosen, beside, lambda name: sweep_figure(name, records, place), force=force)
 
 
 def _place(record: "SweepRecord", at: Sequence[str]) -> dict[str, float | str]:

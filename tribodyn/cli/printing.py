@@ -27,6 +27,14 @@ def print_json(data: Any) -> None:
     sys.stdout.write(text if harmless(text) == text else _escaped(text))
 
 
+def write_json(path: Path, data: dict[str, Any], force: bool) -> None:
+    """Write `data` into a file that says who made it; raises as `write_output`."""
+    from tribodyn.numerics.output_files import write_output
+
+    said = {"generator": "tribodyn", **plain(data)}
+    write_output(path, json.dumps(said, indent=2, ensure_ascii=False) + "\n", force=force)
+
+
 def _escaped(text: str) -> str:
     return "".join(one if one.isprintable() or one == "\n" else f"\\u{ord(one):04x}" for one in text)
 

@@ -5,6 +5,8 @@ from typing import Annotated
 
 import typer
 
+from tribodyn.cli.options import ReplaceOption
+
 EXAMPLES = (
     "\b\nExamples:\n"
     "  tribodyn report crc-23-47.h5\n"
@@ -23,6 +25,7 @@ def report(
         Path | None,
         typer.Option("--output", "-o", help="The page; default: the records' names, in this folder."),
     ] = None,
+    force: ReplaceOption = False,
     pdf: Annotated[bool, typer.Option("--pdf", help="Also print it, through an installed browser.")] = False,
     json: Annotated[bool, typer.Option("--json", help="Print the path as JSON.")] = False,
 ) -> None:
@@ -30,17 +33,21 @@ def report(
     from contextlib import ExitStack
 
     from tribodyn.cli.printing import print_json, quoted_path
+    from tribodyn.numerics.output_files import check_output
     from tribodyn.record.sweep_reader import open_any
     from tribodyn.studies.pages import write_report
 
     target = output or Path(f"{'-'.join(Path(path).stem for path in records)}.html")
+    if pdf:
+        check_output(target.with_suffix(".pdf"), force)
     with ExitStack() as stack:
-        written = write_report([stack.enter_context(open_any(Path(path))) for path in records], target)
+        opened = [stack.enter_context(open_any(Path(path))) for path in records]
+        written = write_report(opened, target, force=force)
     files = {"report": written}
     if pdf:
         from tribodyn.post.page.pdf import print_page
 
-        files["pdf"] = print_page(written)
+        files["pdf"] = print_page(written, force=force)
     if json:
         print_json({what: str(path) for what, path in files.items()})
     else:

@@ -76,29 +76,40 @@ def run_loaded(made: "Callable[[], Loaded]", shown: Shown, *, output: Path | Non
     """
     from tribodyn.cli.ahead import drawer
     from tribodyn.cli.outcome import SIMULATION_FAILED, complain
-    from tribodyn.cli.pictures import draw_pictures
+    from tribodyn.cli.pictures import draw_pictures, overview_path
     from tribodyn.cli.printing import print_json, quoted_path
     from tribodyn.cli.progress import progress_bar
+    from tribodyn.errors import OutputError
+    from tribodyn.numerics.output_files import check_output
     from tribodyn.record.withheld import warnings
     from tribodyn.studies.run import run as run_case
 
+    force = bool(how.get("force"))
     with drawer(wanted=shown.plot is None) as ahead:
         loaded = made()
         case = loaded.case
         record = output or Path(f"{case.name}.h5")
+        if shown.plot is not False:
+            check_output(overview_path(record), force)
+        if shown.report:
+            check_output(record.with_suffix(".html"), force)
         with loaded.naming(), progress_bar(case.name) as progress:
             result = run_case(case, record, progress=progress, **how)
         failed = result.status != "complete"
         if ahead and not failed:
-            ahead.draw(result.path)
+            ahead.draw(result.path, force)
         if not shown.json:
             _print_summary(result.path)
         drawn = ahead.pictures() if ahead and not failed else None
-    if drawn is None:
-        drawn = (
-            [] if failed or shown.plot is False else draw_pictures(result.path, everything=shown.plot is True)
-        )
-    page = None if failed or not shown.report else _report(result.path)
+    page = None
+    try:
+        if drawn is None:
+            wanted = not failed and shown.plot is not False
+            drawn = draw_pictures(result.path, everything=bool(shown.plot), force=force) if wanted else []
+        if shown.report and not failed:
+            page = _report(result.path, force)
+    except OutputError as error:
+        raise OutputError(error.file, error.reason, f"the record is complete: {result.path}") from None
     files = result.summary.get("files", {}).values()
     if shown.json:
         more = {"pictures": [str(path) for path in drawn], **({"report": str(page)} if page else {})}
@@ -136,9 +147,9 @@ def _as_json(path: Path) -> dict[str, Any]:
         return as_json(record)
 
 
-def _report(path: Path) -> Path:
+def _report(path: Path, force: bool) -> Path:
     from tribodyn.record.reader import open_record
     from tribodyn.studies.pages import write_report
 
     with open_record(path) as record:
-        return write_report([record], path.with_suffix(".html"))
+        return write_report([record], path.with_suffix(".html"), force=force)

@@ -6,8 +6,8 @@ from typing import Annotated
 import typer
 
 from tribodyn.cli import completion
-from tribodyn.cli.options import JsonOption
-from tribodyn.cli.output import make_folder, unwritable
+from tribodyn.cli.options import JsonOption, ReplaceOption
+from tribodyn.cli.output import make_folder
 
 EXAMPLES = (
     "\b\nExit status 4 if a value is outside its tolerance. Examples:\n"
@@ -31,6 +31,7 @@ def validate(
     plots: Annotated[
         Path | None, typer.Option("--plots", help="Folder for figures like the paper's, from our numbers.")
     ] = None,
+    force: ReplaceOption = False,
     json: JsonOption = False,
 ) -> None:
     """Compare with what a paper published."""
@@ -41,10 +42,12 @@ def validate(
     from tribodyn.cli.outcome import OUTSIDE_TOLERANCE, complain
     from tribodyn.cli.printing import print_json, print_table, quoted_path
     from tribodyn.cli.progress import progress_bar
+    from tribodyn.numerics.output_files import check_output
     from tribodyn.validation.rows import SHOWN
 
     if plots is not None:
-        validation.figure_names(paper)
+        for name in validation.figure_names(paper):
+            check_output(validation.picture_path(paper, name, plots), force)
     for folder in (output, plots):
         if folder is not None:
             make_folder(folder)
@@ -57,10 +60,7 @@ def validate(
             rows = validation.validate(paper, progress, records)
         if plots is not None and records is not None:
             with progress_bar("drawing") as progress:
-                try:
-                    pictures = validation.draw(paper, plots, records, progress)
-                except OSError as error:
-                    raise unwritable(plots, error) from None
+                pictures = validation.draw(paper, plots, records, progress, force=force)
     if json:
         drawn = {"pictures": [str(picture) for picture in pictures]} if plots is not None else {}
         print_json({"rows": [row._asdict() for row in rows], **drawn})

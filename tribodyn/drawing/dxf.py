@@ -1,8 +1,10 @@
 """DXF drawings for CAD and wire erosion: gears, rack cutters, and the pair in mesh; in millimetres.
 
-Outlines are closed polylines (LWPOLYLINE); circles are circles, so that a bore can be picked.
+Outlines are closed polylines (LWPOLYLINE); circles are circles, so that a bore can be picked. What writes a
+file raises as `write_output`.
 """
 
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +17,7 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import gear_polygon
 from tribodyn.geometry.drive import SIDES, Side, body_of, tip_circle_radius
 from tribodyn.geometry.rack import rack_outline
+from tribodyn.numerics.output_files import MARKS, write_output
 
 #: Layer -> (AutoCAD colour index, line type).
 LAYERS = {
@@ -34,15 +37,18 @@ _MILLIMETRES = 1e3
 _SAME_POINT = 1e-12
 
 
-def write_gear(path: Path, assembly: Assembly, side: Side, flank_points: int = 60) -> Path:
+def write_gear(
+    path: Path, assembly: Assembly, side: Side, flank_points: int = 60, *, force: bool = False
+) -> Path:
     """Draw one gear about its own axis, turned as it is while a pair touches at the pitch point."""
     drawing = _drawing()
     _add_gear(drawing, assembly, side, gear_polygon(assembly, side, flank_points), (0.0, 0.0))
-    drawing.saveas(path)
-    return path
+    return _saved(drawing, path, force)
 
 
-def write_rack(path: Path, assembly: Assembly, side: Side, flank_points: int = 60) -> Path:
+def write_rack(
+    path: Path, assembly: Assembly, side: Side, flank_points: int = 60, *, force: bool = False
+) -> Path:
     """Draw the rack cutter of one body, teeth down, x along the rolling line from a tooth's axis."""
     drawing = _drawing()
     shape = rack_outline(assembly, side, flank_points)
@@ -54,11 +60,10 @@ def write_rack(path: Path, assembly: Assembly, side: Side, flank_points: int = 6
     outline = np.stack([np.append(x, [x[-1], x[0]]), np.append(y, [back, back])], axis=1)
     _add_outline(drawing, outline)
     _add_line(drawing, "ROLLING_LINE", np.array([[x[0], 0.0], [x[-1], 0.0]]))
-    drawing.saveas(path)
-    return path
+    return _saved(drawing, path, force)
 
 
-def write_pair(path: Path, assembly: Assembly, flank_points: int = 60) -> Path:
+def write_pair(path: Path, assembly: Assembly, flank_points: int = 60, *, force: bool = False) -> Path:
     """Draw both gears as a pair begins contact, with the path of contact, from the pitch point."""
     drawing = _drawing()
     mesh = gears_in_mesh(assembly, flank_points)
@@ -67,12 +72,18 @@ def write_pair(path: Path, assembly: Assembly, flank_points: int = 60) -> Path:
         _add_gear(drawing, assembly, side, outline, centre)
     _add_line(drawing, "CENTRE_LINE", np.array(centres))
     _add_line(drawing, "PATH_OF_CONTACT", mesh.path)
-    drawing.saveas(path)
-    return path
+    return _saved(drawing, path, force)
+
+
+def _saved(drawing: Any, path: Path, force: bool) -> Path:
+    stream = StringIO()
+    drawing.write(stream)
+    return write_output(path, stream.getvalue(), force=force)
 
 
 def _drawing() -> Any:
     drawing = new("R2010", setup=["linetypes"], units=units.MM)
+    drawing.header.custom_vars.append("Software", MARKS[".dxf"].decode().strip())
     for name, (color, linetype) in LAYERS.items():
         drawing.layers.add(name, color=color, linetype=linetype)
     return drawing

@@ -1,6 +1,5 @@
 """The profile of a tooth as a table of points."""
 
-import csv
 from pathlib import Path
 from typing import NamedTuple
 
@@ -10,9 +9,10 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.body import ROOT_POINTS, TIP_POINTS, half_profile
 from tribodyn.geometry.drive import Side, body_of
 from tribodyn.geometry.tooth import tooth_outline
+from tribodyn.numerics.output_files import MARKS, write_output
 
 #: Columns of the file.
-HEADER = ("part", "x [mm]", "y [mm]", "radius [mm]", "angle [deg]")
+HEADER = tuple(MARKS[".csv"].decode().strip().split(","))
 
 
 class Profile(NamedTuple):
@@ -50,13 +50,12 @@ def tooth_profile(assembly: Assembly, side: Side, flank_points: int = 60) -> Pro
     )
 
 
-def write_profile(path: Path, profile: Profile) -> Path:
-    """Write a profile as CSV: x along the tooth's axis outwards, y across, mm."""
+def write_profile(path: Path, profile: Profile, *, force: bool = False) -> Path:
+    """Write a profile as CSV: x along the tooth's axis outwards, y across, mm; raises as `write_output`."""
     x, y = profile.radius * np.cos(profile.angle), profile.radius * np.sin(profile.angle)
     columns = (1e3 * x, 1e3 * y, 1e3 * profile.radius, np.degrees(profile.angle))
-    with path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(HEADER)
-        for part, *numbers in zip(profile.part, *columns, strict=True):
-            writer.writerow([part, *(f"{number:.9g}" for number in numbers)])
-    return path
+    lines = [
+        ",".join([part, *(f"{number:.9g}" for number in numbers)])
+        for part, *numbers in zip(profile.part, *columns, strict=True)
+    ]
+    return write_output(path, MARKS[".csv"].decode() + "\n".join(lines) + "\n", force=force)

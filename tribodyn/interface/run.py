@@ -121,7 +121,7 @@ class Run:
             return figure(name, records, cycles=cycles, against=against)
 
     @in_python()
-    def report(self, path: str | Path | None = None, *others: "Run") -> Path:
+    def report(self, path: str | Path | None = None, *others: "Run", force: bool = False) -> Path:
         """Write a page for the browser: summary, figures, the teeth rolling through mesh.
 
         Parameters
@@ -130,6 +130,8 @@ class Run:
             Default: the record's name, in the current folder.
         *others : Run
             Runs of the same kind, side by side with this one.
+        force : bool
+            Replace also what is no page of ours.
 
         Returns
         -------
@@ -139,14 +141,14 @@ class Run:
         Raises
         ------
         InputError
-            For runs of different kinds, and a file that is there and is no page of ours.
+            For runs of different kinds, and a file that is there and is no page of ours, or a link.
         OutputError
             If it cannot be written.
         """
         from tribodyn.studies.pages import write_report
 
         with records_of([self, *others]) as records:
-            return write_report(records, path or f"{self.path.stem}.html")
+            return write_report(records, path or f"{self.path.stem}.html", force=force)
 
     @in_python()
     def animate(self, *others: "Run") -> Animation:

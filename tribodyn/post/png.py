@@ -5,6 +5,8 @@ import zlib
 
 import numpy as np
 
+from tribodyn.numerics.output_files import MARKS
+
 #: zlib's, 0 to 9: from here on files hardly shrink, but take up to three times as long.
 LEVEL = 3
 INCH = 0.0254
@@ -26,6 +28,7 @@ def png(pixels: np.ndarray, dpi: float) -> bytes:
     per_metre = round(dpi / INCH)
     chunks = (
         (b"IHDR", struct.pack(">2I5B", columns, rows, 8, 6, 0, 0, 0)),
+        (MARKS[".png"][:4], MARKS[".png"][4:]),
         (b"pHYs", struct.pack(">2IB", per_metre, per_metre, 1)),
         (b"IDAT", zlib.compress(lines.data, LEVEL)),
         (b"IEND", b""),

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from html import escape
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +19,7 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.layout_engine import ConstrainedLayoutEngine, LayoutEngine
 
 from tribodyn.errors import InputError
+from tribodyn.numerics.output_files import MARKS, check_output, write_output
 from tribodyn.post.png import png
 
 #: Okabe & Ito (2008), the colours that stay apart for every kind of colour vision; yellow is left out, too
@@ -193,15 +195,18 @@ class Margins(LayoutEngine):
         )
 
 
-def save(figure: Figure, path: str | Path) -> Path:
-    """Write a figure as PNG, PDF or SVG, by the file's ending."""
+def save(figure: Figure, path: str | Path, *, force: bool = False) -> Path:
+    """Write a figure as PNG, PDF or SVG, by the file's ending; raises as `write_output`."""
     path = Path(path)
+    check_output(path, force)
     with house_style():
         if path.suffix == ".png":
-            path.write_bytes(png(painted(figure), STYLE["savefig.dpi"]))
+            content = png(painted(figure), STYLE["savefig.dpi"])
         else:
-            figure.savefig(path)
-    return path
+            stream = BytesIO()
+            figure.savefig(stream, format=path.suffix[1:], metadata={"Creator": "tribodyn"})
+            content = stream.getvalue() + (MARKS[".pdf"] if path.suffix == ".pdf" else b"")
+    return write_output(path, content, force=force)
 
 
 def inline(figure: Figure, about: str = "", share: float = INLINE) -> str:

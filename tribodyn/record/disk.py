@@ -9,20 +9,17 @@ import io
 import os
 import shutil
 from collections.abc import Callable, Iterable
-from contextlib import suppress
 from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
 import h5py
 
+from tribodyn.numerics.output_files import CAREFUL, open_new
+
 #: The oldest file format: every HDF5 reader knows it, and nothing in it says whether a writer has it open.
 LIBVER = ("earliest", "v108")
 #: Bytes written at a time.
 BLOCK = 2**20
-
-
-#: Flags of files that are not to be reached through a link.
-CAREFUL = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
 
 
 class Blank(NamedTuple):
@@ -122,13 +119,6 @@ def amend(content: Layered, change: Callable[[h5py.File], None]) -> None:
     """Let `change` alter a file that is laid out."""
     with h5py.File(content, "r+", libver=LIBVER) as file:
         change(file)
-
-
-def open_new(path: Path) -> BinaryIO:
-    """Open a file that was not there; what a dead process left under that name goes, no link is followed."""
-    with suppress(FileNotFoundError):
-        path.unlink()
-    return os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | CAREFUL, 0o666), "wb")
 
 
 def open_existing(path: Path) -> BinaryIO:

@@ -15,13 +15,14 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.numerics.cache import replacing
+from tribodyn.numerics.output_files import unwritable
 from tribodyn.numerics.variable import Variable
 from tribodyn.record import disk, layout, sweep_schema
 from tribodyn.record.schema import COMPLETE, FAILED, FORMAT, PARTIAL, STATUS_NOTES, partial_path
 from tribodyn.record.soundness import UNREADABLE, check_sound, remember_own
 from tribodyn.record.sweep_schema import SWEEP, SweepLayout
 from tribodyn.record.withheld import cases_withheld
-from tribodyn.record.writer import check_target, conclude, refuse_existing, unwritable
+from tribodyn.record.writer import check_target, conclude, refuse_existing
 from tribodyn.record.writing_lock import WritingLock, remove_orphans, scratch_path
 
 #: What the root says of a sweep that is not complete.

@@ -18,8 +18,9 @@ from typing import Any, Self
 import h5py
 import numpy as np
 
-from tribodyn.errors import NO_ROOM, InputError, OutputError
+from tribodyn.errors import InputError, OutputError
 from tribodyn.numerics.cache import replacing
+from tribodyn.numerics.output_files import unwritable
 from tribodyn.record import disk, trust
 from tribodyn.record import layout as file_layout
 from tribodyn.record.schema import COMPLETE, FAILED, FORMAT, STATUS_NOTES, Layout, partial_path
@@ -50,14 +51,6 @@ def check_target(path: Path, force: bool = False) -> None:
         )
     refuse_if_written(path)
     refuse_existing(path, force)
-
-
-def unwritable(path: Path, error: OSError, kept: str = "") -> InputError | OutputError:
-    """What is said of a record that the operating system refuses."""
-    reason = error.strerror or str(error)
-    if kept or error.errno in NO_ROOM:
-        return OutputError(str(path), reason, kept)
-    return InputError("output", str(path), f"cannot be written: {reason}", "choose another file")
 
 
 def refuse_existing(path: Path, force: bool) -> None:

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from tribodyn.errors import InputError
-from tribodyn.record.disk import CAREFUL
+from tribodyn.numerics.output_files import CAREFUL
 
 #: What a file system says that has no locks: then there is none, as there was none before.
 _NO_LOCKS = {errno.ENOLCK, errno.ENOSYS, errno.ENOTSUP, errno.EOPNOTSUPP}

@@ -5,7 +5,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
-from tribodyn.errors import InputError, OutputError, SimulationError
+from tribodyn.errors import InputError, SimulationError
+from tribodyn.numerics.output_files import check_output, write_output
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.studies.load import load
@@ -13,9 +14,6 @@ from tribodyn.studies.pictures import study_of_record, study_of_sweep, sweep_fig
 
 if TYPE_CHECKING:
     from tribodyn.studies.study import TextTable
-
-#: What every page has near its beginning; a file without it is not replaced.
-MADE_HERE = '<meta name="generator" content="tribodyn">'
 
 
 def report(records: Sequence[Record], figures: bool = True) -> str:
@@ -84,11 +82,9 @@ def sweep_report(record: SweepRecord) -> str:
     return sweep_page(record, study.sweep_lines(), pictures, sheet(record))
 
 
-def write_report(records: Sequence[Record | SweepRecord], path: str | Path) -> Path:
-    """Write the page into a file; raises as `report`, and OutputError where it cannot be written.
-
-    Of sweeps one alone.
-    """
+def write_report(records: Sequence[Record | SweepRecord], path: str | Path, *, force: bool = False) -> Path:
+    """Write the page into a file; raises as `report` and `write_output`. Of sweeps one alone."""
+    check_page(path, force)
     sweeps = [record for record in records if isinstance(record, SweepRecord)]
     if len(sweeps) == 1 == len(records):
         text = sweep_report(sweeps[0])
@@ -97,14 +93,11 @@ def write_report(records: Sequence[Record | SweepRecord], path: str | Path) -> P
         raise InputError("record", str(sweeps[0].path), rule, "make a page of each")
     else:
         text = report([record for record in records if isinstance(record, Record)])
-    target = Path(path)
-    if target.suffix.lower() not in (".html", ".htm"):
-        raise InputError("output", str(target), "a page is a file that ends in .html", "name it so")
-    try:
-        if target.exists() and MADE_HERE not in target.read_text(encoding="utf-8", errors="replace")[:1000]:
-            rule = "the file exists and is no page of tribodyn"
-            raise InputError("output", str(target), rule, "choose another name")
-        target.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise OutputError(str(target), error.strerror or str(error)) from None
-    return target
+    return write_output(path, text, force=force)
+
+
+def check_page(path: str | Path, force: bool = False) -> None:
+    """Raise InputError where a page may not be written, see `check_output`; touches nothing."""
+    if Path(path).suffix.lower() not in (".html", ".htm"):
+        raise InputError("output", str(path), "a page is a file that ends in .html", "name it so")
+    check_output(path, force)

@@ -89,7 +89,12 @@ def figure_names(paper: str) -> list[str]:
 
 
 def draw(
-    paper: str, plots: Path, records: Path, progress: Callable[[float], None] | None = None
+    paper: str,
+    plots: Path,
+    records: Path,
+    progress: Callable[[float], None] | None = None,
+    *,
+    force: bool = False,
 ) -> list[Path]:
     """Draw figures like a paper's from our own numbers.
 
@@ -103,11 +108,13 @@ def draw(
         Folder in which `validate` left the paper's records.
     progress : callable, optional
         Called with the share done, 0 … 1.
+    force : bool
+        Replace also pictures that are not ours.
 
     Raises
     ------
     InputError
-        As `figure_names`.
+        As `figure_names` and `write_output`.
     """
     from tribodyn.post.style import house_style, save
 
@@ -117,10 +124,15 @@ def draw(
     for done, name in enumerate(names, start=1):
         with house_style():
             figure = module.FIGURES[name](records)
-        pictures.append(save(figure, plots / f"{paper}-{name}.png"))
+        pictures.append(save(figure, picture_path(paper, name, plots), force=force))
         if progress:
             progress(done / len(names))
     return pictures
+
+
+def picture_path(paper: str, name: str, plots: Path) -> Path:
+    """Where `draw` writes a figure."""
+    return plots / f"{paper}-{name}.png"
 
 
 def _check(paper: str) -> None:

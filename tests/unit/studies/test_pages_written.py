@@ -6,7 +6,8 @@ from typing import Any
 
 import pytest
 
-from tribodyn.errors import InputError, OutputError
+from tribodyn.errors import InputError
+from tribodyn.numerics.output_files import MARKS
 from tribodyn.post.page import page as written_by
 from tribodyn.studies import pages
 
@@ -54,7 +55,7 @@ def test_the_page_of_one_record_or_of_several():
 
 def test_where_a_page_is_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     """Over pages of its own only, whatever they are called."""
-    text = f"<html>{pages.MADE_HERE}</html>"
+    text = f"<html>{MARKS['.html'].decode()}</html>"
     monkeypatch.setattr(pages, "Record", SimpleNamespace)
     monkeypatch.setattr(pages, "SweepRecord", str)
     monkeypatch.setattr(pages, "report", lambda records: text)
@@ -66,7 +67,7 @@ def test_where_a_page_is_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     with pytest.raises(InputError, match="is a file that ends in"):
         pages.write_report([record], tmp_path / "a.txt")
     (tmp_path / "other.html").write_text(" " * 1000 + text, encoding="utf-8")
-    with pytest.raises(InputError, match="no page of tribodyn"):
+    with pytest.raises(InputError, match="tribodyn did not make it"):
         pages.write_report([record], tmp_path / "other.html")
 
     class Sweep(str):
@@ -76,5 +77,5 @@ def test_where_a_page_is_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     for some in ([Sweep("x"), record], [Sweep("x"), Sweep("y")]):
         with pytest.raises(InputError, match="a page of its own"):
             pages.write_report(some, tmp_path / "c.html")  # pyright: ignore[reportArgumentType]
-    with pytest.raises(OutputError):
+    with pytest.raises(InputError, match="cannot be written: No such file"):
         pages.write_report([record], tmp_path / "none" / "c.html")

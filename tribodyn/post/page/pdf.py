@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from tribodyn.errors import InputError, OutputError
 from tribodyn.numerics.child import installed_program, run_program
+from tribodyn.numerics.output_files import MARKS, write_output
 
 if TYPE_CHECKING:
     import subprocess
@@ -59,23 +60,27 @@ def run_browser(*options: str) -> "subprocess.CompletedProcess[str]":
         return run_program(command, TIME_LIMIT)
 
 
-def print_page(page: Path) -> Path:
+def print_page(page: Path, *, force: bool = False) -> Path:
     """Print a page into a PDF beside it.
 
     Raises
     ------
     InputError
-        Where no browser is installed.
+        Where no browser is installed; also as `write_output`.
     OutputError
-        Where the browser does not print it.
+        Where the browser does not print it, or there is no room.
     """
     target = page.with_suffix(".pdf")
-    try:
-        ended = run_browser("--no-pdf-header-footer", f"--print-to-pdf={target}", page.resolve().as_uri())
-    except TimeoutError:
-        raise OutputError(str(target), f"the browser did not end within {TIME_LIMIT:g} s") from None
-    except OSError as error:
-        raise OutputError(str(target), f"the browser does not run: {error}") from None
-    if ended.returncode or not target.is_file():
-        raise OutputError(str(target), f"the browser ended with status {ended.returncode}")
-    return target
+    with tempfile.TemporaryDirectory(prefix="tribodyn-") as folder:
+        printed = Path(folder) / "page.pdf"
+        try:
+            ended = run_browser(
+                "--no-pdf-header-footer", f"--print-to-pdf={printed}", page.resolve().as_uri()
+            )
+        except TimeoutError:
+            raise OutputError(str(target), f"the browser did not end within {TIME_LIMIT:g} s") from None
+        except OSError as error:
+            raise OutputError(str(target), f"the browser does not run: {error}") from None
+        if ended.returncode or not printed.is_file():
+            raise OutputError(str(target), f"the browser ended with status {ended.returncode}")
+        return write_output(target, printed.read_bytes() + MARKS[".pdf"], force=force)

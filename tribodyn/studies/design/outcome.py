@@ -8,7 +8,8 @@ from typing import Any
 
 import tomli_w
 
-from tribodyn.errors import InputError, OutputError
+from tribodyn.errors import printable
+from tribodyn.numerics.output_files import MARKS, check_output, write_output
 from tribodyn.studies import study_of
 from tribodyn.studies.design.archive import Archive, Evaluation
 from tribodyn.studies.design.case import DesignCase
@@ -16,8 +17,8 @@ from tribodyn.studies.design.evaluation import loaded_case
 from tribodyn.studies.design.methods.front import front
 from tribodyn.studies.design.sources import own, standing
 
-#: First line of a file with the best scenario; a file without it is not replaced.
-HEAD = "# The best of the search of tribodyn: "
+#: First line of a file with the best scenario, before the title of the search.
+HEAD = MARKS[".toml"].decode()
 
 
 def best_path(record: Path, ending: str, part: str = "") -> Path:
@@ -25,44 +26,35 @@ def best_path(record: Path, ending: str, part: str = "") -> Path:
     return record.with_name(f"{record.stem}-best{'-' * bool(part)}{part}.{ending}")
 
 
-def check_targets(case: DesignCase, record: Path) -> None:
-    """Raise InputError where a file is in the way that no search wrote."""
-    for name in case.scenarios:
-        path = best_path(record, "toml", name)
-        if path.exists() and not _is_ours(path):
-            raise InputError("output", str(path), "exists, and no search wrote it", "choose another record")
+def check_targets(case: DesignCase, record: Path, force: bool = False) -> None:
+    """Raise InputError where a file is in the way that no search wrote, see `check_output`."""
+    for path in (*(best_path(record, "toml", name) for name in case.scenarios), best_path(record, "dxf")):
+        check_output(path, force)
 
 
-def _is_ours(path: Path) -> bool:
-    try:
-        return path.is_file() and path.read_text(encoding="utf-8", errors="replace").startswith(HEAD)
-    except OSError:
-        return False
+def write_best(case: DesignCase, values: Mapping[str, Any], record: Path, force: bool = False) -> list[Path]:
+    """Write the best scenario and its parts, and the drawing of the gears where it has some; the files.
 
-
-def write_best(case: DesignCase, values: Mapping[str, Any], record: Path) -> list[Path]:
-    """Write the best scenario and its parts, and the drawing of the gears where it has some; the files."""
+    Raises as `write_output`.
+    """
     files: list[Path] = []
     loaded = None
-    try:
-        for name, scenario in case.scenarios.items():
-            schema = study_of(scenario).table(scenario)
-            one = loaded_case(scenario, own(name, schema, values, case.parts))
-            loaded = loaded or one
-            data = tomllib.loads(one.case.toml)
-            more = f"-{name}" if name else ""
-            data |= {"title": f"{data['title']}: best of {case.name}", "name": f"{case.name}-best{more}"}
-            files.append(best_path(record, "toml", name))
-            files[-1].write_text(f"{HEAD}{case.title}\n{tomli_w.dumps(data)}", encoding="utf-8")
-        if loaded and loaded.study.has_gears:
-            from tribodyn.drawing.dxf import write_pair
-            from tribodyn.geometry.checks import check
-            from tribodyn.geometry.families import family
+    for name, scenario in case.scenarios.items():
+        schema = study_of(scenario).table(scenario)
+        one = loaded_case(scenario, own(name, schema, values, case.parts))
+        loaded = loaded or one
+        data = tomllib.loads(one.case.toml)
+        more = f"-{name}" if name else ""
+        data |= {"title": f"{data['title']}: best of {case.name}", "name": f"{case.name}-best{more}"}
+        text = f"{HEAD}{printable(case.title)}\n{tomli_w.dumps(data)}"
+        files.append(write_output(best_path(record, "toml", name), text, force=force))
+    if loaded and loaded.study.has_gears:
+        from tribodyn.drawing.dxf import write_pair
+        from tribodyn.geometry.checks import check
+        from tribodyn.geometry.families import family
 
-            assembly = check(family(loaded.case.family), loaded.case.drive)
-            files.append(write_pair(best_path(record, "dxf"), assembly))
-    except OSError as error:
-        raise OutputError(str(files[-1]), error.strerror or str(error)) from None
+        assembly = check(family(loaded.case.family), loaded.case.drive)
+        files.append(write_pair(best_path(record, "dxf"), assembly, force=force))
     return files
 
 

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future
 from contextlib import ExitStack, contextmanager, suppress
+from functools import partial
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -53,9 +54,10 @@ def run(
     name, reason = method_of(case)
     path = Path(output) if output is not None else Path(f"{case.name}.h5")
     left = _left(case, path) if resume and not force else NOTHING_LEFT
+    best_of = partial(write_best, case, record=path, force=force)
+    check_targets(case, path, force)
     force = force or left is not NOTHING_LEFT
     path = target(case, path, force)
-    check_targets(case, path)
     begun = perf_counter()
     with ExitStack() as stack:
         pool, judge = stack.enter_context(_started(case, left.start, client))
@@ -86,10 +88,10 @@ def run(
             best = chosen_best(case, archive)
             kept = record.fail(str(error) or "interrupted by the user", so_far())
             if best is not None:
-                error.add_note(f"the best so far: {write_best(case, best.values, path)[0]}")
+                error.add_note(f"the best so far: {best_of(best.values)[0]}")
             error.add_note(f"the {record.written} evaluations so far: {kept}, --resume goes on")
             raise
-        files = write_best(case, best.values, path)
+        files = best_of(best.values)
         names = [*(f"toml_{name}" if name else "toml" for name in case.scenarios), "dxf"]
         summary["files"] = dict(zip(names, map(str, files), strict=False))
         return RunResult(record.finish(summary, trim=True), "complete", "", summary)

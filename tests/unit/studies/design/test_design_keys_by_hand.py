@@ -611,5 +611,5 @@ def test_only_what_no_search_wrote_is_in_the_way(case: DesignCase, tmp_path: Pat
     check_targets(parted, record)
     (tmp_path / "found-best-losses.toml").write_text("mine", encoding="utf-8")
     check_targets(case, record)
-    with pytest.raises(InputError, match="no search wrote it"):
+    with pytest.raises(InputError, match="the file exists"):
         check_targets(parted, record)
