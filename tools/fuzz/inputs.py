@@ -175,7 +175,7 @@ def _record(random: Random) -> Input:
 
 
 def _cache(random: Random) -> Input:
-    base = random.choice(("kernel", "arrays"))
+    base = random.choice(("kernel", "gear", "table"))
     return Input("cache", base, random.randbytes(16))
 
 

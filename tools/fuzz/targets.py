@@ -1,8 +1,7 @@
 """What takes an input, and what may come of it: it is taken, or refused with an `InputError` of one line."""
 
-import io
-import json
 import os
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from random import Random
@@ -12,11 +11,11 @@ import numpy as np
 
 from tools.fuzz.inputs import CURVE, Input, mutated, scenarios
 from tribodyn.cli.options import overrides
-from tribodyn.compliance import fem_cache
 from tribodyn.compliance.gear_compliance import GearCompliance
 from tribodyn.errors import InputError, InputErrors, SimulationError
-from tribodyn.kernels.native import store
-from tribodyn.numerics.cache import keep, trusted_folder
+from tribodyn.kernels.native.code import Compiled
+from tribodyn.kernels.native.store import compiled_in, content_of
+from tribodyn.numerics.cache import arrays_kept_or_made, kept_or_made, trusted_folder
 from tribodyn.post.report import as_json
 from tribodyn.post.sweep_report import sweep_as_json
 from tribodyn.record.sweep_reader import SweepRecord, open_any
@@ -24,6 +23,7 @@ from tribodyn.studies import STUDIES
 from tribodyn.studies.load import load_scenario
 from tribodyn.studies.pictures import summary_table, sweep_table
 from tribodyn.sweep.grid import Grid
+from tribodyn.tribology.ehl.table import Table
 
 TAKEN, REFUSED = "taken", "refused"
 #: Characters that a message has at most: whoever reads it sees what is wrong, and not a file.
@@ -122,33 +122,34 @@ def _record(given: Input, folder: Path) -> None:
 
 
 def _cache(given: Input, folder: Path) -> None:
-    """A file of the cache that somebody changed: it is as it was written, or none."""
+    """A file of the cache that somebody changed: it is as it was written, or made again."""
     random = Random(given.content)
-    body = random.randbytes(200)
-    written = _kernel(body) if given.base == "kernel" else _arrays()
-    keep("fuzz", "file", mutated(random, written, [b"[" * 5000, b"\x93NUMPY\x01\x00", b"(1e9,)"]))
-    if trusted_folder("fuzz") is None:
+    _look_up(given.base)
+    trusted = trusted_folder("fuzz")
+    if trusted is None:
         raise Fault("the cache is not used")
-    if given.base == "kernel":
-        code = store._read("fuzz", "file")
-        if code is not None and code.body != body:
-            raise Fault("changed machine code was taken")
-    else:
-        fem_cache._FOLDER = "fuzz"  # of this process, which is for inputs only
-        fem_cache._read(GearCompliance, "file")
+    file = trusted / given.base
+    whole = file.read_bytes()
+    file.write_bytes(mutated(random, whole, [b"[" * 5000, b"\x93NUMPY\x01\x00", b"(1e9,)"]))
+    if not _look_up(given.base) or file.read_bytes() != whole:
+        raise Fault(f"a changed {given.base} was taken, or not made again")
 
 
-def _kernel(body: bytes) -> bytes:
-    head: dict[str, Any] = {"symbol": "f", "returns": "i8", "single": True, "needs": []}
-    head["sha256"] = store._checksum(head, body)
-    return json.dumps(head).encode() + b"\n" + body
+_CODE = Compiled("f", "i8", True, [], bytes(range(200)))
+_ARRAYS: dict[str, Callable[[], dict[str, Any]]] = {
+    "gear": lambda: {
+        name: np.arange(12.0) for name in GearCompliance._fields if name not in ("lead", "ends")
+    },
+    "table": lambda: {name: np.arange(float(n)) for n, name in enumerate(Table._fields)},
+}
 
 
-def _arrays() -> bytes:
-    stream = io.BytesIO()
-    arrays: dict[str, Any] = {name: np.arange(12.0) for name in fem_cache._arrays(GearCompliance)}
-    np.savez(stream, **arrays)
-    return stream.getvalue()
+def _look_up(base: str) -> bool:
+    """Whether the cache gives a kernel, a solved gear or a table of solved contacts as it was made."""
+    if base == "kernel":
+        return kept_or_made("fuzz", base, compiled_in, lambda: (_CODE, content_of(_CODE))) == _CODE
+    arrays = arrays_kept_or_made("fuzz", base, _ARRAYS[base])
+    return all(np.array_equal(arrays[name], one) for name, one in _ARRAYS[base]().items())
 
 
 _TARGETS = {

@@ -1,31 +1,25 @@
 """Finite-element compliances kept between runs, in the user's cache folder.
 
 A file's name is the digest of everything its content depends on: the tooth as cut, the body, Poisson's ratio,
-the mesh and the source of the method with all that it imports. A file that cannot be read is made again.
+the mesh and the source of the method with all that it imports.
 """
 
 import hashlib
-import io
-import struct
-import zipfile
-import zlib
 from collections.abc import Callable
 from functools import lru_cache
 from typing import Any, TypeVar
 
 import numpy as np
 
-from tribodyn.compliance.gear_compliance import NEIGHBOURS, FreeEnds, GearCompliance, LeadHarmonics
+from tribodyn.compliance.gear_compliance import FreeEnds, GearCompliance, LeadHarmonics
 from tribodyn.compliance.lead_harmonics import LARGEST_AT_ENDS, wave_numbers
 from tribodyn.geometry.tooth import Tooth, tooth_outline
-from tribodyn.numerics.cache import alone, keep, read_kept
+from tribodyn.numerics.cache import arrays_kept_or_made
 from tribodyn.numerics.sources import digest_of
 from tribodyn.numerics.work import part
 
 Kept = TypeVar("Kept", GearCompliance, LeadHarmonics, FreeEnds)
 
-_SECTORS = 2 * NEIGHBOURS + 1
-_FOLDER = "fem"
 #: What the stored arrays come from.
 _METHODS = ("tribodyn.compliance.fem", "tribodyn.compliance.free_ends")
 
@@ -51,7 +45,7 @@ def cached_gear_compliance(
     """
     numbers = (teeth, bore_radius, poisson_ratio, depth, level)
     with part(0.0, 1.0 if width is None else 0.05):
-        plane = _kept(GearCompliance, _plane_fits, _digest(tooth, *numbers), lambda: _plane(tooth, *numbers))
+        plane = _kept(GearCompliance, _digest(tooth, *numbers), lambda: _plane(tooth, *numbers))
     plane = plane._replace(depth=float(plane.depth))
     if width is None:
         return plane
@@ -60,7 +54,6 @@ def cached_gear_compliance(
     with part(0.05, 0.5):
         harmonics = _kept(
             LeadHarmonics,
-            lambda stored: _lead_fits(stored, len(waves), len(plane.radius)),
             "lead-" + _digest(tooth, *numbers, *waves),
             lambda: _lead(tooth, *numbers, waves),
         )
@@ -68,7 +61,6 @@ def cached_gear_compliance(
     with part(0.5, 1.0):
         ends = _kept(
             FreeEnds,
-            lambda stored: _ends_fit(stored, len(shorter), harmonics.root_position.shape[-1]),
             "ends-" + _digest(tooth, *numbers, *shorter, width),
             lambda: _ends(tooth, *numbers, shorter, width),
         )
@@ -93,45 +85,16 @@ def _ends(*arguments: Any) -> FreeEnds:
     return free_ends(*arguments)
 
 
-def _kept(kind: type[Kept], fits: Callable[[Kept], bool], name: str, solve: Callable[[], Kept]) -> Kept:
+def _kept(kind: type[Kept], name: str, solve: Callable[[], Kept]) -> Kept:
     """Arrays of a file, or of `solve`, which are then kept in it."""
-    file = f"{name}.npz"
-    stored = _read(kind, file)
-    if stored is not None and fits(stored):
-        return stored
-    with alone(_FOLDER, file):
-        stored = _read(kind, file)  # another process may have kept it meanwhile
-        if stored is not None and fits(stored):
-            return stored
+    names = [one for one in kind._fields if one not in kind._field_defaults]
+
+    def made() -> dict[str, Any]:
         solved = solve()
-        _write(file, solved)
-    return solved
+        return {one: getattr(solved, one) for one in names}
 
-
-def _plane_fits(stored: GearCompliance) -> bool:
-    count = len(stored.radius)
-    return stored.inside.shape == (2, count) and stored.between.shape == (_SECTORS, count, count)
-
-
-def _lead_fits(stored: LeadHarmonics, waves: int, count: int) -> bool:
-    points = stored.root_position.shape[-1]
-    return (
-        stored.wave_number.shape == (waves,)
-        and stored.inside.shape == (waves, 2, count)
-        and stored.between.shape == (waves, _SECTORS, count, count)
-        and stored.root_position.shape == (2, points)
-        and stored.root_stress.shape == (waves, _SECTORS, 2, points, count)
-    )
-
-
-def _ends_fit(stored: FreeEnds, waves: int, points: int) -> bool:
-    count = len(stored.radius)
-    return (
-        stored.wave_number.shape == (waves,)
-        and stored.own.shape == (2, waves, waves, count)
-        and stored.between.shape == (2, waves, waves, _SECTORS, count, count)
-        and stored.root_stress.shape == (2, waves, waves, _SECTORS, 2, points, count)
-    )
+    arrays: dict[str, Any] = dict(arrays_kept_or_made("fem", name, made))
+    return kind(**arrays)
 
 
 def _digest(tooth: Tooth, *numbers: float) -> str:
@@ -146,32 +109,3 @@ def _digest(tooth: Tooth, *numbers: float) -> str:
 @lru_cache(maxsize=1)
 def _source_digest() -> bytes:
     return digest_of(*_METHODS)
-
-
-def _read(kind: type[Kept], file: str) -> Kept | None:
-    content = read_kept(_FOLDER, file)
-    if content is None:
-        return None
-    try:
-        with zipfile.ZipFile(io.BytesIO(content)) as listed:
-            if any(one.compress_type != zipfile.ZIP_STORED for one in listed.infolist()):
-                return None  # not written here, and of unknown size
-        with np.load(io.BytesIO(content), allow_pickle=False) as stored:
-            parts = {name: stored[name] for name in _arrays(kind)}
-    except (OSError, ValueError, KeyError, EOFError, MemoryError, SyntaxError):
-        return None
-    except (zipfile.BadZipFile, zlib.error, RuntimeError, OverflowError, struct.error):  # or said encrypted
-        return None
-    if not all(part.dtype == float and np.all(np.isfinite(part)) for part in parts.values()):
-        return None
-    return kind(**parts)
-
-
-def _arrays(kind: Any) -> list[str]:
-    return [name for name in kind._fields if name not in kind._field_defaults]
-
-
-def _write(file: str, solved: GearCompliance | LeadHarmonics | FreeEnds) -> None:
-    content = io.BytesIO()
-    np.savez(content, **{part: getattr(solved, part) for part in _arrays(type(solved))})
-    keep(_FOLDER, file, content.getvalue())

@@ -1,5 +1,9 @@
 """Where results that cost time are kept between processes, and how a file appears: whole or not at all.
 
+Compiled kernels, finite elements and solved contacts are kept alike. A file begins with a line that has the
+digest of its folder, name and content: what is damaged, changed or under another's name counts as not there
+and is made anew, once, while other processes wait.
+
 Machine code is loaded from the cache, so that whoever can write there can run code as the user. Nothing is
 read from a folder or a file that somebody else owns or can write: the folder is then not used at all, and a
 warning says so once.
@@ -7,16 +11,29 @@ warning says so once.
 
 import hashlib
 import importlib.util
+import json
+import math
 import os
 import stat
 import threading
 import time
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from functools import cache
+from glob import escape
 from pathlib import Path
+from typing import TYPE_CHECKING, TypeVar
 
+if TYPE_CHECKING:
+    import numpy as np
+
+T = TypeVar("T")
+
+#: Begins the first line of a file; the digest follows.
+_MARK = b"tribodyn-cache-1 "
+#: Length of that line.
+_HEAD = len(_MARK) + 2 * hashlib.sha256().digest_size + 1
 #: Maximum size of a file of the cache, bytes; a file that is larger is none of ours. The largest are those
 #: of gears under loads along wide teeth, some 20 MB.
 MAXIMUM_SIZE = 2**29
@@ -90,8 +107,82 @@ def _why_not(whole: Path, folder: Path) -> str:
     return ""
 
 
+def kept_or_made(
+    folder: str, name: str, read: Callable[[bytes], T | None], make: Callable[[], tuple[T, bytes | None]]
+) -> T:
+    """Return what the cache holds, or make it and keep it there, while other processes wait for it.
+
+    Parameters
+    ----------
+    folder, name : str
+        Of the file. The name is a digest of everything that the content depends on.
+    read : callable
+        Content -> what it stands for. None, or a ValueError, KeyError or TypeError where this process cannot
+        use it.
+    make : callable
+        () -> the thing, and its content; None: it is not kept.
+    """
+    found = _known(folder, name, read)
+    if found is not None:
+        return found
+    with alone(folder, name):
+        found = _known(folder, name, read)  # another process may have kept it meanwhile
+        if found is not None:
+            return found
+        made, content = make()
+        if content is not None:
+            _remove_left(folder, name)
+            keep(folder, name, content)
+    return made
+
+
+def _remove_left(folder: str, name: str) -> None:
+    """Remove what killed processes left of a file; whoever still writes it does without."""
+    for left in (trusted_folder(folder) or Path()).glob(f"{escape(name)}.*.tmp"):
+        with suppress(OSError):
+            left.unlink()
+
+
+def _known(folder: str, name: str, read: Callable[[bytes], T | None]) -> T | None:
+    content = read_kept(folder, name)
+    with suppress(ValueError, KeyError, TypeError):  # whole, but of another layout
+        return None if content is None else read(content)
+    return None
+
+
+def arrays_kept_or_made(
+    folder: str, name: str, make: Callable[[], Mapping[str, "np.ndarray | float"]]
+) -> Mapping[str, "np.ndarray"]:
+    """Return arrays by name as `kept_or_made`, the same bits whether they were kept or are made now.
+
+    They are of float64; numbers become arrays of no axes.
+    """
+    import numpy as np
+
+    def read(content: bytes) -> Mapping[str, "np.ndarray"]:
+        place = content.index(b"\n") + 1
+        found = {}
+        for one, shape in json.loads(content[:place]).items():
+            found[one] = np.frombuffer(content, "<f8", math.prod(shape), place).reshape(shape).copy()
+            place += found[one].nbytes
+        return found
+
+    def made() -> tuple[Mapping[str, "np.ndarray"], bytes]:
+        arrays = {one: np.asarray(value, dtype="<f8") for one, value in make().items()}
+        head = json.dumps({one: value.shape for one, value in arrays.items()})
+        return arrays, b"".join([head.encode(), b"\n", *(value.tobytes() for value in arrays.values())])
+
+    return kept_or_made(folder, name, read, made)
+
+
+def _head(folder: str, name: str, content: bytes) -> bytes:
+    digest = hashlib.sha256(f"{folder}/{name}\n".encode())
+    digest.update(content)
+    return _MARK + digest.hexdigest().encode() + b"\n"
+
+
 def read_kept(folder: str, name: str) -> bytes | None:
-    """Content of a file of the cache; None where it is not there or not the user's own regular file."""
+    """Content of a file of the cache; None where it is not there, or not the user's own as it was kept."""
     trusted = trusted_folder(folder)
     if trusted is None:
         return None
@@ -109,15 +200,19 @@ def read_kept(folder: str, name: str) -> bytes | None:
         if os.name != "nt" and (found.st_uid != os.geteuid() or found.st_mode & _OTHERS_WRITE):
             return None
         with open(number, "rb", closefd=False) as stream:
-            return stream.read(found.st_size)
+            head, content = stream.read(_HEAD), stream.read(found.st_size)
     except (OSError, MemoryError):
         return None
     finally:
         os.close(number)
+    return content if head == _head(folder, name, content) else None
 
 
 def keep(folder: str, name: str, content: bytes) -> None:
-    """Keep a file in the cache, or do without where that is not possible: the cache is a convenience."""
+    """Keep a file in the cache, or do without where that is not possible: the cache is a convenience.
+
+    It is on the disk before it has its name.
+    """
     trusted = trusted_folder(folder)
     if trusted is None:
         return
@@ -128,7 +223,10 @@ def keep(folder: str, name: str, content: bytes) -> None:
             os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)
         )
         with open(os.open(scratch, flags, 0o600), "wb") as stream:
+            stream.write(_head(folder, name, content))
             stream.write(content)
+            stream.flush()
+            os.fsync(stream.fileno())
 
 
 @contextmanager

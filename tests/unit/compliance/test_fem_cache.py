@@ -1,4 +1,4 @@
-"""The cache of finite-element compliances: same result, damaged files, concurrent runs, no folder."""
+"""The cache of finite-element compliances: same result, other gears, concurrent runs, no folder."""
 
 import multiprocessing
 
@@ -7,8 +7,7 @@ import pytest
 
 from tests.support.twelve_teeth import few_cells
 from tribodyn.compliance.fem_cache import cached_gear_compliance
-from tribodyn.compliance.gear_compliance import FreeEnds, GearCompliance, LeadHarmonics
-from tribodyn.compliance.lead_harmonics import wave_numbers
+from tribodyn.compliance.gear_compliance import FreeEnds, GearCompliance
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families.involute import FAMILY
 from tribodyn.geometry.tooth import cut_tooth
@@ -38,7 +37,7 @@ def same(one: GearCompliance, other: GearCompliance) -> bool:
 
 def test_second_look_up_reads_the_file(folder, monkeypatch):
     first = solve()
-    assert [file.suffix for file in folder.iterdir()] == [".npz"]
+    assert len(list(folder.iterdir())) == 1
     monkeypatch.setattr("tribodyn.compliance.fem.gear_compliance", None)  # must not be needed again
     assert same(first, solve())
 
@@ -50,30 +49,15 @@ def test_other_material_or_body_is_another_file(folder):
     assert len(list(folder.iterdir())) == 3
 
 
-def encrypted(whole: bytes) -> bytes:
-    """The same, said to be encrypted in the list of its files."""
-    at = whole.index(b"PK\x01\x02") + 8
-    return whole[:at] + bytes([whole[at] | 1]) + whole[at + 1 :]
-
-
-@pytest.mark.parametrize("damage", [b"", b"PK\x03\x04 cut off", "half", "encrypted"])
-def test_damaged_file_is_made_anew(folder, damage):
+def test_a_file_of_another_gear_under_this_name_is_made_anew(folder):
     first = solve()
     (file,) = folder.iterdir()
     whole = file.read_bytes()
-    changed = {"half": whole[: len(whole) // 2], "encrypted": encrypted(whole)}
-    file.write_bytes(changed.get(damage, damage))
+    solve(bore=9e-3)
+    (other,) = {*folder.iterdir()} - {file}
+    file.write_bytes(other.read_bytes())
     assert same(first, solve())
-    assert len(file.read_bytes()) == len(whole)
-
-
-def test_file_with_wrong_content_is_made_anew(folder):
-    first = solve()
-    (file,) = folder.iterdir()
-    np.savez(file, radius=np.ones(2), inside=np.ones((2, 4)), between=np.ones((5, 2, 2)), depth=1.0)
-    assert same(first, solve())
-    with np.load(file) as stored:
-        assert len(stored["radius"]) == len(first.radius)
+    assert file.read_bytes() == whole
 
 
 def test_folder_that_cannot_be_written_only_costs_time(tmp_path, monkeypatch):
@@ -121,35 +105,3 @@ def test_loads_that_vary_are_solved_only_where_asked_for_and_kept_apart(folder, 
     assert same(first, solve(width=0.02))
     assert same(wider, solve(width=0.03))
     assert same(plane, solve())
-
-
-@pytest.mark.parametrize("name", ["lead", "ends"])
-@pytest.mark.parametrize("change", ["missing", "shape", "nan", "type", "cut"])
-def test_damaged_file_of_loads_that_vary_is_made_anew(folder, monkeypatch, name, change):
-    tooth = cut_tooth(FAMILY, DRIVE, "pinion")
-    waves = wave_numbers(3e-3, tooth.root_radius)
-    # any numbers of the right shape, for they take no time
-    numbers = [(2, 3), (5, 3, 3), (2, 4), (5, 2, 4, 3)]
-    shapes = [np.ones(shape if shape == (2, 4) else (len(waves), *shape)) for shape in numbers]
-    monkeypatch.setattr("tribodyn.compliance.fem.lead_harmonics", lambda *_: LeadHarmonics(waves, *shapes))
-    ends = any_ends(len(waves))
-    monkeypatch.setattr("tribodyn.compliance.free_ends.free_ends", lambda *_: ends)
-    first = solve(width=0.02)
-    file = next(folder.glob(f"{name}-*"))
-    whole = file.read_bytes()
-    with np.load(file) as stored:
-        parts = dict(stored)
-    if change == "missing":
-        del parts["root_stress"]
-    elif change == "shape":
-        field = "inside" if name == "lead" else "own"
-        parts[field] = parts[field][:, :1]
-    elif change == "nan":
-        parts["between"][0, 0, 0, 0] = np.nan
-    elif change == "type":
-        parts["root_stress"] = parts["root_stress"].astype("U8")
-    np.savez(file, **parts)
-    if change == "cut":
-        file.write_bytes(whole[: len(whole) // 2])
-    assert same(first, solve(width=0.02))
-    assert file.read_bytes() == whole

@@ -8,10 +8,11 @@ import time
 import warnings
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from tribodyn.numerics import cache
-from tribodyn.numerics.cache import alone, keep, read_kept, trusted_folder
+from tribodyn.numerics.cache import alone, arrays_kept_or_made, keep, kept_or_made, read_kept, trusted_folder
 
 posix = pytest.mark.skipif(os.name == "nt", reason="permissions of POSIX")
 root = pytest.mark.skipif(os.name == "nt" or os.geteuid() != 0, reason="only root can give files away")
@@ -81,6 +82,94 @@ def test_what_belongs_to_somebody_else_is_not_read(folder: Path, part: str):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)
         assert read_kept("things", "one") is None
+
+
+def unlike(whole: bytes) -> dict[str, bytes]:
+    """A file of the cache after all that may happen to one."""
+    head = whole.index(b"\n") + 1
+    cuts = {
+        f"cut to {n}": whole[:n] for n in (0, 1, head - 1, head, head + 1, len(whole) // 2, len(whole) - 1)
+    }
+    turned = {
+        f"bit of byte {n}": whole[:n] + bytes([whole[n] ^ 1]) + whole[n + 1 :]
+        for n in (0, head - 70, head - 2, head - 1, head, len(whole) // 2, len(whole) - 1)
+    }
+    return {
+        **cuts,
+        **turned,
+        "zeros": bytes(len(whole)),
+        "zeros behind the head": whole[:head] + bytes(len(whole) - head),
+        "longer": whole + b"\0",
+        "without head": whole[head:],
+        "head alone twice": whole[:head] + whole,
+        "foreign": b"PK\x03\x04 something else",
+    }
+
+
+def test_whatever_happens_to_a_file_it_is_made_again_and_kept(folder: Path):
+    arrays = {"coefficients": np.linspace(-1.0, 2.0, 50).reshape(5, 10), "number": np.asarray(0.25)}
+    calls: list[str] = []
+
+    def make():
+        calls.append("made")
+        return arrays
+
+    def look_up():
+        found = arrays_kept_or_made("things", "one", make)
+        assert {name: value.tobytes() for name, value in found.items()} == bits
+        assert found["coefficients"].shape == (5, 10)
+
+    bits = {name: value.tobytes() for name, value in arrays.items()}
+    look_up()
+    look_up()
+    assert calls == ["made"]
+    file = folder / "things" / "one"
+    whole = file.read_bytes()
+    damaged = unlike(whole)
+    # of the right format, with the old digest or none: a table whose coefficients are a hundredfold
+    other = whole.replace(arrays["coefficients"].tobytes(), (100.0 * arrays["coefficients"]).tobytes())
+    assert other != whole
+    damaged["a hundredfold"] = other
+    damaged["a hundredfold without digest"] = other[other.index(b"\n") + 1 :]
+    arrays_kept_or_made("things", "two", lambda: {"number": np.asarray(1.0)})
+    damaged["the file of another key"] = (folder / "things" / "two").read_bytes()
+    arrays_kept_or_made("others", "one", make)
+    damaged["the same name of another folder"] = (folder / "others" / "one").read_bytes()
+    for what, content in damaged.items():
+        file.write_bytes(content)
+        calls.clear()
+        look_up()
+        assert calls == ["made"], what
+        assert file.read_bytes() == whole, what
+
+
+@pytest.mark.parametrize("content", [b"", b"no archive"])
+def test_a_whole_file_of_another_layout_is_made_again(folder: Path, content: bytes):
+    keep("things", "one", content)
+    assert kept_or_made("things", "one", lambda found: int(found), lambda: (7, b"7")) == 7
+    assert read_kept("things", "one") == b"7"
+
+
+def test_what_is_not_to_be_kept_is_not_and_what_cannot_be_made_leaves_nothing(folder: Path):
+    assert kept_or_made("things", "one", int, lambda: (7, None)) == 7
+    with pytest.raises(ZeroDivisionError):
+        kept_or_made("things", "two", int, lambda: (1 // 0, b""))
+    assert list((folder / "things").iterdir()) == []
+
+
+@posix
+def test_a_process_killed_as_it_writes_leaves_nothing_that_is_read_and_it_is_removed(folder: Path):
+    dies = (
+        "import os\nfrom tribodyn.numerics import cache\n"
+        "os.fsync = lambda number: os.kill(os.getpid(), 9)\n"
+        "cache.kept_or_made('things', 'one', int, lambda: (1, b'1'))\n"
+    )
+    ended = subprocess.run([sys.executable, "-c", dies], check=False, capture_output=True)
+    assert ended.returncode == -9
+    (left,) = (folder / "things").iterdir()
+    assert left.suffix == ".tmp"
+    assert kept_or_made("things", "one", int, lambda: (7, b"7")) == 7
+    assert [file.name for file in (folder / "things").iterdir()] == ["one"]
 
 
 @posix

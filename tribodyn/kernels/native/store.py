@@ -11,7 +11,6 @@ import importlib.util
 import json
 import os
 from collections.abc import Callable
-from contextlib import nullcontext
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -22,13 +21,11 @@ import llvmlite.binding as llvm
 from tribodyn.kernels.native.arguments import is_kept
 from tribodyn.kernels.native.code import Code, Compiled
 from tribodyn.kernels.native.internals import report_missing
-from tribodyn.numerics.cache import alone, keep, read_kept
+from tribodyn.numerics.cache import kept_or_made
 from tribodyn.numerics.sources import code_of, digest_of
 
 #: What turns any kernel into machine code.
 _COMPILER = "tribodyn.kernels.native.compiler"
-#: Maximum length of the line of JSON, bytes; it is about 2 kB.
-_LONGEST_HEAD = 2**18
 
 
 def machine_code(function: Callable[..., Any], layout: Any) -> Code | None:
@@ -36,30 +33,17 @@ def machine_code(function: Callable[..., Any], layout: Any) -> Code | None:
 
     None where it is not on disk and this numba lacks what compiling takes, see `internals`.
     """
-    place = _place_of(function, layout)
-    kept = _read(*place) if place else None
-    code = loaded(kept) if kept else None
-    if code is None:
+
+    def made() -> tuple[Code | None, bytes | None]:
         if report_missing():
-            return None
-        code = _compiled_now(function, layout, place)
-    return code
+            return None, None
+        from tribodyn.kernels.native.compiler import compiled
 
+        code = compiled(function, layout)
+        return loaded(code), content_of(code)
 
-def _compiled_now(function: Callable[..., Any], layout: Any, place: tuple[str, str] | None) -> Code:
-    """Compile, unless another process does so at this moment: then wait for what it keeps."""
-    from tribodyn.kernels.native.compiler import compiled
-
-    with alone(*place) if place else nullcontext():
-        made = _read(*place) if place else None
-        code = loaded(made) if made else None
-        if code is None:
-            made = compiled(function, layout)
-            if place:
-                _write(*place, made)
-            code = loaded(made)
-    assert code is not None
-    return code
+    place = _place_of(function, layout)
+    return kept_or_made(*place, lambda content: loaded(compiled_in(content)), made) if place else made()[0]
 
 
 @cache
@@ -86,29 +70,16 @@ def _place_of(function: Callable[..., Any], layout: Any) -> tuple[str, str] | No
     return f"kernels-{_digest(function.__module__)}", name
 
 
-def _read(folder: str, name: str) -> Compiled | None:
-    """Content of the file; None if it is not there or not as it was written."""
-    head, _, body = (read_kept(folder, name) or b"").partition(b"\n")
-    if len(head) > _LONGEST_HEAD:
-        return None
-    try:
-        kept = json.loads(head)
-        checked = kept.pop("sha256") == _checksum(kept, body)
-        code = Compiled(**kept, body=body)
-    except (ValueError, TypeError, AttributeError, KeyError, RecursionError):
-        return None
-    return code if checked else None
+def compiled_in(content: bytes) -> Compiled:
+    """What a file of the cache holds."""
+    head, _, body = content.partition(b"\n")
+    return Compiled(**json.loads(head), body=body)
 
 
-def _write(folder: str, name: str, code: Compiled) -> None:
-    """Keep the code; where the folder cannot be written the next process compiles again."""
+def content_of(code: Compiled) -> bytes:
+    """What a file of the cache holds of a kernel."""
     head = {name: value for name, value in code._asdict().items() if name != "body"}
-    head["sha256"] = _checksum(head, code.body)
-    keep(folder, name, json.dumps(head).encode() + b"\n" + code.body)
-
-
-def _checksum(head: dict[str, Any], body: bytes) -> str:
-    return hashlib.sha256(json.dumps(head, sort_keys=True).encode() + body).hexdigest()
+    return json.dumps(head).encode() + b"\n" + code.body
 
 
 #: What keeps code in memory: as long as the process lives.

@@ -6,14 +6,14 @@ that at the limiting stress, μ_l, ln(μ_f/(μ_l − μ_f)), which is nearly eve
 contacts is not fitted but compared: their deviation is the table's error.
 """
 
-import io
+import hashlib
 from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from tribodyn.errors import InputError, SimulationError
-from tribodyn.numerics.cache import alone, keep, read_kept
+from tribodyn.numerics.cache import arrays_kept_or_made
 from tribodyn.numerics.elementary import is_jax
 from tribodyn.numerics.sources import digest_of
 from tribodyn.tribology.contact import hertz_half_width
@@ -78,23 +78,11 @@ def table_over(contact: Contact, duty: DutyRange) -> Table:
 
 @lru_cache(maxsize=16)
 def _table(contact: Contact, duty: DutyRange) -> Table:
-    import hashlib
-
     digest = hashlib.sha256(digest_of(__name__) + repr((contact, duty)).encode()).hexdigest()
-    name = f"{digest}.npz"
-    with alone("ehl", name):
-        kept = read_kept("ehl", name)
-        if kept is not None:
-            with np.load(io.BytesIO(kept)) as found:
-                numbers = [float(one) for one in found["numbers"]]
-                film, friction, share = (np.ascontiguousarray(one) for one in found["coefficients"])
-            return Table._make([*numbers[:8], film, friction, share, *numbers[8:]])
-        made = _made(contact, duty)
-        stream = io.BytesIO()
-        numbers = np.array([*made[:8], *made[11:]])
-        np.savez(stream, numbers=numbers, coefficients=np.array([made.film, made.friction, made.share]))
-        keep("ehl", name, stream.getvalue())
-        return made
+    made = lambda: _made(contact, duty)._asdict()  # noqa: E731
+    found = arrays_kept_or_made("ehl", digest, made)
+    values: dict[str, Any] = {name: one if one.ndim else float(one) for name, one in found.items()}
+    return Table(**values)
 
 
 def _made(contact: Contact, duty: DutyRange) -> Table:

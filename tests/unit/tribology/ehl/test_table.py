@@ -120,15 +120,22 @@ def test_processes_solve_what_one_solves(monkeypatch):
     np.testing.assert_array_equal(points.solve_all(contact, duties), found)
 
 
-def test_a_table_is_kept(by_powers, monkeypatch):
+def test_a_table_is_kept(by_powers, monkeypatch, tmp_path):
+    monkeypatch.setenv("TRIBODYN_CACHE", str(tmp_path))
     contact = tables.contact_of(LIU_NI)
     first = tables.table_over(contact, DUTY)
-    tables._table.cache_clear()
+
+    def again():
+        tables._table.cache_clear()
+        found = tables.table_over(contact, DUTY)
+        for one, other in zip(first, found, strict=True):
+            np.testing.assert_array_equal(one, other)
+
+    (file,) = (tmp_path / "ehl").iterdir()
+    file.write_bytes(file.read_bytes()[:-1000])
+    again()
     monkeypatch.setattr(tables, "solve_all", None)
-    again = tables.table_over(contact, DUTY)
-    np.testing.assert_array_equal(first.friction, again.friction)
-    assert first[:8] == again[:8]
-    assert first[11:] == again[11:]
+    again()
 
 
 def test_without_a_mesh_there_is_no_table():
