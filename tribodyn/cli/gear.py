@@ -65,7 +65,7 @@ def gear(
         assembly = check(family(loaded.family), loaded.drive)
     given = [(one.mass, one.inertia) for one in loaded.masses]
     masses = body_masses(assembly, given, [one.density for one in loaded.materials])
-    sheet = geometry_sheet(assembly, masses, loaded.gauges)
+    sheet = geometry_sheet(assembly, masses, loaded.gauges) | loaded.rounded
     for side, lines in zip(("pinion", "gear"), loaded.tolerances, strict=True):
         sheet[side] |= lines
     files = written + (_draw(loaded, assembly, output, points, force) if output is not None else [])

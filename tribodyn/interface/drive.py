@@ -67,7 +67,7 @@ class GearPair:
         """The geometry sheet: name to (value, unit), of pinion and gear in dictionaries of their own."""
         given = [(one.mass, one.inertia) for one in self._model.masses]
         masses = body_masses(self._assembly, given, [one.density for one in self._model.materials])
-        sheet = geometry_sheet(self._assembly, masses, self._model.gauges)
+        sheet = geometry_sheet(self._assembly, masses, self._model.gauges) | self._model.rounded
         for side, lines in zip(("pinion", "gear"), self._model.tolerances, strict=True):
             sheet[side] |= lines
         return sheet

@@ -1,6 +1,7 @@
 """From the validated tables of a scenario to the plain data that the physics takes."""
 
 import math
+from collections.abc import Mapping
 from typing import Any, cast
 
 import numpy as np
@@ -11,6 +12,7 @@ from tribodyn.geometry.drive import SIDES, Drive, body_of
 from tribodyn.geometry.material import BodyMass, MaterialData
 from tribodyn.geometry.modification import Modifications, vary_along_lead
 from tribodyn.scenario import model_files
+from tribodyn.scenario.centre_distance import RoundedDistance, rounded_distance
 from tribodyn.scenario.modification import MisalignmentTable, flank_of, misalignment_of
 from tribodyn.scenario.shape import shape_of
 from tribodyn.scenario.tolerances import helix_allowance
@@ -96,8 +98,10 @@ def drive_of(drive: model_files.DriveTable) -> Drive:
         gear_body(drive, drive.pinion),
         gear_body(drive, drive.gear),
         shape_of(drive, teeth),
-        drive.centre_distance,
+        None if drive.centre_distance is None else drive.centre_distance.value,
     )
+    if rounded := rounded_distance(drive, sharp):
+        sharp = sharp._replace(centre_distance=rounded.meant)
     rounded = sharp
     for side in SIDES:
         if rounding := getattr(drive, side).tip_rounding:
@@ -106,6 +110,22 @@ def drive_of(drive: model_files.DriveTable) -> Drive:
             body = body_of(sharp, side)._replace(tip_break=height)
             rounded = rounded._replace(**{side: body})
     return rounded
+
+
+def rounded_distance_of(drive: Mapping[str, Any]) -> RoundedDistance | None:
+    """How the centre distance of a drive file's data is rounded, see `rounded_distance`."""
+    if "family" not in drive or "centre_distance" not in drive:  # of another kind; most have none
+        return None
+    table = model_files.DriveTable.model_validate(drive)
+    return rounded_distance(table, drive_of(table))
+
+
+def with_axes_held(drive: dict[str, Any]) -> dict[str, Any]:
+    """A drive file's data with the centre distance to the last digit, so that nothing of it is rounding."""
+    if "family" not in drive or "centre_distance" not in drive:
+        return drive
+    distance = drive_of(model_files.DriveTable.model_validate(drive)).centre_distance
+    return drive | {"centre_distance": f"{1e3 * distance:.12f} mm"}
 
 
 def gives_backlash(drive: model_files.DriveTable) -> bool:

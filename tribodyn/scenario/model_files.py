@@ -9,6 +9,7 @@ from tribodyn.geometry.families import FAMILIES
 from tribodyn.geometry.rack_profile import PROFILES
 from tribodyn.scenario import units
 from tribodyn.scenario.modification import Modification
+from tribodyn.scenario.printed import Printed, PrintedQuantity
 from tribodyn.scenario.quantity import (
     Count,
     Names,
@@ -116,7 +117,7 @@ class DriveTable(Described):
     pressure_angle: Angle | None = Field(
         None, description="of the rack for involutes; at the pitch point for other families, if they take one"
     )
-    centre_distance: Length | None = Field(
+    centre_distance: Annotated[Printed, PrintedQuantity(units.positive(units.LENGTH))] | None = Field(
         None, description="of involutes; default: that of nominal teeth in mesh without backlash"
     )
     rack: Annotated[Text, Names(PROFILES)] | None = Field(

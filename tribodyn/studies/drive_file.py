@@ -11,7 +11,7 @@ from tribodyn.errors import InputError, InputErrors, quoted
 from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.material import BodyMass, MaterialData
 from tribodyn.geometry.measures import Gauge
-from tribodyn.scenario.drive_data import drive_of, masses_of, materials_of
+from tribodyn.scenario.drive_data import drive_of, masses_of, materials_of, rounded_distance_of
 from tribodyn.scenario.drive_rules import broken_drive_rules
 from tribodyn.scenario.messages import Origins, explain
 from tribodyn.scenario.model_files import DriveTable
@@ -59,6 +59,12 @@ class DriveModel(NamedTuple):
         """What the tooth thickness of pinion and gear is measured with."""
         drive = DriveTable.model_validate(self.table)
         return gauge_of(drive.pinion), gauge_of(drive.gear)
+
+    @property
+    def rounded(self) -> dict[str, Any]:
+        """Lines of the sheet on a centre distance within the rounding of its digits; else empty."""
+        rounded = rounded_distance_of(self.table)
+        return rounded.lines() if rounded else {}
 
     @property
     def tolerances(self) -> tuple[dict[str, Any], dict[str, Any]]:

@@ -162,6 +162,10 @@ class Study:
         estimate = self.estimate(case)
         refuse_large(estimate, allow_large)
         checked = self._part("check", "check")(case)
+        if self.has_gears:
+            from tribodyn.studies.rounded import with_rounding
+
+            checked = with_rounding(checked, case.toml)
         data, remarks = checked.data | {"estimate": as_data(estimate)}, checked.remarks
         if share_of_limits(estimate) >= WORTH_SAYING:
             remarks = (*remarks, f"A run takes about {described(estimate)}.")

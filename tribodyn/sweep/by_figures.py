@@ -11,6 +11,7 @@ from tribodyn.record.trust import TRUST, number
 from tribodyn.record.withheld import remarked, remarks, warned
 from tribodyn.studies.batch import Chunk
 from tribodyn.studies.estimate import Estimate, variable_bytes
+from tribodyn.studies.rounded import remarks_in_brief
 from tribodyn.studies.study import Study
 
 
@@ -91,7 +92,8 @@ class ByFigures:
             for name in layout.figures:
                 if figures.get(name) is not None:
                     rows[name][i] = figures[name]
-            rows["message"][i] = remarked(*map(warned, remarks(figures)))
+            said = [*remarks(figures), *remarks_in_brief(case.toml)]
+            rows["message"][i] = remarked(*map(warned, said))
             rows[TRUST][i] = number(figures)
             rows["status"][i] = DONE
         return rows

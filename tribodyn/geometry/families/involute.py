@@ -145,6 +145,22 @@ def tight_centre_distance(drive: Drive) -> Any:
     return reference * cos(alpha) / cos(tight)
 
 
+def shift_sensitivity(drive: Drive) -> Any:
+    """Change of `tight_centre_distance` with the sum of profile shifts, m: m sin α/sin α_t.
+
+    a_t = a_0 cos α/cos α_t gives da_t = a_t tan α_t dα_t, and inv α_t gives tan² α_t dα_t = m tan α dΣx/a_0.
+    """
+    alpha = drive.pressure_angle
+    reference = reference_radius(drive, "pinion") + reference_radius(drive, "gear")
+    cosine = reference * cos(alpha) / tight_centre_distance(drive)
+    return drive.module * sin(alpha) / sqrt(1.0 - cosine**2)
+
+
+def overlap(drive: Drive) -> bool:
+    """Whether the teeth overlap at the centre distance that is given, by more than the rounding of floats."""
+    return drive.centre_distance is not None and not normal_backlash(drive) >= -_ROUNDING * drive.module
+
+
 def check(drive: Drive) -> None:
     """Refuse shifts without a working pressure angle, and a centre distance at which teeth overlap."""
     alpha = drive.pressure_angle
@@ -159,7 +175,7 @@ def check(drive: Drive) -> None:
             "with this sum of profile shifts the gears would be closer than their base circles allow",
             f"use more than {math.ceil(1000.0 * needed) / 1000.0:g}",
         )
-    if drive.centre_distance is None or normal_backlash(drive) >= -_ROUNDING * drive.module:
+    if not overlap(drive):
         return
     tight = float(tight_centre_distance(drive))
     raise InputError(

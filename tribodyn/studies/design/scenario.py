@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, create_model
 
 from tribodyn.scenario.common import ScenarioHead, head_of
+from tribodyn.scenario.drive_data import with_axes_held
 from tribodyn.scenario.quantity import Count, Positive, Switch, Table, Text, scenario_file, written
 from tribodyn.studies import DEFAULT, STUDIES, study_of
 from tribodyn.studies.design.case import DesignCase, Robust, Search
@@ -188,6 +189,8 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> DesignCase:
     """Return the case of a scenario that has passed schema and rules."""
     data, table = tomllib.loads(toml), scenario.design
     base = data["scenario"]
+    if "drive" in base:
+        base |= {"drive": with_axes_held(base["drive"])}
     further = {name: _on_drive(one, base) for name, one in (data["design"].get("part") or {}).items()}
     parts = parts_of_design(table, sources_of({BASE: base, **further}))
     return DesignCase(

@@ -32,6 +32,7 @@ def case_of(number: int = 0, **changed: Any) -> Any:
     solver = SimpleNamespace(rtol=1e-6, method="explicit-5", max_steps=900, initial="static")
     given = {
         "number": number,
+        "toml": "",
         "output": SimpleNamespace(samples_per_cycle=40),
         "operating": SimpleNamespace(shaft_stiffness=None, pinion_speed=50.0),
         "solver": solver,

@@ -30,6 +30,7 @@ from tribodyn.studies.gear_pair.prepare import Prepared, Tabulated, prepare, tab
 from tribodyn.studies.gear_pair.settled import MOST, at_own_temperature
 from tribodyn.studies.gear_pair.summary import warning_of
 from tribodyn.studies.gear_pair.sweep_layout import layout_of
+from tribodyn.studies.rounded import remarks_in_brief
 from tribodyn.studies.unstable import MOTIONS
 
 #: Tables kept in a process; a table is about 100 kB.
@@ -199,7 +200,7 @@ def _fill(
     for name, value in figures.items():
         rows[name][i] = value
     warning = warning_of(figures["friction_work_on_vibration"], prepared.case.friction.sliding)
-    said = remarks(judged | {"warning": warning})
+    said = [*remarks(judged | {"warning": warning}), *remarks_in_brief(prepared.case.toml)]
     rows["message"][i] = remarked(rows["message"][i], *map(warned, said))
     rows[TRUST][i] = number(judged)
     error = outcome.passage.window[:, XI]
