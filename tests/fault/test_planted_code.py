@@ -1,6 +1,5 @@
 """Modules that lie in the current folder, under the names of all that the program imports, never run."""
 
-import json
 import os
 import subprocess
 import sys
@@ -9,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.forked_verbs import ForkedVerbs
-from tests.support.short_studies import SHORT, written_template
+from tests.support.short_studies import shortened, written_template
 
 #: Modules of Python, of the packages that are used, and of those that Python imports by itself.
 NAMES = sorted(
@@ -61,11 +60,6 @@ minimise = "loss"
 evaluations = 48
 sensitivities = false
 """
-SHORTER = tuple(
-    word
-    for key, value in SHORT["assessment"].items()
-    for word in ("--set", f"{key}={json.dumps(value) if isinstance(value, list) else value}")
-)
 #: Commands in order, in one folder.
 VERBS: tuple[tuple[str, ...], ...] = (
     ("run", "irefc", "-o", "one.h5", "--set", "output.samples_per_cycle=8"),
@@ -80,7 +74,7 @@ VERBS: tuple[tuple[str, ...], ...] = (
     ("check", "crc-23-47"),
     ("gear", "involute-18-36", "-o", "drawings"),
     ("judge", "crc-23-47", "--positions", "4", "-o", "judged.png"),
-    ("assess", "drive.toml", *SHORTER, "-o", "assessed"),
+    ("assess", "drive.toml", *shortened("assessment"), "-o", "assessed"),
     ("list",),
     ("init", "mine"),
     ("schema",),

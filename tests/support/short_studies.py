@@ -1,6 +1,7 @@
 """A scenario of every kind of study that is shipped, made short: its template, and what shortens it."""
 
 import fcntl
+import json
 import pickle
 from pathlib import Path
 from typing import Any
@@ -39,6 +40,12 @@ SHORT: dict[str, dict[str, Any]] = {
         "assessment.friction_laws": ["masjedi-khonsari", "niemann"],
     },
 }
+
+
+def shortened(kind: str) -> list[str]:
+    """Options of a verb that make the template of a kind short."""
+    written = {key: json.dumps(one) if isinstance(one, list) else one for key, one in SHORT[kind].items()}
+    return [word for key, value in written.items() for word in ("--set", f"{key}={value}")]
 
 
 def written_template(kind: str, folder: Path) -> Path:

@@ -3,6 +3,23 @@
 
 def main() -> None:
     """Run the command line; the entry point of the `tribodyn` command."""
+    import sys
+
+    from tribodyn.cli.signals import end_when_asked, said_of, status_of
+
+    end_when_asked()
+    try:
+        _main()
+    except (KeyboardInterrupt, SystemExit) as end:
+        # before a verb has begun; typer ends without a word then
+        asked = getattr(end.__context__, "__cause__", None) if isinstance(end, SystemExit) else end
+        if not isinstance(asked, KeyboardInterrupt):
+            raise
+        sys.stderr.write(f"{said_of(asked)}\n")
+        raise SystemExit(status_of(asked)) from None
+
+
+def _main() -> None:
     import gc
     import os
     import sys
@@ -23,7 +40,6 @@ def main() -> None:
         begin(sys.argv[1:])
     import tribodyn
     from tribodyn.cli.app import app
-    from tribodyn.cli.outcome import end_when_asked
 
     tribodyn.OWN_PROCESS = True
     for name in ("stdout", "stderr"):
@@ -31,7 +47,6 @@ def main() -> None:
             setattr(sys, name, open(os.devnull, "w"))
         # a terminal that knows no µ gets a question mark
         getattr(sys, name).reconfigure(errors="replace")
-    end_when_asked()
     try:
         app(prog_name="tribodyn")
     finally:

@@ -2,14 +2,14 @@
 
 import functools
 import os
-import signal
 import sys
 from collections.abc import Callable
 from contextlib import suppress
-from typing import NoReturn, ParamSpec, TextIO
+from typing import NoReturn, ParamSpec
 
 import typer
 
+from tribodyn.cli.signals import said_of, silence, status_of
 from tribodyn.errors import NO_ROOM, InputError, OutputError, SimulationError, harmless
 
 DONE = 0
@@ -17,23 +17,6 @@ BUG = 1
 BAD_INPUT = 2
 SIMULATION_FAILED = 3
 OUTSIDE_TOLERANCE = 4
-INTERRUPTED = 130
-TERMINATED = 143
-
-
-class Terminated(KeyboardInterrupt):
-    """The system asks the process to end: treated as an interruption by the user, records are concluded."""
-
-
-def end_when_asked() -> None:
-    """Let SIGTERM end a verb as Ctrl-C does."""
-
-    def terminate(number: int, _frame: object) -> NoReturn:
-        signal.signal(number, signal.SIG_IGN)  # once is enough: what follows is the conclusion of the record
-        raise Terminated("terminated by a signal")
-
-    signal.signal(signal.SIGTERM, terminate)
-
 
 Arguments = ParamSpec("Arguments")
 
@@ -53,12 +36,11 @@ def verb(function: Callable[Arguments, None]) -> Callable[Arguments, None]:
             complain(str(error))
             raise typer.Exit(BAD_INPUT if isinstance(error, InputError) else SIMULATION_FAILED) from None
         except KeyboardInterrupt as error:
-            terminated = isinstance(error, Terminated)
-            complain("; ".join([str(error) or "interrupted", *getattr(error, "__notes__", ())]))
-            raise typer.Exit(TERMINATED if terminated else INTERRUPTED) from None
+            complain(said_of(error))
+            raise typer.Exit(status_of(error)) from None
         except BrokenPipeError:
             # the reader of a pipe has gone
-            _silence(sys.stdout)
+            silence(sys.stdout)
             raise typer.Exit(DONE) from None
         except (typer.Exit, typer.Abort):
             raise
@@ -66,7 +48,7 @@ def verb(function: Callable[Arguments, None]) -> Callable[Arguments, None]:
             if error.errno not in NO_ROOM:
                 _report_bug(error)
             complain(f"{error.filename or 'the output'}: cannot be written: {error.strerror}")
-            _silence(sys.stdout)
+            silence(sys.stdout)
             raise typer.Exit(SIMULATION_FAILED) from None
         except Exception as error:
             _report_bug(error)
@@ -83,12 +65,7 @@ def _report_bug(error: Exception) -> NoReturn:
     raise typer.Exit(BUG) from None
 
 
-def _silence(stream: TextIO) -> None:
-    """Keep Python from complaining when it flushes a stream at exit."""
-    with suppress(OSError, ValueError):
-        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
-
-
 def complain(message: str) -> None:
     """Write a message to stderr, without what a terminal would obey."""
-    sys.stderr.write(harmless(message) + "\n")
+    with suppress(OSError):  # nobody reads it; the exit status says it too
+        sys.stderr.write(harmless(message) + "\n")

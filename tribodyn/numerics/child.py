@@ -43,20 +43,22 @@ _LOOK_EVERY = 1.0
 def safe_path() -> list[str]:
     """Folders from which this process imports, without the current one.
 
-    What installed packages add behind the standard library stays: an editable installation in the current
-    folder. It shadows nothing.
+    It stays where the user has named it in full in ``PYTHONPATH``, and where an installed package has added
+    it behind the standard library: an editable installation, which shadows nothing.
     """
     try:
         here = os.path.realpath(os.curdir)
     except OSError:  # it has been removed
         here = ""
+    named = os.environ.get("PYTHONPATH", "").split(os.pathsep)
+    chosen = any(os.path.isabs(part) and os.path.realpath(part) == here for part in named)
     path = [part for part in sys.path if isinstance(part, str)]
     library = os.path.dirname(os.__file__)
     installed = path.index(library) if library in path else len(path)
     return [
         part
         for place, part in enumerate(path)
-        if os.path.isabs(part) and (place >= installed or os.path.realpath(part) != here)
+        if os.path.isabs(part) and (chosen or place >= installed or os.path.realpath(part) != here)
     ]
 
 

@@ -215,7 +215,12 @@ class Study:
             raise not_resumed(self.about)
         refuse_large(self.estimate(case), allow_large)
         how = {"resume": resume, "client": client} if self.resumes else {}
-        result = self._part("run", "run")(case, output, force=force, progress=progress, **how)
+        try:
+            result = self._part("run", "run")(case, output, force=force, progress=progress, **how)
+        except KeyboardInterrupt as error:
+            if not getattr(error, "__notes__", ()):  # nobody below has anything to keep
+                error.add_note("nothing is recorded yet, the same call begins anew")
+            raise
         return result._replace(summary=withheld(result.summary))
 
     def figures(self, case: Any) -> dict[str, Any]:

@@ -56,6 +56,10 @@ def run(
         local, summary = assessed(case, parts.folder_of(path), progress)
     except SimulationError as error:
         return _failed(case, path, str(error), force)
+    except KeyboardInterrupt as error:
+        # what is left of the part in work is done again
+        error.__notes__ = [f"the parts done so far: {parts.folder_of(path)}, the same call goes on"]
+        raise
     groups = {"geometry": geometry_arrays(prepare(case))}
     with writer(case, path, LAYOUT, len(local.roll_angle), groups=groups, force=force) as record:
         record.write(0, _arrays(local))

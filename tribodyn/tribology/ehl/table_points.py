@@ -118,6 +118,9 @@ def solve_all(contact: Contact, duties: Array) -> Array:
             if known is None:  # it could not be begun, or was killed
                 known = [solve_one(contact, duties[row]) for row in rows]
             values[rows] = known
+    except KeyboardInterrupt as error:
+        error.add_note("nothing is kept of the table of solved contacts, the same call solves them anew")
+        raise
     finally:
         for process in others:
             if process is not None:

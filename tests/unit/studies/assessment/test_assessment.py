@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from tests.support.short_studies import SHORT, short_case, written_template
+from tests.support.short_studies import short_case, shortened, written_template
 from tribodyn.cli.app import app
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
@@ -32,17 +32,9 @@ def invoked(*words: object, status: int = 0) -> str:
     return ended.stderr if status else ended.stdout
 
 
-def settings() -> list[str]:
-    """Options that make the template short."""
-    written = {
-        key: json.dumps(value) if isinstance(value, list) else value for key, value in SHORT[KIND].items()
-    }
-    return [word for key, value in written.items() for word in ("--set", f"{key}={value}")]
-
-
 def assess(folder: Path, *more: str) -> dict:
     scenario = written_template(KIND, folder)
-    return json.loads(invoked("assess", scenario, *settings(), *more, "-o", folder / "out", "--json"))
+    return json.loads(invoked("assess", scenario, *shortened(KIND), *more, "-o", folder / "out", "--json"))
 
 
 @pytest.fixture(scope="module")
@@ -186,7 +178,7 @@ def test_a_change_runs_only_what_it_concerns(assessed: dict, folder: Path):
 
 def test_a_complete_record_is_not_replaced_unasked(assessed: dict, folder: Path):
     scenario = written_template(KIND, folder)
-    said = invoked("assess", scenario, *settings(), "-o", folder / "out", status=2)
+    said = invoked("assess", scenario, *shortened(KIND), "-o", folder / "out", status=2)
     assert "--force" in said
 
 
