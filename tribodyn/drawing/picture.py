@@ -8,7 +8,7 @@ from tribodyn.geometry.body import gear_polygon
 from tribodyn.geometry.drive import SIDES, tip_radius
 from tribodyn.geometry.path import position
 from tribodyn.post.figures.gears_in_mesh import GearsInMesh, draw_gears, draw_whole, key_rolls, placed
-from tribodyn.post.style import WIDTH, house_style, mark_panel, new_figure
+from tribodyn.post.style import WIDTH, house_style, literal, mark_panel, new_figure
 
 _PATH_POINTS = 201
 
@@ -48,5 +48,5 @@ def pair_figure(assembly: Assembly, title: str, flank_points: int = 60) -> Figur
         draw_gears(close, mesh)
         for letter, axes in zip("ab", (whole, close), strict=True):
             mark_panel(axes, letter)
-        figure.suptitle(title, x=0.01, ha="left", fontsize=10)
+        figure.suptitle(literal(title), x=0.01, ha="left", fontsize=10)
     return figure

@@ -57,6 +57,7 @@ def tables(some: Iterable[TextTable]) -> str:
 def picture_of_run(record: Record, study: Study) -> str:
     """Draw the first datasets of a record over the last mesh cycles; nothing, where there are none."""
     from tribodyn.post.page.series import in_engineers_units, series_of
+    from tribodyn.post.style import literal
 
     series = {one.name: one for one in series_of(record)}
     names = [name for name in study.panels() if name in series] or list(series)
@@ -70,10 +71,10 @@ def picture_of_run(record: Record, study: Study) -> str:
     def draw(axes: "Axes", name: str) -> None:
         for curve in series[name].curves:
             inside = axis[curve.places] >= start
-            axes.plot(axis[curve.places][inside], curve.values[inside], label=curve.label)
+            axes.plot(axis[curve.places][inside], curve.values[inside], label=literal(curve.label))
         title = series[name].title if len(series[name].title) < LONGEST else name.replace("_", " ")
-        axes.set_title(f"{title} ({series[name].unit})", loc="left")
-        axes.set_xlabel(f"{record.axis.replace('_', ' ')} ({unit})")
+        axes.set_title(literal(f"{title} ({series[name].unit})"), loc="left")
+        axes.set_xlabel(literal(f"{record.axis.replace('_', ' ')} ({unit})"))
         if 1 < len(series[name].curves) <= CURVES:
             axes.legend(fontsize=7)
 
@@ -82,6 +83,8 @@ def picture_of_run(record: Record, study: Study) -> str:
 
 def picture_of_sweep(data: "xarray.Dataset", study: Study) -> str:
     """Draw the first figure of a sweep over its first key; nothing, where there are no numbers to draw."""
+    from tribodyn.post.style import literal
+
     line = next((one for one in study.sweep_lines() if one.name in data), None)
     if line is None:
         return ""
@@ -96,11 +99,11 @@ def picture_of_sweep(data: "xarray.Dataset", study: Study) -> str:
         for place in places:
             one = stacked.isel(others=place)
             label = ", ".join(f"{name} {_short(one[name].item())}" for name in others)
-            axes.plot(data[first], one, marker=".", label=label)
-        axes.set_title(f"{line.label} ({line.unit})" if line.unit else line.label, loc="left")
+            axes.plot(data[first], one, marker=".", label=literal(label))
+        axes.set_title(literal(f"{line.label} ({line.unit})" if line.unit else line.label), loc="left")
         unit = data[first].attrs.get("units", "1")
         name = str(first).replace("_", " ")
-        axes.set_xlabel(name if unit == "1" else f"{name} ({unit})")
+        axes.set_xlabel(literal(name if unit == "1" else f"{name} ({unit})"))
         if others:
             axes.legend(fontsize=7)
 

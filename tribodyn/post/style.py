@@ -18,7 +18,7 @@ from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.layout_engine import ConstrainedLayoutEngine, LayoutEngine
 
-from tribodyn.errors import InputError
+from tribodyn.errors import InputError, cut, harmless
 from tribodyn.numerics.output_files import MARKS, check_output, write_output
 from tribodyn.post.png import png
 
@@ -46,6 +46,8 @@ WIDTH, PANEL_HEIGHT = 6.7, 2.5
 TICKS = 10
 #: Resolution of a picture within a page, as a share of that of a file.
 INLINE = 0.7
+#: Characters of a text from a file that a figure shows.
+LONGEST_TEXT = 110
 #: Height of a row of names above axes, points.
 ROW = 9.5
 
@@ -91,6 +93,8 @@ def house_style() -> Iterator[None]:
     """Draw in the house style inside the block, whatever the user's own settings are."""
     with warnings.catch_warnings(), matplotlib.rc_context():
         warnings.simplefilter("ignore", matplotlib.MatplotlibDeprecationWarning)
+        # a frame stands for a letter that the font lacks, and what is drawn is not to be read twice
+        warnings.filterwarnings("ignore", r"Glyph \d+ .* missing from|Matplotlib currently does not support")
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(STYLE)
         yield
@@ -257,6 +261,17 @@ def painted(figure: Figure, dpi: float | None = None) -> np.ndarray:
         return np.asarray(canvas.buffer_rgba())
     finally:
         figure.dpi = shown_at
+
+
+def literal(text: str) -> str:
+    """A text from a file as a figure shows it: on one line, cut where it is long, no formula, never left out.
+
+    Texts that stand in a program may hold formulas between dollar signs; what comes from scenarios, records
+    and names of files passes through here.
+    """
+    line = cut(" ".join(harmless(text).split()), LONGEST_TEXT)
+    shown = line.replace("$", r"\$")
+    return f"\u200a{shown}" if shown.startswith("_") else shown  # which a legend would leave out
 
 
 def panel_title(letter: str, title: str) -> str:

@@ -10,7 +10,6 @@ from tribodyn.errors import InputError
 from tribodyn.numerics.variable import Variable
 from tribodyn.post.figures.drawing import Drawing, SweepDrawing
 from tribodyn.post.report import Line
-from tribodyn.post.style import save
 from tribodyn.record.reader import open_record
 from tribodyn.scenario.quantity import Table
 from tribodyn.studies import DEFAULT, STUDIES, study_of
@@ -101,17 +100,6 @@ def test_its_summary_has_its_lines(kind: str, short_runs):
         assert len(known & set(record.summary)) >= 3
         assert study.sentences(record)
         assert summary_table(record).renderables
-
-
-# those of gear pairs: gear_pair/test_plots.py
-@pytest.mark.parametrize("kind", [kind for kind in RUNS if kind != "gear-pair"])
-def test_every_figure_draws(kind: str, short_runs, tmp_path: Path):
-    with open_record(short_runs(kind).path) as record:
-        drawn = names([record])
-        assert drawn
-        for name in ("overview", *drawn):
-            picture = save(figure(name, [record]), tmp_path / f"{name}.png")
-            assert picture.read_bytes().startswith(b"\x89PNG")
 
 
 @pytest.mark.parametrize("kind", [kind for kind in RUNS if kind != "gear-pair"])

@@ -12,7 +12,7 @@ from matplotlib.patches import Patch
 
 from tribodyn.post.cycles import Window, key_points, last_cycles, pair_curve
 from tribodyn.post.figures.scale import scale
-from tribodyn.post.style import INK, PAIR_STYLES, PALETTE, QUIET, ROW
+from tribodyn.post.style import INK, PAIR_STYLES, PALETTE, QUIET, ROW, literal
 from tribodyn.record import trust
 from tribodyn.record.reader import Record
 
@@ -84,12 +84,12 @@ class Quantity(NamedTuple):
 
 def record_label(record: Record) -> str:
     """Name a record in a legend."""
-    return record.label
+    return literal(record.label)
 
 
 def record_title(record: Record) -> str:
     """Return what a record is about, and that it is unfinished or outside its model where it is."""
-    title = str(record.scenario.get("title", record_label(record)))
+    title = literal(str(record.scenario.get("title", record.label)))
     marks = [record.status] * (record.status != "complete") + [record.trust] * (record.trust == trust.OUTSIDE)
     return " ".join((title, *(f"[{mark}]" for mark in marks)))
 

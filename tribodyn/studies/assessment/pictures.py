@@ -7,7 +7,7 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tribodyn.post.style import PALETTE, PANEL_HEIGHT, QUIET, WIDTH, house_style, new_figure
+from tribodyn.post.style import PALETTE, PANEL_HEIGHT, QUIET, WIDTH, house_style, literal, new_figure
 from tribodyn.record.reader import Record
 from tribodyn.standards.contact_path import POINTS
 from tribodyn.studies.part import Curve
@@ -63,7 +63,7 @@ def draw_film(axes: Axes, record: Record) -> None:
 
 def draw_losses(axes: Axes, summary: Any) -> None:
     """Loss by every friction law, and by the standard."""
-    losses = {name: float(value) for name, value in summary["loss_by_law"].items()}
+    losses = {literal(name): float(value) for name, value in summary["loss_by_law"].items()}
     iso = summary.get("iso", {}).get("loss")
     if iso is not None:
         losses["ISO/TR 15144-1"] = float(iso)

@@ -11,7 +11,7 @@ from tribodyn.errors import InputError
 from tribodyn.post.figures.drawing import Drawing
 from tribodyn.post.figures.panel import View, record_label, record_title
 from tribodyn.post.report import Line
-from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, QUIET, WIDTH, new_figure
+from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, QUIET, WIDTH, literal, new_figure
 from tribodyn.record.reader import Record
 from tribodyn.studies.design.layout import LOWER, OBJECTIVES, UPPER
 from tribodyn.studies.design.naming import apart, flat, naming_key
@@ -40,12 +40,12 @@ class _Shown:
     @property
     def label(self) -> str:
         """Label of an axis, over two lines where it is long."""
-        words, lines = self.line.label.split(), [""]
+        words, lines = literal(self.line.label).split(), [""]
         for word in words:
             if len(lines[-1]) + len(word) > LONGEST:
                 lines.append("")
             lines[-1] = f"{lines[-1]} {word}".strip()
-        return "\n".join(lines) + (f" ({self.line.unit})" if self.line.unit else "")
+        return "\n".join(lines) + (f" ({literal(self.line.unit)})" if self.line.unit else "")
 
 
 def _least(record: Record, name: str) -> float:
@@ -128,7 +128,7 @@ def _draw_duties(axes: Axes, record: Record) -> None:
             axes.bar(place + 0.4 * number - 0.2, values, 0.36, color=color, label=label)
         else:
             axes.plot(place, values, ".-", color=color, label=label)
-    labels = [name.replace("*", " ") for name in names]
+    labels = ["\n".join(map(literal, name.replace("*", " ").split("\n"))) for name in names]
     every = 1 if bars else -(-len(names) // 4)
     axes.set_xticks(place[::every], labels[::every], fontsize=6.5)
     axes.set_ylabel(shown.label)
@@ -169,7 +169,7 @@ def _draw_values(axes: Axes, record: Record) -> None:
         axes.plot(shares[near], np.full(near.sum(), row), "|", color=PALETTE[0], markersize=7, alpha=0.5)
         axes.plot(shares[best], row, "o", color=BEST, markersize=5, zorder=3)
         written = record.summary["best"].get(key, "")
-        labels.append(f"{apart(keys)[row].replace('_', ' ')}\n{_short(written)}")
+        labels.append(f"{literal(apart(keys)[row].replace('_', ' '))}\n{literal(_short(written))}")
     axes.set_yticks(range(len(names)), labels, fontsize=6.5)
     axes.set_ylim(len(names) - 0.4, -0.6)
     axes.set_xlim(-0.03, 1.03)
@@ -214,9 +214,9 @@ def _draw_sensitivities(axes: Axes, record: Record) -> None:
         offset = 0.2 if moved == UPPER else -0.2
         axes.barh(place + offset, shown.factor * record[moved] - best, 0.36, color=color, label=label)
     axes.axvline(0.0, color=INK, linewidth=0.7)
-    axes.set_yticks(place, names, fontsize=6.5)
+    axes.set_yticks(place, [literal(name) for name in names], fontsize=6.5)
     axes.set_ylim(len(names) - 0.4, -0.6)
-    unit = f" ({shown.line.unit})" if shown.line.unit else ""
+    unit = f" ({literal(shown.line.unit)})" if shown.line.unit else ""
     axes.set_xlabel(f"Change of the objective{unit}")
     axes.set_title("What the best depends on", loc="left")
     axes.margins(x=0.1)

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from tribodyn.post.style import GRID, PALETTE, QUIET, WIDTH, house_style, new_figure
+from tribodyn.post.style import GRID, PALETTE, QUIET, WIDTH, house_style, literal, new_figure
 from tribodyn.studies.ehl.judged import RIGHT, Judged, Judgement
 
 
@@ -20,7 +20,7 @@ def picture(found: Judgement) -> Figure:
             _rows(axes, laws)
             axes.axvspan(1.0 - RIGHT[what], 1.0 + RIGHT[what], color=GRID, zorder=0)
             axes.set_xlabel(f"{what.capitalize()} by the law over the solved one")
-        drawn.suptitle(found.title)
+        drawn.suptitle(literal(found.title))
     return drawn
 
 
@@ -43,4 +43,4 @@ def _rows(axes: Axes, laws: Sequence[Judged]) -> None:
 
 
 def _name(one: Judged) -> str:
-    return f"{one.law} ({one.against})" if one.what == "film" else one.law
+    return literal(f"{one.law} ({one.against})" if one.what == "film" else one.law)

@@ -13,7 +13,7 @@ from tribodyn.errors import InputError
 from tribodyn.post.figures.drawing import Drawing
 from tribodyn.post.figures.panel import View, abscissa_label, record_label, record_title
 from tribodyn.post.figures.scale import scale
-from tribodyn.post.style import PALETTE, PANEL_HEIGHT, QUIET, WIDTH, mark_panel, new_figure
+from tribodyn.post.style import PALETTE, PANEL_HEIGHT, QUIET, WIDTH, literal, mark_panel, new_figure
 from tribodyn.record.reader import Record
 from tribodyn.studies.rolling.gear_picture import draw_gear
 
@@ -255,7 +255,10 @@ def _overview(records: Sequence[Record], view: View) -> Figure:
 
 def _title(record: Record) -> str:
     """Return what the record is about and in which mode it was made."""
-    title, mode = record_title(record), str(record.scenario.get("mode", "corrected")).replace("_", " ")
+    title, mode = (
+        record_title(record),
+        literal(str(record.scenario.get("mode", "corrected")).replace("_", " ")),
+    )
     return title if mode in title else f"{title} ({mode})"
 
 

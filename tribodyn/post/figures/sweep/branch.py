@@ -14,7 +14,7 @@ from matplotlib.patches import Patch
 
 from tribodyn.errors import InputError
 from tribodyn.post.shown_units import shown, shown_unit
-from tribodyn.post.style import PALETTE, QUIET
+from tribodyn.post.style import PALETTE, QUIET, literal
 from tribodyn.record.sweep_reader import Parameter, SweepRecord
 from tribodyn.record.sweep_schema import DONE
 
@@ -147,14 +147,14 @@ def chosen_branch(records: Sequence[SweepRecord], at: Mapping[str, float | str])
     found = [branch for branch in drawn if branch.place[1 : len(record.parameters)] == tuple(wanted)]
     others = len(drawn) // len(record.directions or ("",)) - 1
     more = f" (one of {others + 1}; choose with --at)" if others else ""
-    return found, f"{found[0].label}{more}"
+    return found, f"{literal(found[0].label)}{more}"
 
 
 def axis_label(parameter: Parameter) -> str:
     """Label an axis: "Pinion speed (rpm)"."""
     name = parameter.name.replace("_", " ").capitalize()
     unit = shown_unit(parameter.units)[0]
-    return f"{name} ({unit})" if unit else name
+    return literal(f"{name} ({unit})" if unit else name)
 
 
 def _value(parameter: Parameter, index: int) -> str:
@@ -265,7 +265,7 @@ def branch_legend(
     figure: Figure, drawn: Sequence[Branch], lines: bool = True, marks: Sequence[Artist] = ()
 ) -> None:
     """Put one legend below the figure: branches by colour, directions by line where there are `lines`."""
-    labels = {branch.label: branch.color for branch in drawn if branch.label}
+    labels = {literal(branch.label): branch.color for branch in drawn if branch.label}
     if len(labels) > MOST_NAMED:
         first, *_, last = labels
         between = f"… {len(labels) - 2} more in order of colour …"
@@ -301,5 +301,5 @@ def branch_legend(
 def sweep_title(records: Sequence[SweepRecord]) -> str:
     """What a sweep is about, and that it is unfinished where it is."""
     record = records[0]
-    title = str(record.scenario.get("title", record.label))
+    title = literal(str(record.scenario.get("title", record.label)))
     return title if record.status == "complete" else f"{title} [{record.status}]"

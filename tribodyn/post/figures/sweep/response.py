@@ -22,7 +22,7 @@ from tribodyn.post.figures.sweep.branch import (
 )
 from tribodyn.post.report import Line
 from tribodyn.post.shown_units import shown_unit
-from tribodyn.post.style import PANEL_HEIGHT, WIDTH, mark_panel, new_figure
+from tribodyn.post.style import PANEL_HEIGHT, WIDTH, literal, mark_panel, new_figure
 from tribodyn.post.sweep_report import described
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE
@@ -118,7 +118,7 @@ def titled(label: str) -> tuple[str, str]:
     text = " ".join(label.split())
     title, _, unit = text.rpartition(" (")
     unit = unit.removesuffix(")")
-    return title, "" if unit == "–" else unit
+    return literal(title), "" if unit == "–" else literal(unit)
 
 
 def maps_of(records: Sequence[SweepRecord]) -> bool:

@@ -17,7 +17,7 @@ from tribodyn.post.figures.sweep.branch import (
     sweep_title,
 )
 from tribodyn.post.shown_units import shown
-from tribodyn.post.style import PALETTE, PANEL_HEIGHT, WIDTH, mark_panel, new_figure
+from tribodyn.post.style import PALETTE, PANEL_HEIGHT, WIDTH, literal, mark_panel, new_figure
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE
 
@@ -73,7 +73,7 @@ def poincare_figure(records: Sequence[SweepRecord], at: Mapping[str, float | str
         place = chosen_case(record, at)
         error, rate = (record.case(name, place) for name in ("poincare_error", "poincare_rate"))
         where = described(record, place)
-        titles.append(where)
+        titles.append(literal(where))
         axes.plot(
             error * 1e6,
             rate * 1e3,
@@ -81,7 +81,7 @@ def poincare_figure(records: Sequence[SweepRecord], at: Mapping[str, float | str
             marker="o",
             markersize=2.5,
             color=PALETTE[number % len(PALETTE)],
-            label=f"{record.label}: {where}",
+            label=literal(f"{record.label}: {where}"),
         )
     axes.set_xlabel("Transmission error (µm)")
     axes.set_ylabel("Its rate (mm/s)")

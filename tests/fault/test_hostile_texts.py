@@ -1,0 +1,126 @@
+"""Whatever texts a scenario, a record or a file's name has: figures and pages show them as texts."""
+
+import html
+import tomllib
+from contextlib import suppress
+from pathlib import Path
+from xml.etree import ElementTree
+
+import matplotlib as mpl
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.text import Text
+from typer.testing import CliRunner
+
+import tribodyn as td
+from tests.support.hostile_texts import HOSTILE, LONG, hostile_copy
+from tests.support.short_studies import SHORT, ShortRuns, written_template
+from tribodyn.cli.app import app
+from tribodyn.post.style import house_style, literal, save
+from tribodyn.record.reader import open_record
+from tribodyn.record.sweep_reader import SweepRecord
+from tribodyn.studies import STUDIES
+from tribodyn.studies.pages import report, sweep_report
+from tribodyn.studies.pictures import figure, names, summary_table, sweep_figure, sweep_names
+
+OLD = Path(__file__).parents[1] / "fixtures" / "records-0.1.0"
+SLOW = ("load-contact", "design", "assessment")
+KINDS = [pytest.param(kind, marks=pytest.mark.slow) if kind in SLOW else kind for kind in STUDIES]
+
+
+def drawn(one: Figure) -> list[str]:
+    """Draw a figure; the texts in it."""
+    one.dpi = 20
+    with house_style():
+        FigureCanvasAgg(one).draw()
+    return [text.get_text() for text in one.findobj(Text) if isinstance(text, Text)]
+
+
+@pytest.fixture
+def hostile(short_runs: ShortRuns, tmp_path: Path):
+    """A record of a kind in which all texts are the given one."""
+    return lambda kind, text: hostile_copy(short_runs(kind).path, tmp_path, text)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_figure_and_page_of_a_kind(kind: str, hostile):
+    path = hostile(kind, HOSTILE)
+    with open_record(path) as record, open_record(path) as other:
+        found = [text for name in ("overview", *names([record])) for text in drawn(figure(name, [record]))]
+        assert kind == "assessment" or literal(HOSTILE)[1:] in " ".join(found)
+        for name in names([record, other]):
+            with suppress(td.InputError):  # a figure of one record
+                drawn(figure(name, [record, other]))
+        assert summary_table(record).renderables
+        is_text_only(report([record]))
+    is_text_only(td.open(path)._repr_html_())
+
+
+@pytest.mark.parametrize("kind", ["gear-pair", "irefc"])
+def test_a_text_that_is_too_long(kind: str, hostile):
+    with open_record(hostile(kind, LONG)) as record:
+        for name in ("overview", *names([record])[:2]):
+            assert max(map(len, drawn(figure(name, [record])))) < 400
+
+
+def test_every_figure_and_page_of_a_sweep(tmp_path: Path):
+    path = hostile_copy(OLD / "sweep.h5", tmp_path, HOSTILE)
+    with SweepRecord(path) as record, SweepRecord(path) as other:
+        for records in ([record], [record, other]):
+            found = [text for name in sweep_names(records) for text in drawn(sweep_figure(name, records))]
+            assert literal(HOSTILE)[1:] in " ".join(found)
+        is_text_only(sweep_report(record))
+    is_text_only(td.open(path)._repr_html_())
+
+
+def is_text_only(page: str) -> None:
+    """Whether nothing in a page is an element that the text names."""
+    assert "<b onload" not in page
+    assert "</script><b" not in page
+    assert html.escape("<b onload=a>") in page or r"\u003cb onload" in page
+
+
+@pytest.mark.parametrize("ending", ["svg", "pdf"])
+def test_a_file_for_print(ending: str, hostile, tmp_path: Path):
+    with open_record(hostile("backlash-oscillator", HOSTILE)) as record:
+        picture = save(figure("overview", [record]), tmp_path / f"a.{ending}")
+    if ending == "svg":
+        said = "".join(ElementTree.parse(picture).getroot().itertext())
+        assert literal(HOSTILE)[1:].replace(r"\$", "$") in said
+
+
+@pytest.mark.parametrize(
+    "text", [HOSTILE.replace("🦷漢", ""), "$", "$$", "\\$", r"\$a\$ \\$", "_", "", "a_b^c"]
+)
+def test_a_literal_text_is_drawn_as_it_is(text: str, tmp_path: Path):
+    """The letters of an SVG are those of the text, also beside a formula."""
+    with house_style(), mpl.rc_context():
+        one = Figure((3, 1))
+        one.text(0.0, 0.5, rf"$\mathbf{{(a)}}$ {literal(text)}")
+        one.text(0.0, 0.0, literal(text))
+    root = ElementTree.parse(save(one, tmp_path / "a.svg")).getroot()
+    groups = [one for one in root.iter() if one.get("id", "").startswith("text_")]
+    shown = "".join(literal(text).replace(r"\$", "$").split())
+    assert ["".join("".join(one.itertext()).split()) for one in groups][:2] == [f"(a){shown}", shown][
+        : len(groups)
+    ]
+
+
+def test_a_run_of_a_scenario_with_such_a_title(tmp_path: Path):
+    kind, title = "backlash-oscillator", r"a $\badmacro$ b"
+    path = written_template(kind, tmp_path)
+    text = path.read_text(encoding="utf-8")
+    path.write_text(text.replace(tomllib.loads(text)["title"], title.replace("\\", r"\\")), encoding="utf-8")
+    keys = [word for key, value in SHORT[kind].items() for word in ("--set", f"{key}={value}")]
+    words = ["run", str(path), "-o", str(tmp_path / "a.h5"), "--report", "--plot", *keys]
+    ended = CliRunner().invoke(app, words)
+    assert (ended.exit_code, ended.stderr) == (0, "")
+    assert title in ended.stdout
+    assert (tmp_path / "a-overview.png").stat().st_size > 1000
+
+
+def test_a_drive_with_such_a_title(tmp_path: Path):
+    words = ["gear", "liu-ni-involute-23-47", "-o", str(tmp_path), "--points", "10"]
+    ended = CliRunner().invoke(app, [*words, "--set", r"drive.title=a $\badmacro$ 🦷 b"])
+    assert (ended.exit_code, ended.stderr) == (0, "")
