@@ -1,16 +1,28 @@
-"""Our figures compared with the published ones, as a Markdown table.
+"""Our figures compared with the published ones, as Markdown tables, and their counts.
 
-python tools/validation_table.py                              # prints the table
-python tools/validation_table.py --into docs/validation.md    # and puts it into the page
+python -m tools.validation_table liu-ni-2022                # prints the table
+python -m tools.validation_table liu-ni-2022 jia-2022 --write  # and puts it into the page that has its place
+python -m tools.validation_table --write                    # all papers: some minutes
+
+Written with them is how many rows of each kind hold, into docs/validation.md and the README.
 """
 
 import argparse
+import re
 from pathlib import Path
 
-from marked_block import put
+from tools.marked_block import put
+from tribodyn.validation import ABOUT, CHOICES, PAPERS, validate
+from tribodyn.validation.rows import Otherwise, Row, counted, of_part, per_cent
 
-from tribodyn.validation import validate
-from tribodyn.validation.rows import Row
+ROOT = Path(__file__).parents[1]
+VALIDATION = ROOT / "docs" / "validation.md"
+#: Pages of the papers that do not stand on the page of validation.
+PAGES = {"efremenkov-2024": ROOT / "docs" / "rolling-elements.md"}
+#: A bar that ends no cell.
+BAR = "\\|"
+#: Pages with the counts of all papers.
+COUNTING = (VALIDATION, ROOT / "README.md")
 
 
 def cell(value: object) -> str:
@@ -28,34 +40,73 @@ def share(row: Row, value: float | list[float] | None) -> str:
     if value is None or value == []:
         return ""
     value = max(value, key=abs) if isinstance(value, list) else value
-    return f"{100 * value:+.2g} %" if row.tolerance_kind == "relative" else f"{value:+.2g}"
+    return ("+" * (value >= 0.0)) + per_cent(value) if row.tolerance_kind == "relative" else f"{value:+.2g}"
 
 
-def table(rows: list[Row]) -> str:
-    lines = ["| row | published | ours | difference | tolerance | verdict |", "|---|--:|--:|--:|--:|---|"]
+def difference(row: Row) -> str:
+    said = share(row, row.difference)
+    return said if row.part_difference is None else f"{said}<br>{of_part(row.part_difference, row.part, '+')}"
+
+
+def tolerance(row: Row) -> str:
+    """The tolerance; with its share of the value and its reason where it is wide."""
+    return row.written("tolerance") if row.tolerance_reason else share(row, row.tolerance).removeprefix("+")
+
+
+def other(row: Row, one: Otherwise | None) -> str:
+    if one is None:
+        return ""
+    parts = (cell(one.computed), share(row, one.difference), one.verdict)
+    return f"{one.choice}: {', '.join(part for part in parts if part)}"
+
+
+def table(paper: str, rows: list[Row]) -> str:
+    """Rows of a paper under the choices that they are computed with, and their counts."""
+    lines = [
+        f"Computed {CHOICES[paper]}.",
+        "",
+        "| row | published | ours | difference | tolerance | verdict | under another choice |",
+        "|---|--:|--:|--:|---|---|---|",
+    ]
     for row in rows:
         unit = "" if row.unit in ("1", "claim") else f", {row.unit}"
         cells = [
-            f"`{row.id}`<br>{row.quantity}{unit}",
+            f"`{row.id}`<br>{row.quantity.replace('|', BAR)}{unit}",
             cell(row.published),
             cell(row.computed),
-            share(row, row.difference),
-            share(row, row.tolerance).removeprefix("+"),
-            row.verdict,
+            difference(row),
+            tolerance(row),
+            row.written("verdict"),
+            other(row, row.otherwise),
         ]
         lines.append(f"| {' | '.join(cells)} |")
+    return "\n".join([*lines, "", f"In all: {counted(rows)}."])
+
+
+def counts() -> str:
+    """Counts of all papers, as their tables on the pages have them."""
+    lines = ["| paper | rows |", "|---|---|"]
+    for paper in PAPERS:
+        page = PAGES.get(paper, VALIDATION).read_text(encoding="utf-8")
+        block = page.partition(f"<!-- begin {paper} -->")[2].partition(f"<!-- end {paper} -->")[0]
+        found = re.search(r"^In all: (.*)\.$", block, re.MULTILINE)
+        lines.append(f"| {ABOUT[paper].partition(': ')[0]} | {found[1] if found else ''} |")
     return "\n".join(lines)
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description="Published figures compared with ours.")
-    parser.add_argument("paper", nargs="?", default="liu-ni-2022")
-    parser.add_argument("--into", type=Path, help="page to put the table into")
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("papers", nargs="*", choices=[[], *PAPERS], help="default: all")
+    parser.add_argument("--write", action="store_true", help="put tables and counts into the pages")
     options = parser.parse_args()
-    text = table(validate(options.paper))
-    print(text)
-    if options.into:
-        put(options.into, options.paper, text)
+    for paper in options.papers or PAPERS:
+        text = table(paper, validate(paper))
+        print(f"\n{text}\n", flush=True)
+        if options.write:
+            put(PAGES.get(paper, VALIDATION), paper, text)
+    if options.write:
+        for page in COUNTING:
+            put(page, "counts", counts())
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 import tribodyn.validation
 from tribodyn.cli.app import app
-from tribodyn.validation.rows import Row
+from tribodyn.validation.rows import Otherwise, Row
 
 ROW = Row("a/load", "normal load", "N", 100.0, 101.0, 0.01, 0.02, "relative", "pass", "a note")
 ROWS = [ROW, ROW._replace(id="a/claim", published=True, computed=False, difference=None, verdict="reported")]
@@ -28,10 +28,36 @@ def test_the_exit_status_says_whether_a_row_fails(verdict: str, status: int, mon
 
 def test_json_holds_every_row(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(tribodyn.validation, "validate", lambda *_: ROWS)
-    rows = json.loads(CliRunner().invoke(app, ["validate", "a", "--json"]).stdout)["rows"]
-    keys = {"id", "published", "computed", "difference", "tolerance", "verdict", "note"}
+    printed = json.loads(CliRunner().invoke(app, ["validate", "a", "--json"]).stdout)
+    rows = printed["rows"]
+    keys = {"id", "published", "computed", "difference", "tolerance", "tolerance_reason", "verdict", "note"}
     assert [keys <= row.keys() for row in rows] == [True, True]
     assert [row["published"] for row in rows] == [100.0, True]
+    assert printed["counts"]["number"]["rows"] == 2
+    assert rows[0]["otherwise"] is None
+
+
+def test_the_same_under_another_choice_stands_beside(monkeypatch: pytest.MonkeyPatch):
+    default = Otherwise("the default", 79.0, -0.21, "fail")
+    rows = [ROW._replace(tolerance=0.2, tolerance_share=0.2, tolerance_reason="why", otherwise=default)]
+    monkeypatch.setattr(tribodyn.validation, "validate", lambda *_: rows)
+    printed = json.loads(CliRunner().invoke(app, ["validate", "a", "--json"]).stdout)
+    assert printed["rows"][0]["otherwise"] == default._asdict()
+    assert printed["rows"][0]["hangs_on_choice"] is True
+    table = " ".join(CliRunner().invoke(app, ["validate", "a"]).stdout.split())
+    for text in ("under this choice only", "the default: 79", "20 % of the value: why"):
+        assert text in table
+
+
+def test_the_head_says_under_which_choices_a_paper_is_computed(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(tribodyn.validation, "validate", lambda *_: ROWS)
+    ended = CliRunner().invoke(app, ["validate", "efremenkov-2024"])
+    assert ended.stdout.startswith("efremenkov-2024: as published")
+    assert "2 numbers: 1 pass, 1 reported" in ended.stdout
+    assert (
+        "as published"
+        in json.loads(CliRunner().invoke(app, ["validate", "efremenkov-2024", "--json"]).stdout)["choices"]
+    )
 
 
 def test_pictures_are_drawn_and_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):

@@ -5,7 +5,7 @@ import pytest
 from tribodyn.record.reader import open_record
 from tribodyn.studies.load import load_scenario
 from tribodyn.studies.run import run
-from tribodyn.validation import validate
+from tribodyn.validation import CHOICES, validate
 from tribodyn.validation.rows import PASS, published
 
 
@@ -41,6 +41,12 @@ INDEPENDENT = {
 @pytest.mark.parametrize("key", INDEPENDENT)
 def test_figures_agree_with_an_independent_prototype(rows, key):
     assert rows[key].computed == pytest.approx(INDEPENDENT[key], rel=5e-4)
+
+
+def test_every_row_holds_as_published_only_and_the_head_says_so(rows):
+    assert CHOICES["efremenkov-2024"].startswith("as published")
+    assert all(row.hangs_on_choice for row in rows.values())
+    assert rows["efremenkov/efficiency"].otherwise.computed == pytest.approx(0.039, abs=5e-4)
 
 
 def test_the_corrected_efficiency_stands_beside_the_published_one(rows):

@@ -46,10 +46,23 @@ def test_numbers_agree_with_an_independent_prototype(rows, key):
 
 def test_claims_carry_their_figures(rows):
     claims = [row for row in rows.values() if row.tolerance_kind == "claim"]
-    assert len(claims) == 7
+    assert len(claims) == 8
     for row in claims:
         assert row.verdict in ("pass", "reported")
         assert row.note
+
+
+def test_what_holds_under_kinematic_sliding_only_says_so(rows):
+    assert [key for key, row in rows.items() if row.hangs_on_choice] == [
+        "liu-ni/friction-pair1-involute",
+        "liu-ni/claim-friction-coefficient-of-the-crc-drive-below-the",
+    ]
+    friction = rows["liu-ni/friction-pair1-involute"]
+    assert friction.otherwise.choice == "dynamic sliding, the default"
+    # docs/validation.md#sensitivities: another tool's run with dynamic sliding
+    assert friction.otherwise.computed == pytest.approx(450.0, abs=1.0)
+    assert friction.otherwise.verdict == "fail"
+    assert rows["liu-ni/contact-ratio-crc"].otherwise is None  # does not depend on it
 
 
 @pytest.mark.parametrize(
@@ -61,6 +74,8 @@ def test_claims_carry_their_figures(rows):
         (1.02, "absolute", None, "reported"),
         (True, "claim", None, "pass"),
         (False, "claim", None, "reported"),
+        (0.9, "direction only (below 1)", None, "direction"),
+        (1.1, "direction only (below 1)", None, "fail"),
     ],
 )
 def test_verdicts(computed, kind, tolerance, verdict):

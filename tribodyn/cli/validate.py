@@ -43,7 +43,7 @@ def validate(
     from tribodyn.cli.printing import print_json, print_table, quoted_path
     from tribodyn.cli.progress import progress_bar
     from tribodyn.numerics.output_files import check_output
-    from tribodyn.validation.rows import SHOWN
+    from tribodyn.validation.rows import SHOWN, counted, counts
 
     if plots is not None:
         for name in validation.figure_names(paper):
@@ -63,9 +63,12 @@ def validate(
                 pictures = validation.draw(paper, plots, records, progress, force=force)
     if json:
         drawn = {"pictures": [str(picture) for picture in pictures]} if plots is not None else {}
-        print_json({"rows": [row._asdict() for row in rows], **drawn})
+        head = {"choices": validation.CHOICES.get(paper, ""), "counts": counts(rows)}
+        print_json({**head, "rows": [row.plain() for row in rows], **drawn})
     else:
-        print_table(paper, SHOWN, [[row.written(name) for name in SHOWN] for row in rows])
+        title = f"{paper}: {validation.CHOICES.get(paper, '')}"
+        print_table(title, SHOWN, [[row.written(name) for name in SHOWN] for row in rows])
+        typer.echo(counted(rows))
         for picture in pictures:
             typer.echo(f"picture  {quoted_path(picture)}")
     failed = [row.id for row in rows if row.verdict == "fail"]

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from tribodyn import validation
 from tribodyn.interface.words import in_python
-from tribodyn.validation.rows import FAIL, PASS, REPORTED, SHOWN, Row
+from tribodyn.validation.rows import SHOWN, Row, counted
 
 
 class Comparison(list[Row]):
@@ -16,8 +16,7 @@ class Comparison(list[Row]):
         from tribodyn.studies.study import TextTable
 
         rows = [[row.written(name) for name in SHOWN] for row in self]
-        counts = [f"{sum(row.verdict == one for row in self)} {one}" for one in (PASS, FAIL, REPORTED)]
-        return shown.block(shown.tables([TextTable(", ".join(counts), SHOWN, rows)]))
+        return shown.block(shown.tables([TextTable(counted(self), SHOWN, rows)]))
 
 
 @in_python()
@@ -39,7 +38,8 @@ def validate(
     -------
     list of Row
         Shown as a table in a notebook; each with `quantity`, `published` and `computed` value, `tolerance`,
-        `verdict` and `note`; the verdict is "pass", "fail" or "reported".
+        `verdict`, `otherwise` (the same under another choice, or None) and `note`; the verdict is "pass",
+        "fail", "direction" (no more than the direction is compared) or "reported".
 
     Raises
     ------

@@ -23,6 +23,18 @@ ABOUT = {
     "diez-ibarbia": "Diez-Ibarbia et al.: efficiency of spur gears over the profile shift",
     "jia-2022": "Jia et al., Mathematics 10:4290 (2022): gears with a parabolic path of contact",
 }
+#: Paper's name -> the choices under which its rows are computed, the head of its table.
+CHOICES = {
+    "liu-ni-2022": "as published, with kinematic sliding; beside it the default, dynamic sliding",
+    "efremenkov-2024": "as published: the paper's own equations with their errors; beside it corrected "
+    "speeds, with which the gear loses nearly all its power",
+    "veciana-2024": "with the mixed law as printed (reading A) and the paper's rolling speeds; beside it "
+    "reading B",
+    "diez-ibarbia": "with load contact by finite elements; rows without a published number stand beside "
+    "another implementation of the equations",
+    "jia-2022": "with maximum line loads for contact stresses, misalignment in the plane of action, limits "
+    "with the paper's sin(beta); beside it Hertz pressures and the actual tips",
+}
 #: Paper's name -> module that draws its figures.
 FIGURES = {
     "liu-ni-2022": "tribodyn.validation.figures.liu_ni",
@@ -49,7 +61,8 @@ def validate(
     Returns
     -------
     list of Row
-        Published and computed value, tolerance, verdict ("pass", "fail", "reported") and a note.
+        Published and computed value, tolerance, verdict ("pass", "fail", "direction", "reported"), the same
+        under another choice where there is one, and a note.
 
     Raises
     ------

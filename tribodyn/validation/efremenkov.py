@@ -15,14 +15,26 @@ from tribodyn.validation.rows import Row, compare, published
 PAPER = "efremenkov-2024"
 PUBLISHED, CORRECTED = "irefc-as-published", "irefc"
 
+#: What is changed by the ends of the names of the records.
+CHANGES = {
+    "": {},
+    "-r2-30": {"drive.pitch_radius": "30 mm"},
+    "-rb-1.2": {"drive.element_radius": "1.2 mm"},
+    "-rb-2.8": {"drive.element_radius": "2.8 mm"},
+}
+#: The choices under which all rows are computed, by the beginnings of these names.
+PUBLISHED, CORRECTED = "irefc-as-published", "irefc-corrected-1-mm"
+#: With corrected speeds and the published rolling arm this gear locks.
+LOCKS = "-rb-1.2"
 #: Runs by the names of their records: scenario and what is changed in it.
 RUNS: dict[str, tuple[str, dict[str, str]]] = {
-    "irefc-as-published": (PUBLISHED, {}),
-    "irefc-r2-30": (PUBLISHED, {"drive.pitch_radius": "30 mm"}),
-    "irefc-rb-1.2": (PUBLISHED, {"drive.element_radius": "1.2 mm"}),
-    "irefc-rb-2.8": (PUBLISHED, {"drive.element_radius": "2.8 mm"}),
-    "irefc-corrected": (CORRECTED, {}),
-    "irefc-corrected-1-mm": (CORRECTED, {"friction.rolling_arm": "1 mm"}),
+    **{PUBLISHED + end: ("irefc-as-published", changes) for end, changes in CHANGES.items()},
+    **{
+        CORRECTED + end: ("irefc", {"friction.rolling_arm": "1 mm", **changes})
+        for end, changes in CHANGES.items()
+        if end != LOCKS
+    },
+    "irefc-corrected": ("irefc", {}),
 }
 
 
@@ -50,9 +62,29 @@ def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[
         results[name] = _run(folder / f"{name}.h5", scenario, changes)
         if progress:
             progress((count + 1) / len(RUNS))
-    values = _table(results["irefc-as-published"]) | _figures(results)
-    table = published(PAPER)
-    return [compare(table[key], *values[key]) for key in table]
+    values, otherwise = (
+        _table(results[begin]) | _figures({end: results.get(begin + end) for end in CHANGES})
+        for begin in (PUBLISHED, CORRECTED)
+    )
+    published_as = results[PUBLISHED].summary["efficiency_by_energy"]
+    corrected, coarse = (results[name].summary for name in ("irefc-corrected", CORRECTED))
+    ranges = [results[PUBLISHED + end].slip_range * 1e3 for end in ("-rb-1.2", "-rb-2.8")]
+    notes = {
+        "efremenkov/efficiency": f"the product (23); by energy {published_as:.4f}. With corrected speeds "
+        f"{coarse['efficiency']:.3f} ({coarse['power_friction_mean']:.0f} W of "
+        f"{coarse['power_in_mean']:.0f} W lost), and {corrected['efficiency']:.4f} with a rolling arm "
+        "of 0.01 mm",
+        "efremenkov/vs-range": f"r_b 2 mm; {ranges[0]:.4f} and {ranges[1]:.4f} mm/s with 1.2 and 2.8 mm",
+    }
+    return [
+        compare(
+            row,
+            values[key],
+            notes.get(key, ""),
+            ("corrected speeds" + ", the gear locks" * (otherwise[key] is None), otherwise[key]),
+        )
+        for key, row in published(PAPER).items()
+    ]
 
 
 def _run(path: Path, scenario: str, changes: dict[str, str]) -> Result:
@@ -63,7 +95,7 @@ def _run(path: Path, scenario: str, changes: dict[str, str]) -> Result:
         return Result(record.summary, {name: record[name] for name in record})
 
 
-def _table(result: Result) -> dict[str, tuple[Any, str]]:
+def _table(result: Result) -> dict[str, Any]:
     """Rows of Table 1: L_A, L_B, v_s in mm/s, N_S, R."""
     data = result.data
     columns = (
@@ -74,28 +106,18 @@ def _table(result: Result) -> dict[str, tuple[Any, str]]:
         data["normal_load"][0],
     )
     table = np.stack(columns, axis=-1)
-    return {f"efremenkov/row-{number:02d}": (row.tolist(), "") for number, row in enumerate(table, start=1)}
+    return {f"efremenkov/row-{number:02d}": row.tolist() for number, row in enumerate(table, start=1)}
 
 
-def _figures(results: dict[str, Result]) -> dict[str, tuple[Any, str]]:
-    base = results["irefc-as-published"]
-    corrected, coarse = (results[name].summary for name in ("irefc-corrected", "irefc-corrected-1-mm"))
-    ranges = [results[name].slip_range for name in ("irefc-rb-1.2", "irefc-rb-2.8")]
-    prefix = "efremenkov/"
-    return {
-        f"{prefix}efficiency": (
-            base.summary["efficiency"],
-            f"the product (23); by energy {base.summary['efficiency_by_energy']:.4f}. With corrected speeds "
-            f"{coarse['efficiency']:.3f} ({coarse['power_friction_mean']:.0f} W of "
-            f"{coarse['power_in_mean']:.0f} W lost), and {corrected['efficiency']:.4f} with a rolling arm of "
-            "0.01 mm",
-        ),
-        f"{prefix}ns-max-r2-20": (float(base.loss.max()), ""),
-        f"{prefix}ns-max-r2-30": (float(results["irefc-r2-30"].loss.max()), ""),
-        f"{prefix}ns-max-rb-1.2": (float(results["irefc-rb-1.2"].loss.max()), ""),
-        f"{prefix}ns-max-rb-2.8": (float(results["irefc-rb-2.8"].loss.max()), ""),
-        f"{prefix}vs-range": (
-            base.slip_range,
-            f"r_b 2 mm; {ranges[0] * 1e3:.4f} and {ranges[1] * 1e3:.4f} mm/s with 1.2 and 2.8 mm",
-        ),
+def _figures(results: dict[str, Result | None]) -> dict[str, Any]:
+    """Figures of the text, from runs by `CHANGES`; None for a gear that locks."""
+    found: dict[str, Any] = {
+        f"efremenkov/ns-max{end or '-r2-20'}": None if result is None else float(result.loss.max())
+        for end, result in results.items()
+    }
+    base = results[""]
+    assert base is not None
+    return found | {
+        "efremenkov/efficiency": base.summary["efficiency"],
+        "efremenkov/vs-range": base.slip_range,
     }

@@ -27,6 +27,7 @@ PAPER = "jia-2022"
 RELIEFS = [(relief, unmodified) for unmodified in (0, 8) for relief in (4, 8, 12)]
 # Pairs closer to the pitch point, degrees, are left out where pressures of the two families are compared.
 _NEAR = 2.0
+_PRESSURES = "Hertz pressures"
 
 
 def contact_ratio(case: Case) -> float:
@@ -61,7 +62,7 @@ def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[
     return [compare(table[key], *values[key]) for key in table]
 
 
-def geometry() -> dict[str, tuple[Any, str]]:
+def geometry() -> dict[str, tuple[Any, ...]]:
     """Rows of limits of the geometry, contact ratios and the pressure at the pitch point: value and note."""
     parabolic, involute = case_of("parabolic"), case_of("involute")
     pinion, gear = parabolic.drive.pinion.teeth, parabolic.drive.gear.teeth
@@ -73,16 +74,24 @@ def geometry() -> dict[str, tuple[Any, str]]:
     # Z_ε of ISO 6336-2 for spur gears, which takes off the part of the load that a second pair carries
     factor = math.sqrt((4.0 - ratio) / 3.0)
     return {
-        "jia/k1-max": (highest_k1, true.format(actual[0])),
-        "jia/k2-max": (most_k2, true.format(actual[1])),
-        "jia/k-min": (lowest, "by the geometry there is no such limit: smaller k only steepens the path"),
+        "jia/k1-max": (highest_k1, true.format(actual[0]), ("actual tip", actual[0])),
+        "jia/k2-max": (most_k2, true.format(actual[1]), ("actual tip", actual[1])),
+        "jia/k-min": (
+            lowest,
+            "by the geometry there is no such limit: smaller k only steepens the path",
+            ("actual tip, no limit", None),
+        ),
         "jia/cr-novel": (contact_ratio(parabolic), ""),
         "jia/cr-involute": (ratio, ""),
-        "jia/hertz-pitch": (factor * pressure, f"{pressure / 1e6:.2f} MPa without Z_eps = {factor:.4f}"),
+        "jia/hertz-pitch": (
+            factor * pressure,
+            f"{pressure / 1e6:.2f} MPa without Z_eps = {factor:.4f}",
+            ("without Z_eps", pressure),
+        ),
     }
 
 
-def _misaligned(name: Name, sort: str, base: State) -> dict[str, tuple[Any, str]]:
+def _misaligned(name: Name, sort: str, base: State) -> dict[str, tuple[Any, ...]]:
     """Rows of Tables 4 and 5: over their own value without misalignment."""
     return {
         f"jia/misaligned-{name}-{sort}-{minutes}": _ratio(
@@ -92,7 +101,7 @@ def _misaligned(name: Name, sort: str, base: State) -> dict[str, tuple[Any, str]
     }
 
 
-def _relieved() -> dict[str, tuple[Any, str]]:
+def _relieved() -> dict[str, tuple[Any, ...]]:
     """Rows of Table 3: over the unmodified."""
     return {
         f"jia/crown-{relief}-{relief}-{unmodified}": _ratio(
@@ -102,7 +111,7 @@ def _relieved() -> dict[str, tuple[Any, str]]:
     }
 
 
-def _ratio(name: Name, state: State, base: State, apart: bool) -> tuple[float, str]:
+def _ratio(name: Name, state: State, base: State, apart: bool) -> tuple[float, str, tuple[str, float]]:
     """Ratio of the maximum line loads; the note has where, and the ratios of other readings."""
     maximum = maximum_line_load(name, state)
     pressures = maximum_pressure(name, state).value / maximum_pressure(name, base).value
@@ -114,21 +123,22 @@ def _ratio(name: Name, state: State, base: State, apart: bool) -> tuple[float, s
     if apart:
         free = [maximum_line_load(name, one._replace(coupled=False)).value for one in (state, base)]
         note += f"; of line loads on slices that do not hold each other {free[0] / free[1]:.4f}"
-    return maximum.value / maximum_line_load(name, base).value, note
+    return maximum.value / maximum_line_load(name, base).value, note, (_PRESSURES, pressures)
 
 
-def _families() -> dict[str, tuple[Any, str]]:
+def _families() -> dict[str, tuple[Any, ...]]:
     """Rows of Table 2: parabolic over involute, neither modified nor misaligned."""
     ours, theirs = (maximum_line_load(name).value for name in ("parabolic", "involute"))
     pressure = [maximum_pressure(name).value for name in ("parabolic", "involute")]
     away = [maximum_pressure(name, away=_NEAR).value for name in ("parabolic", "involute")]
-    compared: dict[str, tuple[Any, str]] = {
+    compared: dict[str, tuple[Any, ...]] = {
         "jia/ratio-contact": (
             ours / theirs,
             f"ratio of maximum line loads, {ours / 1e3:.0f} and {theirs / 1e3:.0f} N/mm. Hertz pressure "
             f"does not fall: {pressure[0] / 1e6:.0f} and {pressure[1] / 1e6:.0f} MPa at most, "
             f"{away[0] / 1e6:.0f} and {away[1] / 1e6:.0f} MPa more than {_NEAR:g} deg from the pitch point, "
             "where the parabolic flanks' radius goes to zero",
+            (_PRESSURES, pressure[0] / pressure[1]),
         )
     }
     for key, tension in (("compression", False), ("tension", True)):

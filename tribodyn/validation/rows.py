@@ -1,10 +1,40 @@
 """One row of a validation: a published number or claim compared with ours."""
 
 import json
+from collections.abc import Iterable
 from importlib.resources import files
 from typing import Any, NamedTuple
 
 PASS, FAIL, REPORTED = "pass", "fail", "reported"
+#: Verdict of a row that compares the direction of a change and not its size.
+DIRECTION = "direction"
+#: What a row compares, in the order in which rows are counted, with the words of one and of several.
+KINDS = {
+    "number": ("number", "numbers"),
+    "claim": ("claim", "claims"),
+    "direction": ("row by direction", "rows by direction"),
+    "implementation": ("value beside another implementation", "values beside another implementation"),
+}
+_CHOSEN = "under this choice only"
+_BELOW_ONE = "direction only (below 1)"
+
+
+class Otherwise(NamedTuple):
+    """What a row would be under another choice than its own.
+
+    Attributes
+    ----------
+    choice : str
+        The other choice: the program's default where the row is computed as published, another reading where
+        the paper leaves one open.
+    computed, difference, verdict
+        As of the row.
+    """
+
+    choice: str
+    computed: Any
+    difference: float | list[float] | None
+    verdict: str
 
 
 class Row(NamedTuple):
@@ -19,9 +49,24 @@ class Row(NamedTuple):
         Computed less published: relative to the published value where the tolerance is.
     tolerance : float, list of float or None
     tolerance_kind : str
-    verdict : {"pass", "fail", "reported"}
-        "reported": the published value is not reproducible, or a claim does not hold in our physics.
+    verdict : {"pass", "fail", "direction", "reported"}
+        "direction": only the direction is compared, and it is the published one; "reported": the published
+        value is not reproducible, or a claim does not hold in our physics.
     note : str
+    compared : {"number", "claim", "direction", "implementation"}
+        What the row compares; "implementation": the paper has a figure only, and the value of another
+        implementation of its equations takes the number's place.
+    part : str
+        What of the value matters, where that is not the whole: the "loss" of an efficiency, the "rise" of a
+        ratio above 1.
+    part_difference : float or None
+        Computed less published, of this part.
+    tolerance_share : float or None
+        The tolerance as a share of the value or of its part; the largest of several columns.
+    tolerance_reason : str
+        Why this share is larger than `WIDE`.
+    otherwise : Otherwise or None
+        The same row under another choice.
     """
 
     id: str
@@ -34,12 +79,40 @@ class Row(NamedTuple):
     tolerance_kind: str
     verdict: str
     note: str
+    compared: str = "number"
+    part: str = ""
+    part_difference: float | None = None
+    tolerance_share: float | None = None
+    tolerance_reason: str = ""
+    otherwise: Otherwise | None = None
+
+    @property
+    def hangs_on_choice(self) -> bool:
+        """Whether the row holds under its own choice and not under the other."""
+        return (
+            self.otherwise is not None
+            and self.verdict in (PASS, DIRECTION)
+            and self.otherwise.verdict not in (PASS, DIRECTION)
+        )
 
     def written(self, name: str) -> str:
         """Write a field as a table for people shows it."""
         value = getattr(self, name)
+        if name == "tolerance" and self.tolerance_reason and self.tolerance_share:
+            share = of_part(self.tolerance_share, self.part or "value")
+            return f"{self._amount(name, value)}, {share}: {self.tolerance_reason}"
+        if name == "difference" and self.part_difference is not None:
+            return f"{self._amount(name, value)}, {of_part(self.part_difference, self.part, '+')}"
+        if name == "verdict" and self.hangs_on_choice:
+            return f"{value} {_CHOSEN}"
+        return self._amount(name, value)
+
+    def _amount(self, name: str, value: Any) -> str:
         if value is None:
             return ""
+        if isinstance(value, Otherwise):
+            parts = [self._amount("computed", value.computed), self._amount("difference", value.difference)]
+            return f"{value.choice}: {', '.join(part for part in (*parts, value.verdict) if part)}"
         if isinstance(value, list):
             return " ".join(
                 f"{one:.2g}" if name in ("difference", "tolerance") else f"{one:.5g}" for one in value
@@ -47,12 +120,40 @@ class Row(NamedTuple):
         if isinstance(value, bool):
             return str(value).lower()
         if name in ("difference", "tolerance") and self.tolerance_kind == "relative":
-            return f"{100 * value:.3g} %"
+            return per_cent(value)
         return f"{value:.5g}" if isinstance(value, float) else str(value)
+
+    def plain(self) -> dict[str, Any]:
+        """The row as JSON has it."""
+        fields = self._asdict() | {"hangs_on_choice": self.hangs_on_choice}
+        return fields | {"otherwise": self.otherwise._asdict() if self.otherwise else None}
+
+
+def of_part(share: float, part: str, sign: str = "") -> str:
+    """Write a share of a part with two digits."""
+    return f"{float(f'{100.0 * share:.2g}'):{sign}g} % of the {part}"
+
+
+def per_cent(share: float) -> str:
+    """Write a share with two decimals, a small one with two digits."""
+    value = 100.0 * share
+    return f"{value:.2g} %" if abs(value) < 1.0 else f"{round(value, 2):g} %"
 
 
 #: Fields of a row that a table for people shows.
-SHOWN = ("quantity", "unit", "published", "computed", "difference", "tolerance", "verdict", "note")
+SHOWN = (
+    "quantity",
+    "unit",
+    "published",
+    "computed",
+    "difference",
+    "tolerance",
+    "verdict",
+    "otherwise",
+    "note",
+)
+#: A tolerance of a larger share has its reason beside it.
+WIDE = 0.05
 
 
 def published(paper: str) -> dict[str, dict[str, Any]]:
@@ -64,40 +165,26 @@ def published(paper: str) -> dict[str, dict[str, Any]]:
     return {row["id"]: row for row in json.loads(text) if row["paper"] == paper}
 
 
-def compare(row: dict[str, Any], computed: Any, note: str = "") -> Row:
+def compare(
+    row: dict[str, Any], computed: Any, note: str = "", otherwise: tuple[str, Any] | None = None
+) -> Row:
     """Judge a computed value against a published row; `note` is put before the row's own.
 
-    Where the paper has a figure only, the value of another implementation of its equations takes the
-    number's place, and the row's `tolerance_kind` and note say so. What cannot be computed yet is None and
-    stays "reported".
+    Parameters
+    ----------
+    row : dict
+        As of `published`.
+    computed : float, bool, list of float or None
+        None: cannot be computed yet, and stays "reported".
+    note : str
+    otherwise : (str, value), optional
+        Another choice and what is computed under it.
     """
-    figure_only = row["published"] is None and row["independent"] is not None
-    value: Any = row["independent"] if figure_only else row["published"]
-    tolerance, kind = row["tolerance"], row["tolerance_kind"]
-    if figure_only:
-        note = "; ".join(text for text in (note, f"compared with another implementation: {value:g}") if text)
-    difference: Any = None
-    if computed is None:
-        verdict = REPORTED
-    elif kind == "claim":
-        verdict = PASS if bool(computed) == bool(value) else REPORTED
-    elif kind == "direction only (below 1)":
-        difference = float(computed) - value
-        verdict = PASS if computed < 1.0 else FAIL
-    elif tolerance is None:
-        verdict = REPORTED
-        if isinstance(value, (int, float)):
-            difference = float(computed) - value
-    elif isinstance(value, list):
-        difference = [float(mine) - theirs for mine, theirs in zip(computed, value, strict=True)]
-        within = [abs(one) <= most for one, most in zip(difference, tolerance, strict=True)]
-        verdict = PASS if all(within) else FAIL
-    else:
-        difference = float(computed) - value
-        if kind == "relative":
-            difference /= abs(value)
-        verdict = PASS if abs(difference) <= tolerance else FAIL
-    notes = "; ".join(text for text in (note, row["note"]) if text)
+    compared = _compared(row)
+    if compared == "implementation":
+        text = f"compared with another implementation: {row['independent']:g}"
+        note = "; ".join(one for one in (note, text) if one)
+    difference, verdict = _judged(row, computed)
     return Row(
         row["id"],
         row["quantity"],
@@ -105,8 +192,91 @@ def compare(row: dict[str, Any], computed: Any, note: str = "") -> Row:
         row["published"],
         computed,
         difference,
-        tolerance,
-        kind,
+        row["tolerance"],
+        row["tolerance_kind"],
         verdict,
-        notes,
+        "; ".join(text for text in (note, row["note"]) if text),
+        compared,
+        row.get("part", ""),
+        _part_difference(row, computed),
+        _tolerance_share(row),
+        row.get("tolerance_reason", ""),
+        Otherwise(*otherwise, *_judged(row, otherwise[1])) if otherwise else None,
     )
+
+
+def _compared(row: dict[str, Any]) -> str:
+    if row["tolerance_kind"] == _BELOW_ONE:
+        return "direction"
+    if row["tolerance_kind"] == "claim":
+        return "claim"
+    return "implementation" if row["published"] is None and row["independent"] is not None else "number"
+
+
+def _value(row: dict[str, Any]) -> Any:
+    return row["independent"] if row["published"] is None else row["published"]
+
+
+def _judged(row: dict[str, Any], computed: Any) -> tuple[Any, str]:
+    """Difference and verdict of a computed value."""
+    value: Any = _value(row)
+    tolerance, kind = row["tolerance"], row["tolerance_kind"]
+    if computed is None:
+        return None, REPORTED
+    if kind == "claim":
+        return None, PASS if bool(computed) == bool(value) else REPORTED
+    if kind == _BELOW_ONE:
+        return float(computed) - value, DIRECTION if computed < 1.0 else FAIL
+    if isinstance(value, list):
+        off = [float(mine) - theirs for mine, theirs in zip(computed, value, strict=True)]
+        within = [abs(one) <= most for one, most in zip(off, tolerance, strict=True)]
+        return off, PASS if all(within) else FAIL
+    if not isinstance(value, (int, float)):
+        return None, REPORTED
+    difference = float(computed) - value
+    if tolerance is None:
+        return difference, REPORTED
+    if kind == "relative":
+        difference /= abs(value)
+    return difference, PASS if abs(difference) <= tolerance else FAIL
+
+
+def _part_difference(row: dict[str, Any], computed: Any) -> float | None:
+    if "part" not in row or computed is None:
+        return None
+    published_part = abs(row["whole"] - _value(row))
+    return (abs(row["whole"] - computed) - published_part) / published_part
+
+
+def _tolerance_share(row: dict[str, Any]) -> float | None:
+    """The tolerance over the value; where a part of it matters, over its distance from the `whole`."""
+    if row["tolerance"] is None:
+        return None
+    values, tolerances = (one if isinstance(one, list) else [one] for one in (_value(row), row["tolerance"]))
+    if row["tolerance_kind"] == "relative":
+        tolerances = [most * abs(value) for most, value in zip(tolerances, values, strict=True)]
+    parts = [abs(row.get("whole", 0.0) - value) for value in values]
+    return max(most / part for most, part in zip(tolerances, parts, strict=True) if part > 0.0)
+
+
+def counts(rows: Iterable[Row]) -> dict[str, dict[str, int]]:
+    """How many rows of each kind there are, by verdict, and how many of them hold under their choice only."""
+    found = {kind: {"rows": 0, PASS: 0, DIRECTION: 0, FAIL: 0, REPORTED: 0, _CHOSEN: 0} for kind in KINDS}
+    for row in rows:
+        count = found[row.compared]
+        count["rows"] += 1
+        count[row.verdict] += 1
+        count[_CHOSEN] += row.hangs_on_choice
+    return {kind: count for kind, count in found.items() if count["rows"]}
+
+
+def counted(rows: Iterable[Row]) -> str:
+    """The same in words."""
+    said = []
+    for kind, count in counts(rows).items():
+        words = {DIRECTION: "agree", _CHOSEN: f"of them {_CHOSEN}"}
+        parts = [
+            f"{number} {words.get(name, name)}" for name, number in count.items() if number and name != "rows"
+        ]
+        said.append(f"{count['rows']} {KINDS[kind][count['rows'] != 1]}: {', '.join(parts)}")
+    return "; ".join(said)

@@ -59,7 +59,7 @@ def rows(folder: Path, progress: Callable[[float], None] | None = None) -> list[
         tables[law] = Table(law)
         if progress:
             progress((count + 1) / len(LAWS))
-    values = _geometry() | _efficiencies(tables)
+    values: dict[str, tuple[Any, ...]] = {**_geometry(), **_efficiencies(tables)}
     table = published(PAPER)
     return [compare(table[key], *values[key]) for key in table]
 
@@ -76,12 +76,13 @@ def _geometry() -> dict[str, tuple[Any, str]]:
     }
 
 
-def _efficiencies(tables: dict[Law, Table]) -> dict[str, tuple[Any, str]]:
+def _efficiencies(tables: dict[Law, Table]) -> dict[str, tuple[Any, ...]]:
     ehl, literal, other = (tables[law] for law in LAWS)
 
-    def both(value: Callable[[Table], Any]) -> tuple[float, str]:
+    def both(value: Callable[[Table], Any]) -> tuple[float, str, tuple[str, float]]:
         a, b = float(value(literal)), float(value(other))
-        return a, f"reading A (as printed) {a:.4g}, reading B (maximum pressure, own speeds) {b:.4g}"
+        said = f"reading A (as printed) {a:.4g}, reading B (maximum pressure, own speeds) {b:.4g}"
+        return a, said, ("reading B", b)
 
     exact = "; ".join(
         f"{name} {100 - table.cycloid[0, 1]:.3f} -> {100 - table.exact_speeds[1]:.3f}, "
@@ -101,6 +102,8 @@ def _efficiencies(tables: dict[Law, Table]) -> dict[str, tuple[Any, str]]:
         "veciana/13": both(lambda table: table.gain_by_ratio().max()),
         "veciana/14": (float(ehl.gain_by_module().max()), ""),
         "veciana/15": both(lambda table: table.gain_by_module().max()),
+        "veciana/17": (float(ehl.gain_by_module().min()), ""),
+        "veciana/18": both(lambda table: table.gain_by_module().min()),
         "veciana/16": (
             ehl.apart(),
             f"EHL; {both(Table.apart)[1]}; loss of the cycloid, %, i = 1, m 2 mm, with the paper's rolling "
