@@ -63,7 +63,7 @@ def test_the_head_says_under_which_choices_a_paper_is_computed(monkeypatch: pyte
 def test_pictures_are_drawn_and_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     drawn = tmp_path / "pictures" / "diez-ibarbia-figure-06.png"
     monkeypatch.setattr(tribodyn.validation, "validate", lambda *_: ROWS)
-    monkeypatch.setattr(tribodyn.validation, "draw", lambda paper, plots, *_: [plots / drawn.name])
+    monkeypatch.setattr(tribodyn.validation, "draw", lambda paper, plots, *_, **__: [plots / drawn.name])
     ended = CliRunner().invoke(app, ["validate", "diez-ibarbia", "--json", "--plots", str(drawn.parent)])
     assert ended.exit_code == 0
     assert json.loads(ended.stdout)["pictures"] == [str(drawn)]
