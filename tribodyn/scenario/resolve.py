@@ -97,7 +97,8 @@ class _References(NamedTuple):
     def _of_family(self) -> dict[Key, Reference]:
         """The points that the family of each drive needs; a scenario within this one has a drive as well."""
         found: dict[Key, Reference] = {}
-        for drive in [key for key, mark in self.marks.items() if mark.folder == DRIVES]:
+        named = [key for key, mark in self.marks.items() if mark.folder == DRIVES]
+        for drive in {("drive",), *named}:  # a drive file read alone has its own table there
             name = _at(self.data, (*drive, "family"))
             if isinstance(name, str) and name in FAMILIES:
                 paths = [one.name for one in FAMILIES[name].parameters if one.kind == "path"]
