@@ -12,7 +12,7 @@ from hypothesis import HealthCheck, settings
 
 from tests.support.durations import Durations, add_options
 from tests.support.forked_verbs import ForkedVerbs
-from tests.support.relative import approx
+from tests.support.relative import approx, assert_allclose
 from tests.support.short_studies import ShortRuns
 from tribodyn.numerics.cache import trusted_folder
 from tribodyn.studies.gear_pair.prepare import Prepared, prepare
@@ -25,7 +25,7 @@ settings.register_profile("same", derandomize=True, deadline=None, suppress_heal
 settings.register_profile("search", settings.get_profile("same"), derandomize=False, print_blob=True)
 settings.load_profile("same")
 
-pytest.approx = approx
+pytest.approx, np.testing.assert_allclose = approx, assert_allclose
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
