@@ -3,6 +3,7 @@
 # make quick  the shortest tests, under a minute (docs/development.md)
 # make soak   random drives, duties and options by the thousand, and other long checks (docs/soak.md)
 # make fuzz   100 000 mutated inputs: scenarios, options, curves, records, the cache (docs/fuzz.md)
+# make elsewhere  the tests as on other machines: other BLAS, vectors, compilers' targets, threads, load (an hour)
 # make docs   the documentation site, into docs/_build/html
 # make wheel  what a package index gets, into dist: wheel and source distribution, checked
 # make durations  measure the tests anew: which are the quick ones, in which order all run
@@ -20,7 +21,7 @@ BIN := $(VENV)/bin
 # the constraints also hold for what builds the package
 INSTALL := PIP_CONSTRAINT=$(CURDIR)/constraints.txt $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
-.PHONY: demo docs test quick soak fuzz durations lint types tests in-parallel ratios wheel clean
+.PHONY: demo docs test quick soak fuzz elsewhere durations lint types tests in-parallel ratios wheel clean
 
 demo: $(VENV)/.installed
 	@mkdir -p demo
@@ -50,7 +51,7 @@ tests: in-parallel ratios
 
 in-parallel: $(VENV)/.testing
 	@for what in single lanes; do $(BIN)/python -m tests.support.shared_kernels $$what > /dev/null 2>&1 & done; wait
-	XLA_FLAGS="$(TESTS_XLA)" $(BIN)/python -m pytest $(IN_PARALLEL) -m "not bench"
+	XLA_FLAGS="$(TESTS_XLA)" $(BIN)/python -m pytest $(IN_PARALLEL) -m "not bench" $(CHOSEN)
 
 # alone: never beside other tests
 ratios: $(VENV)/.testing
@@ -69,6 +70,9 @@ fuzz: $(VENV)/.testing
 durations: $(VENV)/.testing
 	XLA_FLAGS="$(TESTS_XLA)" $(BIN)/python -m pytest $(IN_PARALLEL) --measure-durations -m "not bench"
 	XLA_FLAGS="$(TESTS_XLA)" $(BIN)/python -m pytest $(IN_PARALLEL) --measure-durations --quick -m "not bench and not slow"
+
+elsewhere: $(VENV)/.testing
+	$(BIN)/python -m tools.elsewhere --write
 
 docs: $(VENV)/.documenting
 	$(BIN)/python -m sphinx --fail-on-warning --keep-going --fresh-env -b html docs docs/_build/html
