@@ -89,5 +89,5 @@ def test_it_ends_with_the_process_that_began_it(monkeypatch):
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0, 1}, raising=False)
     ahead.begin(("run", "no-such-scenario"))
     process = ahead._begun.pop()._process
-    said, _ = process.communicate(timeout=60)  # closes its input, as the end of this process would
+    said, _ = process.communicate(timeout=300)  # closes its input, as the end of this process would
     assert (said, process.returncode) == (b"", -signal.SIGKILL)

@@ -153,7 +153,7 @@ def test_an_interrupted_run_keeps_what_it_has(asked: signal.Signals, status: int
         assert time.monotonic() - started < 300
         time.sleep(0.1)
     process.send_signal(asked)
-    _, said = process.communicate(timeout=60)
+    _, said = process.communicate(timeout=300)
     assert process.returncode == status
     assert said.startswith("interrupted" if asked is signal.SIGINT else "terminated")
     assert len(said.splitlines()) == 1

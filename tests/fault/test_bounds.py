@@ -1,12 +1,12 @@
 """Input that no simulation needs is refused at once: towers of powers, endless texts, numbers of no use."""
 
-import time
 from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
 
 import pytest
 
+from tests.support.work import at_most
 from tribodyn.errors import InputError
 from tribodyn.scenario import bounds
 from tribodyn.scenario.bounds import DEEPEST, MOST_CSV, MOST_POINTS, MOST_TOML, TooMuch, parsed
@@ -43,12 +43,11 @@ def test_what_is_a_unit(unit: str):
 @pytest.mark.parametrize("unit", NO_UNITS, ids=lambda unit: unit[:20])
 def test_what_is_none(unit: str):
     assert not is_unit(unit)
-    started = time.process_time()
-    with pytest.raises(NotAQuantity):
-        to_si(f"10 {unit}", ANGULAR_SPEED)
-    with pytest.raises(NotAQuantity):
-        factor_to_si(unit, ANGULAR_SPEED)  # as it may stand in the header of a CSV file
-    assert time.process_time() - started < 2.0
+    with at_most(4e7):
+        with pytest.raises(NotAQuantity):
+            to_si(f"10 {unit}", ANGULAR_SPEED)
+        with pytest.raises(NotAQuantity):
+            factor_to_si(unit, ANGULAR_SPEED)  # as it may stand in the header of a CSV file
 
 
 @pytest.mark.parametrize(
@@ -77,15 +76,14 @@ TOO_MUCH = {
 
 @pytest.mark.parametrize("name", TOO_MUCH)
 def test_toml_that_no_scenario_needs(name: str, tmp_path: Path):
-    started = time.process_time()
-    with pytest.raises(TooMuch):
-        parsed(TOO_MUCH[name])
     path = tmp_path / "much.toml"
     path.write_text(TOO_MUCH[name], encoding="utf-8")
-    with pytest.raises(InputError) as error:
-        read_toml(path)
+    with at_most(4e7):
+        with pytest.raises(TooMuch):
+            parsed(TOO_MUCH[name])
+        with pytest.raises(InputError) as error:
+            read_toml(path)
     assert error.value.file == str(path)
-    assert time.process_time() - started < 2.0
     assert parsed("a = " + "[" * (DEEPEST - 1) + "]" * (DEEPEST - 1))
     assert parsed('title = "' + "a.b" * 5 + '"')
 
@@ -176,12 +174,11 @@ VARIED = [
 
 @pytest.mark.parametrize("vary", VARIED, ids=lambda vary: vary[:40])
 def test_axes_beyond_all_use(vary: str, scenario: Path, refused: Refused):
-    started = time.process_time()
     words = [word for one in vary.split(" --vary ") for word in ("--vary", one)]
-    status, lines = refused("sweep", str(scenario), *words, "-o", str(scenario.parent / "s.h5"))
+    with at_most(1e8):
+        status, lines = refused("sweep", str(scenario), *words, "-o", str(scenario.parent / "s.h5"))
     assert status == 2
     assert all(len(line) < 1000 for line in lines)
-    assert time.process_time() - started < 5.0
     assert not list(scenario.parent.glob("*.h5"))
 
 

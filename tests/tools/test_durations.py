@@ -85,6 +85,6 @@ def test_processor_time_counts_processes_below_and_no_waiting():
         running.stdout.readline()
         while_running = processor_time() - before
         running.communicate()
-    subprocess.run([sys.executable, "-c", "import time; time.sleep(0.3)"], check=True)
+    subprocess.run([sys.executable, "-c", "import time; time.sleep(0.6)"], check=True)
     assert while_running > 0.18
-    assert processor_time() - before == pytest.approx(while_running, abs=0.15)
+    assert processor_time() - before == pytest.approx(while_running, abs=0.4)

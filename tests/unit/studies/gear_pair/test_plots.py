@@ -322,7 +322,7 @@ def test_pyplot_is_never_imported(records: list[Record], tmp_path: Path):
         "assert 'matplotlib.pyplot' not in sys.modules\n"
     )
     picture = str(tmp_path / "picture.png")
-    subprocess.run([sys.executable, "-c", drawing, str(records[0].path), picture], check=True, timeout=120)
+    subprocess.run([sys.executable, "-c", drawing, str(records[0].path), picture], check=True, timeout=300)
 
 
 @pytest.mark.parametrize(
