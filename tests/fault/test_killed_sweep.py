@@ -1,5 +1,6 @@
 """A sweep that is killed leaves a valid record and goes on where it stopped; a cluster loses a worker."""
 
+import shutil
 import signal
 import subprocess
 import sys
@@ -66,6 +67,13 @@ def test_a_killed_sweep_goes_on_where_it_stopped(direction: tuple[str, ...], tmp
         )
         assert refused.exit_code == 2
         assert "--resume" in refused.stderr
+    shutil.copy(partial, tmp_path / "other.partial.h5")
+    with h5py.File(tmp_path / "other.partial.h5", "r+") as file:
+        file.attrs["code_sha256"] = "0" * 64
+    other = ["sweep", *WORDS, *VARY, *direction, "--resume", "-o", str(tmp_path / "other.h5")]
+    refused = CliRunner().invoke(app, other)
+    assert refused.exit_code == 2
+    assert "computed by other code" in refused.stderr
     resumed = ["sweep", *WORDS, *VARY, *direction, "--resume", "-o", str(tmp_path / "killed.h5")]
     ended = CliRunner().invoke(app, resumed)
     assert ended.exit_code == 0, ended.output

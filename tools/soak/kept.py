@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from tools.soak.outcome import Outcome
-from tribodyn.numerics.sources import digest_of
+from tribodyn.numerics.sources import computing_digest, digest_of
 
 #: Where outcomes are kept unless told otherwise.
 FOLDER = Path(__file__).parents[2] / ".soak"
@@ -13,8 +13,8 @@ FOLDER = Path(__file__).parents[2] / ".soak"
 
 def store(seed: int, short: bool = False) -> Path:
     """The file of a seed's outcomes: another one as soon as a line of the package or of this tool changes."""
-    modules = ("tools.soak.outcome", "tribodyn.cli.app", "tribodyn.studies.gear_pair.run")
-    return FOLDER / f"{digest_of(*modules).hex()[:12]}-{seed}{'-short' if short else ''}.jsonl"
+    tool = digest_of("tools.soak.outcome", "tribodyn.cli.app").hex()
+    return FOLDER / f"{tool[:6]}{computing_digest()[:6]}-{seed}{'-short' if short else ''}.jsonl"
 
 
 def read(path: Path) -> Iterator[Outcome]:

@@ -11,10 +11,14 @@ import hashlib
 import re
 import sys
 from functools import cache
+from glob import glob
 from importlib.util import find_spec
 from pathlib import Path
 
 _OWN = __name__.partition(".")[0]
+_ROOT = Path(__file__).parents[1]
+#: Folders and files of this package that no result comes from.
+_SHOWING = ("__init__.py", "cli", "drawing", "interface", "post", "validation")
 #: ``from module import names`` and ``import module``, wherever they stand in the text: one in a docstring
 #: counts too, which only makes the digest depend on more.
 _FROM = re.compile(r"^[ \t]*from[ \t]+([\w.]+)[ \t]+import[ \t]+(\([^)]*\)|[^\n]*)", re.MULTILINE)
@@ -23,8 +27,8 @@ _FOR_TYPES = re.compile(r"^if (?:typing\.)?TYPE_CHECKING:\n(?:[ \t]+[^\n]*\n|\n)
 _COMMENT = re.compile(r"#[^\n]*")
 _NAME = re.compile(r"(\w+)(?:[ \t]+as[ \t]+\w+)?")
 #: What no result depends on: lines of comments, and docstrings, which begin a file or stand below a colon.
-_REMARK = re.compile(rb"^[ \t]*#[^\n]*\n", re.MULTILINE)
-_DOCSTRING = re.compile(rb'(\A|:\n)\s*r?"""[^"\\]*(?:(?:\\.|"(?!""))[^"\\]*)*"""[ \t]*\n', re.DOTALL)
+_REMARK = re.compile(rb"\n[ \t]*#[^\n]*")
+_DOCSTRING = re.compile(rb':\n\s*r?"""[^"\\]*(?:(?:\\.|"(?!""))[^"\\]*)*"""[ \t]*\n', re.DOTALL)
 
 
 def modules_behind(*names: str) -> dict[str, Path]:
@@ -57,9 +61,30 @@ def digest_of(*names: str) -> bytes:
     return digest.digest()
 
 
+@cache
+def computing_digest() -> str:
+    """Digest of all code that results come from; what was computed by other code is not taken for its own.
+
+    That is this package but for what asks and shows, and installed packages that add laws, families, studies
+    or methods to it. Those are imported by name, so that all of them count, in use or not.
+    """
+    from importlib.metadata import entry_points
+
+    digest = hashlib.sha256()
+    for file in sorted(glob("**/*.py", root_dir=_ROOT, recursive=True)):
+        if not file.startswith(_SHOWING):
+            text = code_of((_ROOT / file).read_bytes())
+            digest.update(Path(file).as_posix().encode() + b"\0" + hashlib.sha256(text).digest())
+    offered = entry_points()
+    groups = [group for group in offered.groups if group.startswith(f"{_OWN}.")]
+    added = {entry.module for group in groups for entry in offered.select(group=group)}
+    digest.update(digest_of(*sorted(added)))
+    return digest.hexdigest()
+
+
 def code_of(text: bytes) -> bytes:
     """Text of a source file without what no result depends on."""
-    return _DOCSTRING.sub(rb"\1", _REMARK.sub(b"", text))
+    return _DOCSTRING.sub(b":\n", _REMARK.sub(b"", b":\n" + text))
 
 
 def _with_packages(name: str) -> list[str]:

@@ -35,6 +35,8 @@ class Head(NamedTuple):
         Name of a group of the layout -> arrays and numbers by name.
     scales : dict
         Values along the axes that the run does not go on along.
+    code : str
+        See `schema.CODE`; empty: nothing goes on with such a record.
     """
 
     kind: str
@@ -44,6 +46,7 @@ class Head(NamedTuple):
     created: datetime
     groups: dict[str, dict[str, Any]]
     scales: dict[str, Any]
+    code: str = ""
 
 
 class Place(NamedTuple):
@@ -77,7 +80,7 @@ def create(head: Head, samples: int) -> LaidOut:
     layout, axis = head.layout, head.layout.axis_name
     content = Layered()
     with h5py.File(content, "w", libver=LIBVER) as file:
-        write_head(file, head.kind, head.scenario, head.sha256, head.created)
+        write_head(file, head.kind, head.scenario, head.sha256, head.created, head.code)
         size = {axis: samples, **{name: len(values) for name, values in head.scales.items()}}
         datasets = {axis: reserve(file, axis, layout.axis, (samples,))}
         datasets[axis].make_scale(axis)
@@ -118,7 +121,9 @@ def encode(variable: Variable, values: Any) -> np.ndarray:
     return np.ascontiguousarray(values, dtype=variable.dtype)
 
 
-def write_head(file: h5py.File, kind: str, scenario: str, sha256: str, created: datetime) -> None:
+def write_head(
+    file: h5py.File, kind: str, scenario: str, sha256: str, created: datetime, code: str = ""
+) -> None:
     """Write the root's attributes, status `partial`."""
     file.attrs["Conventions"] = "CF-1.10"
     file.attrs["format"] = schema.FORMAT
@@ -128,6 +133,8 @@ def write_head(file: h5py.File, kind: str, scenario: str, sha256: str, created: 
     file.attrs["created"] = created.isoformat(timespec="seconds")
     file.attrs["scenario"] = scenario
     file.attrs["scenario_sha256"] = sha256
+    if code:
+        file.attrs[schema.CODE] = code
     file.attrs["status"] = schema.PARTIAL
     file.attrs["message"] = schema.STATUS_NOTES[schema.PARTIAL]
     for library in LIBRARIES:

@@ -8,11 +8,15 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
+from tribodyn.errors import InputError
+from tribodyn.numerics.sources import computing_digest
 from tribodyn.numerics.variable import Variable
 
 FORMAT = "tribodyn-record"
 #: Attributes that every record's root has.
 HEAD = ("created", "message", "scenario", "scenario_sha256", "status", "tribodyn_version")
+#: Attribute of records that a later call may go on with: digest of the code that computes.
+CODE = "code_sha256"
 #: Raised when a reader of the previous version would misread the file.
 FORMAT_VERSION = 1
 
@@ -30,6 +34,13 @@ def require_head(attributes: Mapping[str, Any]) -> None:
         _ = attributes[name]
     if attributes["status"] not in (PARTIAL, COMPLETE, FAILED):
         raise ValueError(f"unknown status {attributes['status']}")
+
+
+def require_same_code(attributes: Mapping[str, Any], left: Path) -> None:
+    """Raise InputError where other code computed what an unfinished call left."""
+    if attributes.get(CODE) != computing_digest():
+        rule = "computed by other code (tribodyn, or a package with laws, has changed since)"
+        raise InputError("--resume", str(left), rule, "move it away, or --force to begin anew")
 
 
 TIME = Variable(("time",), "s", "time")

@@ -16,9 +16,18 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.numerics.cache import replacing
 from tribodyn.numerics.output_files import unwritable
+from tribodyn.numerics.sources import computing_digest
 from tribodyn.numerics.variable import Variable
 from tribodyn.record import disk, layout, sweep_schema
-from tribodyn.record.schema import COMPLETE, FAILED, FORMAT, PARTIAL, STATUS_NOTES, partial_path
+from tribodyn.record.schema import (
+    COMPLETE,
+    FAILED,
+    FORMAT,
+    PARTIAL,
+    STATUS_NOTES,
+    partial_path,
+    require_same_code,
+)
 from tribodyn.record.soundness import UNREADABLE, check_sound, remember_own
 from tribodyn.record.sweep_schema import SWEEP, SweepLayout
 from tribodyn.record.withheld import cases_withheld
@@ -202,7 +211,7 @@ def _lay_out(head: SweepHead) -> layout.LaidOut:
     """Lay out the whole file, every case waiting."""
     content = disk.Layered()
     with h5py.File(content, "w", libver=disk.LIBVER) as file:
-        layout.write_head(file, SWEEP, head.scenario, head.sha256, datetime.now(UTC))
+        layout.write_head(file, SWEEP, head.scenario, head.sha256, datetime.now(UTC), computing_digest())
         file.attrs["message"] = NOTE
         file.attrs["sweep"] = head.settings
         for name, value in head.layout.attributes.items():
@@ -275,6 +284,7 @@ def _places_of(path: Path, head: SweepHead) -> dict[str, layout.Place]:
                 raise InputError("--resume", str(path), "made from another scenario", other)
             if file.attrs["sweep"] != head.settings:
                 raise InputError("--resume", str(path), "made with other axes or settings", other)
+            require_same_code(file.attrs, path)
             if np.max(file["status"][...], initial=0) > max(sweep_schema.CaseStatus):  # pyright: ignore
                 raise ValueError("a case has no known status")
             return {name: _found(file[name], name, head) for name in head.layout.variables}

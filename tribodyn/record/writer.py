@@ -115,6 +115,8 @@ class RecordWriter:
         Values along the axes that the run does not go on along, by name.
     force : bool
         Replace an existing record, and the remains of an unfinished run.
+    code : str
+        See `schema.CODE`.
 
     Raises
     ------
@@ -134,6 +136,7 @@ class RecordWriter:
         groups: Mapping[str, Mapping[str, Any]] = MappingProxyType({}),
         scales: Mapping[str, Any] = MappingProxyType({}),
         force: bool = False,
+        code: str = "",
     ) -> None:
         self.path = Path(path)
         self.partial = partial_path(self.path)
@@ -144,7 +147,7 @@ class RecordWriter:
         self._variables = {**layout.along, **layout.others}
         copied = {name: dict(arrays) for name, arrays in groups.items()}
         self._head = file_layout.Head(
-            kind, layout, scenario_toml, sha256, datetime.now(UTC), copied, dict(scales)
+            kind, layout, scenario_toml, sha256, datetime.now(UTC), copied, dict(scales), code
         )
         check_target(self.path, force)
         self._lock: WritingLock | None = None

@@ -32,6 +32,7 @@ def writer(
     groups: Mapping[str, Mapping[str, Any]] = MappingProxyType({}),
     scales: Mapping[str, Any] = MappingProxyType({}),
     force: bool = False,
+    code: str = "",
 ) -> RecordWriter:
     """The writer of a case's record; arguments as those of `RecordWriter`."""
     return RecordWriter(
@@ -44,4 +45,5 @@ def writer(
         groups=groups,
         scales=scales,
         force=force,
+        code=code,
     )

@@ -1,9 +1,15 @@
-"""Runs the tasks of all studies that take part in an assessment; what is there is not done again."""
+"""Runs the tasks of all studies that take part in an assessment; what is there is not done again.
+
+Beside every part lies a file that says what it is of: the digest of its scenario and of the code that
+computed it, and that of the part itself. A part of another scenario or of other code is computed again; one
+that is not what was written is refused.
+"""
 
 import hashlib
 import json
 import tomllib
 from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -11,11 +17,11 @@ from typing import Any, NamedTuple
 import numpy as np
 import tomli_w
 
-from tribodyn import __version__
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.families import family
 from tribodyn.numerics.cache import replacing
+from tribodyn.numerics.sources import computing_digest
 from tribodyn.numerics.work import announce
 from tribodyn.record.reader import open_record
 from tribodyn.record.schema import COMPLETE
@@ -92,18 +98,25 @@ def folder_of(record: Path) -> Path:
     return record.with_name(f"{record.stem}-parts")
 
 
-def results(all_parts: tuple[Part, ...], folder: Path, progress: Progress | None = None) -> dict[str, Done]:
+def results(
+    all_parts: tuple[Part, ...], folder: Path, progress: Progress | None = None, *, force: bool = False
+) -> dict[str, Done]:
     """Run every task, or take up what an earlier call left; results by name of the task.
 
     Raises
     ------
     InputError, SimulationError
-        If a task that is needed cannot be run.
+        If a task that is needed cannot be run; before any work where a part was changed since it was written,
+        unless `force` is given: then it is computed again.
     """
     every = [(part.study, task) for part in all_parts for task in part.tasks]
     for _, task in every:  # whatever is wrong is said before any work
         if task.needed:
-            case_of(task, {task.key: task.values[0]} if task.values else {})
+            _first(task)
+    for _, task in every:
+        if force and _changed(task, folder) and _file(task, folder).is_file():
+            _file(task, folder).unlink()
+        _require_unchanged(task, folder)
     folder.mkdir(parents=True, exist_ok=True)
     report = progress or (lambda _share: None)
     done: dict[str, Done] = {}
@@ -121,10 +134,17 @@ def results(all_parts: tuple[Part, ...], folder: Path, progress: Progress | None
 
 
 def kept(all_parts: tuple[Part, ...], folder: Path) -> dict[str, Done] | None:
-    """Results that an earlier call left, as `results` gives them; None where a needed one is missing."""
+    """Results that an earlier call left, as `results` gives them; None where a needed one is missing.
+
+    Raises
+    ------
+    InputError
+        If a part was changed since it was written.
+    """
     done: dict[str, Done] = {}
     for part in all_parts:
         for task in part.tasks:
+            _require_unchanged(task, folder)
             found = _kept_rows(task, folder) if task.values else _kept_run(task, folder)
             if found is None and task.needed:
                 return None
@@ -144,44 +164,96 @@ def _run(study: Study, task: Task, folder: Path) -> Done:
     found = _kept_run(task, folder)
     if found is not None:
         return found
-    path = folder / f"{task.name}.h5"
-    result = study.run(case_of(task), path, force=True, allow_large=True)  # the whole was asked for
-    if result.status != COMPLETE:
-        raise SimulationError(f"{task.about}: {result.message}")
+    path = _file(task, folder)
+    with _sealing(task, folder):
+        result = study.run(case_of(task), path, force=True, allow_large=True)  # the whole was asked for
+        if result.status != COMPLETE:
+            raise SimulationError(f"{task.about}: {result.message}")
     with open_record(path) as record:
         return Done(path, record.summary)
 
 
 def _kept_run(task: Task, folder: Path) -> Done | None:
-    """A complete record of the same scenario by this version; None: there is none."""
-    path = folder / f"{task.name}.h5"
-    if not path.exists():
+    """A record of the same scenario by the same code; None: there is none."""
+    if not _is_current(task, folder):
         return None
-    try:
-        with open_record(path) as record:
-            made = record.attrs["scenario_sha256"], record.attrs["tribodyn_version"]
-            same = made == (case_of(task).sha256, __version__) and record.status == COMPLETE
-            return Done(path, record.summary) if same else None
-    except InputError:  # damaged: it is written anew
-        return None
+    with open_record(_file(task, folder)) as record:
+        return Done(_file(task, folder), record.summary)
 
 
 def _kept_rows(task: Task, folder: Path) -> Done | None:
-    """Rows of the same cases by this version; None: there are none."""
-    path = folder / f"{task.name}.json"
-    try:
-        data = json.loads(path.read_text(encoding="utf-8"))
-        if data["sha256"] != _digest(task):
-            return None
-        rows = {name: np.array(row, dtype=float) for name, row in data["figures"].items()}
-        return Done(path, rows=rows, failures=tuple(data["failures"]))
-    except (OSError, ValueError, LookupError, TypeError, AttributeError):
+    """Rows of the same cases by the same code; None: there are none."""
+    if not _is_current(task, folder):
         return None
+    path = _file(task, folder)
+    data = json.loads(path.read_text(encoding="utf-8"))
+    rows = {name: np.array(row, dtype=float) for name, row in data["figures"].items()}
+    return Done(path, rows=rows, failures=tuple(data["failures"]))
 
 
-def _digest(task: Task) -> str:
-    asked = [dict(task.scenario), task.key, list(task.values), __version__]
-    return hashlib.sha256(json.dumps(asked, sort_keys=True).encode()).hexdigest()
+def _first(task: Task) -> Any:
+    """The case of a task, or the first of its cases."""
+    return case_of(task, {task.key: task.values[0]} if task.values else {})
+
+
+def _file(task: Task, folder: Path) -> Path:
+    return folder / f"{task.name}.{'json' if task.values else 'h5'}"
+
+
+def _seal(task: Task, folder: Path) -> Path:
+    return folder / f"{task.name}.origin"
+
+
+def _origin(task: Task) -> str:
+    """Digest of everything that the part of a task depends on."""
+    asked = [_first(task).sha256, task.key, list(task.values), computing_digest()]
+    return hashlib.sha256(json.dumps(asked).encode()).hexdigest()
+
+
+@contextmanager
+def _sealing(task: Task, folder: Path) -> Iterator[None]:
+    """Write down what a part is of as soon as it is there; until then nothing is taken for it."""
+    _seal(task, folder).unlink(missing_ok=True)
+    yield
+    written = _digest(_file(task, folder))
+    with replacing(_seal(task, folder)) as scratch:
+        scratch.write_text(f"{_origin(task)} {written}\n", encoding="ascii")
+
+
+def _sealed(task: Task, folder: Path) -> tuple[str, str] | None:
+    """Origin and digest of a part as it was written; None where nothing was, or the seal is damaged."""
+    with suppress(OSError, ValueError):
+        origin, written = _seal(task, folder).read_text(encoding="ascii").split()
+        return origin, written
+    return None
+
+
+def _is_current(task: Task, folder: Path) -> bool:
+    sealed = _sealed(task, folder)
+    return sealed is not None and _file(task, folder).exists() and sealed[0] == _origin(task)
+
+
+def _changed(task: Task, folder: Path) -> bool:
+    """Whether a part is not what was written."""
+    sealed, path = _sealed(task, folder), _file(task, folder)
+    if sealed is None or not path.exists():
+        return False
+    return not path.is_file() or _digest(path) != sealed[1]
+
+
+def _digest(path: Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def _require_unchanged(task: Task, folder: Path) -> None:
+    if _changed(task, folder):
+        raise InputError(
+            "part",
+            str(_file(task, folder)),
+            "was changed since the assessment wrote it",
+            "remove it, or assess with --force, which computes it again",
+        )
 
 
 def _varied(study: Study, task: Task, folder: Path) -> Done:
@@ -197,10 +269,9 @@ def _varied(study: Study, task: Task, folder: Path) -> Done:
         "values": list(task.values),
         "figures": {name: [one if np.isfinite(one) else None for one in row] for name, row in rows.items()},
         "failures": failures,
-        "sha256": _digest(task),
     }
-    path = folder / f"{task.name}.json"
-    with replacing(path) as scratch:
+    path = _file(task, folder)
+    with _sealing(task, folder), replacing(path) as scratch:
         scratch.write_text(json.dumps(data, indent=1), encoding="utf-8")
     return Done(path, rows={name: np.array(row) for name, row in rows.items()}, failures=tuple(failures))
 

@@ -49,11 +49,12 @@ def run(
 ) -> RunResult:
     """Run a case and write its record; see `study.Study.run`.
 
-    The parts lie in a folder beside the record and are not run again where their scenarios are the same.
+    The parts lie in a folder beside the record and are not run again where their scenarios and the code are
+    the same.
     """
     path = target(case, output, force)
     try:
-        local, summary = assessed(case, parts.folder_of(path), progress)
+        local, summary = assessed(case, parts.folder_of(path), progress, force)
     except SimulationError as error:
         return _failed(case, path, str(error), force)
     except KeyboardInterrupt as error:
@@ -74,20 +75,20 @@ def figures(case: AssessmentCase) -> dict[str, Any]:
 
 
 def assessed(
-    case: AssessmentCase, folder: Path, progress: Progress | None = None
+    case: AssessmentCase, folder: Path, progress: Progress | None = None, force: bool = False
 ) -> tuple[Local, dict[str, Any]]:
     """Run the parts into a folder and put them together: values along the path, and the summary.
 
     Raises
     ------
     InputError, SimulationError
-        If a part that is needed cannot be run.
+        If a part that is needed cannot be run; see also `parts.results`.
     """
     begun = perf_counter()
     assembly = prepare(case)
     asked = parts.asked_of(case)
     taking_part = parts.parts(asked)
-    done = parts.results(taking_part, folder, progress)
+    done = parts.results(taking_part, folder, progress, force=force)
     found_there: dict[str, Any] = {}
     along: dict[str, Any] = {}
     spread: dict[str, dict[str, float]] = {}

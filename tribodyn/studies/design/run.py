@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 
 from tribodyn.errors import InputError, SimulationError
+from tribodyn.numerics.sources import computing_digest
 from tribodyn.record.reader import open_record
-from tribodyn.record.schema import partial_path
+from tribodyn.record.schema import partial_path, require_same_code
 from tribodyn.record.writer import RecordWriter, check_target
 from tribodyn.studies.design.archive import Archive, Evaluation, SpentError
 from tribodyn.studies.design.candidates import cases_of, chosen, share_of, start_of
@@ -64,7 +65,8 @@ def run(
         archive = Archive(case, judge, pool, lambda one: keep(one), left.known)
         names, room = names_of(case, judge.start), case.search.evaluations + len(left.known)
         scales = scales_of(case, names)
-        record = stack.enter_context(writer(case, path, layout_of(case), room, scales=scales, force=force))
+        how: dict[str, Any] = {"scales": scales, "force": force, "code": computing_digest()}
+        record = stack.enter_context(writer(case, path, layout_of(case), room, **how))
         keep = _keeper(case, record, names, progress)
         if archive.recorded:
             record.write(0, rows_of(case, names, archive.recorded, 0))
@@ -148,6 +150,7 @@ def _left(case: DesignCase, path: Path) -> Left:
     with open_record(left) as record:
         if record.kind != case.kind or record.attrs["scenario_sha256"] != case.sha256:
             raise InputError("--resume", str(left), "made from another scenario", other)
+        require_same_code(record.attrs, left)
         return left_in(case, record)
 
 

@@ -3,7 +3,6 @@
 import json
 import math
 import re
-from contextlib import nullcontext
 from html import unescape
 from pathlib import Path
 from types import SimpleNamespace
@@ -453,7 +452,12 @@ def test_rows_are_taken_up_where_they_are_of_the_same_task(tmp_path: Path, monke
         runs.append(cases)
         return {"a": [1.5, math.nan], "b": [2.5, 3.5]}, ["lost"]
 
-    monkeypatch.setattr(parts, "case_of", lambda one, overrides: overrides)
+    class Overrides(dict):
+        """Stands for a case."""
+
+        sha256 = "own"
+
+    monkeypatch.setattr(parts, "case_of", lambda one, overrides: Overrides(overrides))
     monkeypatch.setattr(parts, "_figures", figures)
     study: Any = None
     for _ in range(2):
@@ -464,8 +468,6 @@ def test_rows_are_taken_up_where_they_are_of_the_same_task(tmp_path: Path, monke
     assert parts._kept_rows(task._replace(values=("1 rad/s",)), tmp_path) is None
     assert parts._kept_rows(task._replace(name="other"), tmp_path) is None
     assert parts._kept_run(task._replace(name="none"), tmp_path) is None
-    (tmp_path / "damaged.h5").write_bytes(b"no record")
-    assert parts._kept_run(task._replace(name="damaged"), tmp_path) is None
     data = json.loads((tmp_path / "speeds.json").read_text(encoding="utf-8"))
     assert data["figures"] == {"a": [1.5, None], "b": [2.5, 3.5]}
 
@@ -561,7 +563,7 @@ def test_what_is_put_together_of_the_parts(tmp_path: Path, monkeypatch: pytest.M
     }
     monkeypatch.setattr(parts, "asked_of", lambda _: "asked")
     monkeypatch.setattr(parts, "parts", lambda _: "parts")
-    monkeypatch.setattr(parts, "results", lambda *_: done)
+    monkeypatch.setattr(parts, "results", lambda *_, force: done)
     monkeypatch.setattr(parts, "answers", lambda *_: [("part", one), ("part", other)])
     case: Any = SimpleNamespace(pinion_speed=100.0, gear_torque=96.0, oil_temperature=353.0)
     found, summary = assessing.assessed(case, tmp_path)
@@ -630,22 +632,29 @@ def test_laws_beyond_their_range_are_said(monkeypatch: pytest.MonkeyPatch):
     assert said.extrapolated(taking, done)[0].endswith(f"{said.EXCEEDED} much.")
 
 
-@pytest.mark.parametrize(
-    ("sha256", "made_by", "status", "taken"),
-    [("own", "7.0", "complete", True), ("other", "7.0", "complete", False), ("own", "6.9", "complete", False),
-     ("own", "7.0", "partial", False)],
-)  # fmt: skip
-def test_a_run_is_taken_up_where_it_is_complete_and_of_this_version(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, sha256: str, made_by: str, status: str, taken: bool
-):
-    attrs = {"scenario_sha256": sha256, "tribodyn_version": made_by}
-    record = SimpleNamespace(attrs=attrs, status=status, summary={"a": 1})
+def test_a_part_without_a_sound_seal_is_computed_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """As those of earlier versions, and those of a process that was killed before it wrote the seal."""
+    monkeypatch.setattr(parts, "case_of", lambda task, overrides: SimpleNamespace(sha256="own"))
+    task = Task("one", "the first", {})
     (tmp_path / "one.h5").write_bytes(b"stands for a record")
-    monkeypatch.setattr(parts, "open_record", lambda path: nullcontext(record))
-    monkeypatch.setattr(parts, "case_of", lambda task: SimpleNamespace(sha256="own"))
-    monkeypatch.setattr(parts, "__version__", "7.0")
-    found = parts._kept_run(Task("one", "the first", {}), tmp_path)
-    assert found == (Done(tmp_path / "one.h5", {"a": 1}) if taken else None)
+    for seal in (None, b"", b"a b c", b"\xff\x00", b"one"):
+        if seal is not None:
+            (tmp_path / "one.origin").write_bytes(seal)
+        assert parts._kept_run(task, tmp_path) is None
+        parts._require_unchanged(task, tmp_path)
+    with pytest.raises(KeyboardInterrupt), parts._sealing(task, tmp_path):
+        raise KeyboardInterrupt
+    assert not (tmp_path / "one.origin").exists()
+    with parts._sealing(task, tmp_path):
+        (tmp_path / "one.h5").write_bytes(b"another")
+    parts._require_unchanged(task, tmp_path)
+    assert parts._is_current(task, tmp_path)
+    monkeypatch.setattr(parts, "case_of", lambda task, overrides: SimpleNamespace(sha256="other"))
+    assert not parts._is_current(task, tmp_path)
+    for changed in (b"anothes", b"", b"another\0"):
+        (tmp_path / "one.h5").write_bytes(changed)
+        with pytest.raises(InputError, match="was changed since"):
+            parts._require_unchanged(task, tmp_path)
 
 
 def test_a_page_is_put_together_of_its_pieces(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):

@@ -4,6 +4,7 @@ import json
 import math
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 from typer.testing import CliRunner
@@ -150,12 +151,15 @@ def test_a_stopped_call_goes_on_and_limits_are_judged(assessed: dict, folder: Pa
     parts = folder / "out" / "assessment-parts"
     before = {one.name: one.stat().st_mtime_ns for one in parts.iterdir()}
     (parts / "efficiency-niemann.h5").unlink()  # as if the call had been stopped before it
+    seal = parts / "efficiency-masjedi-khonsari.origin"  # as if other code had computed it
+    seal.write_text(seal.read_text().replace(seal.read_text().split()[0], "0" * 64))
     (folder / "out" / "assessment.h5").unlink()
     limits = {"dynamic_factor": 1.001, "hertz_pressure": "9 GPa", "micropitting": 1e-6}
     options = [word for name, value in limits.items() for word in ("--set", f"limits.{name}={value}")]
     again = assess(folder, *options)
     after = {one.name: one.stat().st_mtime_ns for one in parts.iterdir()}
-    assert {name for name in after if after[name] != before[name]} == {"efficiency-niemann.h5"}
+    renewed = {Path(name).stem for name in after if after[name] != before[name]}
+    assert renewed == {"efficiency-niemann", "efficiency-masjedi-khonsari"}
     assert again["iso"] == assessed["iso"]
     assert again["simulated"] == assessed["simulated"]
     kept = {name: one["kept"] for name, one in again["limits"].items()}
@@ -166,6 +170,29 @@ def test_a_stopped_call_goes_on_and_limits_are_judged(assessed: dict, folder: Pa
     assert "Limits exceeded: " in page
     assert '<tr class="bad"><td>Dynamic factor' in page
     assert "<tr><td>Hertz pressure" in page
+
+
+def test_a_part_that_was_changed_by_hand_is_refused_and_force_renews_it(assessed: dict, folder: Path):
+    parts = folder / "out" / "assessment-parts"
+    (folder / "out" / "assessment.h5").unlink()
+    with h5py.File(parts / "efficiency-niemann.h5", "r+") as file:
+        file["summary"].attrs["power_friction_mean"] = 0.0
+    cut = parts / "efficiency-masjedi-khonsari.h5"
+    cut.write_bytes(cut.read_bytes()[:5000])
+    rows = min(parts.glob("*.json"))
+    figures = json.loads(rows.read_text(encoding="utf-8"))["figures"]
+    name, values = next((name, row) for name, row in figures.items() if None not in row and any(row))
+    text = rows.read_text(encoding="utf-8")
+    rows.write_text(text.replace(repr(values[0]), repr(100.0 * values[0])), encoding="utf-8")
+    assert rows.read_text(encoding="utf-8") != text
+    said = invoked("assess", written_template(KIND, folder), *settings(), "-o", folder / "out", status=2)
+    assert len(said.splitlines()) == 1
+    assert "was changed since" in said
+    assert rows.name in said
+    assert "--force" in said
+    again = assess(folder, "--force")
+    assert again["simulated"] == assessed["simulated"]
+    assert json.loads(rows.read_text(encoding="utf-8"))["figures"][name] == values
 
 
 def test_a_change_runs_only_what_it_concerns(assessed: dict, folder: Path):

@@ -1,9 +1,11 @@
 """Runs of searches: the record, the best file, what is kept and gone on from, what fails clearly."""
 
+import shutil
 import tomllib
 from pathlib import Path
 from typing import Any
 
+import h5py
 import pytest
 
 import tribodyn as td
@@ -93,6 +95,11 @@ def test_an_interrupted_search_keeps_its_best_and_goes_on(tmp_path: Path, monkey
         search(tmp_path / "stopped.h5")
     with pytest.raises(InputError, match="another scenario"):
         search(tmp_path / "stopped.h5", resume=True, seed=5)
+    shutil.copy(tmp_path / "stopped.partial.h5", tmp_path / "other.partial.h5")
+    with h5py.File(tmp_path / "other.partial.h5", "r+") as file:
+        file.attrs["code_sha256"] = "0" * 64
+    with pytest.raises(InputError, match="computed by other code"):
+        search(tmp_path / "other.h5", resume=True)
 
     evaluated.clear()
     gone_on = search(tmp_path / "stopped.h5", resume=True)
