@@ -119,9 +119,41 @@ def test_without_an_internal_kernels_run_all_the_same_and_say_so_once(tmp_path, 
     assert "RuntimeWarning" not in said["with"]
     assert said["without"].count("RuntimeWarning: numba") == 1
     assert "lacks numba.core.codegen.JITCodeLibrary" in said["without"]
-    assert not any(path.is_file() for path in (tmp_path / "empty").rglob("*"))
+    assert not any(path.is_file() for path in (tmp_path / "empty").glob("kernels-*/*"))
     usual, plain = (np.load(tmp_path / f"{how}.npz") for how in ("with", "without"))
     scale = np.abs(usual["single"]).max(axis=0) + 1e-300
     assert np.max(np.abs(plain["single"] - usual["single"]) / scale) < 1e-10
     if "batch" in plain:  # one case of it is then what a single run is
         np.testing.assert_array_equal(plain["batch"], plain["single"])
+
+
+SETTINGS = {
+    "NUMBA_DISABLE_JIT": "NUMBA_DISABLE_JIT = 1: switches off the compiler by which kernels are made; "
+    "unset it",
+    "NUMBA_NUM_THREADS": "NUMBA_NUM_THREADS = 0: numba cannot be imported with it; "
+    "unset it, or set it to 1 or more",
+}
+SET = """
+import sys
+import tribodyn as td
+from tribodyn.cli import main
+try:
+    td.run("crc-23-47", {"solver.cycles": 2}, output="python.h5")
+except td.InputError as error:
+    print(error, file=sys.stderr)
+sys.argv = ["tribodyn", "run", "crc-23-47", "--no-plot"]
+main()
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", SETTINGS)
+def test_a_variable_under_which_nothing_is_compiled_is_one_line(name, tmp_path, monkeypatch):
+    """From Python and on the command line, a second time too."""
+    monkeypatch.setenv("TRIBODYN_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setenv(name, SETTINGS[name].split(":")[0][-1])
+    ended = subprocess.run(
+        [sys.executable, "-c", SET], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    assert ended.stderr.splitlines() == [SETTINGS[name]] * 2
+    assert ended.returncode == 2

@@ -6,6 +6,7 @@ Where something is missing, kernels are compiled by `plain`, and batches run cas
 """
 
 import inspect
+import os
 import sys
 import warnings
 from functools import cache
@@ -13,6 +14,7 @@ from importlib import import_module
 from typing import Any, NamedTuple
 
 import tribodyn
+from tribodyn.errors import InputError
 
 TYPE_NAMES = (
     "Array",
@@ -110,8 +112,14 @@ INTERNALS = (
 
 @cache
 def missing() -> tuple[str, ...]:
-    """What this numba lacks of the internals, in words; empty where all are there. Imports numba."""
-    _load_numba_without_blas()
+    """What this numba lacks of the internals, in words; empty where all are there. Imports numba.
+
+    Raises
+    ------
+    InputError
+        Where a variable of the environment keeps numba from compiling.
+    """
+    _refuse_settings()
     lacking: list[str] = []
     for internal in INTERNALS:
         name = f"{internal.module}.{internal.name}"
@@ -125,6 +133,22 @@ def missing() -> tuple[str, ...]:
             lacking.append(f"{name} with the parameters {', '.join(internal.parameters)}")
         lacking += [f"{name}.{member}" for member in internal.members if not _has(there, member)]
     return tuple(lacking)
+
+
+def _refuse_settings() -> None:
+    """Import numba as the environment sets it, and refuse what nothing can be compiled with."""
+    try:
+        _load_numba_without_blas()
+        numba = import_module("numba")
+    except ValueError as error:
+        name = "NUMBA_NUM_THREADS"
+        if name not in os.environ:
+            raise
+        remedy = "unset it, or set it to 1 or more"
+        raise InputError(name, os.environ[name], "numba cannot be imported with it", remedy) from error
+    if numba.config.DISABLE_JIT:
+        rule = "switches off the compiler by which kernels are made"
+        raise InputError("NUMBA_DISABLE_JIT", os.environ.get("NUMBA_DISABLE_JIT"), rule, "unset it")
 
 
 def _load_numba_without_blas() -> None:
