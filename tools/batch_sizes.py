@@ -1,7 +1,7 @@
-"""Throughput of batches by their size, from 64 to a million cases, and what share of the processor it is.
+"""Throughput of batches by their size, from 64 to a million cases.
 
-python tools/batch_sizes.py --into docs/measurements.md      # lanes, and diffrax up to DIFFRAX_UP_TO cases
-python tools/batch_sizes.py --engine jax --width 16384      # on a GPU: whatever device JAX has
+python -m tools.batch_sizes --into docs/measurements.md      # lanes, and the others up to FEW cases
+python -m tools.batch_sizes --engine jax --width 16384      # on a GPU: whatever device JAX has
 
 The CRC drive at speeds from 100 to 600 rad/s in no order, at the tolerances of `bench_peers` for an error of
 2e-5. Counted is the march of models that are there; large batches are done in parts, as the page on batches
@@ -21,24 +21,24 @@ from tools.bench_peers import problem
 from tools.machine import measured_on
 from tools.marked_block import put
 from tribodyn.dynamics.parameters import XI
-from tribodyn.solve import jax_ensemble
+from tribodyn.solve import ensemble, jax_ensemble
 from tribodyn.solve.ensemble import march
 
 SIZES = (64, 256, 1024, 10_000, 100_000, 1_000_000)
-DIFFRAX_UP_TO = 1024
+#: Largest batch of the slower engines where several are measured.
+FEW = 1024
 #: Cases at a time: their models are Python objects of some kB each.
 PART = 2**15
 #: Mesh cycles of a case by the size of the batch, and samples in the last of them.
 CYCLES = {
     "native": {256: 40, 1024: 20, 10_000: 10, 100_000: 3, 1_000_000: 1},
+    "threads": {256: 40, 1_000_000: 10},
     "jax": {1_000_000: 4},
 }
 REPEATS = 5
 SAMPLES = 16
 #: Method and tolerance that bring the error to 2e-5 of the range, see the table of `bench_peers`.
-ENGINES = {"native": ("dopri5", 3e-5), "jax": ("tsit5", 3e-6)}
-#: Operations of one evaluation, and what a core does in a nanosecond: "Against what the processor can do".
-OPERATIONS, A_NANOSECOND = 1500, 40
+ENGINES = {"native": ("dopri5", 3e-5), "threads": ("dopri5", 3e-5), "jax": ("tsit5", 3e-6)}
 
 
 class Measured(NamedTuple):
@@ -53,13 +53,13 @@ class Measured(NamedTuple):
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("--into", type=Path, help="page whose marked block `sizes` receives the table")
-    parser.add_argument("--engine", choices=(*ENGINES, "both"), default="both")
+    parser.add_argument("--engine", choices=(*ENGINES, "all"), default="all")
     parser.add_argument("--sizes", type=int, nargs="+", default=SIZES)
     parser.add_argument("--width", type=int, help="cases that JAX takes side by side, see `jax_ensemble`")
     chosen = parser.parse_args()
     if chosen.width:
         jax_ensemble.WIDTH = jax_ensemble.WIDTH_ON_CPU = chosen.width
-    text = table([one for one in ENGINES if chosen.engine in (one, "both")], sorted(chosen.sizes))
+    text = table([one for one in ENGINES if chosen.engine in (one, "all")], sorted(chosen.sizes))
     print(f"\n{text}\n")
     if chosen.into:
         put(chosen.into, "sizes", text)
@@ -69,12 +69,12 @@ def table(engines: list[str], sizes: list[int]) -> str:
     """Table of the page."""
     rows = [
         "| engine | cases | cycles | cycles × cases per second | per second of one core "
-        "| ns per evaluation | of the roofline | peak memory |",
-        "|---|--:|--:|--:|--:|--:|--:|--:|",
+        "| ns per evaluation | peak memory |",
+        "|---|--:|--:|--:|--:|--:|--:|",
     ]
     for engine in engines:
         for cases in sizes:
-            if engine == "jax" and len(engines) > 1 and cases > DIFFRAX_UP_TO:
+            if engine != "native" and len(engines) > 1 and cases > FEW:
                 continue
             cycles = next(n for size, n in CYCLES[engine].items() if cases <= size)
             one = measured(engine, cases, cycles, REPEATS if cases <= 1024 else 1)
@@ -83,7 +83,7 @@ def table(engines: list[str], sizes: list[int]) -> str:
             rows.append(
                 f"| {_name(engine)} | {cases} | {cycles} | {cases * cycles / one.wall:.3g} "
                 f"| {cases * cycles / one.processor:.3g} | {each:.3g} "
-                f"| {OPERATIONS / A_NANOSECOND / each:.1%} | {memory:.0f} MiB |"
+                f"| {memory:.0f} MiB |"
             )
             print(rows[-1], f"{one.failed} failed" if one.failed else "", file=sys.stderr, flush=True)
     return "\n".join([*rows, "", f"{measured_on()}; up to 1024 cases medians of {REPEATS}."])
@@ -104,7 +104,11 @@ def measured(engine: str, cases: int, cycles: int, repeats: int) -> Measured:
         ]
         states = np.tile(posed.state, (len(models), 1))
         begun = perf_counter(), process_time()
-        result = march(models, states, cycles=cycles, window=1, samples=SAMPLES, rtol=rtol, method=method)
+        if engine == "threads":
+            settings = ensemble.March(0, cycles, 1, SAMPLES, False, rtol, 10**6)
+            result = ensemble.one_by_one(models, states, method, settings, ensemble.usable_cores())
+        else:
+            result = march(models, states, cycles=cycles, window=1, samples=SAMPLES, rtol=rtol, method=method)
         spent = perf_counter() - begun[0], process_time() - begun[1]
         swing[first : first + PART] = np.ptp(result.samples[..., XI], axis=1)
         return Measured(*spent, float(np.sum(result.evaluations)), int(np.sum(result.status != 0)))
@@ -115,8 +119,8 @@ def measured(engine: str, cases: int, cycles: int, repeats: int) -> Measured:
 
 
 def _name(engine: str) -> str:
-    if engine == "native":
-        return "lanes"
+    if engine != "jax":
+        return {"native": "lanes", "threads": "one case per thread"}[engine]
     import jax
 
     return f"diffrax, {jax.devices()[0].device_kind}"

@@ -9,43 +9,19 @@ share caches: by up to 1.3 here. By the clock, where both cores are free, it tak
 is printed, not asserted.
 """
 
-import os
-import subprocess
-import sys
-from time import perf_counter
-
 import pytest
 
+from tools.time_from_start import RUN, least, times_of
+
 pytestmark = pytest.mark.bench
-
-PICTURE = [sys.executable, "-m", "tribodyn", "run", "crc-23-47", "--force"]
-RUN = [*PICTURE, "--no-plot"]
-LIBRARIES = [sys.executable, "-c", "import numpy, h5py, pydantic"]
-LOOP = [sys.executable, "-c", "x = 0\nfor i in range(10_000_000):\n    x += i"]
-
-
-def times_of(command, folder, **variables):
-    """Seconds of processor time and by the clock of a command, with Python's bytecode kept as usual."""
-    environment = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
-    before, begun = os.times(), perf_counter()
-    subprocess.run(command, cwd=folder, env=environment | variables, check=True, stdout=subprocess.DEVNULL)
-    after, ended = os.times(), perf_counter()
-    processor = after.children_user + after.children_system - before.children_user - before.children_system
-    return processor, ended - begun
 
 
 @pytest.fixture(scope="module")
 def figures(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("runs")
-    others = {"run": RUN, "picture": PICTURE, "libraries": LIBRARIES, "loop": LOOP}
-    times = {name: [] for name in others}
-    for _ in range(2):
-        for name, command in others.items():
-            times[name].append(times_of(command, folder))
-    least = {name: [min(one) for one in zip(*values, strict=True)] for name, values in times.items()}
+    times = least(tmp_path_factory.mktemp("runs"), 2)
     return {
-        **{name: time for name, (time, _) in least.items()},
-        **{f"{name} by the clock": time for name, (_, time) in least.items()},
+        **{name: time for name, (time, _) in times.items()},
+        **{f"{name} by the clock": time for name, (_, time) in times.items()},
     }
 
 
