@@ -55,3 +55,50 @@ def test_the_first_run_compiles_in_the_time_of_twenty_loops(figures, tmp_path, c
     with capsys.disabled():
         print(f"\ntribodyn run, the first: {first:.1f} s of processor time, {ratio:.1f} times 10^7 additions")
     assert ratio < 20.0
+
+
+#: Kind or verb -> the same work by the command line and from Python.
+TWICE = {
+    "gear-pair": (["run", "crc-23-47"], "run('crc-23-47')"),
+    "finite elements": (["run", "involute-18-36-fem"], "run('involute-18-36-fem')"),
+    "efficiency": (["run", "efficiency-involute-18-36"], "run('efficiency-involute-18-36')"),
+    "load-contact": (["run", "load-contact-misaligned"], "run('load-contact-misaligned')"),
+    "ehl": (
+        ["run", "ehl-involute-23-47", "--set", "output.positions=8"],
+        "run('ehl-involute-23-47', {'output.positions': 8})",
+    ),
+    "irefc": (["run", "irefc"], "run('irefc')"),
+    "backlash-oscillator": (["run", "backlash-oscillator"], "run('backlash-oscillator')"),
+    "design": (
+        ["run", "design-shift-23-47", "--set", "design.evaluations=12"],
+        "design('design-shift-23-47', evaluations=12)",
+    ),
+    "sweep": (
+        ["sweep", "crc-23-47", "--vary", "operating.pinion_speed=100:400:50rad/s"],
+        "sweep('crc-23-47', {'operating.pinion_speed': '100:400:50rad/s'})",
+    ),
+    "judge": (["judge", "involute-18-36", "--positions", "6"], "judge('involute-18-36', positions=6)"),
+    "validate": (["validate", "efremenkov-2024"], "validate('efremenkov-2024')"),
+}
+
+
+@pytest.mark.parametrize("kind", TWICE)
+def test_python_takes_as_long_as_the_command_line(kind, tmp_path, capsys, monkeypatch):
+    """With all threads of BLAS, as a program has them; processor time, in turn until both were calm."""
+    monkeypatch.delenv("OPENBLAS_NUM_THREADS", raising=False)
+    words, call = TWICE[kind]
+    quiet = {"run": ["--no-plot", "--force"], "sweep": ["--no-plot", "--force"]}.get(words[0], [])
+    commands = {
+        "command": [sys.executable, "-m", "tribodyn", *words, *quiet],
+        "Python": [sys.executable, "-c", f"import tribodyn as td; td.{call}"],
+    }
+    best, ratio = dict.fromkeys(commands, float("inf")), float("inf")
+    for turn in range(12):
+        for name, command in commands.items():
+            best[name] = min(best[name], times_of(command, tmp_path)[0])
+        ratio = best["Python"] / best["command"]
+        if turn >= 2 and ratio < 1.1:
+            break
+    with capsys.disabled():
+        print(f"\n{kind}: Python takes {ratio:.2f} of the command line's {best['command']:.2f} s")
+    assert ratio < 1.1

@@ -30,7 +30,7 @@ def _main() -> None:
     sys.path[:] = safe_path()
     # start-up makes objects that stay: to look through them for cycles would be a tenth of its time
     gc.set_threshold(300_000)
-    # the load contact model solves many small systems: a BLAS's threads spin over them for ten times the work
+    # the library keeps small systems to one thread of BLAS: the others need not be begun
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     # pydantic would look through all that is installed for plugins of its own
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")

@@ -14,6 +14,7 @@ import numpy as np
 from tribodyn.compliance.gear_compliance import FreeEnds, GearCompliance, LeadHarmonics
 from tribodyn.compliance.lead_harmonics import LARGEST_AT_ENDS, wave_numbers
 from tribodyn.geometry.tooth import Tooth, tooth_outline
+from tribodyn.numerics.blas_threads import one_blas_thread
 from tribodyn.numerics.cache import arrays_kept_or_made
 from tribodyn.numerics.sources import digest_of
 from tribodyn.numerics.work import part
@@ -70,19 +71,22 @@ def cached_gear_compliance(
 def _plane(*arguments: Any) -> GearCompliance:
     from tribodyn.compliance import fem
 
-    return fem.gear_compliance(*arguments)
+    with one_blas_thread():
+        return fem.gear_compliance(*arguments)
 
 
 def _lead(*arguments: Any) -> LeadHarmonics:
     from tribodyn.compliance import fem
 
-    return fem.lead_harmonics(*arguments)
+    with one_blas_thread():
+        return fem.lead_harmonics(*arguments)
 
 
 def _ends(*arguments: Any) -> FreeEnds:
     from tribodyn.compliance.free_ends import free_ends
 
-    return free_ends(*arguments)
+    with one_blas_thread():
+        return free_ends(*arguments)
 
 
 def _kept(kind: type[Kept], name: str, solve: Callable[[], Kept]) -> Kept:

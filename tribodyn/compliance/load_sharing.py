@@ -25,6 +25,7 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.corner_contact import pair_geometry, part_of
 from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.geometry.pitch_point import averaged_radius, pitch_point
+from tribodyn.numerics.blas_threads import one_blas_thread
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.numerics.work import steps
 
@@ -137,6 +138,7 @@ def half_width(
     return hertz_half_width(line_load, 1.0 / radius, *flexible.materials)
 
 
+@one_blas_thread()
 def share_load(
     flexible: PairFlexibility,
     roll: Float[Array, "position pair"],

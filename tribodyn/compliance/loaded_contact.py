@@ -17,6 +17,7 @@ from tribodyn.compliance.pair_flexibility import PairFlexibility
 from tribodyn.compliance.slices import face_positions
 from tribodyn.geometry.corner_contact import PairGeometry, pair_geometry, roll_at_gap
 from tribodyn.geometry.modification import Modifications
+from tribodyn.numerics.blas_threads import one_blas_thread
 from tribodyn.numerics.shapes import Array, Float, Int
 
 #: Corners are followed to a gap of this many deflections of a single pair.
@@ -78,6 +79,7 @@ class LoadedContact(NamedTuple):
         return float(np.ptp(self.deflection))
 
 
+@one_blas_thread()
 def roll_through(
     flexible: PairFlexibility,
     modifications: Modifications,

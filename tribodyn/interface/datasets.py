@@ -1,16 +1,20 @@
 """Records as xarray datasets, with units and names as they stand in the record."""
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 
+if TYPE_CHECKING:
+    from xarray import Dataset
 
-def of_run(record: Record) -> xr.Dataset:
+
+def of_run(record: Record) -> "Dataset":
     """All datasets along a record's axis, which is their first dimension, in SI units."""
+    from xarray import Dataset  # with pandas half the start of a program that only runs
+
     variables, coordinates = {}, {}
     for name in record:
         variables[name] = _variable(record, name, record.dims_of(name))
@@ -18,11 +22,13 @@ def of_run(record: Record) -> xr.Dataset:
         if name in record:
             coordinates[name] = _variable(record, name, (name,))
     data = {name: one for name, one in variables.items() if name not in coordinates}
-    return xr.Dataset(data, coordinates, _named(record))
+    return Dataset(data, coordinates, _named(record))
 
 
-def of_sweep(record: SweepRecord) -> xr.Dataset:
+def of_sweep(record: SweepRecord) -> "Dataset":
     """All figures of a sweep over its parameters, in SI units; NaN where a case is not done."""
+    from xarray import Dataset
+
     names = (*record, *(name for name in ("status", "message") if name not in set(record)))
     variables = {name: _variable(record, name, record.dims_of(name)) for name in names}
     coordinates: dict[str, Any] = {
@@ -31,7 +37,7 @@ def of_sweep(record: SweepRecord) -> xr.Dataset:
     if record.directions:
         coordinates["direction"] = ("direction", np.array(record.directions))
     data = {name: one for name, one in variables.items() if name not in coordinates}
-    return xr.Dataset(data, coordinates, _named(record))
+    return Dataset(data, coordinates, _named(record))
 
 
 def _named(record: Record | SweepRecord) -> dict[str, str]:

@@ -6,13 +6,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from tribodyn.post.figures.gears_in_mesh import GearsInMesh
 from tribodyn.record.reader import Record
 from tribodyn.studies.study import Study, TextTable
 
 if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
+
+    from tribodyn.post.figures.gears_in_mesh import GearsInMesh
 
 #: Of a small picture: inches per panel, and its resolution as a share of that of a file.
 SIZE, RESOLUTION = (3.6, 2.1), 0.45
@@ -114,7 +115,7 @@ def _short(value: Any) -> str:
     return f"{value:.4g}" if isinstance(value, float) else str(value)
 
 
-def picture_of_gears(mesh: GearsInMesh) -> str:
+def picture_of_gears(mesh: "GearsInMesh") -> str:
     """Draw the teeth in contact."""
     from tribodyn.post.figures.gears_in_mesh import draw_gears
 

@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import SimulationError
+from tribodyn.numerics.blas_threads import one_blas_thread
 from tribodyn.tribology.ehl import heat as heat_of
 from tribodyn.tribology.ehl import rheology as rheology_of
 from tribodyn.tribology.ehl.fluid import hot_log_viscosity, log_viscosity, relative_density
@@ -56,6 +57,7 @@ class CoupledSolution(NamedTuple):
         return np.mean(self.heat.layers, axis=1)
 
 
+@one_blas_thread()
 @np.errstate(over="ignore", divide="ignore", invalid="ignore")
 def solve_coupled(
     problem: LineContact,

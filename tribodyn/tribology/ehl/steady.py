@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import SimulationError
+from tribodyn.numerics.blas_threads import one_blas_thread
 from tribodyn.tribology.ehl.elasticity import HERTZ_LOAD
 from tribodyn.tribology.ehl.grid import STEP, Grid, film_width, made, placed
 from tribodyn.tribology.ehl.problem import LineContact, check
@@ -203,6 +204,7 @@ def solve_steady(
     return Solution(problem, reduced, grid, state, films, closure, steps, imbalance)
 
 
+@one_blas_thread()
 def converged(
     state: State,
     reduced: Reduced | RoughReduced,
