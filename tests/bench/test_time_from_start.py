@@ -9,6 +9,8 @@ share caches: by up to 1.3 here. By the clock, where both cores are free, it tak
 is printed, not asserted.
 """
 
+import sys
+
 import pytest
 
 from tools.time_from_start import RUN, least, times_of
