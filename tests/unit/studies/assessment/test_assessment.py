@@ -185,7 +185,7 @@ def test_a_part_that_was_changed_by_hand_is_refused_and_force_renews_it(assessed
     text = rows.read_text(encoding="utf-8")
     rows.write_text(text.replace(repr(values[0]), repr(100.0 * values[0])), encoding="utf-8")
     assert rows.read_text(encoding="utf-8") != text
-    said = invoked("assess", written_template(KIND, folder), *settings(), "-o", folder / "out", status=2)
+    said = invoked("assess", written_template(KIND, folder), *shortened(KIND), "-o", folder / "out", status=2)
     assert len(said.splitlines()) == 1
     assert "was changed since" in said
     assert rows.name in said
