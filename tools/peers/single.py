@@ -122,6 +122,8 @@ def cvode(problem: Problem, rtol: float) -> Array:
             function = _right_hand_side(model, work, float(cycle), segment)
             solver = CVODE(function, method="BDF", rtol=rtol, atol=atol, max_num_steps=10**6)
             solution = solver.solve(times, y)
+            if not solution.success:
+                raise RuntimeError(f"CVODE: {solution.message}")
             samples.append(solution.y[np.isin(times, at), 4])
             y = solution.y[-1].copy()
     return np.concatenate(samples)

@@ -9,14 +9,22 @@ from tribodyn.validation.rows import SHOWN, Row, counted
 
 
 class Comparison(list[Row]):
-    """Rows of a comparison with a paper; a notebook shows them as a table."""
+    """Rows of a comparison with a paper; a notebook shows them as a table.
+
+    Attributes
+    ----------
+    choices : str
+        The choices under which the rows are computed.
+    """
+
+    choices: str = ""
 
     def _repr_html_(self) -> str:
         from tribodyn.interface import shown
         from tribodyn.studies.study import TextTable
 
         rows = [[row.written(name) for name in SHOWN] for row in self]
-        return shown.block(shown.tables([TextTable(counted(self), SHOWN, rows)]))
+        return shown.block(shown.tables([TextTable(f"{self.choices}. {counted(self)}", SHOWN, rows)]))
 
 
 @in_python()
@@ -48,4 +56,6 @@ def validate(
     SimulationError
         If one of the runs fails.
     """
-    return Comparison(validation.validate(paper, progress, folder))
+    compared = Comparison(validation.validate(paper, progress, folder))
+    compared.choices = validation.CHOICES.get(paper, "")
+    return compared

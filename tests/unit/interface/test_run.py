@@ -161,7 +161,9 @@ def test_a_gear_pair_has_teeth_sheet_and_stiffness():
 def test_a_comparison_with_a_paper():
     rows = td.validate("efremenkov-2024")
     assert rows
-    assert {row.verdict for row in rows} <= {"pass", "fail", "reported"}
+    assert {row.verdict for row in rows} <= {"pass", "fail", "direction", "reported"}
     shown = rows._repr_html_()
+    assert rows.choices.startswith("as published")
+    assert rows.choices in shown.replace("&#x27;", "'")
     assert shown.count("<tr>") == len(rows) + 1
     assert f"{sum(row.verdict == 'pass' for row in rows)} pass" in shown
