@@ -138,7 +138,8 @@ def kept_or_made(
 
 def _remove_left(folder: str, name: str) -> None:
     """Remove what killed processes left of a file; whoever still writes it does without."""
-    for left in (trusted_folder(folder) or Path()).glob(f"{escape(name)}.*.tmp"):
+    trusted = trusted_folder(folder)
+    for left in trusted.glob(f"{escape(name)}.*.tmp") if trusted else ():
         with suppress(OSError):
             left.unlink()
 

@@ -8,8 +8,10 @@ has the version, never.
 """
 
 import hashlib
+import os
 import re
 import sys
+import time
 from functools import cache
 from glob import glob
 from importlib.util import find_spec
@@ -17,6 +19,8 @@ from pathlib import Path
 
 _OWN = __name__.partition(".")[0]
 _ROOT = Path(__file__).parents[1]
+#: When this process began to load the package, s since the epoch.
+_BEGUN = time.time()
 #: Folders and files of this package that no result comes from.
 _SHOWING = ("__init__.py", "cli", "drawing", "interface", "post", "validation")
 #: ``from module import names`` and ``import module``, wherever they stand in the text: one in a docstring
@@ -57,7 +61,7 @@ def digest_of(*names: str) -> bytes:
     """SHA-256 over the sources of modules and of all that they import, docstrings and comments left out."""
     digest = hashlib.sha256()
     for name, file in modules_behind(*names).items():
-        digest.update(name.encode() + b"\0" + hashlib.sha256(code_of(_text(file))).digest())
+        digest.update(name.encode() + b"\0" + _digest(name, file))
     return digest.digest()
 
 
@@ -73,13 +77,27 @@ def computing_digest() -> str:
     digest = hashlib.sha256()
     for file in sorted(glob("**/*.py", root_dir=_ROOT, recursive=True)):
         if not file.startswith(_SHOWING):
-            text = code_of((_ROOT / file).read_bytes())
-            digest.update(Path(file).as_posix().encode() + b"\0" + hashlib.sha256(text).digest())
+            parts = Path(file).with_suffix("").parts
+            name = ".".join((_OWN, *parts)).removesuffix(".__init__")
+            digest.update(name.encode() + b"\0" + _digest(name, _ROOT / file))
     offered = entry_points()
     groups = [group for group in offered.groups if group.startswith(f"{_OWN}.")]
     added = {entry.module for group in groups for entry in offered.select(group=group)}
     digest.update(digest_of(*sorted(added)))
     return digest.hexdigest()
+
+
+@cache
+def _digest(name: str, file: Path) -> bytes:
+    """Digest of a module's code as this process runs it.
+
+    Of a file that was edited after this process had loaded it that is not known: no other process has such a
+    digest, so that none takes what this one computes for the work of the edited code.
+    """
+    digest = hashlib.sha256(code_of(_text(file)))
+    if getattr(sys.modules.get(name), "__file__", None) == str(file) and file.stat().st_mtime > _BEGUN:
+        digest.update(f"{os.getpid()} {_BEGUN}".encode())
+    return digest.digest()
 
 
 def code_of(text: bytes) -> bytes:

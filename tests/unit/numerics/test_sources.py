@@ -2,6 +2,7 @@
 
 import ast
 import importlib.util
+import os
 import re
 import shutil
 import subprocess
@@ -60,7 +61,7 @@ def package(tmp_path, monkeypatch):
         if changed:
             path = folder / changed
             path.write_text(path.read_text() + addition)
-        for function in (sources._file_of, sources._text, sources._imports):
+        for function in (sources._file_of, sources._text, sources._imports, sources._digest):
             function.cache_clear()
         return sources.digest_of(f"{name}.start")
 
@@ -143,6 +144,32 @@ def test_own_packages_list_names_and_do_nothing_else_so_that_they_count_only_whe
             one for one in done if not (isinstance(one, ast.Expr) and isinstance(one.value, ast.Constant))
         ]
         assert not done, f"{file}:{done[0].lineno}"
+
+
+EDITS = """
+import sys
+import edited.start
+from pathlib import Path
+from tribodyn.numerics.sources import digest_of
+
+Path(edited.start.__file__).write_text("a = 2\\n")
+print(edited.start.a, digest_of("edited.start").hex())
+"""
+
+
+def test_what_ran_before_an_edit_is_not_taken_for_the_work_of_the_edited_file(tmp_path: Path):
+    """A session that goes on with what it has loaded: its results are of no file that another one finds."""
+    (tmp_path / "edited").mkdir()
+    (tmp_path / "edited" / "__init__.py").touch()
+    (tmp_path / "edited" / "start.py").write_text("a = 1\n")
+    found = []
+    for _ in range(3):
+        command = [sys.executable, "-c", EDITS]
+        paths = {**os.environ, "PYTHONPATH": f"{tmp_path}:{Path(tribodyn.__file__).parents[1]}"}
+        ended = subprocess.run(command, env=paths, capture_output=True, text=True, check=True)
+        found.append(tuple(ended.stdout.split()))
+    assert [value for value, _ in found] == ["1", "2", "2"]
+    assert len({digest for _, digest in found}) == 3
 
 
 @pytest.fixture(scope="module")
