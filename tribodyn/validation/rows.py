@@ -99,8 +99,10 @@ class Row(NamedTuple):
         """Write a field as a table for people shows it."""
         value = getattr(self, name)
         if name == "tolerance" and self.tolerance_reason and self.tolerance_share:
-            share = of_part(self.tolerance_share, self.part or "value")
-            return f"{self._amount(name, value)}, {share}: {self.tolerance_reason}"
+            said = self._amount(name, value)
+            if self.part or self.tolerance_kind != "relative":
+                said = f"{said}, {of_part(self.tolerance_share, self.part or 'value')}"
+            return f"{said}: {self.tolerance_reason}"
         if name == "difference" and self.part_difference is not None:
             return f"{self._amount(name, value)}, {of_part(self.part_difference, self.part, '+')}"
         if name == "verdict" and self.hangs_on_choice:
