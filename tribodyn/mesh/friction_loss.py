@@ -2,6 +2,9 @@
 
 from typing import Any, NamedTuple
 
+import numpy as np
+
+from tribodyn.errors import SimulationError
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.power_flow import efficiency
 from tribodyn.mesh.quasi_static import cycle_integral, cycle_mean, quasi_static
@@ -91,6 +94,26 @@ def engaged(cycle: MeshCycle, gear_torque: Any, seen: Contacts) -> Engaged:
 
     nothing = 0.0 * cycle.compliance * seen.pinion_speed
     return iterate(step, Engaged(nothing, nothing), _STEPS, _DIFFERENTIATED)
+
+
+def settled(cycle: MeshCycle, gear_torque: float, seen: Contacts) -> Engaged:
+    """Return what `engaged` does of plain numbers; `cycle`, `gear_torque` and `seen` as there.
+
+    Raises
+    ------
+    SimulationError
+        If friction locks the mesh: no load of a pair balances the torque.
+    """
+    with np.errstate(all="ignore"):
+        found = engaged(cycle, gear_torque, seen)
+    if np.all(np.isfinite(found.normal_load)) and np.all(np.isfinite(found.friction_coefficient)):
+        return found
+    slow = quasi_static(cycle, abs(gear_torque)).normal_load
+    worst = float(np.max(seen.under(slow).surface.friction_coefficient * (slow > 0.0)))
+    raise SimulationError(
+        f"friction locks the mesh in slow rotation, with coefficients up to {worst:.3g}: use another friction "
+        "law, or conditions nearer to those that it holds for"
+    )
 
 
 def friction_loss(

@@ -23,7 +23,7 @@ from tribodyn.dynamics.parameters import (
 )
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.mesh.cycle import MeshCycle, Polynomials, polynomials
-from tribodyn.mesh.friction_loss import contacts, engaged, friction_loss
+from tribodyn.mesh.friction_loss import contacts, friction_loss, settled
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.temperature import Thermal, thermal_state
 from tribodyn.tribology.closure import Closure, closure_of
@@ -167,7 +167,7 @@ def _quasi_static_loss(made: Tabulated) -> Callable[[Case], float]:
             return 0.0
         cycle = made.split()
         vanishing = float(cycle.pitch_point_length) > 0.0
-        loads = engaged(cycle, torque, contacts(cycle, torque, speed, closure_of(case), vanishing))
+        loads = settled(cycle, torque, contacts(cycle, torque, speed, closure_of(case), vanishing))
         return speed * float(friction_loss(cycle, *loads))
 
     return lost
