@@ -13,6 +13,7 @@ from tribodyn.interface import datasets, shown
 from tribodyn.interface.animation import Animation, check_teeth
 from tribodyn.interface.scenario import Source, scenario
 from tribodyn.interface.words import in_python
+from tribodyn.record import trust
 from tribodyn.record.reader import Record, open_record
 from tribodyn.studies.run import run as run_case
 from tribodyn.studies.study import Progress
@@ -49,6 +50,10 @@ class Run:
         Figures of the run by name, SI units; None where one is withheld.
     scenario : dict
         The resolved scenario.
+    trust : str
+        "inside the model", "outside the model", "laws extrapolated", or "" where nothing was judged.
+    reasons : list of str
+        Why it is not inside, in words; the numbers are in ``summary["trust_reasons"]``.
     """
 
     def __init__(self, path: Path, folder: str | None = None) -> None:
@@ -59,6 +64,7 @@ class Run:
             self.kind, self.status, self.message = record.kind, record.status, record.message
             self.summary: dict[str, Any] = record.summary
             self.scenario: dict[str, Any] = record.scenario
+            self.trust, self.reasons = record.trust, trust.reasons(record.summary)
 
     @cached_property
     def data(self) -> "xarray.Dataset":
@@ -205,20 +211,23 @@ class Run:
     def __repr__(self) -> str:
         title = self.scenario.get("title", self.path.stem)
         state = self.status if not self.message else f"{self.status}: {self.message}"
-        return f"<tribodyn run: {title} [{state}], {self.path}>"
+        judged = f", {self.trust}" if self.trust else ""
+        why = f": {'; '.join(self.reasons)}" if self.reasons else ""
+        return f"<tribodyn run: {title} [{state}{judged}{why}], {self.path}>"
 
     def _repr_html_(self) -> str:
-        """Title, warnings, a small picture and the summary, for notebooks."""
+        """Title, warnings, a small picture, the summary and how far to trust it, for notebooks."""
         from tribodyn.post.page.page import summary_tables, warnings_of
         from tribodyn.studies.pictures import study_of_record
 
         with open_record(self.path) as record:
             study = study_of_record(record)
             return shown.block(
-                shown.heading(str(self.scenario.get("title", self.path.stem)), self.status),
+                shown.heading(str(self.scenario.get("title", self.path.stem)), self.status, self.trust),
                 warnings_of(record, named=False),
                 shown.picture_of_run(record, study),
                 summary_tables([record], [study.lines()]),
+                shown.listed("How far to trust it", [*self.reasons, *study.sentences(record)]),
             )
 
 

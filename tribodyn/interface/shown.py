@@ -40,6 +40,12 @@ def heading(title: str, *remarks: str) -> str:
     return f"<p><b>{escape(title)}</b>{''.join(f'<br>{escape(one)}' for one in remarks if one)}</p>"
 
 
+def listed(title: str, sentences: Sequence[str]) -> str:
+    """Write sentences below a title; nothing, where there are none."""
+    items = "".join(f"<li>{escape(one)}</li>" for one in sentences)
+    return f"<h3>{escape(title)}</h3><ul>{items}</ul>" if items else ""
+
+
 def tables(some: Iterable[TextTable]) -> str:
     """Write tables beside each other."""
 

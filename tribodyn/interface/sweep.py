@@ -12,6 +12,7 @@ from tribodyn.interface import datasets, shown
 from tribodyn.interface.run import Run
 from tribodyn.interface.scenario import Source, in_toml, scenario
 from tribodyn.interface.words import in_python
+from tribodyn.record import trust
 from tribodyn.record.sweep_reader import SweepRecord, is_sweep
 from tribodyn.record.sweep_schema import DIRECTIONS
 from tribodyn.studies import study_of
@@ -87,7 +88,7 @@ class Sweep:
             return sweep_figure(name, [record], at)
 
     def __repr__(self) -> str:
-        return f"<tribodyn sweep: {self.scenario.get('title', self.path.stem)} [{self.status}], {self.path}>"
+        return f"<tribodyn sweep: {self.scenario.get('title', self.path.stem)} [{self._said()}], {self.path}>"
 
     def _repr_html_(self) -> str:
         """Title, size, a small picture and the dataset, for notebooks."""
@@ -102,7 +103,12 @@ class Sweep:
         """How many cases there are, and what became of them."""
         cases, failed = self.summary.get("cases"), self.summary.get("failed")
         counted = f", {cases} cases" if cases is not None else ""
-        return f"{self.status}{counted}" + (f", {failed} failed" if failed else "")
+        said = f"{self.status}{counted}" + (f", {failed} failed" if failed else "")
+        judged = self.data[trust.TRUST].values if trust.TRUST in self.data else ()
+        for verdict in (trust.OUTSIDE, trust.EXTRAPOLATED):
+            if count := int(np.sum(np.asarray(judged) == trust.VERDICTS[verdict])):
+                said += f", {count} {verdict}"
+        return said
 
 
 @in_python()

@@ -111,8 +111,8 @@ def settled(cycle: MeshCycle, gear_torque: float, seen: Contacts) -> Engaged:
     slow = quasi_static(cycle, abs(gear_torque)).normal_load
     worst = float(np.max(seen.under(slow).surface.friction_coefficient * (slow > 0.0)))
     raise SimulationError(
-        f"friction locks the mesh in slow rotation, with coefficients up to {worst:.3g}: use another friction "
-        "law, or conditions nearer to those that it holds for"
+        f"friction locks the mesh in slow rotation, with coefficients up to {worst:.3g}: use another "
+        "friction law, or conditions nearer to those that it holds for"
     )
 
 

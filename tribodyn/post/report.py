@@ -68,6 +68,8 @@ def summary_table(record: Record, lines: Lines, sentences: Sequence[str]) -> Gro
         parts.append(Text(f"{record.status}: {record.message}", style="bold red"))
     if record.trust == trust.OUTSIDE:
         parts.append(Text(f"{trust.OUTSIDE}: not to be trusted, see below", style="bold red"))
+    elif record.trust == trust.EXTRAPOLATED:
+        parts.append(Text(f"{record.trust}: {'; '.join(trust.reasons(record.summary))}", style="yellow"))
     table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2, 0, 0))
     table.add_column(no_wrap=True)
     table.add_column(justify="right")

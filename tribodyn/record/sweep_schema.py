@@ -32,8 +32,8 @@ FIRST_PARAMETER = "first parameter"
 OF_EVERY_SWEEP: dict[str, Variable] = {
     TRUST: flag(
         (),
-        "whether the result lies within its model: 1 inside, 0 outside, -1 not judged",
-        "not_judged outside_the_model inside_the_model",
+        "whether the result lies within its model: 1 inside, 0 outside, 2 laws extrapolated, -1 not judged",
+        "not_judged outside_the_model inside_the_model laws_extrapolated",
         NOT_JUDGED,
     ),
     "message": Variable((), "1", "why a case failed, or a remark on its result", f"S{MESSAGE}", b""),

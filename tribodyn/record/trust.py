@@ -1,8 +1,8 @@
 """Whether a result lies within what its model assumes; if not, what is outside, how far, where, how long.
 
-One table of rules for all studies (`RULES`). A study hands over those of the quantities that it has, as they
-are sampled, to a `Judge`, and puts what that says into its summary. Writers copy it to the root of a record,
-and reports take it from there. A result outside the model is complete, but not to be trusted.
+One table of rules for all studies (`trust_rules.RULES`). A study hands over those of the quantities that it
+has, as they are sampled, to a `Judge`, and puts what that says into its summary. Writers copy it to the root
+of a record, and reports take it from there. A result outside the model is complete, but not to be trusted.
 """
 
 import math
@@ -11,112 +11,16 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.record.trust_rules import RULES, Rule
+
 #: Names in a summary, and of attributes of a record: the verdict, and the reasons by name of the rule.
 TRUST, REASONS = "trust", "trust_reasons"
 #: The verdicts. Without one nothing was judged: a study without such quantities, or a record of 0.1.0.
-INSIDE, OUTSIDE = "inside the model", "outside the model"
+#: Extrapolated: inside, but for a law that is nowhere used in its range.
+INSIDE, OUTSIDE, EXTRAPOLATED = "inside the model", "outside the model", "laws extrapolated"
 #: The same as numbers, for the cases of a sweep.
-VERDICTS = {OUTSIDE: 0, INSIDE: 1}
+VERDICTS = {OUTSIDE: 0, INSIDE: 1, EXTRAPOLATED: 2}
 NOT_JUDGED = -1
-
-
-class Rule(NamedTuple):
-    """What a model assumes of a quantity.
-
-    Parameters
-    ----------
-    label : str
-        The quantity in words.
-    most : float
-        Above it a result lies outside the model; SI.
-    units : str
-    about : str
-        Why the limit is where it is.
-    least : float
-        Below it likewise.
-    factor, unit
-        From SI to what is shown, and the unit of that.
-    """
-
-    label: str
-    most: float
-    units: str
-    about: str
-    least: float = -math.inf
-    factor: float = 1.0
-    unit: str = ""
-
-    def outside(self, values: np.ndarray) -> np.ndarray:
-        """Where values are outside; NaN is not."""
-        return (values > self.most) | (values < self.least)
-
-    def beyond(self, values: np.ndarray) -> np.ndarray:
-        """How far values are beyond the limit that they come nearest to, below 0 inside."""
-        return np.maximum(values - self.most, self.least - values)
-
-    def limit(self, value: float) -> float:
-        """The limit that a value is beyond."""
-        return self.least if value < self.least else self.most
-
-    def shown(self, value: float) -> str:
-        """A value as it is read."""
-        return f"{value * self.factor:.4g}{' ' if self.unit else ''}{self.unit}"
-
-    def short(self, value: float) -> str:
-        """The quantity and the limit that a value is beyond."""
-        side = "below" if value < self.least else "above"
-        return f"{self.label} {side} {self.shown(self.limit(value))}"
-
-
-RULES: dict[str, Rule] = {
-    "deflection": Rule(
-        "deflection of a pair of teeth over the module",
-        0.1,
-        "1",
-        "stiffness and path of contact are those of teeth that keep their form; a tenth of the module is ten "
-        "times what gears are designed for, and bends them beyond any yield strength",
-        factor=100.0,
-        unit="%",
-    ),
-    "friction_coefficient": Rule(
-        "friction coefficient",
-        1.0,
-        "1",
-        "no lubricated contact has more; regressions extrapolated give it",
-    ),
-    "hertz_pressure": Rule(
-        "Hertz pressure",
-        4e9,
-        "Pa",
-        "case-hardened steel yields under its surface at about 3 GPa and shakes down to no more than 4; the "
-        "elastic half space says nothing of it",
-        factor=1e-9,
-        unit="GPa",
-    ),
-    "efficiency": Rule(
-        "efficiency",
-        1.0 + 1e-12,
-        "1",
-        "a share of a power; outside, a force makes power that no source gives",
-        least=-1e-12,
-        factor=100.0,
-        unit="%",
-    ),
-    "energy_residual": Rule(
-        "residual of the energy balance over solver.rtol",
-        100.0,
-        "1",
-        "works are integrated with the motion and close within some ten times the tolerance",
-    ),
-    "bearing_displacement": Rule(
-        "displacement of a gear in its bearings over the tip clearance",
-        1.0,
-        "1",
-        "tips would touch the roots of the mate; the path of contact is that of fixed centres",
-        factor=100.0,
-        unit="%",
-    ),
-}
 
 
 class Excess(NamedTuple):
@@ -208,11 +112,35 @@ class Judge:
             name: {key: part for key, part in one._asdict().items() if key != "places"} | one.places
             for name, one in found.items()
         }
-        return {TRUST: OUTSIDE, REASONS: reasons}
+        return {TRUST: EXTRAPOLATED if all(RULES[name].extrapolates for name in found) else OUTSIDE} | {
+            REASONS: reasons
+        }
+
+
+def judge_tribology(judge: Judge, figures: Mapping[str, Any]) -> None:
+    """Judge films by their minimum, and ranges of laws, of a summary's figures.
+
+    Not by their maximum: where the load vanishes, laws give a film without bound.
+    """
+    given = {
+        "film_thickness": figures.get("film_min"),
+        "film_parameter": figures.get("film_parameter_min"),
+    }
+    for name, law in (("film_law_range", "closure"), ("friction_law_range", "friction")):
+        inside = figures.get(f"{law}_in_range_fraction")
+        given[name] = None if inside is None else 1.0 - inside
+    judge.take({name: value for name, value in given.items() if value is not None})
+
+
+def heat_of(flash_rise: Any, temperature: float | None) -> dict[str, Any]:
+    """Flash temperature rises (K) as a quantity to judge, with the temperature of teeth or oil if known."""
+    if temperature is None:
+        return {"flash_temperature": flash_rise}
+    return {"contact_temperature": temperature + flash_rise}
 
 
 def verdict(summary: Mapping[str, Any]) -> str:
-    """`INSIDE`, `OUTSIDE`, or "" where nothing was judged."""
+    """`INSIDE`, `OUTSIDE`, `EXTRAPOLATED`, or "" where nothing was judged."""
     said = summary.get(TRUST)
     return said if said in VERDICTS else ""
 
@@ -223,12 +151,14 @@ def number(summary: Mapping[str, Any]) -> int:
 
 
 def reasons(summary: Mapping[str, Any]) -> list[str]:
-    """Why a result is outside the model: quantity, value, limit, for what share, and where; in words."""
+    """Why a result is not inside the model: quantity, value, limit, for what share, and where; in words."""
     return [_sentence(rule, known) for rule, known in _broken(summary)]
 
 
 def brief(summary: Mapping[str, Any]) -> str:
-    """The same without values, for the remark on a case of a sweep; "" inside."""
+    """The same without values, for the remark on a case of a sweep; "" where it is not outside."""
+    if verdict(summary) != OUTSIDE:
+        return ""
     said = [rule.short(float(known["value"])) for rule, known in _broken(summary)]
     return f"{OUTSIDE}: {', '.join(said)}" if said else ""
 
@@ -241,11 +171,12 @@ def attributes(summary: Mapping[str, Any]) -> dict[str, str]:
 
 def _broken(summary: Mapping[str, Any]) -> Iterator[tuple[Rule, Mapping[str, Any]]]:
     given = summary.get(REASONS)
-    if verdict(summary) != OUTSIDE or not isinstance(given, Mapping):
+    if verdict(summary) not in (OUTSIDE, EXTRAPOLATED) or not isinstance(given, Mapping):
         return
-    for name, known in given.items():
-        if name in RULES and isinstance(known, Mapping) and {"value", "limit"} <= set(known):
-            yield RULES[name], known
+    for name, rule in RULES.items():
+        known = given.get(name)
+        if isinstance(known, Mapping) and {"value", "limit"} <= set(known):
+            yield rule, known
 
 
 def _sentence(rule: Rule, known: Mapping[str, Any]) -> str:

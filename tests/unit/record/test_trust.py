@@ -10,14 +10,29 @@ import pytest
 from rich.console import Console
 from typer.testing import CliRunner
 
+import tribodyn
 from tests.support.record_samples import block, gear_pair_writer, geometry
 from tribodyn.cli.app import app
+from tribodyn.errors import SimulationError
 from tribodyn.post.report import as_json
 from tribodyn.record.reader import open_record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE, SweepLayout
 from tribodyn.record.sweep_writer import ParameterScale, SweepHead, SweepWriter
-from tribodyn.record.trust import INSIDE, OUTSIDE, RULES, Judge, attributes, brief, number, reasons, verdict
+from tribodyn.record.trust import (
+    EXTRAPOLATED,
+    INSIDE,
+    OUTSIDE,
+    RULES,
+    Judge,
+    attributes,
+    brief,
+    heat_of,
+    judge_tribology,
+    number,
+    reasons,
+    verdict,
+)
 from tribodyn.record.withheld import remarked, remarks, warned, warnings
 from tribodyn.studies.batch import Chunk
 from tribodyn.studies.efficiency.report import SWEPT
@@ -50,14 +65,15 @@ def test_every_limit_is_a_limit(name):
     assert judged(**{name: rule.most * (1 - 1e-6)}) == {"trust": INSIDE}
     assert judged(**{name: np.full(5, rule.most)}) == {"trust": INSIDE}
     figures = judged(**{name: rule.most * 1.01})
-    assert figures["trust"] == OUTSIDE
+    assert figures["trust"] == (EXTRAPOLATED if rule.extrapolates else OUTSIDE)
     reason = figures["trust_reasons"][name]
     assert (reason["value"], reason["limit"], reason["units"]) == (rule.most * 1.01, rule.most, rule.units)
     assert reason["share"] is None
     (said,) = reasons(figures)
     assert said.startswith(rule.label)
     assert "at most" in said
-    assert rule.label in brief(figures)
+    assert (rule.label in brief(figures)) is not rule.extrapolates
+    assert any(said in warning for warning in warnings(figures)) is not rule.extrapolates
 
 
 def test_an_efficiency_below_zero_and_one_above_one():
@@ -217,6 +233,82 @@ def test_a_sweep_of_gear_pairs_judges_every_case():
     assert OUTSIDE not in rows["message"][0]
     assert "warning: outside the model: " in rows["message"][1]
     assert "Hertz pressure above 4 GPa" in rows["message"][1]
+
+
+def test_extrapolated_laws_are_no_excess():
+    """Beside a rule of the model they are a reason more; alone, a verdict of their own."""
+    alone = judged(film_law_range=1.0, hertz_pressure=1e9)
+    assert (verdict(alone), number(alone), warnings(alone)) == (EXTRAPOLATED, 2, [])
+    assert reasons(alone) == [
+        "share of the contact in which the film law is outside its range 100 %, at most 99 %"
+    ]
+    both = judged(film_law_range=1.0, hertz_pressure=5e9)
+    assert (verdict(both), len(reasons(both)), len(warnings(both))) == (OUTSIDE, 2, 2)
+
+
+def test_films_are_judged_by_their_minimum_and_ranges_where_laws_have_one():
+    figures = {
+        "film_min": 134e-6,
+        "film_parameter_min": 189.0,
+        "closure_in_range_fraction": 0.0,
+        "friction_in_range_fraction": None,
+    }
+    judge = Judge()
+    judge_tribology(judge, figures)
+    assert set(judge.figures()["trust_reasons"]) == {"film_thickness", "film_parameter", "film_law_range"}
+    judge = Judge()
+    judge_tribology(judge, {"film_min": 1e-6, "friction_in_range_fraction": 0.02})
+    assert judge.figures() == {"trust": INSIDE}
+    judge = Judge()
+    judge_tribology(judge, {})
+    assert judge.figures() == {}
+
+
+def test_heat_is_judged_above_the_temperature_that_is_known():
+    assert judged(**heat_of(600.0, None))["trust"] == OUTSIDE
+    assert judged(**heat_of(450.0, 353.0))["trust"] == OUTSIDE
+    assert judged(**heat_of(450.0, 263.0)) == judged(**heat_of(450.0, None)) == {"trust": INSIDE}
+
+
+#: A gear of the soak's draws, in an oil of 4 Pa·s.
+COLD = {
+    "lubricant": {
+        "type": "ester",
+        "viscosity_40": "150 mm**2/s",
+        "viscosity_100": "15.27 mm**2/s",
+        "density_15": "0.88 g/cm**3",
+    },
+    "operating.oil_temperature": "-10 degC",
+}
+
+
+@pytest.mark.parametrize("name", ["efficiency-involute-18-36", "involute-18-36"])
+def test_films_and_temperatures_beyond_any_use(name):
+    """Ten times the speed at −10 °C, and half of the load as friction."""
+    fast = {"operating.pinion_speed": "15000 rpm", "friction": {"law": "coulomb", "coefficient": 0.5}}
+    found = tribodyn.run(name, COLD | fast | ({} if name.startswith("efficiency") else {"solver.cycles": 2}))
+    assert found.trust == OUTSIDE
+    named = found.summary["trust_reasons"]
+    assert {"contact_temperature", "film_thickness", "film_law_range"} <= set(named)
+    assert named["contact_temperature"]["value"] == pytest.approx(found.summary["contact_temperature_max"])
+    assert named["film_thickness"]["value"] == found.summary["film_min"]
+    assert any(one.startswith("minimum film thickness") for one in found.reasons)
+    assert f"complete, {OUTSIDE}: " in repr(found)
+    shown = found._repr_html_()
+    assert all(text in shown for text in ("How far to trust it", OUTSIDE, found.reasons[0]))
+
+
+def test_friction_that_locks_the_mesh_is_said():
+    """Xu's exp(S) runs away at Ra 1.6 µm: no load balances the torque, and no temperature is sought."""
+    rough = {
+        "operating.oil_temperature": "60 degC",
+        "friction": {"law": "xu"},
+        "drive.roughness": "3 um",
+        "drive.mean_roughness": "1.6 um",
+        "temperature": {"model": "iso", "lubrication": "dip"},
+    }
+    with pytest.raises(SimulationError, match=r"friction locks the mesh .* coefficients up to \d"):
+        tribodyn.run("involute-18-36", COLD | rough)
 
 
 def test_the_page_lists_the_rules_as_they_are():

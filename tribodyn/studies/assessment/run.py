@@ -1,5 +1,6 @@
 """From a case of an assessment to its record: the other studies' parts, then the standards beside them."""
 
+from collections.abc import Collection
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter
@@ -12,7 +13,7 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.families import family
 from tribodyn.geometry.outlines import geometry_arrays
 from tribodyn.numerics.scatter import SPREAD, scatter
-from tribodyn.record.trust import INSIDE, OUTSIDE, REASONS, TRUST
+from tribodyn.record.trust import EXTRAPOLATED, INSIDE, OUTSIDE, REASONS, TRUST
 from tribodyn.standards.contact_path import POINTS
 from tribodyn.studies.assessment import parts
 from tribodyn.studies.assessment.case import AssessmentCase
@@ -118,7 +119,7 @@ def assessed(
         **judged(case, found, strength_of(case), local, found_there, spread),
         "assumed": _numbered(assumed(case, found is not None)),
         "extrapolated": _numbered(extrapolated(taking_part, done)),
-        **_trust(done),
+        **_trust(done, {task.name for part in taking_part for task in part.tasks if task.needed}),
         "wall_time": perf_counter() - begun,
     }
     summary = {name: value for name, value in summary.items() if value not in ({}, [])}
@@ -151,14 +152,14 @@ def _arrays(local: Local) -> dict[str, Any]:
     }
 
 
-def _trust(done: dict[str, parts.Done]) -> dict[str, Any]:
-    """Outside the model where any part is."""
-    judged = [one.summary for one in done.values() if TRUST in one.summary]
-    outside = [one for one in judged if one[TRUST] == OUTSIDE]
-    if not outside:
-        return {TRUST: INSIDE} if judged else {}
-    reasons = {name: value for one in outside for name, value in one[REASONS].items()}
-    return {TRUST: OUTSIDE, REASONS: reasons}
+def _trust(done: dict[str, parts.Done], needed: Collection[str]) -> dict[str, Any]:
+    """Outside the model where any part is; laws extrapolated where those of a `needed` one are."""
+    judged = {name: one.summary for name, one in done.items() if TRUST in one.summary}
+    for verdict, parts_of in ((OUTSIDE, judged), (EXTRAPOLATED, needed)):
+        found = [one[REASONS] for name, one in judged.items() if one[TRUST] == verdict and name in parts_of]
+        if found:
+            return {TRUST: verdict, REASONS: {name: why for one in found for name, why in one.items()}}
+    return {TRUST: INSIDE} if judged else {}
 
 
 def _numbered(sentences: list[str]) -> dict[str, str]:

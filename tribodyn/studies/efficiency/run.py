@@ -22,7 +22,7 @@ from tribodyn.geometry.sheet import specific_sliding_max
 from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.cycle import MeshCycle, as_arrays
 from tribodyn.mesh.power_flow import driving_gear, power_put_in
-from tribodyn.record.trust import Judge
+from tribodyn.record.trust import Judge, heat_of, judge_tribology
 from tribodyn.studies.efficiency.along_path import CycleEfficiency, Duty, Engagement, cycle_efficiency, engage
 from tribodyn.studies.efficiency.arrays import record_arrays
 from tribodyn.studies.efficiency.case import EfficiencyCase
@@ -251,8 +251,7 @@ def _figures(study: Prepared, over: Samples, mesh: Places, state: Engagement) ->
     film = along("central_film_thickness")
     flash = float(np.max(along("flash_temperature_rise")))
     thermal = thermal_figures(study.thermal, put_in, means.efficiency)
-    return {
-        **_judged(study, mesh, state, means.efficiency),
+    figures = {
         "contact_ratio": float(cycle.contact_ratio),
         "specific_sliding_max": specific_sliding_max(study.assembly),
         **_effective_contact_ratio(mesh, state, duty),
@@ -284,17 +283,21 @@ def _figures(study: Prepared, over: Samples, mesh: Places, state: Engagement) ->
         "averaging_cycles": 1,
         **efficiencies(study, {duty.sharing: means}),
     }
+    return figures | _judged(study, mesh, state, figures)
 
 
-def _judged(study: Prepared, mesh: Places, state: Engagement, efficiency: float) -> dict[str, Any]:
+def _judged(study: Prepared, mesh: Places, state: Engagement, figures: dict[str, Any]) -> dict[str, Any]:
     """Whether the study lies within its model, see `record.trust`."""
     quantities = {
         "deflection": state.normal_load * mesh.cycle.compliance[:, 0] / study.case.drive.module,
         "friction_coefficient": state.friction_coefficient,
         "hertz_pressure": state.hertz_pressure,
+        **heat_of(state.flash_temperature_rise, study.lubricant.temperature),
     }
     loaded = state.normal_load > 0
     judge = Judge()
     judge.take({name: np.where(loaded, values, np.nan) for name, values in quantities.items()})
-    judge.take({"efficiency": efficiency})
+    judge.take({"efficiency": figures["efficiency"]})
+    judge.take(heat_of(figures["flash_temperature_max"], study.lubricant.temperature))
+    judge_tribology(judge, figures)
     return judge.figures()

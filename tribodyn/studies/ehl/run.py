@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.mesh.cycle import as_arrays
+from tribodyn.record.trust import Judge, heat_of, judge_tribology
 from tribodyn.studies.ehl.along_path import (
     Prepared,
     Way,
@@ -176,7 +177,9 @@ def _figures(
         for name, values in laws["friction"].items()
     }
     squeeze = squeeze_figures(study.case, arrays) if study.case.transient else {}
-    return squeeze | {
+    return {
+        **squeeze,
+        **_judged(study.case, arrays, solved),
         "contact_ratio": float(study.cycle.contact_ratio),
         "positions_solved": int(np.count_nonzero(solved)),
         "positions": study.case.positions,
@@ -194,6 +197,19 @@ def _figures(
         "film_over_solved": {name: float(value) for name, value in film.items()},
         "friction_over_solved": friction,
     }
+
+
+def _judged(case: EhlCase, arrays: dict[str, Array], solved: Array) -> dict[str, Any]:
+    """Whether the solved contacts lie within their model, see `record.trust`."""
+    judge, found = Judge(), {name: values[solved] for name, values in arrays.items() if name in SAMPLES}
+    judge.take(
+        {name: found[name] for name in ("friction_coefficient", "hertz_pressure")}
+        | heat_of(found["temperature_rise_max"], case.lubricant.temperature),
+        {"phase": arrays["phase"][solved]},
+    )
+    film = np.min(found["minimum_film_thickness"]), np.min(found["film_parameter"])
+    judge_tribology(judge, dict(zip(("film_min", "film_parameter_min"), film, strict=True)))
+    return judge.figures()
 
 
 def squeeze_figures(case: EhlCase, arrays: dict[str, Array]) -> dict[str, Any]:

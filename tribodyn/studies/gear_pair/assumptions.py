@@ -7,7 +7,7 @@ import numpy as np
 
 from tribodyn.dynamics.recorded import pair_numbers
 from tribodyn.geometry.assembly import Assembly, tip_clearance
-from tribodyn.record.trust import Judge
+from tribodyn.record.trust import Judge, heat_of
 from tribodyn.studies.gear_pair.prepare import Prepared
 
 
@@ -22,6 +22,7 @@ def judge_block(
     if not len(cycles):
         return
     quantities = quantities_of(block, prepared.case.drive.module, smallest_clearance(prepared.assembly))
+    quantities |= heat_of(block["flash_temperature_rise"], prepared.lubricant.temperature)
     places = {"time": block["time"], "mesh_cycle": cycles}
     numbers = pair_numbers(prepared.cycle.front_pairs, np.size(prepared.cycle.side))
     judge.take(quantities, places, numbers, between_samples)

@@ -14,7 +14,7 @@ from tribodyn.geometry.outlines import geometry_arrays
 from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.cycle import as_arrays
 from tribodyn.mesh.stiffness import single_pair
-from tribodyn.record.trust import Judge
+from tribodyn.record.trust import Judge, judge_tribology
 from tribodyn.solve.choice import choose
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.transient import SampledStates, Stop, TransientSettings, transient
@@ -142,6 +142,7 @@ def _run(case: Case, path: Path, force: bool, progress: Progress | None) -> RunR
         summary |= contact_figures(case.lubricant, summary)
         summary["warning"] = warning_of(summary["friction_work_on_vibration"], case.friction.sliding)
         statistics.judge.take({"efficiency": summary["efficiency"]})
+        judge_tribology(statistics.judge, summary)
         summary |= statistics.judge.figures()
         return RunResult(record.finish(summary), "complete", "", summary)
 

@@ -1,5 +1,6 @@
 """From a case of the load contact study to its record: teeth in slow rotation at one torque or several."""
 
+from collections.abc import Mapping
 from pathlib import Path
 from time import perf_counter
 from typing import Any, NamedTuple
@@ -17,7 +18,7 @@ from tribodyn.geometry.material import MaterialData
 from tribodyn.geometry.outlines import geometry_arrays
 from tribodyn.numerics.remembered import remembered
 from tribodyn.numerics.shapes import Array, Float, Int
-from tribodyn.record.trust import Judge
+from tribodyn.record.trust import Judge, judge_tribology
 from tribodyn.standards.load_factors import shared_load
 from tribodyn.studies.load_contact.case import LoadContactCase
 from tribodyn.studies.load_contact.film import FaceFilm, film_over_face
@@ -113,7 +114,7 @@ def run(
             return RunResult(record.fail(failure, summary), "failed", failure, summary)
         film = film_of(study, loaded)
         record.write(0, record_arrays(study, loaded) | film.arrays)
-        summary |= loaded_figures(study, loaded) | film.figures
+        summary |= loaded_figures(study, loaded) | film.figures | _judged(study, loaded, film.figures)
         report(1 / steps)
         spread = []
         for row, torque in enumerate(case.gear_torques):
@@ -137,7 +138,8 @@ def figures(case: LoadContactCase) -> dict[str, Any]:
     study = prepare(case)
     contact_ratio = {"contact_ratio": float(study.flexible.assembly.contact_ratio)}
     loaded = roll(study, case.gear_torque)
-    return contact_ratio | loaded_figures(study, loaded) | film_of(study, loaded).figures
+    film = film_of(study, loaded).figures
+    return contact_ratio | loaded_figures(study, loaded) | film | _judged(study, loaded, film)
 
 
 def film_of(study: Prepared, loaded: LoadedContact) -> FaceFilm:
@@ -202,16 +204,16 @@ def loaded_figures(study: Prepared, loaded: LoadedContact) -> dict[str, Any]:
         "torque_residual": float(np.max(np.abs(torque_residual(study, loaded)))),
         "gear_torque": study.case.gear_torque,
         "slices": study.case.slices,
-        **_judged(study, loaded),
     }
 
 
-def _judged(study: Prepared, loaded: LoadedContact) -> dict[str, Any]:
+def _judged(study: Prepared, loaded: LoadedContact, film: Mapping[str, Any]) -> dict[str, Any]:
     """Whether the contact lies within its model, see `record.trust`; the load deflects all pairs alike."""
     judge = Judge()
     places, pairs = {"phase": loaded.phase - loaded.phase[0]}, pair_numbers(study, loaded).tolist()
     bent = np.abs(loaded.deflection - loaded.unloaded) / study.case.drive.module
     judge.take({"deflection": bent, "hertz_pressure": loaded.pressure}, places, pairs)
+    judge_tribology(judge, film)
     return judge.figures()
 
 

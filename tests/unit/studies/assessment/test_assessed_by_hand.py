@@ -562,7 +562,7 @@ def test_what_is_put_together_of_the_parts(tmp_path: Path, monkeypatch: pytest.M
         "c": Done(tmp_path),
     }
     monkeypatch.setattr(parts, "asked_of", lambda _: "asked")
-    monkeypatch.setattr(parts, "parts", lambda _: "parts")
+    monkeypatch.setattr(parts, "parts", lambda _: ())
     monkeypatch.setattr(parts, "results", lambda *_, force: done)
     monkeypatch.setattr(parts, "answers", lambda *_: [("part", one), ("part", other)])
     case: Any = SimpleNamespace(pinion_speed=100.0, gear_torque=96.0, oil_temperature=353.0)
@@ -581,8 +581,12 @@ def test_what_is_put_together_of_the_parts(tmp_path: Path, monkeypatch: pytest.M
     assert summary["found"] is None
     assert (summary["units"]["film_min"], summary["units"]["pinion_speed"]) == ("m", "rad/s")
     assert assessing._scatter(np.array([1.0, np.nan, 3.0]))["samples"] == 2
-    assert assessing._trust({"b": done["b"], "c": done["c"]}) == {"trust": "inside the model"}
-    assert assessing._trust({"c": done["c"]}) == {}
+    assert assessing._trust({"b": done["b"], "c": done["c"]}, "b") == {"trust": "inside the model"}
+    assert assessing._trust({"c": done["c"]}, "c") == {}
+    extrapolated = {"trust": "laws extrapolated", "trust_reasons": {"film_law_range": {"value": 1.0}}}
+    both = {"b": done["b"], "d": Done(tmp_path, extrapolated)}
+    assert assessing._trust(both, "bd") == extrapolated
+    assert assessing._trust(both, "b") == {"trust": "inside the model"}  # for comparison only
 
 
 def test_datasets_along_the_path():

@@ -180,7 +180,7 @@ def test_the_loss_of_slow_rotation_is_what_is_lost_in_a_second(monkeypatch: pyte
     made: Any = SimpleNamespace(split=lambda: split)
     monkeypatch.setattr(preparing, "closure_of", lambda case: case.laws)
     monkeypatch.setattr(preparing, "contacts", lambda *given: given)
-    monkeypatch.setattr(preparing, "engaged", lambda cycle, torque, found: (cycle, torque, found))
+    monkeypatch.setattr(preparing, "settled", lambda cycle, torque, found: (cycle, torque, found))
     monkeypatch.setattr(preparing, "friction_loss", lambda cycle, *loads: 0.35 if loads[0] is cycle else 0.0)
     lost = preparing._quasi_static_loss(made)
     case: Any = SimpleNamespace(

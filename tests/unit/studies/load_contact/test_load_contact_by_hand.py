@@ -123,15 +123,15 @@ def test_too_much_deflection_is_outside_the_model(monkeypatch: pytest.MonkeyPatc
     seen: list[Any] = []
 
     class Judge:
-        def take(self, values: Any, places: Any, pairs: Any) -> None:
-            seen.append((values, places, pairs))
+        def take(self, values: Any, *rest: Any) -> None:
+            seen.extend([(values, *rest)] if values else [])
 
         def figures(self) -> dict[str, Any]:
             return {"trust": "said"}
 
     monkeypatch.setattr(run, "Judge", Judge)
     loaded = loaded_with()
-    assert run._judged(study_with(), loaded) == {"trust": "said"}
+    assert run._judged(study_with(), loaded, {}) == {"trust": "said"}
     ((values, places, pairs),) = seen
     np.testing.assert_allclose(values["deflection"], (loaded.deflection - loaded.unloaded) / 4.5e-3)
     np.testing.assert_allclose(places["phase"], np.arange(POSITIONS) / POSITIONS, atol=1e-12)

@@ -6,7 +6,7 @@ import numpy as np
 
 from tribodyn.dynamics.outputs import outputs_with_extremes
 from tribodyn.dynamics.parameters import XI
-from tribodyn.record.trust import Judge
+from tribodyn.record.trust import Judge, judge_tribology
 from tribodyn.solve.engagement import engage_next
 from tribodyn.studies.gear_pair.assumptions import judge_block
 from tribodyn.studies.gear_pair.batch.outcome import Passage
@@ -52,5 +52,6 @@ def window_figures(
     judge_block(judge, cycles, block, prepared)
     judge_block(judge, at, extreme, prepared, between_samples=True)
     judge.take({"efficiency": figures["efficiency"]})
+    judge_tribology(judge, figures)
     named = {name: float("nan") if (value := figures.get(name)) is None else value for name in FIGURES}
     return named, judge.figures()
