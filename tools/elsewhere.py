@@ -69,7 +69,7 @@ class Configuration(NamedTuple):
             "OPENBLAS_NUM_THREADS": str(self.threads),
             "TRIBODYN_CACHE": str(cache),
         }
-        features = {"NUMBA_CPU_FEATURES": ""} if self.target == "generic" else {}
+        features = {"NUMBA_CPU_FEATURES": ""} if self.target else {}  # the target's own, not this machine's
         return os.environ | {name: value for name, value in given.items() if value} | features
 
 

@@ -8,7 +8,7 @@ import operator
 from typing import Any, cast
 
 from llvmlite import binding, ir
-from numba import extending
+from numba import config, extending
 from numba.core import cgutils, types
 from numba.core.typeconv.castgraph import Conversion
 from numba.core.typing.templates import ConcreteTemplate, infer_global, signature
@@ -27,8 +27,10 @@ FLOATS, INTEGERS, BITS = (ir.VectorType(scalar, WIDTH) for scalar in (DOUBLE, IN
 
 #: The bits of x and of 1/x add up to about this.
 RECIPROCAL_BITS = 0x7FDE623822FC16E6
-#: Whether the processor multiplies and adds in one, without which a division is better left to the divider.
-FUSED = "fma" in {name for name, there in binding.get_host_cpu_features().items() if there}
+#: What the processor that is compiled for can do, where NUMBA_CPU_FEATURES says so.
+_GIVEN: str | None = cast(Any, config).CPU_FEATURES
+#: Whether it multiplies and adds in one, without which a division is better left to the divider.
+FUSED = "+fma" in (binding.get_host_cpu_features().flatten() if _GIVEN is None else _GIVEN).split(",")
 
 #: Products and sums may fuse: fewer roundings. The order of operations stays as written.
 FUSE = ("contract",)
