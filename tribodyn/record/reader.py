@@ -13,9 +13,12 @@ import numpy as np
 from tribodyn.errors import InputError, harmless
 from tribodyn.record import schema, trust
 from tribodyn.record.layout import counted
-from tribodyn.record.soundness import UNREADABLE, check_sound
+from tribodyn.record.soundness import UNREADABLE, blamed, check_sound, reason_of
 from tribodyn.record.sweep_schema import SWEEP
 from tribodyn.record.withheld import samples_withheld, withheld
+
+#: No axis reaches so far; differences and squares of what it holds are numbers.
+LARGEST = 1e100
 
 
 class Record:
@@ -55,6 +58,8 @@ class Record:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
+        if found := blamed(self.path, error):
+            raise self._damaged(found) from found
 
     def close(self) -> None:
         """Let go of the file."""
@@ -256,13 +261,14 @@ class Record:
         for name in self._along:
             if self._file[name].shape[0] < self.samples:
                 raise ValueError(f"{name} is too short")
-        _ = self._attributes["summary"]
+        axis = np.asarray(self._file[self.axis][: self.samples])
+        if axis.dtype.kind != "f" or not np.all(np.abs(axis) < LARGEST):
+            raise ValueError(f"{self.axis} is not a finite number throughout")
+        _ = self.summary
 
     def _damaged(self, error: Exception) -> InputError:
-        reason = str(error).strip("'\"")
-        return InputError(
-            "record", str(self.path), f"the record is damaged: {reason}", "run the scenario again"
-        )
+        rule = f"the record is damaged: {reason_of(error)}"
+        return InputError("record", str(self.path), rule, "run the scenario again")
 
 
 def open_record(path: str | Path) -> Record:

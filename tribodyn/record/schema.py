@@ -31,7 +31,8 @@ STATUS_NOTES = {
 def require_head(attributes: Mapping[str, Any]) -> None:
     """Raise KeyError or ValueError where a root's attributes are not those of a record."""
     for name in HEAD:
-        _ = attributes[name]
+        if not isinstance(attributes[name], str):
+            raise ValueError(f"{name} is no text")
     if attributes["status"] not in (PARTIAL, COMPLETE, FAILED):
         raise ValueError(f"unknown status {attributes['status']}")
 

@@ -5,6 +5,7 @@ then it crashes. So a file that this process has not written is first looked thr
 hang or die.
 """
 
+import os
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -25,13 +26,17 @@ UNREADABLE = (
     IndexError,
     OverflowError,
 )
-#: Maximum number of groups and datasets, depth of groups, axes of a dataset, and bytes of an attribute.
-MAXIMUM_ITEMS, MAXIMUM_DEPTH, MAXIMUM_AXES, MAXIMUM_ATTRIBUTE = 100_000, 4, 8, 2**26
+#: What else it makes those raise who evaluate what it holds: numbers for texts, tables without their keys.
+_MISREAD = (*(one for one in UNREADABLE if one is not OSError), ArithmeticError, AssertionError)
+#: Maximum number of items in a group or attributes of an item, and of items in all; depth of groups, axes of
+#: a dataset, and bytes of an attribute. A record of a search has a dataset per free key, others a hundred.
+MAXIMUM_MEMBERS, MAXIMUM_ITEMS, MAXIMUM_DEPTH, MAXIMUM_AXES, MAXIMUM_ATTRIBUTE = 1000, 2000, 4, 8, 2**26
 #: Maximum ratio of a compressed dataset's size to its bytes in the file, and bytes that need none.
 MAXIMUM_RATIO, SMALL = 1000, 2**20
 #: Attributes by which HDF5 connects datasets with their scales; they hold references.
 _REFERENCES = {"DIMENSION_LIST", "REFERENCE_LIST"}
 
+_sound: set[tuple[int, ...]] = set()
 _own: set[tuple[int, ...]] = set()
 
 
@@ -39,6 +44,26 @@ def remember_own(path: Path) -> None:
     """Take note that this process has written a file: as long as it stays as it is, it needs no look."""
     with suppress(OSError):
         _own.add(_identity(path))
+
+
+def blamed(path: Path, error: BaseException | None) -> Exception | None:
+    """An error that ends the reading of a file if it is the file's fault: not one that we have written.
+
+    With ``TRIBODYN_TRACEBACK=1`` in the environment none is, so that a mistake of a reader can be found.
+    """
+    if not (isinstance(error, _MISREAD) or (isinstance(error, OSError) and error.errno is None)):
+        return None
+    with suppress(OSError):
+        if os.environ.get("TRIBODYN_TRACEBACK") or _identity(path) in _own:
+            return None
+    return error
+
+
+def reason_of(error: Exception) -> str:
+    """What a file's error says, on one line; an exception that says nothing of itself by its name."""
+    said = " ".join(str(error).split()).strip("'\"")
+    plain = isinstance(error, (ValueError, OSError, RuntimeError)) and said
+    return said if plain else f"{type(error).__name__}: {said}".rstrip(": ")
 
 
 def check_sound(path: Path) -> None:
@@ -51,12 +76,12 @@ def check_sound(path: Path) -> None:
     OSError
         As from opening it.
     """
-    if _identity(path) in _own:
+    if _identity(path) in _own | _sound:
         return
     reason = lookout.through_a_child(unsound, path)
     if reason:
         raise InputError("record", str(path), f"damaged: {reason}", "make it anew")
-    remember_own(path)
+    _sound.add(_identity(path))
 
 
 def unsound(path: Path) -> str:
@@ -67,11 +92,11 @@ def unsound(path: Path) -> str:
         return ""  # whoever opens it finds the same
     with file:
         try:
-            _Look(path.stat().st_size).group(file, 0)
+            _Look(path.stat().st_size).file(file)
         except _Unsound as found:
             return str(found)
         except Exception as error:  # whatever a damaged file makes h5py raise
-            return " ".join(str(error).split()).strip("'\"") or type(error).__name__
+            return reason_of(error)
     return ""
 
 
@@ -86,14 +111,23 @@ class _Look:
         self._size = size
         self._items = 0
         self._groups: set[Any] = set()
+        self._scales: set[Any] = set()
 
-    def group(self, group: Any, depth: int) -> None:
-        """Look through a group and all below it."""
-        address = h5py.h5o.get_info(group.id).addr  # pyright: ignore[reportAttributeAccessIssue]
+    def file(self, file: Any) -> None:
+        """Look through a file: its groups first, as HDF5 searches all of them for the name of a scale."""
+        datasets: list[tuple[str, h5py.Dataset]] = []
+        self._group(file, 0, datasets)
+        for name, dataset in datasets:
+            self._dataset(name, dataset)
+
+    def _group(self, group: Any, depth: int, datasets: list[tuple[str, h5py.Dataset]]) -> None:
+        address = _address(group)
         if address in self._groups or depth > MAXIMUM_DEPTH:
             raise _Unsound("its groups have no end")
         self._groups.add(address)
         self._attributes(group)
+        if len(group) > MAXIMUM_MEMBERS:
+            raise _Unsound(f"a group of {len(group)} items")
         for name in group:
             self._items += 1
             if self._items > MAXIMUM_ITEMS:
@@ -102,9 +136,9 @@ class _Look:
                 raise _Unsound(f"{name!r} is a link to somewhere else")
             item = group[name]
             if isinstance(item, h5py.Group):
-                self.group(item, depth + 1)
+                self._group(item, depth + 1, datasets)
             elif isinstance(item, h5py.Dataset):
-                self._dataset(name, item)
+                datasets.append((name, item))
             else:
                 raise _Unsound(f"{name!r} is neither a group nor a dataset")
 
@@ -127,10 +161,13 @@ class _Look:
         # what connects datasets with their scales, HDF5 takes on trust
         _ = dataset.is_scale
         for dim in dataset.dims:
-            if len(dim):
+            if len(dim) and (address := _address(dim[0])) not in self._scales:
+                self._scales.add(address)
                 _ = dim[0].name, dim[0].shape
 
     def _attributes(self, item: Any) -> None:
+        if len(item.attrs) > MAXIMUM_MEMBERS:
+            raise _Unsound(f"{item.name!r} has {len(item.attrs)} attributes")
         for name in item.attrs:
             if name in _REFERENCES:
                 continue
@@ -138,9 +175,13 @@ class _Look:
             size = found.dtype.itemsize
             for length in found.shape or ():
                 size *= length
-            if size > MAXIMUM_ATTRIBUTE or len(item.attrs) > MAXIMUM_ITEMS:
+            if size > MAXIMUM_ATTRIBUTE:
                 raise _Unsound(f"the attribute {name!r} is too large")
             item.attrs[name]
+
+
+def _address(item: Any) -> int:
+    return h5py.h5o.get_info(item.id).addr  # pyright: ignore[reportAttributeAccessIssue]
 
 
 def _identity(path: Path) -> tuple[int, ...]:

@@ -4,6 +4,7 @@ import tomllib
 from collections.abc import Iterator
 from functools import cached_property
 from pathlib import Path
+from types import TracebackType
 from typing import Any, NamedTuple, Self
 
 import h5py
@@ -20,7 +21,7 @@ from tribodyn.record.reader import (
     open_file,
     open_record,
 )
-from tribodyn.record.soundness import UNREADABLE
+from tribodyn.record.soundness import UNREADABLE, blamed, reason_of
 from tribodyn.record.sweep_schema import DONE, FAILED, SWEEP, WAITING
 from tribodyn.record.withheld import samples_withheld, warnings_in
 
@@ -86,8 +87,12 @@ class SweepRecord:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, *_: object) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
         self.close()
+        if found := blamed(self.path, error):
+            raise self._damaged(found) from found
 
     def close(self) -> None:
         """Let go of the file."""
@@ -243,8 +248,8 @@ class SweepRecord:
         return harmless_texts(values) if values.dtype.kind == "S" else samples_withheld(name, values)
 
     def _damaged(self, error: Exception) -> InputError:
-        reason = str(error).strip("'\"")
-        return InputError("record", str(self.path), f"the record is damaged: {reason}", "run the sweep again")
+        rule = f"the record is damaged: {reason_of(error)}"
+        return InputError("record", str(self.path), rule, "run the sweep again")
 
 
 AnyRecord = Record | SweepRecord

@@ -16,8 +16,8 @@ from tribodyn.scenario.units import EXTREME, is_extreme
 MOST_TOML, MOST_CSV = 16 * 2**20, 4 * 2**20
 #: Points of a CSV table.
 MOST_POINTS = 100_000
-#: Tables and lists inside each other, characters of a key and of a text.
-DEEPEST, LONGEST_KEY, LONGEST_TEXT = 32, 200, 20_000
+#: Tables and lists inside each other, keys of a table, characters of a key and of a text.
+DEEPEST, MOST_KEYS, LONGEST_KEY, LONGEST_TEXT = 32, 1000, 200, 20_000
 #: Whole numbers that every part of a computation can hold.
 LEAST_WHOLE, GREATEST_WHOLE = -(2**63), 2**63 - 1
 
@@ -39,7 +39,7 @@ def parsed(text: str) -> dict[str, Any]:
     tomllib.TOMLDecodeError
         If it is no TOML.
     TooMuch
-        If its tables lie too deep inside each other, or a number has too many digits.
+        If its tables lie too deep inside each other or hold too many keys, or a number has too many digits.
     """
     too_deep = f"more than {DEEPEST} tables or lists inside each other"
     if any(_is_long_key(line) for line in text.split("\n")):
@@ -65,8 +65,9 @@ def _is_long_key(line: str) -> bool:
 
 
 def _depth(data: Any) -> int:
-    """Tables and lists inside each other."""
+    """Tables and lists inside each other; raises `TooMuch` where one of the tables has too many keys."""
     depth, level = 0, [data]
+    _check_keys(level)
     while level := [
         one
         for some in level
@@ -74,7 +75,14 @@ def _depth(data: Any) -> int:
         if isinstance(one, (dict, list))
     ]:
         depth += 1
+        _check_keys(level)
     return depth
+
+
+def _check_keys(some: list[Any]) -> None:
+    most = max(len(one) if isinstance(one, dict) else 0 for one in some)
+    if most > MOST_KEYS:
+        raise TooMuch(f"a table of {most} keys, at most {MOST_KEYS} are read")
 
 
 def broken_bounds(value: Any, key: Key = ()) -> Iterator[InputError]:

@@ -8,6 +8,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from tribodyn.errors import InputError
 from tribodyn.numerics.scatter import SPREAD
 from tribodyn.post.page.page import table, warnings_of
 from tribodyn.post.style import inline
@@ -58,7 +59,10 @@ def page(record: Record) -> str:
     with TemporaryDirectory(prefix="tribodyn-") as folder:
         scenario = Path(folder) / "scenario.toml"
         scenario.write_text(str(record.attrs["scenario"]), encoding="utf-8")
-        case: AssessmentCase = load(scenario).case
+        try:
+            case: AssessmentCase = load(scenario).case
+        except InputError as error:  # the file that it names is gone with this block
+            raise error.moved(lambda _: str(record.path)) from None
     asked = parts.asked_of(case)
     taking_part = parts.parts(asked)
     behind = parts.folder_of(Path(record.path))
