@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
-from unittest.mock import patch
 
 import numpy as np
 
@@ -70,22 +69,9 @@ def diffrax(models: Sequence[Model], states: Array, cycles: int, rtol: float) ->
     return _together("tsit5", models, states, cycles, rtol)
 
 
-def plain_diffrax(models: Sequence[Model], states: Array, cycles: int, rtol: float) -> Array:
-    """The same, but that only engagement ends a step: what its user would write who knows no more of it."""
-    from tribodyn.solve import diffrax_integrator, jax_ensemble
-
-    def ends(models: Sequence[Model]) -> Array:
-        stops = diffrax_integrator.steps_end_on(models)
-        return np.broadcast_to(stops[..., -1:], stops.shape)
-
-    with patch.object(jax_ensemble, "steps_end_on", ends):
-        return diffrax(models, states, cycles, rtol)
-
-
 BATCHES = {
     "tribodyn, lanes": Batch(lanes, 256, 40),
     "tribodyn, one case per thread": Batch(threads("dopri5"), 256, 40),
     "SciPy LSODA, numba, one by one": Batch(threads("lsoda"), 8, 20),
     "diffrax Tsit5, vmapped": Batch(diffrax, 128, 20),
-    "diffrax Tsit5, vmapped, no stops": Batch(plain_diffrax, 64, 20),
 }
