@@ -86,7 +86,7 @@ def _warn(message: str) -> None:
 
 def _why_not(whole: Path, folder: Path) -> str:
     """Why a folder of the cache cannot be trusted; empty where it can."""
-    if os.name == "nt":  # the user's own folders are closed to others there
+    if not hasattr(os, "geteuid"):  # Windows, where the user's own folders are closed to others
         return ""
     for part in (whole, folder):
         found = part.stat()
@@ -198,7 +198,7 @@ def read_kept(folder: str, name: str) -> bytes | None:
         found = os.fstat(number)
         if not stat.S_ISREG(found.st_mode) or found.st_size > MAXIMUM_SIZE:
             return None
-        if os.name != "nt" and (found.st_uid != os.geteuid() or found.st_mode & _OTHERS_WRITE):
+        if hasattr(os, "geteuid") and (found.st_uid != os.geteuid() or found.st_mode & _OTHERS_WRITE):
             return None
         with open(number, "rb", closefd=False) as stream:
             head, content = stream.read(_HEAD), stream.read(found.st_size)

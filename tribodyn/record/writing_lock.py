@@ -10,6 +10,7 @@ import importlib
 import os
 import re
 import stat
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -155,15 +156,15 @@ def _no_lock(path: Path) -> InputError:
 def _taken(number: int) -> bool:
     """Lock an open file until it is closed; whether that was possible."""
     try:
-        if os.name == "nt":
+        if find_spec("fcntl"):
+            import fcntl
+
+            fcntl.flock(number, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        elif find_spec("msvcrt"):
             windows: Any = importlib.import_module("msvcrt")
             os.lseek(number, _FAR, os.SEEK_SET)
             windows.locking(number, windows.LK_NBLCK, 1)
             os.lseek(number, 0, os.SEEK_SET)
-        else:
-            import fcntl
-
-            fcntl.flock(number, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError as error:
         return error.errno in _NO_LOCKS
     return True
