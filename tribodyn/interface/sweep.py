@@ -12,6 +12,7 @@ from tribodyn.interface import datasets, shown
 from tribodyn.interface.run import Run
 from tribodyn.interface.scenario import Source, in_toml, scenario
 from tribodyn.interface.words import in_python
+from tribodyn.numerics.output_files import write_output
 from tribodyn.record import trust
 from tribodyn.record.sweep_reader import SweepRecord, is_sweep
 from tribodyn.record.sweep_schema import DIRECTIONS
@@ -211,7 +212,7 @@ def _grid(
         return Grid(str(source), options, changes)
     case = scenario(source)  # with everything written out: no file of its own is needed
     file = folder / f"{case.name}.toml"
-    file.write_text(case.toml, encoding="utf-8")
+    write_output(file, case.toml)
     return Grid(str(file), options, changes)
 
 

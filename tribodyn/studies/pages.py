@@ -60,7 +60,7 @@ def sheet(record: Record | SweepRecord) -> "Sequence[TextTable]":
     """What `check` says of the scenario of a record; nothing where this version cannot make its case."""
     with TemporaryDirectory(prefix="tribodyn-") as folder:
         scenario = Path(folder) / "scenario.toml"
-        scenario.write_text(str(record.attrs.get("scenario", "")), encoding="utf-8")
+        write_output(scenario, str(record.attrs.get("scenario", "")))
         try:
             loaded = load(scenario)
             return loaded.study.check(loaded.case, allow_large=True).tables

@@ -9,6 +9,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from tribodyn.errors import InputError
+from tribodyn.numerics.output_files import write_output
 from tribodyn.numerics.scatter import SPREAD
 from tribodyn.post.page.page import table, warnings_of
 from tribodyn.post.style import inline
@@ -58,7 +59,7 @@ def page(record: Record) -> str:
     summary = record.summary
     with TemporaryDirectory(prefix="tribodyn-") as folder:
         scenario = Path(folder) / "scenario.toml"
-        scenario.write_text(str(record.attrs["scenario"]), encoding="utf-8")
+        write_output(scenario, str(record.attrs["scenario"]))
         try:
             case: AssessmentCase = load(scenario).case
         except InputError as error:  # the file that it names is gone with this block

@@ -20,7 +20,7 @@ import tomli_w
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.families import family
-from tribodyn.numerics.cache import replacing
+from tribodyn.numerics.output_files import write_output
 from tribodyn.numerics.sources import computing_digest
 from tribodyn.numerics.work import announce
 from tribodyn.record.reader import open_record
@@ -114,7 +114,8 @@ def results(
         if task.needed:
             _first(task)
     for _, task in every:
-        if force and _changed(task, folder) and _file(task, folder).is_file():
+        sound = _sealed(task, folder) is not None and not _changed(task, folder)
+        if force and not sound and _file(task, folder).is_file():
             _file(task, folder).unlink()
         _require_unchanged(task, folder)
     folder.mkdir(parents=True, exist_ok=True)
@@ -216,8 +217,7 @@ def _sealing(task: Task, folder: Path) -> Iterator[None]:
     _seal(task, folder).unlink(missing_ok=True)
     yield
     written = _digest(_file(task, folder))
-    with replacing(_seal(task, folder)) as scratch:
-        scratch.write_text(f"{_origin(task)} {written}\n", encoding="ascii")
+    write_output(_seal(task, folder), f"{_origin(task)} {written}\n", force=True)
 
 
 def _sealed(task: Task, folder: Path) -> tuple[str, str] | None:
@@ -271,8 +271,8 @@ def _varied(study: Study, task: Task, folder: Path) -> Done:
         "failures": failures,
     }
     path = _file(task, folder)
-    with _sealing(task, folder), replacing(path) as scratch:
-        scratch.write_text(json.dumps(data, indent=1), encoding="utf-8")
+    with _sealing(task, folder):
+        write_output(path, json.dumps(data, indent=1), force=True)
     return Done(path, rows={name: np.array(row) for name, row in rows.items()}, failures=tuple(failures))
 
 

@@ -1,0 +1,107 @@
+"""Files beside records on a disk without room: each is whole, as it was, or not there; the first is named.
+
+A limit of the system to the size of files stands for the disk: it takes so many bytes of each and no more.
+"""
+
+import os
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from tests.support.short_studies import SHORT, ShortRuns
+from tribodyn.cli.app import app
+from tribodyn.errors import OutputError
+from tribodyn.numerics.output_files import MARKS, write_output
+
+resource = pytest.importorskip("resource")
+
+
+@contextmanager
+def files_of_at_most(size: int) -> Iterator[None]:
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    handler = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+        signal.signal(signal.SIGXFSZ, handler)
+
+
+def invoke(folder: Path, words: list[str]) -> tuple[int, str]:
+    before = Path.cwd()
+    folder.mkdir(exist_ok=True)
+    os.chdir(folder)
+    try:
+        ended = CliRunner().invoke(app, words)
+    finally:
+        os.chdir(before)
+    return ended.exit_code, ended.stderr
+
+
+def sizes(folder: Path) -> dict[str, int]:
+    return {path.name: path.stat().st_size for path in folder.iterdir()}
+
+
+#: Settings of a short run.
+KEYS = [word for key, value in SHORT["backlash-oscillator"].items() for word in ("--set", f"{key}={value}")]
+VERBS = {
+    "plot": ["plot", "RECORD", "overview"],
+    "plot as PDF": ["plot", "RECORD", "overview", "--format", "pdf"],
+    "plot as SVG": ["plot", "RECORD", "overview", "--format", "svg"],
+    "report": ["report", "RECORD"],
+    "gear": ["gear", "liu-ni-involute-23-47", "-o", ".", "--points", "10"],
+    "gear as spline": ["gear", "liu-ni-involute-23-47", "--as-spline", "9"],
+    "init": ["init", "mine"],
+    "run": ["run", "backlash-oscillator", "-o", "m.h5", "--report", *KEYS],
+}
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_no_file_is_cut(verb: str, short_runs: ShortRuns, tmp_path: Path):
+    record = str(short_runs("backlash-oscillator").path) if "RECORD" in VERBS[verb] else ""
+    words = [record if word == "RECORD" else word for word in VERBS[verb]]
+    assert invoke(tmp_path / "whole", words) == (0, "")
+    whole = sizes(tmp_path / "whole")
+    for size in sorted({one for name, one in whole.items() if not name.endswith(".h5")}):
+        folder = tmp_path / str(size)
+        with files_of_at_most(size // 2):
+            status, said = invoke(folder, words)
+        assert (status, len(said.splitlines())) == (3, 1)
+        named = Path(said.partition(": cannot be written: File too large")[0]).name
+        assert named in whole
+        assert whole[named] > size // 2
+        left = sizes(folder)
+        assert named not in left
+        assert not [name for name in left if name.endswith(".tmp")]
+        # a date or a duration in a file may be a digit longer
+        assert all(abs(one - whole[name]) < 100 for name, one in left.items())
+        if "m.h5" in left:
+            assert said.rstrip().endswith("the record is complete: m.h5")
+
+
+@pytest.mark.parametrize("ending", MARKS)
+def test_what_was_there_stays(ending: str, tmp_path: Path):
+    path = write_output(tmp_path / f"a{ending}", MARKS[ending])
+    with files_of_at_most(100), pytest.raises(OutputError, match=rf"a{ending}: cannot be written: File too"):
+        write_output(path, MARKS[ending] + b"x" * 1000)
+    assert path.read_bytes() == MARKS[ending]
+    assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.soak  # without room for compiled kernels they are made anew
+def test_a_part_of_an_assessment_is_named(tmp_path: Path):
+    assert invoke(tmp_path, ["init", "mine", "--kind", "assessment"])[0] == 0
+    (tmp_path / "mine").mkdir()
+    with files_of_at_most(64):
+        status, said = invoke(tmp_path, ["assess", "mine.toml"])
+    assert (status, len(said.splitlines())) == (3, 1)
+    assert "mine/assessment-parts/" in said
+    assert ": cannot be written: File too large" in said
+    assert not [
+        path for path in (tmp_path / "mine").rglob("*") if path.is_file() and path.stat().st_size == 64
+    ]
