@@ -155,11 +155,16 @@ def reasons(summary: Mapping[str, Any]) -> list[str]:
     return [_sentence(rule, known) for rule, known in _broken(summary)]
 
 
+def warnings(summary: Mapping[str, Any]) -> list[str]:
+    """What lies outside the model, in words; laws that are extrapolated are no warning."""
+    return [
+        f"{OUTSIDE}: {_sentence(rule, known)}" for rule, known in _broken(summary) if not rule.extrapolates
+    ]
+
+
 def brief(summary: Mapping[str, Any]) -> str:
     """The same without values, for the remark on a case of a sweep; "" where it is not outside."""
-    if verdict(summary) != OUTSIDE:
-        return ""
-    said = [rule.short(float(known["value"])) for rule, known in _broken(summary)]
+    said = [rule.short(float(known["value"])) for rule, known in _broken(summary) if not rule.extrapolates]
     return f"{OUTSIDE}: {', '.join(said)}" if said else ""
 
 

@@ -89,8 +89,7 @@ def cases_withheld(block: Mapping[str, Any]) -> dict[str, Any]:
 
 def warnings(summary: Mapping[str, Any]) -> list[str]:
     """What to warn of: what lies outside the model, what the study says, and figures that are withheld."""
-    outside = trust.reasons(summary) if trust.verdict(summary) == trust.OUTSIDE else []
-    return [f"{trust.OUTSIDE}: {why}" for why in outside] + _said(summary)
+    return trust.warnings(summary) + _said(summary)
 
 
 def remarks(summary: Mapping[str, Any]) -> list[str]:
