@@ -1,6 +1,6 @@
 """The tests as on other machines: other BLAS kernels, vector widths, targets of compilers, threads and load.
 
-Each configuration runs all tests, with a cache of its own, one after the other::
+Each configuration runs all tests, one after the other, with a cache for what the compilers' target makes::
 
     python -m tools.elsewhere --write                 # all; their rows into docs/development.md
     python -m tools.elsewhere nehalem busy --write    # these; the other rows stay
@@ -59,7 +59,7 @@ class Configuration(NamedTuple):
     loops: int = 0
     needs: str = ""
 
-    def environment(self, cache: Path) -> dict[str, str]:
+    def environment(self) -> dict[str, str]:
         """Return the environment of the tests."""
         given = {
             "OPENBLAS_CORETYPE": self.blas,
@@ -67,7 +67,7 @@ class Configuration(NamedTuple):
             "NPY_DISABLE_CPU_FEATURES": self.numpy_without,
             "GLIBC_TUNABLES": self.glibc and f"glibc.cpu.hwcaps={self.glibc}",
             "OPENBLAS_NUM_THREADS": str(self.threads),
-            "TRIBODYN_CACHE": str(cache),
+            "TRIBODYN_CACHE": self.target and str(KEPT / self.target),
         }
         features = {"NUMBA_CPU_FEATURES": ""} if self.target else {}  # the target's own, not this machine's
         return os.environ | {name: value for name, value in given.items() if value} | features
@@ -79,7 +79,7 @@ CONFIGURATIONS = {
         "Nehalem", "generic", "X86_V3 X86_V4 AVX512_ICL", "SSE4_2", f"-FMA,-FMA4,-AVX2,-AVX,{NO_WIDE}"
     ),
     "haswell": Configuration("Haswell", "haswell", "X86_V4 AVX512_ICL", "AVX2", NO_WIDE, needs="avx2"),
-    "zen": Configuration("Zen", "znver2", "X86_V4 AVX512_ICL", "AVX2", NO_WIDE, threads=4, needs="avx2"),
+    "zen": Configuration("Zen", "haswell", "X86_V4 AVX512_ICL", "AVX2", NO_WIDE, threads=4, needs="avx2"),
     "skylake": Configuration("SkylakeX", "skylake-avx512", "AVX512_ICL", threads=4, needs="avx512vl"),
     "busy": Configuration(loops=2),
 }
@@ -105,8 +105,8 @@ HEAD = "configuration | BLAS | NumPy | numba | XLA | threads | busy loops | pass
 
 def row(name: str, chosen: Configuration, tests: str) -> tuple[str, bool]:
     """Run the tests under a configuration; its row of the table, and whether all passed."""
-    (KEPT / name).mkdir(parents=True, exist_ok=True)
-    environment = chosen.environment(KEPT / name / "cache")
+    KEPT.mkdir(parents=True, exist_ok=True)
+    environment = chosen.environment()
     found = json.loads(subprocess.check_output([sys.executable, "-c", PROBE], env=environment, text=True))
     command = ["make", "--no-print-directory", "in-parallel", f"CHOSEN={tests}"]
     if chosen.xla_up_to:
