@@ -5,6 +5,7 @@ import time
 import tomllib
 import warnings
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 
 import h5py
@@ -20,11 +21,14 @@ from tests.support.short_studies import ShortRuns
 from tests.support.wrong_records import changed, changes, drawn
 from tribodyn.cli.app import app
 from tribodyn.errors import InputError
+from tribodyn.numerics.variable import Variable
 from tribodyn.post.report import as_json
 from tribodyn.post.style import house_style
 from tribodyn.post.sweep_report import sweep_as_json
 from tribodyn.record import soundness
 from tribodyn.record.sweep_reader import SweepRecord, open_any
+from tribodyn.record.sweep_schema import DONE, SweepLayout
+from tribodyn.record.sweep_writer import ParameterScale, SweepHead, SweepWriter
 from tribodyn.studies import STUDIES
 from tribodyn.studies import pictures as of
 from tribodyn.studies.pages import report, sweep_report
@@ -130,6 +134,37 @@ def test_changes_of_a_record_of_every_kind(
     good = short_runs(kind).path
     for change in drawn(good, 300, seed=2):
         check(changed(good, tmp_path / "a.h5", change), good, everything=True)
+
+
+def test_a_sweep_goes_on_from_what_is_left_or_refuses_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    no_child(monkeypatch)
+    head = SweepHead(
+        "title = 1\n",
+        "0",
+        (ParameterScale("speed", "operating.pinion_speed", "rad/s", [1.0, 2.0, 3.0]),),
+        "x = 1\n",
+        (),
+        SweepLayout({"figure": Variable((), "1", "a figure")}),
+    )
+
+    def go_on(folder: Path, resume: bool = True) -> None:
+        with SweepWriter(folder / "run.h5", head, resume=resume) as writer:
+            for case in np.flatnonzero(writer.status == 0)[: None if resume else 1]:
+                rows = head.layout.empty_rows(1)
+                rows["figure"][:], rows["status"][:] = case, DONE
+                writer.write(np.array([case]), rows)
+            if resume:
+                writer.finish({})
+
+    go_on(tmp_path, resume=False)
+    left = tmp_path / "run.partial.h5"
+    good = left.rename(tmp_path / "good.h5")
+    for number, change in enumerate(drawn(good, 60, seed=3)):
+        folder = tmp_path / str(number)
+        folder.mkdir()
+        changed(good, folder / left.name, change)
+        with suppress(InputError):
+            go_on(folder)
 
 
 def nul(file: h5py.File) -> None:
