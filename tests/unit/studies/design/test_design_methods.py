@@ -186,6 +186,8 @@ def test_a_front_by_nsga2():
 def test_a_package_that_is_not_installed_is_named(method: str, package: str):
     if find_spec(package):
         pytest.skip("it is installed")
-    figures = [F, H] if method == "nsga2" else F
+    free = [{"key": KEYS[0], "from": -1.0, "to": 1.0}]
+    wanted = {"free": free, "minimise": [F, H] if method == "nsga2" else F, "method": method}
+    case = loaded_search("load-contact-18-36", wanted, {}).case
     with pytest.raises(InputError, match=f"the package {package} is not installed"):
-        search(Formulas(**{F: bowl, H: bowl}), method=method, minimise=figures)
+        method_of(case)

@@ -1,6 +1,7 @@
 """The methods of a search, one sort a file; all of them ask the archive and return nothing."""
 
 from collections.abc import Callable
+from importlib.util import find_spec
 
 import numpy as np
 
@@ -26,6 +27,8 @@ METHODS: dict[str, Method] = {
     "every": every,
 }
 FRONTS = ("epsilon-constraint", "nsga2")
+#: Packages that methods are from.
+PACKAGES = {"cma-es": "cma", "nsga2": "pymoo"}
 #: Free keys above which derivatives are worth their program.
 MANY = 6
 #: Those that need values between which there are others.
@@ -38,8 +41,18 @@ def method_of(case: DesignCase) -> tuple[str, str]:
     Raises
     ------
     InputError
-        For a method that does not fit what is searched.
+        For a method that does not fit what is searched, or whose package is not installed.
     """
+    name, reason = _fitting(case)
+    package = PACKAGES.get(name)
+    if package and find_spec(package) is None:
+        rule = f"the package {package} is not installed"
+        raise InputError("design.method", f'"{name}"', rule, 'install it: pip install "tribodyn[design]"')
+    return name, reason
+
+
+def _fitting(case: DesignCase) -> tuple[str, str]:
+    """The method that is wanted, or that fits, and why."""
     wanted = case.search.method
     smooth = all(one.continuous for one in case.free)
     two = len(case.objectives) == 2

@@ -8,7 +8,7 @@ import numpy as np
 from tribodyn.studies.design.archive import Archive, Evaluation
 from tribodyn.studies.design.candidates import share_of
 from tribodyn.studies.design.methods.local import ended_when_spent, first_look, in_turn, minimise
-from tribodyn.studies.design.methods.population import PER_KEY, missing
+from tribodyn.studies.design.methods.population import PER_KEY
 from tribodyn.studies.design.methods.views import Scalar
 
 
@@ -58,12 +58,10 @@ def _under(archive: Archive, bound: float, most: int) -> None:
 
 def nsga2(archive: Archive, start: np.ndarray) -> None:
     """Search by NSGA-II, of the package pymoo."""
-    try:
-        from pymoo.algorithms.moo.nsga2 import NSGA2  # pyright: ignore[reportMissingImports]
-        from pymoo.core.problem import Problem  # pyright: ignore[reportMissingImports]
-        from pymoo.optimize import minimize  # pyright: ignore[reportMissingImports]
-    except ImportError:
-        raise missing("nsga2", "pymoo") from None
+    from pymoo.algorithms.moo.nsga2 import NSGA2  # pyright: ignore[reportMissingImports]
+    from pymoo.core.problem import Problem  # pyright: ignore[reportMissingImports]
+    from pymoo.optimize import minimize  # pyright: ignore[reportMissingImports]
+
     case, count = archive.case, len(start)
     views = [Scalar(archive, place) for place in (0, 1)]
 

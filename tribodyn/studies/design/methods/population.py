@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from tribodyn.errors import InputError
 from tribodyn.studies.design.archive import Archive
 from tribodyn.studies.design.methods.local import ended_when_spent, sobol
 from tribodyn.studies.design.methods.views import Scalar
@@ -39,10 +38,8 @@ def differential_evolution(archive: Archive, start: np.ndarray) -> None:
 
 def cma_es(archive: Archive, start: np.ndarray) -> None:
     """Search by CMA-ES, of the package cma."""
-    try:
-        import cma  # pyright: ignore[reportMissingImports]
-    except ImportError:
-        raise missing("cma-es", "cma") from None
+    import cma  # pyright: ignore[reportMissingImports]
+
     case, count = archive.case, len(start)
     view = Scalar(archive)
     settings = {
@@ -60,9 +57,3 @@ def cma_es(archive: Archive, start: np.ndarray) -> None:
             strategy.tell(candidates, view.merits(candidates).tolist())
 
     ended_when_spent(search)
-
-
-def missing(method: str, package: str) -> InputError:
-    """What to say of a method whose package is not installed."""
-    rule = f"the package {package} is not installed"
-    return InputError("design.method", f'"{method}"', rule, 'install it: pip install "tribodyn[design]"')
