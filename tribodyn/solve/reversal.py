@@ -60,7 +60,10 @@ def stops(model: Model) -> Float[Array, "segment stop"]:
 
 
 def stops_of_many(models: Sequence[Model]) -> Float[Array, "case segment stop"]:
-    """`stops` of many cases; computed once for all that have them in common."""
+    """`stops` of many cases; computed once for all that have them in common.
+
+    Those of fewer segments than others have rows behind their last one that nobody reads.
+    """
     numbers: dict[tuple[int, float, int], int] = {}
     different: list[np.ndarray] = []
     rows = []
@@ -70,8 +73,11 @@ def stops_of_many(models: Sequence[Model]) -> Float[Array, "case segment stop"]:
             numbers[key] = len(different)
             different.append(stops(model))
         rows.append(numbers[key])
-    count = max(one.shape[1] for one in different)
-    return np.array([filled_up(one, count) for one in different])[rows]
+    segments, count = (max(one.shape[axis] for one in different) for axis in (0, 1))
+    unread = [((0, segments - len(one)), (0, 0)) for one in different]
+    return np.array(
+        [np.pad(filled_up(one, count), rest, "edge") for one, rest in zip(different, unread, strict=True)]
+    )[rows]
 
 
 def filled_up(stops: Float[Array, "*case segment given"], count: int) -> Float[Array, "*case segment stop"]:

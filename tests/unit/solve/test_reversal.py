@@ -84,3 +84,21 @@ def test_stops_of_many_cases_are_those_of_each():
         np.testing.assert_array_equal(row, filled_up(stops(one), count))
     np.testing.assert_array_equal(found[0], found[2])
     assert np.any(found[0] != found[3])
+
+
+def test_stops_of_cases_with_more_segments_than_others():
+    """A deviation of one case's flanks may end its contact elsewhere, and make another number of segments."""
+    two, one = model(), model()
+    one = SimpleNamespace(
+        table=SimpleNamespace(
+            boundary=two.table.boundary[:2],
+            in_contact=two.table.in_contact[:1],
+            channel=two.table.channel[:1],
+        ),
+        mechanics=two.mechanics,
+        options=two.options,
+    )
+    found = stops_of_many(cast(Any, [two, one]))
+    count = found.shape[2]
+    np.testing.assert_array_equal(found[0], filled_up(stops(two), count))
+    np.testing.assert_array_equal(found[1, :1], filled_up(stops(cast(Any, one)), count))

@@ -45,16 +45,16 @@ def judged(
 ) -> dict[str, Any]:
     """Return ``margins`` by ``iso`` and ``simulated``, ``load_factors`` and ``limits``; temperatures in °C.
 
-    The worse of both safeties is compared with a limit. NaN: not known, because the oil's data sheet gives no
-    load stage. Where a figure scatters over samples of deviations (`spread`, by the names of the figures),
+    The worse of both safeties is compared with a limit. One whose load stage the oil lacks is
+    left out. Where a figure scatters over samples of deviations (`spread`, by the names of the figures),
     its 95 % is compared too, as ``p95`` and ``kept_p95``.
     """
     by_standard = _by_standard(case, found, strength) if found else {}
     own = _by_simulation(case, strength, local)
     values = {
-        "scuffing_flash": _worse(by_standard.get("S_B"), own["S_B"]),
+        "scuffing_flash": _worse(by_standard.get("S_B"), own.get("S_B")),
         "scuffing_integral": by_standard.get("S_intS", math.nan),
-        "micropitting": _worse(by_standard.get("S_lambda"), own["S_lambda"]),
+        "micropitting": _worse(by_standard.get("S_lambda"), own.get("S_lambda")),
         "dynamic_factor": figures["dynamic_factor"],
         "hertz_pressure": float(np.nanmax(local.films.pressure)),
         "root_tension": max(figures["pinion_root_tension_max"], figures["gear_root_tension_max"]),
@@ -105,7 +105,7 @@ def _by_standard(case: AssessmentCase, found: Standard, strength: Strength) -> d
 def _by_simulation(case: AssessmentCase, strength: Strength, local: Local) -> dict[str, float]:
     films = local.films
     contact = films.bulk_temperature + float(np.nanmax(films.flash_rise))
-    margins = {"theta_B": contact - ZERO_CELSIUS, "S_B": math.nan, "S_lambda": math.nan}
+    margins = {"theta_B": contact - ZERO_CELSIUS}
     if strength.scuffing is not None:
         margins["S_B"] = flash_temperature.safety(strength.scuffing, contact, case.oil_temperature)
     if strength.specific_film is not None:
@@ -113,6 +113,6 @@ def _by_simulation(case: AssessmentCase, strength: Strength, local: Local) -> di
     return margins
 
 
-def _worse(one: float | None, other: float) -> float:
+def _worse(one: float | None, other: float | None) -> float:
     known = [value for value in (one, other) if value is not None and math.isfinite(value)]
     return min(known, default=math.nan)

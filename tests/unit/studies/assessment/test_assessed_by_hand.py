@@ -233,7 +233,7 @@ def test_what_is_not_known_is_not_judged():
     limits = {"scuffing_flash": 1.5, "scuffing_integral": 1.5, "micropitting": 1.0, "dynamic_factor": None}
     found = verdict_of(limits, scuffing=None, scuffing_integral=None, specific_film=None)
     assert found["limits"] == {}
-    assert set(found["margins"]) == {"simulated"}
+    assert {part: set(of) for part, of in found["margins"].items()} == {"simulated": {"theta_B"}}
     assert set(found["load_factors"]) == {"K_A", "K_Hbeta"}
     only = verdict_of({"scuffing_flash": 1.5}, scuffing_integral=None)["limits"]["scuffing_flash"]
     assert only["value"] == pytest.approx(220.0 / 91.85)
