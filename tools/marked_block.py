@@ -1,6 +1,11 @@
-"""Put generated text into a page, between the comments that mark its place."""
+"""Put generated text into a page, between the comments that mark its place, and say when it was made."""
 
+import subprocess
+import tomllib
+from datetime import date
 from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
 
 
 def put(page: Path, name: str, text: str) -> None:
@@ -11,3 +16,25 @@ def put(page: Path, name: str, text: str) -> None:
     if not opened or not closed:
         raise SystemExit(f"{page}: no {begin} … {end}")
     page.write_text(f"{before}{begin}\n\n{text.strip()}\n\n{end}{after}", encoding="utf-8")
+
+
+def made_by() -> str:
+    """Date, version and commit of what is being generated; whether the sources differ from that commit."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    said = f"Made on {date.today().isoformat()} by tribodyn {project['version']}"
+    commit = _git("rev-parse", "--short", "HEAD")
+    if not commit:
+        return f"{said}."
+    changed = " with changes" if _git("status", "--porcelain", "--", "tribodyn", "tools") else ""
+    return f"{said}, commit {commit}{changed}."
+
+
+def _git(*words: str) -> str:
+    """What git prints; nothing where this is no checkout."""
+    try:
+        done = subprocess.run(
+            ["git", "-C", str(ROOT), *words], capture_output=True, text=True, check=True, timeout=60
+        )
+    except (OSError, subprocess.SubprocessError):
+        return ""
+    return done.stdout.strip()

@@ -2,13 +2,14 @@
 
 import pytest
 
+from tools.soak.cases import CASES, GROUP
 from tools.soak.kept import add, read, store
 from tools.soak.outcome import FAULTY, run_one
 
-#: The cases of `make soak`, in portions: what a stopped one has done is not done again.
-SEED, CASES, PORTION = 1, 2000, 50
+#: The cases of `make soak` run group by group: what a stopped one has done is not done again.
+SEED = 1
 #: A few that run with all tests, on laws whose kernels others need too.
-SHORT_SEED, SHORT_CASES = 7, (4, 6, 7, 9, 12, 15)
+SHORT_SEED, SHORT_CASES = 7, (1, 3, 5, 10, 11, 14)
 
 
 def said(one, options: str = "") -> str:
@@ -23,13 +24,13 @@ def test_a_few_cases(number: int):
 
 
 @pytest.mark.soak
-@pytest.mark.parametrize("first", range(0, CASES, PORTION))
-def test_two_thousand_cases(first: int):
+@pytest.mark.parametrize("first", range(0, CASES, GROUP))
+def test_random_cases(first: int):
     path = store(SEED)
     known = {one.case: one for one in read(path)}
-    for number in range(first, first + PORTION):
+    for number in range(first, first + GROUP):
         if number not in known:
             known[number] = run_one(SEED, number)
             add(path, known[number])
-    faulty = [known[number] for number in range(first, first + PORTION) if known[number].status == FAULTY]
+    faulty = [known[number] for number in range(first, first + GROUP) if known[number].status == FAULTY]
     assert not faulty, "\n".join(said(one) for one in faulty)

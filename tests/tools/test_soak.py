@@ -1,16 +1,22 @@
 """The soak itself: cases come back, outcomes are kept, and what is wrong is noticed."""
 
+from collections import Counter
+
 import h5py
+import numpy as np
 import pytest
 
-from tools.soak.cases import Refused, bare, case, written
+from tools.soak.cases import CASES, GROUP, SHARES, SORTS, Refused, bare, case, sort_of, written
+from tools.soak.drives import FAMILIES
 from tools.soak.gear_records import faults
 from tools.soak.kept import add, read
+from tools.soak.other_records import assessment_faults, search_faults, solved_contact_faults
 from tools.soak.outcome import COMPLETE, FAULTY, REFUSED, Outcome
 from tools.soak.refusals import untrue
 from tools.soak.table import table
 from tribodyn.errors import InputError
 from tribodyn.record.reader import Record
+from tribodyn.studies import STUDIES
 from tribodyn.studies.load import load_scenario
 from tribodyn.studies.run import run
 
@@ -48,6 +54,27 @@ def test_a_case_follows_from_seed_and_number(tmp_path):
     assert first.scenario != other.scenario
     for one in (first, other):
         load_scenario(written(one.scenario, tmp_path / "case.toml"))
+
+
+def test_every_sort_has_its_share_and_every_family():
+    sorts = [sort_of(number) for number in range(CASES)]
+    assert Counter(sorts) == {sort: share * GROUP for sort, share in SORTS.items()}
+    assert all(len(set(sorts[first : first + GROUP])) == 1 for first in range(0, CASES, GROUP))
+    assert sort_of(CASES) == sort_of(0)
+    assert set(sorts[: CASES // 3]) == set(SORTS)
+    assert sum(SORTS.values()) == SHARES
+
+
+def test_every_kind_is_drawn_with_every_family(tmp_path):
+    """Kinds are those of the registry; of each sort of gears a group has every family."""
+    kinds, first = set(), {sort_of(number): number for number in reversed(range(0, CASES, GROUP))}
+    for sort, number in first.items():
+        made = [case(3, number + i, tmp_path).scenario for i in range(GROUP)]
+        kinds |= {one["kind"] for one in made}
+        drives = [one.get("scenario", one).get("drive", {}) for one in made]
+        if "family" in drives[0]:
+            assert {drive["family"] for drive in drives} == set(FAMILIES), sort
+    assert kinds == set(STUDIES)
 
 
 @pytest.mark.parametrize(
@@ -116,3 +143,27 @@ def test_energy_that_is_not_kept_is_noticed(record, tmp_path):
         file["summary"].attrs["energy_residual"] = 1e-4
     with Record(damaged) as one:
         assert list(faults(one, RTOL)) == ["energy residual 0.0001, 100 times rtol"]
+
+
+@pytest.mark.parametrize(
+    ("kind", "check", "name", "factor", "expected"),
+    [
+        ("ehl", solved_contact_faults, "minimum_film_thickness", 2.0, "a film is not above zero"),
+        ("ehl", solved_contact_faults, "asperity_load_ratio", -1.0, "asperities carry"),
+        ("ehl", solved_contact_faults, "central_film_thickness", np.nan, "0 positions have a film"),
+        ("assessment", assessment_faults, "contact_temperature", 1.01, "the contact temperature is not"),
+        ("assessment", assessment_faults, "film_thickness", -1.0, "film_thickness falls to"),
+        ("design", search_faults, "objective", 0.9, "the best is"),
+        ("design", search_faults, "feasible", 0.0, "complete, although nothing is feasible"),
+    ],
+)
+def test_what_is_wrong_with_a_study_is_noticed(short_runs, tmp_path, kind, check, name, factor, expected):
+    sound = short_runs(kind).path
+    damaged = tmp_path / "damaged.h5"
+    damaged.write_bytes(sound.read_bytes())
+    with Record(damaged) as one:
+        assert list(check(one)) == []
+    with h5py.File(damaged, "r+") as file:
+        file[name][...] = factor * file[name][...]
+    with Record(damaged) as one:
+        assert any(fault.startswith(expected) for fault in check(one))

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from tools.fuzz.inputs import SHARES, drawn
 from tools.fuzz.runs import Result, run_corpus, run_numbers
-from tools.marked_block import put
+from tools.marked_block import made_by, put
 
 #: Inputs between two reports.
 BLOCK = 1000
@@ -41,7 +41,7 @@ def main() -> None:
             results.append(future.result())
             _say(results[-1])
             print(f"{block.stop} done, {time.perf_counter() - begun:.0f} s", flush=True)
-    text = table(results)
+    text = f"{made_by()} Seed {given.seed}:\n\n{table(results)}"
     print(text)
     if given.into:
         put(given.into, "fuzz", text)

@@ -1,20 +1,29 @@
 """What is drawn: an input for one of the targets, from a seed and a number."""
 
+import tomllib
 from functools import cache
 from pathlib import Path
 from random import Random
 from typing import NamedTuple
 
 from tools.fuzz import corpus
+from tribodyn.geometry.families import FAMILIES
 from tribodyn.scenario.quantity import Table, references
 from tribodyn.scenario.sources import shipped
-from tribodyn.studies import STUDIES
+from tribodyn.studies import STUDIES, study_of
 
 ROOT = Path(__file__).parents[2]
-RECORDS = ROOT / "tests" / "fixtures" / "records-0.1.0"
+FIXTURES = ROOT / "tests" / "fixtures"
 CURVE = "load-step.csv"
 #: Targets and how often each is drawn.
 SHARES = {"toml": 45, "set": 17, "curve": 8, "vary": 5, "record": 6, "cache": 17, "check": 2}
+#: What is checked: every family, and studies whose check needs no finite elements: those take too long.
+CHECKED = (
+    *("involute-23-47", "crc-23-47", "cycloidal-23-47", "parabolic-23-47", "s-gear-23-47", "points-23-47"),
+    *("spline-23-47", "circular-arc-23-47", "efficiency-crc-23-47", "ehl-crc-23-47"),
+)
+#: What is swept: scenarios of every kind that can be.
+SWEPT = ("crc-23-47", "efficiency-oil-18-36", "load-contact-18-36", "ehl-crc-23-47", "irefc", "spline-23-47")
 #: Bytes that a mutation likes to put somewhere.
 INTERESTING = (0, 1, 7, 8, 10, 13, 27, 34, 39, 46, 61, 91, 123, 127, 128, 194, 254, 255)
 #: Changes of one input, at most.
@@ -74,7 +83,7 @@ def scenarios() -> dict[str, bytes]:
 @cache
 def records() -> dict[str, bytes]:
     """Records by name: one per kind of layout."""
-    return {path.stem: path.read_bytes() for path in sorted(RECORDS.glob("*.h5"))}
+    return {path.stem: path.read_bytes() for path in sorted(FIXTURES.glob("records-*/*.h5"))}
 
 
 @cache
@@ -163,7 +172,8 @@ def _vary(random: Random) -> Input:
         text = mutated(random, text.encode()[:200], [b":", b",", b"/", b"e9", b" rpm"]).decode(
             errors="replace"
         )
-    return Input("vary", "crc-23-47", f"{random.choice(keys('gear-pair'))}={text}".encode())
+    name = random.choice(SWEPT)
+    return Input("vary", name, f"{random.choice(keys(kind_of(name)))}={text}".encode())
 
 
 def _record(random: Random) -> Input:
@@ -180,9 +190,22 @@ def _cache(random: Random) -> Input:
 
 
 def _check(random: Random) -> Input:
-    key = random.choice([key for key in keys("gear-pair") if key.startswith("drive.")])
+    name = random.choice(CHECKED)
+    key = random.choice([key for key in keys(kind_of(name)) if key.startswith("drive.")] + shapes())
     value = random.choice(
-        ("0", "1", "-1", "0.5", "1e3", "1e-9", "7", "1e308", '"3 mm"', '"1e-9 m"', '"1 km"')
+        ("0", "1", "-1", "0.5", "1e3", "1e-9", "7", "1e308", '"3 mm"', '"1e-9 m"', '"1 km"', '"20 deg"')
     )
-    name = random.choice(("crc-23-47", "involute-23-47", "parabolic-23-47", "s-gear-23-47"))
     return Input("check", name, f"{key}={value}".encode())
+
+
+@cache
+def kind_of(name: str) -> str:
+    """Kind of a shipped scenario."""
+    return study_of(tomllib.loads(scenarios()[name].decode())).kind
+
+
+@cache
+def shapes() -> list[str]:
+    """Keys of the paths of contact, of every family; of lists the first."""
+    found = {one.name for family in FAMILIES for one in FAMILIES[family].parameters}
+    return [key for name in sorted(found) for key in (f"drive.shape.{name}", f"drive.shape.{name}.0")]

@@ -41,6 +41,8 @@ def warm_up() -> None:
         "crc-23-47",
         "efficiency-involute-18-36",
         "load-contact-18-36",
+        "ehl-crc-23-47",
+        "design-shift-23-47",
         "irefc",
         "backlash-oscillator",
     ):

@@ -8,8 +8,9 @@ from multiprocessing import get_context
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from tools.marked_block import put
+from tools.marked_block import made_by, put
 from tools.soak import kept
+from tools.soak.cases import CASES
 from tools.soak.outcome import FAULTY, Outcome, outcome, run_one
 from tools.soak.table import table
 
@@ -21,7 +22,7 @@ def main() -> None:
     parser.add_argument("--case", type=int, help="this case alone, again")
     parser.add_argument("--keep", type=Path, help="with --case: folder for its scenario and record")
     parser.add_argument("--first", type=int, default=0, help="number of the first case")
-    parser.add_argument("--count", type=int, default=2000)
+    parser.add_argument("--count", type=int, default=CASES)
     parser.add_argument("--jobs", type=int, default=1, help="processes")
     parser.add_argument(
         "--short", action="store_true", help="only dynamics, few laws: quick on a new version"
@@ -50,7 +51,11 @@ def main() -> None:
             if done % 50 == 0:
                 print(f"{done} of {len(waiting)}", flush=True)
     outcomes = [known[number] for number in wanted if number in known]
-    text = f"{len(outcomes)} of the {len(wanted)} cases of seed {given.seed}:\n\n{table(outcomes)}"
+    spent = sum(one.seconds for one in outcomes) / 60
+    head = (
+        f"{len(outcomes)} of the {len(wanted)} cases of seed {given.seed}, {spent:.0f} minutes of one core:"
+    )
+    text = f"{made_by()} {head}\n\n{table(outcomes)}"
     print(text)
     if given.into:
         put(given.into, "soak", text)

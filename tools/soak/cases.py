@@ -6,9 +6,9 @@ from typing import Any, NamedTuple
 
 import tomli_w
 
-from tools.soak import duties, studies
+from tools.soak import duties, searches, studies
 from tools.soak.draw import Draw
-from tools.soak.drives import drive
+from tools.soak.drives import FAMILIES, drive
 from tribodyn.errors import InputError
 from tribodyn.geometry.checks import check
 from tribodyn.geometry.families import family
@@ -16,16 +16,24 @@ from tribodyn.studies.load import load_scenario
 
 #: A drive that cannot be made is drawn again, so often at most; what was refused is looked into as well.
 MOST_DRAWS = 40
-#: What a case is, and its weight among all.
+#: What a case is, and its share of all: so many of `SHARES` groups.
 SORTS = {
-    "gear-pair": 74,
-    "efficiency": 9,
+    "gear-pair": 24,
+    "efficiency": 6,
     "load-contact": 6,
-    "sweep, steady": 4,
+    "ehl": 4,
+    "assessment": 4,
+    "design": 6,
+    "sweep, steady": 3,
     "sweep, transient": 3,
     "backlash-oscillator": 2,
     "irefc": 2,
 }
+SHARES = sum(SORTS.values())
+#: Cases of a group, of one sort: one of every tooth family.
+GROUP = len(FAMILIES)
+#: Cases of `make soak`: every sort in its share.
+CASES = GROUP * SHARES
 
 
 class Refused(NamedTuple):
@@ -55,31 +63,44 @@ def case(seed: int, number: int, folder: Path, short: bool = False) -> SoakCase:
         Only dynamics, under laws whose kernels other tests compile: for tests that have seconds.
     """
     draw = Draw(seed, number)
-    sort = "gear-pair" if short else draw.one(tuple(SORTS), tuple(SORTS.values()))
+    sort = "gear-pair" if short else sort_of(number)
     if sort == "backlash-oscillator":
         return SoakCase(sort, studies.oscillator(draw), ())
     if sort == "irefc":
         return SoakCase(sort, studies.rolling(draw), ())
     make = _MAKERS.get(sort, lambda draw, table: duties.gear_pair(draw, table, short))
-    table, refused = _drive(draw, folder)
+    table, refused = _drive(draw, FAMILIES[number % GROUP], folder)
     return SoakCase(sort, make(draw, table), refused)
+
+
+def sort_of(number: int) -> str:
+    """What the case of that number is: each group is of the sort that is farthest behind its share."""
+    done = dict.fromkeys(SORTS, 0)
+    sort = ""
+    for group in range(1, number // GROUP % SHARES + 2):
+        sort = max(SORTS, key=lambda one: SORTS[one] * group - SHARES * done[one])
+        done[sort] += 1
+    return sort
 
 
 _MAKERS: dict[str, Callable[[Draw, dict[str, Any]], dict[str, Any]]] = {
     "efficiency": studies.efficiency,
     "load-contact": studies.load_contact,
+    "ehl": studies.solved_contact,
+    "assessment": studies.assessment,
+    "design": searches.search,
     "sweep, steady": lambda draw, table: studies.steady(duties.gear_pair(draw, table, True)),
     "sweep, transient": lambda draw, table: studies.marched(duties.gear_pair(draw, table, True)),
 }
 
 
-def _drive(draw: Draw, folder: Path) -> tuple[dict[str, Any], tuple[Refused, ...]]:
-    """Return a drive that can be made; the last one drawn where none can."""
+def _drive(draw: Draw, family: str, folder: Path) -> tuple[dict[str, Any], tuple[Refused, ...]]:
+    """Return a drive of a family that can be made; the last one drawn where none can."""
     refused: list[Refused] = []
-    table = drive(draw)
+    table = drive(draw, family)
     while (error := geometry_error(table, folder)) and len(refused) < MOST_DRAWS:
         refused.append(Refused(bare(table), error))
-        table = drive(draw)
+        table = drive(draw, family)
     return table, tuple(refused)
 
 

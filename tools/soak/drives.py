@@ -5,16 +5,17 @@ from typing import Any
 import numpy as np
 
 from tools.soak.draw import Draw, quantity
+from tribodyn.geometry.families import FAMILIES as REGISTRY
 
-FAMILIES = ("involute", "crc", "cycloidal", "parabolic", "circular-arc", "s-gear", "points", "spline")
+#: Every one there is.
+FAMILIES = tuple(REGISTRY)
 #: Families whose drives are given a pressure angle, and its range in degrees.
 ANGLES = {"involute": (17.0, 28.0), "crc": (19.0, 27.0), "circular-arc": (15.0, 24.0), "points": (19.0, 25.0)}
 STEELS = ("steel-liu-ni-2022", "steel-diez-ibarbia", "steel-jia-2022")
 
 
-def drive(draw: Draw) -> dict[str, Any]:
-    """Return the table of a drive; most can be made, some cannot."""
-    family = draw.one(FAMILIES)
+def drive(draw: Draw, family: str) -> dict[str, Any]:
+    """Return the table of a drive of a family; most can be made, some cannot."""
     module = draw.decades(3e-4, 2e-2)
     teeth = draw.whole_decades(12, 60), draw.whole_decades(15, 120)
     table: dict[str, Any] = {

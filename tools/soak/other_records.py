@@ -8,11 +8,15 @@ import numpy as np
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE
+from tribodyn.studies import STUDIES
+from tribodyn.studies.load import load_scenario
 
 #: Largest share by which the torque of the loads may miss the gear's.
 TORQUE_RESIDUAL = 1e-6
 #: Share of the maximum load above which a tooth is bent by its own.
 LITTLE = 0.05
+#: Largest imbalance of flow and force in a solved contact.
+IMBALANCE = 1e-4
 #: By which an efficiency without losses may miss 1.
 ROUNDING = 1e-12
 
@@ -80,6 +84,80 @@ def load_contact_faults(record: Record) -> Iterator[str]:
     tension = np.moveaxis(record["root_tension"].max(axis=-1), 1, -1)[carrying]
     if not np.all(tension > 0):
         yield "the maximum stress along the fillet of a loaded tooth is compression"
+
+
+def solved_contact_faults(record: Record) -> Iterator[str]:
+    """Say what is wrong with the record of a study of the solved contact; NaN where nothing was solved."""
+    yield from any_faults(record)
+    load = record["normal_load"]
+    if not np.all(load >= 0):
+        yield f"normal_load falls to {np.nanmin(load):.4g}"
+    film, least = record["central_film_thickness"], record["minimum_film_thickness"]
+    solved = np.isfinite(film)
+    if np.count_nonzero(solved) != record.summary["positions_solved"]:
+        yield f"{np.count_nonzero(solved)} positions have a film, positions_solved says otherwise"
+    if np.any(solved & ~(load > 0)):
+        yield "there is a film where nothing carries"
+    if not np.all((film > 0) & (least > 0) & (least <= film * (1 + 1e-9)) | ~solved):
+        yield "a film is not above zero, or the minimum film exceeds the central one"
+    share, friction = record["asperity_load_ratio"][solved], record["friction_coefficient"][solved]
+    if not np.all((share >= 0) & (share <= 1 + 1e-6)):
+        yield f"asperities carry {share} of the load"
+    if not np.all((friction >= 0) & (friction < 1)):
+        yield f"friction coefficient {friction}"
+    if not np.all(record["residual"][solved] <= IMBALANCE):
+        yield f"imbalance of flow or force up to {np.max(record['residual'][solved]):.3g}"
+    if not np.all(record["pressure"][solved] >= -1e-9 * record["hertz_pressure"][solved][:, None]):
+        yield "the pressure falls below zero"
+
+
+def assessment_faults(record: Record) -> Iterator[str]:
+    """Say what is wrong with the record of an assessment."""
+    yield from any_faults(record)
+    summary = record.summary
+    if not 0 <= summary["efficiency"] <= 1:
+        yield f"efficiency {summary['efficiency']:.6g}"
+    lost = summary["power_friction_mean"] / summary["power_in_mean"]
+    if not np.isclose(1 - summary["efficiency"], lost, rtol=1e-3):
+        yield f"efficiency {summary['efficiency']:.6g}, losses over input {lost:.6g}"
+    for name in (
+        "normal_load",
+        "film_thickness",
+        "flash_temperature_rise",
+        "specific_film",
+        "hertz_pressure",
+    ):
+        if np.any(record[name] < 0):
+            yield f"{name} falls to {np.nanmin(record[name]):.4g}"
+    warm = record["contact_temperature"] - record["flash_temperature_rise"] - summary["bulk_temperature"]
+    if not np.nanmax(np.abs(warm), initial=0.0) <= 1e-6:
+        yield "the contact temperature is not that of the bulk and the flash"
+    for name, one in summary.get("margins", {}).get("simulated", {}).items():
+        if name.startswith("S_") and not one >= 0:
+            yield f"margin {name} = {one}"
+
+
+def search_faults(record: Record) -> Iterator[str]:
+    """Say what is wrong with the record of a search: its best is none, or alone has other figures."""
+    yield from any_faults(record)
+    summary, feasible = record.summary, record["feasible"] > 0.5
+    if not np.any(feasible):
+        yield "complete, although nothing is feasible"
+        return
+    if "objective_2" not in record:
+        best = float(np.min(record["objective"][feasible]))
+        if not np.isclose(summary["objective"], best, rtol=1e-9):
+            yield f"the best is {summary['objective']:.9g}, an evaluation has {best:.9g}"
+    if "margin" in record and not np.all(record["margin"][feasible] >= -1e-9):
+        yield "a feasible evaluation breaks a constraint"
+    again = load_scenario(summary["files"]["toml"])
+    study = STUDIES[again.kind]
+    if "duties" in summary or study.batch():
+        return
+    for name, one in study.figures(again).items():
+        known = summary["figures_best"].get(name)
+        if name != "wall_time" and known is not None and not np.isclose(one, known, rtol=1e-6):
+            yield f"the best scenario has {name} = {one:.9g}, the search {known:.9g}"
 
 
 def any_faults(record: Record) -> Iterator[str]:

@@ -18,9 +18,12 @@ from tools.soak.cases import SoakCase, case, written
 from tools.soak.gear_records import faults as gear_faults
 from tools.soak.other_records import (
     any_faults,
+    assessment_faults,
     efficiency_faults,
     load_contact_faults,
     rolling_faults,
+    search_faults,
+    solved_contact_faults,
     sweep_against_run,
     sweep_faults,
 )
@@ -90,7 +93,8 @@ def outcome(seed: int, number: int, folder: Path, short: bool = False) -> Outcom
         warnings.simplefilter("error")
         status, reason, faults, residual = _tried(made, folder)
     said += faults
-    family = made.scenario.get("drive", {}).get("family", "")
+    searched = made.scenario.get("scenario", made.scenario)
+    family = searched.get("drive", {}).get("family", "")
     status = FAULTY if said else status
     seconds = round(process_time() - begun, 3)
     return Outcome(
@@ -148,6 +152,12 @@ def _faults(made: SoakCase, record: Record) -> Iterator[str]:
         yield from efficiency_faults(record)
     elif made.sort == "load-contact":
         yield from load_contact_faults(record)
+    elif made.sort == "ehl":
+        yield from solved_contact_faults(record)
+    elif made.sort == "assessment":
+        yield from assessment_faults(record)
+    elif made.sort == "design":
+        yield from search_faults(record)
     elif made.sort == "irefc":
         yield from rolling_faults(record)
     else:
@@ -186,7 +196,7 @@ def _printed(table: Any) -> list[str]:
     page = StringIO()
     Console(file=page, width=200).print(table)
     words = page.getvalue().lower().split()
-    return [f'the summary prints "{word}"' for word in ("nan", "inf", "-inf", "none") if word in words]
+    return [f'the summary prints "{word}"' for word in ("nan", "inf", "-inf") if word in words]
 
 
 def _unclear(error: InputError) -> list[str]:
@@ -203,7 +213,7 @@ def _unclear(error: InputError) -> list[str]:
 def _doubtful(made: SoakCase, summary: dict[str, Any], message: str, samples: int) -> list[str]:
     """What speaks against the reason that a run was stopped for."""
     limit = made.scenario.get("solver", {}).get("max_steps")
-    if "limit of steps" in message and not summary["steps"] >= limit:
+    if "limit of steps" in message and "steps" in summary and not summary["steps"] >= limit:
         return [f"stopped at the limit of {limit} steps after {summary['steps']}"]
     if "stopped being finite" in message or "solver gave up" in message or "step size fell" in message:
         return [message]

@@ -6,6 +6,9 @@ from tools.soak.draw import Draw, quantity
 from tools.soak.drives import size_of
 from tools.soak.duties import MOST_SLOW_STEPS, laws, lubricant, scale_of, torque
 
+#: Oils by their data sheets, thin and thick.
+OILS = ("75w90", "atf", "iso-vg-32-mineral", "iso-vg-100-pao", "iso-vg-220-mineral", "iso-vg-460-pao")
+
 
 def efficiency(draw: Draw, drive: dict[str, Any]) -> dict[str, Any]:
     """Return the scenario of an efficiency study."""
@@ -59,6 +62,52 @@ def load_contact(draw: Draw, drive: dict[str, Any]) -> dict[str, Any]:
         "operating": operating,
         "mesh": mesh,
         "output": {"positions_per_cycle": draw.one((8, 20)), "cycles": draw.one((1, 1, 2))},
+    }
+
+
+def solved_contact(draw: Draw, drive: dict[str, Any]) -> dict[str, Any]:
+    """Return the scenario of a study of the solved contact, at few positions on a coarse grid."""
+    speed = draw.decades(0.1, 1000.0)
+    return {
+        "title": "A random study of the solved contact",
+        "kind": "ehl",
+        "drive": drive,
+        "lubricant": lubricant(draw),
+        "operating": {
+            "pinion_speed": quantity(speed, "rad/s"),
+            "gear_torque": quantity(torque(draw, scale_of(drive, speed)), "N*m"),
+        },
+        "mesh": {"compliance": draw.one(("energy", "fem"), (9, 1))},
+        "contact": {"step": 0.25, "transient": draw.chance(0.2)},
+        "output": {"positions": 4},
+    }
+
+
+def assessment(draw: Draw, drive: dict[str, Any]) -> dict[str, Any]:
+    """Return the scenario of an assessment with as little beyond the duty as there may be."""
+    speed = draw.decades(3.0, 500.0)
+    laws = ["masjedi-khonsari", "xu"] if draw.chance(0.3) else ["masjedi-khonsari"]
+    return {
+        "title": "A random assessment",
+        "kind": "assessment",
+        "drive": {**drive, "quality": draw.whole(3, 10)},
+        "lubricant": draw.one(OILS),
+        "bearings": draw.one(("rigid-1e9", "medium-4e8", "soft-1e8")),
+        "operating": {
+            "pinion_speed": quantity(speed, "rad/s"),
+            "gear_torque": quantity(torque(draw, scale_of(drive, speed)), "N*m"),
+            "oil_temperature": quantity(draw.between(20.0, 120.0), "degC"),
+        },
+        "mesh": {"misalignment": {"in_plane": quantity(draw.one((0.0, draw.between(-0.5, 0.5))), "arcmin")}},
+        "assessment": {
+            "application_factor": draw.between(1.0, 2.0),
+            "lubrication": draw.one(("dip", "spray", "submerged")),
+            "torque_shares": [0.5, 1.0],
+            "speed_range": [0.5, 1.5],
+            "speeds": 8,
+            "samples": draw.one((0, 2)),
+            "friction_laws": laws,
+        },
     }
 
 
