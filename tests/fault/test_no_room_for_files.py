@@ -12,10 +12,12 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
+from tests.support.record_samples import block, gear_pair_writer, geometry
 from tests.support.short_studies import SHORT, ShortRuns
 from tribodyn.cli.app import app
 from tribodyn.errors import OutputError
 from tribodyn.numerics.output_files import MARKS, write_output
+from tribodyn.record.reader import open_record
 
 resource = pytest.importorskip("resource")
 
@@ -105,3 +107,18 @@ def test_a_part_of_an_assessment_is_named(tmp_path: Path):
     assert not [
         path for path in (tmp_path / "mine").rglob("*") if path.is_file() and path.stat().st_size == 64
     ]
+
+
+def record_and_drawing(folder: Path) -> None:
+    head = {"outlines": geometry(), "scenario_toml": "title = 1\n", "sha256": "0"}
+    with gear_pair_writer(folder / "run.h5", 9, **head) as writer:
+        writer.write(0, block(0, 5))
+        write_output(folder / "a.dxf", b"x" * 2_000_000)
+
+
+def test_what_is_kept_is_said_where_a_file_beside_the_record_finds_no_room(tmp_path: Path):
+    said = r"a\.dxf: .*too large; the first 5 of 9 samples: .*run\.partial"
+    with files_of_at_most(1_000_000), pytest.raises(OutputError, match=said):
+        record_and_drawing(tmp_path)
+    with open_record(tmp_path / "run.partial.h5") as left:
+        assert (left.status, left.samples) == ("failed", 5)

@@ -180,6 +180,7 @@ class RecordWriter:
             elif self._open and isinstance(error, OutputError):
                 with suppress(OutputError):  # there is no room for saying it in the file either
                     self.fail(str(error))
+                    error.kept = error.kept or self._so_far()
             elif self._open:
                 self.fail(f"{kind.__name__}: {error}" if kind else "the run ended without a summary")
         finally:
