@@ -1,7 +1,7 @@
 # make demo   run an involute pair: record, summary, picture and a page for the browser in ./demo
 # make test   lint, types and all tests, the slow ones and the speed ratios included
 # make quick  the shortest tests, under a minute (docs/development.md)
-# make soak   random drives, duties and options by the thousand, and other long checks (docs/soak.md)
+# make soak   480 random drives, duties and options, and other long checks: an hour (docs/soak.md)
 # make fuzz   100 000 mutated inputs: scenarios, options, curves, records, the cache (docs/fuzz.md)
 # make elsewhere  the tests as on other machines: other BLAS, vectors, compilers' targets, threads, load (an hour)
 # make docs   the documentation site, into docs/_build/html
@@ -61,7 +61,8 @@ quick: $(VENV)/.testing
 	XLA_FLAGS="$(TESTS_XLA)" $(BIN)/python -m pytest $(IN_PARALLEL) --quick -m "not bench and not slow"
 
 soak: $(VENV)/.testing
-	XLA_FLAGS="$(TESTS_XLA)" nice $(BIN)/python -m pytest $(IN_PARALLEL) -m soak
+	@XLA_FLAGS="$(TESTS_XLA)" nice $(BIN)/python -m pytest $(IN_PARALLEL) -m soak; tests=$$?; \
+	  $(BIN)/python -m tools.soak --so-far --into docs/soak.md; cases=$$?; [ $$tests$$cases = 00 ]
 
 fuzz: $(VENV)/.testing
 	nice $(BIN)/python -m tools.fuzz --count 100000 --jobs 2 --into docs/fuzz.md

@@ -1,9 +1,10 @@
 """Put generated text into a page, between the comments that mark its place, and say when it was made."""
 
 import subprocess
-import tomllib
 from datetime import date
 from pathlib import Path
+
+from tribodyn import __version__
 
 ROOT = Path(__file__).parents[1]
 
@@ -20,8 +21,7 @@ def put(page: Path, name: str, text: str) -> None:
 
 def made_by() -> str:
     """Date, version and commit of what is being generated; whether the sources differ from that commit."""
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    said = f"Made on {date.today().isoformat()} by tribodyn {project['version']}"
+    said = f"Made on {date.today().isoformat()} by tribodyn {__version__}"
     commit = _git("rev-parse", "--short", "HEAD")
     if not commit:
         return f"{said}."

@@ -18,10 +18,9 @@ def table(outcomes: Sequence[Outcome]) -> str:
     for sort in SORTS:
         of_sort = [one for one in outcomes if one.sort == sort]
         rows.append(_row(sort, of_sort))
-        if sort == "gear-pair":
-            for family in sorted({one.family for one in of_sort}):
-                rows.append(_row(f"– {family}", [one for one in of_sort if one.family == family]))
     rows.append(_row("all", outcomes))
+    for family in sorted({one.family for one in outcomes} - {""}):
+        rows.append(_row(f"of gears: {family}", [one for one in outcomes if one.family == family]))
     refused = sum(one.drives_refused for one in outcomes)
     residuals = np.array(
         [one.residual for one in outcomes if one.residual == one.residual and one.sort == "gear-pair"]
