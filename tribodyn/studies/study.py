@@ -114,6 +114,8 @@ class Study:
         Whether its cases have a gear pair's `family`, `drive` and `materials`; whether a run can be resumed.
     verb : str
         Verb of the command line that runs its scenarios.
+    resolution : str
+        Dotted key of the points over a cycle that its figures are taken from, as its cases have it, too.
     """
 
     kind: str
@@ -124,6 +126,7 @@ class Study:
     has_gears: bool = False
     resumes: bool = False
     verb: str = "run"
+    resolution: str = ""
 
     def table(self, data: Mapping[str, Any] = MappingProxyType({})) -> "type[Table]":
         """The schema of a scenario file, of one with these data where it depends on them."""

@@ -57,6 +57,8 @@ class Archive:
         See `Keep`.
     known : sequence
         Values and figures of candidates that were evaluated before: `recorded`. `keep` does not get them.
+    more : mapping, optional
+        Further keys of every candidate: a resolution other than that of the scenario.
 
     Attributes
     ----------
@@ -71,8 +73,10 @@ class Archive:
         pool: Evaluators,
         keep: Keep,
         known: Sequence[tuple[Overrides, Figures]] = (),
+        more: Mapping[str, Any] | None = None,
     ) -> None:
         self.case = case
+        self.more = dict(more or {})
         self.judge = judge
         self.evaluations: list[Evaluation] = []
         self._pool = pool
@@ -187,7 +191,7 @@ class Archive:
             ready: Future[Any] = Future()
             ready.set_result(self._recorded[name].found)
             return ready
-        return self._pool.submit(cases_of(self.case, values))
+        return self._pool.submit(cases_of(self.case, values, self.more))
 
     def _take(self, name: str, values: Overrides) -> None:
         found = self._asked[name].result()

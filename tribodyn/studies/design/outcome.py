@@ -58,8 +58,11 @@ def write_best(case: DesignCase, values: Mapping[str, Any], record: Path, force:
     return files
 
 
-def headline(case: DesignCase, archive: Archive) -> dict[str, Any]:
-    """Figures of the summary that say what was found: at the start and at the best."""
+def headline(case: DesignCase, archive: Archive, searched: Archive) -> dict[str, Any]:
+    """Figures of the summary that say what was found: at the start and at the best.
+
+    They are those of an archive; what was evaluated is that of the one that was searched.
+    """
     judge, best = archive.judge, chosen_best(case, archive)
     judged = judge.judged(judge.start)
     single = len(case.objectives) == 1
@@ -75,13 +78,13 @@ def headline(case: DesignCase, archive: Archive) -> dict[str, Any]:
         "objective_name": " and ".join(one.name.removeprefix("-") for one in case.objectives),
         "objective_start": None if judged.message else shown(judged.objectives),
         "start_feasible": judged.feasible,
-        "evaluations": len(archive.evaluations),
-        "evaluations_without_figures": sum(bool(one.judged.message) for one in archive.evaluations),
-        "evaluations_feasible": sum(one.judged.feasible for one in archive.evaluations),
+        "evaluations": len(searched.evaluations),
+        "evaluations_without_figures": sum(bool(one.judged.message) for one in searched.evaluations),
+        "evaluations_feasible": sum(one.judged.feasible for one in searched.evaluations),
     }
     if judged.message:
         summary["start_message"] = judged.message
-    if messages := Counter(one.judged.message for one in archive.evaluations if one.judged.message):
+    if messages := Counter(one.judged.message for one in searched.evaluations if one.judged.message):
         summary["without_figures_message"] = messages.most_common(1)[0][0]
     if best is None:
         return summary

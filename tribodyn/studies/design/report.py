@@ -72,6 +72,8 @@ def sentences(record: Record) -> list[str]:
     for text, value in after.items():
         if name := _figure_in(text, known):
             said.append(f"{text}: at its worst {_change(search, name, before.get(text), value)}.")
+    if "resolution" in summary:
+        said.append(_resolution(search, names[0], summary))
     if "objective_confirmed" in summary:
         ends = (summary[f"objective_{one}confirmed"] for one in ("start_", ""))
         change = _change(search, names[0], *ends)
@@ -80,6 +82,18 @@ def sentences(record: Record) -> list[str]:
         count = summary["evaluations_without_figures"]
         said.append(f"{count} candidates have no figures, most because: {summary['without_figures_message']}")
     return said
+
+
+def _resolution(search: Mapping[str, Any], name: str, summary: Mapping[str, Any]) -> str:
+    """Say on which resolution the figures stand, and what the best is on the one that was searched on."""
+    line = line_of(search, name) or Line(name, name)
+    fine, coarse = (
+        ", ".join(f"{key} = {value}" for key, value in summary[one].items())
+        for one in ("resolution", "resolution_searched")
+    )
+    stands = "do not change there" if summary["figure_stands"] else "still change there"
+    before = f"{shown(line, float(summary['objective_searched']))} {line.unit}".rstrip()
+    return f"Figures are those of {fine}, and {stands}; searched with {coarse}, where the best has {before}."
 
 
 def _figure_in(text: str, figures: Mapping[str, Any]) -> str:

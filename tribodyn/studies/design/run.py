@@ -18,6 +18,7 @@ from tribodyn.record.writer import RecordWriter, check_target
 from tribodyn.studies.design.archive import Archive, Evaluation, SpentError
 from tribodyn.studies.design.candidates import cases_of, chosen, share_of, start_of
 from tribodyn.studies.design.case import DesignCase
+from tribodyn.studies.design.converged import Converged, converged, resolutions
 from tribodyn.studies.design.judged import HELD, Judge
 from tribodyn.studies.design.layout import (
     LOWER,
@@ -62,7 +63,7 @@ def run(
     begun = perf_counter()
     with ExitStack() as stack:
         pool, judge = stack.enter_context(_started(case, left.start, client))
-        archive = Archive(case, judge, pool, lambda one: keep(one), left.known)
+        archive = searched = Archive(case, judge, pool, lambda one: keep(one), left.known)
         names, room = names_of(case, judge.start), case.search.evaluations + len(left.known)
         scales = scales_of(case, names)
         how: dict[str, Any] = {"scales": scales, "force": force, "code": computing_digest()}
@@ -76,24 +77,30 @@ def run(
         def so_far(**more: Any) -> dict[str, Any]:
             where = {"engine": pool.name, "workers": pool.workers}
             figures = {"method": name, "method_reason": reason, **where}
-            return headline(case, archive) | figures | more | {"wall_time": perf_counter() - begun}
+            wall = {"wall_time": perf_counter() - begun}
+            return headline(case, archive, searched) | figures | more | wall
 
         try:
             _search(case, archive, name)
+            end = converged(case, searched, pool, name)
+            archive = end.archive
             best = chosen_best(case, archive)
             if best is None:
                 message = _why_none(case, archive)
                 return RunResult(record.fail(message, so_far()), "failed", message, so_far())
-            summary = so_far(**_about(case, archive, pool, best, left.moved, record))
+            summary = so_far(
+                **_resolved(case, searched, end, best),
+                **_about(case, archive, pool, best, left.moved, record),
+            )
         except KeyboardInterrupt as error:
             archive.close()
             best = chosen_best(case, archive)
             kept = record.fail(str(error) or "interrupted by the user", so_far())
             if best is not None:
-                error.add_note(f"the best so far: {best_of(best.values)[0]}")
+                error.add_note(f"the best so far: {best_of({**best.values, **archive.more})[0]}")
             error.add_note(f"the {record.written} evaluations so far: {kept}, --resume goes on")
             raise
-        files = best_of(best.values)
+        files = best_of({**best.values, **archive.more})
         names = [*(f"toml_{name}" if name else "toml" for name in case.scenarios), "dxf"]
         summary["files"] = dict(zip(names, map(str, files), strict=False))
         return RunResult(record.finish(summary, trim=True), "complete", "", summary)
@@ -105,9 +112,10 @@ def figures(case: DesignCase) -> dict[str, Any]:
     with _started(case) as (pool, judge):
         archive = Archive(case, judge, pool, lambda _: None)
         _search(case, archive, name)
-        found = headline(case, archive)
+        end = converged(case, archive, pool, name)
+        found = headline(case, end.archive, archive)
         if "objective" not in found:
-            raise SimulationError(_why_none(case, archive))
+            raise SimulationError(_why_none(case, end.archive))
         return found
 
 
@@ -138,6 +146,20 @@ def _keeper(
             progress(record.written / case.search.evaluations)
 
     return keep
+
+
+def _resolved(case: DesignCase, searched: Archive, end: Converged, best: Evaluation) -> dict[str, Any]:
+    """On which resolution the figures stand, and what the best is on the one that was searched on."""
+    if end.stands is None:
+        return {}
+    before = _objective(searched.judge, searched.found_of(best.values).result())
+    return {
+        "resolution": resolutions(case, end.factor),
+        "resolution_searched": resolutions(case, 1),
+        "objective_searched": -before if case.objectives[0].name.startswith("-") else before,
+        "figure_stands": end.stands,
+        "evaluations_finer": end.evaluations,
+    }
 
 
 def _left(case: DesignCase, path: Path) -> Left:
@@ -194,10 +216,10 @@ def _about(
     for place in range(len(case.tolerances) if case.sensitivities else 0):
         for name, side in ((LOWER, -1.0), (UPPER, 1.0)):
             if (len(case.free) + place, name) not in moved:
-                asked = pool.submit(cases_of(case, best.values, alone=(place, side)))
+                asked = pool.submit(cases_of(case, best.values, archive.more, alone=(place, side)))
                 waiting.append((len(case.free) + place, name, asked))
     ends = [{}, best.values] if case.confirm else []
-    confirming = [pool.submit(cases_of(case, values, case.confirm)) for values in ends]
+    confirming = [pool.submit(cases_of(case, values, {**archive.more, **case.confirm})) for values in ends]
     for (place, name), value in moved.items():
         record.put(place, {name: value})
     for place, name, one in waiting:

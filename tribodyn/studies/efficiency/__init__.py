@@ -9,4 +9,5 @@ STUDY = Study(
     quantities="loads, films and friction of pairs of teeth over time",
     compared=("Geometry", "Dynamics", "Tribology", "Energy"),
     has_gears=True,
+    resolution="output.samples_per_cycle",
 )

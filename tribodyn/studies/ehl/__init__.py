@@ -9,4 +9,5 @@ STUDY = Study(
     quantities="films, pressures and friction of a pair of teeth over its way through the mesh",
     compared=("Geometry", "Solved contact"),
     has_gears=True,
+    resolution="output.positions",
 )

@@ -9,4 +9,5 @@ STUDY = Study(
     quantities="loads, pressures and stresses of teeth over phase and face",
     compared=("Geometry", "Load contact", "Dynamics", "Tribology"),
     has_gears=True,
+    resolution="output.positions_per_cycle",
 )

@@ -8,4 +8,5 @@ STUDY = Study(
     package=__name__,
     quantities="loads, slip and losses of rolling elements over time",
     compared=("Geometry", "Dynamics", "Tribology", "Energy"),
+    resolution="output.samples_per_cycle",
 )
