@@ -112,10 +112,8 @@ class Study:
         Headings of its summary that a comparison shows; none: its records cannot be compared in a table.
     has_gears, resumes : bool
         Whether its cases have a gear pair's `family`, `drive` and `materials`; whether a run can be resumed.
-    verb : str
-        Verb of the command line that runs its scenarios.
-    resolution : str
-        Dotted key of the points over a cycle that its figures are taken from, as its cases have it, too.
+    verb, resolution : str
+        Verb of the command line that runs its scenarios; key of the points of a cycle, as its cases have it.
     """
 
     kind: str

@@ -24,11 +24,13 @@ from tribodyn.studies.design.methods.views import Scalar
 from tribodyn.studies.design.pool import Evaluators
 from tribodyn.studies.design.sources import own
 
-#: Relative change of the figure when the resolution is doubled, twice in a row, within which it stands. What
+#: Relative change of the figure from one resolution to the next, twice in a row, within which it stands. What
 #: is left of errors of first order is as much again.
 STANDS = 2.5e-3
-#: How many times as fine the search about the best is, and the finest resolution, over that of the scenario.
-SEARCHED, FINEST = 4, 64
+#: Resolutions over that of the scenario, none a multiple of the one before: the same positions would give the
+#: same extremes. On the third of them is searched about the best.
+FACTORS = (1, 2, 5, 11, 23, 47)
+SEARCHED = FACTORS[2]
 #: Candidates that are evaluated on finer resolutions; share of `evaluations` of the search about the best.
 KEPT, SHARE = 6, 1 / 2
 #: Size of the first simplex about the best, as a share of the ranges.
@@ -62,9 +64,11 @@ def resolutions(case: DesignCase, factor: int) -> Overrides:
     for name, data in case.scenarios.items():
         study = study_of(data)
         one = loaded_case(data, own(name, study.table(data), {}, case.parts)).case
-        found |= {
-            f"{name}.{key}" if name else key: value for key, value in study.refined(one, factor).items()
-        }
+        table, _, number = study.resolution.rpartition(".")
+        if number:
+            holder = one if hasattr(one, number) else getattr(one, table)
+            key = f"{name}.{study.resolution}" if name else study.resolution
+            found[key] = factor * getattr(holder, number)
     return found
 
 
@@ -86,22 +90,20 @@ def converged(case: DesignCase, archive: Archive, pool: Evaluators, method: str)
         return Converged(levels[factor], factor, stands, count)
 
     some = _best_of(archive, 1)
-    if _stands(some[0], [at(1), at(2), at(SEARCHED)], case):
+    if _stands(some[0], [at(one) for one in FACTORS[:3]], case):
         return ended(SEARCHED, True)
     some = _asked(at(SEARCHED), _best_of(archive, KEPT), case)
     if method in SMOOTH:
         _search_about(at(SEARCHED))
         some = _best_of(at(SEARCHED), KEPT) or some
-    factor = SEARCHED
-    while factor < FINEST:
-        factor *= 2
+    for number, factor in enumerate(FACTORS[3:], 3):
         _asked(at(factor), some, case)
         if at(factor).best() is None and method in SMOOTH:  # what held before fails here
             _search_about(at(factor))
         best = _best_of(at(factor), 1)
-        if best and _stands(best[0], [at(factor // 4), at(factor // 2), at(factor)], case):
+        if best and _stands(best[0], [at(one) for one in FACTORS[number - 2 : number + 1]], case):
             return ended(factor, True)
-    return ended(factor, False)
+    return ended(FACTORS[-1], False)
 
 
 def _shares(case: DesignCase, one: Evaluation) -> np.ndarray:
