@@ -61,6 +61,8 @@ _C_FUNCTIONS = {
 }
 
 
+# all of it under the lock: a thread that refreshes numba's tables hides types from one that compiles
+@global_compiler_lock
 def compiled(function: Callable[..., Any], layout: Record) -> Compiled:
     """Compile a function for arguments of a layout."""
     register_laws()
@@ -80,17 +82,16 @@ def compiled(function: Callable[..., Any], layout: Record) -> Compiled:
     typing, target = cast(Any, cpu_target.typing_context), cast(Any, cpu_target.target_context)
     record = RecordType(layout)
     library = KernelLibrary(target.codegen(), layout.name)
-    with global_compiler_lock:
-        typing.refresh()
-        target.refresh()
-        arguments = (record, WORDS)
-        try:
-            lowered = compile_extra(typing, target, entry, arguments, types.none, flags, {}, library)
-        except NumbaError as error:
-            raise explained(error, layout) from error
-        symbol = f"tribodyn.{layout.name}"
-        library.add_ir_module(_c_function(target, lowered.fndesc, symbol))
-        library.finalize()
+    typing.refresh()
+    target.refresh()
+    arguments = (record, WORDS)
+    try:
+        lowered = compile_extra(typing, target, entry, arguments, types.none, flags, {}, library)
+    except NumbaError as error:
+        raise explained(error, layout) from error
+    symbol = f"tribodyn.{layout.name}"
+    library.add_ir_module(_c_function(target, lowered.fndesc, symbol))
+    library.finalize()
     kinds = tuple(kind for kind, _ in record.fields.values())
     returned = part_of(kernel).overloads[kinds].signature.return_type
     several = isinstance(returned, types.BaseTuple)

@@ -94,7 +94,7 @@ INTERNALS = (
         "compile_extra",
         ("typingctx", "targetctx", "func", "args", "return_type", "flags", "locals", "library"),
     ),
-    Internal("numba.core.compiler_lock", "global_compiler_lock", members=("__enter__", "__exit__")),
+    Internal("numba.core.compiler_lock", "global_compiler_lock", members=("__call__",)),
     Internal("numba.core.cpu_options", "FastMathOptions", ("value",)),
     Internal("numba.core.registry", "cpu_target", members=("target_context", "typing_context")),
     Internal("numba.core.typeconv.castgraph", "Conversion", members=("promote", "safe")),
