@@ -90,8 +90,8 @@ PATIENT = "import gc; gc.set_threshold(300_000)"
 def test_python_takes_as_long_as_the_command_line(kind, tmp_path, capsys, monkeypatch):
     """With all threads of BLAS, as a program has them; processor time, in turn until both were calm.
 
-    Python's garbage collector goes through the objects of a start, then and at the end, for 0.2 s unless told not to. The
-    command tells it, as the owner of its process; the library leaves that to the program, here too.
+    Python's garbage collector goes through the objects of a start, then and at the end, for 0.2 s unless told
+    not to. The command tells it, as the owner of its process; the library leaves that to the program.
     """
     monkeypatch.delenv("OPENBLAS_NUM_THREADS", raising=False)
     words, call = TWICE[kind]
