@@ -157,6 +157,8 @@ RANGES = (
     "1:2/3 1/min",
     "1:2:1 rad/s**9**9**9",
 )
+#: Axes of sweeps with their key, and the scenario.
+AXES = (("irefc", "solver.cycles.1=12e3rad/s"),)
 #: Curves from files.
 CURVES = (
     "",

@@ -64,6 +64,7 @@ def of_corpus() -> list[Input]:
     ]
     found += [Input("set", "crc-23-47", f"solver.cycles={text}".encode()) for text in corpus.NUMBERS]
     found += [Input("vary", "crc-23-47", f"operating.pinion_speed={text}".encode()) for text in corpus.RANGES]
+    found += [Input("vary", name, text.encode()) for name, text in corpus.AXES]
     found += [Input("curve", "load-step", text.encode()) for text in corpus.CURVES]
     whole = scenarios()["crc-23-47"]
     for piece in corpus.PIECES:

@@ -127,10 +127,10 @@ class Grid:
 
 def _put(data: dict[str, Any], key: str, value: Any) -> None:
     place: Any = data
-    *above, last = (int(part) if part.isdecimal() else part for part in key.split("."))
+    *above, last = key.split(".")
     for part in above:
-        place = place[part]
-    place[last] = value
+        place = place[int(part) if isinstance(place, list) else part]
+    place[int(last) if isinstance(place, list) else last] = value
 
 
 def default_output(grid: Grid) -> Path:
