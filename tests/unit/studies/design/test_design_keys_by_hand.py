@@ -3,7 +3,7 @@
 import math
 import sys
 from dataclasses import replace
-from io import StringIO
+from io import BytesIO
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
 from typing import Any
@@ -501,11 +501,11 @@ def test_a_process_that_evaluates_is_asked_by_lines():
     """The first thread has none of its own; one that answers nothing has ended."""
     pool = Pool.__new__(Pool)
     pool.scenarios, pool.workers = {"": {"kind": "load-contact"}}, 2
-    written = StringIO()
-    process = SimpleNamespace(stdin=written, stdout=StringIO('[{"a": 1.5}]\n'))
+    written = BytesIO()
+    process = SimpleNamespace(stdin=written, stdout=BytesIO(b'[{"a": 1.5}]\n'))
     pool._own = SimpleNamespace(process=process)  # pyright: ignore[reportAttributeAccessIssue]
     assert pool._evaluate([{"drive.module": "3 mm"}]) == [{"a": 1.5}]
-    assert written.getvalue() == '[{"drive.module": "3 mm"}]\n'
+    assert written.getvalue() == b'[{"drive.module": "3 mm"}]\n'
     with pytest.raises(SimulationError, match="ended"):
         pool._evaluate([{}])
 
