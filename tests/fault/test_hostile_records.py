@@ -241,3 +241,10 @@ def test_a_process_that_is_kept_survives_what_it_looks_at(path: Path, kept, monk
     monkeypatch.setattr(lookout, "START_LIMIT", 0.2)
     monkeypatch.setattr(lookout, "TIME_LIMIT", 0.2)
     assert "did not end within" in kept(never_ends).answer(path)
+
+
+def test_an_error_of_a_users_own_is_no_damage(path: Path):
+    """While a record is open a script may fail for reasons of its own."""
+    script: dict[str, object] = {"open_record": open_record, "path": path}
+    with pytest.raises(ZeroDivisionError):
+        exec("with open_record(path) as record:\n    1 / 0", script | {"__name__": "script"})

@@ -8,6 +8,7 @@ hang or die.
 import os
 from contextlib import suppress
 from pathlib import Path
+from traceback import walk_tb
 from typing import Any
 
 import h5py
@@ -47,11 +48,16 @@ def remember_own(path: Path) -> None:
 
 
 def blamed(path: Path, error: BaseException | None) -> Exception | None:
-    """An error that ends the reading of a file if it is the file's fault: not one that we have written.
+    """An error that ends the reading of a file if it is the file's fault.
 
-    With ``TRIBODYN_TRACEBACK=1`` in the environment none is, so that a mistake of a reader can be found.
+    It is not if this process has written the file, nor if the error is of a user's own code while the file
+    is open. With ``TRIBODYN_TRACEBACK=1`` in the environment none is, so that a reader's mistake can be found.
     """
     if not (isinstance(error, _MISREAD) or (isinstance(error, OSError) and error.errno is None)):
+        return None
+    package = __name__.partition(".")[0]
+    names = (str(frame.f_globals.get("__name__")) for frame, _ in walk_tb(error.__traceback__))
+    if package not in {name.partition(".")[0] for name in names}:
         return None
     with suppress(OSError):
         if os.environ.get("TRIBODYN_TRACEBACK") or _identity(path) in _own:

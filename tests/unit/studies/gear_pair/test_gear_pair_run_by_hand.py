@@ -446,12 +446,16 @@ def test_blocks_are_judged_by_the_numbers_of_their_pairs(
     taken: list[Any] = []
     judge: Any = SimpleNamespace(take=lambda *given: taken.append(given))
     drive = SimpleNamespace(module=0.002)
-    prepared: Any = SimpleNamespace(cycle=CYCLE, case=SimpleNamespace(drive=drive), assembly="assembly")
+    oil = SimpleNamespace(temperature=350.0)
+    prepared: Any = SimpleNamespace(
+        cycle=CYCLE, case=SimpleNamespace(drive=drive), assembly="assembly", lubricant=oil
+    )
     block, cycles = block_of(rng, 3), np.array([0.5, 1.0, 1.5])
     assumptions.judge_block(judge, np.empty(0), {}, prepared)
     assumptions.judge_block(judge, cycles, block, prepared, between_samples=True)
     ((quantities, places, numbers, between),) = taken
     expected = quantities_of(block, 0.002, 3e-4)
+    expected["contact_temperature"] = 350.0 + block["flash_temperature_rise"]
     for name, values in expected.items():
         np.testing.assert_array_equal(quantities[name], values)
     assert places["mesh_cycle"] is cycles
