@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from hatch_build import long_description
+from tools.index_description import long_description
 
 ROOT = Path(__file__).parents[2]
 

@@ -51,7 +51,7 @@ def blamed(path: Path, error: BaseException | None) -> Exception | None:
     """An error that ends the reading of a file if it is the file's fault.
 
     It is not if this process has written the file, nor if the error is of a user's own code while the file
-    is open. With ``TRIBODYN_TRACEBACK=1`` in the environment none is, so that a reader's mistake can be found.
+    is open. With ``TRIBODYN_TRACEBACK=1`` in the environment none is: a reader's mistake can be found so.
     """
     if not (isinstance(error, _MISREAD) or (isinstance(error, OSError) and error.errno is None)):
         return None
