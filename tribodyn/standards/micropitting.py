@@ -204,7 +204,8 @@ def film_thickness(
     """Film thickness h_Y, m: (4) to (33).
 
     1600 ρ_n G^0.6 U^0.7 W^−0.13 S^0.22 in µm and mm, with G = α(θ_M) E_r, U = η(θ_M) Σv/(2 E_r ρ_n),
-    W = 2π p²/E_r² and S = α(θ_B) η(θ_B)/(α(θ_M) η(θ_M)).
+    W = 2π p²/E_r² and S = α(θ_B) η(θ_B)/(α(θ_M) η(θ_M)). Above a contact of 783 K the standard's α(θ) is
+    negative: there S, and with it the film, is zero.
 
     Parameters
     ----------
@@ -221,7 +222,7 @@ def film_thickness(
     material = oil.pressure_viscosity(bulk) * reduced_modulus
     speed = oil.viscosity(bulk) * speed_sum / (2.0 * reduced_modulus * radius)
     load = 2.0 * np.pi * (pressure / reduced_modulus) ** 2
-    sliding = oil.pressure_viscosity(contact) * oil.viscosity(contact) / stiffening
+    sliding = np.maximum(oil.pressure_viscosity(contact), 0.0) * oil.viscosity(contact) / stiffening
     return 1.6 * radius * material**0.6 * speed**0.7 * load**-0.13 * sliding**0.22
 
 

@@ -70,6 +70,14 @@ def test_films_of_the_published_stage():
     assert np.argmin(found.specific_film) == 0
 
 
+def test_above_the_range_of_the_pressure_viscosity_there_is_no_film():
+    """The standard's straight line of α over 1/T reaches zero at 783 K."""
+    hot = np.array([700.0, 782.0, 784.0, 1200.0])
+    found = films.film_thickness(1e9, 10e-3, 5.0, (370.0, hot), OIL, FLANKS.reduced_modulus)
+    assert np.all(found[:2] > 0.0)
+    np.testing.assert_array_equal(found[2:], 0.0)
+
+
 def test_either_method_gives_the_same_film_from_the_same_pressure():
     found = films.method_b(PATH, FLANKS, LOAD, OIL, OVERLAP)
     distance = paths.point_distances(PATH)

@@ -5,6 +5,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tribodyn.errors import SimulationError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.path import kinematics
 from tribodyn.numerics.shapes import Array, Float
@@ -58,7 +59,7 @@ def point_angles(assembly: Assembly) -> Float[Array, " point"]:
 def local_of(
     case: AssessmentCase, assembly: Assembly, along: Mapping[str, Any], figures: Mapping[str, Any]
 ) -> Local:
-    """Evaluate method A.
+    """Evaluate method A; SimulationError where no place has a Hertz contact.
 
     Parameters
     ----------
@@ -84,6 +85,11 @@ def local_of(
     line_load = load / float(assembly.common_width)
     narrow = 8.0 * line_load * motion.relative_curvature / (np.pi * flanks.reduced_modulus) < _WIDEST**2
     hertzian = (raised > 0.0) & narrow
+    if not np.any(hertzian):
+        raise SimulationError(
+            f"the contact is nowhere narrower than {_WIDEST:g} of its radius: the load is far beyond what "
+            "the teeth carry; reduce operating.gear_torque, or use larger teeth or a stiffer material"
+        )
     films = micropitting.at_places(
         np.where(hertzian, raised, np.nan),
         1.0 / motion.relative_curvature,

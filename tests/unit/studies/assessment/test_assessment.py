@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 
 from tests.support.short_studies import short_case, shortened, written_template
 from tribodyn.cli.app import app
-from tribodyn.errors import InputError
+from tribodyn.errors import InputError, SimulationError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import family, involute
@@ -271,3 +271,6 @@ def test_where_the_radius_vanishes_there_is_no_hertz_contact(tmp_path: Path):
     assert np.all(np.delete(film, POINTS.index("C")) > 0.0)
     assert local.films.pressure[0] == pytest.approx(0.8e9 * math.sqrt(1.2))
     assert local.films.bulk_temperature == 360.0
+    along["normal_load"][:] = 1e9
+    with pytest.raises(SimulationError, match="nowhere narrower than"):
+        local_of(short_case(KIND, tmp_path), assembly, along, figures)
