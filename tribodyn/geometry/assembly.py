@@ -149,7 +149,11 @@ def tip_corner_gap(assembly: Assembly, side: Side) -> Any:
     normal_angle = xp.linspace(np.pi / 2, tooth.form_angle, _SAMPLES)
     fillet_radius, fillet_angle = _polar(*fillet_point(tooth, normal_angle))
     gap = (corner_angle - xp.interp(distance, fillet_radius, fillet_angle)) * distance
-    return as_float(xp.min(xp.where(distance < tooth.form_radius, gap, np.inf)))
+    # where the corner leaves the flank the gap changes most: not only as near as the samples happen to lie
+    leaving = xp.interp(tooth.form_radius, distance[::-1], corner_angle[::-1])
+    first = (leaving - xp.interp(tooth.form_radius, fillet_radius, fillet_angle)) * tooth.form_radius
+    inside = distance < tooth.form_radius
+    return as_float(xp.minimum(xp.min(xp.where(inside, gap, np.inf)), xp.where(inside[-1], first, np.inf)))
 
 
 def _polar(x: Any, y: Any) -> tuple[Any, Any]:

@@ -6,8 +6,8 @@ import pytest
 from tests.support.sample_drives import LIU_NI, STANDARD
 from tribodyn.geometry.assembly import assemble, tip_corner_gap
 from tribodyn.geometry.corner_contact import pair_geometry
-from tribodyn.geometry.drive import reference_radius
-from tribodyn.geometry.families import crc, involute
+from tribodyn.geometry.drive import Drive, GearBody, reference_radius
+from tribodyn.geometry.families import crc, involute, spline
 from tribodyn.geometry.tooth import fillet_point, flank_point
 
 OFF = (-1.5e-3, -0.4e-3, 0.5e-3, 1.2e-3)
@@ -110,3 +110,19 @@ def test_the_tip_passes_the_fillet_at_the_gap_that_drawn_teeth_leave(side):
     gap = np.min(((touched - angle - half) * distance)[below])
     assert float(tip_corner_gap(assembly, side)) == pytest.approx(gap, rel=0.03)  # of 129 places
     assert gap > 1e-6
+
+
+def test_the_gap_falls_evenly_with_every_higher_tip():
+    """Where the corner leaves the flank the gap changes fast: samples beside that place made a saw of it."""
+    angles = [18.035, 18.7279, 19.2733, 20.257, 21.0364, 21.2197, 22.025, 22.9261, 23.484, 24.0855]
+    shape = spline.Shape(np.radians(angles), None, 36.9235e-3, 0.0)
+    pinion = GearBody(19.0, 0.0, 0.8257, 1.25, 0.1005, 0.06, 0.027)
+    gaps = []
+    for addendum in np.arange(0.700, 0.745, 0.001):
+        gear = GearBody(72.0, 0.0, addendum, 1.25, 0.1725, 0.06, 0.041)
+        drive = Drive(4.735e-3, 0.0, pinion, gear, shape)
+        gaps.append(float(tip_corner_gap(assemble(spline.FAMILY, drive), "pinion")))
+    assert gaps[0] > 0.0 > gaps[-1]
+    slopes = np.diff(gaps)
+    assert np.max(slopes) < 0.0
+    assert np.all(np.abs(np.diff(slopes)) < 0.1 * np.abs(slopes[1:]))
