@@ -14,7 +14,7 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, WIDTH, house_style, new_figure, save
 from tribodyn.record.reader import open_record
-from tribodyn.studies.design.candidates import cases_of, chosen, value_at
+from tribodyn.studies.design.candidates import cases_of, chosen, number_of, value_at
 from tribodyn.studies.design.judged import Judge
 from tribodyn.studies.design.pool import Pool
 from tribodyn.studies.load import load_scenario
@@ -69,10 +69,9 @@ def draw_map(name: str, path: Path, folder: Path) -> Any:
     with open_record(path) as record:
         x, y = (record[f"free_{one.name}"] / one.si for one in case.free)
         axes.plot(x, y, ".", color=INK, markersize=2.5, label="evaluations")
-        objective = np.where(record["feasible"] == 1, record["objective"], np.nan)
-        best = int(np.nanargmin(objective))
-        axes.plot(x[best], y[best], "o", color=PALETTE[1], markersize=6, label="best of the search")
-        found = objective[best] * factor
+        best = [number_of(one, record.summary["best"][one.keys[0]]) / one.si for one in case.free]
+        axes.plot(*best, "o", color=PALETTE[1], markersize=6, label="best of the search")
+        found = record.summary["objective"] * factor
     row, column = np.unravel_index(np.nanargmin(np.where(feasible, values, np.nan)), values.shape)
     least = values[row, column]
     axes.plot(

@@ -2,39 +2,40 @@
 
 Methods search on the resolution of the scenario. Where the figure of the best changes on a finer one, the
 best candidates are evaluated again and searched about on one that is `SEARCHED` times as fine, and the best
-of those on finer ones. Constraints are those of the last one.
+of those on finer ones. Of a front its members, and what may be members on a finer resolution, are evaluated
+again; nothing is searched about them. Constraints and dominance are those of the last one.
 """
 
-import math
+from collections.abc import Callable
 from contextlib import suppress
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.studies import study_of
 from tribodyn.studies.design.archive import Archive, Evaluation, SpentError
-from tribodyn.studies.design.candidates import Overrides, cases_of, share_of
+from tribodyn.studies.design.candidates import share_of
 from tribodyn.studies.design.case import DesignCase
-from tribodyn.studies.design.evaluation import loaded_case
-from tribodyn.studies.design.judged import Judge
+from tribodyn.studies.design.layout import FACTORS
+from tribodyn.studies.design.levels import Levels, resolutions
 from tribodyn.studies.design.methods import SMOOTH
+from tribodyn.studies.design.methods.front import front
 from tribodyn.studies.design.methods.local import RADIUS, minimise
 from tribodyn.studies.design.methods.views import Scalar
-from tribodyn.studies.design.pool import Evaluators
-from tribodyn.studies.design.sources import own
 
 #: Relative change of the figure from one resolution to the next, twice in a row, within which it stands. What
 #: is left of errors of first order is as much again.
 STANDS = 2.5e-3
-#: Resolutions over that of the scenario, none a multiple of the one before: the same positions would give the
-#: same extremes. On the third of them is searched about the best.
-FACTORS = (1, 2, 5, 11, 23, 47)
+#: Factor at which is searched about the best.
 SEARCHED = FACTORS[2]
 #: Candidates that are evaluated on finer resolutions; share of `evaluations` of the search about the best.
 KEPT, SHARE = 6, 1 / 2
+#: Change of a figure below which no two differ.
+TINY = 1e-300
 #: Size of the first simplex about the best, as a share of the ranges.
 SIMPLEX = 0.01
+
+At = Callable[[int], Archive]
+"""Archives by factor, see `Levels`."""
 
 
 class Converged(NamedTuple):
@@ -47,7 +48,7 @@ class Converged(NamedTuple):
     factor : int
         That one over the resolution of the scenario; 1: there is none to refine.
     stands : bool or None
-        Whether the figure stands; None where that was not asked.
+        Whether the figures stand; None where that was not asked.
     evaluations : int
         On finer resolutions.
     """
@@ -58,41 +59,35 @@ class Converged(NamedTuple):
     evaluations: int = 0
 
 
-def resolutions(case: DesignCase, factor: int) -> Overrides:
-    """Resolutions of the scenarios times a factor, by key; of parts with their names before it."""
-    found: Overrides = {}
-    for name, data in case.scenarios.items():
-        study = study_of(data)
-        one = loaded_case(data, own(name, study.table(data), {}, case.parts)).case
-        table, _, number = study.resolution.rpartition(".")
-        if number:
-            holder = one if hasattr(one, number) else getattr(one, table)
-            key = f"{name}.{study.resolution}" if name else study.resolution
-            found[key] = factor * getattr(holder, number)
-    return found
-
-
-def converged(case: DesignCase, archive: Archive, pool: Evaluators, method: str) -> Converged:
-    """Go on from what a search found until the figure of its best stands; a front is left as it is."""
-    if len(case.objectives) > 1 or not resolutions(case, 1) or archive.best() is None:
+def converged(case: DesignCase, levels: Levels, method: str) -> Converged:
+    """Go on from what a search found until the figures of its best, or of its front, stand."""
+    archive = levels.at(1)
+    if not resolutions(case, 1) or archive.best() is None:
         return Converged(archive)
-    levels = {1: archive}
+    if len(case.objectives) > 1:
+        factor, stands = _of_front(case, levels.at)
+    else:
+        factor, stands = _of_one(case, levels.at, method)
+    return Converged(levels.at(factor), factor, stands, levels.finer)
 
-    def at(factor: int) -> Archive:
-        if factor not in levels:
-            more = resolutions(case, factor)
-            judge = Judge(case, pool.submit(cases_of(case, {}, more)).result())
-            levels[factor] = Archive(case, judge, pool, lambda _: None, more=more)
-        return levels[factor]
 
-    def ended(factor: int, stands: bool) -> Converged:
-        count = sum(len(one.evaluations) for key, one in levels.items() if key > 1)
-        return Converged(levels[factor], factor, stands, count)
+def counts(case: DesignCase, method: str) -> dict[int, int]:
+    """How many candidates a search evaluates by factor, about; the figures may stand sooner."""
+    most = case.search.evaluations
+    if len(case.objectives) > 1:
+        each = 2 * max(KEPT, case.search.points)
+        return {factor: min(each, most) if factor > 1 else most for factor in FACTORS}
+    about = int(SHARE * most) if method in SMOOTH else 0
+    more = {factor: KEPT for factor in FACTORS[2:]}
+    return {1: most, 2: 1} | more | {SEARCHED: KEPT + about}
 
-    some = _best_of(archive, 1)
+
+def _of_one(case: DesignCase, at: At, method: str) -> tuple[int, bool]:
+    """Factor at which the figure of the best stands, and whether it does."""
+    some = _best_of(at(1), 1)
     if _stands(some[0], [at(one) for one in FACTORS[:3]], case):
-        return ended(SEARCHED, True)
-    some = _asked(at(SEARCHED), _best_of(archive, KEPT), case)
+        return SEARCHED, True
+    some = _asked(at(SEARCHED), _best_of(at(1), KEPT), case)
     if method in SMOOTH:
         _search_about(at(SEARCHED))
         some = _best_of(at(SEARCHED), KEPT) or some
@@ -102,8 +97,41 @@ def converged(case: DesignCase, archive: Archive, pool: Evaluators, method: str)
             _search_about(at(factor))
         best = _best_of(at(factor), 1)
         if best and _stands(best[0], [at(one) for one in FACTORS[number - 2 : number + 1]], case):
-            return ended(factor, True)
-    return ended(FACTORS[-1], False)
+            return factor, True
+    return FACTORS[-1], False
+
+
+def _of_front(case: DesignCase, at: At) -> tuple[int, bool]:
+    """Factor at which both figures of every member of the front stand, and whether they do."""
+    for number, factor in enumerate(FACTORS[1:], 1):
+        coarse, fine = at(FACTORS[number - 1]), at(factor)
+        members = _asked(fine, front(coarse.evaluations) or coarse.evaluations, case)
+        _asked(fine, _near(coarse, fine, members), case)
+        end = front(fine.evaluations)
+        last = [at(one) for one in FACTORS[number - 2 : number + 1]] if number > 1 else []
+        if last and end and all(_stands(one, last, case) for one in end):
+            return factor, True
+    return FACTORS[-1], False
+
+
+def _near(coarse: Archive, fine: Archive, members: list[Evaluation]) -> list[Evaluation]:
+    """Feasible candidates that members of a front are better than by less than a finer resolution changes.
+
+    The nearest of them, at most as many as there are members, or `KEPT`.
+    """
+    known = {one.numbers: one.judged for one in fine.evaluations}
+    asked = [one for one in members if one.numbers in known]
+    moved = [np.subtract(known[one.numbers].objectives, one.judged.objectives) for one in asked]
+    # what is left of errors of first order is as much again
+    changes = 2.0 * np.nanmax(np.abs(moved), axis=0, initial=TINY)
+    some = [one for one in coarse.evaluations if one.judged.feasible and one.numbers not in known]
+    if not some:
+        return []
+    better = np.array([one.judged.objectives for one in members])
+    over = np.array([one.judged.objectives for one in some])[:, None] - better
+    gaps = (over / changes).min(axis=2).max(axis=1)
+    nearest = [some[place] for place in np.argsort(gaps, kind="stable") if gaps[place] <= 1.0]
+    return nearest[: max(KEPT, len(members))]
 
 
 def _shares(case: DesignCase, one: Evaluation) -> np.ndarray:
@@ -147,12 +175,12 @@ def _search_about(archive: Archive) -> None:
 
 
 def _stands(one: Evaluation, levels: list[Archive], case: DesignCase) -> bool:
-    """Whether a candidate's figure changes little from level to level; its constraints hold on the last."""
+    """Whether a candidate's figures change little from level to level; its constraints hold on the last."""
     try:
         several = [level.ask(_shares(case, one)) for level in levels]
     except SpentError:
         return False
-    values = [judged.objectives[0] for judged in several]
-    if not all(math.isfinite(value) for value in values) or not several[-1].feasible:
+    values = np.array([judged.objectives for judged in several])
+    if not np.isfinite(values).all() or not several[-1].feasible:
         return False
-    return all(abs(b - a) <= STANDS * abs(values[-1]) for a, b in pairwise(values))
+    return bool(np.all(np.abs(np.diff(values, axis=0)) <= STANDS * np.abs(values[-1])))

@@ -3,8 +3,11 @@
 from tribodyn.studies import study_of
 from tribodyn.studies.design.candidates import Overrides, cases_of, chosen, start_of
 from tribodyn.studies.design.case import DesignCase
+from tribodyn.studies.design.converged import counts
 from tribodyn.studies.design.evaluation import loaded_case
-from tribodyn.studies.design.layout import layout_of, names_of, scales_of
+from tribodyn.studies.design.layout import FACTORS, layout_of, names_of, scales_of
+from tribodyn.studies.design.levels import resolutions
+from tribodyn.studies.design.methods import method_of
 from tribodyn.studies.design.sources import own
 from tribodyn.studies.estimate import Driver, Estimate, record_bytes
 
@@ -13,18 +16,28 @@ USUAL = 300
 
 
 def estimate(case: DesignCase) -> Estimate:
-    """What a run of a case takes: that of its base scenario, so many times."""
-    asked = cases_of(case, chosen(case, start_of(case)))
-    several = [_of_one(name, case, asked[0]) for name in case.scenarios]
+    """What a run of a case takes: that of its base scenario, so many times, on every resolution."""
+    method, _ = method_of(case)
+    count, several, seconds = float(case.search.evaluations), [], 0.0
+    for factor, candidates in counts(case, method).items():
+        more = resolutions(case, factor) if factor > 1 else {}
+        if factor > 1 and not more:
+            break
+        asked = cases_of(case, chosen(case, start_of(case)), more)
+        some = [_of_one(name, case, asked[0]) for name in case.scenarios]
+        several += some
+        seconds += candidates * len(asked) * sum(one.seconds for one in some)
     one = max(several, key=lambda some: some.memory)
-    count = float(case.search.evaluations)
     names = names_of(case, [])
     scales = scales_of(case, names)
-    sizes = {"evaluation": case.search.evaluations, **{name: len(one) for name, one in scales.items()}}
+    sizes = {
+        "evaluation": len(FACTORS) * case.search.evaluations,
+        **{name: len(one) for name, one in scales.items()},
+    }
     return Estimate(
         one.memory,
         record_bytes(layout_of(case), sizes),
-        count * len(asked) * sum(some.seconds for some in several),
+        seconds,
         (Driver("design.evaluations", count, USUAL), *one.drivers),
         one.shared,
     )

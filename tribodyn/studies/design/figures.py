@@ -13,8 +13,8 @@ from tribodyn.post.figures.panel import View, record_label, record_title
 from tribodyn.post.report import Line
 from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, QUIET, WIDTH, literal, new_figure
 from tribodyn.record.reader import Record
-from tribodyn.studies.design.layout import LOWER, OBJECTIVES, UPPER
-from tribodyn.studies.design.naming import apart, flat, naming_key
+from tribodyn.studies.design.layout import LOWER, OBJECTIVES, UPPER, searched
+from tribodyn.studies.design.naming import apart, duty_names, naming_key
 from tribodyn.studies.design.report import line_of
 
 #: Duties that are drawn as bars, at most.
@@ -29,13 +29,14 @@ class _Shown:
 
     def __init__(self, record: Record, place: int = 0) -> None:
         name = OBJECTIVES[place]
+        units = record.units(name)
         about = record.long_name(name).removeprefix("objective: ")
         line = line_of(record.scenario, about)
-        self.line = line or Line(about, about.replace("_", " "), unit=_unit(record.units(name)))
+        self.line = line or Line(about, about.replace("_", " "), unit="" if units == "1" else units)
         value = record.summary.get("objective")
         down = value is not None and float(np.atleast_1d(value)[place]) * _least(record, name) < 0
         self.factor = -self.line.factor if down else self.line.factor
-        self.values = self.factor * record[name]
+        self.values = self.factor * record[name][searched(record)]
 
     @property
     def label(self) -> str:
@@ -53,8 +54,9 @@ def _least(record: Record, name: str) -> float:
     return float(np.nanmin(values)) if values.size else np.nan
 
 
-def _unit(units: str) -> str:
-    return "" if units == "1" else units
+def _feasible(record: Record) -> np.ndarray:
+    """Which evaluations of the search are feasible."""
+    return record["feasible"][searched(record)] == 1
 
 
 def _required(record: Record) -> None:
@@ -79,11 +81,11 @@ def _overview(records: Sequence[Record], view: View) -> Figure:
 
 
 def _draw_history(axes: Axes, records: Sequence[Record]) -> None:
-    """Objective of every candidate in their order, and the best so far."""
+    """Objective of every candidate in their order, the best so far, and what the search ends on."""
     shown = _Shown(records[0])
     seen = []
     for number, record in enumerate(records):
-        values, feasible = shown.factor * record["objective"], record["feasible"] == 1
+        values, feasible = shown.factor * record["objective"][searched(record)], _feasible(record)
         count = np.arange(1, len(values) + 1)
         down = np.sign(shown.factor)
         best = down * np.fmin.accumulate(np.where(feasible, down * values, np.nan))
@@ -93,7 +95,9 @@ def _draw_history(axes: Axes, records: Sequence[Record]) -> None:
         axes.plot(count[other], values[other], "x", color=QUIET, markersize=3, markeredgewidth=0.7)
         label = record_label(record) if len(records) > 1 else "best so far"
         axes.step(count, best, where="post", color=color, label=label)
-        seen += [values[np.isfinite(values)], best[np.isfinite(best)]]
+        end = abs(shown.factor) * _first(record, "objective")
+        axes.plot(count[-1:], [end], "o", color=BEST, markersize=5, clip_on=False, label="" if number else "best")
+        seen += [values[np.isfinite(values)], np.array([end])]
     start = records[0].summary.get("objective_start")
     if start is not None:
         level = abs(shown.factor) * float(np.atleast_1d(start)[0])
@@ -144,31 +148,24 @@ def _first(record: Record, name: str) -> float:
     return np.nan if value is None else float(np.atleast_1d(value)[0])
 
 
-def duty_names(design: Mapping[str, Any]) -> list[str]:
-    """A name for each duty: the values of the keys in which duties differ."""
-    sets = [flat(one.get("set", {})) for one in design.get("duty", ())]
-    keys = list(dict.fromkeys(key for one in sets for key in one))
-    different = [key for key in keys if len({str(one.get(key)) for one in sets}) > 1]
-    return ["\n".join(str(one.get(key, "")) for key in different) for one in sets]
-
-
 def _draw_values(axes: Axes, record: Record) -> None:
     """Free keys over their ranges: start, best, and those candidates that come within a tenth of it."""
     entries = record.scenario["design"]["free"]
     names = [name for name in record if name.startswith("free_")]
-    values = _Shown(record).values * np.sign(_Shown(record).factor)
-    best = int(np.nanargmin(np.where(record["feasible"] == 1, values, np.nan)))
+    values, feasible = _Shown(record).values * np.sign(_Shown(record).factor), _feasible(record)
+    least = np.nanmin(np.where(feasible, values, np.nan))
     span = abs(np.nan_to_num(_first(record, "objective_start")) * _Shown(record).factor)
-    near = (record["feasible"] == 1) & (values <= values[best] + 0.1 * abs(values[best] or span))
+    near = feasible & (values <= least + 0.1 * abs(least or span))
     keys = [naming_key(one["key"]) for one in entries]
     labels = []
     for row, (name, entry) in enumerate(zip(names, entries, strict=True)):
         key = entry["key"] if isinstance(entry["key"], str) else entry["key"][0]
-        low, high = _bounds(record, name, entry)
-        shares = (record[name] - low) / ((high - low) or 1.0)
+        low, high = _bounds(entry)
+        shares = (record[name][searched(record)] - low) / ((high - low) or 1.0)
         axes.plot(shares[near], np.full(near.sum(), row), "|", color=PALETTE[0], markersize=7, alpha=0.5)
-        axes.plot(shares[best], row, "o", color=BEST, markersize=5, zorder=3)
         written = record.summary["best"].get(key, "")
+        share = (_number(written, entry) - low) / ((high - low) or 1.0)
+        axes.plot(share, row, "o", color=BEST, markersize=5, zorder=3)
         labels.append(f"{literal(apart(keys)[row].replace('_', ' '))}\n{literal(_short(written))}")
     axes.set_yticks(range(len(names)), labels, fontsize=6.5)
     axes.set_ylim(len(names) - 0.4, -0.6)
@@ -185,17 +182,21 @@ def _short(value: Any) -> str:
         return str(value)
 
 
-def _bounds(record: Record, name: str, entry: Mapping[str, Any]) -> tuple[float, float]:
+def _bounds(entry: Mapping[str, Any]) -> tuple[float, float]:
     """Bounds of a free key in the units of its dataset."""
+    if "choices" in entry:
+        return 0.0, len(entry["choices"]) - 1.0
+    return _number(entry["from"], entry), _number(entry["to"], entry)
+
+
+def _number(value: Any, entry: Mapping[str, Any]) -> float:
+    """Value of a free key in the units of its dataset; of a choice its place."""
     from tribodyn.scenario.vary import base_units
 
     if "choices" in entry:
-        return 0.0, len(entry["choices"]) - 1.0
-    ends = []
-    for end in ("from", "to"):
-        base = base_units(entry[end])
-        ends.append(float(entry[end]) if base is None else base[0])
-    return ends[0], ends[1]
+        return float([str(one) for one in entry["choices"]].index(str(value)))
+    base = base_units(value)
+    return float(value) if base is None else base[0]
 
 
 def _draw_sensitivities(axes: Axes, record: Record) -> None:
@@ -228,8 +229,7 @@ def _draw_front(axes: Axes, records: Sequence[Record]) -> None:
     first, second = (_Shown(records[0], place) for place in (0, 1))
     for number, record in enumerate(records):
         color = PALETTE[number % len(PALETTE)]
-        one, two = _Shown(record, 0), _Shown(record, 1)
-        feasible = record["feasible"] == 1
+        one, two, feasible = _Shown(record, 0), _Shown(record, 1), _feasible(record)
         axes.plot(one.values[feasible], two.values[feasible], ".", color=color, markersize=3, alpha=0.35)
         found = record.summary.get("front", {})
         x, y = (

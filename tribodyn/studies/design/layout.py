@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.numerics.variable import Variable, flag
+from tribodyn.record.reader import Record
 from tribodyn.record.schema import Layout
 from tribodyn.studies import study_of
 from tribodyn.studies.design.archive import Evaluation
@@ -22,6 +23,11 @@ OBJECTIVES = ("objective", "objective_2")
 LOWER, UPPER = "objective_lower", "objective_upper"
 #: Dataset of the figures of the base scenario as it stands.
 START_FIGURES = "start_figures"
+#: Resolutions over that of the scenario, none a multiple of the one before: the same positions would give the
+#: same extremes. The first is searched on, the others are those of the last stage.
+FACTORS = (1, 2, 5, 11, 23, 47)
+#: Dataset of the resolution of every evaluation.
+REFINEMENT = "refinement"
 #: Share of its range by which a free key is moved about the best.
 MOVED = 0.02
 
@@ -78,12 +84,15 @@ def layout_of(case: DesignCase) -> Layout:
     if shapes_gears(case):
         about = "least distance of the gears from the limits of their existence, in modules"
         samples["shape"] = Variable(along, "1", about)
+    about = "resolution over that of the scenario: 1 in the search, more in its last stage"
+    samples[REFINEMENT] = Variable(along, "1", about)
     samples["feasible"] = flag(along, "whether all constraints hold", "not_judged no yes")
     samples["message"] = Variable(along, "1", "why a candidate has no figures", f"S{MESSAGE}", b"")
     scales = {
         "duty": Variable(("duty",), "1", "number of the duty"),
         "constraint": Variable(("constraint",), "1", "number of the constraint"),
         "case": Variable(("case",), "1", "number of the case: samples run within duties"),
+        "level": Variable(("level",), "1", "resolutions over that of the scenario"),
         "figure": Variable(("figure",), "1", "figures: those of objectives and constraints, then others"),
         "moved": Variable(
             ("moved",), "1", "number of a free key, and behind them of a tolerance, moved about the best"
@@ -91,7 +100,9 @@ def layout_of(case: DesignCase) -> Layout:
     }
     others = {
         START_FIGURES: Variable(
-            ("case", "figure"), "1", "figures of every duty and sample at the start, as in case_figures"
+            ("level", "case", "figure"),
+            "1",
+            "figures of every duty and sample at the start, as in case_figures, on the resolutions asked for",
         ),
         LOWER: Variable(
             ("moved",), units, "first objective with one key moved down about the best, the others kept"
@@ -101,19 +112,27 @@ def layout_of(case: DesignCase) -> Layout:
     return Layout(EVALUATION, samples, scales, others)
 
 
+def searched(record: Record) -> np.ndarray:
+    """Which evaluations of a record are those of the search itself, not of its last stage."""
+    return record[REFINEMENT] == 1.0 if REFINEMENT in record else np.ones(record.samples, bool)
+
+
 def scales_of(case: DesignCase, names: Sequence[str]) -> dict[str, np.ndarray]:
     """Values along the other axes."""
     scales = {
         "duty": np.arange(len(case.duties)),
         "case": np.arange(len(case.duties) * len(samples_of(case))),
+        "level": np.array(FACTORS, dtype=float),
         "figure": np.array(names),
         "moved": np.arange(len(case.free) + len(case.tolerances)),
     }
     return scales | ({"constraint": np.arange(len(case.constraints))} if case.constraints else {})
 
 
-def rows_of(case: DesignCase, names: Sequence[str], some: Sequence[Evaluation], start: int) -> dict[str, Any]:
-    """Rows of the record for evaluations, the first of which has the number `start`."""
+def rows_of(
+    case: DesignCase, names: Sequence[str], some: Sequence[Evaluation], start: int, factor: int
+) -> dict[str, Any]:
+    """Rows of the record for evaluations on one resolution, the first of which has the number `start`."""
     numbers = np.array([one.numbers for one in some], dtype=float).reshape(len(some), len(case.free))
     rows: dict[str, Any] = {"evaluation": np.arange(start, start + len(some), dtype=float)}
     for place, one in enumerate(case.free):
@@ -126,6 +145,7 @@ def rows_of(case: DesignCase, names: Sequence[str], some: Sequence[Evaluation], 
     rows["case_figures"] = np.array([figure_rows(names, one.found) for one in some])
     if shapes_gears(case):
         rows["shape"] = np.array([np.nan if one.judged.shape is None else one.judged.shape for one in some])
+    rows[REFINEMENT] = np.full(len(some), float(factor))
     rows["feasible"] = np.array([float(one.judged.feasible) for one in some])
     rows["message"] = np.array([_cut(one.judged.message) for one in some], dtype=f"S{MESSAGE}")
     return rows

@@ -8,7 +8,7 @@ import numpy as np
 from tribodyn.record.reader import Record
 from tribodyn.studies.design.candidates import Overrides, value_at
 from tribodyn.studies.design.case import DesignCase, Free
-from tribodyn.studies.design.layout import LOWER, START_FIGURES, UPPER
+from tribodyn.studies.design.layout import LOWER, REFINEMENT, START_FIGURES, UPPER
 from tribodyn.studies.design.pool import Figures
 
 Moved = Mapping[tuple[int, str], float]
@@ -20,42 +20,46 @@ class Left(NamedTuple):
 
     Attributes
     ----------
-    known : sequence
-        Values and figures of candidates, in their order.
-    start : list or None
-        Figures of the base scenario's cases; None where they have to be evaluated.
+    known : mapping
+        Values and figures of candidates, in their order, by their resolution over that of the scenario.
+    start : mapping
+        Figures of the base scenario's cases, by the same; none where they have to be evaluated.
     moved : mapping
         See `Moved`.
     """
 
-    known: Sequence[tuple[Overrides, Figures]]
-    start: Figures | None
+    known: Mapping[int, Sequence[tuple[Overrides, Figures]]]
+    start: Mapping[int, Figures]
     moved: Moved
 
 
-NOTHING_LEFT = Left((), None, {})
+NOTHING_LEFT = Left({}, {}, {})
 
 
 def left_in(case: DesignCase, record: Record) -> Left:
     """Read what a record of the same search holds."""
     names = [str(name) for name in record["figure"]]
     columns = [record[f"free_{one.name}"] for one in case.free]
-    known: list[tuple[Overrides, Figures]] = []
+    known: dict[int, list[tuple[Overrides, Figures]]] = {}
     for row, (cases, message) in enumerate(zip(record["case_figures"], record["message"], strict=True)):
         values: Overrides = {}
         for one, column in zip(case.free, columns, strict=True):
             values |= dict.fromkeys(one.keys, _value(one, float(column[row])))
         found: Figures = [_figures(names, numbers) or str(message) for numbers in cases]
         if not any(isinstance(of, str) and not of for of in found):
-            known.append((values, found))
-    start = [_figures(names, numbers) for numbers in record[START_FIGURES]]
+            known.setdefault(int(record[REFINEMENT][row]), []).append((values, found))
+    start: dict[int, Figures] = {}
+    for factor, cases in zip(record["level"], record[START_FIGURES], strict=True):
+        of_start = [of for numbers in cases if (of := _figures(names, numbers))]
+        if len(of_start) == len(cases):
+            start[int(factor)] = list(of_start)
     moved = {
         (place, name): float(value)
         for name in (LOWER, UPPER)
         for place, value in enumerate(record[name])
         if np.isfinite(value)
     }
-    return Left(known, [of for of in start if of] if all(start) else None, moved)
+    return Left(known, start, moved)
 
 
 def _value(one: Free, number: float) -> object:

@@ -1,4 +1,4 @@
-"""Names of free keys and tolerances, and nested tables as dotted keys."""
+"""Names of free keys, tolerances and duties, and nested tables as dotted keys."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -33,3 +33,11 @@ def flat(table: Mapping[str, Any], above: str = "") -> dict[str, Any]:
         key = f"{above}{name}"
         keys |= flat(value, f"{key}.") if isinstance(value, Mapping) else {key: value}
     return keys
+
+
+def duty_names(design: Mapping[str, Any]) -> list[str]:
+    """A name for each duty: the values of the keys in which duties differ."""
+    sets = [flat(one.get("set", {})) for one in design.get("duty", ())]
+    keys = list(dict.fromkeys(key for one in sets for key in one))
+    different = [key for key in keys if len({str(one.get(key)) for one in sets}) > 1]
+    return ["\n".join(str(one.get(key, "")) for key in different) for one in sets]

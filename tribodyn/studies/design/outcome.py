@@ -58,25 +58,17 @@ def write_best(case: DesignCase, values: Mapping[str, Any], record: Path, force:
     return files
 
 
-def headline(case: DesignCase, archive: Archive, searched: Archive) -> dict[str, Any]:
+def headline(case: DesignCase, archive: Archive, searched: Archive | None = None) -> dict[str, Any]:
     """Figures of the summary that say what was found: at the start and at the best.
 
-    They are those of an archive; what was evaluated is that of the one that was searched.
+    They are those of an archive; what was evaluated is that of the one that was searched, if it is another.
     """
+    searched = searched or archive
     judge, best = archive.judge, chosen_best(case, archive)
     judged = judge.judged(judge.start)
-    single = len(case.objectives) == 1
-
-    def shown(objectives: tuple[float, ...]) -> Any:
-        signed = [
-            -one if aim.name.startswith("-") else one
-            for one, aim in zip(objectives, case.objectives, strict=True)
-        ]
-        return signed[0] if single else signed
-
     summary: dict[str, Any] = {
         "objective_name": " and ".join(one.name.removeprefix("-") for one in case.objectives),
-        "objective_start": None if judged.message else shown(judged.objectives),
+        "objective_start": None if judged.message else signed(case, judged.objectives),
         "start_feasible": judged.feasible,
         "evaluations": len(searched.evaluations),
         "evaluations_without_figures": sum(bool(one.judged.message) for one in searched.evaluations),
@@ -88,7 +80,7 @@ def headline(case: DesignCase, archive: Archive, searched: Archive) -> dict[str,
         summary["without_figures_message"] = messages.most_common(1)[0][0]
     if best is None:
         return summary
-    summary["objective"] = shown(best.judged.objectives)
+    summary["objective"] = signed(case, best.judged.objectives)
     summary["best"] = {
         key: value if isinstance(value, (int, float)) else str(value) for key, value in best.values.items()
     }
@@ -107,7 +99,7 @@ def headline(case: DesignCase, archive: Archive, searched: Archive) -> dict[str,
         summary["constraints_best"] = judge.constrained(best.found)
     summary["figures_start"] = dict(judge.at_start)
     summary["figures_best"] = dict(best.judged.figures)
-    if not single:
+    if len(case.objectives) > 1:
         points = front(archive.evaluations)
         summary["front"] = {
             "points": len(points),
@@ -115,6 +107,15 @@ def headline(case: DesignCase, archive: Archive, searched: Archive) -> dict[str,
             "objective_2": [one.judged.objectives[1] for one in points],
         }
     return summary
+
+
+def signed(case: DesignCase, objectives: tuple[float, ...]) -> Any:
+    """Objectives with the signs of their figures; of one objective that number alone."""
+    found = [
+        -one if aim.name.startswith("-") else one
+        for one, aim in zip(objectives, case.objectives, strict=True)
+    ]
+    return found[0] if len(found) == 1 else found
 
 
 def _plain(value: Any) -> bool:

@@ -1,6 +1,6 @@
 """Lines and sentences of the summary of a search."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -73,7 +73,7 @@ def sentences(record: Record) -> list[str]:
         if name := _figure_in(text, known):
             said.append(f"{text}: at its worst {_change(search, name, before.get(text), value)}.")
     if "resolution" in summary:
-        said.append(_resolution(search, names[0], summary))
+        said.append(_resolution(search, names, summary))
     if "objective_confirmed" in summary:
         ends = (summary[f"objective_{one}confirmed"] for one in ("start_", ""))
         change = _change(search, names[0], *ends)
@@ -84,15 +84,18 @@ def sentences(record: Record) -> list[str]:
     return said
 
 
-def _resolution(search: Mapping[str, Any], name: str, summary: Mapping[str, Any]) -> str:
+def _resolution(search: Mapping[str, Any], names: Sequence[str], summary: Mapping[str, Any]) -> str:
     """Say on which resolution the figures stand, and what the best is on the one that was searched on."""
-    line = line_of(search, name) or Line(name, name)
+    lines = [line_of(search, name) or Line(name, name) for name in names]
     fine, coarse = (
         ", ".join(f"{key} = {value}" for key, value in summary[one].items())
         for one in ("resolution", "resolution_searched")
     )
     stands = "do not change there" if summary["figure_stands"] else "still change there"
-    before = f"{shown(line, float(summary['objective_searched']))} {line.unit}".rstrip()
+    before = " and ".join(
+        f"{shown(line, float(value))} {line.unit}".rstrip()
+        for line, value in zip(lines, np.atleast_1d(summary["objective_searched"]), strict=True)
+    )
     return f"Figures are those of {fine}, and {stands}; searched with {coarse}, where the best has {before}."
 
 

@@ -18,9 +18,10 @@ from tribodyn.record.writer import RecordWriter, check_target
 from tribodyn.studies.design.archive import Archive, Evaluation, SpentError
 from tribodyn.studies.design.candidates import cases_of, chosen, share_of, start_of
 from tribodyn.studies.design.case import DesignCase
-from tribodyn.studies.design.converged import Converged, converged, resolutions
+from tribodyn.studies.design.converged import Converged, converged
 from tribodyn.studies.design.judged import HELD, Judge
 from tribodyn.studies.design.layout import (
+    FACTORS,
     LOWER,
     MOVED,
     START_FIGURES,
@@ -32,8 +33,9 @@ from tribodyn.studies.design.layout import (
     scales_of,
 )
 from tribodyn.studies.design.left import NOTHING_LEFT, Left, Moved, left_in
+from tribodyn.studies.design.levels import Levels, resolutions
 from tribodyn.studies.design.methods import METHODS, method_of
-from tribodyn.studies.design.outcome import check_targets, chosen_best, headline, write_best
+from tribodyn.studies.design.outcome import check_targets, chosen_best, headline, signed, write_best
 from tribodyn.studies.design.pool import Cluster, Evaluators, Figures, Pool, workers_for
 from tribodyn.studies.recording import target, writer
 from tribodyn.studies.study import Progress, RunResult
@@ -62,17 +64,22 @@ def run(
     path = target(case, path, force)
     begun = perf_counter()
     with ExitStack() as stack:
-        pool, judge = stack.enter_context(_started(case, left.start, client))
-        archive = searched = Archive(case, judge, pool, lambda one: keep(one), left.known)
-        names, room = names_of(case, judge.start), case.search.evaluations + len(left.known)
+        pool, start = stack.enter_context(_started(case, left.start.get(1), client))
+        left = left._replace(start={**left.start, 1: start})
+        names = names_of(case, start)
+        room = sum(map(len, left.known.values())) + len(FACTORS) * case.search.evaluations
         scales = scales_of(case, names)
         how: dict[str, Any] = {"scales": scales, "force": force, "code": computing_digest()}
         record = stack.enter_context(writer(case, path, layout_of(case), room, **how))
-        keep = _keeper(case, record, names, progress)
-        if archive.recorded:
-            record.write(0, rows_of(case, names, archive.recorded, 0))
-        for number, of in enumerate(figure_rows(names, judge.start)):
-            record.put(number, {START_FIGURES: of})
+
+        def started(factor: int, of: Figures) -> None:
+            record.put(FACTORS.index(factor), {START_FIGURES: figure_rows(names, of)})
+
+        levels = Levels(case, pool, left, started, _keeper(case, record, names, progress))
+        archive = searched = levels.at(1)
+        for factor in sorted(left.known):
+            known = levels.at(factor).recorded
+            record.write(record.written, rows_of(case, names, known, record.written, factor))
 
         def so_far(**more: Any) -> dict[str, Any]:
             where = {"engine": pool.name, "workers": pool.workers}
@@ -82,7 +89,7 @@ def run(
 
         try:
             _search(case, archive, name)
-            end = converged(case, searched, pool, name)
+            end = converged(case, levels, name)
             archive = end.archive
             best = chosen_best(case, archive)
             if best is None:
@@ -109,11 +116,11 @@ def run(
 def figures(case: DesignCase) -> dict[str, Any]:
     """Figures of a search without a record; raises SimulationError where nothing is feasible."""
     name, _ = method_of(case)
-    with _started(case) as (pool, judge):
-        archive = Archive(case, judge, pool, lambda _: None)
-        _search(case, archive, name)
-        end = converged(case, archive, pool, name)
-        found = headline(case, end.archive, archive)
+    with _started(case) as (pool, start):
+        levels = Levels(case, pool, NOTHING_LEFT._replace(start={1: start}))
+        _search(case, levels.at(1), name)
+        end = converged(case, levels, name)
+        found = headline(case, end.archive, levels.at(1))
         if "objective" not in found:
             raise SimulationError(_why_none(case, end.archive))
         return found
@@ -122,12 +129,12 @@ def figures(case: DesignCase) -> dict[str, Any]:
 @contextmanager
 def _started(
     case: DesignCase, start: Figures | None = None, client: Any = None
-) -> Iterator[tuple[Evaluators, Judge]]:
-    """Give what evaluates candidates, and what judges them: it knows the base scenario as it stands."""
+) -> Iterator[tuple[Evaluators, Figures]]:
+    """Give what evaluates candidates, and the figures of the base scenario's cases as it stands."""
     asked = cases_of(case, {})
     workers = workers_for(case.search.evaluations * len(asked))
     with Cluster(case.scenarios, client) if client else Pool(case.scenarios, workers) as pool:
-        yield pool, Judge(case, start or pool.submit(asked).result())
+        yield pool, start or pool.submit(asked).result()
 
 
 def _search(case: DesignCase, archive: Archive, name: str) -> None:
@@ -139,11 +146,11 @@ def _search(case: DesignCase, archive: Archive, name: str) -> None:
 
 def _keeper(
     case: DesignCase, record: RecordWriter, names: Sequence[str], progress: Progress | None
-) -> Callable[[Evaluation], None]:
-    def keep(one: Evaluation) -> None:
-        record.write(record.written, rows_of(case, names, [one], record.written))
+) -> Callable[[Evaluation, int], None]:
+    def keep(one: Evaluation, factor: int) -> None:
+        record.write(record.written, rows_of(case, names, [one], record.written, factor))
         if progress:
-            progress(record.written / case.search.evaluations)
+            progress(min(1.0, record.written / case.search.evaluations))
 
     return keep
 
@@ -152,11 +159,11 @@ def _resolved(case: DesignCase, searched: Archive, end: Converged, best: Evaluat
     """On which resolution the figures stand, and what the best is on the one that was searched on."""
     if end.stands is None:
         return {}
-    before = _objective(searched.judge, searched.found_of(best.values).result())
+    before = searched.judge.judged(searched.found_of(best.values).result()).objectives
     return {
         "resolution": resolutions(case, end.factor),
         "resolution_searched": resolutions(case, 1),
-        "objective_searched": -before if case.objectives[0].name.startswith("-") else before,
+        "objective_searched": signed(case, before),
         "figure_stands": end.stands,
         "evaluations_finer": end.evaluations,
     }

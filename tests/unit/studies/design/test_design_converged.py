@@ -1,8 +1,19 @@
 """A search ends on a resolution at which its figure stands."""
 
+from concurrent.futures import Future
+from typing import Any
+
 import pytest
 
 import tribodyn as td
+from tribodyn.studies import study_of
+from tribodyn.studies.design.candidates import share_of
+from tribodyn.studies.design.converged import converged
+from tribodyn.studies.design.estimate import estimate
+from tribodyn.studies.design.levels import Levels
+from tribodyn.studies.design.outcome import headline
+from tribodyn.studies.design.short_form import loaded_search
+from tribodyn.studies.load import load_scenario
 
 RELIEF = {
     f"drive.{side}.modification.{name}": bounds
@@ -45,6 +56,64 @@ def test_constraints_hold_on_the_last_resolution(relief):
         for values in ({}, relief.best)
     )
     assert best <= start * (1.0 + 1e-6)
+
+
+KEYS = ("drive.pinion.profile_shift", "drive.gear.profile_shift")
+TWO = {
+    "free": [{"key": key, "from": -1.0, "to": 3.0} for key in KEYS],
+    "minimise": ["face_load_factor", "contact_ratio"],
+    "subject_to": ["torque_residual <= 1"],
+}
+
+
+class Sampled:
+    """A pool of which figures at (x, y) are 3 + x + y and 3 - x + y, but for errors of first order."""
+
+    name, workers = "sampled", 1
+
+    def __init__(self) -> None:
+        self.asked: list[tuple[int, float, float]] = []
+
+    def submit(self, several: Any) -> "Future[Any]":
+        found: Future[Any] = Future()
+        found.set_result([self._of(one) for one in several])
+        return found
+
+    def _of(self, one: Any) -> dict[str, float]:
+        factor = one.get("output.positions_per_cycle", 60) // 60
+        x, y = (float(one.get(key, 3.0)) for key in KEYS)
+        self.asked.append((factor, x, y))
+        error = -0.05 / factor if y == 0.02 else 0.0
+        residual = 2.0 - 1.5 / factor if x == 2.0 else 0.0
+        names = (*TWO["minimise"], "torque_residual")
+        return dict(zip(names, (3.0 + x + y + error, 3.0 - x + y + error, residual), strict=True))
+
+
+def test_a_front_is_that_of_a_resolution_at_which_all_its_members_stand():
+    """(0, 0.02) only seems to be better than (0.01, 0); (2, 0) only seems to keep the constraint."""
+    case, pool = loaded_search("load-contact-18-36", TWO, {}).case, Sampled()
+    levels = Levels(case, pool)
+    for values in ((-1.0, 0.0), (0.0, 0.02), (0.01, 0.0), (1.0, 0.0), (2.0, 0.0), (0.5, 0.8)):
+        levels.at(1).ask([share_of(one, value) for one, value in zip(case.free, values, strict=True)])
+    before, searched = len(pool.asked), headline(case, levels.at(1))["front"]
+    assert searched["objective"] == pytest.approx([2.0, 2.97, 4.0, 5.0])
+    end = converged(case, levels, "epsilon-constraint")
+    assert (end.factor, end.stands, end.evaluations) == (5, True, 9)
+    found = headline(case, end.archive, levels.at(1))
+    assert found["front"]["objective"] == pytest.approx([2.0, 3.01, 4.0])
+    assert found["front"]["objective_2"] == pytest.approx([4.0, 2.99, 2.0])
+    assert found["evaluations"] == 6
+    assert len(set(pool.asked)) == len(pool.asked)
+    assert all(y != 0.8 for _, _, y in pool.asked[before:])  # far behind the front
+
+
+def test_an_estimate_counts_the_last_stage():
+    """A case takes as long as its positions are many; the last stage at most as many times as factors go."""
+    one, case = load_scenario("load-contact-18-36"), loaded_search("load-contact-18-36", TWO, {}).case
+    alone = study_of(case.base).estimate(one)
+    found = estimate(case)
+    assert 1.5 * case.search.evaluations < found.seconds / alone.seconds < 47 * case.search.evaluations
+    assert found.memory >= alone.memory
 
 
 @pytest.mark.soak

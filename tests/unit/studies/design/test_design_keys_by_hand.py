@@ -393,7 +393,7 @@ def test_a_search_that_goes_on_takes_the_place_of_its_record(
         seen.append((path.name, given))
         raise InputError("output", rule="seen")
 
-    found = Left((), None, {}) if left else NOTHING_LEFT
+    found = Left({}, {}, {}) if left else NOTHING_LEFT
     monkeypatch.setattr(running, "method_of", lambda _: ("cobyqa", ""))
     monkeypatch.setattr(running, "_left", lambda *_: found)
     monkeypatch.setattr(running, "target", target)
@@ -569,20 +569,19 @@ def test_what_an_unfinished_search_left(case: DesignCase):
             [[[1.0, 2.0], [3.0, nan]], [[nan, nan], [5.0, 6.0]], [[nan, nan], [nan, nan]]]
         ),
         "message": ["", "undercut", ""],
-        "figures_start": np.array([[7.0, 8.0], [nan, nan]]),
+        "refinement": np.array([1.0, 5.0, 5.0]),
+        "level": np.array([1.0, 5.0]),
+        START_FIGURES: np.array([[[7.0, 8.0], [9.0, nan]], [[7.5, 8.5], [nan, nan]]]),
         LOWER: np.array([nan, 0.5]),
         UPPER: np.array([0.25, nan]),
     }
-    record[START_FIGURES] = record.pop("figures_start")
     found = left_in(replace(case, free=free), record)
-    assert found.known == [
-        ({"a": "3.0 mm", "b": "3.0 mm", "c": "linear"}, [{"one": 1.0, "two": 2.0}, {"one": 3.0}]),
-        ({"a": "4.5 mm", "b": "4.5 mm", "c": "parabolic"}, ["undercut", {"one": 5.0, "two": 6.0}]),
-    ]
-    assert found.start is None
+    assert found.known == {
+        1: [({"a": "3.0 mm", "b": "3.0 mm", "c": "linear"}, [{"one": 1.0, "two": 2.0}, {"one": 3.0}])],
+        5: [({"a": "4.5 mm", "b": "4.5 mm", "c": "parabolic"}, ["undercut", {"one": 5.0, "two": 6.0}])],
+    }
+    assert found.start == {1: [{"one": 7.0, "two": 8.0}, {"one": 9.0}]}
     assert found.moved == {(1, LOWER): 0.5, (0, UPPER): 0.25}
-    record[START_FIGURES] = record[START_FIGURES][:1]
-    assert left_in(replace(case, free=free), record).start == [{"one": 7.0, "two": 8.0}]
 
 
 def test_the_nearest_of_a_front_by_shares_of_both_spans(case: DesignCase):

@@ -41,8 +41,10 @@ def test_what_a_search_leaves(tmp_path: Path):
     assert found.status == "complete"
     assert found.objective < found.objective_start
     assert set(found.best) == set(FREE)
-    assert found.evaluations == found.data.sizes["evaluation"] <= 10
-    feasible = found.data.feasible == 1
+    searched = found.data.refinement == 1
+    assert found.evaluations == int(searched.sum()) <= 10
+    assert found.evaluations + found.summary["evaluations_finer"] == found.data.sizes["evaluation"]
+    feasible = (found.data.feasible == 1) & (found.data.refinement == found.data.refinement.max())
     assert found.objective == float(found.data.objective.where(feasible).min())
     # the best file runs as it stands, to the same figure
     again = td.run(str(tmp_path / "a-best.toml"))
@@ -77,7 +79,7 @@ def test_an_interrupted_search_keeps_its_best_and_goes_on(tmp_path: Path, monkey
             return super().ask_all(several)
 
     with monkeypatch.context() as patch:
-        patch.setattr("tribodyn.studies.design.run.Archive", Interrupted)
+        patch.setattr("tribodyn.studies.design.levels.Archive", Interrupted)
         with pytest.raises(KeyboardInterrupt) as stopped:
             search(tmp_path / "stopped.h5")
     assert any("the best so far" in note for note in stopped.value.__notes__)
