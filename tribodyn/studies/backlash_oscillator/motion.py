@@ -115,8 +115,8 @@ def _until_corner(a, step, corner, direction, on_corner):
         distance = direction * (corner - _value(a, t))
         away = -direction * _slope(a, t)
         root = math.sqrt(away * away + 2.0 * bound * max(distance, 0.0))
-        if away > 0.0:
-            t += (away + root) / bound
+        if away > 0.0:  # at rest on the corner this is too little to add to t
+            t += max((away + root) / bound, MINIMUM_STEP)
             continue
         if distance <= TOUCH:
             return t

@@ -173,3 +173,14 @@ def test_a_corner_that_is_met_with_growing_acceleration(direction):
         )
         a[power] *= 0.49
         assert motion._until_corner(a, 1.0, 0.3, direction, False) == 1.0
+
+
+def test_at_rest_on_a_corner_the_search_for_it_goes_on():
+    """A speed away from the corner that moves the time by less than its last digit once went on for ever."""
+    a = np.zeros(motion.DEGREE + 1)
+    a[0], a[2], a[3] = 1.0, 0.5, 100.0
+    start = motion.MINIMUM_STEP
+    resting = -(2.0 * a[2] * start + 3.0 * a[3] * start**2)
+    for digits in range(-8, 9):  # whichever of them leaves almost nothing of the slope there
+        a[1] = resting + digits * np.spacing(resting)
+        assert motion._until_corner(a, 1.0, 1.0, -1.0, True) in (start, 1.0)

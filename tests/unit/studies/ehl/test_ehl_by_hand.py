@@ -64,12 +64,12 @@ def friction_of(speed: float, sliding: float) -> float:
     return 0.03 + 0.01 * abs(sliding) / speed
 
 
-def solver(fails: float | None = None) -> Any:
-    """Solves by `solution`; not where the radius is `fails`."""
+def solver(fails: tuple[float, ...] | None = None) -> Any:
+    """Solves by `solution`; not where line load and radius are `fails`: radii alone may be equal."""
 
     def solved_at(contact: Any, *duty: float, step: float, smooth: bool = False) -> Any:
         assert step == 0.1
-        return None if fails is not None and duty[1] == fails else solution(*duty, smooth=smooth)
+        return None if duty[:2] == fails else solution(*duty, smooth=smooth)
 
     return solved_at
 
@@ -153,7 +153,7 @@ def test_datasets_are_those_of_the_solutions(study: Prepared, over: Way, monkeyp
     load = over.normal_load.copy()
     load[4] = 0.5e-6 * load.max()
     over = over._replace(normal_load=load)
-    monkeypatch.setattr(run, "solved_at", solver(fails=float(over.radius[1])))
+    monkeypatch.setattr(run, "solved_at", solver(fails=duties(over)[1][:2]))
     told: list[float] = []
     arrays = run.solve(study, over, told.append)
     np.testing.assert_allclose(told, [(at + 1) / POSITIONS for at in (0, 1, 2, 3, 5)])
@@ -228,7 +228,7 @@ def test_traction_is_that_of_the_highest_load(study: Prepared, over: Way, monkey
 
 def test_figures_are_means_and_extremes(study: Prepared, over: Way, monkeypatch: pytest.MonkeyPatch):
     """Friction weighted by what it loses; laws beside what they stand for."""
-    monkeypatch.setattr(run, "solved_at", solver(fails=float(over.radius[1])))
+    monkeypatch.setattr(run, "solved_at", solver(fails=duties(over)[1][:2]))
     arrays = run.solve(study, over, lambda _: None)
     rng = np.random.default_rng(2)
     film, friction = rng.uniform(1e-7, 4e-7, POSITIONS), rng.uniform(0.02, 0.09, POSITIONS)
