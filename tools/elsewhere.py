@@ -79,8 +79,8 @@ CONFIGURATIONS = {
         "Nehalem", "generic", "X86_V3 X86_V4 AVX512_ICL", "SSE4_2", f"-FMA,-FMA4,-AVX2,-AVX,{NO_WIDE}"
     ),
     "haswell": Configuration("Haswell", "haswell", "X86_V4 AVX512_ICL", "AVX2", NO_WIDE, needs="avx2"),
-    "zen": Configuration("Zen", "haswell", "X86_V4 AVX512_ICL", "AVX2", NO_WIDE, threads=4, needs="avx2"),
-    "skylake": Configuration("SkylakeX", "skylake-avx512", "AVX512_ICL", threads=4, needs="avx512vl"),
+    "zen": Configuration("Zen", numpy_without="X86_V4 AVX512_ICL", glibc=NO_WIDE, threads=4, needs="avx2"),
+    "skylake": Configuration("SkylakeX", numpy_without="AVX512_ICL", threads=4, needs="avx512vl"),
     "busy": Configuration(loops=2),
 }
 #: What the libraries report of themselves.
@@ -111,18 +111,19 @@ def row(name: str, chosen: Configuration, tests: str) -> tuple[str, bool]:
     command = ["make", "--no-print-directory", "in-parallel", f"CHOSEN={tests}"]
     if chosen.xla_up_to:
         command += [f"TESTS_XLA=--xla_cpu_use_fusion_emitters=false --xla_cpu_max_isa={chosen.xla_up_to}"]
+    log = KEPT / f"{name}.txt"
     loops = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(chosen.loops)]
     begun = time.monotonic()
     try:
-        ended = subprocess.run(
-            command, env=environment, cwd=ROOT, text=True, capture_output=True, errors="replace", check=False
-        )
+        with log.open("wb") as stream:
+            ended = subprocess.run(
+                command, env=environment, cwd=ROOT, stdout=stream, stderr=stream, check=False
+            )
     finally:
         for loop in loops:
             loop.kill()
     minutes = (time.monotonic() - begun) / 60
-    (KEPT / f"{name}.txt").write_text(ended.stdout + ended.stderr, encoding="utf-8")
-    lines = ended.stdout.splitlines()
+    lines = log.read_text(encoding="utf-8", errors="replace").splitlines()
     counts = {
         what: int(many) for many, what in re.findall(r"(\d+) (passed|failed|error)", "\n".join(lines[-3:]))
     }
