@@ -93,8 +93,8 @@ def _of_one(case: DesignCase, at: At, method: str) -> tuple[int, bool]:
         some = _best_of(at(SEARCHED), KEPT) or some
     for number, factor in enumerate(FACTORS[3:], 3):
         _asked(at(factor), some, case)
-        if at(factor).best() is None and method in SMOOTH:  # what held before fails here
-            _search_about(at(factor))
+        if at(factor).best() is None and method in SMOOTH:  # what held before fails here, by little
+            _search_about(at(factor), near=True)
         best = _best_of(at(factor), 1)
         if best and _stands(best[0], [at(one) for one in FACTORS[number - 2 : number + 1]], case):
             return factor, True
@@ -153,8 +153,11 @@ def _asked(archive: Archive, some: list[Evaluation], case: DesignCase) -> list[E
     return some
 
 
-def _search_about(archive: Archive) -> None:
-    """Search locally from the best of an archive: by a trust region, then by a simplex, which takes kinks."""
+def _search_about(archive: Archive, near: bool = False) -> None:
+    """Search locally from the best of an archive: by a trust region, then by a simplex, which takes kinks.
+
+    Near about it by a few steps of the trust region alone: what a constraint takes that was just met.
+    """
     from scipy.optimize import minimize
 
     case = archive.case
@@ -162,7 +165,11 @@ def _search_about(archive: Archive) -> None:
     most = max(2 * count + 2, int(SHARE * case.search.evaluations) // 2)
     view = Scalar(archive)
     with suppress(SpentError):
-        minimise("cobyqa", view, _shares(case, _best_of(archive, 1)[0]), most, RADIUS / 3)
+        first = _shares(case, _best_of(archive, 1)[0])
+        if near:
+            minimise("cobyqa", view, first, min(most, 4 * (count + 1)), SIMPLEX)
+            return
+        minimise("cobyqa", view, first, most, RADIUS / 3)
         best = _shares(case, _best_of(archive, 1)[0])
         steps = np.where(best > 0.5, -SIMPLEX, SIMPLEX)
         minimize(

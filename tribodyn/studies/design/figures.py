@@ -96,7 +96,7 @@ def _draw_history(axes: Axes, records: Sequence[Record]) -> None:
         label = record_label(record) if len(records) > 1 else "best so far"
         axes.step(count, best, where="post", color=color, label=label)
         end = abs(shown.factor) * _first(record, "objective")
-        axes.plot(count[-1:], [end], "o", color=BEST, markersize=5, clip_on=False, label="" if number else "best")
+        axes.plot(count[-1:], [end], "o", color=BEST, ms=5, clip_on=False, label="" if number else "best")
         seen += [values[np.isfinite(values)], np.array([end])]
     start = records[0].summary.get("objective_start")
     if start is not None:
