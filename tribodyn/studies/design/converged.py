@@ -30,7 +30,7 @@ SEARCHED = FACTORS[2]
 #: Candidates that are evaluated on finer resolutions; share of `evaluations` of the search about the best.
 KEPT, SHARE = 6, 1 / 2
 #: Change of a figure below which no two differ.
-TINY = 1e-300
+TINY = 1e-200
 #: Size of the first simplex about the best, as a share of the ranges.
 SIMPLEX = 0.01
 
