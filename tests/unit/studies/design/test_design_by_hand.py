@@ -555,6 +555,7 @@ def test_the_method_that_fits(
     wanted: str, keys: int, objectives: int, what: str, expected: str, monkeypatch: pytest.MonkeyPatch
 ):
     monkeypatch.setattr(methods, "derivatives_of", lambda _: object() if what == "slopes" else None)
+    monkeypatch.setattr(methods, "find_spec", lambda _: object())  # whether or not packages are installed
     free = [Free(("k",), "k", 0.0, 9.0, whole=what in ("whole", "many")) for _ in range(keys)]
     if what == "mixed":
         free[1] = Free(("k",), "k", 0.0, 1.0, choices=("a", "b"))
