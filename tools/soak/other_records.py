@@ -9,6 +9,7 @@ from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE
 from tribodyn.studies import STUDIES
+from tribodyn.studies.design.layout import REFINEMENT
 from tribodyn.studies.load import load_scenario
 
 #: Largest share by which the torque of the loads may miss the gear's.
@@ -145,7 +146,9 @@ def search_faults(record: Record) -> Iterator[str]:
         yield "complete, although nothing is feasible"
         return
     if "objective_2" not in record:
-        best = float(np.min(record["objective"][feasible]))
+        on = record[REFINEMENT] if REFINEMENT in record else np.ones(len(feasible))
+        finest = feasible & (on == np.max(on[feasible]))  # the best is that of the last stage
+        best = float(np.min(record["objective"][finest]))
         if not np.isclose(summary["objective"], best, rtol=1e-9):
             yield f"the best is {summary['objective']:.9g}, an evaluation has {best:.9g}"
     if "margin" in record and not np.all(record["margin"][feasible] >= -1e-9):
