@@ -1,6 +1,7 @@
 """Pictures of a search: history, start and best, what the best depends on, the front of two objectives."""
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -164,8 +165,9 @@ def _draw_values(axes: Axes, record: Record) -> None:
         shares = (record[name][searched(record)] - low) / ((high - low) or 1.0)
         axes.plot(shares[near], np.full(near.sum(), row), "|", color=PALETTE[0], markersize=7, alpha=0.5)
         written = record.summary["best"].get(key, "")
-        share = (_number(written, entry) - low) / ((high - low) or 1.0)
-        axes.plot(share, row, "o", color=BEST, markersize=5, zorder=3)
+        with suppress(ValueError):  # of a changed record: shown as it is written, without a place
+            share = (_number(written, entry) - low) / ((high - low) or 1.0)
+            axes.plot(share, row, "o", color=BEST, markersize=5, zorder=3)
         labels.append(f"{literal(apart(keys)[row].replace('_', ' '))}\n{literal(_short(written))}")
     axes.set_yticks(range(len(names)), labels, fontsize=6.5)
     axes.set_ylim(len(names) - 0.4, -0.6)
