@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 import tribodyn as td
+from tests.support.cheap_searches import SEARCHED
 from tribodyn.studies.design.pool import Pool
 
 # every submitted candidate is a line in a file, and takes a moment
@@ -31,22 +32,10 @@ PROGRAM = (
 ).replace("COUNTED", COUNTED.replace("sys.argv[-1]", "log")) + "main()\n"
 
 NAMES = ("objective_start", "objective", "best", "evaluations")
-SEARCH = """
-title = "shifts"
-kind = "design"
-[scenario]
-title = "an efficiency"
-kind = "efficiency"
-drive = "liu-ni-involute-23-47"
-lubricant = "liu-ni-2022"
-operating = { pinion_speed = "10 rad/s", gear_torque = "500 N*m" }
-mesh = { load_sharing = "uniform" }
-friction = { law = "coulomb", coefficient = 0.05 }
-output = { samples_per_cycle = 8 }
-[design]
+SEARCH = f"""{SEARCHED}[design]
 free = [
-    { key = "drive.pinion.profile_shift", from = -0.2, to = 0.5 },
-    { key = "drive.gear.profile_shift", from = -0.2, to = 0.5 },
+    {{ key = "drive.pinion.profile_shift", from = -0.2, to = 0.5 }},
+    {{ key = "drive.gear.profile_shift", from = -0.2, to = 0.5 }},
 ]
 minimise = "loss"
 subject_to = ["contact_ratio >= 1.5"]

@@ -14,6 +14,7 @@ import h5py
 import numpy as np
 import pytest
 
+from tests.support.cheap_searches import SEARCH
 from tests.support.forked_verbs import ForkedVerbs
 from tribodyn.numerics.work import usable_cores
 
@@ -41,24 +42,6 @@ def elsewhere(file, *given, **more):
 with open(os.environ["STARTED"], "a") as file:
     file.write(" ".join(sys.orig_argv[-3:]).replace("\\n", " ") + "\\n")
 builtins.open = io.open = elsewhere
-"""
-SEARCH = """
-title = "shifts"
-kind = "design"
-[scenario]
-title = "an efficiency"
-kind = "efficiency"
-drive = "liu-ni-involute-23-47"
-lubricant = "liu-ni-2022"
-operating = { pinion_speed = "10 rad/s", gear_torque = "500 N*m" }
-mesh = { load_sharing = "uniform" }
-friction = { law = "coulomb", coefficient = 0.05 }
-output = { samples_per_cycle = 8 }
-[design]
-free = [{ key = "drive.pinion.profile_shift", from = -0.2, to = 0.5 }]
-minimise = "loss"
-evaluations = 48
-sensitivities = false
 """
 VERBS = (
     ("run", "crc-23-47", "--set", "solver.cycles=2", "-o", "run.h5"),

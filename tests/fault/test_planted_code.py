@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.cheap_searches import SEARCH
 from tests.support.forked_verbs import ForkedVerbs
 from tests.support.short_studies import shortened, written_template
 
@@ -42,24 +43,6 @@ NAMES = sorted(
         *("click", "cloudpickle", "contourpy", "diffrax", "equinox", "msgpack", "yaml", "zict"),
     }
 )
-SEARCH = """
-title = "shifts"
-kind = "design"
-[scenario]
-title = "an efficiency"
-kind = "efficiency"
-drive = "liu-ni-involute-23-47"
-lubricant = "liu-ni-2022"
-operating = { pinion_speed = "10 rad/s", gear_torque = "500 N*m" }
-mesh = { load_sharing = "uniform" }
-friction = { law = "coulomb", coefficient = 0.05 }
-output = { samples_per_cycle = 8 }
-[design]
-free = [{ key = "drive.pinion.profile_shift", from = -0.2, to = 0.5 }]
-minimise = "loss"
-evaluations = 48
-sensitivities = false
-"""
 #: Commands in order, in one folder.
 VERBS: tuple[tuple[str, ...], ...] = (
     ("run", "irefc", "-o", "one.h5", "--set", "output.samples_per_cycle=8"),

@@ -71,22 +71,19 @@ def cached_gear_compliance(
 def _plane(*arguments: Any) -> GearCompliance:
     from tribodyn.compliance import fem
 
-    with one_blas_thread():
-        return fem.gear_compliance(*arguments)
+    return fem.gear_compliance(*arguments)
 
 
 def _lead(*arguments: Any) -> LeadHarmonics:
     from tribodyn.compliance import fem
 
-    with one_blas_thread():
-        return fem.lead_harmonics(*arguments)
+    return fem.lead_harmonics(*arguments)
 
 
 def _ends(*arguments: Any) -> FreeEnds:
     from tribodyn.compliance.free_ends import free_ends
 
-    with one_blas_thread():
-        return free_ends(*arguments)
+    return free_ends(*arguments)
 
 
 def _kept(kind: type[Kept], name: str, solve: Callable[[], Kept]) -> Kept:
@@ -94,7 +91,8 @@ def _kept(kind: type[Kept], name: str, solve: Callable[[], Kept]) -> Kept:
     names = [one for one in kind._fields if one not in kind._field_defaults]
 
     def made() -> dict[str, Any]:
-        solved = solve()
+        with one_blas_thread():
+            solved = solve()
         return {one: getattr(solved, one) for one in names}
 
     arrays: dict[str, Any] = dict(arrays_kept_or_made("fem", name, made))
