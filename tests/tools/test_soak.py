@@ -10,7 +10,12 @@ from tools.soak.cases import CASES, GROUP, SHARES, SORTS, Refused, bare, case, s
 from tools.soak.drives import FAMILIES
 from tools.soak.gear_records import faults
 from tools.soak.kept import add, read
-from tools.soak.other_records import assessment_faults, search_faults, solved_contact_faults
+from tools.soak.other_records import (
+    assessment_faults,
+    load_contact_faults,
+    search_faults,
+    solved_contact_faults,
+)
 from tools.soak.outcome import COMPLETE, FAULTY, REFUSED, Outcome
 from tools.soak.refusals import untrue
 from tools.soak.table import table
@@ -151,6 +156,7 @@ def test_energy_that_is_not_kept_is_noticed(record, tmp_path):
         ("ehl", solved_contact_faults, "minimum_film_thickness", 2.0, "a film is not above zero"),
         ("ehl", solved_contact_faults, "asperity_load_ratio", -1.0, "asperities carry"),
         ("ehl", solved_contact_faults, "central_film_thickness", np.nan, "0 positions have a film"),
+        ("load-contact", load_contact_faults, "root_tension", 1.01, "root_tension of a pair that carries"),
         ("assessment", assessment_faults, "contact_temperature", 1.01, "the contact temperature is not"),
         ("assessment", assessment_faults, "film_thickness", -1.0, "film_thickness falls to"),
         ("design", search_faults, "objective", 0.9, "the best is"),
