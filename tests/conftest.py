@@ -16,7 +16,7 @@ from tests.support.relative import approx, assert_allclose
 from tests.support.short_studies import ShortRuns
 from tribodyn.numerics.cache import trusted_folder
 from tribodyn.studies.gear_pair.prepare import Prepared, prepare
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 # The same examples every time: a failure belongs to the change at hand, not to the day. For new ones:
 # pytest --hypothesis-profile=search

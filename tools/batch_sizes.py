@@ -21,8 +21,9 @@ from tools.bench_peers import problem
 from tools.machine import measured_on
 from tools.marked_block import put
 from tribodyn.dynamics.parameters import XI
-from tribodyn.solve import ensemble, jax_ensemble
+from tribodyn.solve import ensemble
 from tribodyn.solve.ensemble import march
+from tribodyn.solve.jax import ensemble as jax_ensemble
 
 SIZES = (64, 256, 1024, 10_000, 100_000, 1_000_000)
 #: Largest batch of the slower engines where several are measured.

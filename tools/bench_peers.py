@@ -29,7 +29,7 @@ from tools.peers.single import Problem, Program, octave, octave_timed, peers, tr
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.transient import make_integrator
 from tribodyn.studies.gear_pair.prepare import prepare
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 Array = Any
 

@@ -14,12 +14,12 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, WIDTH, house_style, new_figure, save
 from tribodyn.record.reader import open_record
-from tribodyn.studies.design.candidates import cases_of, chosen, number_of, value_at
-from tribodyn.studies.design.judged import Judge
-from tribodyn.studies.design.pool import Pool
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.pictures import overview
-from tribodyn.studies.run import run
+from tribodyn.studies.design.candidates.candidates import cases_of, chosen, number_of, value_at
+from tribodyn.studies.design.candidates.pool import Pool
+from tribodyn.studies.design.candidates.worth import Judge
+from tribodyn.studies.pages.pictures import overview
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run
 
 SEARCHES = ("tip-relief-18-36", "crowning-18-36", "shift-23-47", "cycloid-23-47", "quiet-range-18-36")
 #: Searches with two free keys -> points of the map along each, factor and unit of the objective.

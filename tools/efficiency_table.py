@@ -12,7 +12,7 @@ from marked_block import put
 from tribodyn.errors import InputError
 from tribodyn.studies.efficiency.case import EfficiencyCase
 from tribodyn.studies.efficiency.run import efficiencies, prepare
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 DRIVES = {
     "liu-ni-crc-23-47": "CRC",

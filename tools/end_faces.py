@@ -18,10 +18,10 @@ from scipy.sparse.linalg import splu
 from skfem import Basis, BilinearForm, ElementHexS2, ElementVector, MeshHex
 from skfem.helpers import ddot, div, sym_grad
 
-from tribodyn.compliance.end_faces import openings
+from tribodyn.compliance.fem.end_faces import openings
+from tribodyn.compliance.fem.ring_mesh import sector_mesh
+from tribodyn.compliance.fem.strips import curved_basis, strip_stiffness
 from tribodyn.compliance.local import hertz_half_width, weber_banaschek_slope
-from tribodyn.compliance.ring_mesh import sector_mesh
-from tribodyn.compliance.strips import curved_basis, strip_stiffness
 from tribodyn.geometry.path import kinematics
 from tribodyn.validation.jia_study import ARC_MINUTE, PINION_TORQUE, elastic
 

@@ -10,14 +10,14 @@ from typing import Any
 import numpy as np
 
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.body import gear_polygon
 from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.families import family
 from tribodyn.geometry.path import kinematics, position
+from tribodyn.geometry.tooth.body import gear_polygon
 from tribodyn.post.style import INK, PALETTE, house_style, new_figure, save
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.prepare import prepare
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.tribology.contact import averaged_radius
 
 FOLDER = Path(__file__).parents[1] / "docs" / "pictures"

@@ -17,14 +17,14 @@ import numpy as np
 from tools.marked_block import put
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.material import MaterialData
-from tribodyn.scenario.drive_data import lubricant_of
-from tribodyn.scenario.model_files import Lubricant
+from tribodyn.scenario.tables.drive_data import lubricant_of
+from tribodyn.scenario.tables.model_files import Lubricant
 from tribodyn.tribology.closure import closure, without_nominal_conditions
 from tribodyn.tribology.contact import Surfaces, local_contact
-from tribodyn.tribology.ehl.coupled import CoupledSolution, solve_coupled
+from tribodyn.tribology.ehl.fluid.coupled import CoupledSolution, solve_coupled
 from tribodyn.tribology.ehl.problem import LineContact
-from tribodyn.tribology.ehl.table import contact_of
-from tribodyn.tribology.ehl.table_points import STEP
+from tribodyn.tribology.ehl.table.points import STEP
+from tribodyn.tribology.ehl.table.table import contact_of
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import FilmLaw, FrictionLaw, LawInput

@@ -11,9 +11,9 @@ from typing import Any
 
 from tribodyn.post.style import save
 from tribodyn.record.reader import Record, open_record
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.pictures import figure
-from tribodyn.studies.run import run
+from tribodyn.studies.pages.pictures import figure
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run
 
 FOLDER = Path(__file__).parents[1] / "docs" / "pictures"
 UNRELIEVED = {

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from marked_block import put
 
-from tribodyn.compliance.load_sharing import flexibility
+from tribodyn.compliance.sharing.load_sharing import flexibility
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
 from tribodyn.mesh.cycle import MeshCycle
@@ -22,7 +22,7 @@ from tribodyn.mesh.tabulate import pair_slots, tabulate
 from tribodyn.mesh.tabulate_loaded import tabulate_loaded
 from tribodyn.studies.efficiency.load_contact import load_contact
 from tribodyn.studies.gear_pair.case import Case
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 DRIVES = (
     "diez-ibarbia-18-36",

@@ -2,7 +2,7 @@
 
 python -m tools.mutants --count 20 --seed 1                  # of this checkout
 python -m tools.mutants --count 100 --seed 2 --out done.jsonl  # keeps what is done, and goes on from there
-python -m tools.mutants --at solve/marching.py:136           # every change of a line
+python -m tools.mutants --at solve/march/marching.py:136           # every change of a line
 python -m tools.mutants --again done.jsonl                   # the changes that survived an earlier run
 python -m tools.mutants --count 100 --near --part 0 2        # the nearest tests only; every second change
 python -m tools.mutants --again done.jsonl --all             # the survivors, with every test of `make test`

@@ -13,8 +13,8 @@ from tribodyn.post.figures.panel import View, draw, legend
 from tribodyn.post.figures.path_of_contact import draw_path
 from tribodyn.post.style import house_style, mark_panel, new_figure, save
 from tribodyn.record.reader import Record, open_record
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.run import run
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run
 
 FOLDER = Path(__file__).parents[1] / "docs" / "pictures"
 PANELS = (

@@ -12,9 +12,9 @@ from marked_block import put
 
 from tribodyn.post.style import save
 from tribodyn.record.reader import open_record
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.pictures import overview
-from tribodyn.studies.run import run
+from tribodyn.studies.pages.pictures import overview
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run
 
 PAGE = Path(__file__).parents[1] / "docs" / "rolling-elements.md"
 PICTURE = PAGE.parent / "pictures" / "irefc.png"

@@ -18,8 +18,8 @@ import numpy as np
 from marked_block import put
 
 from tribodyn.record.reader import Record, open_record
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.run import run
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run
 from tribodyn.validation.rows import published
 
 CRC, INVOLUTE, DRY = "crc-23-47", "involute-23-47", "crc-23-47-frictionless"

@@ -10,14 +10,14 @@ from pathlib import Path
 import numpy as np
 from marked_block import put
 
-from tribodyn.compliance.load_sharing import flexibility
-from tribodyn.compliance.loaded_contact import LoadedContact, roll_through
-from tribodyn.compliance.pair_flexibility import PairFlexibility
+from tribodyn.compliance.sharing.load_sharing import flexibility
+from tribodyn.compliance.sharing.loaded_contact import LoadedContact, roll_through
+from tribodyn.compliance.sharing.pair_flexibility import PairFlexibility
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
-from tribodyn.geometry.modification import FlankModification, LeadRelief, Misalignment, Modifications
+from tribodyn.geometry.flanks.modification import FlankModification, LeadRelief, Misalignment, Modifications
 from tribodyn.studies.gear_pair.case import Case
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 SLICES, POSITIONS = 21, 60
 CASES = {

@@ -13,7 +13,7 @@ from tools.marked_block import put
 from tribodyn.studies.ehl.along_path import prepare, way
 from tribodyn.studies.ehl.judged import case_for
 from tribodyn.studies.ehl.run import solve, squeeze_figures
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 PAGE = Path(__file__).parents[1] / "docs" / "ehl.md"
 SCENARIOS = ("crc-23-47", "involute-23-47", "involute-18-36", "cycloidal-23-47")

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from tribodyn.interface.sweep import open_result as open
     from tribodyn.interface.validation import validate
     from tribodyn.numerics.parameter import Parameter
-    from tribodyn.studies.study import Study
+    from tribodyn.studies.protocol.study import Study
     from tribodyn.tribology.law import FilmLaw, FrictionLaw
 
 __all__ = [
@@ -82,7 +82,7 @@ _PLACES = {
     "Parameter": "tribodyn.numerics.parameter",
     "Run": "tribodyn.interface.run",
     "SimulationError": "tribodyn.errors",
-    "Study": "tribodyn.studies.study",
+    "Study": "tribodyn.studies.protocol.study",
     "Sweep": "tribodyn.interface.sweep",
     "constraints": "tribodyn.interface.drive",
     "design": "tribodyn.interface.design",

@@ -16,10 +16,10 @@ from tribodyn.dynamics.extremes import no_extremes
 from tribodyn.dynamics.parameters import MECHANICAL, SLIP, STATES, WORK_IN, WORK_PARAMETRIC, XI, XI_RATE
 from tribodyn.solve.choice import choose
 from tribodyn.solve.ensemble import march
-from tribodyn.solve.gear_map import GearMap, moving_states
 from tribodyn.solve.initial import static_equilibrium
-from tribodyn.solve.period_map import by_differences
-from tribodyn.solve.periodic import steady_states
+from tribodyn.solve.orbit.gear_map import GearMap, moving_states
+from tribodyn.solve.orbit.period_map import by_differences
+from tribodyn.solve.orbit.periodic import steady_states
 from tribodyn.solve.tolerances import Tolerances, absolute_tolerances, tolerances_from
 from tribodyn.solve.transient import make_integrator
 

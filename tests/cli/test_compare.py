@@ -11,8 +11,8 @@ from tests.support import synthetic_record
 from tribodyn.cli.app import app
 from tribodyn.post.compare import comparison_table
 from tribodyn.record.reader import open_record
-from tribodyn.studies.pictures import compare as side_by_side
-from tribodyn.studies.pictures import names
+from tribodyn.studies.pages.pictures import compare as side_by_side
+from tribodyn.studies.pages.pictures import names
 
 SHORT = ("--set", "solver.cycles=2")
 

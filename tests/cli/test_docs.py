@@ -19,7 +19,7 @@ from typer.testing import CliRunner
 
 from tribodyn.cli.app import app
 from tribodyn.scenario.sources import find_scenario
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 ROOT = Path(__file__).parents[2]
 PAGES = [

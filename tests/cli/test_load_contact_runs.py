@@ -99,7 +99,7 @@ def test_a_study_is_checked_and_shown(both: dict[str, Path]):
 
 
 def test_a_scenario_to_begin_with(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    from tribodyn.studies.load import load_scenario
+    from tribodyn.studies.protocol.load import load_scenario
 
     monkeypatch.chdir(tmp_path)
     tribodyn("init", "mine", "--kind", "load-contact")

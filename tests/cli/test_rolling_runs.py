@@ -9,9 +9,9 @@ from typer.testing import CliRunner
 
 from tribodyn.cli.app import app
 from tribodyn.record.reader import open_record
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.pictures import names
-from tribodyn.studies.run import run
+from tribodyn.studies.pages.pictures import names
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run
 
 FIGURES = ("elements", "element-angle", "gear", "normal-load", "efficiency")
 

@@ -13,7 +13,7 @@ import pytest
 from tests.support.forked_verbs import ForkedVerbs
 from tribodyn.record.reader import open_record
 from tribodyn.scenario.sources import names, shipped
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 
 def tribodyn(*arguments: str, folder: Path) -> str:

@@ -17,7 +17,7 @@ from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE, FAILED
 from tribodyn.studies import STUDIES
 from tribodyn.studies.gear_pair.sweep_layout import FIGURES
-from tribodyn.studies.temperature import THERMAL_FIGURES
+from tribodyn.studies.gears.temperature import THERMAL_FIGURES
 
 SPEEDS = "operating.pinion_speed=100:300:100rad/s"
 SHORT = ("--transient", "4", "--set", "output.samples_per_cycle=40")

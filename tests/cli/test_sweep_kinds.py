@@ -15,7 +15,7 @@ from tribodyn.cli.app import app
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE, FAILED
 from tribodyn.studies import STUDIES
-from tribodyn.studies.run import run as run_case
+from tribodyn.studies.protocol.run import run as run_case
 from tribodyn.sweep.engines import Local
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.run import run, settings_of

@@ -12,8 +12,8 @@ from typer.testing import CliRunner
 from tests.support.short_studies import SHORT, written_template
 from tribodyn.cli.app import app
 from tribodyn.studies import STUDIES
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.study import Study
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.study import Study
 
 #: A number as it stands in a text; those in names, such as crc-23-47, are numbers too.
 NUMBER = re.compile(r"\d[\d.,]*(?:e[+-]?\d+)?")
@@ -88,7 +88,7 @@ def test_every_figure_that_is_listed_for_a_record_is_drawn_and_no_other(kind, st
     assert refused.exit_code == 2
     assert refused.stderr.strip().endswith(f"There are: {', '.join(listed)}")
     from tribodyn.record.reader import open_record
-    from tribodyn.studies.pictures import figure
+    from tribodyn.studies.pages.pictures import figure
 
     with open_record(f"{kind}.h5") as record:
         for name in listed:

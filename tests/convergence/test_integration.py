@@ -7,7 +7,7 @@ from tribodyn.dynamics.outputs import outputs
 from tribodyn.dynamics.parameters import XI
 from tribodyn.solve.choice import choose
 from tribodyn.solve.initial import initial_state
-from tribodyn.solve.reversal import SHARES, stops
+from tribodyn.solve.march.reversal import SHARES, stops
 from tribodyn.solve.transient import SampledStates, TransientSettings, transient
 from tribodyn.studies.gear_pair.summary import energy_residual
 

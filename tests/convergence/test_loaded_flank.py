@@ -7,20 +7,20 @@ there and the surface. Here the elements resolve the contact, and the displaceme
 import numpy as np
 import pytest
 
-from tribodyn.compliance import gear_model
-from tribodyn.compliance.cyclic_symmetry import half_sector, ring_response
-from tribodyn.compliance.load_sharing import contact_deflection, flexibility
+from tribodyn.compliance.fem import gear_model
+from tribodyn.compliance.fem.cyclic_symmetry import half_sector, ring_response
+from tribodyn.compliance.fem.ring_mesh import half_sector_mesh
+from tribodyn.compliance.fem.strips import curved_basis, plane_stiffness
 from tribodyn.compliance.local import hertz_half_width
-from tribodyn.compliance.ring_mesh import half_sector_mesh
-from tribodyn.compliance.slices import pair_harmonics
-from tribodyn.compliance.strips import curved_basis, plane_stiffness
+from tribodyn.compliance.sharing.load_sharing import contact_deflection, flexibility
+from tribodyn.compliance.sharing.slices import pair_harmonics
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.geometry.families import family
+from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.geometry.path import kinematics
-from tribodyn.geometry.tooth import flank_point
-from tribodyn.studies.load import load_scenario
+from tribodyn.geometry.tooth.tooth import flank_point
+from tribodyn.studies.protocol.load import load_scenario
 
 LINE_LOAD = 235e3
 

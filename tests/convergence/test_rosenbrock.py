@@ -9,10 +9,10 @@ from tribodyn.dynamics.parameters import DRIVE_SPEED, MECHANICAL, MOTOR_SLIP, SL
 from tribodyn.solve.choice import STIFF, choose
 from tribodyn.solve.initial import accelerations, static_equilibrium
 from tribodyn.solve.integrator import Status
-from tribodyn.solve.jacobian import Differences, differentiate
-from tribodyn.solve.marching import Place
+from tribodyn.solve.march.jacobian import Differences, differentiate
+from tribodyn.solve.march.marching import Place
+from tribodyn.solve.march.rosenbrock import ALPHA, GAMMA, GAMMAS, STAGES, A, C
 from tribodyn.solve.right_hand_side import rhs
-from tribodyn.solve.rosenbrock import ALPHA, GAMMA, GAMMAS, STAGES, A, C
 from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import make_integrator
 

@@ -10,7 +10,7 @@ from tests.support.compile_fast import ONE_CALL
 from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
 from tribodyn.dynamics.parameters import STATES, Model
 from tribodyn.kernels.native import kernel
-from tribodyn.solve.diffrax_integrator import right_hand_side
+from tribodyn.solve.jax.integrator import right_hand_side
 from tribodyn.tribology.contact import local_contact
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.law import Closure

@@ -9,7 +9,7 @@ from tribodyn.mesh.data import MeshData
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.studies import STUDIES
 from tribodyn.studies.gear_pair.prepare import prepare
-from tribodyn.studies.load import load
+from tribodyn.studies.protocol.load import load
 
 #: The drive of 18-36: module 3 mm, 20 degrees, so that a_0 = 81 mm.
 OFF = {"drive.centre_distance": "81.5 mm"}

@@ -10,15 +10,15 @@ from tribodyn.dynamics.outputs import outputs, outputs_with_extremes
 from tribodyn.record.reader import open_record
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.initial import static_equilibrium
-from tribodyn.solve.periodic import steady_states
+from tribodyn.solve.orbit.periodic import steady_states
 from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import SampledStates, TransientSettings, make_integrator, transient
-from tribodyn.studies.batch import Chunk
 from tribodyn.studies.gear_pair.batch import BATCH
 from tribodyn.studies.gear_pair.batch.evaluate import Settings, evaluate
 from tribodyn.studies.gear_pair.summary import RECORDED, RunningExtremes
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.run import run
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run
+from tribodyn.studies.sweeping.batch import Chunk
 
 #: What few samples are to give of very many.
 EXACT = 5e-3

@@ -14,8 +14,8 @@ from tribodyn.geometry.material import MaterialData
 from tribodyn.mesh.data import MeshData
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 from tribodyn.record.reader import open_record
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.run import run
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run
 
 STEEL = MaterialData("steel", 206e9, 0.3, 7850.0, 46.0, 470.0, 6e9)
 

@@ -13,9 +13,10 @@ from tribodyn.dynamics.parameters import XI
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE as RECORDED
 from tribodyn.record.sweep_schema import FAILED
-from tribodyn.solve import ensemble, jax_ensemble
+from tribodyn.solve import ensemble
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.integrator import Status
+from tribodyn.solve.jax import ensemble as jax_ensemble
 from tribodyn.studies.gear_pair import batch
 from tribodyn.studies.gear_pair.sweep_layout import FIGURES
 from tribodyn.sweep.engines import Local

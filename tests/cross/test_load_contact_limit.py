@@ -6,15 +6,21 @@ import numpy as np
 import pytest
 
 from tests.support.closures import known
-from tribodyn.compliance.flank_gap import flank_gap
-from tribodyn.compliance.load_sharing import flexibility, share_load
-from tribodyn.compliance.loaded_flanks import LoadedFlanks
-from tribodyn.compliance.slices import face_positions
+from tribodyn.compliance.sharing.flank_gap import flank_gap
+from tribodyn.compliance.sharing.load_sharing import flexibility, share_load
+from tribodyn.compliance.sharing.loaded_flanks import LoadedFlanks
+from tribodyn.compliance.sharing.slices import face_positions
 from tribodyn.dynamics.outputs import outputs, segment_of
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.families import family
-from tribodyn.geometry.modification import UNMODIFIED, FlankModification, Misalignment, Modifications, Relief
+from tribodyn.geometry.flanks.corner_contact import pair_geometry
+from tribodyn.geometry.flanks.modification import (
+    UNMODIFIED,
+    FlankModification,
+    Misalignment,
+    Modifications,
+    Relief,
+)
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.transient import SampledStates, TransientSettings, transient
 from tribodyn.studies.gear_pair.prepare import prepare

@@ -17,7 +17,7 @@ from tribodyn.dynamics.parameters import (
 from tribodyn.errors import InputError
 from tribodyn.solve.engagement import engage_next
 from tribodyn.solve.integrator import Status
-from tribodyn.solve.periodic import WANDERING, steady_states
+from tribodyn.solve.orbit.periodic import WANDERING, steady_states
 from tribodyn.solve.tolerances import Tolerances, absolute_tolerances
 from tribodyn.solve.transient import make_integrator
 

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from tests.support.compilations import compilations
-from tribodyn.solve import jax_ensemble
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.integrator import Status
+from tribodyn.solve.jax import ensemble as jax_ensemble
 from tribodyn.solve.methods import METHODS, Runs
 from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import make_integrator

@@ -7,12 +7,12 @@ from tribodyn.record.reader import open_record
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.integrator import Status
+from tribodyn.solve.march.step_control import unbounded
 from tribodyn.solve.methods import METHODS, Runs
-from tribodyn.solve.step_control import unbounded
 from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import make_integrator
 from tribodyn.studies.gear_pair import run as simulate
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 SAMPLES = 50
 #: Friction that presses the flanks together the more, the more they are pressed: no bearings would hold it.

@@ -6,15 +6,15 @@ from scipy.interpolate import CubicSpline
 
 from tests.support.foreign_marching import gear_march, oscillator_march
 from tests.support.harmonic_balance import HarmonicBalance, turning_points
-from tribodyn.solve.branch_end import FOLD, MERGING, PERIOD_DOUBLING
-from tribodyn.solve.continuation import Leg
-from tribodyn.solve.followed import Unstable, followed_states
+from tribodyn.solve.branch.continuation import Leg
+from tribodyn.solve.branch.end import FOLD, MERGING, PERIOD_DOUBLING
+from tribodyn.solve.branch.followed import Unstable, followed_states
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.tolerances import absolute_tolerances, mesh_deflection
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.response import DOWN, UP, frequency_response
 from tribodyn.studies.gear_pair.prepare import prepare, tables
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 #: Central differences of the state.
 SHIFTS = 1e-6 * np.array([[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]])

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from tribodyn.dynamics.parameters import SLIP, STATES
-from tribodyn.solve.gear_map import GearMap, moving_states
 from tribodyn.solve.initial import accelerations, static_equilibrium
-from tribodyn.solve.period_map import DIFFERENCE
-from tribodyn.solve.reversal import stops
+from tribodyn.solve.march.reversal import stops
+from tribodyn.solve.orbit.gear_map import GearMap, moving_states
+from tribodyn.solve.orbit.period_map import DIFFERENCE
 
 SPEED = {"operating.pinion_speed": "400 rad/s"}
 MOTOR = {

@@ -3,7 +3,7 @@
 import pytest
 
 from tribodyn.errors import InputError
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 BACKLASH = {"mesh.backlash": "0.05 mm"}
 MISTAKES = {

@@ -3,8 +3,8 @@
 import pytest
 
 from tribodyn.errors import InputError, SimulationError
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.run import run
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run
 
 STUDY = "efficiency-involute-18-36"
 

@@ -5,9 +5,9 @@ import pytest
 
 from tribodyn.errors import InputError
 from tribodyn.record.reader import open_record
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.pictures import compare
-from tribodyn.studies.run import run
+from tribodyn.studies.pages.pictures import compare
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run
 
 NAME = "backlash-oscillator"
 

@@ -13,7 +13,7 @@ from tribodyn.scenario.bounds import DEEPEST, MOST_CSV, MOST_POINTS, MOST_TOML, 
 from tribodyn.scenario.sources import read_curve, read_toml
 from tribodyn.scenario.unit_grammar import is_unit
 from tribodyn.scenario.units import ANGULAR_SPEED, LENGTH, TIME, NotAQuantity, factor_to_si, to_si
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 Refused = Callable[..., tuple[int, list[str]]]
 

@@ -51,8 +51,8 @@ def test_no_reader_sees_half_a_file(tmp_path: Path):
 def test_eight_processes_run_on_an_empty_cache(tmp_path: Path):
     """Twenty runs each, of which the first compile the same kernels at the same time; results are equal."""
     program = (
-        "import sys\nfrom pathlib import Path\nfrom tribodyn.studies.load import load_scenario\n"
-        "from tribodyn.studies.run import run\n"
+        "import sys\nfrom pathlib import Path\nfrom tribodyn.studies.protocol.load import load_scenario\n"
+        "from tribodyn.studies.protocol.run import run\n"
         "folder = Path(sys.argv[1])\n"
         f"for i in range({ROUNDS}):\n"
         "    case = load_scenario('involute-23-47', {'solver.cycles': 2, 'output.samples_per_cycle': 40})\n"

@@ -12,7 +12,7 @@ from tribodyn.solve.integrator import Status
 from tribodyn.solve.tolerances import Tolerances, absolute_tolerances
 from tribodyn.solve.transient import make_integrator
 from tribodyn.studies.gear_pair import run as simulate
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 
 def run(folder, **overrides):

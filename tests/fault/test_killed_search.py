@@ -14,7 +14,7 @@ import pytest
 
 import tribodyn as td
 from tests.support.cheap_searches import SEARCHED
-from tribodyn.studies.design.pool import Pool
+from tribodyn.studies.design.candidates.pool import Pool
 
 # every submitted candidate is a line in a file, and takes a moment
 COUNTED = (

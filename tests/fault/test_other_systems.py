@@ -105,7 +105,7 @@ def test_a_scenario_a_sweep_and_a_search(tmp_path: Path, forked: ForkedVerbs):
     assert "tribodyn.record.lookout:serve" in processes
     if usable_cores() > 1:
         assert "tribodyn.cli.ahead:serve" in processes
-        assert "tribodyn.studies.design.evaluation:serve" in processes
+        assert "tribodyn.studies.design.candidates.evaluation:serve" in processes
         assert (there / "run-overview.png").exists()
     for words in VERBS[:3]:
         assert forked(*words, folder=here).returncode == 0

@@ -8,10 +8,10 @@ from hypothesis import strategies as st
 
 from tribodyn.errors import InputError
 from tribodyn.geometry.backlash import circumferential_backlash, normal_backlash
-from tribodyn.geometry.checks import check
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import involute
-from tribodyn.geometry.thickness import Involute, allowance_of_pins, allowance_of_span, over_pins, span
+from tribodyn.geometry.limits.checks import check
+from tribodyn.geometry.sheet.thickness import Involute, allowance_of_pins, allowance_of_span, over_pins, span
 
 ALLOWANCES = st.floats(-0.04, 0.0)
 

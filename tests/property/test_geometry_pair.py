@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 
 from tests.support.random_drives import DEGENERATE, FAMILIES, drives
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.body import gear_polygon, section_area_and_inertia
 from tribodyn.geometry.drive import SIDES, tip_radius
 from tribodyn.geometry.families import involute
 from tribodyn.geometry.path import (
@@ -19,7 +18,8 @@ from tribodyn.geometry.path import (
     radius,
     seen_from,
 )
-from tribodyn.geometry.tooth import cut_tooth, flank_point, thickness_half_angle, tooth_outline
+from tribodyn.geometry.tooth.body import gear_polygon, section_area_and_inertia
+from tribodyn.geometry.tooth.tooth import cut_tooth, flank_point, thickness_half_angle, tooth_outline
 
 
 def limits_of(family, drive):

@@ -10,7 +10,7 @@ from tools.fuzz.inputs import keys_of
 from tribodyn.errors import InputError, InputErrors
 from tribodyn.scenario.quantity import references
 from tribodyn.studies.gear_pair.scenario import Scenario
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 REFERENCES = [".".join(key) for key in references(Scenario)]
 KEYS = [*keys_of(Scenario), *REFERENCES, "nonsense", "mesh.nonsense.more"]

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tribodyn.errors import harmless
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 POSITIVE = st.floats(1e-3, 1e3)
 LENGTHS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "inch": 0.0254}

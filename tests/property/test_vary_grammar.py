@@ -140,7 +140,7 @@ def test_keys_reach_through_references_that_vary():
 
 
 def test_a_case_of_the_grid_is_the_scenario_with_its_values_set():
-    from tribodyn.studies.load import load_scenario
+    from tribodyn.studies.protocol.load import load_scenario
 
     grid = Grid(
         "crc-23-47", [f"{SPEED}=100:900:200rpm", "operating.gear_torque=50,70 N*m"], {"solver.cycles": 3}

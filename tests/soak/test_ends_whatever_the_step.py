@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from tribodyn.solve.branch_end import NEIMARK_SACKER
-from tribodyn.solve.continuation import Leg, follow
-from tribodyn.solve.followed import GearLines
-from tribodyn.solve.gear_map import moving_states
-from tribodyn.solve.periodic import steady_states
-from tribodyn.solve.shooting import shoot
+from tribodyn.solve.branch.continuation import Leg, follow
+from tribodyn.solve.branch.end import NEIMARK_SACKER
+from tribodyn.solve.branch.followed import GearLines
+from tribodyn.solve.orbit.gear_map import moving_states
+from tribodyn.solve.orbit.periodic import steady_states
+from tribodyn.solve.orbit.shooting import shoot
 from tribodyn.studies.gear_pair.prepare import prepare, tables
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 #: Lightly damped, at constant stiffness: its doubled motion ends where two multipliers leave the unit circle.
 DRIVE = {

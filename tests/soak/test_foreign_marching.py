@@ -8,12 +8,12 @@ import pytest
 from tests.support.foreign_marching import Compared, Reported, compared, gear_march, oscillator_march
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DIRECTIONS, DONE
-from tribodyn.solve.gear_map import moving_states
+from tribodyn.solve.orbit.gear_map import moving_states
 from tribodyn.solve.tolerances import absolute_tolerances, mesh_deflection
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.response import FAILED, frequency_response
 from tribodyn.studies.gear_pair.prepare import prepare, tables
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.sweep.engines import Local
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.run import run, settings_of

@@ -4,15 +4,21 @@ import dataclasses
 
 import numpy as np
 
-from tribodyn.compliance.flank_gap import flank_gap
-from tribodyn.compliance.load_sharing import flexibility, share_load
-from tribodyn.compliance.slices import face_positions
+from tribodyn.compliance.sharing.flank_gap import flank_gap
+from tribodyn.compliance.sharing.load_sharing import flexibility, share_load
+from tribodyn.compliance.sharing.slices import face_positions
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import family
+from tribodyn.geometry.flanks.corner_contact import pair_geometry
+from tribodyn.geometry.flanks.modification import (
+    FlankModification,
+    LeadRelief,
+    Misalignment,
+    Modifications,
+    Relief,
+)
 from tribodyn.geometry.material import MaterialData
-from tribodyn.geometry.modification import FlankModification, LeadRelief, Misalignment, Modifications, Relief
 from tribodyn.mesh.tabulate_loaded import tabulate_loaded
 
 STEEL = MaterialData("steel", 207e9, 0.3, 7850.0, 45.0, 460.0, 6.5e9)

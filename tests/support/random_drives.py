@@ -7,7 +7,6 @@ from hypothesis import assume
 from hypothesis import strategies as st
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.checks import check
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import (
     circular_arc,
@@ -20,6 +19,7 @@ from tribodyn.geometry.families import (
     spline,
 )
 from tribodyn.geometry.family import Family
+from tribodyn.geometry.limits.checks import check
 
 FAMILIES: dict[str, Family] = {
     module.FAMILY.name: module.FAMILY

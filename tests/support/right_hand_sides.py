@@ -15,8 +15,8 @@ from tribodyn.kernels.lanes import functions  # noqa: F401  (its import gives th
 from tribodyn.kernels.lanes.arrays import rows_of
 from tribodyn.kernels.lanes.vectors import WIDTH
 from tribodyn.kernels.native import kernel
-from tribodyn.solve.diffrax_integrator import right_hand_side
-from tribodyn.solve.lane_packing import lane_model, pack
+from tribodyn.solve.jax.integrator import right_hand_side
+from tribodyn.solve.lanes.packing import lane_model, pack
 from tribodyn.solve.right_hand_side import rhs
 
 #: Whole cycles before; the load may depend on time.

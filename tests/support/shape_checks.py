@@ -23,12 +23,12 @@ CHECKED = (
     "tribodyn.compliance",
     "tribodyn.mesh",
     "tribodyn.drawing",
-    "tribodyn.solve.continuation",
-    "tribodyn.solve.continued_family",
-    "tribodyn.solve.progress",
-    "tribodyn.solve.shooting",
-    "tribodyn.solve.steady_orbit",
-    "tribodyn.solve.wandering",
+    "tribodyn.solve.branch.continuation",
+    "tribodyn.solve.branch.continued_family",
+    "tribodyn.solve.orbit.progress",
+    "tribodyn.solve.orbit.shooting",
+    "tribodyn.solve.orbit.steady_orbit",
+    "tribodyn.solve.orbit.wandering",
 )
 
 

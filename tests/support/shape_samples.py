@@ -5,24 +5,24 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import TypeCheckError
 
-from tribodyn.compliance.condensed import condense
 from tribodyn.compliance.energy import section_integrals
-from tribodyn.compliance.load_sharing import extended_rolls, flexibility, share_load
+from tribodyn.compliance.sharing.condensed import condense
+from tribodyn.compliance.sharing.load_sharing import extended_rolls, flexibility, share_load
 from tribodyn.drawing.profile import tooth_profile
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.body import gear_polygon
-from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.families import family
+from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.geometry.path import contact_ratio, distance_at_radius, kinematics
-from tribodyn.geometry.rack import rack_outline
+from tribodyn.geometry.tooth.body import gear_polygon
+from tribodyn.geometry.tooth.rack import rack_outline
 from tribodyn.mesh.cycle import polynomials
 from tribodyn.mesh.quasi_static import cycle_mean, quasi_static
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 from tribodyn.numerics.iteration import chebyshev_basis
-from tribodyn.solve.shooting import shoot
+from tribodyn.solve.orbit.shooting import shoot
 from tribodyn.studies.backlash_oscillator.response import frequency_response, oscillator_at
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 jax.config.update("jax_enable_x64", True)
 

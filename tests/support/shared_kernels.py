@@ -26,8 +26,8 @@ LAWS: dict[str, dict[str, Any]] = {
 
 def single(folder: Path) -> None:
     """Run with the explicit and the switching method under three laws, and with the stiff one."""
-    from tribodyn.studies.load import load_scenario
-    from tribodyn.studies.run import run
+    from tribodyn.studies.protocol.load import load_scenario
+    from tribodyn.studies.protocol.run import run
 
     pairs = [("dopri5", "default"), ("rodas4", "default"), ("switching", "default")]
     pairs += [("dopri5", "none"), ("switching", "none"), ("dopri5", "coulomb")]
@@ -49,7 +49,7 @@ def lanes(folder: Path) -> None:
 #: What makes kernels, and the module of one that only it needs.
 MAKERS: dict[str, tuple[Callable[[Path], None], str]] = {
     "single": (single, "tribodyn.solve.methods.switching"),
-    "lanes": (lanes, "tribodyn.solve.lane_march"),
+    "lanes": (lanes, "tribodyn.solve.lanes.march"),
 }
 
 if __name__ == "__main__":

@@ -6,10 +6,10 @@ import pickle
 from pathlib import Path
 from typing import Any
 
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.results import RunResult
-from tribodyn.studies.run import run
-from tribodyn.studies.template import filled
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.results import RunResult
+from tribodyn.studies.protocol.run import run
+from tribodyn.studies.protocol.template import filled
 
 #: Kind -> overrides under which its template takes seconds.
 SHORT: dict[str, dict[str, Any]] = {

@@ -4,7 +4,7 @@ import numpy as np
 from skfem import BilinearForm
 from skfem.helpers import ddot, eye, sym_grad, trace
 
-from tribodyn.compliance.strips import curved_basis
+from tribodyn.compliance.fem.strips import curved_basis
 
 #: Of a body of unit modulus.
 POISSON = 0.3

@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from tribodyn.compliance import ring_mesh
-from tribodyn.compliance.ring_mesh import sector_mesh
-from tribodyn.compliance.strips import curved_basis
+from tribodyn.compliance.fem import ring_mesh
+from tribodyn.compliance.fem.ring_mesh import sector_mesh
+from tribodyn.compliance.fem.strips import curved_basis
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families.involute import FAMILY
-from tribodyn.geometry.tooth import cut_tooth
+from tribodyn.geometry.tooth.tooth import cut_tooth
 
 POISSON = 0.3
 BODY = GearBody(12, 0.3, 1.0, 1.25, 0.25, 0.02, 8e-3)

@@ -59,5 +59,5 @@ def test_a_module_is_named_in_a_list_and_under_another_name(tmp_path):
         "from tribodyn.dynamics import (\n    equations as forces,\n    modes,\n)\n"
     )
     found = mutants._imported(file, tmp_path)
-    wanted = {"solve.dormand_prince", "geometry.families.involute", "dynamics.equations", "dynamics.modes"}
+    wanted = {"solve.march.dormand_prince", "dynamics.equations", "dynamics.modes"}
     assert {f"tribodyn.{one}" for one in wanted} <= found

@@ -22,8 +22,8 @@ from tools.soak.table import table
 from tribodyn.errors import InputError
 from tribodyn.record.reader import Record
 from tribodyn.studies import STUDIES
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.run import run
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run
 
 ONE = Outcome(1, 17, "gear-pair", "crc", COMPLETE, "", (), 2, 0.5, 0.3)
 RTOL = 1e-6

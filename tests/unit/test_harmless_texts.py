@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 from tribodyn.cli.app import app
 from tribodyn.cli.printing import quoted_path
 from tribodyn.errors import InputError, harmless
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 EVIL = "a\x1b[31mb\x9bc\u202ed\x00e\x7f"
 

@@ -3,8 +3,8 @@
 import pytest
 
 from tribodyn.record.reader import open_record
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.run import run
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run
 from tribodyn.validation import CHOICES, validate
 from tribodyn.validation.rows import PASS, published
 

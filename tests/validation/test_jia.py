@@ -9,7 +9,7 @@ from tribodyn.geometry.families import family
 from tribodyn.geometry.families.parabolic import maximum_coefficient, published_limits
 from tribodyn.geometry.path import kinematics
 from tribodyn.post.style import house_style
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.validation import validate
 from tribodyn.validation.figures.jia import FIGURES
 from tribodyn.validation.jia import geometry

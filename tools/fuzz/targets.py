@@ -11,7 +11,7 @@ import numpy as np
 
 from tools.fuzz.inputs import CURVE, Input, mutated, scenarios
 from tribodyn.cli.options import overrides
-from tribodyn.compliance.gear_compliance import GearCompliance
+from tribodyn.compliance.fem.gear_compliance import GearCompliance
 from tribodyn.errors import InputError, InputErrors, SimulationError
 from tribodyn.kernels.native.code import Compiled
 from tribodyn.kernels.native.store import compiled_in, content_of
@@ -20,10 +20,10 @@ from tribodyn.post.report import as_json
 from tribodyn.post.sweep_report import sweep_as_json
 from tribodyn.record.sweep_reader import SweepRecord, open_any
 from tribodyn.studies import STUDIES
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.pictures import summary_table, sweep_table
+from tribodyn.studies.pages.pictures import summary_table, sweep_table
+from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.sweep.grid import Grid
-from tribodyn.tribology.ehl.table import Table
+from tribodyn.tribology.ehl.table.table import Table
 
 TAKEN, REFUSED = "taken", "refused"
 #: Characters that a message has at most: whoever reads it sees what is wrong, and not a file.

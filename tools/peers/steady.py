@@ -15,8 +15,8 @@ import numpy as np
 
 from tribodyn.dynamics.parameters import XI, Model
 from tribodyn.record.sweep_reader import SweepRecord
-from tribodyn.solve.gear_map import GearMap, moving_states
 from tribodyn.solve.initial import static_equilibrium
+from tribodyn.solve.orbit.gear_map import GearMap, moving_states
 from tribodyn.solve.tolerances import Tolerances, absolute_tolerances
 from tribodyn.solve.transient import make_integrator
 from tribodyn.studies.gear_pair.batch import MOST_CYCLES

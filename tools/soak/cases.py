@@ -10,9 +10,9 @@ from tools.soak import duties, searches, studies
 from tools.soak.draw import Draw
 from tools.soak.drives import FAMILIES, drive
 from tribodyn.errors import InputError
-from tribodyn.geometry.checks import check
 from tribodyn.geometry.families import family
-from tribodyn.studies.load import load_scenario
+from tribodyn.geometry.limits.checks import check
+from tribodyn.studies.protocol.load import load_scenario
 
 #: A drive that cannot be made is drawn again, so often at most; what was refused is looked into as well.
 MOST_DRAWS = 40

@@ -31,9 +31,9 @@ from tools.soak.refusals import untrue
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.pictures import summary_table, sweep_table
-from tribodyn.studies.run import run
+from tribodyn.studies.pages.pictures import summary_table, sweep_table
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run
 from tribodyn.sweep.engines import Local
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.run import run as run_sweep

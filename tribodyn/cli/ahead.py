@@ -114,7 +114,7 @@ def _get_ready() -> None:
     import tribodyn.cli.pictures
     import tribodyn.cli.progress
     import tribodyn.record.soundness
-    import tribodyn.studies.pictures  # noqa: F401
+    import tribodyn.studies.pages.pictures  # noqa: F401
     from tribodyn.post.figures.over_mesh import prepare_overview
 
     prepare_overview()

@@ -8,7 +8,7 @@ import typer
 from tribodyn.cli.options import LargeOption, ScenarioArgument, SetOption, overrides
 
 if TYPE_CHECKING:
-    from tribodyn.studies.study import Study
+    from tribodyn.studies.protocol.study import Study
 
 EXAMPLES = (
     "\b\nExamples:\n"
@@ -46,8 +46,8 @@ def assess(
     from tribodyn.numerics.output_files import check_output
     from tribodyn.post.report import as_json
     from tribodyn.record.reader import open_record
-    from tribodyn.studies.load import load
-    from tribodyn.studies.pages import write_report
+    from tribodyn.studies.pages.page import write_report
+    from tribodyn.studies.protocol.load import load
 
     loaded = load(scenario, overrides(settings))
     _require(loaded.study)

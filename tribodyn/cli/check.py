@@ -17,7 +17,7 @@ def check(
 ) -> None:
     """Check a scenario; print geometry and stiffness."""
     from tribodyn.cli.printing import print_json, print_prose, print_text_table
-    from tribodyn.studies.load import load
+    from tribodyn.studies.protocol.load import load
 
     loaded = load(scenario, overrides(settings))
     with loaded.naming():

@@ -12,8 +12,8 @@ from tribodyn.cli.output import make_folder
 from tribodyn.cli.plot import Format
 
 if TYPE_CHECKING:
-    from tribodyn.studies.load import Loaded
-    from tribodyn.studies.study import Study
+    from tribodyn.studies.protocol.load import Loaded
+    from tribodyn.studies.protocol.study import Study
 
 EXAMPLES = (
     "\b\nExamples:\n"
@@ -53,8 +53,8 @@ def compare(
     from tribodyn.cli.printing import print_json, print_rich, quoted_path
     from tribodyn.post import compare as comparing
     from tribodyn.record.reader import open_record
-    from tribodyn.studies.pictures import compare as compare_records
-    from tribodyn.studies.pictures import names
+    from tribodyn.studies.pages.pictures import compare as compare_records
+    from tribodyn.studies.pages.pictures import names
 
     scenarios = _scenarios(what, overrides(settings))
     pictures: list[Path] = []
@@ -88,8 +88,8 @@ def _scenarios(what: list[str], settings: Mapping[str, str]) -> dict[str, "Loade
     """Load what is to be run, and refuse before anything runs what cannot be compared afterwards."""
     from tribodyn.errors import InputError
     from tribodyn.record.reader import open_record
-    from tribodyn.studies.load import load
-    from tribodyn.studies.pictures import study_of_record
+    from tribodyn.studies.pages.pictures import study_of_record
+    from tribodyn.studies.protocol.load import load
 
     if len(what) < 2:
         raise InputError(
@@ -134,7 +134,7 @@ def _run(loaded: "Loaded", folder: Path, force: bool, allow_large: bool) -> Path
     from tribodyn.cli.outcome import SIMULATION_FAILED, complain
     from tribodyn.cli.progress import progress_bar
     from tribodyn.record.withheld import warnings
-    from tribodyn.studies.run import run as run_case
+    from tribodyn.studies.protocol.run import run as run_case
 
     name = loaded.case.name
     with loaded.naming(), progress_bar(name) as progress:

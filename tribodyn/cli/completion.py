@@ -41,7 +41,7 @@ def keys(context: typer.Context, incomplete: str) -> list[str]:
     """Keys of the scenario that is on the line already, or of a gear pair; a table's after its dot."""
     from tribodyn.scenario.messages import keys_in
     from tribodyn.scenario.sources import find_scenario
-    from tribodyn.studies.load import table_of
+    from tribodyn.studies.protocol.load import table_of
 
     data = {}
     # words that click could not sort while an option waits for its value

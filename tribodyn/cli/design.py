@@ -104,8 +104,8 @@ def design(
     """Search for the best values of a scenario's keys."""
     from tribodyn.cli.run import Shown, run_loaded
     from tribodyn.errors import InputError
-    from tribodyn.studies.cluster import client_of
     from tribodyn.studies.design.short_form import as_options, loaded_search, parts_of
+    from tribodyn.studies.sweeping.cluster import client_of
 
     require_one_way(resume=resume, force=force)
     if scheduler is not None and engine is EngineName.native:

@@ -11,7 +11,7 @@ from tribodyn.cli.output import make_folder
 
 if TYPE_CHECKING:
     from tribodyn.geometry.assembly import Assembly
-    from tribodyn.studies.drive_file import DriveModel
+    from tribodyn.studies.gears.drive_file import DriveModel
 
 EXAMPLES = (
     "\b\nExamples:\n"
@@ -49,12 +49,12 @@ def gear(
 ) -> None:
     """Print a gear pair's geometry; draw it."""
     from tribodyn.cli.printing import print_json, print_prose, print_text_table, quoted_path
-    from tribodyn.geometry.body import body_masses
-    from tribodyn.geometry.checks import check
     from tribodyn.geometry.families import family
-    from tribodyn.geometry.sheet import geometry_sheet
-    from tribodyn.studies.drive_file import load_drive
-    from tribodyn.studies.gears import sheet_tables
+    from tribodyn.geometry.limits.checks import check
+    from tribodyn.geometry.sheet.sheet import geometry_sheet
+    from tribodyn.geometry.tooth.body import body_masses
+    from tribodyn.studies.gears.drive_file import load_drive
+    from tribodyn.studies.gears.shared import sheet_tables
 
     loaded = load_drive(model, overrides(settings))
     written: list[Path] = []
@@ -92,8 +92,8 @@ def _fitted(model: "DriveModel", values: int, folder: Path, force: bool) -> "tup
     import tomli_w
 
     from tribodyn.numerics.output_files import write_output
-    from tribodyn.studies import spline_drive
-    from tribodyn.studies.drive_file import load_drive
+    from tribodyn.studies.gears import spline_drive
+    from tribodyn.studies.gears.drive_file import load_drive
 
     fitted = spline_drive.as_spline(model, values, "--as-spline")
     if folder != Path():

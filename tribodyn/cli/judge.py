@@ -49,7 +49,7 @@ def judge(
     from tribodyn.cli.printing import print_json, print_prose, print_table, quoted_path
     from tribodyn.cli.progress import progress_bar
     from tribodyn.studies.ehl.judged import FACTORS, judgement
-    from tribodyn.studies.load import load
+    from tribodyn.studies.protocol.load import load
 
     _check(output, force)
     loaded = load(scenario, overrides(settings))

@@ -117,7 +117,7 @@ def _plots_only(what: What | None) -> What:
 def _plots_of(path: Path) -> dict[str, str]:
     """Return name and description of the figures that a record holds enough for."""
     from tribodyn.record.sweep_reader import SweepRecord, open_any
-    from tribodyn.studies.pictures import drawable, drawable_of_sweep
+    from tribodyn.studies.pages.pictures import drawable, drawable_of_sweep
 
     with open_any(path) as opened:
         known = drawable_of_sweep([opened]) if isinstance(opened, SweepRecord) else drawable([opened])

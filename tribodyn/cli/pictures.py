@@ -22,7 +22,7 @@ def draw(
     force: bool = False,
 ) -> list[Path]:
     """Draw figures by name into files named after `beside`: ``crc.png`` becomes ``crc-film.png``."""
-    from tribodyn.studies.pictures import figure
+    from tribodyn.studies.pages.pictures import figure
 
     def make(name: str) -> "Figure":
         return figure(name, records, cycles=cycles, against=against)
@@ -38,7 +38,7 @@ def overview_path(record: Path) -> Path:
 def draw_pictures(path: Path, *, everything: bool, force: bool = False) -> list[Path]:
     """Draw the overview of a record, or all its figures, beside it."""
     from tribodyn.record.reader import open_record
-    from tribodyn.studies.pictures import names
+    from tribodyn.studies.pages.pictures import names
 
     with open_record(path) as record:
         chosen = ["overview", *names([record])] if everything else ["overview"]

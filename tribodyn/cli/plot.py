@@ -79,7 +79,7 @@ def plot(
     from tribodyn.record.reader import open_record
     from tribodyn.record.sweep_reader import is_sweep
     from tribodyn.scenario.sources import is_file
-    from tribodyn.studies.pictures import names as figure_names
+    from tribodyn.studies.pages.pictures import names as figure_names
 
     paths = [word for word in what if word.endswith((".h5", ".hdf5")) or is_file(Path(word))]
     names = [word for word in what if word not in paths]
@@ -110,7 +110,7 @@ def _draw_sweeps(
 
     from tribodyn.cli.pictures import save_all
     from tribodyn.record.sweep_reader import SweepRecord
-    from tribodyn.studies.pictures import sweep_figure, sweep_names
+    from tribodyn.studies.pages.pictures import sweep_figure, sweep_names
 
     with ExitStack() as stack:
         records = [stack.enter_context(SweepRecord(path)) for path in paths]

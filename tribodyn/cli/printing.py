@@ -15,7 +15,7 @@ from tribodyn.errors import harmless
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from tribodyn.studies.study import TextTable
+    from tribodyn.studies.protocol.study import TextTable
 
 WIDTH_OF_A_PIPE = 160
 

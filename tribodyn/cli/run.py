@@ -19,7 +19,7 @@ from tribodyn.cli.options import (
 )
 
 if TYPE_CHECKING:
-    from tribodyn.studies.load import Loaded
+    from tribodyn.studies.protocol.load import Loaded
 
 EXAMPLES = (
     "\b\nExamples:\n"
@@ -47,7 +47,7 @@ def run(
     json: SummaryOption = False,
 ) -> None:
     """Run a scenario: record, summary, picture."""
-    from tribodyn.studies.load import load
+    from tribodyn.studies.protocol.load import load
 
     require_one_way(resume=resume, force=force)
     how = {"output": output, "force": force, "resume": resume, "allow_large": allow_large}
@@ -72,7 +72,7 @@ def run_loaded(made: "Callable[[], Loaded]", shown: Shown, *, output: Path | Non
     shown : Shown
     output : Path or None
     **how
-        Further arguments of `studies.run.run`.
+        Further arguments of `protocol.run.run`.
     """
     from tribodyn.cli.ahead import drawer
     from tribodyn.cli.outcome import SIMULATION_FAILED, complain
@@ -82,7 +82,7 @@ def run_loaded(made: "Callable[[], Loaded]", shown: Shown, *, output: Path | Non
     from tribodyn.errors import OutputError
     from tribodyn.numerics.output_files import check_output
     from tribodyn.record.withheld import warnings
-    from tribodyn.studies.run import run as run_case
+    from tribodyn.studies.protocol.run import run as run_case
 
     force = bool(how.get("force"))
     with drawer(wanted=shown.plot is None) as ahead:
@@ -149,7 +149,7 @@ def _as_json(path: Path) -> dict[str, Any]:
 
 def _report(path: Path, force: bool) -> Path:
     from tribodyn.record.reader import open_record
-    from tribodyn.studies.pages import write_report
+    from tribodyn.studies.pages.page import write_report
 
     with open_record(path) as record:
         return write_report([record], path.with_suffix(".html"), force=force)

@@ -35,7 +35,7 @@ def show(
 def _show_sweep(record: "SweepRecord", json: bool) -> None:
     from tribodyn.cli.printing import print_json, print_rich
     from tribodyn.post.sweep_report import sweep_as_json
-    from tribodyn.studies.pictures import sweep_table
+    from tribodyn.studies.pages.pictures import sweep_table
 
     if json:
         print_json({**sweep_as_json(record), "scenario": record.scenario})
@@ -46,6 +46,6 @@ def _show_sweep(record: "SweepRecord", json: bool) -> None:
 def print_summary(record: "Record") -> None:
     """Write the summary of an open record to stdout."""
     from tribodyn.cli.printing import print_rich
-    from tribodyn.studies.pictures import summary_table
+    from tribodyn.studies.pages.pictures import summary_table
 
     print_rich(summary_table(record))

@@ -154,7 +154,7 @@ def _print(result: "SweepResult", json: bool) -> None:
     from tribodyn.cli.printing import print_json, print_rich
     from tribodyn.post.sweep_report import sweep_as_json, sweep_warnings
     from tribodyn.record.sweep_reader import SweepRecord
-    from tribodyn.studies.pictures import sweep_table
+    from tribodyn.studies.pages.pictures import sweep_table
 
     with SweepRecord(result.path) as record:
         if json:

@@ -23,7 +23,7 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import GearBody, Side, body_of
 from tribodyn.geometry.material import MaterialData
 from tribodyn.geometry.path import PerContact, distance_at_radius
-from tribodyn.geometry.tooth import (
+from tribodyn.geometry.tooth.tooth import (
     Tooth,
     contact_in_tooth_frame,
     fillet_point,

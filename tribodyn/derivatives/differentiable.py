@@ -18,7 +18,7 @@ from pydantic import BaseModel
 from tribodyn.derivatives.numbers import Number, numbers_of
 from tribodyn.derivatives.quantities import ALSO, QUANTITIES, Evaluation, Fixed, Quantity, quantity_of
 from tribodyn.errors import InputError, near_name, quoted
-from tribodyn.geometry.limits import beyond
+from tribodyn.geometry.limits.limits import beyond
 from tribodyn.mesh.tabulate import pair_slots
 from tribodyn.numerics.shapes import Array, Float
 
@@ -113,7 +113,7 @@ class Differentiable:
     def _run(self, how: str, values: Any, *more: Any) -> Any:
         import jax
 
-        from tribodyn.solve.diffrax_integrator import use_compilation_cache
+        from tribodyn.solve.jax.integrator import use_compilation_cache
 
         use_compilation_cache()
         meshes = any("mesh" in one.needs for one in self._quantities)

@@ -12,7 +12,7 @@ from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.geometry.assembly import Assembly, assemble
 from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.families import family
-from tribodyn.geometry.limits import LIMITS, distances
+from tribodyn.geometry.limits.limits import LIMITS, distances
 from tribodyn.geometry.path import kinematics
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.friction_loss import Engaged, contacts, engaged, friction_loss, mean_efficiency

@@ -14,9 +14,9 @@ from ezdxf.filemanagement import new
 
 from tribodyn.drawing.picture import gears_in_mesh
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.body import gear_polygon
 from tribodyn.geometry.drive import SIDES, Side, body_of, tip_circle_radius
-from tribodyn.geometry.rack import rack_outline
+from tribodyn.geometry.tooth.body import gear_polygon
+from tribodyn.geometry.tooth.rack import rack_outline
 from tribodyn.numerics.output_files import MARKS, write_output
 
 #: Layer -> (AutoCAD colour index, line type).

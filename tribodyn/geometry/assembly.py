@@ -10,7 +10,7 @@ import numpy as np
 from tribodyn.geometry.drive import SIDES, Drive, Side, tip_circle_radius, tip_radius
 from tribodyn.geometry.family import Family
 from tribodyn.geometry.path import Path, contact_limits, contact_ratio, kinematics, radius, seen_from
-from tribodyn.geometry.tooth import Tooth, cut_tooth, fillet_point, thickness_half_angle
+from tribodyn.geometry.tooth.tooth import Tooth, cut_tooth, fillet_point, thickness_half_angle
 from tribodyn.numerics.elementary import as_float, namespace
 
 _SAMPLES = 400

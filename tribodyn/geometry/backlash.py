@@ -6,7 +6,7 @@ import numpy as np
 
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES
-from tribodyn.geometry.tooth import thickness_half_angle
+from tribodyn.geometry.tooth.tooth import thickness_half_angle
 from tribodyn.numerics.elementary import cos
 
 

@@ -11,8 +11,8 @@ from tribodyn.interface.run import Run
 from tribodyn.interface.scenario import Source, in_toml
 from tribodyn.interface.words import in_python
 from tribodyn.studies.design.short_form import loaded_search
-from tribodyn.studies.run import run
-from tribodyn.studies.study import Progress
+from tribodyn.studies.protocol.run import run
+from tribodyn.studies.protocol.study import Progress
 
 Bounds = Sequence[Any] | Mapping[str, Any] | str
 """(from, to), a list of choices, {"from": …, "to": …} or {"choices": […]}."""

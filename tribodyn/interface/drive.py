@@ -11,11 +11,11 @@ import tomli_w
 from tribodyn.drawing.picture import gears_in_mesh
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.body import body_masses
-from tribodyn.geometry.checks import check
 from tribodyn.geometry.families import family
-from tribodyn.geometry.limits import plain_distances
-from tribodyn.geometry.sheet import geometry_sheet
+from tribodyn.geometry.limits.checks import check
+from tribodyn.geometry.limits.limits import plain_distances
+from tribodyn.geometry.sheet.sheet import geometry_sheet
+from tribodyn.geometry.tooth.body import body_masses
 from tribodyn.interface import shown
 from tribodyn.interface.scenario import in_toml
 from tribodyn.interface.words import in_python
@@ -23,9 +23,9 @@ from tribodyn.mesh.data import MeshData
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 from tribodyn.post.figures.gears_in_mesh import GearsInMesh
-from tribodyn.studies.drive_file import load_drive
-from tribodyn.studies.gears import sheet_tables
-from tribodyn.studies.spline_drive import as_spline
+from tribodyn.studies.gears.drive_file import load_drive
+from tribodyn.studies.gears.shared import sheet_tables
+from tribodyn.studies.gears.spline_drive import as_spline
 
 if TYPE_CHECKING:
     import xarray

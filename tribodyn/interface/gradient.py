@@ -8,8 +8,8 @@ from typing import Any
 from tribodyn.derivatives.differentiable import Differentiable
 from tribodyn.derivatives.quantities import quantity_of
 from tribodyn.errors import InputError, quoted
-from tribodyn.geometry.checks import check
 from tribodyn.geometry.families import family
+from tribodyn.geometry.limits.checks import check
 from tribodyn.interface import shown
 from tribodyn.interface.scenario import Source, scenario
 from tribodyn.interface.words import in_python

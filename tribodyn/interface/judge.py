@@ -8,7 +8,7 @@ from tribodyn.errors import InputError
 from tribodyn.interface.scenario import Source, scenario
 from tribodyn.interface.words import in_python
 from tribodyn.studies.ehl.judged import FACTORS, Judgement, judgement
-from tribodyn.studies.study import Progress
+from tribodyn.studies.protocol.study import Progress
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -8,14 +8,14 @@ import numpy as np
 from tribodyn.errors import InputError, quoted
 from tribodyn.interface.words import in_python
 from tribodyn.tribology.ehl.asperities import Roughness
-from tribodyn.tribology.ehl.coupled import solve_coupled
-from tribodyn.tribology.ehl.fluid import Fluid, roelands_index
+from tribodyn.tribology.ehl.fluid.coupled import solve_coupled
+from tribodyn.tribology.ehl.fluid.fluid import Fluid, roelands_index
+from tribodyn.tribology.ehl.fluid.heat import Thermal
+from tribodyn.tribology.ehl.fluid.rheology import Rheology
+from tribodyn.tribology.ehl.fluid.traction import rolling_traction
 from tribodyn.tribology.ehl.grid import STEP
-from tribodyn.tribology.ehl.heat import Thermal
 from tribodyn.tribology.ehl.problem import LineContact, check
-from tribodyn.tribology.ehl.rheology import Rheology
 from tribodyn.tribology.ehl.steady import Solution
-from tribodyn.tribology.ehl.traction import rolling_traction
 from tribodyn.tribology.ehl.values import positive
 
 if TYPE_CHECKING:

@@ -15,8 +15,8 @@ from tribodyn.interface.scenario import Source, scenario
 from tribodyn.interface.words import in_python
 from tribodyn.record import trust
 from tribodyn.record.reader import Record, open_record
-from tribodyn.studies.run import run as run_case
-from tribodyn.studies.study import Progress
+from tribodyn.studies.protocol.run import run as run_case
+from tribodyn.studies.protocol.study import Progress
 
 if TYPE_CHECKING:
     import xarray
@@ -81,7 +81,7 @@ class Run:
     @property
     def plots(self) -> tuple[str, ...]:
         """Names that `plot` takes."""
-        from tribodyn.studies.pictures import OVERVIEW, names
+        from tribodyn.studies.pages.pictures import OVERVIEW, names
 
         with open_record(self.path) as record:
             return (OVERVIEW, *names([record]))
@@ -121,7 +121,7 @@ class Run:
             For an unknown name, and runs that cannot be compared.
         """
         from tribodyn.post.style import in_place_of
-        from tribodyn.studies.pictures import figure
+        from tribodyn.studies.pages.pictures import figure
 
         with records_of([self, *others]) as records, in_place_of(ax) if ax is not None else nullcontext():
             return figure(name, records, cycles=cycles, against=against)
@@ -151,7 +151,7 @@ class Run:
         OutputError
             If it cannot be written.
         """
-        from tribodyn.studies.pages import write_report
+        from tribodyn.studies.pages.page import write_report
 
         with records_of([self, *others]) as records:
             return write_report(records, path or f"{self.path.stem}.html", force=force)
@@ -175,7 +175,7 @@ class Run:
         InputError
             For a record without gears that turn.
         """
-        from tribodyn.studies.pages import report
+        from tribodyn.studies.pages.page import report
 
         with records_of([self, *others]) as records:
             check_teeth(records)
@@ -218,7 +218,7 @@ class Run:
     def _repr_html_(self) -> str:
         """Title, warnings, a small picture, the summary and how far to trust it, for notebooks."""
         from tribodyn.post.page.page import summary_tables, warnings_of
-        from tribodyn.studies.pictures import study_of_record
+        from tribodyn.studies.pages.pictures import study_of_record
 
         with open_record(self.path) as record:
             study = study_of_record(record)

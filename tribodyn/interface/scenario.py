@@ -10,8 +10,8 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.interface.words import in_python
 from tribodyn.scenario.resolve import resolve_table
-from tribodyn.studies.load import load_scenario, loaded_from, table_of
-from tribodyn.studies.study import CaseHead
+from tribodyn.studies.protocol.load import load_scenario, loaded_from, table_of
+from tribodyn.studies.protocol.study import CaseHead
 
 Source = str | Path | Mapping[str, Any] | CaseHead
 """What names or describes a scenario."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from tribodyn.record.reader import Record
-from tribodyn.studies.study import Study, TextTable
+from tribodyn.studies.protocol.study import Study, TextTable
 
 if TYPE_CHECKING:
     import xarray

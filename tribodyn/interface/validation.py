@@ -21,7 +21,7 @@ class Comparison(list[Row]):
 
     def _repr_html_(self) -> str:
         from tribodyn.interface import shown
-        from tribodyn.studies.study import TextTable
+        from tribodyn.studies.protocol.study import TextTable
 
         rows = [[row.written(name) for name in SHOWN] for row in self]
         return shown.block(shown.tables([TextTable(f"{self.choices}. {counted(self)}", SHOWN, rows)]))

@@ -15,7 +15,7 @@ from tribodyn.mesh.tabulate import pair_slots, tabulate
 REPORTED_DEVIATION = 0.1
 
 if TYPE_CHECKING:
-    from tribodyn.compliance.loaded_flanks import LoadedFlanks
+    from tribodyn.compliance.sharing.loaded_flanks import LoadedFlanks
 
 
 def mesh_cycle_of(
@@ -30,7 +30,7 @@ def mesh_cycle_of(
     Parameters
     ----------
     assembly : Assembly
-        Checked (`geometry.checks`).
+        Checked (`limits.checks`).
     materials : (MaterialData, MaterialData)
         Of pinion and gear.
     mesh : MeshData

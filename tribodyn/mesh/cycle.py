@@ -55,7 +55,7 @@ class MeshCycle(NamedTuple):
         bodies; zero diagonal, symmetric; m/N.
     line_load_friction, line_load_peak : (S, N, Q)
         Line loads over their mean along the whole face, at the load of the table, ≥ 1: the one at which
-        friction acts as it does on the uneven face, and the maximum, K_Hβ (`compliance.line_load`).
+        friction acts as it does on the uneven face, and the maximum, K_Hβ (`sharing.line_load`).
     hertz_coefficient : float
         A of the load-dependent Hertz deflection A F^0.9, m/N^0.9; 0 where the Hertz contact is linear.
     pinion_pitch_radius, gear_pitch_radius : float

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from tribodyn.compliance.foundation import Foundation
-from tribodyn.geometry.modification import UNMODIFIED, Modifications
+from tribodyn.geometry.flanks.modification import UNMODIFIED, Modifications
 from tribodyn.numerics.curve import Table
 
 

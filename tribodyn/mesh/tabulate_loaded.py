@@ -4,28 +4,28 @@ What `tabulate` does with formulas, from finite elements and Hertz. A pair is ta
 contact, as far as corners can touch, with the gap between them. The contact's deflection is not proportional
 to the load; the table holds its secant at the load which the model finds in slow rotation without friction,
 so that the quasi-static mesh at the operating torque is the load contact model's. Faces in slices are
-condensed to one compliance and gap per pair (`compliance.condensed`). Back flanks are driving flanks of the
-mirrored world, modified as `geometry.modification.back_flanks` says and tabulated at the same torque.
+condensed to one compliance and gap per pair (`sharing.condensed`). Back flanks are driving flanks of the
+mirrored world, modified as `flanks.modification.back_flanks` says and tabulated at the same torque.
 """
 
 import math
 
 import numpy as np
 
-from tribodyn.compliance.condensed import Condensed, condense
-from tribodyn.compliance.flank_gap import flank_gap, relief_rolls
-from tribodyn.compliance.gear_compliance import without_neighbours
-from tribodyn.compliance.load_sharing import flexibility, share_load
-from tribodyn.compliance.loaded_contact import reach
-from tribodyn.compliance.loaded_flanks import LoadedFlanks
-from tribodyn.compliance.loaded_rules import check_contact, check_resolved, check_torque
-from tribodyn.compliance.pair_flexibility import PairFlexibility
-from tribodyn.compliance.slices import face_positions
+from tribodyn.compliance.fem.gear_compliance import without_neighbours
+from tribodyn.compliance.sharing.condensed import Condensed, condense
+from tribodyn.compliance.sharing.flank_gap import flank_gap, relief_rolls
+from tribodyn.compliance.sharing.load_sharing import flexibility, share_load
+from tribodyn.compliance.sharing.loaded_contact import reach
+from tribodyn.compliance.sharing.loaded_flanks import LoadedFlanks
+from tribodyn.compliance.sharing.loaded_rules import check_contact, check_resolved, check_torque
+from tribodyn.compliance.sharing.pair_flexibility import PairFlexibility
+from tribodyn.compliance.sharing.slices import face_positions
 from tribodyn.compliance.table import check_cover, interpolate
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.corner_contact import pair_geometry
+from tribodyn.geometry.flanks.corner_contact import pair_geometry
+from tribodyn.geometry.flanks.modification import Modifications, back_flanks, uneven_teeth
 from tribodyn.geometry.material import MaterialData
-from tribodyn.geometry.modification import Modifications, back_flanks, uneven_teeth
 from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.data import MeshData

@@ -1,7 +1,7 @@
 """Efficiencies are shares of a power: one outside 0 … 1 is wrong, and is withheld with the reason.
 
 One rule for all studies. The writers apply it to what goes into a file, the readers to what older versions
-wrote, `studies.study.Study` to the figures that it hands out; what is shown comes from one of these.
+wrote, `protocol.study.Study` to the figures that it hands out; what is shown comes from one of these.
 """
 
 import math

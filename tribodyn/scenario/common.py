@@ -26,7 +26,7 @@ class ScenarioHead(Table):
 
 
 def head_of(scenario: Any, toml: str, sha256: str) -> dict[str, str]:
-    """Return the fields of `studies.study.CaseHead` for a scenario, a `ScenarioHead` with its `kind`."""
+    """Return the fields of `protocol.study.CaseHead` for a scenario, a `ScenarioHead` with its `kind`."""
     return {
         "title": scenario.title,
         "name": scenario.name or "scenario",

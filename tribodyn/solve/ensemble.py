@@ -86,7 +86,7 @@ def march(
     count = workers or usable_cores()
     march = March(first_cycle, cycles, window, samples, started, float(rtol), max_steps, extremes)
     if runs(method) is Runs.JAX:
-        from tribodyn.solve.jax_ensemble import through_jax
+        from tribodyn.solve.jax.ensemble import through_jax
 
         result = through_jax(models, states, method, march, count, progress)
         if extremes:
@@ -138,7 +138,7 @@ def in_lanes(
     progress: Callable[[float], None] | None = None,
 ) -> Ensemble:
     """Integrate with the explicit method, many cases side by side in the lanes of vectors."""
-    from tribodyn.solve.lane_batch import batches, run_threads
+    from tribodyn.solve.lanes.batch import batches, run_threads
 
     result = nothing_yet(states, march.window * march.samples, march.extremes)
     batches_ = batches(models, states, march)

@@ -23,7 +23,7 @@ from tribodyn.dynamics.parameters import (
 from tribodyn.errors import SimulationError
 from tribodyn.mesh.cycle import CHANNELS
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.solve.step_control import largest_displacement, unbounded
+from tribodyn.solve.march.step_control import largest_displacement, unbounded
 
 _COSINE, _COMPLIANCE, _GAP = (CHANNELS.index(name) for name in ("cosine", "compliance", "gap"))
 #: Share of all torques of a model below which what is left of them presses no flanks together.

@@ -10,7 +10,7 @@ from tribodyn.dynamics.parameters import LAG, Model
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.engagement import engage_next
 from tribodyn.solve.integrator import REASONS, Integrator, Status
-from tribodyn.solve.marched_again import MarchedAgain
+from tribodyn.solve.march.marched_again import MarchedAgain
 from tribodyn.solve.methods import Runs, integrator_class, method_file, runs
 from tribodyn.solve.tolerances import Tolerances, tolerances_from
 

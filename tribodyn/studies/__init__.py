@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from tribodyn.numerics.registry import Registry
-from tribodyn.studies.study import Study
+from tribodyn.studies.protocol.study import Study
 
 STUDIES: Registry[Study] = Registry(
     "kind",

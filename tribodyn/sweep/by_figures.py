@@ -9,10 +9,10 @@ from tribodyn.errors import InputError, SimulationError
 from tribodyn.record.sweep_schema import DONE, FAILED, SweepLayout
 from tribodyn.record.trust import TRUST, number
 from tribodyn.record.withheld import remarked, remarks, warned
-from tribodyn.studies.batch import Chunk
-from tribodyn.studies.estimate import Estimate, variable_bytes
-from tribodyn.studies.rounded import remarks_in_brief
-from tribodyn.studies.study import Study
+from tribodyn.studies.gears.rounded import remarks_in_brief
+from tribodyn.studies.protocol.estimate import Estimate, variable_bytes
+from tribodyn.studies.protocol.study import Study
+from tribodyn.studies.sweeping.batch import Chunk
 
 
 class Settings(NamedTuple):
@@ -20,7 +20,7 @@ class Settings(NamedTuple):
 
 
 class ByFigures:
-    """See `studies.batch.Batch`.
+    """See `sweeping.batch.Batch`.
 
     Parameters
     ----------

@@ -8,8 +8,8 @@ import numpy as np
 
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.studies import STUDIES
-from tribodyn.studies.batch import Chunk
-from tribodyn.studies.cluster import client_of, workers_of
+from tribodyn.studies.sweeping.batch import Chunk
+from tribodyn.studies.sweeping.cluster import client_of, workers_of
 from tribodyn.sweep.by_figures import ByFigures
 
 Block = dict[str, np.ndarray]
@@ -100,7 +100,7 @@ class Dask:
 
 
 def _jax_width() -> int:
-    from tribodyn.solve.jax_ensemble import width_here
+    from tribodyn.solve.jax.ensemble import width_here
 
     return width_here()
 

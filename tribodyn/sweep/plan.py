@@ -7,7 +7,7 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.record.sweep_schema import DONE
-from tribodyn.studies.batch import Chunk, Way
+from tribodyn.studies.sweeping.batch import Chunk, Way
 from tribodyn.sweep.grid import Grid
 
 #: Gives what was recorded of cases: (numbers) -> statuses (n,), states (n, …), periods of the motion (n,).

@@ -34,7 +34,7 @@ class SweepResult(NamedTuple):
 
 
 def settings_of(grid: Grid, transient: int | None = None, engine: str = "native") -> Any:
-    """How the cases of a sweep are evaluated; see `studies.batch.Batch.settings`."""
+    """How the cases of a sweep are evaluated; see `sweeping.batch.Batch.settings`."""
     return grid.batch.settings(grid.ends(), transient, engine)
 
 

@@ -7,8 +7,8 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.scenario.vary import VARY
-from tribodyn.studies import estimate as of_a_run
-from tribodyn.studies.estimate import Driver, Estimate, described
+from tribodyn.studies.protocol import estimate as of_a_run
+from tribodyn.studies.protocol.estimate import Driver, Estimate, described
 from tribodyn.sweep.grid import Grid
 
 #: Above this a sweep is refused unless it is asked for: surely a step was mistyped.

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.compliance.load_sharing import share_load
-from tribodyn.compliance.pair_flexibility import PairFlexibility
+from tribodyn.compliance.sharing.load_sharing import share_load
+from tribodyn.compliance.sharing.pair_flexibility import PairFlexibility
 from tribodyn.geometry.families.involute import FAMILY
 from tribodyn.studies.efficiency.load_contact import load_contact
 from tribodyn.studies.efficiency.loss_factor import tip_contact_ratios

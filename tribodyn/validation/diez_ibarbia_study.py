@@ -11,8 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tribodyn.compliance.load_sharing import LEVEL, flexibility
-from tribodyn.compliance.pair_flexibility import PairFlexibility
+from tribodyn.compliance.sharing.load_sharing import LEVEL, flexibility
+from tribodyn.compliance.sharing.pair_flexibility import PairFlexibility
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.families.involute import FAMILY
@@ -21,7 +21,7 @@ from tribodyn.studies.efficiency.load_contact import LoadContact, load_contact
 from tribodyn.studies.efficiency.loss_factor import exact, hoehn, tip_contact_ratios
 from tribodyn.studies.efficiency.shift import Scenario, shifted
 from tribodyn.studies.gear_pair.case import Case
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.tribology.closure import nominal_conditions
 from tribodyn.tribology.friction.niemann import niemann
 

@@ -8,8 +8,8 @@ import numpy as np
 
 from tribodyn.errors import SimulationError
 from tribodyn.record.reader import open_record
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.run import run
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run
 from tribodyn.validation.rows import Row, compare, published
 
 PAPER = "efremenkov-2024"

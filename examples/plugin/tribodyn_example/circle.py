@@ -11,8 +11,8 @@ from typing import Any, NamedTuple
 from tribodyn import Family, InputError, Parameter
 from tribodyn.geometry.drive import Drive, reference_radius
 from tribodyn.geometry.family import unshifted
+from tribodyn.geometry.limits.reach import refuse_shift, require_reach
 from tribodyn.geometry.path import integrated_rotation, inverted_rotation
-from tribodyn.geometry.reach import refuse_shift, require_reach
 from tribodyn.numerics.elementary import namespace, sqrt
 
 

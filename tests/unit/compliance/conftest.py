@@ -3,10 +3,10 @@
 import pytest
 
 from tests.support.faces_in_slices import DRIVE, STEEL
-from tribodyn.compliance.load_sharing import flexibility
+from tribodyn.compliance.sharing.load_sharing import flexibility
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families.involute import FAMILY
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 
 @pytest.fixture(scope="module")

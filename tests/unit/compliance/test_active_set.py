@@ -5,7 +5,7 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from tribodyn.compliance.active_set import _worst_only, press
+from tribodyn.compliance.sharing.active_set import _worst_only, press
 
 PLACES, POSITIONS = 4, 3
 

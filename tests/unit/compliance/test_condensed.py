@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from tests.support.faces_in_slices import CASES, model, table
-from tribodyn.compliance.condensed import _condensed, _stiff_together
-from tribodyn.compliance.load_sharing import contact_deflection, press_pairs
+from tribodyn.compliance.sharing.condensed import _condensed, _stiff_together
+from tribodyn.compliance.sharing.load_sharing import contact_deflection, press_pairs
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
-from tribodyn.geometry.modification import FlankModification, Misalignment, Modifications
+from tribodyn.geometry.flanks.modification import FlankModification, Misalignment, Modifications
 from tribodyn.mesh.quasi_static import quasi_static
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.sparse import csr_matrix
 
-from tribodyn.compliance.cyclic_symmetry import half_sector, phases, ring_response
+from tribodyn.compliance.fem.cyclic_symmetry import half_sector, phases, ring_response
 
 BORE = 0.7
 

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from tests.support.twelve_teeth import few_cells
-from tribodyn.compliance.fem_cache import cached_gear_compliance
-from tribodyn.compliance.gear_compliance import FreeEnds, GearCompliance
+from tribodyn.compliance.fem.cache import cached_gear_compliance
+from tribodyn.compliance.fem.gear_compliance import FreeEnds, GearCompliance
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families.involute import FAMILY
-from tribodyn.geometry.tooth import cut_tooth
+from tribodyn.geometry.tooth.tooth import cut_tooth
 from tribodyn.numerics.cache import cache_folder
 
 BODY = GearBody(12, 0.3, 1.0, 1.25, 0.25, 0.02, 8e-3)
@@ -38,7 +38,7 @@ def same(one: GearCompliance, other: GearCompliance) -> bool:
 def test_second_look_up_reads_the_file(folder, monkeypatch):
     first = solve()
     assert len(list(folder.iterdir())) == 1
-    monkeypatch.setattr("tribodyn.compliance.fem.gear_compliance", None)  # must not be needed again
+    monkeypatch.setattr("tribodyn.compliance.fem.gear.gear_compliance", None)  # must not be needed again
     assert same(first, solve())
 
 
@@ -85,7 +85,7 @@ def any_ends(waves: int, width: float = 1.0) -> FreeEnds:
 
 
 def test_loads_that_vary_are_solved_only_where_asked_for_and_kept_apart(folder, monkeypatch):
-    ends = "tribodyn.compliance.free_ends.free_ends"
+    ends = "tribodyn.compliance.fem.free_ends.free_ends"
     asked = []
     monkeypatch.setattr(ends, lambda *given: asked.append(given) or any_ends(len(given[-2]), given[-1]))
     plane = solve()
@@ -96,8 +96,8 @@ def test_loads_that_vary_are_solved_only_where_asked_for_and_kept_apart(folder, 
     for waves in (first.lead.wave_number, asked[0][-2]):  # over the module
         assert 0.2 < waves[-1] * DRIVE.module < 20.0
     assert {"ends", "lead"} < {file.name.partition("-")[0] for file in folder.iterdir()}
-    monkeypatch.setattr("tribodyn.compliance.fem.gear_compliance", None)
-    monkeypatch.setattr("tribodyn.compliance.fem.lead_harmonics", None)
+    monkeypatch.setattr("tribodyn.compliance.fem.gear.gear_compliance", None)
+    monkeypatch.setattr("tribodyn.compliance.fem.gear.lead_harmonics", None)
     wider = solve(width=0.03)  # needs the ends alone
     assert not same(first, wider)
     assert len(list(folder.iterdir())) == 4

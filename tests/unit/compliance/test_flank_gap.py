@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import PchipInterpolator
 
-from tribodyn.compliance.flank_gap import (
+from tribodyn.compliance.sharing.flank_gap import (
     check_modifications,
     flank_gap,
     lead_gap,
@@ -16,11 +16,11 @@ from tribodyn.compliance.flank_gap import (
 )
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import cycloidal, family
 from tribodyn.geometry.families.involute import FAMILY
-from tribodyn.geometry.modification import (
+from tribodyn.geometry.flanks.corner_contact import pair_geometry
+from tribodyn.geometry.flanks.modification import (
     UNMODIFIED,
     FlankModification,
     LeadRelief,
@@ -28,7 +28,7 @@ from tribodyn.geometry.modification import (
     Modifications,
     Relief,
 )
-from tribodyn.geometry.tooth import flank_point, thickness_half_angle
+from tribodyn.geometry.tooth.tooth import flank_point, thickness_half_angle
 
 WIDTH, ANGLE = 26.7e-3, np.radians(20.0)
 DRIVE = Drive(

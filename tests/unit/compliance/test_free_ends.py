@@ -8,16 +8,16 @@ from scipy.sparse.linalg import splu
 from scipy.spatial import KDTree
 
 from tests.support.twelve_teeth import BODY, TOOTH, few_cells
-from tribodyn.compliance.end_faces import openings, parity_weights
-from tribodyn.compliance.face_compliance import slice_compliance
-from tribodyn.compliance.free_ends import at_phase, face_of, free_ends, harmonic_of
-from tribodyn.compliance.gear_compliance import without_neighbours
-from tribodyn.compliance.gear_model import gear_model
-from tribodyn.compliance.ring_mesh import sector_mesh
-from tribodyn.compliance.root_stress import edge_parameters, edge_values, stress_rows
-from tribodyn.compliance.slices import pair_harmonics
-from tribodyn.compliance.strips import curved_basis, strip_stiffness
-from tribodyn.geometry.corner_contact import pair_geometry
+from tribodyn.compliance.fem.end_faces import openings, parity_weights
+from tribodyn.compliance.fem.free_ends import at_phase, face_of, free_ends, harmonic_of
+from tribodyn.compliance.fem.gear_compliance import without_neighbours
+from tribodyn.compliance.fem.gear_model import gear_model
+from tribodyn.compliance.fem.ring_mesh import sector_mesh
+from tribodyn.compliance.fem.root_stress import edge_parameters, edge_values, stress_rows
+from tribodyn.compliance.fem.strips import curved_basis, strip_stiffness
+from tribodyn.compliance.sharing.face_compliance import slice_compliance
+from tribodyn.compliance.sharing.slices import pair_harmonics
+from tribodyn.geometry.flanks.corner_contact import pair_geometry
 
 TEETH, POISSON = 6, 0.3  # of the teeth of twelve
 

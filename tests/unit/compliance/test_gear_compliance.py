@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tribodyn.compliance.gear_compliance import (
+from tribodyn.compliance.fem.gear_compliance import (
     FreeEnds,
     GearCompliance,
     LeadHarmonics,

@@ -6,10 +6,10 @@ from scipy.integrate import quad
 from scipy.sparse.linalg import spsolve
 
 from tests.support.twelve_teeth import BODY, POISSON, TOOTH, few_cells, whole_ring
-from tribodyn.compliance.fem import gear_compliance, lead_harmonics
-from tribodyn.compliance.gear_compliance import NEIGHBOURS, GearCompliance, LeadHarmonics
-from tribodyn.compliance.gear_model import gear_model
-from tribodyn.compliance.lead_harmonics import (
+from tribodyn.compliance.fem.gear import gear_compliance, lead_harmonics
+from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, GearCompliance, LeadHarmonics
+from tribodyn.compliance.fem.gear_model import gear_model
+from tribodyn.compliance.fem.lead_harmonics import (
     LARGEST,
     at_wave_numbers,
     half_space,
@@ -17,9 +17,9 @@ from tribodyn.compliance.lead_harmonics import (
     own_at_solved,
     wave_numbers,
 )
+from tribodyn.compliance.fem.root_stress import stress_rows
+from tribodyn.compliance.fem.strips import strip_stiffness
 from tribodyn.compliance.local import freed_of_depth, weber_banaschek
-from tribodyn.compliance.root_stress import stress_rows
-from tribodyn.compliance.strips import strip_stiffness
 from tribodyn.geometry.material import MaterialData
 
 MODULE, DEPTH = 3e-3, 0.75e-3

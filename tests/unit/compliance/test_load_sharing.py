@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from tests.support.faces_in_slices import DRIVE, STEEL
-from tribodyn.compliance import load_sharing
-from tribodyn.compliance.gear_compliance import GearCompliance
-from tribodyn.compliance.load_sharing import (
+from tribodyn.compliance.fem.gear_compliance import GearCompliance
+from tribodyn.compliance.sharing import load_sharing
+from tribodyn.compliance.sharing.load_sharing import (
     SharedLoad,
     contact_deflection,
     effective_contact_ratio,
@@ -17,11 +17,11 @@ from tribodyn.compliance.load_sharing import (
     in_batches,
     share_load,
 )
-from tribodyn.compliance.pair_flexibility import PairFlexibility
+from tribodyn.compliance.sharing.pair_flexibility import PairFlexibility
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.families import cycloidal
 from tribodyn.geometry.families.involute import FAMILY
+from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.geometry.pitch_point import pitch_point
 
 

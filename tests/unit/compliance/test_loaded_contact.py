@@ -3,17 +3,21 @@
 import numpy as np
 import pytest
 
-from tribodyn.compliance.flank_gap import flank_gap
-from tribodyn.compliance.load_sharing import effective_contact_ratio, extended_rolls, flexibility, share_load
-from tribodyn.compliance.loaded_contact import loaded_error, mean_pairs, reach, roll_through
-from tribodyn.compliance.slices import face_positions
+from tribodyn.compliance.sharing.flank_gap import flank_gap
+from tribodyn.compliance.sharing.load_sharing import (
+    effective_contact_ratio,
+    extended_rolls,
+    flexibility,
+    share_load,
+)
+from tribodyn.compliance.sharing.loaded_contact import loaded_error, mean_pairs, reach, roll_through
+from tribodyn.compliance.sharing.slices import face_positions
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families.involute import FAMILY
-from tribodyn.geometry.material import MaterialData
-from tribodyn.geometry.modification import (
+from tribodyn.geometry.flanks.corner_contact import pair_geometry
+from tribodyn.geometry.flanks.modification import (
     UNMODIFIED,
     FlankModification,
     LeadRelief,
@@ -21,6 +25,7 @@ from tribodyn.geometry.modification import (
     Modifications,
     Relief,
 )
+from tribodyn.geometry.material import MaterialData
 
 STEEL = MaterialData("steel", 207e9, 0.3, 7850.0, 45.0, 460.0, 6.5e9)
 WIDTH, ANGLE = 26.7e-3, np.radians(20.0)

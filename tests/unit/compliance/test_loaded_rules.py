@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from tests.support.faces_in_slices import DRIVE, STEEL, WIDTH
-from tribodyn.compliance.gear_compliance import GearCompliance
-from tribodyn.compliance.loaded_rules import check_contact, check_resolved, check_torque
-from tribodyn.compliance.pair_flexibility import PairFlexibility
+from tribodyn.compliance.fem.gear_compliance import GearCompliance
+from tribodyn.compliance.sharing.loaded_rules import check_contact, check_resolved, check_torque
+from tribodyn.compliance.sharing.pair_flexibility import PairFlexibility
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families.involute import FAMILY
-from tribodyn.geometry.modification import UNMODIFIED, Misalignment, Modifications
+from tribodyn.geometry.flanks.modification import UNMODIFIED, Misalignment, Modifications
 
 ANGLE = np.radians(20.0)
 NONE = GearCompliance(np.empty(0), np.empty(0), np.empty(0), 1e-3)

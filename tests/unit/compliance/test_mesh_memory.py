@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 
 from tests.support.twelve_teeth import TOOTH
-from tribodyn.compliance import mesh_memory
-from tribodyn.compliance.cyclic_symmetry import half_sector
-from tribodyn.compliance.fem import gear_compliance, lead_harmonics
-from tribodyn.compliance.mesh_memory import check_level, memory_needed
-from tribodyn.compliance.ring_mesh import half_sector_cells, half_sector_mesh
+from tribodyn.compliance.fem import mesh_memory
+from tribodyn.compliance.fem.cyclic_symmetry import half_sector
+from tribodyn.compliance.fem.gear import gear_compliance, lead_harmonics
+from tribodyn.compliance.fem.mesh_memory import check_level, memory_needed
+from tribodyn.compliance.fem.ring_mesh import half_sector_cells, half_sector_mesh
 from tribodyn.errors import InputError
 
 # The peak of this process alone; the system's ru_maxrss starts from that of the process that started it.
@@ -21,8 +21,8 @@ SOLVE = """
 import sys
 from pathlib import Path
 from tests.support.twelve_teeth import TOOTH
-from tribodyn.compliance.cyclic_symmetry import half_sector
-from tribodyn.compliance.fem import gear_compliance, lead_harmonics
+from tribodyn.compliance.fem.cyclic_symmetry import half_sector
+from tribodyn.compliance.fem.gear import gear_compliance, lead_harmonics
 def peak():
     lines = Path("/proc/self/status").read_text().splitlines()
     return next(1024 * int(s.split()[1]) for s in lines if s.startswith("VmHWM"))

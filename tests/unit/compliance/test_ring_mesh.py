@@ -5,10 +5,10 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from tribodyn.compliance.ring_mesh import half_sector_cells, half_sector_mesh
+from tribodyn.compliance.fem.ring_mesh import half_sector_cells, half_sector_mesh
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families.involute import FAMILY
-from tribodyn.geometry.tooth import cut_tooth, fillet_point, flank_point
+from tribodyn.geometry.tooth.tooth import cut_tooth, fillet_point, flank_point
 
 MODULE = 3e-3
 

@@ -9,13 +9,13 @@ from scipy.optimize import brentq, nnls
 from scipy.special import ellipe, ellipk
 
 from tests.support.faces_in_slices import WIDTH
-from tribodyn.compliance import slices as slices_of_faces
-from tribodyn.compliance.active_set import press
-from tribodyn.compliance.gear_compliance import NEIGHBOURS
-from tribodyn.compliance.lead_harmonics import half_space_surface
-from tribodyn.compliance.load_sharing import half_width, press_pairs
-from tribodyn.compliance.slices import by_slices, face_positions, modes, pair_harmonics
-from tribodyn.geometry.corner_contact import pair_geometry
+from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS
+from tribodyn.compliance.fem.lead_harmonics import half_space_surface
+from tribodyn.compliance.sharing import slices as slices_of_faces
+from tribodyn.compliance.sharing.active_set import press
+from tribodyn.compliance.sharing.load_sharing import half_width, press_pairs
+from tribodyn.compliance.sharing.slices import by_slices, face_positions, modes, pair_harmonics
+from tribodyn.geometry.flanks.corner_contact import pair_geometry
 
 SPRING = 2e-9  # m/N of the whole face
 

@@ -6,9 +6,9 @@ from scipy.sparse.linalg import spsolve
 from skfem import Basis, ElementHex2, ElementVector, MeshHex
 
 from tests.support.solid_elements import POISSON, node_at, plate, solid_energy
-from tribodyn.compliance.end_faces import openings
-from tribodyn.compliance.root_stress import edge_points, stress_rows
-from tribodyn.compliance.strips import plane_stiffness, strip_stiffness
+from tribodyn.compliance.fem.end_faces import openings
+from tribodyn.compliance.fem.root_stress import edge_points, stress_rows
+from tribodyn.compliance.fem.strips import plane_stiffness, strip_stiffness
 
 
 def solve_strip(basis, k, load):

@@ -56,8 +56,8 @@ from tribodyn.dynamics.extremes import (
 )
 from tribodyn.dynamics.outputs import outputs, outputs_with_extremes
 from tribodyn.dynamics.parameters import STATES, XI
-from tribodyn.solve.extreme_search import UNKNOWN, begin_rates, promising, rate_of
 from tribodyn.solve.initial import static_equilibrium
+from tribodyn.solve.march.extreme_search import UNKNOWN, begin_rates, promising, rate_of
 from tribodyn.solve.right_hand_side import work_array
 from tribodyn.tribology.contact import local_contact
 from tribodyn.tribology.film import FILM_LAWS, film_law

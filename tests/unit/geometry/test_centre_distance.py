@@ -7,9 +7,9 @@ import pytest
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly, tip_clearance
 from tribodyn.geometry.backlash import circumferential_backlash, normal_backlash
-from tribodyn.geometry.checks import check
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import family, involute
+from tribodyn.geometry.limits.checks import check
 
 PINION = GearBody(25.0, 0.2, 1.0, 1.25, 0.25, 0.03, 0.015)
 GEAR = GearBody(60.0, 0.1, 1.0, 1.25, 0.25, 0.028, 0.025)
@@ -83,7 +83,7 @@ def test_thinner_teeth_leave_their_allowances_as_backlash():
 
 
 def test_teeth_of_other_families_are_thinned_at_their_pitch_circle():
-    from tribodyn.studies.load import load_scenario
+    from tribodyn.studies.protocol.load import load_scenario
 
     case = load_scenario("crc-23-47")
     thin = case.drive._replace(gear=case.drive.gear._replace(thickness_allowance=-50e-6))
@@ -107,7 +107,7 @@ def test_overlapping_teeth_are_refused_with_the_smallest_distance():
 
 
 def test_other_families_refuse_a_centre_distance():
-    from tribodyn.studies.load import load_scenario
+    from tribodyn.studies.protocol.load import load_scenario
 
     case = load_scenario("crc-23-47")
     with pytest.raises(InputError, match="conjugate at one centre distance only"):

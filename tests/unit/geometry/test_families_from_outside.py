@@ -4,14 +4,14 @@ import importlib.metadata
 
 import pytest
 
-from tribodyn.geometry.checks import check
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import FAMILIES, family, involute
+from tribodyn.geometry.limits.checks import check
 from tribodyn.geometry.material import MaterialData
 from tribodyn.mesh.by_compliance import mesh_cycle_of
 from tribodyn.mesh.data import MeshData
 from tribodyn.studies.gear_pair.prepare import prepare
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 STEEL = MaterialData("steel", 206e9, 0.3, 7850.0, 46.0, 470.0, 6e9)
 OUTSIDE = involute.FAMILY._replace(name="mine", about="from outside", involute=False)

@@ -10,14 +10,14 @@ from tests.support.compile_fast import ONE_CALL
 from tests.support.sample_drives import SHIFTED, STANDARD, body
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.checks import check
 from tribodyn.geometry.drive import SIDES, Drive
 from tribodyn.geometry.families import family, involute
 from tribodyn.geometry.families.spline import FAMILY, Shape, _advice, even_places
+from tribodyn.geometry.limits.checks import check
 from tribodyn.geometry.path import kinematics, position
 from tribodyn.geometry.spline_fit import fit_spline, flank_deviation
-from tribodyn.geometry.tooth import flank_point, thickness_half_angle
-from tribodyn.studies.drive_file import load_drive
+from tribodyn.geometry.tooth.tooth import flank_point, thickness_half_angle
+from tribodyn.studies.gears.drive_file import load_drive
 
 ANGLES = np.radians([26.7, 25.2, 23.8, 22.9, 22.0, 21.5, 21.4, 21.6])
 LENGTH = 0.019

@@ -9,7 +9,7 @@ from tests.support.sample_drives import LIU_NI, SHIFTED, STANDARD, body
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import SIDES, Drive, body_of, reference_radius, tip_radius
 from tribodyn.geometry.families import involute
-from tribodyn.geometry.limits import LIMITS, beyond, distances, smooth_minimum
+from tribodyn.geometry.limits.limits import LIMITS, beyond, distances, smooth_minimum
 
 #: No shift: the working circles are the reference circles.
 PLAIN = (STANDARD, LIU_NI, Drive(0.002, np.radians(17.5), body(31.0), body(52.0)))

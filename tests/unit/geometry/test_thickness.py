@@ -9,9 +9,9 @@ from tests.support.sample_drives import SHIFTED, STANDARD
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import body_of
 from tribodyn.geometry.families import involute
-from tribodyn.geometry.measures import Gauge, thickness_lines
-from tribodyn.geometry.rack_profile import PROFILES
-from tribodyn.geometry.thickness import (
+from tribodyn.geometry.flanks.tip_rounding import tip_break
+from tribodyn.geometry.sheet.measures import Gauge, thickness_lines
+from tribodyn.geometry.sheet.thickness import (
     Involute,
     allowance_of_pins,
     allowance_of_span,
@@ -21,8 +21,8 @@ from tribodyn.geometry.thickness import (
     span_contact_diameter,
     usual_span_teeth,
 )
-from tribodyn.geometry.tip_rounding import tip_break
-from tribodyn.geometry.tooth import flank_point
+from tribodyn.geometry.tooth.rack_profile import PROFILES
+from tribodyn.geometry.tooth.tooth import flank_point
 
 ALLOWANCE = -90e-6
 CASES = [(drive, side) for drive in (STANDARD, SHIFTED) for side in ("pinion", "gear")]

@@ -13,7 +13,7 @@ from tribodyn.derivatives import numbers
 from tribodyn.derivatives.differentiable import FORWARDS, fixed_of, value_of
 from tribodyn.derivatives.quantities import QUANTITIES, Evaluation, quantity_of
 from tribodyn.errors import InputError
-from tribodyn.geometry.limits import LIMITS
+from tribodyn.geometry.limits.limits import LIMITS
 from tribodyn.studies import study_of
 
 #: One scenario of every family, and the number that shapes its teeth.

@@ -68,7 +68,7 @@ SMALL = """
 import sys
 import numpy as np
 from tribodyn.studies.backlash_oscillator.response import frequency_response
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 if "without" in sys.argv:
     import numba.core.codegen
@@ -86,7 +86,7 @@ from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import make_integrator
 from tribodyn.studies.gear_pair.prepare import prepare
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 if "without" in sys.argv:
     import numba.core.codegen

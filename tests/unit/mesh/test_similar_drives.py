@@ -8,11 +8,11 @@ import pytest
 
 from tests.support.sample_drives import SOUND
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.body import mass_and_inertia
 from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.material import MaterialData
 from tribodyn.geometry.path import kinematics
-from tribodyn.geometry.sheet import geometry_sheet
+from tribodyn.geometry.sheet.sheet import geometry_sheet
+from tribodyn.geometry.tooth.body import mass_and_inertia
 from tribodyn.mesh.data import MeshData
 from tribodyn.mesh.friction_loss import mean_efficiency
 from tribodyn.mesh.quasi_static import cycle_integral, cycle_mean, quasi_static

@@ -10,7 +10,7 @@ from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
 from tribodyn.mesh.stiffness import single_pair, total_stiffness
 from tribodyn.mesh.tabulate import pair_slots, tabulate
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 TORQUE = 500.0
 

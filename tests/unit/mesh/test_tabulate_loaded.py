@@ -8,12 +8,17 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
-from tribodyn.compliance.load_sharing import effective_contact_ratio, extended_rolls, flexibility, share_load
+from tribodyn.compliance.sharing.load_sharing import (
+    effective_contact_ratio,
+    extended_rolls,
+    flexibility,
+    share_load,
+)
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.corner_contact import pair_geometry, roll_at_gap
 from tribodyn.geometry.families import family
-from tribodyn.geometry.modification import (
+from tribodyn.geometry.flanks.corner_contact import pair_geometry, roll_at_gap
+from tribodyn.geometry.flanks.modification import (
     FlankModification,
     LeadRelief,
     Misalignment,
@@ -24,7 +29,7 @@ from tribodyn.geometry.modification import (
 from tribodyn.mesh import tabulate_loaded as module
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.mesh.tabulate_loaded import flanks_of, phases_of_pairs, tabulate_loaded
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 NAME = "involute-18-36-fem"
 

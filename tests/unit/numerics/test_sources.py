@@ -13,11 +13,11 @@ from pathlib import Path
 import pytest
 
 import tribodyn
-from tribodyn.compliance import fem_cache
+from tribodyn.compliance.fem import cache as fem_cache
 from tribodyn.kernels.native import store
 from tribodyn.numerics import sources
 from tribodyn.numerics.cache import replacing
-from tribodyn.tribology.ehl import table
+from tribodyn.tribology.ehl.table import table
 
 FILES = {
     "__init__.py": "",
@@ -239,10 +239,10 @@ def test_laws_of_installed_packages_count(copied: Path, tmp_path: Path, monkeypa
     [
         (
             ["tribodyn.solve.methods.rodas4"],
-            ["solve.rosenbrock", "solve.jacobian", "dynamics.equations", "kernels.native.records"],
+            ["solve.march.rosenbrock", "dynamics.equations", "kernels.native.records"],
         ),
-        (["tribodyn.solve.lane_march"], ["kernels.lanes.functions", "solve.step_control"]),
-        (fem_cache._METHODS, ["compliance.lead_harmonics", "compliance.strips", "compliance.local"]),
+        (["tribodyn.solve.lanes.march"], ["kernels.lanes.functions", "solve.march.step_control"]),
+        (fem_cache._METHODS, ["compliance.fem.lead_harmonics", "compliance.fem.strips", "compliance.local"]),
     ],
 )
 def test_what_the_cached_results_come_from(start, expected):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from tests.support.faces_in_slices import DRIVE
-from tribodyn.compliance import fem
+from tribodyn.compliance.fem import gear as fem
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families.involute import FAMILY
 from tribodyn.numerics.work import part, steps, watched

@@ -34,11 +34,11 @@ from tribodyn.record.trust import (
     verdict,
 )
 from tribodyn.record.withheld import remarked, remarks, warned, warnings
-from tribodyn.studies.batch import Chunk
 from tribodyn.studies.efficiency.report import SWEPT
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.pictures import summary_table, sweep_table
-from tribodyn.studies.run import run
+from tribodyn.studies.pages.pictures import summary_table, sweep_table
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run
+from tribodyn.studies.sweeping.batch import Chunk
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.run import settings_of
 

@@ -17,7 +17,7 @@ from tribodyn.record.sweep_schema import DONE, SweepLayout
 from tribodyn.record.sweep_writer import ParameterScale, SweepHead, SweepWriter
 from tribodyn.record.withheld import is_efficiency, reason_to_withhold, samples_withheld, warnings, withheld
 from tribodyn.studies.efficiency.report import SWEPT
-from tribodyn.studies.pictures import compare, summary_table, sweep_table
+from tribodyn.studies.pages.pictures import compare, summary_table, sweep_table
 
 
 def printed(table) -> str:

@@ -5,8 +5,8 @@ import math
 import pytest
 
 from tribodyn.errors import InputError
-from tribodyn.scenario.duty import DutyTable, broken_duty_rules, duty_of
-from tribodyn.studies.load import load
+from tribodyn.scenario.tables.duty import DutyTable, broken_duty_rules, duty_of
+from tribodyn.studies.protocol.load import load
 
 SPEED = 1800 * 2 * math.pi / 60
 RATIO = 60 / 25

@@ -10,14 +10,14 @@ import tomli_w
 
 import tribodyn
 from tribodyn.errors import InputError
-from tribodyn.geometry.checks import check
 from tribodyn.geometry.families import family
 from tribodyn.geometry.families.involute import shift_sensitivity, tight_centre_distance
+from tribodyn.geometry.limits.checks import check
 from tribodyn.scenario.printed import half_unit, shift_rounding
-from tribodyn.studies.design.evaluation import loaded_case
-from tribodyn.studies.drive_file import load_drive
-from tribodyn.studies.load import load, load_scenario
-from tribodyn.studies.rounded import BRIEF
+from tribodyn.studies.design.candidates.evaluation import loaded_case
+from tribodyn.studies.gears.drive_file import load_drive
+from tribodyn.studies.gears.rounded import BRIEF
+from tribodyn.studies.protocol.load import load, load_scenario
 
 
 def pair(

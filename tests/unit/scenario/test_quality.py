@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tribodyn.errors import InputError
-from tribodyn.studies.load import load
+from tribodyn.studies.protocol.load import load
 
 GEARS = {"drive.quality": 6, "mesh.deviation_sample": 4}
 

@@ -9,7 +9,7 @@ import tomli_w
 from tribodyn.errors import InputError
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.prepare import prepare
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 # scenario, overrides, key, what the message says, what it advises
 REFUSED = {
@@ -151,8 +151,8 @@ def points(x=X, y=Y, angle="20 deg"):
 
 def test_points_on_a_straight_line_make_an_involute():
     from tribodyn.geometry.assembly import assemble
-    from tribodyn.geometry.checks import check
     from tribodyn.geometry.families import family
+    from tribodyn.geometry.limits.checks import check
 
     x = np.linspace(-12, 12, 25)
     case = points(x, x * np.tan(np.radians(20)))

@@ -10,7 +10,7 @@ from tribodyn.geometry.families import FAMILIES, family
 from tribodyn.scenario.sources import names, shipped
 from tribodyn.solve.methods import SOLVERS, solver
 from tribodyn.studies import STUDIES
-from tribodyn.studies.load import json_schema, load, load_scenario
+from tribodyn.studies.protocol.load import json_schema, load, load_scenario
 from tribodyn.tribology.film import FILM_LAWS, film_law
 from tribodyn.tribology.friction import FRICTION_LAWS, friction_law
 

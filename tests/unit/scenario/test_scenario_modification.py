@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.modification import UNMODIFIED, LeadRelief, Misalignment, Relief
-from tribodyn.studies.load import load, load_scenario
+from tribodyn.geometry.flanks.modification import UNMODIFIED, LeadRelief, Misalignment, Relief
+from tribodyn.studies.protocol.load import load, load_scenario
 
 STUDY = "load-contact-18-36"
 PINION = "drive.pinion.modification."

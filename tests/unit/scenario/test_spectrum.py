@@ -7,7 +7,7 @@ from tribodyn.errors import InputError
 from tribodyn.post.sweep_report import weighted_mean
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.studies.efficiency.run import figures, spectrum_figures
-from tribodyn.studies.load import load
+from tribodyn.studies.protocol.load import load
 from tribodyn.sweep.engines import engine_of
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.run import run, settings_of

@@ -5,11 +5,11 @@ import math
 import pytest
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.checks import check
 from tribodyn.geometry.families import family
-from tribodyn.geometry.sheet import geometry_sheet
-from tribodyn.studies.drive_file import load_drive
-from tribodyn.studies.load import load
+from tribodyn.geometry.limits.checks import check
+from tribodyn.geometry.sheet.sheet import geometry_sheet
+from tribodyn.studies.gears.drive_file import load_drive
+from tribodyn.studies.protocol.load import load
 
 PAIR = {
     "family": "involute",
@@ -128,8 +128,8 @@ def test_roughness_of_each_gear_is_combined():
     }
     case = load("involute-shifted-23-47", {key: value for key, value in given.items() if value}).case
     assert (case.roughness, case.mean_roughness) == (3e-7, pytest.approx(0.6e-6))
-    from tribodyn.scenario.drive_data import roughness_of
-    from tribodyn.scenario.model_files import DriveTable
+    from tribodyn.scenario.tables.drive_data import roughness_of
+    from tribodyn.scenario.tables.model_files import DriveTable
 
     written = dict(load_drive(PAIR, {"drive.gear.mean_roughness": "0.4 um"}).table)
     table = DriveTable.model_validate(written)

@@ -8,7 +8,7 @@ from tribodyn.errors import InputError
 from tribodyn.scenario import units
 from tribodyn.scenario.sources import read_toml
 from tribodyn.scenario.units import NotAQuantity, factor_to_si, to_si
-from tribodyn.studies.load import json_schema
+from tribodyn.studies.protocol.load import json_schema
 
 
 @pytest.mark.parametrize(

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from tests.support.closed_form_maps import Lines, cubic, delayed, logistic
-from tribodyn.solve.arclength import Arclength, Place
-from tribodyn.solve.branch_end import FOLD, MERGING, PERIOD_DOUBLING, Seed
-from tribodyn.solve.continuation import Leg, follow
-from tribodyn.solve.unstable_branch import unstable_branches
+from tribodyn.solve.branch.arclength import Arclength, Place
+from tribodyn.solve.branch.continuation import Leg, follow
+from tribodyn.solve.branch.end import FOLD, MERGING, PERIOD_DOUBLING, Seed
+from tribodyn.solve.branch.unstable import unstable_branches
 
 
 def followed(step):

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from tests.support.closed_form_maps import Lines, cubic, delayed, logistic
-from tribodyn.solve.branch_end import CORNER, FOLD, MERGING, NEIMARK_SACKER, PERIOD_DOUBLING
-from tribodyn.solve.carried import between
-from tribodyn.solve.continuation import Leg, follow
+from tribodyn.solve.branch.carried import between
+from tribodyn.solve.branch.continuation import Leg, follow
+from tribodyn.solve.branch.end import CORNER, FOLD, MERGING, NEIMARK_SACKER, PERIOD_DOUBLING
 
 
 def swept(family, values, start, **options):

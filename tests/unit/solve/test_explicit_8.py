@@ -8,8 +8,8 @@ from scipy.integrate import DOP853, RK45
 
 from tests.support.plain_kernels import plain
 from tribodyn.dynamics.parameters import MECHANICAL, STATES
-from tribodyn.solve import explicit_8
-from tribodyn.solve.marching import ERROR, SCRATCH, STATE, Place, scratch_buffer
+from tribodyn.solve.march import explicit_8
+from tribodyn.solve.march.marching import ERROR, SCRATCH, STATE, Place, scratch_buffer
 from tribodyn.solve.methods import dopri5
 
 NONE = cast(Any, None)

@@ -5,8 +5,8 @@ from typing import Any, cast
 
 import numpy as np
 
-from tribodyn.solve import followed
-from tribodyn.solve.unstable_branch import UnstableBranch
+from tribodyn.solve.branch import followed
+from tribodyn.solve.branch.unstable import UnstableBranch
 
 
 def test_unstable_motions_are_sampled_on_their_own_line_and_values(monkeypatch):

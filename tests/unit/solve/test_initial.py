@@ -8,7 +8,7 @@ from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.parameters import STATES, TWIST, VELOCITIES, XI
 from tribodyn.errors import SimulationError
 from tribodyn.solve.initial import accelerations, static_equilibrium
-from tribodyn.solve.step_control import unbounded
+from tribodyn.solve.march.step_control import unbounded
 
 STILL = {"operating.gear_torque_harmonics": []}
 SHAFT = {"operating.shaft_stiffness": "1e4 N*m/rad", "operating.drive_inertia": "0.01 kg*m**2"}

@@ -18,10 +18,10 @@ from tribodyn.dynamics.parameters import (
     STATES,
     TWIST,
 )
-from tribodyn.solve import jacobian
 from tribodyn.solve.initial import accelerations
-from tribodyn.solve.jacobian import Differences, differentiate
-from tribodyn.solve.marching import Place
+from tribodyn.solve.march import jacobian
+from tribodyn.solve.march.jacobian import Differences, differentiate
+from tribodyn.solve.march.marching import Place
 from tribodyn.solve.tolerances import absolute_tolerances, mesh_deflection
 
 #: Bearings of which no two are alike.

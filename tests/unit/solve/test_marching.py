@@ -6,8 +6,8 @@ import pytest
 from tribodyn.dynamics.parameters import SLIP
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.integrator import Status
+from tribodyn.solve.march.step_control import MINIMUM_STEP, STANDSTILL
 from tribodyn.solve.methods import integrator_class, method_file
-from tribodyn.solve.step_control import MINIMUM_STEP, STANDSTILL
 from tribodyn.solve.tolerances import tolerances_from
 
 

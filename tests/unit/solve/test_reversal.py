@@ -8,7 +8,7 @@ import pytest
 
 from tribodyn.dynamics.parameters import SLIDING_DYNAMIC, SLIDING_KINEMATIC
 from tribodyn.mesh.cycle import CHANNELS
-from tribodyn.solve.reversal import SHARES, filled_up, passages, stops, stops_of_many
+from tribodyn.solve.march.reversal import SHARES, filled_up, passages, stops, stops_of_many
 
 DISTANCE = CHANNELS.index("signed_distance")
 BOUNDARY = np.array([0.0, 0.37, 1.0])

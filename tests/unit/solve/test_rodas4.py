@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 
 from tests.support.plain_kernels import make_plain, plain
 from tribodyn.dynamics.parameters import MECHANICAL, STATES
-from tribodyn.solve.marching import ERROR, STATE, Place
+from tribodyn.solve.march.marching import ERROR, STATE, Place
 from tribodyn.solve.methods import rodas4
 
 HALF = MECHANICAL // 2

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from tests.support.closed_form_maps import ClosedForm, logistic
-from tribodyn.solve.steady_orbit import BLOCK, find
-from tribodyn.solve.wandering import wanderings
+from tribodyn.solve.orbit.steady_orbit import BLOCK, find
+from tribodyn.solve.orbit.wandering import wanderings
 
 TOLERANCE = 1e-9
 

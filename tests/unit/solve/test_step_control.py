@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tribodyn.dynamics.parameters import DISPLACEMENTS, STATES
-from tribodyn.solve.step_control import MINIMUM_STEP, refused, unbounded
+from tribodyn.solve.march.step_control import MINIMUM_STEP, refused, unbounded
 
 SMALL, USUAL, LIMIT = MINIMUM_STEP / 2, 1e-3, 10
 

@@ -5,8 +5,8 @@ import pytest
 
 from tests.support.plain_kernels import make_plain, plain
 from tribodyn.dynamics.parameters import MECHANICAL, STATES
-from tribodyn.solve import dormand_prince
-from tribodyn.solve.marching import SCRATCH, STATE
+from tribodyn.solve.march import dormand_prince
+from tribodyn.solve.march.marching import SCRATCH, STATE
 from tribodyn.solve.methods import dopri5, rodas4, switching
 from tribodyn.solve.methods.switching import COUNT, EXPLICIT_RUN, MODE, STIFFNESS, WHICH
 

@@ -7,9 +7,9 @@ from scipy.integrate._ivp import dop853_coefficients as reference_8
 from scipy.optimize import approx_fprime
 
 from tribodyn.dynamics.parameters import MECHANICAL, STATES
-from tribodyn.solve import dormand_prince as pair
-from tribodyn.solve import dormand_prince_8 as triple
-from tribodyn.solve import rosenbrock
+from tribodyn.solve.march import dormand_prince as pair
+from tribodyn.solve.march import dormand_prince_8 as triple
+from tribodyn.solve.march import rosenbrock
 
 
 def test_the_pair_has_the_coefficients_of_scipy():

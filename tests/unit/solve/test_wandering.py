@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 
 from tests.support.closed_form_maps import ClosedForm, logistic
-from tribodyn.solve.branch_end import CORNER, FOLD, MERGING, NEIMARK_SACKER, PERIOD_DOUBLING, kind_of_end
-from tribodyn.solve.carried import CARRIED, VALUES, between, carried
-from tribodyn.solve.continued_family import Carry
-from tribodyn.solve.judged import judge, way_out
-from tribodyn.solve.orbit import failed_orbit
-from tribodyn.solve.progress import BLOCK, LOOK, NOISE, Progress
-from tribodyn.solve.recurrence import Recurrence, recognised, recurrences
-from tribodyn.solve.shooting import critical_direction, eigenvalues, shoot
-from tribodyn.solve.wandering import wanderings
+from tribodyn.solve.branch.carried import CARRIED, VALUES, between, carried
+from tribodyn.solve.branch.continued_family import Carry
+from tribodyn.solve.branch.end import CORNER, FOLD, MERGING, NEIMARK_SACKER, PERIOD_DOUBLING, kind_of_end
+from tribodyn.solve.orbit.progress import BLOCK, LOOK, NOISE, Progress
+from tribodyn.solve.orbit.recurrence import Recurrence, recognised, recurrences
+from tribodyn.solve.orbit.result import failed_orbit
+from tribodyn.solve.orbit.shooting import critical_direction, eigenvalues, shoot
+from tribodyn.solve.orbit.stability import judge, way_out
+from tribodyn.solve.orbit.wandering import wanderings
 
 
 class Affine(ClosedForm):

@@ -6,8 +6,8 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 
-from tribodyn.studies.between import NothingBetween, case_between
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.sweeping.between import NothingBetween, case_between
 
 
 def case(speed, **others):

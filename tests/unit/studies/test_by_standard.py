@@ -11,8 +11,8 @@ from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import involute
 from tribodyn.geometry.material import MaterialData
 from tribodyn.standards.flank_tolerances import flank_tolerances
-from tribodyn.studies.by_standard import quality_of, rated
-from tribodyn.studies.temperature import contact_figures
+from tribodyn.studies.gears.by_standard import quality_of, rated
+from tribodyn.studies.gears.temperature import contact_figures
 
 STEEL = MaterialData("steel", 206e9, 0.3, 7830.0, 46.0, 470.0, 6e9)
 

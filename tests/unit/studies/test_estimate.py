@@ -11,8 +11,9 @@ from tests.support.short_studies import short_case
 from tribodyn.errors import InputError
 from tribodyn.numerics.variable import Variable, flag
 from tribodyn.record.schema import Layout
-from tribodyn.studies import STUDIES, estimate
-from tribodyn.studies.estimate import (
+from tribodyn.studies import STUDIES
+from tribodyn.studies.protocol import estimate
+from tribodyn.studies.protocol.estimate import (
     HEAD,
     LIMITS,
     PROGRAM,
@@ -22,7 +23,7 @@ from tribodyn.studies.estimate import (
     record_bytes,
     refuse_large,
 )
-from tribodyn.studies.run import run
+from tribodyn.studies.protocol.run import run
 
 MIB = 2.0**20
 
@@ -176,5 +177,6 @@ def test_check_says_what_is_large(tmp_path: Path, monkeypatch):
     assert small.data["estimate"]["record"] > 0.0
     assert not any("A run takes" in remark for remark in small.remarks)
     said = STUDIES["irefc"].estimate(case)
-    monkeypatch.setattr("tribodyn.studies.estimate.LIMITS", LIMITS._replace(memory=2.0 * said.memory))
+    limits = LIMITS._replace(memory=2.0 * said.memory)
+    monkeypatch.setattr("tribodyn.studies.protocol.estimate.LIMITS", limits)
     assert f"A run takes about {described(said)}." in STUDIES["irefc"].check(case).remarks

@@ -3,9 +3,9 @@
 import pytest
 
 import tribodyn as td
-from tribodyn.geometry.limits import LIMITS
+from tribodyn.geometry.limits.limits import LIMITS
 from tribodyn.studies import STUDIES, study_of
-from tribodyn.studies.evaluated import evaluated, figure_units
+from tribodyn.studies.protocol.evaluated import evaluated, figure_units
 
 
 @pytest.mark.parametrize(

@@ -12,8 +12,8 @@ from tribodyn.geometry.families import FAMILIES
 from tribodyn.scenario.quantity import references
 from tribodyn.scenario.sources import DRIVES, shipped
 from tribodyn.studies import STUDIES
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.run import run
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run
 
 #: What a template says that not every drive can have, and what the drives of the papers do not say.
 ALSO: dict[str, dict[str, Any]] = {

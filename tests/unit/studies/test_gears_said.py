@@ -9,7 +9,7 @@ from tribodyn.geometry.assembly import Assembly, assemble
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families import crc, involute
 from tribodyn.geometry.material import MaterialData
-from tribodyn.studies.gears import checked, sheet_tables, with_unit
+from tribodyn.studies.gears.shared import checked, sheet_tables, with_unit
 
 STEEL = MaterialData("steel", 206e9, 0.3, 7830.0, 46.0, 470.0, 6e9)
 LOAD, STIFFNESS = 2600.0, 5.2e8

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from tribodyn.numerics.elementary import law
-from tribodyn.studies import law_ranges
 from tribodyn.studies.gear_pair.check import check
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.study import Checked
+from tribodyn.studies.gears import law_ranges
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.study import Checked
 from tribodyn.tribology.closure import with_laws
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import FrictionLaw

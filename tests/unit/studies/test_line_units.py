@@ -5,7 +5,7 @@ import math
 import pytest
 
 from tribodyn.studies import STUDIES
-from tribodyn.studies.gears import MESH_FREQUENCY, NORMAL_LOAD, SINGLE_PAIR
+from tribodyn.studies.gears.shared import MESH_FREQUENCY, NORMAL_LOAD, SINGLE_PAIR
 
 #: Of one in SI.
 FACTORS = {

@@ -6,9 +6,9 @@ from typing import Any
 
 import pytest
 
-from tribodyn.studies import oil
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.oil import oil_data, oil_remarks, oil_table
+from tribodyn.studies.gears import oil
+from tribodyn.studies.gears.oil import oil_data, oil_remarks, oil_table
+from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.tribology.lubricant import LubricantData
 
 

@@ -9,7 +9,7 @@ import pytest
 from tribodyn.errors import InputError
 from tribodyn.numerics.output_files import MARKS
 from tribodyn.post.page import page as written_by
-from tribodyn.studies import pages
+from tribodyn.studies.pages import page as pages
 
 
 def record_of(kind: str) -> Any:

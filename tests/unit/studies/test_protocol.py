@@ -13,9 +13,9 @@ from tribodyn.post.report import Line
 from tribodyn.record.reader import open_record
 from tribodyn.scenario.quantity import Table
 from tribodyn.studies import DEFAULT, STUDIES, study_of
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.pictures import compare, figure, names, summary_table
-from tribodyn.studies.study import CaseHead, Checked, RunResult, Study
+from tribodyn.studies.pages.pictures import compare, figure, names, summary_table
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.study import CaseHead, Checked, RunResult, Study
 
 KINDS = tuple(STUDIES)
 #: Their runs take long even when they are short: finite elements.

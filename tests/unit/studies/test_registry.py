@@ -16,9 +16,9 @@ from tribodyn.cli.app import app
 from tribodyn.errors import InputError
 from tribodyn.record.reader import open_record
 from tribodyn.studies import STUDIES
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.pictures import names, study_of_record
-from tribodyn.studies.run import run
+from tribodyn.studies.pages.pictures import names, study_of_record
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run
 
 #: A study in a single module: its parts are attributes of it.
 MODULE = '''
@@ -35,8 +35,8 @@ from tribodyn.post.figures.drawing import Drawing
 from tribodyn.post.report import Line
 from tribodyn.record.schema import TIME, Layout
 from tribodyn.scenario.quantity import Table, Text
-from tribodyn.studies.recording import target, writer
-from tribodyn.studies.study import CaseHead, Checked, RunResult, Study, TextTable
+from tribodyn.studies.protocol.recording import target, writer
+from tribodyn.studies.protocol.study import CaseHead, Checked, RunResult, Study, TextTable
 
 TEMPLATE = 'title = "TITLE"\\nkind = "pendulum"\\nlength = 1.0\\n'
 STUDY = Study("pendulum", "a pendulum of small swing", __name__, "the angle of a pendulum over time")

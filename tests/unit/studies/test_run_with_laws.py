@@ -13,8 +13,8 @@ from tribodyn.record.reader import open_record
 from tribodyn.solve.ensemble import march
 from tribodyn.solve.initial import initial_state
 from tribodyn.studies.gear_pair.prepare import prepare
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.run import run, with_law
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run, with_law
 
 SHORT = {"solver.cycles": 1, "output.samples_per_cycle": 40, "solver.rtol": 1e-8}
 FINE = {**SHORT, "output.samples_per_cycle": 400}

@@ -9,8 +9,8 @@ import pytest
 
 from tribodyn.errors import InputError
 from tribodyn.geometry.families.spline import FEWEST, MOST
-from tribodyn.studies import spline_drive
-from tribodyn.studies.spline_drive import as_spline
+from tribodyn.studies.gears import spline_drive
+from tribodyn.studies.gears.spline_drive import as_spline
 
 
 def body(shift: float, allowance: float) -> Any:

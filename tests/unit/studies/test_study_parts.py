@@ -7,9 +7,9 @@ from typing import Any
 import pytest
 
 from tribodyn.errors import InputError
-from tribodyn.studies import study as studying
-from tribodyn.studies.estimate import LIMITS, Driver, Estimate
-from tribodyn.studies.study import Checked, Study
+from tribodyn.studies.protocol import study as studying
+from tribodyn.studies.protocol.estimate import LIMITS, Driver, Estimate
+from tribodyn.studies.protocol.study import Checked, Study
 
 NAME = "pendulum_of_tests"
 

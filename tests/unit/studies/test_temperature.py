@@ -11,11 +11,11 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import involute
 from tribodyn.interface.scenario import scenario
-from tribodyn.studies import temperature
 from tribodyn.studies.efficiency.run import figures, prepare
 from tribodyn.studies.gear_pair.prepare import prepare as prepare_motion
 from tribodyn.studies.gear_pair.settled import at_own_temperature
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.gears import temperature
+from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.tribology.losses.of_pair import LossData
 from tribodyn.tribology.oil import TEMPERATURE_RANGE
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from tribodyn.errors import InputError
-from tribodyn.studies import temperature
-from tribodyn.studies.temperature import Thermal, contact_figures, thermal_figures, thermal_state
+from tribodyn.studies.gears import temperature
+from tribodyn.studies.gears.temperature import Thermal, contact_figures, thermal_figures, thermal_state
 from tribodyn.tribology.bulk_temperature import Heat, Temperatures
 from tribodyn.tribology.oil import TEMPERATURE_RANGE
 

@@ -8,8 +8,8 @@ import pytest
 from tribodyn.geometry.families import FAMILIES
 from tribodyn.scenario.sources import shipped
 from tribodyn.studies import STUDIES
-from tribodyn.studies.load import load
-from tribodyn.studies.template import filled
+from tribodyn.studies.protocol.load import load
+from tribodyn.studies.protocol.template import filled
 
 WITH_GEARS = [name for name, study in STUDIES.items() if study.has_gears]
 

@@ -9,7 +9,7 @@ import pytest
 
 from tests.support.closures import LIU_NI
 from tribodyn.errors import InputError
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.tribology.closure import (
     duty_range,
     law_figures,

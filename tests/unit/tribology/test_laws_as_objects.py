@@ -18,8 +18,8 @@ from tribodyn.record.reader import open_record
 from tribodyn.solve.right_hand_side import rhs, work_array
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.gear_pair.run import run
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.run import run as run_study
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run as run_study
 from tribodyn.tribology.closure import closure, laws_of, with_laws
 from tribodyn.tribology.data import FilmData
 from tribodyn.tribology.film import film_law

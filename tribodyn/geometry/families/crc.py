@@ -18,8 +18,8 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, reference_radius, tip_radius
 from tribodyn.geometry.family import Family, unshifted
+from tribodyn.geometry.limits.reach import refuse_shift
 from tribodyn.geometry.path import Path, PerContact, integrated_rotation, inverted_rotation
-from tribodyn.geometry.reach import refuse_shift
 from tribodyn.numerics.elementary import namespace, sin, sqrt
 from tribodyn.numerics.iteration import newton
 from tribodyn.numerics.remembered import remembered

@@ -12,7 +12,7 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.drive import Drive, Side, reference_radius
 from tribodyn.geometry.families.circular_arc import ArcPath, arc_ends
 from tribodyn.geometry.family import Family, unshifted
-from tribodyn.geometry.reach import refuse_shift, require_reach
+from tribodyn.geometry.limits.reach import refuse_shift, require_reach
 from tribodyn.numerics.parameter import Parameter
 
 

@@ -14,8 +14,8 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.drive import SIDES, Drive, Side, body_of, reference_radius
 from tribodyn.geometry.families.points import PointsPath, spline_slopes, turned_from
 from tribodyn.geometry.family import Family
+from tribodyn.geometry.limits.reach import require_reach
 from tribodyn.geometry.path import Path, seen_from
-from tribodyn.geometry.reach import require_reach
 from tribodyn.numerics.elementary import namespace
 from tribodyn.numerics.parameter import Parameter
 from tribodyn.numerics.shapes import Array, Float

@@ -1,1 +1,1 @@
-"""The figures, one subject a file; `tribodyn.studies.pictures` names them."""
+"""The figures, one subject a file; `tribodyn.studies.pages.pictures` names them."""

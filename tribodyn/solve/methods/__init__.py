@@ -47,9 +47,9 @@ SOLVERS = {
 }
 #: Which class makes an integrator of a method, given its file.
 _INTEGRATORS = {
-    Runs.NATIVE: "tribodyn.solve.native_integrator:NativeIntegrator",
+    Runs.NATIVE: "tribodyn.solve.march.native_integrator:NativeIntegrator",
     Runs.SCIPY: "tribodyn.solve.scipy_integrator:ScipyIntegrator",
-    Runs.JAX: "tribodyn.solve.diffrax_integrator:DiffraxIntegrator",
+    Runs.JAX: "tribodyn.solve.jax.integrator:DiffraxIntegrator",
 }
 
 

@@ -7,7 +7,7 @@ from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.parameters import STATES
 from tribodyn.kernels.native import kernel
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.solve.dormand_prince import (
+from tribodyn.solve.march.dormand_prince import (
     STAGES,
     C,
     dense_output,
@@ -16,8 +16,8 @@ from tribodyn.solve.dormand_prince import (
     shrinkage,
     stage_state,
 )
-from tribodyn.solve.extreme_search import open_segment, search_step
-from tribodyn.solve.marching import ERROR, SCRATCH, STATE, Method, march_with, scratch_buffer
+from tribodyn.solve.march.extreme_search import open_segment, search_step
+from tribodyn.solve.march.marching import ERROR, SCRATCH, STATE, Method, march_with, scratch_buffer
 
 
 def buffer() -> Float[Array, "row state"]:

@@ -8,11 +8,22 @@ from tribodyn.dynamics.parameters import MECHANICAL, STATES
 from tribodyn.kernels.native import kernel
 from tribodyn.numerics.elementary import absolute, truncate
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.solve.extreme_search import contacts_at, open_segment, search_step
-from tribodyn.solve.jacobian import Differences, differentiate
-from tribodyn.solve.marching import ERROR, SCRATCH, STATE, Method, march_with, scratch_buffer
+from tribodyn.solve.march.extreme_search import contacts_at, open_segment, search_step
+from tribodyn.solve.march.jacobian import Differences, differentiate
+from tribodyn.solve.march.marching import ERROR, SCRATCH, STATE, Method, march_with, scratch_buffer
+from tribodyn.solve.march.rosenbrock import (
+    ALPHA,
+    GAMMA,
+    GAMMAS,
+    STAGES,
+    A,
+    C,
+    D,
+    dense_output,
+    growth,
+    shrinkage,
+)
 from tribodyn.solve.right_hand_side import rhs
-from tribodyn.solve.rosenbrock import ALPHA, GAMMA, GAMMAS, STAGES, A, C, D, dense_output, growth, shrinkage
 
 #: Coordinates; state HALF + i is the velocity of state i.
 HALF = MECHANICAL // 2

@@ -8,9 +8,9 @@ Differential Equations II (2nd ed., 1996), IV.2, the other from the Jacobian tha
 from tribodyn.dynamics.parameters import MECHANICAL
 from tribodyn.kernels.native import kernel
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.solve.dormand_prince import A
-from tribodyn.solve.extreme_search import open_segment, search_step
-from tribodyn.solve.marching import SCRATCH, Method, march_with, scratch_buffer
+from tribodyn.solve.march.dormand_prince import A
+from tribodyn.solve.march.extreme_search import open_segment, search_step
+from tribodyn.solve.march.marching import SCRATCH, Method, march_with, scratch_buffer
 from tribodyn.solve.methods import dopri5, rodas4
 
 #: First velocity among the mechanical states.

@@ -1,6 +1,6 @@
 """One assessment of a drive: what the other studies find, and load capacity by the standards beside it."""
 
-from tribodyn.studies.study import Study
+from tribodyn.studies.protocol.study import Study
 
 STUDY = Study(
     kind="assessment",

@@ -6,8 +6,8 @@ from typing import Any
 
 from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.material import BodyMass, MaterialData
-from tribodyn.studies.by_standard import Quality
-from tribodyn.studies.study import CaseHead
+from tribodyn.studies.gears.by_standard import Quality
+from tribodyn.studies.protocol.study import CaseHead
 from tribodyn.tribology.lubricant import LubricantData
 
 

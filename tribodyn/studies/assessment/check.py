@@ -3,14 +3,14 @@
 from tribodyn.studies.assessment import parts
 from tribodyn.studies.assessment.case import AssessmentCase
 from tribodyn.studies.assessment.run import prepare
-from tribodyn.studies.gears import sheet_tables
-from tribodyn.studies.oil import with_oil
-from tribodyn.studies.study import Checked
+from tribodyn.studies.gears.oil import with_oil
+from tribodyn.studies.gears.shared import sheet_tables
+from tribodyn.studies.protocol.study import Checked
 
 
 def check(case: AssessmentCase) -> Checked:
     """Check a case and what it asks of the other studies; say what gears and oil it describes."""
-    from tribodyn.geometry.sheet import geometry_sheet
+    from tribodyn.geometry.sheet.sheet import geometry_sheet
 
     sheet = geometry_sheet(prepare(case))
     asked = parts.asked_of(case)

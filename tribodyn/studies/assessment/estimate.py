@@ -2,8 +2,8 @@
 
 from tribodyn.studies.assessment.case import AssessmentCase
 from tribodyn.studies.assessment.layout import LAYOUT
-from tribodyn.studies.estimate import PROGRAM, Driver, Estimate, record_bytes
-from tribodyn.studies.gears_estimate import FINITE_ELEMENTS, OUTLINES, pressed_memory, pressed_seconds
+from tribodyn.studies.gears.estimate import FINITE_ELEMENTS, OUTLINES, pressed_memory, pressed_seconds
+from tribodyn.studies.protocol.estimate import PROGRAM, Driver, Estimate, record_bytes
 
 #: Positions of the slow rotation, and places of one pair's path among them.
 POSITIONS, PLACES = 60, 120

@@ -20,9 +20,9 @@ from tribodyn.studies.assessment.case import AssessmentCase
 from tribodyn.studies.assessment.check import check
 from tribodyn.studies.assessment.judged import LIMITS
 from tribodyn.studies.assessment.pictures import pictures
-from tribodyn.studies.load import load
-from tribodyn.studies.part import Curve
-from tribodyn.studies.study import Study
+from tribodyn.studies.protocol.load import load
+from tribodyn.studies.protocol.part import Curve
+from tribodyn.studies.protocol.study import Study
 
 _RPM = 30.0 / math.pi
 #: Name in ``iso`` and ``simulated`` -> what it is called, factor and format of what is shown, unit.
@@ -269,7 +269,7 @@ def _list(heading: str, said: Mapping[str, str]) -> str:
 def _part(study: Study, title: str, done: Sequence[parts.Done]) -> str:
     """Picture and summary of the first record of a part; of rows their extremes stand on the first page."""
     from tribodyn.post.page.page import summary_tables
-    from tribodyn.studies.pictures import overview
+    from tribodyn.studies.pages.pictures import overview
 
     for one in done:
         if not one.summary:

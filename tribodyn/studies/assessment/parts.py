@@ -29,11 +29,11 @@ from tribodyn.record.sweep_schema import DONE
 from tribodyn.scenario.resolve import resolve_table
 from tribodyn.studies import STUDIES
 from tribodyn.studies.assessment.case import AssessmentCase
-from tribodyn.studies.batch import Chunk
-from tribodyn.studies.by_standard import base_pitch_deviation
-from tribodyn.studies.load import loaded_from, table_of
-from tribodyn.studies.part import Answer, Asked, Done, Role, Task
-from tribodyn.studies.study import Progress, Study
+from tribodyn.studies.gears.by_standard import base_pitch_deviation
+from tribodyn.studies.protocol.load import loaded_from, table_of
+from tribodyn.studies.protocol.part import Answer, Asked, Done, Role, Task
+from tribodyn.studies.protocol.study import Progress, Study
+from tribodyn.studies.sweeping.batch import Chunk
 
 
 class Part(NamedTuple):

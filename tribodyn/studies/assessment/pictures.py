@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from tribodyn.post.style import PALETTE, PANEL_HEIGHT, QUIET, WIDTH, house_style, literal, new_figure
 from tribodyn.record.reader import Record
 from tribodyn.standards.contact_path import POINTS
-from tribodyn.studies.part import Curve
+from tribodyn.studies.protocol.part import Curve
 
 
 def pictures(record: Record, curves: Sequence[Curve]) -> Figure:

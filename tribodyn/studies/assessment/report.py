@@ -5,7 +5,7 @@ import math
 from tribodyn.numerics.variable import Variable
 from tribodyn.post.report import Line, Lines
 from tribodyn.record.reader import Record
-from tribodyn.studies.gears import CONTACT_RATIO, EFFECTIVE_CONTACT_RATIO, WALL_TIME
+from tribodyn.studies.gears.shared import CONTACT_RATIO, EFFECTIVE_CONTACT_RATIO, WALL_TIME
 
 _RPM = 30.0 / math.pi
 

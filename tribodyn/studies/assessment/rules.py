@@ -4,15 +4,15 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 from tribodyn.errors import InputError, unknown_name
-from tribodyn.scenario.drive_rules import broken_drive_rules
-from tribodyn.scenario.duty import broken_driving_rules
-from tribodyn.scenario.losses import broken_loss_rules
-from tribodyn.scenario.lubricant_rules import broken_lubricant_rules
-from tribodyn.scenario.modification_rules import Face, broken_slice_rules
-from tribodyn.scenario.quality import broken_sample_rules
-from tribodyn.scenario.spectrum import unnamed_duty
-from tribodyn.scenario.temperature import broken_temperature_rules
-from tribodyn.scenario.tolerances import tolerances_of
+from tribodyn.scenario.tables.drive_rules import broken_drive_rules
+from tribodyn.scenario.tables.duty import broken_driving_rules
+from tribodyn.scenario.tables.losses import broken_loss_rules
+from tribodyn.scenario.tables.lubricant_rules import broken_lubricant_rules
+from tribodyn.scenario.tables.modification_rules import Face, broken_slice_rules
+from tribodyn.scenario.tables.quality import broken_sample_rules
+from tribodyn.scenario.tables.spectrum import unnamed_duty
+from tribodyn.scenario.tables.temperature import broken_temperature_rules
+from tribodyn.scenario.tables.tolerances import tolerances_of
 from tribodyn.studies.assessment.scenario import Scenario
 from tribodyn.tribology.friction import FRICTION_LAWS
 

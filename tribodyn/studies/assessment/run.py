@@ -11,7 +11,7 @@ import numpy as np
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.families import family
-from tribodyn.geometry.outlines import geometry_arrays
+from tribodyn.geometry.sheet.outlines import geometry_arrays
 from tribodyn.numerics.scatter import SPREAD, scatter
 from tribodyn.record.trust import EXTRAPOLATED, INSIDE, OUTSIDE, REASONS, TRUST
 from tribodyn.standards.contact_path import POINTS
@@ -24,8 +24,8 @@ from tribodyn.studies.assessment.said import assumed, extrapolated
 from tribodyn.studies.assessment.simulated import simulated_part
 from tribodyn.studies.assessment.standard import iso_part, standard_of, strength_of
 from tribodyn.studies.assessment.units import units_of
-from tribodyn.studies.recording import target, writer
-from tribodyn.studies.study import Progress, RunResult
+from tribodyn.studies.protocol.recording import target, writer
+from tribodyn.studies.protocol.study import Progress, RunResult
 
 
 def prepare(case: AssessmentCase) -> Assembly:
@@ -36,7 +36,7 @@ def prepare(case: AssessmentCase) -> Assembly:
     InputError
         Where the teeth cannot be made or cannot run together.
     """
-    from tribodyn.geometry.checks import check
+    from tribodyn.geometry.limits.checks import check
 
     return check(family(case.family), case.drive)
 

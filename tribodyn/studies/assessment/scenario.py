@@ -6,11 +6,6 @@ from pydantic import Field
 
 from tribodyn.scenario import units
 from tribodyn.scenario.common import Slices, Temperature, head_of
-from tribodyn.scenario.drive_data import drive_of, lubricant_of, masses_of, materials_of, mean_roughness
-from tribodyn.scenario.duty import duty_of
-from tribodyn.scenario.losses import LossesTable
-from tribodyn.scenario.model_files import Bearings, DriveTable, Lubricant
-from tribodyn.scenario.modification import MisalignmentTable
 from tribodyn.scenario.quantity import (
     NotNegative,
     Positive,
@@ -21,11 +16,22 @@ from tribodyn.scenario.quantity import (
     model_file,
     written,
 )
-from tribodyn.scenario.spectrum import OperatingTable, SpectrumScenario
-from tribodyn.scenario.temperature import TemperatureTable
-from tribodyn.scenario.tolerances import grade_of, tolerances_of
+from tribodyn.scenario.tables.drive_data import (
+    drive_of,
+    lubricant_of,
+    masses_of,
+    materials_of,
+    mean_roughness,
+)
+from tribodyn.scenario.tables.duty import duty_of
+from tribodyn.scenario.tables.losses import LossesTable
+from tribodyn.scenario.tables.model_files import Bearings, DriveTable, Lubricant
+from tribodyn.scenario.tables.modification import MisalignmentTable
+from tribodyn.scenario.tables.spectrum import OperatingTable, SpectrumScenario
+from tribodyn.scenario.tables.temperature import TemperatureTable
+from tribodyn.scenario.tables.tolerances import grade_of, tolerances_of
 from tribodyn.studies.assessment.case import AssessmentCase, Settings
-from tribodyn.studies.by_standard import Quality, quality_of
+from tribodyn.studies.gears.by_standard import Quality, quality_of
 
 Speeds = Annotated[int, Field(strict=True, ge=8)]
 Samples = Annotated[int, Field(strict=True, ge=0, le=1000)]

@@ -6,9 +6,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.body import body_masses
 from tribodyn.geometry.drive import reference_radius, tip_radius
 from tribodyn.geometry.material import MaterialData
+from tribodyn.geometry.tooth.body import body_masses
 from tribodyn.standards import flash_temperature, fzg, integral_temperature, micropitting
 from tribodyn.standards.contact_path import (
     POINTS,
@@ -23,7 +23,7 @@ from tribodyn.standards.dynamic_factor import DynamicFactor
 from tribodyn.standards.load_factors import transverse_factor_b
 from tribodyn.standards.micropitting import Films, Flanks, Load, Oil
 from tribodyn.studies.assessment.case import AssessmentCase
-from tribodyn.studies.by_standard import rated
+from tribodyn.studies.gears.by_standard import rated
 
 #: Places along the path over which the flash temperature is looked at.
 _PLACES = 201

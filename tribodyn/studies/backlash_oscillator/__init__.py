@@ -1,6 +1,6 @@
 """The oscillator with backlash."""
 
-from tribodyn.studies.study import Study
+from tribodyn.studies.protocol.study import Study
 
 STUDY = Study(
     kind="backlash-oscillator",

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from tribodyn.studies.study import CaseHead
+from tribodyn.studies.protocol.study import CaseHead
 
 
 @dataclass(frozen=True)

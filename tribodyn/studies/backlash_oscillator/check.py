@@ -2,7 +2,7 @@
 
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.linear import linear_figures
-from tribodyn.studies.study import Checked, TextTable
+from tribodyn.studies.protocol.study import Checked, TextTable
 
 
 def check(case: BacklashOscillatorCase) -> Checked:

@@ -4,7 +4,7 @@ import math
 
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.layout import LAYOUT
-from tribodyn.studies.estimate import PROGRAM, Driver, Estimate, record_bytes
+from tribodyn.studies.protocol.estimate import PROGRAM, Driver, Estimate, record_bytes
 
 #: Seconds of a period of the excitation, and of a radian of the free oscillation in it.
 A_PERIOD, A_RADIAN = 2e-6, 2e-7

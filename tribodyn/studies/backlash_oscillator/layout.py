@@ -2,8 +2,8 @@
 
 from tribodyn.numerics.variable import Variable, flag
 from tribodyn.record.schema import Layout
-from tribodyn.studies import ends
 from tribodyn.studies.backlash_oscillator import unstable
+from tribodyn.studies.sweeping import ends
 
 _POINT = ("frequency", "direction")
 _MULTIPLIER = ("frequency", "direction", "multiplier")

@@ -16,7 +16,7 @@ import numpy as np
 
 from tribodyn.kernels.native import kernel
 from tribodyn.numerics.shapes import Array, Float, Int
-from tribodyn.solve.period_map import Marched, Tangent
+from tribodyn.solve.orbit.period_map import Marched, Tangent
 
 #: Columns of a row of parameters: ζ, F_m, F_e, ε, Ω.
 DAMPING, MEAN_FORCE, ERROR_AMPLITUDE, STIFFNESS_VARIATION, FREQUENCY = range(5)

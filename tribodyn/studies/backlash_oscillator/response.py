@@ -6,11 +6,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.solve import orbit
-from tribodyn.solve.branch_end import BranchEnd
-from tribodyn.solve.continuation import Arrival, Leg, follow
-from tribodyn.solve.orbit import Orbit
-from tribodyn.solve.unstable_branch import unstable_branches
+from tribodyn.solve.branch.continuation import Arrival, Leg, follow
+from tribodyn.solve.branch.end import BranchEnd
+from tribodyn.solve.branch.unstable import unstable_branches
+from tribodyn.solve.orbit import result as orbit
+from tribodyn.solve.orbit.result import Orbit
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.motion import (
     BACK,

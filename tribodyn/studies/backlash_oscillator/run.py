@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.errors import SimulationError
-from tribodyn.solve.branch_end import KINDS, BranchEnd
+from tribodyn.solve.branch.end import KINDS, BranchEnd
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.layout import LAYOUT, LAYOUT_WITH_UNSTABLE
 from tribodyn.studies.backlash_oscillator.response import (
@@ -21,8 +21,8 @@ from tribodyn.studies.backlash_oscillator.response import (
     frequency_response,
 )
 from tribodyn.studies.backlash_oscillator.unstable import described, finish_row, rows_of
-from tribodyn.studies.recording import target, writer
-from tribodyn.studies.study import Progress, RunResult
+from tribodyn.studies.protocol.recording import target, writer
+from tribodyn.studies.protocol.study import Progress, RunResult
 
 #: Relative difference of the RMS above which the ways up and down count as different branches: hundreds of
 #: times what the residuals leave.

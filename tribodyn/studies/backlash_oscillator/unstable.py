@@ -5,9 +5,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.numerics.variable import Variable
-from tribodyn.solve.branch_end import KINDS
-from tribodyn.solve.unstable_branch import UnstableBranch
-from tribodyn.studies import ends
+from tribodyn.solve.branch.end import KINDS
+from tribodyn.solve.branch.unstable import UnstableBranch
 from tribodyn.studies.backlash_oscillator.motion import (
     FREE,
     INTEGRAL,
@@ -16,6 +15,7 @@ from tribodyn.studies.backlash_oscillator.motion import (
     SQUARE,
     OscillatorMap,
 )
+from tribodyn.studies.sweeping import ends
 
 #: Scale of the unstable motions.
 SCALE = Variable(("unstable",), "1", "number of the unstable motion, those of a branch in its order")

@@ -1,6 +1,6 @@
 """The search for teeth: a scenario, its free keys, what to minimise and what must hold."""
 
-from tribodyn.studies.study import Study
+from tribodyn.studies.protocol.study import Study
 
 STUDY = Study(
     kind="design",

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from tribodyn.studies.study import CaseHead
+from tribodyn.studies.protocol.study import CaseHead
 
 #: What stands for the value of a figure at the start, as the limit of a constraint.
 START = "start"
@@ -129,7 +129,7 @@ class DesignCase(CaseHead):
     Parameters
     ----------
     title, name, kind, toml, sha256
-        As in `tribodyn.studies.study.CaseHead`; `kind` is "design".
+        As in `tribodyn.studies.protocol.study.CaseHead`; `kind` is "design".
     base : mapping
         The scenario that is searched through, resolved, as TOML has it.
     parts : mapping

@@ -1,10 +1,10 @@
 """What `check` says of a search: what is free, what is sought, what must hold, by which method."""
 
-from tribodyn.studies.design.candidates import samples_of
+from tribodyn.studies.design.candidates.candidates import samples_of
+from tribodyn.studies.design.candidates.sources import standing
 from tribodyn.studies.design.case import DesignCase, Free
 from tribodyn.studies.design.methods import method_of
-from tribodyn.studies.design.sources import standing
-from tribodyn.studies.study import Checked, TextTable
+from tribodyn.studies.protocol.study import Checked, TextTable
 
 
 def check(case: DesignCase) -> Checked:

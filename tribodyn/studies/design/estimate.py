@@ -1,15 +1,15 @@
 """What a search takes, before any work."""
 
 from tribodyn.studies import study_of
-from tribodyn.studies.design.candidates import Overrides, cases_of, chosen, start_of
+from tribodyn.studies.design.candidates.candidates import Overrides, cases_of, chosen, start_of
+from tribodyn.studies.design.candidates.converged import counts
+from tribodyn.studies.design.candidates.evaluation import loaded_case
+from tribodyn.studies.design.candidates.levels import resolutions
+from tribodyn.studies.design.candidates.sources import own
 from tribodyn.studies.design.case import DesignCase
-from tribodyn.studies.design.converged import counts
-from tribodyn.studies.design.evaluation import loaded_case
 from tribodyn.studies.design.layout import FACTORS, layout_of, names_of, scales_of
-from tribodyn.studies.design.levels import resolutions
 from tribodyn.studies.design.methods import method_of
-from tribodyn.studies.design.sources import own
-from tribodyn.studies.estimate import Driver, Estimate, record_bytes
+from tribodyn.studies.protocol.estimate import Driver, Estimate, record_bytes
 
 #: Evaluations that are usual.
 USUAL = 300

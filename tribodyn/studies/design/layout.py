@@ -9,11 +9,11 @@ from tribodyn.numerics.variable import Variable, flag
 from tribodyn.record.reader import Record
 from tribodyn.record.schema import Layout
 from tribodyn.studies import study_of
-from tribodyn.studies.design.archive import Evaluation
-from tribodyn.studies.design.candidates import samples_of, shapes_gears
+from tribodyn.studies.design.candidates.archive import Evaluation
+from tribodyn.studies.design.candidates.candidates import samples_of, shapes_gears
+from tribodyn.studies.design.candidates.pool import Figures
+from tribodyn.studies.design.candidates.sources import units_by_figure
 from tribodyn.studies.design.case import DesignCase, Objective
-from tribodyn.studies.design.pool import Figures
-from tribodyn.studies.design.sources import units_by_figure
 
 EVALUATION = Variable(("evaluation",), "1", "number of the evaluation")
 #: Bytes kept of a message.

@@ -11,11 +11,11 @@ import tomli_w
 from tribodyn.errors import printable
 from tribodyn.numerics.output_files import MARKS, check_output, write_output
 from tribodyn.studies import study_of
-from tribodyn.studies.design.archive import Archive, Evaluation
+from tribodyn.studies.design.candidates.archive import Archive, Evaluation
+from tribodyn.studies.design.candidates.evaluation import loaded_case
+from tribodyn.studies.design.candidates.sources import own, standing
 from tribodyn.studies.design.case import DesignCase
-from tribodyn.studies.design.evaluation import loaded_case
 from tribodyn.studies.design.methods.front import front
-from tribodyn.studies.design.sources import own, standing
 
 #: First line of a file with the best scenario, before the title of the search.
 HEAD = MARKS[".toml"].decode()
@@ -50,8 +50,8 @@ def write_best(case: DesignCase, values: Mapping[str, Any], record: Path, force:
         files.append(write_output(best_path(record, "toml", name), text, force=force))
     if loaded and loaded.study.has_gears:
         from tribodyn.drawing.dxf import write_pair
-        from tribodyn.geometry.checks import check
         from tribodyn.geometry.families import family
+        from tribodyn.geometry.limits.checks import check
 
         assembly = check(family(loaded.case.family), loaded.case.drive)
         files.append(write_pair(best_path(record, "dxf"), assembly, force=force))

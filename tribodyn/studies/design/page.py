@@ -11,9 +11,9 @@ from tribodyn.post.report import shown
 from tribodyn.record.reader import Record
 from tribodyn.studies.design.figures import DRAWINGS
 from tribodyn.studies.design.report import LINES, PANELS, line_of, sentences
-from tribodyn.studies.pages import sheet
-from tribodyn.studies.pictures import figure
-from tribodyn.studies.study import TextTable
+from tribodyn.studies.pages.page import sheet
+from tribodyn.studies.pages.pictures import figure
+from tribodyn.studies.protocol.study import TextTable
 
 #: Pictures on the page, where the record holds enough for them.
 PICTURES = ("overview", "front")

@@ -9,11 +9,17 @@ from tribodyn.errors import InputError, quoted
 from tribodyn.scenario.resolve import toml_value
 from tribodyn.scenario.units import Kind, NotAQuantity, factor_to_si, to_si
 from tribodyn.scenario.vary import base_units, is_drawn, is_whole, kind_at
+from tribodyn.studies.design.candidates.deviations import PROFILE_ERROR
+from tribodyn.studies.design.candidates.sources import (
+    Sources,
+    figure_name,
+    refused,
+    require_key,
+    units_by_figure,
+)
 from tribodyn.studies.design.case import DRAWN, START, Constraint, Duty, Free, Objective, Tolerance
-from tribodyn.studies.design.deviations import PROFILE_ERROR
 from tribodyn.studies.design.naming import apart, flat, naming_key
-from tribodyn.studies.design.sources import Sources, figure_name, refused, require_key, units_by_figure
-from tribodyn.studies.study import Study
+from tribodyn.studies.protocol.study import Study
 
 T = TypeVar("T")
 _NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(\S.*?)?\s*$", re.ASCII)

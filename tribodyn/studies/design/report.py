@@ -9,8 +9,8 @@ from tribodyn.numerics.variable import Variable
 from tribodyn.post.report import Line, Lines, shown
 from tribodyn.record.reader import Record
 from tribodyn.studies import study_of
-from tribodyn.studies.design.sources import split
-from tribodyn.studies.gears import WALL_TIME
+from tribodyn.studies.design.candidates.sources import split
+from tribodyn.studies.gears.shared import WALL_TIME
 
 LINES: Lines = {
     "Search": (

@@ -6,9 +6,9 @@ from typing import Any
 from tribodyn.errors import InputError, quoted, unknown_name
 from tribodyn.scenario.quantity import Table
 from tribodyn.studies import STUDIES, study_of
+from tribodyn.studies.design.candidates.sources import BASE, Source
 from tribodyn.studies.design.parts import parts_of_design
-from tribodyn.studies.design.sources import BASE, Source
-from tribodyn.studies.evaluated import figure_units
+from tribodyn.studies.protocol.evaluated import figure_units
 
 
 def broken_rules(scenario: Any) -> Iterator[InputError]:

@@ -15,11 +15,14 @@ from tribodyn.numerics.sources import computing_digest
 from tribodyn.record.reader import open_record
 from tribodyn.record.schema import partial_path, require_same_code
 from tribodyn.record.writer import RecordWriter, check_target
-from tribodyn.studies.design.archive import Archive, Evaluation, SpentError
-from tribodyn.studies.design.candidates import cases_of, chosen, share_of, start_of
+from tribodyn.studies.design.candidates.archive import Archive, Evaluation, SpentError
+from tribodyn.studies.design.candidates.candidates import cases_of, chosen, share_of, start_of
+from tribodyn.studies.design.candidates.converged import Converged, converged
+from tribodyn.studies.design.candidates.levels import Levels, resolutions
+from tribodyn.studies.design.candidates.pool import Cluster, Evaluators, Figures, Pool, workers_for
+from tribodyn.studies.design.candidates.unfinished import NOTHING_LEFT, Left, Moved, left_in
+from tribodyn.studies.design.candidates.worth import HELD, Judge
 from tribodyn.studies.design.case import DesignCase
-from tribodyn.studies.design.converged import Converged, converged
-from tribodyn.studies.design.judged import HELD, Judge
 from tribodyn.studies.design.layout import (
     FACTORS,
     LOWER,
@@ -32,13 +35,10 @@ from tribodyn.studies.design.layout import (
     rows_of,
     scales_of,
 )
-from tribodyn.studies.design.left import NOTHING_LEFT, Left, Moved, left_in
-from tribodyn.studies.design.levels import Levels, resolutions
 from tribodyn.studies.design.methods import METHODS, method_of
 from tribodyn.studies.design.outcome import check_targets, chosen_best, headline, signed, write_best
-from tribodyn.studies.design.pool import Cluster, Evaluators, Figures, Pool, workers_for
-from tribodyn.studies.recording import target, writer
-from tribodyn.studies.study import Progress, RunResult
+from tribodyn.studies.protocol.recording import target, writer
+from tribodyn.studies.protocol.study import Progress, RunResult
 
 
 def run(

@@ -8,13 +8,13 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, create_model
 
 from tribodyn.scenario.common import ScenarioHead, head_of
-from tribodyn.scenario.drive_data import with_axes_held
 from tribodyn.scenario.quantity import Count, Positive, Switch, Table, Text, scenario_file, written
+from tribodyn.scenario.tables.drive_data import with_axes_held
 from tribodyn.studies import DEFAULT, STUDIES, study_of
+from tribodyn.studies.design.candidates.sources import BASE, NAME, sources_of
 from tribodyn.studies.design.case import DesignCase, Robust, Search
 from tribodyn.studies.design.naming import flat
 from tribodyn.studies.design.parts import parts_of_design
-from tribodyn.studies.design.sources import BASE, NAME, sources_of
 
 KIND = "design"
 METHODS = (

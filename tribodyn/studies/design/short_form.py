@@ -9,8 +9,8 @@ from typing import Any
 from tribodyn.errors import InputError, quoted
 from tribodyn.scenario.resolve import resolve_table, toml_value
 from tribodyn.scenario.sources import find_scenario, read_toml
-from tribodyn.studies.load import Loaded, loaded_from, table_of
-from tribodyn.studies.study import CaseHead
+from tribodyn.studies.protocol.load import Loaded, loaded_from, table_of
+from tribodyn.studies.protocol.study import CaseHead
 
 KIND = "design"
 FREE = "--free"

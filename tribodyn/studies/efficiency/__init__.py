@@ -1,6 +1,6 @@
 """The quasi-static efficiency of a gear pair."""
 
-from tribodyn.studies.study import Study
+from tribodyn.studies.protocol.study import Study
 
 STUDY = Study(
     kind="efficiency",

@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.compliance.line_load import friction_ratio, peak_ratio
-from tribodyn.compliance.loaded_flanks import LoadedFlanks
+from tribodyn.compliance.sharing.line_load import friction_ratio, peak_ratio
+from tribodyn.compliance.sharing.loaded_flanks import LoadedFlanks
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.path import Path
 from tribodyn.mesh.cycle import MeshCycle
@@ -168,7 +168,7 @@ def engage(mesh: Places, duty: Duty) -> Engagement:
 def _loads(mesh: Places, duty: Duty, signed_friction: Array) -> tuple[Array, Array, Array, Array]:
     """Loads (K, Q) that give the gear's torque with the friction of the last step, and deflection (K,) ≥ 0.
 
-    With the ratios (K, Q) of `compliance.line_load`: 1 for an even load along the face.
+    With the ratios (K, Q) of `sharing.line_load`: 1 for an even load along the face.
     """
     torque = abs(duty.gear_torque)
     if mesh.flanks is not None:

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from tribodyn.studies.efficiency import STUDY
-from tribodyn.studies.part import Answer, Asked, Done, Role, Task
+from tribodyn.studies.protocol.part import Answer, Asked, Done, Role, Task
 
 _TASK = "efficiency-"
 _FIGURES = (

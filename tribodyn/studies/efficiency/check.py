@@ -4,10 +4,10 @@ from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.stiffness import single_pair
 from tribodyn.studies.efficiency.case import EfficiencyCase
 from tribodyn.studies.efficiency.run import prepare
-from tribodyn.studies.gears import checked
-from tribodyn.studies.law_ranges import with_laws
-from tribodyn.studies.oil import with_oil
-from tribodyn.studies.study import Checked
+from tribodyn.studies.gears.law_ranges import with_laws
+from tribodyn.studies.gears.oil import with_oil
+from tribodyn.studies.gears.shared import checked
+from tribodyn.studies.protocol.study import Checked
 
 
 def check(case: EfficiencyCase) -> Checked:

@@ -1,9 +1,9 @@
 """What an efficiency study takes, before any work."""
 
 from tribodyn.studies.efficiency.case import EfficiencyCase
-from tribodyn.studies.estimate import PROGRAM, Driver, Estimate, record_bytes
-from tribodyn.studies.gears import LAYOUT
-from tribodyn.studies.gears_estimate import FINITE_ELEMENTS, OUTLINES, pressed_memory, pressed_seconds
+from tribodyn.studies.gears.estimate import FINITE_ELEMENTS, OUTLINES, pressed_memory, pressed_seconds
+from tribodyn.studies.gears.shared import LAYOUT
+from tribodyn.studies.protocol.estimate import PROGRAM, Driver, Estimate, record_bytes
 
 #: Pairs in contact at once; bytes and seconds of a sample while it is worked out; seconds of the cycle means,
 #: and positions at which these share the load.

@@ -8,14 +8,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.compliance.flank_gap import flank_gap
-from tribodyn.compliance.load_sharing import effective_contact_ratio, extended_rolls, share_load
-from tribodyn.compliance.loaded_contact import reach
-from tribodyn.compliance.loaded_rules import check_contact
-from tribodyn.compliance.pair_flexibility import PairFlexibility
-from tribodyn.compliance.slices import face_positions
-from tribodyn.geometry.corner_contact import pair_geometry
-from tribodyn.geometry.modification import UNMODIFIED, Modifications, back_flanks, uneven_teeth
+from tribodyn.compliance.sharing.flank_gap import flank_gap
+from tribodyn.compliance.sharing.load_sharing import effective_contact_ratio, extended_rolls, share_load
+from tribodyn.compliance.sharing.loaded_contact import reach
+from tribodyn.compliance.sharing.loaded_rules import check_contact
+from tribodyn.compliance.sharing.pair_flexibility import PairFlexibility
+from tribodyn.compliance.sharing.slices import face_positions
+from tribodyn.geometry.flanks.corner_contact import pair_geometry
+from tribodyn.geometry.flanks.modification import UNMODIFIED, Modifications, back_flanks, uneven_teeth
 from tribodyn.mesh.power_flow import efficiency
 from tribodyn.numerics.shapes import Array, Float
 

@@ -4,9 +4,9 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from tribodyn.compliance.loaded_flanks import LoadedFlanks
+from tribodyn.compliance.sharing.loaded_flanks import LoadedFlanks
 from tribodyn.errors import InputError
-from tribodyn.geometry.corner_contact import pair_geometry
+from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.geometry.path import Kinematics, Path, kinematics
 from tribodyn.mesh.cycle import CHANNELS, MeshCycle, Polynomials, polynomials
 from tribodyn.studies.efficiency.quadrature import Array

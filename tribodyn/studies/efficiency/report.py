@@ -3,7 +3,7 @@
 from tribodyn.numerics.variable import Variable
 from tribodyn.post.report import Line, Lines, on_closures, on_energy, on_methods
 from tribodyn.record.reader import Record
-from tribodyn.studies.gears import (
+from tribodyn.studies.gears.shared import (
     CONTACT_RATIO,
     EFFECTIVE_CONTACT_RATIO,
     ENERGY,
@@ -13,7 +13,7 @@ from tribodyn.studies.gears import (
     TRIBOLOGY,
     WALL_TIME,
 )
-from tribodyn.studies.temperature import THERMAL_FIGURES
+from tribodyn.studies.gears.temperature import THERMAL_FIGURES
 
 LINES: Lines = {
     "Geometry": (

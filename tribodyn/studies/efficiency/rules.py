@@ -3,13 +3,13 @@
 from collections.abc import Iterator
 
 from tribodyn.errors import InputError
-from tribodyn.scenario.drive_rules import broken_drive_rules, broken_part_rules
-from tribodyn.scenario.duty import broken_duty_rules, duty_of
-from tribodyn.scenario.losses import broken_loss_rules
-from tribodyn.scenario.lubricant_rules import broken_lubricant_rules
-from tribodyn.scenario.modification_rules import Face, broken_face_rules
-from tribodyn.scenario.quality import broken_sample_rules
-from tribodyn.scenario.temperature import broken_temperature_rules
+from tribodyn.scenario.tables.drive_rules import broken_drive_rules, broken_part_rules
+from tribodyn.scenario.tables.duty import broken_duty_rules, duty_of
+from tribodyn.scenario.tables.losses import broken_loss_rules
+from tribodyn.scenario.tables.lubricant_rules import broken_lubricant_rules
+from tribodyn.scenario.tables.modification_rules import Face, broken_face_rules
+from tribodyn.scenario.tables.quality import broken_sample_rules
+from tribodyn.scenario.tables.temperature import broken_temperature_rules
 from tribodyn.studies.efficiency.scenario import Scenario
 
 

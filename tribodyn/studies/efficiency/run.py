@@ -9,16 +9,16 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.compliance.load_sharing import effective_contact_ratio
-from tribodyn.compliance.loaded_flanks import LoadedFlanks
+from tribodyn.compliance.sharing.load_sharing import effective_contact_ratio
+from tribodyn.compliance.sharing.loaded_flanks import LoadedFlanks
 from tribodyn.dynamics.recorded import scales_of
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.families import family
-from tribodyn.geometry.modification import back_flanks
-from tribodyn.geometry.outlines import geometry_arrays
+from tribodyn.geometry.flanks.modification import back_flanks
 from tribodyn.geometry.path import Path as PathOfContact
-from tribodyn.geometry.sheet import specific_sliding_max
+from tribodyn.geometry.sheet.outlines import geometry_arrays
+from tribodyn.geometry.sheet.sheet import specific_sliding_max
 from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.cycle import MeshCycle, as_arrays
 from tribodyn.mesh.power_flow import driving_gear, power_put_in
@@ -30,11 +30,11 @@ from tribodyn.studies.efficiency.loss_factor import exact, hoehn, tip_contact_ra
 from tribodyn.studies.efficiency.places import SHARINGS, Places, Sharing, places
 from tribodyn.studies.efficiency.sampled import Samples, samples
 from tribodyn.studies.efficiency.torque_ratio import path_contact, torque_ratio
-from tribodyn.studies.gears import LAYOUT
-from tribodyn.studies.oil import oil_data
-from tribodyn.studies.recording import target, writer
-from tribodyn.studies.study import Progress, RunResult
-from tribodyn.studies.temperature import Thermal, contact_figures, thermal_figures, thermal_state
+from tribodyn.studies.gears.oil import oil_data
+from tribodyn.studies.gears.shared import LAYOUT
+from tribodyn.studies.gears.temperature import Thermal, contact_figures, thermal_figures, thermal_state
+from tribodyn.studies.protocol.recording import target, writer
+from tribodyn.studies.protocol.study import Progress, RunResult
 from tribodyn.tribology.closure import closure_of, exceeded_limits, law_figures
 from tribodyn.tribology.friction.coulomb import constant
 from tribodyn.tribology.lubricant import LubricantData
@@ -86,7 +86,7 @@ def prepare(case: EfficiencyCase) -> Prepared:
     InputError
         Where the teeth cannot be made or cannot run together, or the load sharing does not fit them.
     """
-    from tribodyn.geometry.checks import check
+    from tribodyn.geometry.limits.checks import check
     from tribodyn.mesh.by_compliance import loaded_flanks_of, mesh_cycle_of
 
     assembly = check(family(case.family), case.drive)

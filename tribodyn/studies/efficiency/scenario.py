@@ -8,26 +8,26 @@ from tribodyn.compliance.foundation import Foundation
 from tribodyn.dynamics.data import OperatingData
 from tribodyn.mesh.data import MeshData
 from tribodyn.scenario.common import Slices, head_of
-from tribodyn.scenario.drive_data import (
-    lubricant_of,
-    modifications_of,
-    slices_of,
-    teeth_of,
-)
-from tribodyn.scenario.duty import duty_of
-from tribodyn.scenario.law_tables import FilmTable, FrictionTable, film_data, friction_values
-from tribodyn.scenario.losses import LossesTable, losses_of
-from tribodyn.scenario.model_files import DriveTable, Lubricant
-from tribodyn.scenario.modification import MisalignmentTable
-from tribodyn.scenario.quality import DeviationSample, error_with_sample, with_sample
 from tribodyn.scenario.quantity import (
     Switch,
     Table,
     model_file,
     written,
 )
-from tribodyn.scenario.spectrum import OiledOperatingTable, SpectrumScenario, spectrum_of
-from tribodyn.scenario.temperature import TemperatureTable, temperature_of
+from tribodyn.scenario.tables.drive_data import (
+    lubricant_of,
+    modifications_of,
+    slices_of,
+    teeth_of,
+)
+from tribodyn.scenario.tables.duty import duty_of
+from tribodyn.scenario.tables.laws import FilmTable, FrictionTable, film_data, friction_values
+from tribodyn.scenario.tables.losses import LossesTable, losses_of
+from tribodyn.scenario.tables.model_files import DriveTable, Lubricant
+from tribodyn.scenario.tables.modification import MisalignmentTable
+from tribodyn.scenario.tables.quality import DeviationSample, error_with_sample, with_sample
+from tribodyn.scenario.tables.spectrum import OiledOperatingTable, SpectrumScenario, spectrum_of
+from tribodyn.scenario.tables.temperature import TemperatureTable, temperature_of
 from tribodyn.studies.efficiency.case import EfficiencyCase
 from tribodyn.tribology.data import FrictionData
 

@@ -1,6 +1,6 @@
 """The lubricated contact of a pair of teeth solved along its way through the mesh."""
 
-from tribodyn.studies.study import Study
+from tribodyn.studies.protocol.study import Study
 
 STUDY = Study(
     kind="ehl",

@@ -18,10 +18,10 @@ from tribodyn.tribology.closure import surfaces_of, untried_closure_of
 from tribodyn.tribology.contact import hertz_half_width
 from tribodyn.tribology.contact_friction import ContactFriction, contact_friction
 from tribodyn.tribology.data import FilmData, FrictionData
-from tribodyn.tribology.ehl.coupled import CoupledSolution, solve_coupled
+from tribodyn.tribology.ehl.fluid.coupled import CoupledSolution, solve_coupled
 from tribodyn.tribology.ehl.problem import LEAST_LOAD, LineContact
 from tribodyn.tribology.ehl.steady import Solution
-from tribodyn.tribology.ehl.table import Contact, contact_of
+from tribodyn.tribology.ehl.table.table import Contact, contact_of
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import LawInput
@@ -60,7 +60,7 @@ class Way(NamedTuple):
 
 def prepare(case: EhlCase) -> Prepared:
     """Check the geometry and tabulate the mesh; raises InputError where teeth cannot be made or run."""
-    from tribodyn.geometry.checks import check
+    from tribodyn.geometry.limits.checks import check
     from tribodyn.mesh.by_compliance import mesh_cycle_of
 
     assembly = check(family(case.family), case.drive)

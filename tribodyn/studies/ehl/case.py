@@ -9,7 +9,7 @@ from tribodyn.dynamics.data import OperatingData
 from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.material import MaterialData
 from tribodyn.mesh.data import MeshData
-from tribodyn.studies.study import CaseHead
+from tribodyn.studies.protocol.study import CaseHead
 from tribodyn.tribology.data import FilmData, FrictionData
 from tribodyn.tribology.lubricant import LubricantData
 

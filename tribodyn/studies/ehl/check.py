@@ -4,9 +4,9 @@ from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.stiffness import single_pair
 from tribodyn.studies.ehl.along_path import prepare
 from tribodyn.studies.ehl.case import EhlCase
-from tribodyn.studies.gears import checked
-from tribodyn.studies.oil import with_oil
-from tribodyn.studies.study import Checked
+from tribodyn.studies.gears.oil import with_oil
+from tribodyn.studies.gears.shared import checked
+from tribodyn.studies.protocol.study import Checked
 
 
 def check(case: EhlCase) -> Checked:

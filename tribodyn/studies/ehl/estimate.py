@@ -2,7 +2,7 @@
 
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.studies.ehl.layout import PLACES, layout_of
-from tribodyn.studies.estimate import PROGRAM, Driver, Estimate, record_bytes
+from tribodyn.studies.protocol.estimate import PROGRAM, Driver, Estimate, record_bytes
 from tribodyn.tribology.ehl.grid import STEP
 
 #: Seconds of one solved position, contacts of the traction curve, and laws beside them.

@@ -10,12 +10,12 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.scenario.resolve import resolve_table
-from tribodyn.scenario.spectrum import OiledOperatingTable
+from tribodyn.scenario.tables.spectrum import OiledOperatingTable
 from tribodyn.studies.ehl.along_path import Prepared, by_laws, meant_by, prepare, seen_by, way
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.studies.ehl.run import solve
-from tribodyn.studies.load import loaded_from, table_of
-from tribodyn.studies.study import CaseHead, Progress
+from tribodyn.studies.protocol.load import loaded_from, table_of
+from tribodyn.studies.protocol.study import CaseHead, Progress
 from tribodyn.tribology.closure import untried_closure_of
 from tribodyn.tribology.contact_friction import ContactFriction
 from tribodyn.tribology.data import FilmData, FrictionData

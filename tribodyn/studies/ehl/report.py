@@ -8,7 +8,7 @@ from tribodyn.numerics.variable import Variable
 from tribodyn.post.page.profiles import Profile, Profiles
 from tribodyn.post.report import Line, Lines
 from tribodyn.record.reader import Record
-from tribodyn.studies.gears import CONTACT_RATIO, NORMAL_LOAD, WALL_TIME
+from tribodyn.studies.gears.shared import CONTACT_RATIO, NORMAL_LOAD, WALL_TIME
 
 _LINES = (
     (

@@ -3,12 +3,12 @@
 from collections.abc import Iterator
 
 from tribodyn.errors import InputError
-from tribodyn.scenario.drive_rules import broken_drive_rules
-from tribodyn.scenario.duty import broken_driving_rules
-from tribodyn.scenario.lubricant_rules import broken_lubricant_rules
-from tribodyn.scenario.modification import MisalignmentTable
-from tribodyn.scenario.modification_rules import Face, broken_face_rules
-from tribodyn.scenario.spectrum import unnamed_duty
+from tribodyn.scenario.tables.drive_rules import broken_drive_rules
+from tribodyn.scenario.tables.duty import broken_driving_rules
+from tribodyn.scenario.tables.lubricant_rules import broken_lubricant_rules
+from tribodyn.scenario.tables.modification import MisalignmentTable
+from tribodyn.scenario.tables.modification_rules import Face, broken_face_rules
+from tribodyn.scenario.tables.spectrum import unnamed_duty
 from tribodyn.studies.ehl.scenario import Scenario
 
 

@@ -24,8 +24,8 @@ from tribodyn.studies.ehl.along_path import (
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.studies.ehl.layout import BEGIN, END, PLACES, SAMPLES, layout_of
 from tribodyn.studies.ehl.squeezed import Steady, kept, squeezed
-from tribodyn.studies.recording import target, writer
-from tribodyn.studies.study import Progress, RunResult
+from tribodyn.studies.protocol.recording import target, writer
+from tribodyn.studies.protocol.study import Progress, RunResult
 
 Array = Any
 

@@ -9,17 +9,17 @@ from tribodyn.dynamics.data import OperatingData
 from tribodyn.mesh.data import MeshData
 from tribodyn.scenario.common import head_of
 from tribodyn.scenario.curves import LoadCurve
-from tribodyn.scenario.drive_data import (
+from tribodyn.scenario.quantity import Switch, Table, csv_or_record, model_file, written
+from tribodyn.scenario.tables.drive_data import (
     lubricant_of,
     modifications_of,
     slices_of,
     teeth_of,
 )
-from tribodyn.scenario.duty import duty_of
-from tribodyn.scenario.model_files import DriveTable, Lubricant
-from tribodyn.scenario.modification import MisalignmentTable
-from tribodyn.scenario.quantity import Switch, Table, csv_or_record, model_file, written
-from tribodyn.scenario.spectrum import OiledOperatingTable, SpectrumScenario
+from tribodyn.scenario.tables.duty import duty_of
+from tribodyn.scenario.tables.model_files import DriveTable, Lubricant
+from tribodyn.scenario.tables.modification import MisalignmentTable
+from tribodyn.scenario.tables.spectrum import OiledOperatingTable, SpectrumScenario
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.tribology.data import FilmData, FrictionData
 from tribodyn.tribology.ehl.grid import STEP

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.studies.gear_pair import STUDY
-from tribodyn.studies.part import Answer, Asked, Curve, Done, Role, Task
+from tribodyn.studies.protocol.part import Answer, Asked, Curve, Done, Role, Task
 
 _TASK, _SAMPLES = "steady-states", "steady-states-samples"
 #: Slices of the face of the samples, which are inclined to each other: dynamic factors within 0.02 % of 21.

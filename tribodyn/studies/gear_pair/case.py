@@ -11,8 +11,8 @@ from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.material import BodyMass, MaterialData
 from tribodyn.mesh.data import MeshData
 from tribodyn.solve.data import SolverData
-from tribodyn.studies.by_standard import Quality
-from tribodyn.studies.study import CaseHead
+from tribodyn.studies.gears.by_standard import Quality
+from tribodyn.studies.protocol.study import CaseHead
 from tribodyn.tribology.bulk_temperature import TemperatureData
 from tribodyn.tribology.data import FilmData, FrictionData
 from tribodyn.tribology.losses.of_pair import LossData

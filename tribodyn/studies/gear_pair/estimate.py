@@ -5,17 +5,17 @@ from typing import NamedTuple
 
 from tribodyn.dynamics.parameters import STATES
 from tribodyn.solve.methods import Runs, runs
-from tribodyn.studies.estimate import PROGRAM, Driver, Estimate, record_bytes
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.run import window_of
-from tribodyn.studies.gears import LAYOUT
-from tribodyn.studies.gears_estimate import (
+from tribodyn.studies.gears.estimate import (
     FINITE_ELEMENTS,
     OUTLINES,
     pressed_memory,
     pressed_seconds,
     stiffest,
 )
+from tribodyn.studies.gears.shared import LAYOUT
+from tribodyn.studies.protocol.estimate import PROGRAM, Driver, Estimate, record_bytes
 
 #: Stiffness of a mesh over width and modulus of elasticity: 20 N/(mm µm) of steel, ISO 6336-1.
 MESH_STIFFNESS = 0.1

@@ -25,7 +25,7 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.mesh.cycle import MeshCycle, Polynomials, polynomials
 from tribodyn.mesh.friction_loss import contacts, friction_loss, settled
 from tribodyn.studies.gear_pair.case import Case
-from tribodyn.studies.temperature import Thermal, thermal_state
+from tribodyn.studies.gears.temperature import Thermal, thermal_state
 from tribodyn.tribology.closure import Closure, closure_of
 from tribodyn.tribology.lubricant import LubricantData
 
@@ -175,9 +175,9 @@ def _quasi_static_loss(made: Tabulated) -> Callable[[Case], float]:
 
 def tables(case: Case) -> Tabulated:
     """Check the geometry and tabulate the mesh cycle; raises as `prepare` does."""
-    from tribodyn.geometry.body import body_masses
-    from tribodyn.geometry.checks import check
     from tribodyn.geometry.families import family
+    from tribodyn.geometry.limits.checks import check
+    from tribodyn.geometry.tooth.body import body_masses
     from tribodyn.mesh.by_compliance import mesh_cycle_of
 
     assembly = check(family(case.family), case.drive)

@@ -6,7 +6,7 @@ from typing import Any
 from tribodyn.post.report import Line, Lines, on_closures, on_energy, on_methods, shown
 from tribodyn.record.reader import Record
 from tribodyn.studies.gear_pair.sweep_layout import FIGURES
-from tribodyn.studies.gears import (
+from tribodyn.studies.gears.shared import (
     CONTACT_RATIO,
     ENERGY,
     MESH_FREQUENCY,

@@ -5,16 +5,16 @@ from collections.abc import Iterator
 
 from tribodyn.dynamics.rolling_bearing import ROLLERS
 from tribodyn.errors import InputError, unknown_name
-from tribodyn.scenario.drive_data import gives_backlash
-from tribodyn.scenario.drive_rules import broken_drive_rules, broken_part_rules
-from tribodyn.scenario.duty import broken_duty_rules, duty_of
-from tribodyn.scenario.losses import broken_loss_rules
-from tribodyn.scenario.lubricant_rules import broken_lubricant_rules
-from tribodyn.scenario.model_files import Bearing, Rolling
-from tribodyn.scenario.modification_rules import Face, broken_face_rules
-from tribodyn.scenario.quality import broken_sample_rules
-from tribodyn.scenario.spectrum import unnamed_duty
-from tribodyn.scenario.temperature import broken_temperature_rules
+from tribodyn.scenario.tables.drive_data import gives_backlash
+from tribodyn.scenario.tables.drive_rules import broken_drive_rules, broken_part_rules
+from tribodyn.scenario.tables.duty import broken_duty_rules, duty_of
+from tribodyn.scenario.tables.losses import broken_loss_rules
+from tribodyn.scenario.tables.lubricant_rules import broken_lubricant_rules
+from tribodyn.scenario.tables.model_files import Bearing, Rolling
+from tribodyn.scenario.tables.modification_rules import Face, broken_face_rules
+from tribodyn.scenario.tables.quality import broken_sample_rules
+from tribodyn.scenario.tables.spectrum import unnamed_duty
+from tribodyn.scenario.tables.temperature import broken_temperature_rules
 from tribodyn.solve.methods import SOLVERS
 from tribodyn.studies.gear_pair.scenario import Mesh, Operating, Scenario
 

@@ -10,7 +10,7 @@ from tribodyn.dynamics.modes import natural_frequencies
 from tribodyn.dynamics.outputs import outputs_with_extremes
 from tribodyn.dynamics.recorded import UNRECORDED, scales_of
 from tribodyn.errors import SimulationError
-from tribodyn.geometry.outlines import geometry_arrays
+from tribodyn.geometry.sheet.outlines import geometry_arrays
 from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.cycle import as_arrays
 from tribodyn.mesh.stiffness import single_pair
@@ -18,17 +18,17 @@ from tribodyn.record.trust import Judge, judge_tribology
 from tribodyn.solve.choice import choose
 from tribodyn.solve.initial import initial_state
 from tribodyn.solve.transient import SampledStates, Stop, TransientSettings, transient
-from tribodyn.studies.by_standard import rated
 from tribodyn.studies.gear_pair.assumptions import judge_balance, judge_block
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.prepare import Prepared, prepare
 from tribodyn.studies.gear_pair.settled import MOST, at_own_temperature
 from tribodyn.studies.gear_pair.summary import RunningExtremes, energy_residual, steady_figures, warning_of
-from tribodyn.studies.gears import LAYOUT
-from tribodyn.studies.oil import oil_data
-from tribodyn.studies.recording import target, writer
-from tribodyn.studies.study import Progress, RunResult
-from tribodyn.studies.temperature import contact_figures, thermal_figures
+from tribodyn.studies.gears.by_standard import rated
+from tribodyn.studies.gears.oil import oil_data
+from tribodyn.studies.gears.shared import LAYOUT
+from tribodyn.studies.gears.temperature import contact_figures, thermal_figures
+from tribodyn.studies.protocol.recording import target, writer
+from tribodyn.studies.protocol.study import Progress, RunResult
 from tribodyn.tribology.closure import exceeded_limits, law_figures
 
 #: Mesh cycles at the end of a run that its means and its spectrum are of, at most: they are held in memory,

@@ -24,20 +24,6 @@ from tribodyn.scenario.common import (
     head_of,
 )
 from tribodyn.scenario.curves import ErrorCurve, StiffnessCurve, TorqueCurve
-from tribodyn.scenario.drive_data import (
-    backlash_of,
-    lubricant_of,
-    masses_of,
-    modifications_of,
-    slices_of,
-    teeth_of,
-)
-from tribodyn.scenario.duty import DutyTable, duty_of
-from tribodyn.scenario.law_tables import FilmTable, FrictionTable, film_data, friction_values
-from tribodyn.scenario.losses import LossesTable, losses_of
-from tribodyn.scenario.model_files import Bearing, Bearings, DriveTable, Lubricant, Stiffness
-from tribodyn.scenario.modification import MisalignmentTable
-from tribodyn.scenario.quality import DeviationSample, error_with_sample, with_sample
 from tribodyn.scenario.quantity import (
     Count,
     NotNegative,
@@ -49,12 +35,26 @@ from tribodyn.scenario.quantity import (
     model_file,
     written,
 )
-from tribodyn.scenario.spectrum import OiledOperatingTable, SpectrumScenario
-from tribodyn.scenario.temperature import TemperatureTable, temperature_of
-from tribodyn.scenario.tolerances import grade_of, tolerances_of
+from tribodyn.scenario.tables.drive_data import (
+    backlash_of,
+    lubricant_of,
+    masses_of,
+    modifications_of,
+    slices_of,
+    teeth_of,
+)
+from tribodyn.scenario.tables.duty import DutyTable, duty_of
+from tribodyn.scenario.tables.laws import FilmTable, FrictionTable, film_data, friction_values
+from tribodyn.scenario.tables.losses import LossesTable, losses_of
+from tribodyn.scenario.tables.model_files import Bearing, Bearings, DriveTable, Lubricant, Stiffness
+from tribodyn.scenario.tables.modification import MisalignmentTable
+from tribodyn.scenario.tables.quality import DeviationSample, error_with_sample, with_sample
+from tribodyn.scenario.tables.spectrum import OiledOperatingTable, SpectrumScenario
+from tribodyn.scenario.tables.temperature import TemperatureTable, temperature_of
+from tribodyn.scenario.tables.tolerances import grade_of, tolerances_of
 from tribodyn.solve.data import SolverData
-from tribodyn.studies.by_standard import quality_of
 from tribodyn.studies.gear_pair.case import Case, OutputData
+from tribodyn.studies.gears.by_standard import quality_of
 from tribodyn.tribology.data import FrictionData
 
 #: Cosines in a load or an error: a curve is given by points.

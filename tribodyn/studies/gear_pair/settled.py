@@ -5,7 +5,7 @@ from dataclasses import replace
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
 from tribodyn.studies.gear_pair.case import Case
-from tribodyn.studies.temperature import bulk_temperature_of_loss
+from tribodyn.studies.gears.temperature import bulk_temperature_of_loss
 
 #: Difference of temperatures that is not worth another motion, K; motions of a case at most.
 CLOSE, MOST = 0.1, 5

@@ -6,10 +6,10 @@ import numpy as np
 
 from tribodyn.numerics.variable import Variable, flag
 from tribodyn.record.sweep_schema import OF_EVERY_SWEEP, WORD, SweepLayout
-from tribodyn.solve.recurrence import MAX_PERIOD
-from tribodyn.studies import ends, unstable
-from tribodyn.studies.estimate import variable_bytes
-from tribodyn.studies.temperature import THERMAL_FIGURES
+from tribodyn.solve.orbit.recurrence import MAX_PERIOD
+from tribodyn.studies.gears.temperature import THERMAL_FIGURES
+from tribodyn.studies.protocol.estimate import variable_bytes
+from tribodyn.studies.sweeping import ends, unstable
 
 #: `stable`, where the linearised motion was not looked at.
 UNKNOWN = -1
@@ -87,7 +87,7 @@ CASES: dict[str, Variable] = {
     ),
 }
 
-#: What it records of the unstable motions beyond the ends of branches, see `studies.unstable`.
+#: What it records of the unstable motions beyond the ends of branches, see `sweeping.unstable`.
 UNSTABLE: dict[str, Variable] = {
     **unstable.VARIABLES,
     **{

@@ -1,6 +1,6 @@
 """Teeth in slow rotation under load, by finite elements."""
 
-from tribodyn.studies.study import Study
+from tribodyn.studies.protocol.study import Study
 
 STUDY = Study(
     kind="load-contact",

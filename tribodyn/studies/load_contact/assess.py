@@ -9,7 +9,7 @@ from tribodyn.record.reader import open_record
 from tribodyn.standards.load_factors import transverse_load_factor
 from tribodyn.studies.load_contact import STUDY
 from tribodyn.studies.load_contact.rolled import over_roll
-from tribodyn.studies.part import Answer, Asked, Curve, Done, Role, Task
+from tribodyn.studies.protocol.part import Answer, Asked, Curve, Done, Role, Task
 
 _TASK, _DEVIATING, _SAMPLES = "loaded-contact", "pitch-deviation", "loaded-contact-samples"
 #: Mesh cycles in which a deviating tooth is seen from its entry to its exit, up to ε_α = 3.

@@ -3,10 +3,10 @@
 from dataclasses import dataclass, field
 
 from tribodyn.geometry.drive import Drive
+from tribodyn.geometry.flanks.modification import UNMODIFIED, Modifications
 from tribodyn.geometry.material import MaterialData
-from tribodyn.geometry.modification import UNMODIFIED, Modifications
-from tribodyn.scenario.duty import Duty
-from tribodyn.studies.study import CaseHead
+from tribodyn.scenario.tables.duty import Duty
+from tribodyn.studies.protocol.study import CaseHead
 from tribodyn.tribology.data import FilmData, FrictionData
 from tribodyn.tribology.lubricant import LubricantData
 

@@ -2,10 +2,10 @@
 
 import math
 
-from tribodyn.studies.gears import checked
+from tribodyn.studies.gears.shared import checked
 from tribodyn.studies.load_contact.case import LoadContactCase
 from tribodyn.studies.load_contact.run import prepare, single_pair_stiffness
-from tribodyn.studies.study import Checked
+from tribodyn.studies.protocol.study import Checked
 
 
 def check(case: LoadContactCase) -> Checked:

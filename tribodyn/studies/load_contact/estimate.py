@@ -1,7 +1,6 @@
 """What a load contact study takes, before any work."""
 
-from tribodyn.studies.estimate import PROGRAM, Driver, Estimate, record_bytes
-from tribodyn.studies.gears_estimate import (
+from tribodyn.studies.gears.estimate import (
     FINITE_ELEMENTS,
     OUTLINES,
     TOUCHING,
@@ -10,6 +9,7 @@ from tribodyn.studies.gears_estimate import (
 )
 from tribodyn.studies.load_contact.case import LoadContactCase
 from tribodyn.studies.load_contact.layout import LAYOUT, OILED
+from tribodyn.studies.protocol.estimate import PROGRAM, Driver, Estimate, record_bytes
 
 #: How often what is recorded is held at once.
 HELD = 4.0

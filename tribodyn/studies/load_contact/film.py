@@ -4,9 +4,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.compliance.loaded_contact import LoadedContact
+from tribodyn.compliance.sharing.loaded_contact import LoadedContact
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.corner_contact import pair_geometry
+from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.load_contact.case import Oiled

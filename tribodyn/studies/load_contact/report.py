@@ -6,7 +6,7 @@ from tribodyn.numerics.variable import Variable
 from tribodyn.post.page.maps import PageMap
 from tribodyn.post.report import Line, Lines, on_closures
 from tribodyn.record.reader import Record
-from tribodyn.studies.gears import (
+from tribodyn.studies.gears.shared import (
     CONTACT_RATIO,
     EFFECTIVE_CONTACT_RATIO,
     NORMAL_LOAD,

@@ -4,12 +4,12 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 from tribodyn.errors import InputError
-from tribodyn.scenario.drive_rules import broken_drive_rules
-from tribodyn.scenario.duty import broken_driving_rules
-from tribodyn.scenario.lubricant_rules import broken_lubricant_rules
-from tribodyn.scenario.modification_rules import Face, broken_slice_rules
-from tribodyn.scenario.quality import broken_sample_rules
-from tribodyn.scenario.spectrum import unnamed_duty
+from tribodyn.scenario.tables.drive_rules import broken_drive_rules
+from tribodyn.scenario.tables.duty import broken_driving_rules
+from tribodyn.scenario.tables.lubricant_rules import broken_lubricant_rules
+from tribodyn.scenario.tables.modification_rules import Face, broken_slice_rules
+from tribodyn.scenario.tables.quality import broken_sample_rules
+from tribodyn.scenario.tables.spectrum import unnamed_duty
 from tribodyn.studies.load_contact.scenario import Scenario
 
 

@@ -7,15 +7,15 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.compliance.load_sharing import flexibility, share_load
-from tribodyn.compliance.loaded_contact import LoadedContact, loaded_error, roll_through
-from tribodyn.compliance.pair_flexibility import PairFlexibility
+from tribodyn.compliance.sharing.load_sharing import flexibility, share_load
+from tribodyn.compliance.sharing.loaded_contact import LoadedContact, loaded_error, roll_through
+from tribodyn.compliance.sharing.pair_flexibility import PairFlexibility
 from tribodyn.errors import SimulationError
-from tribodyn.geometry.corner_contact import pair_geometry
 from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.families import family
+from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.geometry.material import MaterialData
-from tribodyn.geometry.outlines import geometry_arrays
+from tribodyn.geometry.sheet.outlines import geometry_arrays
 from tribodyn.numerics.remembered import remembered
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.record.trust import Judge, judge_tribology
@@ -23,8 +23,8 @@ from tribodyn.standards.load_factors import shared_load
 from tribodyn.studies.load_contact.case import LoadContactCase
 from tribodyn.studies.load_contact.film import FaceFilm, film_over_face
 from tribodyn.studies.load_contact.layout import BODIES, LAYOUT, OILED
-from tribodyn.studies.recording import target, writer
-from tribodyn.studies.study import Progress, RunResult
+from tribodyn.studies.protocol.recording import target, writer
+from tribodyn.studies.protocol.study import Progress, RunResult
 
 
 class Prepared(NamedTuple):
@@ -42,7 +42,7 @@ def prepare(case: LoadContactCase) -> Prepared:
     InputError
         Where the teeth cannot be made, or cannot run together as they are modified.
     """
-    from tribodyn.compliance.flank_gap import check_modifications
+    from tribodyn.compliance.sharing.flank_gap import check_modifications
 
     flexible = _flexible(case.family, case.drive, case.materials)
     check_modifications(flexible.assembly, case.modifications)
@@ -52,7 +52,7 @@ def prepare(case: LoadContactCase) -> Prepared:
 @remembered(2)
 def _flexible(name: str, drive: Drive, materials: tuple[MaterialData, MaterialData]) -> PairFlexibility:
     """The pair as it is without modifications: cases that differ in those, or in their load, share it."""
-    from tribodyn.geometry.checks import check
+    from tribodyn.geometry.limits.checks import check
 
     return flexibility(check(family(name), drive), materials, lead=True)
 

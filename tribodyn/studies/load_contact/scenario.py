@@ -6,12 +6,6 @@ from pydantic import Field
 
 from tribodyn.scenario import units
 from tribodyn.scenario.common import Slices, head_of
-from tribodyn.scenario.drive_data import lubricant_of, modifications_of, slices_of, teeth_of
-from tribodyn.scenario.duty import duty_of
-from tribodyn.scenario.law_tables import FilmTable, film_of
-from tribodyn.scenario.model_files import DriveTable, Lubricant
-from tribodyn.scenario.modification import MisalignmentTable
-from tribodyn.scenario.quality import DeviationSample, with_sample
 from tribodyn.scenario.quantity import (
     Count,
     NotNegative,
@@ -21,7 +15,13 @@ from tribodyn.scenario.quantity import (
     model_file,
     written,
 )
-from tribodyn.scenario.spectrum import OiledOperatingTable, SpectrumScenario
+from tribodyn.scenario.tables.drive_data import lubricant_of, modifications_of, slices_of, teeth_of
+from tribodyn.scenario.tables.duty import duty_of
+from tribodyn.scenario.tables.laws import FilmTable, film_of
+from tribodyn.scenario.tables.model_files import DriveTable, Lubricant
+from tribodyn.scenario.tables.modification import MisalignmentTable
+from tribodyn.scenario.tables.quality import DeviationSample, with_sample
+from tribodyn.scenario.tables.spectrum import OiledOperatingTable, SpectrumScenario
 from tribodyn.studies.load_contact.case import LoadContactCase, Oiled
 
 Load = Annotated[float, Quantity(units.positive(units.TORQUE))]

@@ -1,6 +1,6 @@
 """The cycloid gear with intermediate rolling elements."""
 
-from tribodyn.studies.study import Study
+from tribodyn.studies.protocol.study import Study
 
 STUDY = Study(
     kind="irefc",

@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass
 
+from tribodyn.studies.protocol.study import CaseHead
 from tribodyn.studies.rolling.engagement import Mode, RollingFriction
 from tribodyn.studies.rolling.geometry import RollingDrive
-from tribodyn.studies.study import CaseHead
 
 
 @dataclass(frozen=True)

@@ -1,10 +1,10 @@
 """What `check` says of a gear with rolling elements."""
 
-from tribodyn.studies.gears import with_unit
+from tribodyn.studies.gears.shared import with_unit
+from tribodyn.studies.protocol.study import Checked, TextTable
 from tribodyn.studies.rolling.case import RollingCase
 from tribodyn.studies.rolling.run import prepare
 from tribodyn.studies.rolling.sheet import geometry_sheet
-from tribodyn.studies.study import Checked, TextTable
 
 
 def check(case: RollingCase) -> Checked:

@@ -1,6 +1,6 @@
 """What a run of a gear with rolling elements takes, before any work."""
 
-from tribodyn.studies.estimate import PROGRAM, Driver, Estimate, record_bytes
+from tribodyn.studies.protocol.estimate import PROGRAM, Driver, Estimate, record_bytes
 from tribodyn.studies.rolling.case import RollingCase
 from tribodyn.studies.rolling.layout import LAYOUT
 

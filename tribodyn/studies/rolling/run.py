@@ -9,7 +9,8 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.record.trust import Judge
-from tribodyn.studies.recording import target, writer
+from tribodyn.studies.protocol.recording import target, writer
+from tribodyn.studies.protocol.study import Progress, RunResult
 from tribodyn.studies.rolling.case import RollingCase
 from tribodyn.studies.rolling.checks import check
 from tribodyn.studies.rolling.engagement import (
@@ -21,7 +22,6 @@ from tribodyn.studies.rolling.engagement import (
 )
 from tribodyn.studies.rolling.geometry import Array, cam_outline, crown_outline
 from tribodyn.studies.rolling.layout import LAYOUT
-from tribodyn.studies.study import Progress, RunResult
 
 #: Share of the maximum load below which an element counts as unloaded.
 UNLOADED = 1e-9

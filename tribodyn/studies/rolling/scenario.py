@@ -6,7 +6,6 @@ from pydantic import Field
 
 from tribodyn.scenario import units
 from tribodyn.scenario.common import ScenarioHead, head_of
-from tribodyn.scenario.model_files import Described
 from tribodyn.scenario.quantity import (
     NotNegative,
     Positive,
@@ -15,6 +14,7 @@ from tribodyn.scenario.quantity import (
     model_file,
     written,
 )
+from tribodyn.scenario.tables.model_files import Described
 from tribodyn.studies.rolling.case import RollingCase
 from tribodyn.studies.rolling.engagement import RollingFriction
 from tribodyn.studies.rolling.geometry import RollingDrive

@@ -8,7 +8,7 @@ from tribodyn.tribology.contact import hertz_half_width
 from tribodyn.tribology.contact import hertz_pressure as maximum_hertz_pressure
 from tribodyn.tribology.ehl import asperities
 from tribodyn.tribology.ehl.asperities import Roughness
-from tribodyn.tribology.ehl.fluid import Fluid
+from tribodyn.tribology.ehl.fluid.fluid import Fluid
 from tribodyn.tribology.ehl.values import not_negative, number, positive
 
 #: Moes' M and L between which contacts are tried; gears have M 5 … 2000 and L 2 … 25. Smooth ones converge up

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 
 from tribodyn.tribology.ehl.elasticity import HERTZ_LOAD
-from tribodyn.tribology.ehl.fluid import Fluid, log_viscosity, relative_density
+from tribodyn.tribology.ehl.fluid.fluid import Fluid, log_viscosity, relative_density
 from tribodyn.tribology.ehl.grid import Grid, at_faces
 from tribodyn.tribology.ehl.squeeze import Squeeze, behind, cells, mesh_speed, stored
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from tribodyn.tribology.ehl.asperities import Roughness, asperity_pressure, mean_gap, pressure_flow_factor
 from tribodyn.tribology.ehl.elasticity import HERTZ_LOAD
-from tribodyn.tribology.ehl.fluid import Fluid, log_viscosity, relative_density
+from tribodyn.tribology.ehl.fluid.fluid import Fluid, log_viscosity, relative_density
 from tribodyn.tribology.ehl.grid import Grid, at_faces
 from tribodyn.tribology.ehl.reynolds import (
     KEPT_FLOW,

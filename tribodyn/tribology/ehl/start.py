@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from tribodyn.tribology.ehl.elasticity import HERTZ_LOAD, hertz_gap
-from tribodyn.tribology.ehl.fluid import Fluid, log_viscosity
+from tribodyn.tribology.ehl.fluid.fluid import Fluid, log_viscosity
 from tribodyn.tribology.ehl.grid import Grid
 from tribodyn.tribology.ehl.reynolds import Reduced, State, film
 from tribodyn.tribology.ehl.rough import RoughReduced

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.errors import SimulationError
-from tribodyn.tribology.ehl.fluid import relative_density
+from tribodyn.tribology.ehl.fluid.fluid import relative_density
 from tribodyn.tribology.ehl.problem import LineContact, check
 from tribodyn.tribology.ehl.reynolds import Closure, State, film
 from tribodyn.tribology.ehl.squeeze import Held, cells, faces, squeeze_of

@@ -3,7 +3,7 @@
 from typing import Any
 
 from tribodyn.numerics.elementary import absolute, law, log, maximum, minimum
-from tribodyn.tribology.ehl.table_lookup import LIMITS, RANGE, held, in_table, polynomial
+from tribodyn.tribology.ehl.table.lookup import LIMITS, RANGE, held, in_table, polynomial
 from tribodyn.tribology.law import FilmLaw, LawInput
 
 
@@ -21,7 +21,7 @@ def solved_film(contact, surfaces, parameters):
 
 
 def _table(given: LawInput) -> Any:
-    from tribodyn.tribology.ehl.table import table_of
+    from tribodyn.tribology.ehl.table.table import table_of
 
     return table_of(given)
 

@@ -1,8 +1,8 @@
 """What `tribodyn check` says of a case."""
 
-from tribodyn.geometry.sheet import geometry_sheet
-from tribodyn.studies.gears import sheet_tables
-from tribodyn.studies.study import Checked
+from tribodyn.geometry.sheet.sheet import geometry_sheet
+from tribodyn.studies.gears.shared import sheet_tables
+from tribodyn.studies.protocol.study import Checked
 from tribodyn_example.specific_sliding.scenario import SlidingCase
 from tribodyn_example.specific_sliding.sliding import sliding_of
 

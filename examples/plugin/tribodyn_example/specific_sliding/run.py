@@ -3,12 +3,12 @@
 from pathlib import Path
 from typing import Any
 
-from tribodyn.geometry.outlines import geometry_arrays
-from tribodyn.geometry.recorded import GEOMETRY
+from tribodyn.geometry.sheet.outlines import geometry_arrays
+from tribodyn.geometry.sheet.recorded import GEOMETRY
 from tribodyn.numerics.variable import Variable
 from tribodyn.record.schema import Layout
-from tribodyn.studies.recording import target, writer
-from tribodyn.studies.study import Progress, RunResult
+from tribodyn.studies.protocol.recording import target, writer
+from tribodyn.studies.protocol.study import Progress, RunResult
 from tribodyn_example.specific_sliding.scenario import SlidingCase
 from tribodyn_example.specific_sliding.sliding import figures_of, sliding_of
 
@@ -31,7 +31,7 @@ def run(
     force: bool = False,
     progress: Progress | None = None,
 ) -> RunResult:
-    """Run a case and write its record; see `tribodyn.studies.study.Study.run`."""
+    """Run a case and write its record; see `tribodyn.studies.protocol.study.Study.run`."""
     path = target(case, output, force)
     sliding = sliding_of(case)
     groups = {"geometry": geometry_arrays(sliding.assembly)}

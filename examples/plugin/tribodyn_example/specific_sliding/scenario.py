@@ -9,10 +9,10 @@ from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.material import MaterialData
 from tribodyn.scenario import units
 from tribodyn.scenario.common import Name
-from tribodyn.scenario.drive_data import drive_of, materials_of
-from tribodyn.scenario.model_files import DriveTable
 from tribodyn.scenario.quantity import Quantity, Table, Text, model_file, written
-from tribodyn.studies.study import CaseHead
+from tribodyn.scenario.tables.drive_data import drive_of, materials_of
+from tribodyn.scenario.tables.model_files import DriveTable
+from tribodyn.studies.protocol.study import CaseHead
 
 
 @dataclass(frozen=True)

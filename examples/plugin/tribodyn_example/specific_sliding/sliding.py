@@ -5,8 +5,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.checks import check
 from tribodyn.geometry.families import family
+from tribodyn.geometry.limits.checks import check
 from tribodyn.geometry.path import kinematics
 from tribodyn_example.specific_sliding.scenario import SlidingCase
 

@@ -19,7 +19,7 @@ from tribodyn.studies.assessment.judged import judged
 from tribodyn.studies.assessment.local import bulk_of, local_of, point_angles
 from tribodyn.studies.efficiency import assess as of_losses
 from tribodyn.studies.gear_pair import assess as of_motions
-from tribodyn.studies.part import Asked, Done, Task
+from tribodyn.studies.protocol.part import Asked, Done, Task
 
 ZERO = 273.15
 
@@ -520,7 +520,7 @@ def test_of_a_part_the_first_record_is_shown(monkeypatch: pytest.MonkeyPatch):
 
     monkeypatch.setattr(page, "open_record", open_record)
     monkeypatch.setattr(page, "inline", lambda picture, about: f"<img {picture} {about}>")
-    monkeypatch.setattr("tribodyn.studies.pictures.overview", lambda record: f"of {record}")
+    monkeypatch.setattr("tribodyn.studies.pages.pictures.overview", lambda record: f"of {record}")
     monkeypatch.setattr("tribodyn.post.page.page.summary_tables", lambda records, lines: f"{records} {lines}")
     study: Any = SimpleNamespace(lines=lambda: "lines")
     done = [Done(Path("rows"), rows={}), Done(Path("first"), {"a": 1}), Done(Path("second"), {"a": 2})]

@@ -21,7 +21,7 @@ from tribodyn.studies.assessment.local import local_of, point_angles
 from tribodyn.studies.assessment.parts import asked_of
 from tribodyn.studies.assessment.standard import path_of
 from tribodyn.studies.gear_pair.assess import maxima
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 KIND = "assessment"
 ISO = {"theta_M", "mu_m", "h_Y", "lambda_GF", "c_prime", "c_gamma_alpha", "K_v", "K_Halpha", "H_v", "loss"}

@@ -13,7 +13,7 @@ from tests.support.short_studies import written_template
 from tribodyn.standards import integral_temperature
 from tribodyn.studies.assessment.run import prepare
 from tribodyn.studies.assessment.standard import Standard, iso_part, standard_of
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 TEETH, SHIFT, MODULE, WIDTH, CENTRE = (25, 60), (0.2, 0.1), 3.0, 40.0, 129.0
 ANGLE = math.radians(20.0)

@@ -10,9 +10,9 @@ from tribodyn.cli.app import app
 from tribodyn.errors import InputError
 from tribodyn.record.reader import open_record
 from tribodyn.studies.backlash_oscillator.linear import linear_amplitude, linear_figures
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.pictures import figure, names
-from tribodyn.studies.run import run
+from tribodyn.studies.pages.pictures import figure, names
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run
 
 NAME = "backlash-oscillator"
 COARSE = {"frequency.step": 0.02}

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tribodyn.errors import SimulationError
-from tribodyn.solve.branch_end import BranchEnd
+from tribodyn.solve.branch.end import BranchEnd
 from tribodyn.studies.backlash_oscillator import response as responding
 from tribodyn.studies.backlash_oscillator import run as running
 from tribodyn.studies.backlash_oscillator import unstable

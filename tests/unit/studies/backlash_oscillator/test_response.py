@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tribodyn.solve import orbit
-from tribodyn.solve.branch_end import FOLD, KINDS, BranchEnd
-from tribodyn.solve.unstable_branch import UnstableBranch
+from tribodyn.solve.branch.end import FOLD, KINDS, BranchEnd
+from tribodyn.solve.branch.unstable import UnstableBranch
+from tribodyn.solve.orbit import result as orbit
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.estimate import estimate
 from tribodyn.studies.backlash_oscillator.motion import OscillatorMap

@@ -5,9 +5,9 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from tribodyn.record.reader import open_record
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.pictures import figure
-from tribodyn.studies.run import run
+from tribodyn.studies.pages.pictures import figure
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run
 
 NAME = "backlash-oscillator"
 ABOUT_THE_FOLDS = {"frequency": [0.65, 0.75, 0.9]}

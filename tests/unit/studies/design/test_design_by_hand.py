@@ -13,12 +13,19 @@ import pytest
 from scipy.special import ndtr
 
 from tribodyn.errors import InputError
-from tribodyn.studies.design import evaluation as evaluating
 from tribodyn.studies.design import methods
-from tribodyn.studies.design.archive import Archive, Evaluation, SpentError
-from tribodyn.studies.design.candidates import chosen, number_of, samples_of, share_of, start_of, value_at
+from tribodyn.studies.design.candidates import evaluation as evaluating
+from tribodyn.studies.design.candidates.archive import Archive, Evaluation, SpentError
+from tribodyn.studies.design.candidates.candidates import (
+    chosen,
+    number_of,
+    samples_of,
+    share_of,
+    start_of,
+    value_at,
+)
+from tribodyn.studies.design.candidates.worth import Judge, Judged
 from tribodyn.studies.design.case import Constraint, DesignCase, Duty, Free, Objective, Robust, Tolerance
-from tribodyn.studies.design.judged import Judge, Judged
 from tribodyn.studies.design.layout import LOWER, UPPER
 from tribodyn.studies.design.methods import front as fronts
 from tribodyn.studies.design.methods import population

@@ -7,13 +7,13 @@ import pytest
 
 import tribodyn as td
 from tribodyn.studies import study_of
-from tribodyn.studies.design.candidates import share_of
-from tribodyn.studies.design.converged import converged
+from tribodyn.studies.design.candidates.candidates import share_of
+from tribodyn.studies.design.candidates.converged import converged
+from tribodyn.studies.design.candidates.levels import Levels
 from tribodyn.studies.design.estimate import estimate
-from tribodyn.studies.design.levels import Levels
 from tribodyn.studies.design.outcome import headline
 from tribodyn.studies.design.short_form import loaded_search
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 RELIEF = {
     f"drive.{side}.modification.{name}": bounds

@@ -12,27 +12,14 @@ import numpy as np
 import pytest
 
 from tribodyn.errors import InputError, SimulationError
-from tribodyn.studies.design import archive as archiving
 from tribodyn.studies.design import run as running
-from tribodyn.studies.design import slopes as differentiating
-from tribodyn.studies.design.archive import Archive, Evaluation
-from tribodyn.studies.design.case import DRAWN, START, Constraint, DesignCase, Free, Objective, Tolerance
-from tribodyn.studies.design.deviations import deviating
-from tribodyn.studies.design.judged import Judge, Judged
-from tribodyn.studies.design.layout import LOWER, START_FIGURES, UPPER
-from tribodyn.studies.design.left import NOTHING_LEFT, Left, left_in
-from tribodyn.studies.design.methods import front as fronts
-from tribodyn.studies.design.methods.front import nsga2
-from tribodyn.studies.design.methods.local import slopes_of
-from tribodyn.studies.design.methods.population import cma_es
-from tribodyn.studies.design.methods.views import Scalar
-from tribodyn.studies.design.naming import apart, flat, naming_key
-from tribodyn.studies.design.outcome import HEAD, check_targets, chosen_best
-from tribodyn.studies.design.parts import _constraint, _contradictions, _number, _objectives, _varied
-from tribodyn.studies.design.pool import Pool
-from tribodyn.studies.design.short_form import loaded_search
-from tribodyn.studies.design.slopes import Derivatives, _over_samples
-from tribodyn.studies.design.sources import (
+from tribodyn.studies.design.candidates import archive as archiving
+from tribodyn.studies.design.candidates import slopes as differentiating
+from tribodyn.studies.design.candidates.archive import Archive, Evaluation
+from tribodyn.studies.design.candidates.deviations import deviating
+from tribodyn.studies.design.candidates.pool import Pool
+from tribodyn.studies.design.candidates.slopes import Derivatives, _over_samples
+from tribodyn.studies.design.candidates.sources import (
     in_unit,
     own,
     require_key,
@@ -42,6 +29,19 @@ from tribodyn.studies.design.sources import (
     units_by_figure,
     unknown_part,
 )
+from tribodyn.studies.design.candidates.unfinished import NOTHING_LEFT, Left, left_in
+from tribodyn.studies.design.candidates.worth import Judge, Judged
+from tribodyn.studies.design.case import DRAWN, START, Constraint, DesignCase, Free, Objective, Tolerance
+from tribodyn.studies.design.layout import LOWER, START_FIGURES, UPPER
+from tribodyn.studies.design.methods import front as fronts
+from tribodyn.studies.design.methods.front import nsga2
+from tribodyn.studies.design.methods.local import slopes_of
+from tribodyn.studies.design.methods.population import cma_es
+from tribodyn.studies.design.methods.views import Scalar
+from tribodyn.studies.design.naming import apart, flat, naming_key
+from tribodyn.studies.design.outcome import HEAD, check_targets, chosen_best
+from tribodyn.studies.design.parts import _constraint, _contradictions, _number, _objectives, _varied
+from tribodyn.studies.design.short_form import loaded_search
 
 KEYS = ("drive.pinion.profile_shift", "drive.gear.profile_shift")
 F, G = "peak_to_peak", "contact_ratio"
@@ -515,7 +515,7 @@ def test_a_pool_of_one_has_all_cores(monkeypatch: pytest.MonkeyPatch, workers: i
     pool = Pool.__new__(Pool)
     pool.scenarios, pool.workers = {"": {"kind": "load-contact"}}, workers
     pool._own = SimpleNamespace(process=None)  # pyright: ignore[reportAttributeAccessIssue]
-    monkeypatch.setattr("tribodyn.studies.design.pool.evaluate", lambda *given: given)
+    monkeypatch.setattr("tribodyn.studies.design.candidates.pool.evaluate", lambda *given: given)
     assert pool._evaluate([{"a": 1}]) == (pool.scenarios, [{"a": 1}], threads)
 
 

@@ -6,9 +6,16 @@ import numpy as np
 import pytest
 
 from tribodyn.errors import InputError
-from tribodyn.studies.design.candidates import cases_of, chosen, number_of, share_of, start_of, value_at
+from tribodyn.studies.design.candidates.candidates import (
+    cases_of,
+    chosen,
+    number_of,
+    share_of,
+    start_of,
+    value_at,
+)
 from tribodyn.studies.design.short_form import free_of, loaded_search
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 RELIEF = "drive.pinion.modification.tip_relief"
 FREE = {"key": RELIEF, "from": "0 um", "to": "40 um"}

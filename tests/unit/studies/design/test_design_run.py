@@ -11,11 +11,11 @@ import pytest
 import tribodyn as td
 from tribodyn.errors import InputError
 from tribodyn.record.reader import open_record
-from tribodyn.studies.design import archive, pool
+from tribodyn.studies.design.candidates import archive, pool
 from tribodyn.studies.design.report import sentences
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.pages import report
-from tribodyn.studies.run import run
+from tribodyn.studies.pages.page import report
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run
 
 #: A case of it takes milliseconds.
 BASE = {
@@ -79,7 +79,7 @@ def test_an_interrupted_search_keeps_its_best_and_goes_on(tmp_path: Path, monkey
             return super().ask_all(several)
 
     with monkeypatch.context() as patch:
-        patch.setattr("tribodyn.studies.design.levels.Archive", Interrupted)
+        patch.setattr("tribodyn.studies.design.candidates.levels.Archive", Interrupted)
         with pytest.raises(KeyboardInterrupt) as stopped:
             search(tmp_path / "stopped.h5")
     assert any("the best so far" in note for note in stopped.value.__notes__)

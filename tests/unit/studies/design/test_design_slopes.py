@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from tribodyn.errors import InputError
-from tribodyn.studies.design.candidates import cases_of, chosen
-from tribodyn.studies.design.evaluation import evaluate
-from tribodyn.studies.design.judged import Judge
+from tribodyn.studies.design.candidates.candidates import cases_of, chosen
+from tribodyn.studies.design.candidates.evaluation import evaluate
+from tribodyn.studies.design.candidates.slopes import Derivatives, margin_slope, objective_slope
+from tribodyn.studies.design.candidates.worth import Judge
 from tribodyn.studies.design.short_form import loaded_search
-from tribodyn.studies.design.slopes import Derivatives, margin_slope, objective_slope
 
 F, G = "efficiency", "contact_ratio"
 FREE = [{"key": f"drive.{side}.profile_shift", "from": -1.0, "to": 1.0} for side in ("pinion", "gear")]

@@ -8,8 +8,8 @@ import pytest
 
 import tribodyn as td
 from tribodyn.errors import InputError
-from tribodyn.studies.design.candidates import cases_of, chosen
-from tribodyn.studies.design.evaluation import evaluate
+from tribodyn.studies.design.candidates.candidates import cases_of, chosen
+from tribodyn.studies.design.candidates.evaluation import evaluate
 from tribodyn.studies.design.short_form import loaded_search, parts_of
 
 RELIEF = "drive.pinion.modification.tip_relief"

@@ -17,8 +17,8 @@ from tribodyn.studies.efficiency.places import SHARINGS, places
 from tribodyn.studies.efficiency.run import Prepared, efficiencies
 from tribodyn.studies.efficiency.run import prepare as prepare_study
 from tribodyn.studies.efficiency.torque_ratio import cycloid_contact, path_contact, torque_ratio
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.run import run
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run
 
 DRIVES = ("efficiency-crc-23-47", "efficiency-involute-18-36", "efficiency-cycloidal-23-47")
 

@@ -1,5 +1,5 @@
 from tribodyn.studies.efficiency.assess import tasks
-from tribodyn.studies.part import Asked
+from tribodyn.studies.protocol.part import Asked
 
 
 def test_an_assessment_needs_the_first_law_only():

@@ -30,7 +30,7 @@ from tribodyn.studies.efficiency.run import (
     spectrum_figures,
 )
 from tribodyn.studies.efficiency.sampled import samples
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 NAME = "efficiency-involute-18-36"
 SHORT = {"output.samples_per_cycle": 23}

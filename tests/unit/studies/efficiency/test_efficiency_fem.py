@@ -5,14 +5,14 @@ import pytest
 
 from tests.support.closures import of_case
 from tribodyn.errors import InputError
-from tribodyn.geometry.modification import UNMODIFIED
+from tribodyn.geometry.flanks.modification import UNMODIFIED
 from tribodyn.record.reader import open_record
 from tribodyn.studies.efficiency.along_path import cycle_efficiency, engage
 from tribodyn.studies.efficiency.load_contact import load_contact
 from tribodyn.studies.efficiency.places import places
 from tribodyn.studies.efficiency.run import efficiencies, prepare
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.run import run
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run
 
 INVOLUTE = "efficiency-involute-18-36"
 FEM = {"mesh.compliance": "fem"}

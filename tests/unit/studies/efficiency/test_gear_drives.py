@@ -11,8 +11,8 @@ from tribodyn.studies.efficiency.along_path import cycle_efficiency, engage
 from tribodyn.studies.efficiency.places import SHARINGS, places
 from tribodyn.studies.efficiency.run import efficiencies, figures, prepare
 from tribodyn.studies.efficiency.torque_ratio import involute_contact, torque_ratio
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.run import run
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run
 
 TEETH, RADIUS, RATIO, ANGLE = 27.0, 27e-3, 2.0, np.radians(20.0)
 DRIVES = ("efficiency-crc-23-47", "efficiency-cycloidal-23-47")

@@ -4,8 +4,14 @@ import numpy as np
 import pytest
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.corner_contact import pair_geometry
-from tribodyn.geometry.modification import UNMODIFIED, FlankModification, Misalignment, Modifications, Relief
+from tribodyn.geometry.flanks.corner_contact import pair_geometry
+from tribodyn.geometry.flanks.modification import (
+    UNMODIFIED,
+    FlankModification,
+    Misalignment,
+    Modifications,
+    Relief,
+)
 from tribodyn.studies.efficiency.load_contact import load_contact
 from tribodyn.validation.diez_ibarbia_study import drive, elastic
 

@@ -15,7 +15,7 @@ from tribodyn.geometry.path import kinematics
 from tribodyn.studies.ehl import along_path, judged, loads, run, squeezed
 from tribodyn.studies.ehl.along_path import Prepared, Way, friction_along, over_places, prepare, way
 from tribodyn.studies.ehl.case import EhlCase
-from tribodyn.studies.load import load
+from tribodyn.studies.protocol.load import load
 from tribodyn.tribology.ehl.problem import LineContact
 
 POSITIONS = 6

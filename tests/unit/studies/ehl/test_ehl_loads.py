@@ -10,7 +10,7 @@ from tribodyn.record.reader import open_record
 from tribodyn.studies.ehl.along_path import contact_for, prepare, seen_by, solved_at, way
 from tribodyn.studies.ehl.loads import loads_of_record
 from tribodyn.studies.ehl.squeezed import kept, squeezed
-from tribodyn.studies.load import load
+from tribodyn.studies.protocol.load import load
 
 RECORDS = Path(__file__).parents[3] / "fixtures" / "records-0.1.0"
 

@@ -14,7 +14,7 @@ from tribodyn.studies.ehl import along_path
 from tribodyn.studies.ehl.along_path import jump_width, prepare, way
 from tribodyn.studies.ehl.figures import DRAWINGS
 from tribodyn.studies.ehl.judged import case_for
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 
 @pytest.fixture(scope="module")

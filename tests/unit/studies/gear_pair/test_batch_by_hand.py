@@ -10,11 +10,8 @@ import pytest
 from tribodyn.dynamics.parameters import LAG, STATES, WORKS, XI, XI_RATE
 from tribodyn.errors import InputError
 from tribodyn.record.sweep_schema import DONE, FAILED
-from tribodyn.solve.branch_end import BranchEnd
+from tribodyn.solve.branch.end import BranchEnd
 from tribodyn.solve.integrator import Status
-from tribodyn.studies import ends, unstable
-from tribodyn.studies.batch import Chunk, Way, batched
-from tribodyn.studies.between import NothingBetween
 from tribodyn.studies.gear_pair.batch import BATCH, figures, marched, steady, ways
 from tribodyn.studies.gear_pair.batch import unstable as beyond
 from tribodyn.studies.gear_pair.batch.evaluate import Settings
@@ -22,6 +19,9 @@ from tribodyn.studies.gear_pair.batch.marched import marched as march_all
 from tribodyn.studies.gear_pair.batch.outcome import Outcome, Passage
 from tribodyn.studies.gear_pair.batch.steady import steady as steady_all
 from tribodyn.studies.gear_pair.sweep_layout import layout_of
+from tribodyn.studies.sweeping import ends, unstable
+from tribodyn.studies.sweeping.batch import Chunk, Way, batched
+from tribodyn.studies.sweeping.between import NothingBetween
 
 evaluating = import_module("tribodyn.studies.gear_pair.batch.evaluate")
 SETTINGS = Settings(steady=True, cycles=30, window=4, points=5, samples=3, modes=6)

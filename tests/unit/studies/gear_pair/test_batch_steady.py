@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tribodyn.dynamics.parameters import STATES
-from tribodyn.solve.periodic import Steady
+from tribodyn.solve.orbit.periodic import Steady
 from tribodyn.studies.gear_pair.batch.outcome import UNKNOWN, Outcome
 from tribodyn.studies.gear_pair.batch.steady import _described, _periodic
 

@@ -6,8 +6,8 @@ import pytest
 from tribodyn.dynamics.parameters import STATES, WORK_DAMPING, WORK_FRICTION, WORK_IN
 from tribodyn.record.reader import Record
 from tribodyn.studies.gear_pair.summary import energy_residual
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.run import run
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run
 
 DRIVEN = {
     "operating.source": "torque",

@@ -5,8 +5,8 @@ import pytest
 
 from tribodyn.dynamics.parameters import STATES, WORK_FRICTION, WORK_SLIDING
 from tribodyn.studies.gear_pair.summary import friction_work_on_vibration, warning_of
-from tribodyn.studies.load import load_scenario
-from tribodyn.studies.run import run
+from tribodyn.studies.protocol.load import load_scenario
+from tribodyn.studies.protocol.run import run
 
 BEARINGS = [f"bearings.{gear}.stiffness_{axis}" for gear in ("pinion", "gear") for axis in "xy"]
 SOFT = {key: "3e6 N/m" for key in BEARINGS}

@@ -8,7 +8,7 @@ import pytest
 from tribodyn.dynamics.parameters import frictionless
 from tribodyn.solve.initial import initial_state, static_equilibrium
 from tribodyn.studies.gear_pair.batch import GearPairs
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 evaluate = importlib.import_module("tribodyn.studies.gear_pair.batch.evaluate")
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tribodyn.studies.gear_pair.prepare import prepare, table_key, tables
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 
 #: Overrides that leave the table alone, and overrides that do not.
 OUTSIDE = {

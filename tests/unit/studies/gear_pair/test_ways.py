@@ -2,9 +2,9 @@
 
 import pytest
 
-from tribodyn.studies.batch import Way
 from tribodyn.studies.gear_pair.batch.evaluate import tabulated
 from tribodyn.studies.gear_pair.batch.ways import prepared_between
+from tribodyn.studies.sweeping.batch import Way
 
 
 @pytest.mark.parametrize("speed", [400.0, 500.0, 650.0])

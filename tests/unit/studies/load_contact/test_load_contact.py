@@ -3,18 +3,18 @@
 import numpy as np
 import pytest
 
-from tribodyn.compliance.load_sharing import (
+from tribodyn.compliance.sharing.load_sharing import (
     contact_deflection,
     effective_contact_ratio,
     extended_rolls,
     flexibility,
     share_load,
 )
-from tribodyn.compliance.slices import pair_harmonics
+from tribodyn.compliance.sharing.slices import pair_harmonics
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.corner_contact import pair_geometry, roll_at_gap
 from tribodyn.geometry.drive import Drive, GearBody
 from tribodyn.geometry.families.involute import FAMILY
+from tribodyn.geometry.flanks.corner_contact import pair_geometry, roll_at_gap
 from tribodyn.geometry.material import MaterialData
 
 STEEL = MaterialData("steel", 207e9, 0.3, 7850.0, 45.0, 460.0, 6.5e9)

@@ -19,7 +19,7 @@ from tribodyn.studies.load_contact.rolled import (
     over_roll,
     pair_over_phase,
 )
-from tribodyn.studies.pictures import figure, names
+from tribodyn.studies.pages.pictures import figure, names
 
 
 @pytest.fixture(scope="module")

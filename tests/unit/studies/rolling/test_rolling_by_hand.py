@@ -13,7 +13,7 @@ from matplotlib.patches import Circle
 
 from tribodyn.errors import InputError
 from tribodyn.record.reader import open_record
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.rolling import engagement, gear_picture, run
 from tribodyn.studies.rolling.case import RollingCase
 from tribodyn.studies.rolling.checks import element_radius_limits

@@ -6,12 +6,12 @@ import pytest
 from tests.support.line_contacts import REFERENCES
 from tribodyn.errors import InputError
 from tribodyn.tribology.ehl.asperities import Roughness
-from tribodyn.tribology.ehl.coupled import friction_of, solve_coupled
-from tribodyn.tribology.ehl.fluid import log_viscosity
-from tribodyn.tribology.ehl.heat import Thermal
-from tribodyn.tribology.ehl.rheology import Rheology
+from tribodyn.tribology.ehl.fluid.coupled import friction_of, solve_coupled
+from tribodyn.tribology.ehl.fluid.fluid import log_viscosity
+from tribodyn.tribology.ehl.fluid.heat import Thermal
+from tribodyn.tribology.ehl.fluid.rheology import Rheology
+from tribodyn.tribology.ehl.fluid.traction import shear_force
 from tribodyn.tribology.ehl.steady import solve_steady
-from tribodyn.tribology.ehl.traction import shear_force
 
 PROBLEM = REFERENCES[1][0]
 OIL = Thermal(0.035)

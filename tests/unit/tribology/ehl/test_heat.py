@@ -10,7 +10,7 @@ from scipy.linalg import lu_solve
 from scipy.special import k0
 
 from tribodyn.errors import InputError
-from tribodyn.tribology.ehl.heat import (
+from tribodyn.tribology.ehl.fluid.heat import (
     Thermal,
     _conductances,
     _coupling,
@@ -19,7 +19,7 @@ from tribodyn.tribology.ehl.heat import (
     moving_source,
     surfaces_under,
 )
-from tribodyn.tribology.ehl.shear import LAYERS
+from tribodyn.tribology.ehl.fluid.shear import LAYERS
 
 CONDUCTIVITY, CAPACITY = 46.0, 3.6e6
 

@@ -7,7 +7,7 @@ import pytest
 from tests.support.line_contacts import MODULUS, by_moes
 from tribodyn.errors import InputError
 from tribodyn.tribology.ehl.asperities import Roughness
-from tribodyn.tribology.ehl.fluid import Fluid, roelands_index
+from tribodyn.tribology.ehl.fluid.fluid import Fluid, roelands_index
 from tribodyn.tribology.ehl.problem import LineContact, check
 
 FLUID = Fluid(0.04, 22e-9, 0.6)

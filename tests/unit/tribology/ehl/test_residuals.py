@@ -10,7 +10,7 @@ import pytest
 
 from tribodyn.tribology.ehl import reynolds, rough
 from tribodyn.tribology.ehl.asperities import Roughness
-from tribodyn.tribology.ehl.fluid import Fluid
+from tribodyn.tribology.ehl.fluid.fluid import Fluid
 from tribodyn.tribology.ehl.grid import made
 from tribodyn.tribology.ehl.squeeze import Squeeze
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from tribodyn.errors import InputError
-from tribodyn.tribology.ehl.rheology import Rheology, check, newtonian_stress, stress_scale, thinned
-from tribodyn.tribology.ehl.shear import LAYERS, sheared
+from tribodyn.tribology.ehl.fluid.rheology import Rheology, check, newtonian_stress, stress_scale, thinned
+from tribodyn.tribology.ehl.fluid.shear import LAYERS, sheared
 
 LAWS = ("newtonian", "eyring", "limiting", "carreau")
 

@@ -10,18 +10,18 @@ import pytest
 from scipy.integrate import quad
 
 from tests.support.line_contacts import MODULUS, REFERENCES
-from tribodyn.tribology.ehl import fluid as fluids
 from tribodyn.tribology.ehl.asperities import Roughness
-from tribodyn.tribology.ehl.coupled import solve_coupled
-from tribodyn.tribology.ehl.fluid import Fluid
+from tribodyn.tribology.ehl.fluid import fluid as fluids
+from tribodyn.tribology.ehl.fluid.coupled import solve_coupled
+from tribodyn.tribology.ehl.fluid.fluid import Fluid
+from tribodyn.tribology.ehl.fluid.heat import Thermal
+from tribodyn.tribology.ehl.fluid.rheology import Rheology
+from tribodyn.tribology.ehl.fluid.traction import rolling_traction
 from tribodyn.tribology.ehl.grid import film_width, made, placed
-from tribodyn.tribology.ehl.heat import Thermal
 from tribodyn.tribology.ehl.problem import LineContact
-from tribodyn.tribology.ehl.rheology import Rheology
 from tribodyn.tribology.ehl.squeeze import Held, cells, faces, mesh_speed, squeeze_of, stored
 from tribodyn.tribology.ehl.start import _reduced_pressure, first_state, survey_film
 from tribodyn.tribology.ehl.steady import _parabola, reduced_problem, solve_steady
-from tribodyn.tribology.ehl.traction import rolling_traction
 
 LENGTH, FORCE, TIME, KELVIN = 1.7, 0.6, 2.3, 1.9
 PRESSURE = FORCE / LENGTH**2

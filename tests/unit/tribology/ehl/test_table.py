@@ -11,16 +11,16 @@ from tests.support.closures import LIU_NI, under
 from tests.support.right_hand_sides import assert_right_hand_sides_agree, at_several_conditions
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.studies.gear_pair.prepare import prepare
-from tribodyn.studies.load import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.tribology.closure import closure, duty_range, with_laws
 from tribodyn.tribology.contact import local_contact
 from tribodyn.tribology.duty_range import DutyRange
-from tribodyn.tribology.ehl import table as tables
-from tribodyn.tribology.ehl import table_points as points
-from tribodyn.tribology.ehl.coupled import solve_coupled
+from tribodyn.tribology.ehl.fluid.coupled import solve_coupled
 from tribodyn.tribology.ehl.problem import LineContact
-from tribodyn.tribology.ehl.table_lookup import TERMS, mixed_friction, polynomial
-from tribodyn.tribology.ehl.table_lookup import held as held_at
+from tribodyn.tribology.ehl.table import points
+from tribodyn.tribology.ehl.table import table as tables
+from tribodyn.tribology.ehl.table.lookup import TERMS, mixed_friction, polynomial
+from tribodyn.tribology.ehl.table.lookup import held as held_at
 from tribodyn.tribology.film import film_law
 from tribodyn.tribology.film.solved import solved_film
 from tribodyn.tribology.friction import friction_law

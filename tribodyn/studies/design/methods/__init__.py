@@ -6,7 +6,7 @@ from importlib.util import find_spec
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.studies.design.archive import Archive
+from tribodyn.studies.design.candidates.archive import Archive
 from tribodyn.studies.design.case import DesignCase
 from tribodyn.studies.design.methods.every import count_of_all, every
 from tribodyn.studies.design.methods.front import epsilon_constraint, nsga2

@@ -5,7 +5,7 @@ from itertools import product
 
 import numpy as np
 
-from tribodyn.studies.design.archive import Archive
+from tribodyn.studies.design.candidates.archive import Archive
 from tribodyn.studies.design.case import DesignCase, Free
 
 

@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.studies.design.archive import Archive, Evaluation
-from tribodyn.studies.design.candidates import share_of
+from tribodyn.studies.design.candidates.archive import Archive, Evaluation
+from tribodyn.studies.design.candidates.candidates import share_of
 from tribodyn.studies.design.methods.local import ended_when_spent, first_look, in_turn, minimise
 from tribodyn.studies.design.methods.population import PER_KEY
 from tribodyn.studies.design.methods.views import Scalar

@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 
 from tribodyn.errors import InputError
-from tribodyn.studies.design.archive import Archive, SpentError
-from tribodyn.studies.design.candidates import chosen, share_of
+from tribodyn.studies.design.candidates.archive import Archive, SpentError
+from tribodyn.studies.design.candidates.candidates import chosen, share_of
+from tribodyn.studies.design.candidates.slopes import Derivatives, margin_slope, objective_slope
 from tribodyn.studies.design.case import DesignCase
 from tribodyn.studies.design.methods.views import Scalar
-from tribodyn.studies.design.slopes import Derivatives, margin_slope, objective_slope
 
 #: Share of the evaluations that go into the first look, and how many of them a free key is worth at most.
 FIRST_LOOK, LOOK_PER_KEY = 0.3, 10

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tribodyn.studies.design.archive import Archive
+from tribodyn.studies.design.candidates.archive import Archive
 from tribodyn.studies.design.methods.local import ended_when_spent, sobol
 from tribodyn.studies.design.methods.views import Scalar
 

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from tribodyn.studies.design.archive import Archive
-from tribodyn.studies.design.judged import HELD, NO_FIGURES, Judged
+from tribodyn.studies.design.candidates.archive import Archive
+from tribodyn.studies.design.candidates.worth import HELD, NO_FIGURES, Judged
 
 #: Stands for the objective of a candidate without figures, over that of the start.
 POOR = 1.5

@@ -9,15 +9,15 @@ from tribodyn.dynamics.parameters import STATES
 from tribodyn.errors import InputError
 from tribodyn.record.sweep_schema import SweepLayout
 from tribodyn.solve.methods import Runs, runs
-from tribodyn.solve.periodic import refuse_time_dependent
-from tribodyn.solve.recurrence import MAX_PERIOD
-from tribodyn.studies.batch import Batch, Chunk
-from tribodyn.studies.estimate import Estimate
+from tribodyn.solve.orbit.periodic import refuse_time_dependent
+from tribodyn.solve.orbit.recurrence import MAX_PERIOD
 from tribodyn.studies.gear_pair.batch.evaluate import Settings, evaluate, tabulated
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.estimate import STEADY_CYCLES, swept
 from tribodyn.studies.gear_pair.prepare import prepare, table_key
 from tribodyn.studies.gear_pair.sweep_layout import layout_of, row_bytes
+from tribodyn.studies.protocol.estimate import Estimate
+from tribodyn.studies.sweeping.batch import Batch, Chunk
 
 #: Mesh cycles that the search for a steady state may take, that its window has (whole periods), and points of
 #: the section of a motion that has no period.
@@ -32,7 +32,7 @@ CHUNKS, MINIMUM_IN_CHUNK = 16, 32
 
 
 class GearPairs:
-    """See `studies.batch.Batch`."""
+    """See `sweeping.batch.Batch`."""
 
     states = STATES
 

@@ -19,8 +19,6 @@ from tribodyn.record.sweep_schema import DONE, FAILED
 from tribodyn.record.trust import TRUST, number
 from tribodyn.record.withheld import remarked, remarks, warned
 from tribodyn.solve.initial import initial_state, static_equilibrium
-from tribodyn.studies.batch import Chunk, Way
-from tribodyn.studies.ends import fill_ends
 from tribodyn.studies.gear_pair.batch.figures import window_figures
 from tribodyn.studies.gear_pair.batch.marched import marched
 from tribodyn.studies.gear_pair.batch.outcome import Outcome
@@ -30,8 +28,10 @@ from tribodyn.studies.gear_pair.prepare import Prepared, Tabulated, prepare, tab
 from tribodyn.studies.gear_pair.settled import MOST, at_own_temperature
 from tribodyn.studies.gear_pair.summary import warning_of
 from tribodyn.studies.gear_pair.sweep_layout import layout_of
-from tribodyn.studies.rounded import remarks_in_brief
-from tribodyn.studies.unstable import MOTIONS
+from tribodyn.studies.gears.rounded import remarks_in_brief
+from tribodyn.studies.sweeping.batch import Chunk, Way
+from tribodyn.studies.sweeping.ends import fill_ends
+from tribodyn.studies.sweeping.unstable import MOTIONS
 
 #: Tables kept in a process; a table is about 100 kB.
 TABLES_KEPT = 32
@@ -178,7 +178,7 @@ def _solve(
             common["legs"] = legs_of(cases, ways)
             common["model_at"] = lambda line, value: prepared_at(line, value).model
         if settings.unstable:
-            from tribodyn.solve.followed import Unstable
+            from tribodyn.solve.branch.followed import Unstable
 
             # all ways of a chunk are along the same values
             span = next((way.span for way in ways if way is not None), (0.0, 0.0))

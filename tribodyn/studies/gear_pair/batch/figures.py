@@ -13,7 +13,7 @@ from tribodyn.studies.gear_pair.batch.outcome import Passage
 from tribodyn.studies.gear_pair.prepare import Prepared
 from tribodyn.studies.gear_pair.summary import RunningExtremes, steady_figures
 from tribodyn.studies.gear_pair.sweep_layout import FIGURES
-from tribodyn.studies.temperature import thermal_figures
+from tribodyn.studies.gears.temperature import thermal_figures
 
 
 def window_figures(

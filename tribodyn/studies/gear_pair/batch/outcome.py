@@ -6,12 +6,12 @@ import numpy as np
 
 from tribodyn.dynamics.extremes import Extremes
 from tribodyn.dynamics.parameters import LAG, WORKS
-from tribodyn.solve.branch_end import BranchEnd
+from tribodyn.solve.branch.end import BranchEnd
 from tribodyn.solve.integrator import REASONS, Status
 from tribodyn.studies.gear_pair.sweep_layout import UNKNOWN
 
 if TYPE_CHECKING:
-    from tribodyn.solve.followed import Continued
+    from tribodyn.solve.branch.followed import Continued
 
 
 class Passage(NamedTuple):

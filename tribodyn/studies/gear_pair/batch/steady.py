@@ -7,10 +7,10 @@ import numpy as np
 
 from tribodyn.dynamics.parameters import Model
 from tribodyn.errors import InputError
-from tribodyn.solve.continuation import Leg
-from tribodyn.solve.followed import Followed, ModelAt, Unstable, followed_states
-from tribodyn.solve.orbit import FAILED
-from tribodyn.solve.periodic import WANDERING, Steady, refuse_time_dependent, steady_states
+from tribodyn.solve.branch.continuation import Leg
+from tribodyn.solve.branch.followed import Followed, ModelAt, Unstable, followed_states
+from tribodyn.solve.orbit.periodic import WANDERING, Steady, refuse_time_dependent, steady_states
+from tribodyn.solve.orbit.result import FAILED
 from tribodyn.studies.gear_pair.batch.marched import marched
 from tribodyn.studies.gear_pair.batch.outcome import Outcome, Passage, continued, failed
 from tribodyn.studies.gear_pair.sweep_layout import UNKNOWN

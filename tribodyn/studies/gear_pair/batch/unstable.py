@@ -5,12 +5,12 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from tribodyn.dynamics.parameters import XI
-from tribodyn.solve.followed import Continued
+from tribodyn.solve.branch.followed import Continued
 from tribodyn.studies.gear_pair.batch.figures import window_figures
 from tribodyn.studies.gear_pair.batch.outcome import Passage
 from tribodyn.studies.gear_pair.prepare import Prepared
 from tribodyn.studies.gear_pair.sweep_layout import UNSTABLE_FIGURES
-from tribodyn.studies.unstable import PREFIX, fill_branch
+from tribodyn.studies.sweeping.unstable import PREFIX, fill_branch
 
 
 def fill_unstable(

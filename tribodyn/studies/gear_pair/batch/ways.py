@@ -4,11 +4,11 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from tribodyn.solve.continuation import Leg
-from tribodyn.studies.batch import Way
-from tribodyn.studies.between import NothingBetween, case_between
+from tribodyn.solve.branch.continuation import Leg
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.prepare import Prepared, Tabulated, prepare, table_key
+from tribodyn.studies.sweeping.batch import Way
+from tribodyn.studies.sweeping.between import NothingBetween, case_between
 
 #: Parts of a way at most, where every place on it needs a table of its own.
 PARTS = 4

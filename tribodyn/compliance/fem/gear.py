@@ -1,0 +1,115 @@
+"""Finite elements of a full gear: curved quadratic quadrilaterals, by the symmetries of its ring."""
+
+from typing import Any
+
+import numpy as np
+from scipy.sparse import csr_matrix
+
+from tribodyn.compliance.fem.cyclic_symmetry import ring_response
+from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, GearCompliance, LeadHarmonics
+from tribodyn.compliance.fem.gear_model import GearModel, gear_model
+from tribodyn.compliance.fem.mesh_memory import check_level
+from tribodyn.compliance.fem.root_stress import edge_points, stress_rows
+from tribodyn.compliance.fem.strips import COMPONENTS, plane_stiffness, strip_stiffness
+from tribodyn.geometry.tooth.tooth import Tooth
+from tribodyn.numerics.shapes import Array, Float
+from tribodyn.numerics.work import steps
+
+_SECTORS = np.arange(-NEIGHBOURS, NEIGHBOURS + 1)
+
+
+def gear_compliance(
+    tooth: Tooth, teeth: int, bore_radius: float, poisson_ratio: float, depth: float, level: int
+) -> GearCompliance:
+    """Solve a gear of plain numbers in plane strain for unit loads at every vertex of a flank.
+
+    Parameters
+    ----------
+    tooth : Tooth
+        As cut.
+    teeth : int
+        Number of teeth.
+    bore_radius : float
+        Where the body is held, m.
+    poisson_ratio : float
+        ν < 0.5.
+    depth : float
+        Depth below the flank at which the loaded tooth's displacement is read, m, as it is at twice that; a
+        cell or more, so that the mesh resolves it.
+    level : int
+        Multiplies the number of cells in both directions.
+
+    Raises
+    ------
+    InputError
+        If the cells do not fit into a thin rim, or the mesh not into the memory.
+    """
+    check_level(level, 2)
+    model = gear_model(tooth, teeth, bore_radius, depth, level)
+    readers = np.concatenate([model.loads.T, model.inner])
+    mirrored = np.concatenate([np.zeros(model.loads.shape[1], dtype=bool), model.beyond])
+    stiffness = plane_stiffness(model.basis, poisson_ratio)
+    seen = ring_response(model.half, stiffness, model.loads, readers, mirrored, _SECTORS)
+    inside, between = _parted(seen)
+    return GearCompliance(np.hypot(*model.position), inside, between, depth)
+
+
+def lead_harmonics(
+    tooth: Tooth,
+    teeth: int,
+    bore_radius: float,
+    poisson_ratio: float,
+    depth: float,
+    level: int,
+    wave_number: Float[Array, " wave"],
+) -> LeadHarmonics:
+    """Solve a gear for unit loads that run like cos kz along the teeth; see `gear_compliance`.
+
+    Parameters
+    ----------
+    tooth, teeth, bore_radius, poisson_ratio, depth, level
+        As for `gear_compliance`.
+    wave_number : (K,)
+        k ≥ 0, rad/m.
+    """
+    check_level(level, COMPONENTS)
+    model = gear_model(tooth, teeth, bore_radius, depth, level)
+    constant, linear, square = strip_stiffness(model.basis, poisson_ratio)
+    solved = [
+        _harmonic(model, csr_matrix(constant + k * linear + k**2 * square), poisson_ratio, float(k))
+        for k in steps(np.asarray(wave_number).tolist())
+    ]
+    inside, between, stress = (np.stack(part) for part in zip(*solved, strict=True))
+    return LeadHarmonics(np.asarray(wave_number), inside, between, edge_points(model.root_position), stress)
+
+
+def _harmonic(
+    model: GearModel, stiffness: Any, poisson_ratio: float, k: float
+) -> tuple[
+    Float[Array, "2 radius"], Float[Array, "sector radius radius"], Float[Array, "sector 2 point radius"]
+]:
+    """Displacements inside (2, M) and between (sector, M, M), root stress (sector, 2, P, M)."""
+    loads, inner = _with_w(model.loads.T), _with_w(model.inner)
+    root = stress_rows(model.root_position, model.root, stiffness.shape[0], poisson_ratio, k)
+    readers = np.concatenate([loads, inner, root, root])
+    none = np.zeros(len(root), dtype=bool)
+    mirrored = np.concatenate([np.zeros(len(loads), dtype=bool), model.beyond, none, ~none])
+    seen = ring_response(model.half, stiffness, loads.T, readers, mirrored, _SECTORS)
+    displacements = len(loads) + len(inner)
+    inside, between = _parted(seen[:, :displacements])
+    return inside, between, seen[:, displacements:].reshape(len(_SECTORS), 2, len(root), len(loads))
+
+
+def _with_w(rows: Float[Array, "row double"]) -> Float[Array, "row triple"]:
+    """Rows over u and v as rows over u, v and w."""
+    pairs = rows.reshape(len(rows), -1, 2)
+    return np.pad(pairs, ((0, 0), (0, 0), (0, COMPONENTS - 2))).reshape(len(rows), -1)
+
+
+def _parted(
+    seen: Float[Array, "sector reader radius"],
+) -> tuple[Float[Array, "2 radius"], Float[Array, "sector radius radius"]]:
+    """Part readings (sector, M + 2 M, M) into those inside, (2, M), and between, (sector, M, M)."""
+    count = seen.shape[2]
+    own = seen[NEIGHBOURS, count:].reshape(2, count, count)
+    return np.einsum("dmm->dm", own), seen[:, :count]

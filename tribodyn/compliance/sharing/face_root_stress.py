@@ -1,0 +1,124 @@
+"""Stress at the roots of teeth whose load varies along the face, their neighbours' loads included."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, FreeEnds, at_radii
+from tribodyn.compliance.fem.lead_harmonics import at_wave_numbers
+from tribodyn.compliance.sharing.face_compliance import end_modes
+from tribodyn.compliance.sharing.pair_flexibility import PairFlexibility
+from tribodyn.compliance.sharing.slices import modes, wave_numbers
+from tribodyn.geometry.flanks.corner_contact import PairGeometry
+from tribodyn.numerics.shapes import Array, Float
+
+# Positions (of the mesh) taken at a time, to bound the memory.
+_BATCH = 64
+
+
+def root_stress(
+    flexible: PairFlexibility,
+    geometry: PairGeometry,
+    line_load: Float[Array, "position pair slice"],
+    coupled: bool = True,
+) -> tuple[Float[Array, "2 position pair slice"], Float[Array, "2 position pair slice"]]:
+    """Maximum tension and maximum compression along the root of every tooth.
+
+    Stresses along the profile, of both fillets, from the middle of one gap to the middle of the next; those
+    that the neighbours' loads make in the rim add to the tooth's own.
+
+    Parameters
+    ----------
+    flexible : PairFlexibility
+        Solved with `lead`.
+    geometry : PairGeometry
+        Of the pairs (position, pair), one pitch apart, the one that entered first in front.
+    line_load : (position, pair, slice)
+        N/m.
+    coupled : bool
+        Whether a slice's load strains the others' roots too; else each slice is in plane strain by itself.
+
+    Returns
+    -------
+    (2, position, pair, slice), (2, position, pair, slice)
+        Of pinion and gear; tension positive, compression negative, Pa.
+    """
+    positions, _, slices = line_load.shape
+    wave_number = wave_numbers(flexible.width, slices, coupled)
+    basis = modes(len(wave_number), slices)
+    amplitude, slice_load = line_load @ basis.T / slices, line_load * (flexible.width / slices)
+    tension, compression = np.empty((2, *line_load.shape)), np.empty((2, *line_load.shape))
+    reaches = geometry.pinion_radius, geometry.gear_radius
+    # on the pinion the earlier tooth stands on the loaded flank's side, on the gear on the other
+    for body, (gear, material, reach, sign) in enumerate(
+        zip(flexible.gears, flexible.materials, reaches, (1, -1), strict=True)
+    ):
+        per_load = at_wave_numbers(gear, wave_number, material.poisson_ratio).root_stress
+        place = at_radii(gear.radius, reach)
+        ends = gear.ends if len(wave_number) > 1 else None
+        weights = (
+            None if ends is None else (end_modes(ends, flexible.width, slices), at_radii(ends.radius, reach))
+        )
+        for first in range(0, positions, _BATCH):
+            rows = slice(first, first + _BATCH)
+            stress = _of_one_gear(per_load, place[rows], amplitude[rows], sign) @ basis
+            if ends is not None and weights is not None:
+                along, at_ends = weights
+                stress += _of_free_ends(ends, along, at_ends[rows], slice_load[rows], sign)
+            tension[body, rows], compression[body, rows] = np.max(stress, axis=0), np.min(stress, axis=0)
+    return tension, compression
+
+
+def _of_one_gear(
+    per_load: Float[Array, "mode sector 2 point radius"],
+    place: Float[Array, "position pair radius"],
+    amplitude: Float[Array, "position pair wave"],
+    sign: int,
+) -> Float[Array, "fillet_point position pair wave"]:
+    """Amplitudes (point, position, pair, n) of the stress, Pa, at the points of both fillets.
+
+    `per_load` (1 or n, sector, fillet, point, M) per unit line load, `place` (position, pair, M) the weights
+    of the flank's positions, `amplitude` (position, pair, n) of the line loads, N/m.
+    """
+    positions, pairs, count = amplitude.shape
+    every = np.broadcast_to(per_load, (count, *per_load.shape[1:]))
+    total = np.zeros((count, np.prod(per_load.shape[2:4]), positions, pairs))
+    for sector, read, loaded in _sectors(pairs, sign):
+        rows = every[:, sector].reshape(count, -1, per_load.shape[-1])
+        loads = place[:, loaded, :, None] * amplitude[:, loaded, None, :]
+        total[..., read] += np.einsum("npm,tjmn->nptj", rows, loads, optimize=True)
+    return total.transpose(1, 2, 3, 0)
+
+
+def _of_free_ends(
+    ends: FreeEnds,
+    along: Float[Array, "2 slice wave"],
+    place: Float[Array, "position pair radius"],
+    slice_load: Float[Array, "position pair slice"],
+    sign: int,
+) -> Float[Array, "fillet_point position pair slice"]:
+    """What free end faces add to the stress (point, position, pair, slice), Pa.
+
+    `along` as made by `end_modes`, `place` (position, pair, M) as in `_of_one_gear`.
+    """
+    positions, pairs, slices = slice_load.shape
+    waves, points = len(ends.wave_number), np.prod(ends.root_stress.shape[4:6])
+    total = np.zeros((points, positions, pairs, slices))
+    for parity in (0, 1):
+        counted = slice_load @ along[parity]
+        for sector, read, loaded in _sectors(pairs, sign):
+            rows = ends.root_stress[parity, :, :, sector].reshape(waves, waves, points, -1)
+            loads = place[:, loaded, :, None] * counted[:, loaded, None, :]
+            amplitudes = np.einsum("klpm,tjml->ptjk", rows, loads, optimize=True)
+            total[:, :, read] += amplitudes @ along[parity].T
+    return total
+
+
+def _sectors(pairs: int, sign: int) -> Iterator[tuple[int, slice, slice]]:
+    """Sector, the pairs that are read and those that load them, for all that are near enough."""
+    nearest = min(pairs - 1, NEIGHBOURS)
+    for pitches in range(-nearest, nearest + 1):
+        # the tooth that is read entered `pitches` before the loaded one
+        read = slice(max(-pitches, 0), pairs - max(pitches, 0))
+        loaded = slice(max(pitches, 0), pairs - max(-pitches, 0))
+        yield NEIGHBOURS + sign * pitches, read, loaded

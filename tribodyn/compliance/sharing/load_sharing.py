@@ -1,0 +1,264 @@
+"""Load contact model: which pairs touch, and how they share the load, from finite elements and Hertz.
+
+The pairs j that can touch have
+
+    ξ cos α_j − g_j = Σ_k λ_jk F_k + u_1(F_j) + u_2(F_j),   F_j ≥ 0,
+    Σ F_j [H_gj ± μ_j L_gj] = T_g   (− before the pitch point),
+
+with ξ = r_p θ_p − r_g θ_g, the gap g of the tips' corners outside the path of contact and of modified
+flanks, the compliances λ of both gears (own: below the surface; of neighbours: through the body) and
+Weber-Banaschek's deflection u between there and the surface (A. Diez-Ibarbia et al.; A. Fernández del Rincón
+et al., Mech. Mach. Theory 61 (2013) 30). Where gaps vary along the face, the same holds for every slice of
+every pair (`slices`).
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.compliance.fem.cache import cached_gear_compliance
+from tribodyn.compliance.local import Elastic, hertz_half_width, weber_banaschek, weber_banaschek_slope
+from tribodyn.compliance.sharing.active_set import press
+from tribodyn.compliance.sharing.face_compliance import slice_compliance
+from tribodyn.compliance.sharing.pair_flexibility import PairFlexibility
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.drive import SIDES, body_of
+from tribodyn.geometry.flanks.corner_contact import pair_geometry, part_of
+from tribodyn.geometry.pitch_point import averaged_radius, pitch_point
+from tribodyn.numerics.blas_threads import one_blas_thread
+from tribodyn.numerics.shapes import Array, Float, Int
+from tribodyn.numerics.work import steps
+
+#: Depth of the local region, in modules, and refinement of the mesh: together within 0.1 % of their limits
+#: (test_load_contact).
+DEPTH = 0.25
+LEVEL = 2
+
+# Entries of the systems solved at a time: 16 MB, and a few times that while they are solved.
+_ENTRIES = 2_000_000
+
+
+class SharedLoad(NamedTuple):
+    """State of the mesh; arrays over (position, pair, slice) unless said otherwise.
+
+    Attributes
+    ----------
+    slice_load : N, ≥ 0
+    deflection : (position,)
+        ξ = r_p θ_p − r_g θ_g, m.
+    overlap : m
+        ξ cos α − g less what the other slices' loads deflect: what a slice's own load takes up where it is
+        positive; the distance still open where negative.
+    contact_deflection : m
+        u_1 + u_2.
+    stiffness : (position,)
+        dT_g/dξ of what touches, N m/m.
+    """
+
+    slice_load: Float[Array, "position pair slice"]
+    deflection: Float[Array, " position"]
+    overlap: Float[Array, "position pair slice"]
+    contact_deflection: Float[Array, "position pair slice"]
+    stiffness: Float[Array, " position"]
+
+    @property
+    def normal_load(self) -> Float[Array, "position pair"]:
+        """Loads of the pairs (position, pair), N."""
+        return np.sum(self.slice_load, axis=-1)
+
+
+def flexibility(
+    assembly: Assembly,
+    materials: tuple[Elastic, Elastic],
+    depth: float = DEPTH,
+    level: int = LEVEL,
+    lead: bool = False,
+) -> PairFlexibility:
+    """Finite elements of both gears, from the cache where they have been solved before.
+
+    Parameters
+    ----------
+    assembly : Assembly
+        The drive put together; checked (`limits.checks`), bores > 0.
+    materials : (Elastic, Elastic)
+        Of pinion and gear.
+    depth : float
+        Of the local region, modules.
+    level : int
+        Refinement of the mesh.
+    lead : bool
+        Also for loads that vary along the teeth, with free end faces, and with root stress.
+    """
+    drive = assembly.drive
+    width = float(assembly.common_width)
+    gears = [
+        cached_gear_compliance(
+            assembly.tooth(side),
+            round(float(body_of(drive, side).teeth)),
+            float(body_of(drive, side).bore_radius),
+            material.poisson_ratio,
+            depth * float(drive.module),
+            level,
+            width if lead else None,
+        )
+        for side, material in steps(list(zip(SIDES, materials, strict=True)))
+    ]
+    return PairFlexibility(assembly, materials, width, (gears[0], gears[1]))
+
+
+def contact_deflection(
+    flexible: PairFlexibility, curvature: Float[Array, "..."], line_load: Float[Array, "..."]
+) -> tuple[Float[Array, "..."], Float[Array, "..."]]:
+    """Local deflection u_1 + u_2 (m) under line loads (N/m, ≥ 0), and its derivative, m per N/m.
+
+    Parameters
+    ----------
+    flexible : PairFlexibility
+    curvature : array
+        Relative curvature of the flanks, 1/m; broadcasts with the loads.
+    line_load : array
+    """
+    half = half_width(flexible, curvature, line_load)
+    total, slope = np.zeros_like(half), np.zeros_like(half)
+    for gear, material in zip(flexible.gears, flexible.materials, strict=True):
+        total += weber_banaschek(line_load, half, gear.depth, material)
+        slope += weber_banaschek_slope(line_load, half, gear.depth, material)
+    return total, slope
+
+
+def half_width(
+    flexible: PairFlexibility, curvature: Float[Array, "..."], line_load: Float[Array, "..."]
+) -> Float[Array, "..."]:
+    """Half width of the contact, m, under line loads (N/m); curvature as in `contact_deflection`."""
+    # Where the flanks' radii vanish, at the pitch point of a cycloid, the contact's own width sees more of
+    # them. The slope of the deflection is not quite Newton's there; the steps still settle.
+    modulus = 2.0 / sum((1.0 - m.poisson_ratio**2) / m.youngs_modulus for m in flexible.materials)
+    vanishing = pitch_point(flexible.assembly.path).length
+    radius = averaged_radius(1.0 / curvature, line_load, modulus, vanishing)
+    return hertz_half_width(line_load, 1.0 / radius, *flexible.materials)
+
+
+@one_blas_thread()
+def share_load(
+    flexible: PairFlexibility,
+    roll: Float[Array, "position pair"],
+    gear_torque: float,
+    friction_coefficient: Float[Array, "..."] | float = 0.0,
+    gap: Float[Array, "..."] | float = 0.0,
+    slices: int = 1,
+    coupled: bool = True,
+) -> SharedLoad:
+    """Share the gear's torque among the pairs that can touch, and along their faces.
+
+    Parameters
+    ----------
+    flexible : PairFlexibility
+    roll : (position, pair)
+        Pinion angles of the pairs from the pitch point, rad, one pitch apart, the pair that entered first
+        in front; enough of them on either side of the path for all that the load can make touch.
+    gear_torque : float
+        T_g > 0, N m.
+    friction_coefficient : float or (position, pair)
+        μ of the pairs; < 0 where the gear drives, for the flanks then slide the other way.
+    gap : float, (position, pair) or (position, pair, slice)
+        What is missing between the flanks beside the corners' gap, m: errors and modifications.
+    slices : int
+        Equal slices of the face.
+    coupled : bool
+        Whether slices hold each other through the teeth and bodies.
+
+    Raises
+    ------
+    SimulationError
+        If no state of contact is found.
+    """
+    geometry = pair_geometry(flexible.assembly, roll)
+    motion = geometry.motion
+    side = np.sign(motion.signed_distance)
+    lever = motion.gear_normal_arm + side * friction_coefficient * motion.gear_friction_arm
+    extra = np.asarray(gap, dtype=float)
+    extra = extra if extra.ndim == 3 else extra[..., None]
+    whole = np.broadcast_to(geometry.gap[..., None] + extra, (*roll.shape, slices))
+    parts = [
+        press_pairs(
+            flexible,
+            motion.relative_curvature[rows],
+            slice_compliance(flexible, part_of(geometry, rows), slices, coupled),
+            np.cos(motion.pressure_angle[rows]),
+            lever[rows],
+            whole[rows],
+            np.full(len(roll[rows]), float(gear_torque)),
+        )
+        for rows in in_batches(whole.shape)
+    ]
+    return SharedLoad(*(np.concatenate(field) for field in zip(*parts, strict=True)))
+
+
+def in_batches(shape: tuple[int, ...]) -> list[slice]:
+    """Part positions of arrays (position, pair, slice) so that the systems of a part bound the memory."""
+    positions, pairs, slices = shape
+    most = max(1, _ENTRIES // (pairs * slices) ** 2)
+    return [slice(first, min(positions, first + most)) for first in range(0, positions, most)]
+
+
+def press_pairs(
+    flexible: PairFlexibility,
+    curvature: Float[Array, "position pair"],
+    compliance: Float[Array, "position pair slice pair slice"],
+    arm: Float[Array, "position pair"],
+    lever: Float[Array, "position pair"],
+    gap: Float[Array, "position pair slice"],
+    torque: Float[Array, " position"],
+) -> SharedLoad:
+    """Share torques (position,) among pairs of slices; arrays (position, pair), the gap (…, slice).
+
+    `compliance` (position, pair, slice, pair, slice) as made by `face_compliance.slice_compliance`.
+    """
+    positions, pairs, slices = gap.shape
+    places = pairs * slices
+    width = flexible.width / slices
+    bent = np.repeat(curvature, slices, axis=-1)
+
+    def local(
+        chosen: Int[Array, " row"], load: Float[Array, "row place"]
+    ) -> tuple[Float[Array, "row place"], Float[Array, "row place"]]:
+        value, slope = contact_deflection(flexible, bent[chosen], load / width)
+        return value, slope / width
+
+    load, deflection, overlap, stiffness = press(
+        compliance.reshape(positions, places, places),
+        local,
+        np.repeat(arm, slices, axis=-1),
+        np.repeat(lever, slices, axis=-1),
+        gap.reshape(positions, places),
+        torque,
+    )
+    load = load.reshape(gap.shape)
+    taken, _ = contact_deflection(flexible, curvature[..., None], load / width)
+    return SharedLoad(load, deflection, overlap.reshape(gap.shape), taken, stiffness)
+
+
+def extended_rolls(
+    assembly: Assembly, limits: tuple[float, float], positions: int
+) -> Float[Array, "position pair"]:
+    """Roll angles (position, pair) over one pitch of all pairs between the limits, for `share_load`."""
+    pitch = assembly.pitch_angle
+    count = int(np.ceil((limits[1] - limits[0]) / pitch))
+    phase = (np.arange(positions) + 0.5) / positions
+    return limits[0] + pitch * (phase[:, None] + np.arange(count - 1, -1, -1))
+
+
+def effective_contact_ratio(roll: Float[Array, "position pair"], shared: SharedLoad, pitch: float) -> float:
+    """Pinion angle over which one pair carries load, over the pitch.
+
+    `roll` (position, pair) covers one pair's whole history once, as made by `extended_rolls`. Both ends are
+    where the overlap passes zero, interpolated.
+    """
+    order: Any = np.argsort(roll, axis=None)
+    angle, overlap = roll.ravel()[order], np.max(shared.overlap, axis=-1).ravel()[order]
+    inside = np.flatnonzero(overlap > 0.0)
+    ends = []
+    for here, there in ((inside[0], inside[0] - 1), (inside[-1], inside[-1] + 1)):
+        share = overlap[here] / (overlap[here] - overlap[there])
+        ends.append(angle[here] + share * (angle[there] - angle[here]))
+    return float((ends[1] - ends[0]) / pitch)

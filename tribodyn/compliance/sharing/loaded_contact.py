@@ -1,0 +1,280 @@
+"""A pair of gears in slow rotation under load: line loads along the face, pressures, errors, stiffness.
+
+The load contact model (`load_sharing`) at many positions, with flanks as they are modified and axes as they
+stand. Phase 0 is where a pair passes the beginning of its path of contact, whatever the load.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from tribodyn.compliance.sharing.face_root_stress import root_stress
+from tribodyn.compliance.sharing.flank_gap import flank_gap, pitch_gap
+from tribodyn.compliance.sharing.load_sharing import SharedLoad, half_width, share_load
+from tribodyn.compliance.sharing.loaded_rules import check_contact, check_resolved
+from tribodyn.compliance.sharing.pair_flexibility import PairFlexibility
+from tribodyn.compliance.sharing.slices import face_positions
+from tribodyn.geometry.flanks.corner_contact import PairGeometry, pair_geometry, roll_at_gap
+from tribodyn.geometry.flanks.modification import Modifications
+from tribodyn.numerics.blas_threads import one_blas_thread
+from tribodyn.numerics.shapes import Array, Float, Int
+
+#: Corners are followed to a gap of this many deflections of a single pair.
+REACH = 2.0
+# Phases at which the unloaded error is sampled for the reach of the contact.
+_PHASES = 60
+
+
+class LoadedContact(NamedTuple):
+    """Slow rotation under load over (T positions, P pairs, S slices); the pair that entered first in front.
+
+    Attributes
+    ----------
+    phase : (T,)
+        Mesh cycles since a pair passed the beginning of its path of contact.
+    roll : (T, P)
+        Pinion angle of each pair from the pitch point, rad.
+    slice_position : (S,)
+        Middle of each slice from the middle of the face, m.
+    deflection : (T,)
+        ξ = r_p θ_p − r_g θ_g, m: the loaded static transmission error, on the pitch circles.
+    unloaded : (T,)
+        The same without load: the kinematic error, m; the load's deflection is the difference.
+    normal_load : (T, P)
+        N.
+    line_load : (T, P, S)
+        N/m.
+    pressure, half_width : (T, P, S)
+        Maximum Hertz pressure, Pa, and half width, m, of each slice's line load.
+    root_tension, root_compression : (2, T, P, S)
+        Maximum stress along the root of each pair's tooth of pinion and gear, tension positive and
+        compression negative, Pa (`face_root_stress`).
+    face_load_factor : (T, P)
+        K_Hβ, maximum over mean line load along the face (ISO 6336-1); NaN where a pair carries nothing.
+    mesh_stiffness : (T,)
+        dF/dξ of the force on the pitch circles, N/m: of what touches, tangent.
+    contact_ratio : float
+        Mean number of pairs that carry load.
+    """
+
+    phase: Float[Array, " position"]
+    roll: Float[Array, "position pair"]
+    slice_position: Float[Array, " slice"]
+    deflection: Float[Array, " position"]
+    unloaded: Float[Array, " position"]
+    normal_load: Float[Array, "position pair"]
+    line_load: Float[Array, "position pair slice"]
+    pressure: Float[Array, "position pair slice"]
+    half_width: Float[Array, "position pair slice"]
+    root_tension: Float[Array, "2 position pair slice"]
+    root_compression: Float[Array, "2 position pair slice"]
+    face_load_factor: Float[Array, "position pair"]
+    mesh_stiffness: Float[Array, " position"]
+    contact_ratio: float
+
+    @property
+    def peak_to_peak(self) -> float:
+        """Of the loaded static transmission error, m."""
+        return float(np.ptp(self.deflection))
+
+
+@one_blas_thread()
+def roll_through(
+    flexible: PairFlexibility,
+    modifications: Modifications,
+    gear_torque: float,
+    positions: int,
+    cycles: int = 1,
+    friction_coefficient: float = 0.0,
+    slices: int = 1,
+    coupled: bool = True,
+) -> LoadedContact:
+    """Roll a pair of gears slowly through some mesh cycles.
+
+    Parameters
+    ----------
+    flexible : PairFlexibility
+        `load_sharing.flexibility` of the drive, with `lead`.
+    modifications : Modifications
+        Of flanks and axes.
+    gear_torque : float
+        T_g > 0, N m, constant.
+    positions : int
+        Equal steps of a mesh cycle.
+    cycles : int
+        Mesh cycles: more than one where pitch errors make teeth differ.
+    friction_coefficient : float
+        μ, the same for all.
+    slices : int
+        Equal slices of the face.
+    coupled : bool
+        Whether slices hold each other through the teeth and bodies.
+
+    Raises
+    ------
+    InputError
+        If the torque drives nothing, a modification is none (`check_modifications`), or slices do not resolve
+        what carries.
+    SimulationError
+        If no state of contact is found.
+    """
+    phase, roll, geometry, gap, shared = _rolled(
+        flexible, modifications, gear_torque, positions, cycles, friction_coefficient, slices, coupled
+    )
+    line_load = shared.slice_load * (slices / flexible.width)
+    half = half_width(flexible, geometry.motion.relative_curvature[..., None], line_load)
+    total = shared.normal_load
+    tension, compression = root_stress(flexible, geometry, line_load, coupled)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        pressure = np.where(line_load > 0, 2.0 * line_load / (np.pi * half), 0.0)
+        factor = np.max(shared.slice_load, axis=-1) * slices / total
+    return LoadedContact(
+        phase=phase,
+        roll=roll,
+        slice_position=face_positions(flexible.width, slices),
+        deflection=shared.deflection,
+        unloaded=_unloaded(geometry, gap),
+        normal_load=total,
+        line_load=line_load,
+        pressure=pressure,
+        half_width=np.where(line_load > 0, half, 0.0),
+        root_tension=tension,
+        root_compression=compression,
+        face_load_factor=factor,
+        mesh_stiffness=shared.stiffness / flexible.assembly.path.gear_pitch_radius,
+        contact_ratio=mean_pairs(np.max(shared.overlap, axis=-1), positions),
+    )
+
+
+def loaded_error(
+    flexible: PairFlexibility,
+    modifications: Modifications,
+    gear_torque: float,
+    positions: int,
+    cycles: int = 1,
+    friction_coefficient: float = 0.0,
+    slices: int = 1,
+    coupled: bool = True,
+) -> Float[Array, " position"]:
+    """Loaded static transmission error ξ alone, m; parameters and errors as those of `roll_through`.
+
+    At several torques it makes Harris' map (S. L. Harris, Proc. IMechE 172 (1958) 87).
+    """
+    rolled = _rolled(
+        flexible, modifications, gear_torque, positions, cycles, friction_coefficient, slices, coupled
+    )
+    return rolled.shared.deflection
+
+
+class _Rolled(NamedTuple):
+    """Pairs at all positions, and the state of their contact."""
+
+    phase: Float[Array, " position"]
+    roll: Float[Array, "position pair"]
+    geometry: PairGeometry
+    gap: Float[Array, "position pair slice"]
+    shared: SharedLoad
+
+
+def _rolled(
+    flexible: PairFlexibility,
+    modifications: Modifications,
+    gear_torque: float,
+    positions: int,
+    cycles: int,
+    friction_coefficient: float,
+    slices: int,
+    coupled: bool,
+) -> _Rolled:
+    check_contact(flexible, modifications, gear_torque, slices)
+    limits = reach(flexible, modifications, gear_torque, slices, coupled)
+    assembly = flexible.assembly
+    pitch = assembly.pitch_angle
+    start, _ = assembly.roll_limits
+    ages = _ages(limits, start, pitch)
+    phase = np.arange(positions * cycles) / positions
+    cycle = np.arange(positions * cycles) // positions
+    roll = start + pitch * ((phase - cycle)[:, None] + ages)
+    geometry = pair_geometry(assembly, roll)
+    gap = flank_gap(assembly, modifications, geometry, face_positions(flexible.width, slices))
+    gap = gap + pitch_gap(modifications, cycle[:, None] - ages)[..., None]
+    shared = share_load(flexible, roll, gear_torque, friction_coefficient, gap, slices, coupled)
+    check_resolved(assembly, shared, modifications, gear_torque)
+    return _Rolled(phase, roll, geometry, gap, shared)
+
+
+def reach(
+    flexible: PairFlexibility,
+    modifications: Modifications,
+    gear_torque: float,
+    slices: int,
+    coupled: bool,
+    factor: float = REACH,
+) -> tuple[float, float]:
+    """Pinion angles (rad) between which a pair can touch: corners up to a gap of `factor` deflections.
+
+    The deflection is that of a single pair at the pitch point, from first touch. Relief of the tips keeps the
+    corners that much further away.
+    """
+    assembly = flexible.assembly
+    face = face_positions(flexible.width, slices)
+    at_pitch_point = np.zeros((1, 1))
+    geometry = pair_geometry(assembly, at_pitch_point)
+    gap = flank_gap(assembly, modifications, geometry, face)
+    single = share_load(flexible, at_pitch_point, gear_torque, 0.0, gap, slices, coupled)
+    arm = np.cos(geometry.motion.pressure_angle[0, 0])
+    deflection = float(single.deflection[0] * arm - np.min(gap))
+
+    start, end = assembly.roll_limits
+    pitch = assembly.pitch_angle
+    roll = start + pitch * np.arange(0.0, (end - start) / pitch, 1.0 / _PHASES)
+    nearest = _nearest(flexible, modifications, roll, face)
+    whole = np.full(math.ceil(len(roll) / _PHASES) * _PHASES, np.inf)
+    whole[: len(roll)] = nearest
+    # what the pairs leave open at the worst phase while nothing is loaded, and the errors of single teeth
+    open_between = float(np.max(np.min(whole.reshape(-1, _PHASES), axis=0)))
+    errors = [
+        np.ptp(one.pitch_error) for one in (modifications.pinion, modifications.gear) if len(one.pitch_error)
+    ]
+    most = factor * deflection + open_between + float(sum(errors))
+    before, beyond = _nearest(flexible, modifications, np.array([start, end]), face)
+    return roll_at_gap(assembly, (most - float(before), most - float(beyond)))
+
+
+def _ages(limits: tuple[float, float], start: float, pitch: float) -> Int[Array, " pair"]:
+    """Whole pitches since the pairs that can touch began their path, the pair that entered first in front."""
+    first, last = math.floor((limits[0] - start) / pitch), math.ceil((limits[1] - start) / pitch) - 1
+    return np.arange(last, first - 1, -1)
+
+
+def _nearest(
+    flexible: PairFlexibility,
+    modifications: Modifications,
+    roll: Float[Array, "*pair"],
+    face: Float[Array, " slice"],
+) -> Float[Array, "*pair"]:
+    """Minimum gap along the face at each angle on the path, m."""
+    geometry = pair_geometry(flexible.assembly, roll)
+    return np.min(flank_gap(flexible.assembly, modifications, geometry, face), axis=-1)
+
+
+def _unloaded(geometry: PairGeometry, gap: Float[Array, "position pair slice"]) -> Float[Array, " position"]:
+    """ξ (position,) at which the first place touches, m."""
+    whole = (geometry.gap[..., None] + gap) / np.cos(geometry.motion.pressure_angle)[..., None]
+    return np.min(whole, axis=(1, 2))
+
+
+def mean_pairs(overlap: Float[Array, "position pair"], positions: int) -> float:
+    """Mean number of pairs that carry, from overlaps (position, pair) linear in between."""
+    history = [overlap[:-1], overlap[1:]]
+    # a pair goes on in the slot before its own in the next cycle
+    seam = overlap[positions - 1 :: positions, 1:], np.roll(overlap[::positions], -1, axis=0)[:, :-1]
+    total = 0.0
+    whole = np.arange(len(overlap) - 1) % positions != positions - 1
+    for here, there in ((history[0][whole], history[1][whole]), seam):
+        touching = (here > 0).astype(float)
+        crossing = (here > 0) != (there > 0)
+        share = np.where(crossing, here / np.where(crossing, here - there, 1.0), 0.0)
+        total += float(np.sum(np.where(crossing, np.where(here > 0, share, 1.0 - share), touching)))
+    return total / len(overlap)

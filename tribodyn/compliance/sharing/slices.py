@@ -1,0 +1,104 @@
+"""Face width in slices: how the load of one slice moves the others, of its own tooth and of the neighbours.
+
+Between planes of symmetry; what free end faces add is in `face_compliance`.
+
+A spur tooth is the same all along z, so a line load q cos kz displaces it by λ(k) q cos kz. With planes of
+symmetry at the end faces (z from one of them) the loads of S equal slices are the sum of the cosines
+
+    q(z) = Σ_n q_n cos k_n z,  k_n = n π/b,  n = 0 … S − 1,
+
+which passes through the slices' line loads at their middles; so the deflection there of slice s per load (N)
+on slice t is
+
+    Λ_st = (1/b) Σ_n c_n λ(k_n) cos k_n z_s cos k_n z_t,  c_0 = 1, c_n = 2.
+
+Cosines at the middles of equal slices are orthogonal: λ the same for all n makes slices that do not feel
+each other, Λ = λ S/b δ_st, and a uniform load meets λ(0), plane strain, alone. The local deflection under the
+surface is each slice's own (`local`), with its line load; λ holds what a load that varies along the face
+makes less than that, down to wavelengths of the contact's width.
+"""
+
+import numpy as np
+from scipy.interpolate import CubicSpline, RectBivariateSpline
+
+from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, GearCompliance
+from tribodyn.compliance.fem.lead_harmonics import at_wave_numbers
+from tribodyn.compliance.local import freed_of_depth
+from tribodyn.compliance.sharing.pair_flexibility import PairFlexibility
+from tribodyn.geometry.flanks.corner_contact import PairGeometry
+from tribodyn.numerics.shapes import Array, Float
+
+
+def face_positions(width: float, slices: int) -> Float[Array, " slice"]:
+    """Middles of the slices (S,), m from the middle of the face."""
+    return ((np.arange(slices) + 0.5) / slices - 0.5) * width
+
+
+def modes(count: int, slices: int) -> Float[Array, "slice slice"]:
+    """Modes (S, S) of the face at the slices' middles: cosines times √c_n; each one's square sums up to S.
+
+    Where `count` harmonics are one, the same for all modes, the slices themselves are as good: Λ = λ S/b δ.
+    """
+    if count == 1:
+        return np.sqrt(slices) * np.eye(slices)
+    number = np.arange(slices)
+    basis = np.cos(np.pi * number[:, None] * (np.arange(slices) + 0.5) / slices)
+    return basis * np.where(number > 0, np.sqrt(2.0), 1.0)[:, None]
+
+
+def wave_numbers(width: float, slices: int, coupled: bool) -> Float[Array, " wave"]:
+    """k_n (n,), 1/m, of the modes that differ: all of the face's, or the uniform one for all alike."""
+    return np.pi * np.arange(slices if coupled else 1) / width
+
+
+def pair_harmonics(
+    flexible: PairFlexibility, geometry: PairGeometry, slices: int = 1, coupled: bool = True
+) -> Float[Array, "mode position pair pair"]:
+    """λ_jk(k_n)/b (n, position, pair, pair) of all modes of the face, or of the uniform one; m/N.
+
+    Both gears: of a pair itself from the bores to the local regions' depth, of others through teeth and
+    bodies. The pairs stand one pitch apart in the last axis of the geometry, the one that entered first in
+    front.
+    """
+    wave_number = wave_numbers(flexible.width, slices, coupled)
+    count = geometry.gap.shape[-1]
+    matrix = np.zeros((len(wave_number), *geometry.gap.shape, count))
+    diagonal = np.einsum("...ii->...i", matrix)
+    reaches = geometry.pinion_radius, geometry.gear_radius
+    # On the pinion the earlier tooth stands on the loaded flank's side, on the gear on the other.
+    for gear, material, reach, sign in zip(flexible.gears, flexible.materials, reaches, (1, -1), strict=True):
+        own, between = _responses(gear, material.poisson_ratio, wave_number)
+        at = np.clip(reach, gear.radius[0], gear.radius[-1])
+        scale = material.youngs_modulus * flexible.width
+        diagonal += np.moveaxis(CubicSpline(gear.radius, own.T)(at), -1, 0) / scale
+        for mode, rows in enumerate(between):
+            for pitches in range(1, min(count - 1, NEIGHBOURS) + 1):
+                surface = RectBivariateSpline(gear.radius, gear.radius, rows[NEIGHBOURS + sign * pitches])
+                earlier, later = np.arange(count - pitches), np.arange(pitches, count)
+                value = surface.ev(at[..., earlier], at[..., later]) / scale
+                matrix[mode][..., earlier, later] += value
+                matrix[mode][..., later, earlier] += value
+    return matrix
+
+
+def by_slices(
+    harmonics: Float[Array, "mode position pair pair"], slices: int
+) -> Float[Array, "position pair slice pair slice"]:
+    """Λ (position, pair, slice, pair, slice), m/N, of `pair_harmonics` (n, position, pair, pair)."""
+    if len(harmonics) == 1:
+        return harmonics[0][:, :, None, :, None] * (slices * np.eye(slices))[:, None, :]
+    basis = modes(len(harmonics), slices)
+    _, positions, pairs, _ = harmonics.shape
+    product = (basis[:, :, None] * basis[:, None, :]).reshape(slices, -1)
+    spread = harmonics.reshape(slices, -1).T @ product
+    return spread.reshape(positions, pairs, pairs, slices, slices).swapaxes(2, 3)
+
+
+def _responses(
+    gear: GearCompliance, poisson_ratio: float, wave_number: Float[Array, " mode"]
+) -> tuple[Float[Array, "mode radius"], Float[Array, "mode sector radius radius"]]:
+    """Compliances freed of the local region (n, M) and of neighbours (n, sector, M, M) for E = b = 1."""
+    if np.any(wave_number):
+        response = at_wave_numbers(gear, wave_number, poisson_ratio)
+        return response.own, response.between
+    return freed_of_depth(gear.inside, poisson_ratio)[None], gear.between[None]

@@ -1,0 +1,1 @@
+"""What is taken off flanks and tips: modifications, deviations, rounded tips, corner contact."""

@@ -1,0 +1,141 @@
+"""Samples of the deviations that gears of a tolerance class have, and what they take off the flanks.
+
+A deviation is normally distributed about zero; its tolerance is three standard deviations, never exceeded.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.flanks.modification import FlankModification, Misalignment, Modifications
+from tribodyn.numerics.curve import Table
+from tribodyn.numerics.shapes import Array, Float
+
+#: Standard deviations from the mean to the tolerance.
+SPREAD = 3.0
+#: Waves of a form deviation over the path of contact, at most.
+MOST_WAVES = 3
+_POINTS = 65
+
+
+class Limits(NamedTuple):
+    """Tolerances of one gear, m: single and total pitch, profile slope and form, slope of the helix."""
+
+    single_pitch: float
+    total_pitch: float
+    profile_slope: float
+    profile_form: float
+    helix_slope: float
+
+
+class Deviations(NamedTuple):
+    """Deviations of one gear.
+
+    Attributes
+    ----------
+    pitch : (teeth,)
+        Index deviations of the flanks, m, positive where material is missing.
+    single_pitch : float
+        Pitch deviation between the two teeth of it that are in mesh first, m.
+    slope : float
+        Material missing at the tip more than at the root, m.
+    form : float
+        Peak to valley of the form deviation, m.
+    waves : int
+    phase : float
+        Of the form deviation over the path of contact.
+    helix : float
+        Material missing at the end of the face more than at its start, m.
+    """
+
+    pitch: Float[Array, " tooth"]
+    single_pitch: float
+    slope: float
+    form: float
+    waves: int
+    phase: float
+    helix: float
+
+
+def sampled(limits: Limits, teeth: int, seed: int, gear: int) -> Deviations:
+    """Draw the deviations of one gear; the same for the same seed and number of the gear."""
+    random = np.random.default_rng([seed, gear])
+
+    def drawn(tolerance: float) -> float:
+        return tolerance * float(np.clip(random.standard_normal() / SPREAD, -1.0, 1.0))
+
+    slope, form, helix = (
+        drawn(limits.profile_slope),
+        abs(drawn(limits.profile_form)),
+        drawn(limits.helix_slope),
+    )
+    waves, phase = int(random.integers(1, MOST_WAVES + 1)), float(random.uniform(0.0, 2.0 * np.pi))
+    steps = np.array([drawn(limits.single_pitch) for _ in range(teeth)])
+    steps -= steps.mean()
+    pitch = np.cumsum(steps)
+    pitch -= pitch.mean()
+    # their sum may leave the tolerances, which a gear of the class does not
+    excess = max(np.ptp(pitch) / limits.total_pitch, np.abs(steps).max() / limits.single_pitch, 1.0)
+    return Deviations(pitch / excess, float(steps[0] / excess), slope, form, waves, phase, helix)
+
+
+def profile_curve(assembly: Assembly, pinion: Deviations, gear: Deviations, base_pitch: bool) -> Table:
+    """Material missing on both profiles over the pinion's roll angle (rad, m).
+
+    Parameters
+    ----------
+    assembly : Assembly
+    pinion, gear : Deviations
+    base_pitch : bool
+        Whether the pitch deviations of a pair of teeth count as a deviation of base pitch, which opens or
+        closes the flanks evenly along the path: so that one mesh cycle can stand for all teeth.
+    """
+    start, end = (float(limit) for limit in assembly.roll_limits)
+    share = np.linspace(0.0, 1.0, _POINTS)
+    total = np.zeros(_POINTS)
+    # the pinion's root meets first, the gear's tip
+    for one, along in ((pinion, share), (gear, share[::-1])):
+        total += one.slope * (along - 0.5)
+        total += one.form / 2.0 * np.cos(2.0 * np.pi * one.waves * along + one.phase)
+    roll = np.linspace(start, end, _POINTS)
+    if base_pitch:
+        cosine = float(np.cos(assembly.path.pressure_angle(0.0)))
+        total += cosine * (pinion.single_pitch + gear.single_pitch) * (share - 0.5) * assembly.contact_ratio
+    return roll, total
+
+
+def deviating(
+    modifications: Modifications, assembly: Assembly, pinion: Deviations, gear: Deviations, every_tooth: bool
+) -> Modifications:
+    """Add sampled deviations to what is taken off the flanks.
+
+    Parameters
+    ----------
+    modifications : Modifications
+    assembly : Assembly
+    pinion, gear : Deviations
+    every_tooth : bool
+        Whether teeth differ by their pitch deviations; otherwise these count as in `profile_curve`.
+    """
+    curve = profile_curve(assembly, pinion, gear, base_pitch=not every_tooth)
+    widths = float(assembly.drive.pinion.face_width), float(assembly.drive.gear.face_width)
+    opened = pinion.helix / widths[0] + gear.helix / widths[1]
+    stand = modifications.misalignment
+    both = []
+    for flank, one in ((modifications.pinion, pinion), (modifications.gear, gear)):
+        both.append(_with_pitch(flank, one.pitch) if every_tooth else flank)
+    profile = both[0].profile_error
+    both[0] = both[0]._replace(profile_error=curve if profile is None else summed(profile, curve))
+    return Modifications(both[0], both[1], Misalignment(stand.in_plane + opened, stand.out_of_plane))
+
+
+def summed(one: Table, other: Table) -> Table:
+    """Sum of two curves at the points of both, each held constant beyond its ends."""
+    at = np.unique(np.concatenate([one[0], other[0]]))
+    return at, np.interp(at, *one) + np.interp(at, *other)
+
+
+def _with_pitch(flank: FlankModification, pitch: Float[Array, " tooth"]) -> FlankModification:
+    given = np.asarray(flank.pitch_error) if len(flank.pitch_error) else 0.0
+    return flank._replace(pitch_error=tuple(float(one) for one in pitch + given))

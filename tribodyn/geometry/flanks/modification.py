@@ -1,0 +1,212 @@
+"""What is taken off the flanks on purpose or by error, and how the axes deviate: lengths and angles, SI.
+
+Lengths are along the normal of the flank, positive where material is missing. z is the place along the axis,
+from the middle of the faces; `start` is at the most negative z, `end` at the most positive.
+`sharing.flank_gap` makes the gap between two flanks of it.
+"""
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from tribodyn.errors import InputError
+from tribodyn.numerics.curve import Table
+
+#: Minimum number of slices where anything varies along the face.
+MINIMUM_SLICES = 3
+
+
+class Relief(NamedTuple):
+    """Relief of one end of the profile: amount × (1 − distance/length)^exponent from that end inwards.
+
+    The ends are those of the path of contact: the pinion's tip meets at its end, the gear's at its beginning.
+
+    Parameters
+    ----------
+    amount : float
+        Material missing at the end of the active profile, m along the normal.
+    length : float
+        How far it reaches from that end, m along the line of action (|Δr|, the roll length of an involute).
+    exponent : float
+        1: linear, 2: parabolic.
+    """
+
+    amount: float = 0.0
+    length: float = 0.0
+    exponent: float = 1.0
+
+
+class LeadRelief(NamedTuple):
+    """Relief along the face: parabola, straight part, parabola (Jia et al., y1, y2, y3); crowning.
+
+    Parameters
+    ----------
+    start, end : float
+        Material missing at both ends of the face, m along the normal.
+    unmodified : float
+        Length of the straight part, m.
+    crowning : float
+        Material missing at both ends of a parabola over the whole face, m; adds to the relief.
+    """
+
+    start: float = 0.0
+    end: float = 0.0
+    unmodified: float = 0.0
+    crowning: float = 0.0
+
+
+class FlankModification(NamedTuple):
+    """How the flanks of one gear differ from the family's: the driving flanks, or both.
+
+    Parameters
+    ----------
+    tip, root : Relief
+    lead : LeadRelief
+    profile_error : Table or None
+        Material missing along the normal over the pinion's roll angle from the pitch point (rad, m).
+    pitch_error : tuple of float
+        One per tooth in the order in which they enter, m along the normal, material missing > 0; empty: none.
+    both_flanks : bool
+        Whether the back flanks have the same reliefs and profile error; otherwise they are unmodified.
+    """
+
+    tip: Relief = Relief()
+    root: Relief = Relief()
+    lead: LeadRelief = LeadRelief()
+    profile_error: Table | None = None
+    pitch_error: tuple[float, ...] = ()
+    both_flanks: bool = False
+
+
+class Misalignment(NamedTuple):
+    """Angles between the axes, rad: the gear's against the pinion's, which meet at z = 0.
+
+    Against the plane of action at the pitch point, not, as in ISO/TR 10064-3, as inclination f_Σδ (in the
+    common plane of the axes) and skew f_Σβ (across it): of two such angles, positive where the gear stands
+    off towards +y (away from the pinion) and +x at z > 0,
+
+        in_plane = skew cos α_w + inclination sin α_w,  out_of_plane = inclination cos α_w − skew sin α_w.
+
+    Parameters
+    ----------
+    in_plane : float
+        Within the plane of action: the gap grows by this times z.
+    out_of_plane : float
+        Perpendicular to it; of second order only, for an involute.
+    """
+
+    in_plane: float = 0.0
+    out_of_plane: float = 0.0
+
+
+class Modifications(NamedTuple):
+    """Flanks of both gears, and how their axes stand."""
+
+    pinion: FlankModification = FlankModification()
+    gear: FlankModification = FlankModification()
+    misalignment: Misalignment = Misalignment()
+
+
+UNMODIFIED = Modifications()
+
+
+def back_flanks(modifications: Modifications, pressure_angle: float) -> Modifications:
+    """Return the back flanks as driving ones of the world mirrored about the plane of the axes.
+
+    Pitch errors stay out: they place a tooth, and that of its back flank is another.
+
+    Parameters
+    ----------
+    modifications : Modifications
+    pressure_angle : float
+        α_w at the pitch point, rad. Inclined axes open the driving and the back flanks alike, skew axes open
+        the ones and close the others, so that `Misalignment` changes by the angle 2 α_w between the planes
+        of action.
+    """
+    within, across = modifications.misalignment
+    cosine, sine = math.cos(2.0 * pressure_angle), math.sin(2.0 * pressure_angle)
+    misalignment = Misalignment(across * sine - within * cosine, within * sine + across * cosine)
+    return Modifications(_back(modifications.pinion), _back(modifications.gear), misalignment)
+
+
+def _back(flank: FlankModification) -> FlankModification:
+    return flank._replace(pitch_error=()) if flank.both_flanks else FlankModification()
+
+
+def vary_along_lead(modifications: Modifications) -> bool:
+    """Whether anything differs from place to place along the face."""
+    both = (modifications.pinion, modifications.gear)
+    return any(modifications.misalignment) or any(
+        flank.lead.start or flank.lead.end or flank.lead.crowning for flank in both
+    )
+
+
+def too_few_slices(slices: int, varies: bool) -> InputError | None:
+    """Return what is wrong with a number of slices of the face, over which something `varies`; else None."""
+    if slices >= MINIMUM_SLICES or not (varies or slices > 1):
+        return None
+    rule = "too few for what varies along the face" if varies else "neither one slice nor enough of them"
+    return InputError("mesh.slices", slices, rule, f"use at least {MINIMUM_SLICES}, or leave it out for 21")
+
+
+def broken_flank_rules(
+    side: str, flank: FlankModification, teeth: int, face_width: float
+) -> Iterator[InputError]:
+    """Go through what contradicts in the modification of one gear, whatever the shape of its teeth.
+
+    Parameters
+    ----------
+    side : str
+        "pinion" or "gear".
+    flank : FlankModification
+    teeth : int
+    face_width : float
+        m.
+    """
+    key = f"drive.{side}.modification."
+    for name, relief in (("tip_relief", flank.tip), ("root_relief", flank.root)):
+        if relief.amount and not relief.length:
+            yield InputError(
+                key + name,
+                shown_length(relief.amount),
+                "nothing says how far it reaches",
+                f'add {name}_length = "3 mm", along the line of action',
+            )
+    lead, width = flank.lead, shown_length(face_width)
+    rule = None
+    if not 0.0 <= lead.unmodified <= face_width:
+        rule = f"longer than the face of {width}" if lead.unmodified > 0.0 else "negative"
+    elif lead.unmodified == face_width and (lead.start or lead.end):
+        rule = f"leaves nothing of the face of {width} to the relief"
+    if rule:
+        unmodified = shown_length(lead.unmodified)
+        yield InputError(key + "lead_unmodified", unmodified, rule, "use less than the face width")
+    if flank.pitch_error and len(flank.pitch_error) != teeth:
+        yield InputError(
+            key + "pitch_errors",
+            shown_count(len(flank.pitch_error)),
+            f"the gear has {teeth} teeth",
+            "give one value per tooth",
+        )
+
+
+def uneven_teeth(modifications: Modifications) -> Iterator[InputError]:
+    """Go through what differs from tooth to tooth, for a run in which one mesh cycle stands for all teeth."""
+    for side in ("pinion", "gear"):
+        if errors := getattr(modifications, side).pitch_error:
+            yield InputError(
+                f"drive.{side}.modification.pitch_errors",
+                shown_count(len(errors)),
+                "the run repeats one mesh cycle, in which all teeth are alike",
+                "leave it out, or use a load contact study",
+            )
+
+
+def shown_length(value: float) -> str:
+    """Write a length of `value` m with a unit that suits its size."""
+    return f"{value * 1e6:g} um" if value < 1e-3 else f"{value * 1e3:g} mm"
+
+
+def shown_count(count: int) -> str:
+    """Write a number of values."""
+    return f"{count} value{'s' if count != 1 else ''}"

@@ -1,0 +1,335 @@
+"""Whether a drive can be made and can run: one clear message for the first rule that it breaks."""
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from tribodyn.errors import InputError
+from tribodyn.geometry.assembly import (
+    Assembly,
+    lowest_contact_radius,
+    lowest_contact_speed,
+    mate_of,
+    tip_clearance,
+    tip_corner_gap,
+)
+from tribodyn.geometry.backlash import normal_backlash
+from tribodyn.geometry.drive import SIDES, Drive, GearBody, Side, body_of, tip_circle_radius
+from tribodyn.geometry.family import Family
+from tribodyn.geometry.flanks.tip_rounding import flank_angle_at_tip
+from tribodyn.geometry.tooth.tooth import Tooth, flank_point, thickness_half_angle
+
+_MAXIMUM_PRESSURE_ANGLE = math.radians(45)
+# An overlap below this share of the module is the chord error of the fillet's points.
+_OVERLAP_TOLERANCE = 1e-5
+_LENGTHS = ("module", "centre_distance", "face_width", "bore_radius", "tip_radius")
+# Overlap of back flanks, in modules, that is rounding.
+_ROUNDING = 1e-9
+
+
+def check(family: Family, drive: Drive) -> Assembly:
+    """Put a drive together, or refuse one that cannot be made or cannot run.
+
+    Sizes; the family's own rules; for each body root and bore, corners of the rack, undercut, pointed tip;
+    for the pair tip clearance, contact ratio, interference. Plain numbers only; messages give lengths in mm.
+
+    Raises
+    ------
+    InputError
+        Names the key (``drive.pinion.profile_shift``), the rule and, known, a value that obeys it.
+    """
+    check_sizes(drive, family.pressure_angle)
+    with np.errstate(all="ignore"):
+        _check_centre_distance(family, drive)
+        family.check(drive)
+        assembly = Assembly(family, drive)
+        for side in SIDES:
+            _check_root(assembly, side)
+            _check_rack_corners(assembly, side)
+            _check_undercut(assembly, side)
+            _check_tip(assembly, side)
+        _check_backlash(assembly)
+        for side in SIDES:
+            _check_clearance(assembly, side)
+        _check_contact_ratio(assembly)
+        for side in SIDES:
+            _check_interference(assembly, side)
+    return assembly
+
+
+def check_sizes(drive: Drive, pressure_angle: bool = True) -> None:
+    """Refuse numbers that are not finite or have the wrong sign; the pressure angle if the family has one."""
+    _require("module", drive.module, drive.module > 0, "must be greater than zero")
+    if pressure_angle:
+        angle_holds = 0 < drive.pressure_angle <= _MAXIMUM_PRESSURE_ANGLE
+        _require("pressure_angle", drive.pressure_angle, angle_holds, "must be between 0 and 45°")
+    for side in SIDES:
+        body = body_of(drive, side)
+        for name in GearBody._fields:
+            if getattr(body, name) is not None:
+                _require(f"{side}.{name}", getattr(body, name), True, "")
+        whole = body.teeth >= 3 and body.teeth == round(body.teeth)
+        _require(f"{side}.teeth", body.teeth, whole, "must be a whole number of at least 3")
+        for name in ("addendum", "dedendum", "face_width"):
+            value = getattr(body, name)
+            _require(f"{side}.{name}", value, value > 0, "must be greater than zero")
+        for name in ("fillet_radius", "bore_radius"):
+            value = getattr(body, name)
+            _require(f"{side}.{name}", value, value >= 0, "must not be negative")
+
+
+def _require(key: str, value: Any, holds: bool, rule: str) -> None:
+    if not math.isfinite(value):
+        raise InputError(f"drive.{key}", value, "must be a finite number")
+    if not holds:
+        name = key.rpartition(".")[2]
+        shown = f"{math.degrees(value):.4g}°" if name == "pressure_angle" else value
+        raise InputError(f"drive.{key}", _millimetres(value) if name in _LENGTHS else shown, rule)
+
+
+def replaced(drive: Drive, side: Side, **changes: Any) -> Drive:
+    """Return the drive with some numbers of one body changed."""
+    return drive._replace(**{side: body_of(drive, side)._replace(**changes)})
+
+
+def boundary(holds: Callable[[float], bool], bad: float, good: float) -> float | None:
+    """Find the value nearest to `bad` that obeys a rule, rounded to 0.001 on the safe side.
+
+    None if `good` breaks the rule too.
+    """
+    if not holds(good):
+        return None
+    sign = 1 if good > bad else -1
+    for _ in range(30):
+        middle = (bad + good) / 2
+        bad, good = (bad, middle) if holds(middle) else (middle, good)
+    return sign * math.ceil(sign * good * 1000) / 1000
+
+
+def _advice(limit: float | None, bound: str, otherwise: str) -> str:
+    return otherwise if limit is None else f"use {bound} {limit:.7g}"
+
+
+def _millimetres(length: float) -> str:
+    return f"{1e3 * length:.4g} mm"
+
+
+def _check_centre_distance(family: Family, drive: Drive) -> None:
+    if drive.centre_distance is None:
+        return
+    given = drive.centre_distance
+    _require("centre_distance", given, given > 0, "must be greater than zero")
+    if not family.involute:
+        rule = f"teeth of the family {family.name} are conjugate at one centre distance only"
+        remedy = "leave centre_distance out, or use involutes, which mesh at any"
+        raise InputError("drive.centre_distance", _millimetres(given), rule, remedy)
+
+
+def _check_backlash(assembly: Assembly) -> None:
+    overlap = -normal_backlash(assembly)
+    if not overlap <= _ROUNDING * assembly.drive.module:
+        thicker = max(SIDES, key=lambda side: body_of(assembly.drive, side).thickness_allowance)
+        given = body_of(assembly.drive, thicker).thickness_allowance
+        raise InputError(
+            f"drive.{thicker}.thickness_allowance",
+            f"{1e6 * given:.4g} um",
+            f"the teeth overlap by {1e6 * overlap:.4g} um along the normal",
+            "use a negative allowance" + (" or a larger centre distance" if assembly.family.involute else ""),
+        )
+
+
+def _check_root(assembly: Assembly, side: Side) -> None:
+    body, root = body_of(assembly.drive, side), assembly.tooth(side).root_radius
+    if not root > 0:
+        rule = "the teeth would be cut past the axis"
+        raise InputError(f"drive.{side}.dedendum", body.dedendum, rule, "use a smaller one or more teeth")
+    if not body.bore_radius < root:
+        rule = f"the bore reaches the root circle, whose radius is {_millimetres(root)}"
+        raise InputError(f"drive.{side}.bore_radius", _millimetres(body.bore_radius), rule, "use less")
+
+
+def _check_rack_corners(assembly: Assembly, side: Side) -> None:
+    def fits(**changes: float) -> bool:
+        tooth = Assembly(assembly.family, replaced(assembly.drive, side, **changes)).tooth(side)
+        return bool(tooth.corner_x <= tooth.corner_limit)
+
+    if assembly.tooth(side).corner_x <= assembly.tooth(side).corner_limit:
+        return
+    body = body_of(assembly.drive, side)
+    maximum = boundary(lambda value: fits(fillet_radius=value), body.fillet_radius, 0.0)
+    if maximum is not None:
+        rule = "the rounded corners of the rack's tip overlap"
+        raise InputError(
+            f"drive.{side}.fillet_radius", body.fillet_radius, rule, f"use at most {maximum:.7g}"
+        )
+    rule = "the rack's flanks meet before they reach its tip"
+    maximum = boundary(lambda value: fits(dedendum=value), body.dedendum, body.fillet_radius)
+    remedy = _advice(maximum, "at most", "use a smaller pressure angle")
+    raise InputError(f"drive.{side}.dedendum", body.dedendum, rule, remedy)
+
+
+def _check_undercut(assembly: Assembly, side: Side) -> None:
+    """Refuse undercut that reaches the active flank; below the lowest contact it does no harm."""
+    if not _undercut(assembly, side):
+        return
+    family, drive, body = assembly.family, assembly.drive, body_of(assembly.drive, side)
+    tooth = assembly.tooth(side)
+
+    def shifted(shift: float) -> Assembly:
+        return Assembly(family, replaced(drive, side, profile_shift=shift))
+
+    rule = (
+        f"the rack undercuts the working part of the flank up to the radius {_millimetres(tooth.form_radius)}"
+    )
+    otherwise = "use more teeth, a larger pressure angle or a smaller dedendum"
+    if family.parameters:
+        otherwise = "use more teeth, another shape of the path or a smaller dedendum"
+    if family.shiftable:
+        shift = body.profile_shift
+        minimum = boundary(lambda value: bool(shifted(value).tooth(side).overrun <= 0), shift, shift + 2)
+        if minimum is not None:  # less will do where the undercut stays below the lowest contact
+            minimum = boundary(lambda value: not _undercut(shifted(value), side), shift, minimum)
+        remedy = _advice(minimum, "at least", otherwise)
+        raise InputError(f"drive.{side}.profile_shift", body.profile_shift, rule, remedy)
+    raise InputError(f"drive.{side}.dedendum", body.dedendum, rule, otherwise)
+
+
+def _undercut(assembly: Assembly, side: Side) -> bool:
+    """Whether undercut reaches the active flank."""
+    tooth = assembly.tooth(side)
+    below = lowest_contact_speed(assembly, side) > 0
+    return bool(tooth.overrun > 0) and not (
+        below and lowest_contact_radius(assembly, side) >= tooth.form_radius
+    )
+
+
+def _check_tip(assembly: Assembly, side: Side) -> None:
+    family, drive, tooth = assembly.family, assembly.drive, assembly.tooth(side)
+    body = body_of(drive, side)
+
+    def thickness(cut: Tooth) -> float:
+        return 2 * float(flank_point(cut, cut.tip_distance)[1])
+
+    def blunt(changed: Drive) -> bool:
+        return thickness(Assembly(family, changed).tooth(side)) > 0
+
+    if not tooth.tip_radius > tooth.form_radius:
+        rule = f"nothing is left of the flank, which begins at the radius {_millimetres(tooth.form_radius)}"
+        raise InputError(*_tip_key(drive, side), rule, "use a larger one")
+    if thickness(tooth) > 0:
+        _check_rounding(assembly, side)
+        return
+    rule = f"the tip is pointed (thickness {_millimetres(thickness(tooth))})"
+    if body.tip_radius is None and family.shiftable and body.profile_shift > 0:
+        maximum = boundary(
+            lambda shift: blunt(replaced(drive, side, profile_shift=shift)), body.profile_shift, 0.0
+        )
+        if maximum is not None:
+            key = f"drive.{side}.profile_shift"
+            raise InputError(key, body.profile_shift, rule, f"use at most {maximum:.7g}")
+    _refuse_tip(drive, side, rule, blunt, tooth.form_radius)
+
+
+def _check_rounding(assembly: Assembly, side: Side) -> None:
+    """Refuse roundings of both edges of a tip that meet: along it each takes its height over the cosine."""
+    drive, body = assembly.drive, body_of(assembly.drive, side)
+    sine, cosine = flank_angle_at_tip(assembly.family, drive, side)
+    outer = tip_circle_radius(drive, side)
+    half = outer * thickness_half_angle(assembly.tooth(side), outer)
+    if body.tip_break / cosine > half:
+        largest = half * cosine / (1.0 - sine)
+        rule = "the rounded edges of the tip meet"
+        given = body.tip_break / (1.0 - sine)
+        remedy = f"use at most {_millimetres(largest)}"
+        raise InputError(f"drive.{side}.tip_rounding", _millimetres(given), rule, remedy)
+
+
+def _tip_key(drive: Drive, side: Side) -> tuple[str, Any]:
+    """Key and value of what sets the tip circle."""
+    body = body_of(drive, side)
+    if body.tip_radius is None:
+        return f"drive.{side}.addendum", body.addendum
+    return f"drive.{side}.tip_radius", _millimetres(body.tip_radius)
+
+
+def _refuse_tip(drive: Drive, side: Side, rule: str, holds: Callable[[Drive], bool], minimum: float) -> None:
+    """Refuse a tip circle that is too large, naming the largest usable one above the radius `minimum` (m)."""
+    body = body_of(drive, side)
+    if body.tip_radius is None:
+        usable = boundary(lambda height: holds(replaced(drive, side, addendum=height)), body.addendum, 0.0)
+        unit = ""
+    else:
+        usable = boundary(
+            lambda length: holds(replaced(drive, side, tip_radius=length / 1e3)),
+            1e3 * body.tip_radius,
+            1e3 * minimum,
+        )
+        unit = " mm"
+    remedy = "use a smaller one" if usable is None else f"use at most {usable:.7g}{unit}"
+    raise InputError(*_tip_key(drive, side), rule, remedy)
+
+
+def _check_clearance(assembly: Assembly, side: Side) -> None:
+    def clear(drive: Drive) -> bool:
+        return tip_clearance(Assembly(assembly.family, drive), side) > 0
+
+    clearance = tip_clearance(assembly, side)
+    if not clearance > 0:
+        rule = f"the tip reaches {_millimetres(-clearance)} below the root circle of the {mate_of(side)}"
+        _refuse_tip(assembly.drive, side, rule, clear, assembly.tooth(side).form_radius)
+
+
+def _check_contact_ratio(assembly: Assembly) -> None:
+    ratio = assembly.contact_ratio
+    if not ratio >= 1:
+        rule = f"the contact ratio is {ratio:.3f}, so that a pair parts before the next one touches"
+        remedy = "use larger addenda, more teeth or a smaller pressure angle"
+        distance = assembly.drive.centre_distance
+        if distance is not None and (usable := _usable_centre_distance(assembly, distance)) is not None:
+            remedy = f"use at most {usable:.7g} mm, or larger addenda"
+            raise InputError("drive.centre_distance", _millimetres(distance), rule, remedy)
+        raise InputError(*_tip_key(assembly.drive, "pinion"), rule, remedy)
+
+
+def _usable_centre_distance(assembly: Assembly, given: float) -> float | None:
+    """Largest centre distance, mm, at which a pair touches before the last one parts; None: not by that."""
+    drive = assembly.drive
+
+    def carries(distance: float) -> bool:
+        apart = drive._replace(centre_distance=1e-3 * distance)
+        return bool(Assembly(assembly.family, apart).contact_ratio >= 1)
+
+    reference = 0.5e3 * float(drive.module * (drive.pinion.teeth + drive.gear.teeth))
+    return boundary(carries, 1e3 * given, reference)
+
+
+def _interference(assembly: Assembly, side: Side) -> str:
+    """Say how the mate's tip meets this body below its flank, or nothing."""
+    form = assembly.tooth(side).form_radius
+    contact = lowest_contact_radius(assembly, side)
+    if not lowest_contact_speed(assembly, side) > 0:
+        return f"the tip reaches past the end of any flank of the {side}"
+    if not contact >= form:
+        return (
+            f"the tip touches the {side} at the radius {_millimetres(contact)}, in the fillet: "
+            f"the flank begins at {_millimetres(form)}"
+        )
+    gap = tip_corner_gap(assembly, side)
+    if gap < -_OVERLAP_TOLERANCE * assembly.drive.module:
+        return f"the corner of the tip cuts {_millimetres(-gap)} into the fillet of the {side}"
+    return ""
+
+
+def _check_interference(assembly: Assembly, side: Side) -> None:
+    rule = _interference(assembly, side)
+    if rule:
+        mate = mate_of(side)
+        _refuse_tip(
+            assembly.drive,
+            mate,
+            rule,
+            lambda drive: not _interference(Assembly(assembly.family, drive), side),
+            assembly.tooth(mate).form_radius,
+        )

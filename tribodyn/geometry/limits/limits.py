@@ -1,0 +1,109 @@
+"""How far a pair of gears is from the limits of its existence: signed distances, for a search.
+
+`checks` refuses the first rule that a pair breaks; here every rule is a number, positive where it holds,
+continuous, and differentiable through JAX. A pair beyond the limits has distances too.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.geometry.assembly import Assembly, lowest_contact_radius, tip_clearance, tip_corner_gap
+from tribodyn.geometry.drive import SIDES, Drive, Side
+from tribodyn.geometry.path import kinematics
+from tribodyn.geometry.tooth.tooth import flank_point
+from tribodyn.numerics.elementary import namespace
+from tribodyn.numerics.shapes import Array, Float
+
+_SAMPLES = 129
+# Share of the module over which the smooth minimum blends values.
+_BLENDED = 1e-3
+
+
+class Limit(NamedTuple):
+    """What a distance means, and its SI unit."""
+
+    about: str
+    unit: str
+
+
+_OF_BODY = {
+    "undercut": "minimum speed of the contact along the working flank per speed of the pinion: "
+    "zero at a singular point, where the flank ends",
+    "interference": "depth of the flank below the lowest contact, from the form circle on",
+    "tip_corner": "gap between the fillet and the corner of the mate's tip, at most a module",
+    "tip_thickness": "tooth thickness on the tip circle",
+    "clearance": "from the tip circle to the mate's root circle",
+    "rack_tip": "half width left at the tip of the rack between its rounded corners",
+}
+#: Name of every distance -> what it is.
+LIMITS: dict[str, Limit] = {
+    f"{name}_{side}": Limit(f"{about}, of the {side}", "m")
+    for name, about in _OF_BODY.items()
+    for side in SIDES
+} | {"contact_ratio_above_1": Limit("contact ratio less 1", "1")}
+
+
+def distances(assembly: Assembly) -> dict[str, Any]:
+    """Distances of a pair from the limits of its existence, by the names of `LIMITS`.
+
+    Parameters
+    ----------
+    assembly : Assembly
+        Of any numbers, traced or plain; they need not pass the checks, and nothing is raised.
+
+    Returns
+    -------
+    dict
+        Positive where the rule holds. Lengths in m. What does not exist at all, because the path ends before
+        the teeth do, is NaN. `undercut_…` is a smooth minimum over the contact: at most 0.005 modules below
+        the sharp one.
+    """
+    with np.errstate(all="ignore"):
+        found = {}
+        for side in SIDES:
+            of_body = _of_body(assembly, side)
+            found |= {f"{name}_{side}": of_body[name] for name in _OF_BODY}
+        found["contact_ratio_above_1"] = assembly.contact_ratio - 1.0
+    return {name: found[name] for name in LIMITS}
+
+
+def plain_distances(assembly: Assembly) -> dict[str, float]:
+    """Distances of a pair of plain numbers; `beyond` where one does not exist."""
+    found = {name: float(value) for name, value in distances(assembly).items()}
+    return {
+        name: value if np.isfinite(value) else beyond(LIMITS[name].unit, assembly.drive)
+        for name, value in found.items()
+    }
+
+
+def beyond(unit: str, drive: Drive) -> float:
+    """What stands for a distance that does not exist: a module beyond the limit, or 1."""
+    return -float(drive.module) if unit == "m" else -1.0
+
+
+def _of_body(assembly: Assembly, side: Side) -> dict[str, Any]:
+    drive, tooth = assembly.drive, assembly.tooth(side)
+    xp = namespace(drive)
+    start, end = assembly.limits
+    r = start + (end - start) * np.linspace(0.0, 1.0, _SAMPLES)
+    motion = kinematics(assembly.path, r)
+    speed = motion.pinion_speed if side == "pinion" else motion.gear_speed
+    # at the pitch point of a cycloid the speed of a sound flank is zero
+    beside = xp.abs(r) / (1e-2 * drive.module)
+    sound = drive.module * xp.maximum(1.0 - beside, 0.0)
+    return {
+        "undercut": smooth_minimum(speed + sound, _BLENDED * drive.module),
+        "interference": lowest_contact_radius(assembly, side) - tooth.form_radius,
+        "tip_corner": xp.minimum(tip_corner_gap(assembly, side), drive.module),
+        "tip_thickness": 2 * flank_point(tooth, tooth.tip_distance)[1],
+        "clearance": tip_clearance(assembly, side),
+        "rack_tip": tooth.corner_limit - tooth.corner_x,
+    }
+
+
+def smooth_minimum(values: Float[Array, " sample"], width: Any) -> Any:
+    """−width ln Σ exp(−values/width): at most width ln n below the minimum, and differentiable."""
+    xp = namespace(values, width)
+    lowest = xp.min(values)
+    return lowest - width * xp.log(xp.sum(xp.exp((lowest - values) / width)))

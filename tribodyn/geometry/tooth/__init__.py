@@ -1,0 +1,1 @@
+"""A tooth as its rack cuts it, and the gear that such teeth make."""

@@ -1,0 +1,1 @@
+"""Tables of a scenario that several kinds of study share, and their rules."""

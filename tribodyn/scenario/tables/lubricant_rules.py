@@ -1,0 +1,140 @@
+"""Rules of a lubricant: by its data sheet or by the numbers that the laws read, and at which temperature."""
+
+from collections.abc import Iterator
+
+from tribodyn.errors import InputError
+from tribodyn.scenario.tables.model_files import Lubricant
+from tribodyn.tribology.oil import (
+    MAXIMUM_VISCOSITY,
+    MINIMUM_VISCOSITY,
+    OIL_TYPES,
+    TEMPERATURE_RANGE,
+    ZERO_CELSIUS,
+    by_type,
+    kinematic_viscosity,
+)
+
+#: What is taken for an oil: densities at 15 °C, kg/m³, and the kinematic viscosity at 40 °C at most, m²/s.
+DENSITIES, THICKEST = (650.0, 1300.0), 0.1
+_SHEET = ("viscosity_40", "viscosity_100", "density_15")
+#: What the laws read, with an example; the last two follow from the type.
+_DIRECT = {
+    "inlet_viscosity": '"0.35 Pa*s"',
+    "pressure_viscosity": '"25 1/GPa"',
+    "viscosity_pressure_index": "0.57",
+    "temperature_viscosity": '"0.045 1/K"',
+    "density": '"870 kg/m**3"',
+    "asperity_friction": "0.11",
+    "limiting_shear_coefficient": "0.05",
+}
+_EXAMPLES = {"viscosity_40": '"220 mm**2/s"', "viscosity_100": '"19 mm**2/s"', "density_15": '"0.89 g/cm**3"'}
+
+
+def broken_lubricant_rules(lubricant: Lubricant, oil_temperature: float | None) -> Iterator[InputError]:
+    """Go through the rules that a lubricant breaks by itself or at the oil's temperature (K)."""
+    if all(getattr(lubricant, name) is None for name in _SHEET):
+        yield from _direct(lubricant, oil_temperature)
+        return
+    broken = list(_sheet(lubricant))
+    yield from broken
+    if oil_temperature is None:
+        yield InputError(
+            "operating.oil_temperature",
+            rule="missing: the lubricant is given by its data sheet",
+            remedy='add oil_temperature = "80 degC" to [operating]',
+        )
+    elif not broken:
+        yield from _temperature(lubricant, oil_temperature)
+
+
+def _direct(lubricant: Lubricant, oil_temperature: float | None) -> Iterator[InputError]:
+    known = by_type(lubricant.type) if lubricant.type else {}
+    for name, example in _DIRECT.items():
+        if getattr(lubricant, name) is None and name not in known:
+            remedy = f"add {name} = {example}"
+            if name == "inlet_viscosity":
+                remedy += ", or the data sheet: type, viscosity_40, viscosity_100 and density_15"
+            yield InputError(f"lubricant.{name}", rule="missing", remedy=remedy)
+    if oil_temperature is not None:
+        yield InputError(
+            "operating.oil_temperature",
+            f"{oil_temperature - ZERO_CELSIUS:.6g} degC",
+            "contradicts a lubricant whose inlet_viscosity is given at one temperature",
+            "leave it out, or give the data sheet: type, viscosity_40, viscosity_100 and density_15",
+        )
+
+
+def _sheet(lubricant: Lubricant) -> Iterator[InputError]:
+    if lubricant.type is None:
+        choices = ", ".join(f'"{one}"' for one in OIL_TYPES)
+        yield InputError(
+            "lubricant.type",
+            rule="missing: pressure-viscosity, limiting shear and lubricant factor go by it",
+            remedy=f"write one of {choices}",
+        )
+    for name in _SHEET:
+        if getattr(lubricant, name) is None:
+            rule = "missing: a data sheet needs viscosity_40, viscosity_100 and density_15"
+            yield InputError(f"lubricant.{name}", rule=rule, remedy=f"add {name} = {_EXAMPLES[name]}")
+    if lubricant.inlet_viscosity is not None:
+        yield InputError(
+            "lubricant.inlet_viscosity",
+            f"{lubricant.inlet_viscosity:g} Pa*s",
+            "contradicts viscosity_40 and viscosity_100, from which it follows at operating.oil_temperature",
+            "leave it out, or leave out viscosity_40, viscosity_100 and density_15",
+        )
+    density = lubricant.density_15
+    if density is not None and not DENSITIES[0] <= density <= DENSITIES[1]:
+        yield InputError(
+            "lubricant.density_15",
+            f"{density:g} kg/m**3",
+            f"oils have {DENSITIES[0]:g} to {DENSITIES[1]:g} kg/m**3",
+            'check the unit: "0.89 g/cm**3"',
+        )
+    at_40, at_100 = lubricant.viscosity_40, lubricant.viscosity_100
+    if at_40 is not None and at_40 > THICKEST:
+        yield InputError(
+            "lubricant.viscosity_40",
+            f"{1e6 * at_40:g} mm**2/s",
+            f"more than {1e6 * THICKEST:g} mm**2/s, which is no oil",
+            'check the unit: "220 mm**2/s"',
+        )
+    if at_40 is None or at_100 is None:
+        return
+    if at_100 >= at_40:
+        yield InputError(
+            "lubricant.viscosity_100",
+            f"{1e6 * at_100:g} mm**2/s",
+            f"must be below viscosity_40, {1e6 * at_40:g} mm**2/s: oil gets thinner as it warms up",
+            "swap the two, or check the data sheet",
+        )
+    elif at_100 < MINIMUM_VISCOSITY:
+        yield InputError(
+            "lubricant.viscosity_100",
+            f"{1e6 * at_100:g} mm**2/s",
+            f"ASTM D341 holds from {1e6 * MINIMUM_VISCOSITY:g} mm**2/s on",
+            "give inlet_viscosity and the other numbers that the laws read instead of the data sheet",
+        )
+
+
+def _temperature(lubricant: Lubricant, temperature: float) -> Iterator[InputError]:
+    low, high = (round(one - ZERO_CELSIUS) for one in TEMPERATURE_RANGE)
+    key, given = "operating.oil_temperature", f"{temperature - ZERO_CELSIUS:.6g} degC"
+    if not TEMPERATURE_RANGE[0] <= temperature <= TEMPERATURE_RANGE[1]:
+        yield InputError(
+            key,
+            given,
+            f"outside {low} to {high} degC, for which viscosity and density are derived from a data sheet",
+            f"write a temperature from {low} to {high} degC",
+        )
+    elif lubricant.viscosity_40 and lubricant.viscosity_100:
+        viscosity = kinematic_viscosity(lubricant.viscosity_40, lubricant.viscosity_100, temperature)
+        limits = f"{1e6 * MINIMUM_VISCOSITY:g} to {1e6 * MAXIMUM_VISCOSITY:g} mm**2/s"
+        if not MINIMUM_VISCOSITY <= viscosity <= MAXIMUM_VISCOSITY:
+            thin = viscosity < MINIMUM_VISCOSITY
+            yield InputError(
+                key,
+                given,
+                f"the oil has {1e6 * viscosity:.2g} mm**2/s there, and ASTM D341 holds from {limits}",
+                f"write a {'lower' if thin else 'higher'} temperature, or take another oil",
+            )

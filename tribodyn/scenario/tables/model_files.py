@@ -1,0 +1,222 @@
+"""The tables of `models/`: what drives, materials, lubricants and bearings are."""
+
+from typing import Annotated, Any
+
+from pydantic import Field
+
+from tribodyn.dynamics.rolling_bearing import BearingType
+from tribodyn.geometry.families import FAMILIES
+from tribodyn.geometry.tooth.rack_profile import PROFILES
+from tribodyn.scenario import units
+from tribodyn.scenario.printed import Printed, PrintedQuantity
+from tribodyn.scenario.quantity import (
+    Count,
+    Names,
+    NotNegative,
+    Number,
+    Positive,
+    Quantity,
+    Table,
+    Text,
+    model_file,
+    written,
+)
+from tribodyn.scenario.tables.modification import Modification
+from tribodyn.tribology.oil import OilType
+
+Length = Annotated[float, Quantity(units.positive(units.LENGTH))]
+Angle = Annotated[float, Quantity(units.positive(units.ANGLE_KIND))]
+Mass = Annotated[float, Quantity(units.positive(units.MASS))]
+Inertia = Annotated[float, Quantity(units.positive(units.INERTIA))]
+Pressure = Annotated[float, Quantity(units.positive(units.PRESSURE))]
+Stiffness = Annotated[float, Quantity(units.positive(units.STIFFNESS))]
+FaceWidth = Annotated[float, Quantity(units.positive(units.LENGTH), "20 mm")]
+Radius = Annotated[float, Quantity(units.positive(units.LENGTH), "12 mm")]
+KinematicViscosity = Annotated[float, Quantity(units.positive(units.KINEMATIC_VISCOSITY))]
+Diameter = Annotated[float, Quantity(units.positive(units.LENGTH), "30 mm")]
+Rounding = Annotated[float, Quantity(units.not_negative(units.LENGTH), "0.03 mm")]
+Allowance = Annotated[float, Quantity(units.DEVIATION, "-60 um")]
+Span = Annotated[float, Quantity(units.positive(units.LENGTH), "32.4 mm")]
+OverPins = Annotated[float, Quantity(units.positive(units.LENGTH), "83.2 mm")]
+Pin = Annotated[float, Quantity(units.positive(units.LENGTH), "5.25 mm")]
+Grade = Annotated[int, Field(strict=True, ge=1, le=11)]
+Roughness = Annotated[float, Quantity(units.positive(units.LENGTH), "0.5 um")]
+
+
+class Described(Table):
+    """What every model begins with; a table in a scenario may leave it out."""
+
+    title: Text = Field("own values", description="what it is, in a line")
+    source: Text = Field("not stated", description="where the numbers come from")
+    assumptions: Text = Field("", description="what the source does not give and was chosen here")
+
+
+class Material(Described):
+    """A solid (`models/materials/`)."""
+
+    youngs_modulus: Pressure
+    poisson_ratio: Annotated[float, Field(strict=True, ge=0, lt=0.5)]
+    density: Annotated[float, Quantity(units.positive(units.DENSITY))]
+    thermal_conductivity: Annotated[float, Quantity(units.positive(units.CONDUCTIVITY))]
+    specific_heat: Annotated[float, Quantity(units.positive(units.SPECIFIC_HEAT))]
+    hardness: Annotated[float, Quantity(units.positive(units.PRESSURE), "7 GPa")] = Field(
+        description="Vickers hardness as a pressure"
+    )
+
+
+MaterialReference = Annotated[Material, model_file("materials")]
+
+
+class Gear(Table):
+    """One gear of a drive."""
+
+    teeth: Annotated[int, Field(strict=True, ge=4, le=10_000)]
+    face_width: FaceWidth
+    bore_radius: Radius | None = Field(
+        None, description="where the body is held; default: 0.2 times the reference diameter"
+    )
+    bore_diameter: Diameter | None = Field(None, description="in place of the bore's radius")
+    profile_shift: Number = Field(0.0, description="x, times the module")
+    addendum: Positive | None = Field(
+        None, description="h_a*, times the module; default: the rack's, else 1 (ISO 53)"
+    )
+    dedendum: Positive | None = Field(
+        None, description="h_f*, times the module; default: the rack's, else 1.25 (ISO 53)"
+    )
+    fillet_radius: NotNegative | None = Field(
+        None, description="of the cutter's tip, times the module; default: the rack's, else 0.25 (ISO 53 C)"
+    )
+    tip_radius: Radius | None = Field(None, description="takes the place of the addendum")
+    tip_diameter: Diameter | None = Field(None, description="in place of the tip's radius")
+    tip_rounding: Rounding | None = Field(None, description="radius of the tip's rounded edge")
+    thickness_allowance: Allowance | None = Field(
+        None, description="A_sne, upper deviation of the tooth thickness; negative: thinner"
+    )
+    thickness_tolerance: Rounding | None = Field(
+        None, description="T_sn, tolerance of the tooth thickness below its upper deviation"
+    )
+    span: Span | None = Field(None, description="W_k, measured over span_teeth teeth; of involutes")
+    span_teeth: Annotated[int, Field(strict=True, ge=1, le=10_000)] | None = Field(
+        None, description="k, number of teeth of the span"
+    )
+    over_pins: OverPins | None = Field(None, description="M_d, measured over two pins; of involutes")
+    pin_diameter: Pin | None = Field(None, description="D_M of these pins")
+    mean_roughness: Roughness | None = Field(None, description="Ra of its flanks; default: the drive's")
+    mass: Mass | None = Field(None, description="default: from outline, bore and width")
+    inertia: Inertia | None = Field(None, description="polar; default: from outline, bore and width")
+    material: MaterialReference | None = Field(None, description="default: the drive's")
+    quality: Grade | None = Field(None, description="its tolerance class; default: the drive's")
+    modification: Modification = written({})
+
+
+class DriveTable(Described):
+    """A gear pair (`models/drives/`)."""
+
+    family: Annotated[Text, Names(FAMILIES)] = Field(description="family of the path of contact")
+    module: Length
+    pressure_angle: Angle | None = Field(
+        None, description="of the rack for involutes; at the pitch point for other families, if they take one"
+    )
+    centre_distance: Annotated[Printed, PrintedQuantity(units.positive(units.LENGTH))] | None = Field(
+        None, description="of involutes; default: that of nominal teeth in mesh without backlash"
+    )
+    rack: Annotated[Text, Names(PROFILES)] | None = Field(
+        None, description="basic rack, for what the pressure angle and the gears do not say themselves"
+    )
+    shape: dict[str, Any] | None = Field(None, description="what else the family needs, see `tribodyn list`")
+    roughness: Roughness | None = Field(
+        None, description="composite rms roughness of the flanks; default: from the mean roughness of both"
+    )
+    mean_roughness: Roughness | None = Field(
+        None, description="Ra of the flanks; default: the gears' own, or roughness/sqrt(pi)"
+    )
+    material: MaterialReference | None = None
+    quality: Grade | None = Field(None, description="tolerance class of both gears by ISO 1328-1")
+    pinion: Gear
+    gear: Gear
+
+
+class Lubricant(Described):
+    """A lubricant (`models/lubricants/`): by its data sheet, or by the numbers that the laws read."""
+
+    type: OilType | None = Field(None, description="base oil; needed with a data sheet")
+    viscosity_40: KinematicViscosity | None = Field(None, description="kinematic, at 40 °C")
+    viscosity_100: (
+        Annotated[float, Quantity(units.positive(units.KINEMATIC_VISCOSITY), "19 mm**2/s")] | None
+    ) = Field(None, description="kinematic, at 100 °C")
+    density_15: Annotated[float, Quantity(units.positive(units.DENSITY), "0.89 g/cm**3")] | None = Field(
+        None, description="at 15 °C"
+    )
+    asperity_friction: NotNegative | None = Field(None, description="f_c; default: by type")
+    limiting_shear_coefficient: Positive | None = Field(None, description="Λ_lim; default: by type")
+    inlet_viscosity: Annotated[float, Quantity(units.positive(units.VISCOSITY))] | None = Field(
+        None, description="dynamic; without a data sheet"
+    )
+    pressure_viscosity: Annotated[float, Quantity(units.positive(units.PRESSURE_VISCOSITY))] | None = Field(
+        None, description="default: by type and viscosity"
+    )
+    viscosity_pressure_index: Positive | None = Field(
+        None, description="z of Roelands' law; default: from pressure_viscosity and viscosity"
+    )
+    temperature_viscosity: Annotated[float, Quantity(units.not_negative(units.PER_KELVIN))] | None = Field(
+        None, description="default: slope of the viscosity over temperature"
+    )
+    density: Annotated[float, Quantity(units.positive(units.DENSITY), "870 kg/m**3")] | None = Field(
+        None, description="at the oil's temperature; default: from density_15"
+    )
+    load_exponent: NotNegative | None = Field(
+        None,
+        description="d of Niemann's lubricant factor; default: 0 with a type, else 0.0651, mineral oil 75W90 "
+        "(Diez-Ibarbia et al.)",
+    )
+    lubricant_factor: Positive | None = Field(
+        None, description="X_L of Niemann and of ISO/TR 15144-1; default: by type, else 1"
+    )
+    schlenk_factor: Positive | None = Field(
+        None, description="X_L of Schlenk; default: by type, else that of mineral oil"
+    )
+    fzg_scuffing_stage: Annotated[int, Field(strict=True, ge=1, le=14)] | None = Field(
+        None, description="failure load stage of the FZG scuffing test A/8.3/90"
+    )
+    fzg_micropitting_stage: Annotated[int, Field(strict=True, ge=5, le=11)] | None = Field(
+        None, description="failure load stage of the FZG micropitting test C-GF/8.3"
+    )
+    fzg_micropitting_temperature: Annotated[float, Quantity(units.TEMPERATURE_KIND, "90 degC")] = written(
+        "90 degC", description="oil temperature of that test"
+    )
+
+
+class Rolling(Table):
+    """The rolling bearings of a shaft, from whose type, size and load the stiffness follows."""
+
+    type: BearingType
+    elements: Annotated[int, Field(strict=True, ge=3, le=1000)] = Field(description="rolling elements")
+    diameter: Annotated[float, Quantity(units.positive(units.LENGTH), "12 mm")] | None = Field(
+        None, description="of a ball"
+    )
+    length: Annotated[float, Quantity(units.positive(units.LENGTH), "12 mm")] | None = Field(
+        None, description="effective, of a roller"
+    )
+    contact_angle: Annotated[float, Quantity(units.not_negative(units.ANGLE_KIND), "15 deg")] = written(
+        "0 deg"
+    )
+    radial_load: Annotated[float, Quantity(units.positive(units.FORCE))] = Field(description="of one bearing")
+    count: Count = Field(2, description="bearings that carry the shaft")
+
+
+class Bearing(Table):
+    """Shaft and bearing of one gear: stiffness given, or from the rolling bearings alone."""
+
+    stiffness_x: Stiffness | None = Field(None, description="along the pitch tangent")
+    stiffness_y: Stiffness | None = Field(None, description="along the line of centres")
+    rolling: Rolling | None = Field(None, description="in place of the stiffness")
+    damping_ratio: NotNegative | None = Field(None, description="of both axes")
+    damping_ratio_x: NotNegative | None = None
+    damping_ratio_y: NotNegative | None = None
+
+
+class Bearings(Described):
+    """Shafts and bearings of both gears (`models/bearings/`)."""
+
+    pinion: Bearing
+    gear: Bearing

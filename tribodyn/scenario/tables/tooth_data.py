@@ -1,0 +1,167 @@
+"""The teeth of a gear as a drawing gives them: rack, radii or diameters, tooth thickness by any measure."""
+
+import math
+from collections.abc import Iterator
+
+from tribodyn.errors import InputError, unknown_name
+from tribodyn.geometry.drive import GearBody
+from tribodyn.geometry.families import FAMILIES
+from tribodyn.geometry.sheet.measures import Gauge
+from tribodyn.geometry.sheet.thickness import Involute, allowance_of_pins, allowance_of_span, over_pins, span
+from tribodyn.geometry.tooth.rack_profile import PROFILES
+from tribodyn.scenario.tables.model_files import DriveTable, Gear
+
+#: Heights and rounding where neither the gear nor a rack says them.
+USUAL = PROFILES["ISO 53 C"]
+#: Bore over reference diameter where none is given, a choice: a shaft of the gear's proportions.
+USUAL_BORE = 0.4
+
+THICKNESS_KEYS = (
+    "thickness_allowance",
+    "thickness_tolerance",
+    "span",
+    "span_teeth",
+    "over_pins",
+    "pin_diameter",
+)
+_MEASURES = ("thickness_allowance", "span", "over_pins")
+#: What each measure needs beside it.
+_WITH = {"span": "span_teeth", "over_pins": "pin_diameter"}
+_EXAMPLES = {"span_teeth": "4", "pin_diameter": '"5.25 mm"', "span": '"32.4 mm"', "over_pins": '"83.2 mm"'}
+
+
+def pressure_angle_of(drive: DriveTable) -> float | None:
+    """Return the pressure angle, rad: given, or of the rack of an involute; None where neither says it."""
+    rack = PROFILES.get(drive.rack or "")
+    if drive.pressure_angle is None and rack is not None and FAMILIES[drive.family].involute:
+        return rack.pressure_angle
+    return drive.pressure_angle
+
+
+def gear_body(drive: DriveTable, gear: Gear) -> GearBody:
+    """Return one body of a drive that breaks no rule; without the rounding of its tip."""
+    rack = PROFILES.get(drive.rack or "", USUAL)
+    bore, tip = _radius(gear, "bore"), _radius(gear, "tip")
+    return GearBody(
+        teeth=float(gear.teeth),
+        profile_shift=gear.profile_shift,
+        addendum=rack.addendum if gear.addendum is None else gear.addendum,
+        dedendum=rack.dedendum if gear.dedendum is None else gear.dedendum,
+        fillet_radius=rack.fillet_radius if gear.fillet_radius is None else gear.fillet_radius,
+        face_width=gear.face_width,
+        bore_radius=USUAL_BORE * drive.module * gear.teeth / 2 if bore is None else bore,
+        tip_radius=tip,
+        thickness_allowance=_allowance(drive, gear),
+    )
+
+
+def gauge_of(gear: Gear) -> Gauge:
+    """Return what a gear's tooth thickness is measured with."""
+    return Gauge(gear.span_teeth, gear.pin_diameter)
+
+
+def gives_thickness(gear: Gear) -> bool:
+    """Whether a gear says its tooth thickness."""
+    return any(getattr(gear, name) is not None for name in _MEASURES)
+
+
+def broken_tooth_rules(drive: DriveTable) -> Iterator[InputError]:
+    """Go through what contradicts or is missing in rack, radii and tooth thicknesses."""
+    if drive.rack is not None and drive.rack not in PROFILES:
+        yield unknown_name("drive.rack", drive.rack, PROFILES, "rack profile")
+    for name, gear in (("pinion", drive.pinion), ("gear", drive.gear)):
+        for what in ("bore", "tip"):
+            if getattr(gear, f"{what}_radius") is not None and getattr(gear, f"{what}_diameter") is not None:
+                rule, remedy = f"contradicts {what}_radius, which says the same", "leave one of them out"
+                yield InputError(
+                    f"drive.{name}.{what}_diameter", _shown(gear, f"{what}_diameter"), rule, remedy
+                )
+        if gear.tip_diameter is not None and gear.addendum is not None:
+            yield InputError(
+                f"drive.{name}.addendum",
+                gear.addendum,
+                "contradicts tip_diameter, which takes its place",
+                "leave one of them out",
+            )
+        yield from _broken_thickness(drive, f"drive.{name}", gear)
+    yield from _broken_roughness(drive)
+
+
+def _broken_roughness(drive: DriveTable) -> Iterator[InputError]:
+    if drive.roughness is not None or drive.mean_roughness is not None:
+        return
+    lacking = [name for name in ("pinion", "gear") if getattr(drive, name).mean_roughness is None]
+    remedy = (
+        'add mean_roughness = "0.8 um", Ra, or to [drive] roughness = "0.3 um", composite rms of both flanks'
+    )
+    if len(lacking) == 2:
+        yield InputError("drive.roughness", rule="missing", remedy=remedy)
+    elif lacking:
+        yield InputError(f"drive.{lacking[0]}.mean_roughness", rule="missing", remedy=remedy)
+
+
+def _broken_thickness(drive: DriveTable, key: str, gear: Gear) -> Iterator[InputError]:
+    given = [name for name in _MEASURES if getattr(gear, name) is not None]
+    for name in given[1:]:
+        rule = f"gives the tooth thickness, as {given[0]} does"
+        yield InputError(f"{key}.{name}", _shown(gear, name), rule, "leave one of them out")
+    for measure, other in _WITH.items():
+        for there, needed in ((measure, other), (other, measure)):
+            if getattr(gear, there) is not None and getattr(gear, needed) is None:
+                remedy = f"add {needed} = {_EXAMPLES[needed]}"
+                yield InputError(f"{key}.{needed}", rule=f"missing: {there} needs it", remedy=remedy)
+    if gear.thickness_tolerance is not None and gear.thickness_allowance is None:
+        remedy = 'add thickness_allowance = "-60 um"'
+        yield InputError(
+            f"{key}.thickness_allowance", rule="missing: thickness_tolerance is below it", remedy=remedy
+        )
+    measured = given and given[0] in _WITH
+    if measured and drive.family in FAMILIES and not FAMILIES[drive.family].involute:
+        rule = f"teeth of the family {drive.family} have no measure over a span or pins in closed form"
+        yield InputError(
+            f"{key}.{given[0]}", _shown(gear, given[0]), rule, "give thickness_allowance in its place"
+        )
+    elif measured and pressure_angle_of(drive) is not None and getattr(gear, _WITH[given[0]]) is not None:
+        yield from _impossible_measure(drive, key, gear, given[0])
+
+
+def _impossible_measure(drive: DriveTable, key: str, gear: Gear, measure: str) -> Iterator[InputError]:
+    """Refuse a measured tooth thickness that is far from the nominal one: another k or pin is meant."""
+    involute = _involute(drive, gear)
+    allowance = _allowance(drive, gear)
+    if abs(allowance) <= 0.5 * drive.module:  # not where it is NaN
+        return
+    if measure == "span":
+        length, over = span(involute, gear.span_teeth or 1), f"{gear.span_teeth} teeth"
+    else:
+        length, over = over_pins(involute, gear.pin_diameter or 0.0), "these pins"
+    says = f"one of nominal thickness measures {1e3 * length:.6g} mm over {over}"
+    if math.isnan(length):
+        says = "these pins drop between teeth of nominal thickness"
+    rule = f"leaves no such tooth: {says}"
+    remedy = f"check it, {_WITH[measure]} and profile_shift"
+    yield InputError(f"{key}.{measure}", _shown(gear, measure), rule, remedy)
+
+
+def _allowance(drive: DriveTable, gear: Gear) -> float:
+    """Mean deviation of the tooth thickness, m."""
+    if gear.span is not None and gear.span_teeth is not None:
+        return allowance_of_span(_involute(drive, gear), gear.span_teeth, gear.span)
+    if gear.over_pins is not None and gear.pin_diameter is not None:
+        return allowance_of_pins(_involute(drive, gear), gear.pin_diameter, gear.over_pins)
+    return (gear.thickness_allowance or 0.0) - (gear.thickness_tolerance or 0.0) / 2.0
+
+
+def _involute(drive: DriveTable, gear: Gear) -> Involute:
+    angle = pressure_angle_of(drive)
+    return Involute(drive.module, math.nan if angle is None else angle, float(gear.teeth), gear.profile_shift)
+
+
+def _radius(gear: Gear, what: str) -> float | None:
+    diameter = getattr(gear, f"{what}_diameter")
+    return getattr(gear, f"{what}_radius") if diameter is None else diameter / 2.0
+
+
+def _shown(gear: Gear, name: str) -> str:
+    value = getattr(gear, name)
+    return f"{1e6 * value:.4g} um" if abs(value) < 1e-3 else f"{1e3 * value:.6g} mm"

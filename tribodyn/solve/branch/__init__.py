@@ -1,0 +1,1 @@
+"""Steady motions followed along a parameter: their branches, folds and ends."""

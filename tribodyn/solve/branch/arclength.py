@@ -1,0 +1,229 @@
+"""Branches of periodic motions followed by their arclength: round folds, and where they are unstable.
+
+State and parameter are unknown together. A step leads along the tangent of the branch, and Newton's method
+goes back to the branch at right angles to it (pseudo-arclength: H. B. Keller, in: P. H. Rabinowitz (ed.),
+Applications of Bifurcation Theory, Academic Press 1977, 359-384), so that a fold is a place like others. The
+period is kept. Lengths are measured in units of the motion's size and of the parameter's magnitude.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from tribodyn.numerics.shapes import Array, Complex, Float
+from tribodyn.solve.branch.end import Seed
+from tribodyn.solve.branch.family import Family
+from tribodyn.solve.orbit.shooting import eigenvalues
+
+#: Steps: the first, the factor to the next, the largest change of state and of parameter, and the smallest
+#: that is tried.
+FIRST, GROWTH, LARGEST, LARGEST_PARAMETER, SMALLEST = 1e-3, 1.5, 0.05, 1e-2, 1e-6
+#: Cosine of the angle by which the branch turns over a step, at least, unless the step is shorter than this.
+STRAIGHT, SHORT = 0.95, 1e-4
+#: Newton steps for a place, and the shift of the parameter, over its magnitude, for the derivative.
+STEPS, SHIFT = 6, 1e-4
+#: Places behind the last one found before a branch turns back or has gone on, at most.
+MOST_PLACES = 60
+#: Distance over the parameter's magnitude to which ends are located, and that at which a branch has gone on
+#: behind its last place.
+LOCATED, GONE_ON = 2e-5, 1e-4
+#: Distance of a multiplier's modulus from 1 within which it is on the unit circle: until contact is lost a
+#: doubled motion grows at one value of the parameter, with the multiplier 1.
+NEUTRAL = 1e-6
+
+
+class Place(NamedTuple):
+    """A motion on a branch.
+
+    Attributes
+    ----------
+    point : (N + 1,)
+        State and parameter in units of the branch.
+    tangent : (N + 1,)
+        Of the branch, of length 1.
+    multipliers : (N,) complex
+    residual : float
+        Change over a period, in units.
+    halves : (N,) or None
+        Change of the state over half the period, in units; None where the period is odd.
+    """
+
+    point: Float[Array, " unknown"]
+    tangent: Float[Array, " unknown"]
+    multipliers: Complex[Array, " state"]
+    residual: float
+    halves: Float[Array, " state"] | None
+
+    @property
+    def stable(self) -> bool:
+        """Whether all multipliers are inside the unit circle, and none on it."""
+        return bool(np.abs(self.multipliers[0]) < 1.0 - NEUTRAL)
+
+    @property
+    def unstable(self) -> bool:
+        """Whether a multiplier is outside the unit circle, and not on it."""
+        return bool(np.abs(self.multipliers[0]) > 1.0 + NEUTRAL)
+
+
+class Arclength:
+    """The way along a branch: its units, and steps.
+
+    Parameters
+    ----------
+    family : Family
+    line : int
+        Which of its lines.
+    seed : Seed
+        Where it begins.
+    size : float
+        Magnitude by which the parameter is measured.
+    tolerance : float
+        Maximum scaled change over a period of the motion.
+    """
+
+    def __init__(self, family: Family, line: int, seed: Seed, size: float, tolerance: float) -> None:
+        self.family, self.line, self.seed = family, line, seed
+        period_map, _ = family.at([line], [seed.value])
+        scale = period_map.scale[0] if len(period_map.scale) else np.ones_like(seed.state)
+        extent = max(1.0, float(np.max(np.abs(seed.state) / scale)))
+        self.units = np.append(scale * extent, size)
+        self.extent, self.tolerance = extent, tolerance / extent
+
+    def begin(self) -> Place | None:
+        """The place of the seed, the tangent in its sense."""
+        along = np.zeros(len(self.units))
+        along[-1] = self.seed.way
+        return self.met(np.append(self.seed.state, self.seed.value) / self.units, along, along)
+
+    def next(self, here: Place, step: float) -> tuple[Place, float] | None:
+        """The next place, no farther than a step, and the step that led there."""
+        farthest = [LARGEST / np.max(np.abs(here.tangent[:-1])), LARGEST_PARAMETER / abs(here.tangent[-1])]
+        step = min(step, *farthest)
+        while step >= SMALLEST:
+            found = self.met(here.point + step * here.tangent, here.tangent, here.tangent)
+            if found is not None and (step <= SHORT or found.tangent @ here.tangent >= STRAIGHT):
+                return found, step
+            step /= 2.0
+        return None
+
+    def met(
+        self,
+        guess: Float[Array, " unknown"],
+        normal: Float[Array, " unknown"],
+        before: Float[Array, " unknown"],
+    ) -> Place | None:
+        """The place of the branch on the plane through a guess, its tangent in the sense of another."""
+        point = guess
+        for _ in range(STEPS):
+            told = self.defect(point)
+            if told is None:
+                return None
+            off, slopes = told
+            if np.max(np.abs(off)) <= self.tolerance:
+                tangent = np.linalg.svd(slopes)[2][-1]
+                tangent *= 1.0 if tangent @ before >= 0.0 else -1.0
+                jacobian = slopes[:, :-1] + np.eye(len(off))
+                residual = float(np.max(np.abs(off)))
+                return Place(point, tangent, eigenvalues(jacobian), residual, self.halves(point))
+            matrix = np.vstack([slopes, normal])
+            wanted = np.append(-off, normal @ (guess - point))
+            point = point + np.linalg.lstsq(matrix, wanted)[0]
+        return None
+
+    def turning(self, last: Place, beyond: Place) -> tuple[Place, float, float]:
+        """Where the parameter turns back between two places: one there, the parameter, and how closely.
+
+        Between places so near the parameter is a parabola over the arclength.
+        """
+        way, step = np.sign(last.tangent[-1]), float(np.linalg.norm(beyond.point - last.point))
+        while True:
+            slopes = abs(last.tangent[-1]), abs(beyond.tangent[-1])
+            rise = 0.5 * step * slopes[0] ** 2 / (slopes[0] + slopes[1])
+            if rise <= 0.1 * LOCATED or step < SMALLEST:
+                break
+            step /= 2.0
+            middle = self.met(last.point + step * last.tangent, last.tangent, last.tangent)
+            if middle is None:
+                break
+            if way * middle.tangent[-1] < 0.0:
+                beyond = middle
+            else:
+                last = middle
+        size = self.units[-1]
+        return last, float((last.point[-1] + way * rise) * size), float(rise * size)
+
+    def defect(
+        self, point: Float[Array, " unknown"]
+    ) -> tuple[Float[Array, " state"], Float[Array, "state unknown"]] | None:
+        """Change over a period (N,) and its derivatives (N, N + 1), in units; None where there is none."""
+        *state, value = point * self.units
+        beside = value + SHIFT * self.units[-1]
+        period_map, refusals = self.family.at([self.line] * 2, [float(value), float(beside)])
+        if any(refusals):
+            return None
+        states, units, period = np.array([state, state]), self.units[:-1], self.seed.period
+        tangent = period_map.tangent(states[:1], np.array([0]), period)
+        ends = period_map.march(states, np.array([0, 1]), period, True).states[:, -1]
+        by_parameter = (ends[1] - ends[0]) / units / SHIFT
+        slopes = tangent.jacobian[0] * units / units[:, None] - np.eye(len(units))
+        off, slopes = (tangent.image[0] - states[0]) / units, np.column_stack([slopes, by_parameter])
+        return (off, slopes) if np.all(np.isfinite(off)) and np.all(np.isfinite(slopes)) else None
+
+    def halves(self, point: Float[Array, " unknown"]) -> Float[Array, " state"] | None:
+        """Change over half the period (N,), in units; None where the period is odd."""
+        period = self.seed.period
+        if period % 2:
+            return None
+        *state, value = point * self.units
+        period_map, _ = self.family.at([self.line], [float(value)])
+        end = period_map.march(np.array([state]), np.array([0]), period // 2, True).states[0, -1]
+        return (end - state) / self.units[:-1]
+
+
+class Rounded(NamedTuple):
+    """How a branch goes on where nothing is found behind a value of the parameter.
+
+    Attributes
+    ----------
+    folded : bool
+        Whether the parameter turns back.
+    value : float
+        Where it does; otherwise a value behind, at which the branch goes on.
+    within : float
+        Distance between the places that locate it.
+    state : (N,)
+        There.
+    """
+
+    folded: bool
+    value: float
+    within: float
+    state: Float[Array, " state"]
+
+
+def rounded(family: Family, line: int, seed: Seed, size: float, *, tolerance: float = 1e-7) -> Rounded | None:
+    """Follow a branch from near its end by its arclength, until its parameter turns back or it has gone on.
+
+    None where it cannot be followed.
+
+    Parameters
+    ----------
+    family, line, seed, tolerance
+        As `unstable_branches` has them.
+    size : float
+        Magnitude of the parameter.
+    """
+    way = Arclength(family, line, seed, size, tolerance)
+    here, step = way.begin(), FIRST
+    for _ in range(MOST_PLACES):
+        found = None if here is None else way.next(here, step)
+        if here is None or found is None:
+            break
+        beyond, step = found
+        if seed.way * beyond.tangent[-1] < 0.0:
+            place, value, within = way.turning(here, beyond)
+            return Rounded(True, value, within, place.point[:-1] * way.units[:-1])
+        if seed.way * (beyond.point[-1] - seed.value / size) > GONE_ON:
+            return Rounded(False, float(beyond.point[-1] * size), 0.0, beyond.point[:-1] * way.units[:-1])
+        here, step = beyond, step * GROWTH
+    return None

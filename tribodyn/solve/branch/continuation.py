@@ -1,0 +1,299 @@
+"""Steady motions followed along a parameter, with the period that they have, as far as their branch goes.
+
+A leg leads from one value of the parameter to another, from the motion at the first. A periodic motion is
+followed by Newton's method in steps that control themselves, between the values asked for too: a branch is
+left only where it ends, whatever these are. There the end is located, the system is marched from the last
+state at a fixed relative distance beyond it, and the motion that it comes to is followed in turn. A motion
+without period is marched along values that do not depend on those asked for either. A leg depends on nothing
+but the state and the period at its start, so that a sweep can be taken up from any of its values.
+
+Legs are generators that ask for what they need; what all legs ask for at a time is computed in one batch.
+"""
+
+from collections.abc import Generator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from tribodyn.numerics.shapes import Array, Complex, Float
+from tribodyn.solve.branch.carried import carried
+from tribodyn.solve.branch.continued_family import Answer, Close, Request, Round, Settle, answered
+from tribodyn.solve.branch.end import CORNER, FOLD, NEAR_ZERO, BranchEnd, Seed, kind_of_end
+from tribodyn.solve.branch.family import Family
+from tribodyn.solve.orbit.result import FAILED, Orbit
+
+#: Steps of the parameter, over its magnitude (`Leg.size`): the first of a leg, the largest, the largest where
+#: two complex multipliers are about to meet on the real axis, where an unstable range may be narrow, and that
+#: to which an end is located.
+FIRST, LARGEST, NARROW, LOCATED = 5e-3, 1e-2, 2.5e-3, 2e-5
+#: Distance beyond an end, over the parameter's magnitude, at which the system is marched on.
+NUDGE = 1e-3
+#: Change of the state over a step, of its size and at least of the scale, above which the step is halved; and
+#: movement of the multipliers.
+MOVED, TURNED = 0.15, 0.3
+#: Moduli of multipliers that matter for the step, and the distance of complex ones from the real axis where
+#: they are about to meet.
+MATTERS, MEETING = 0.8, 0.2
+#: Shares of the way from a stable to an unstable place of a branch at which a place is sought, until one is
+#: found: Newton's method may fail in between too.
+SHARES = (0.5, 0.35, 0.65, 0.2, 0.8)
+#: Ends in one leg after which it is marched.
+MOST_ENDS = 8
+
+
+class Leg(NamedTuple):
+    """A way to go: from the motion at one value of the parameter to another value.
+
+    Attributes
+    ----------
+    line : int
+        Which of the family's lines.
+    start, target : float
+        Values of the parameter; equal where nothing was found before.
+    state : (N,)
+        At the start.
+    period : int
+        Of the motion there; 0: it has none, or is not known.
+    finest : float
+        Minimum step where steps are expensive; 0: as small as it takes; inf: there is nothing in between.
+    reach : float
+        Largest magnitude that the parameter takes: near zero, steps are measured by a quarter of it.
+    """
+
+    line: int
+    start: float
+    target: float
+    state: Float[Array, " state"]
+    period: int
+    finest: float = 0.0
+    reach: float = 0.0
+
+    def size(self, value: float) -> float:
+        """Magnitude of the parameter, by which steps are measured."""
+        return max(abs(value), NEAR_ZERO * self.reach)
+
+
+class Arrival(NamedTuple):
+    """How a leg ended.
+
+    Attributes
+    ----------
+    orbit : Orbit
+        At the target.
+    carried : (N,)
+        State from which the next leg begins; of a motion without period the last one marched in between.
+    ends : tuple of BranchEnd
+        Of the branches that were left on the way.
+    seeds : tuple of Seed
+        From where these go on, one for each end.
+    """
+
+    orbit: Orbit
+    carried: Float[Array, " state"]
+    ends: tuple[BranchEnd, ...]
+    seeds: tuple[Seed, ...] = ()
+
+
+_Asking = Generator[Request, Answer, Arrival]
+
+
+def follow(
+    family: Family, legs: Sequence[Leg], *, tolerance: float = 1e-7, max_periods: int = 2000
+) -> list[Arrival]:
+    """Go all legs, side by side.
+
+    Parameters
+    ----------
+    family : Family
+    legs : sequence of Leg
+    tolerance, max_periods
+        As `steady_orbit.find` has them.
+    """
+    arrivals: dict[int, Arrival] = {}
+    going: dict[int, _Asking] = {number: _go(leg) for number, leg in enumerate(legs)}
+    asked = {number: next(one) for number, one in going.items()}
+    while going:
+        lines = {number: legs[number].line for number in going}
+        answers = answered(family, lines, asked, tolerance, max_periods)
+        for number, answer in answers.items():
+            try:
+                asked[number] = going[number].send(answer)
+            except StopIteration as stop:
+                arrivals[number] = stop.value
+                del going[number], asked[number]
+    return [arrivals[number] for number in range(len(legs))]
+
+
+class _Place(NamedTuple):
+    """A motion at a value of the parameter; without an orbit only its state and period are known."""
+
+    value: float
+    state: Float[Array, " state"]
+    period: int
+    orbit: Orbit | None = None
+
+
+class _Left(NamedTuple):
+    """The last place of a branch, the end behind it, from where it goes on, and the state to march from."""
+
+    place: _Place
+    end: BranchEnd
+    seed: Seed
+    state: Float[Array, " state"]
+
+
+def _go(leg: Leg) -> _Asking:
+    """One leg."""
+    here = _Place(leg.start, leg.state, leg.period)
+    ends: list[BranchEnd] = []
+    seeds: list[Seed] = []
+    way = np.sign(leg.target - leg.start)
+    while here.period and here.value != leg.target and len(ends) < MOST_ENDS and np.isfinite(leg.finest):
+        outcome = yield from _along(here, leg)
+        if isinstance(outcome, _Place):
+            here = outcome
+            break
+        if np.sign(leg.target - here.value) != way:  # back from beyond an end: the branch begins behind it
+            here = here._replace(period=0)
+            break
+        ends.append(outcome.end)
+        seeds.append(outcome.seed)
+        if leg.finest:
+            here = here._replace(state=outcome.state, period=0)
+            break
+        value = outcome.end.value + way * NUDGE * leg.size(outcome.end.value)
+        orbit, *_ = yield Settle(value, outcome.state)
+        here = _Place(value, orbit.last, orbit.period, orbit)
+        if orbit.kind == FAILED:
+            here = _Place(outcome.end.value, outcome.state, 0)
+    if here.orbit is not None and here.value == leg.target:
+        return Arrival(here.orbit, here.orbit.state, tuple(ends), tuple(seeds))
+    state = here.state
+    if not here.period and not leg.finest:
+        state = yield from carried(state, here.value, leg.target)
+    orbit, *_ = yield Settle(leg.target, state)
+    return Arrival(orbit, orbit.state if orbit.period else state, tuple(ends), tuple(seeds))
+
+
+def _along(here: _Place, leg: Leg) -> Generator[Request, Answer, "_Place | _Left"]:
+    """Follow a branch to the target, or to its end."""
+    target, finest = leg.target, leg.finest
+    way = float(np.sign(target - here.value))
+    before: _Place | None = None
+    beyond: tuple[float, Orbit] | None = None
+    step = abs(target - here.value) if finest else FIRST * leg.size(here.value)
+    good = missed = 0
+    while here.value != target:
+        size = leg.size(here.value)
+        least = max(LOCATED * size, finest)
+        room = abs(target - here.value)
+        if beyond is not None:
+            room = abs(beyond[0] - here.value)
+            if room <= least or missed == len(SHARES):
+                break
+            step = room * SHARES[missed]
+        trial = target if beyond is None and step >= 0.99 * room else here.value + way * min(step, room)
+        other = before if beyond is None or beyond[1].period < here.period else _place(*beyond)
+        orbit, scale, _ = yield Close(trial, _guess(other, here, trial), here.period)
+        if orbit.period and not _comparable(here, orbit, scale, abs(trial - here.value) / size):
+            orbit = orbit._replace(kind=FAILED, period=0)
+        if orbit.period == here.period and orbit.stable:
+            before, here = here, _Place(trial, orbit.state, orbit.period, orbit)
+            good, missed = good + 1, 0
+            step *= 2.0 if good > 1 else 1.0
+            step = min(step, max(LARGEST * size, finest))
+            continue
+        good = 0
+        if orbit.period:
+            beyond, missed = (trial, orbit), 0
+            continue
+        if beyond is not None:
+            missed += 1
+            continue
+        if abs(trial - here.value) > 1.001 * least:
+            step = max(abs(trial - here.value) / 2.0, least)
+            continue
+        on = yield from _gone_on(here, leg)
+        if on is None or on.orbit is None:
+            break
+        if on.orbit.stable:
+            before, here, step = here, on, FIRST * size
+        else:
+            beyond = on.value, on.orbit
+    if here.value == target:
+        return here
+    return (yield from _left(here, beyond, leg))
+
+
+def _round(here: _Place, leg: Leg) -> Request:
+    """Ask how a branch goes on behind a place by its arclength."""
+    way = float(np.sign(leg.target - here.value))
+    return Round(here.value, here.state, here.period, way, leg.size(here.value))
+
+
+def _gone_on(here: _Place, leg: Leg) -> Generator[Request, Answer, _Place | None]:
+    """A place behind one behind which nothing was found; None where the branch ends."""
+    if leg.finest:
+        return None
+    turn = (yield _round(here, leg)).rounded
+    if turn is None or turn.folded or np.sign(leg.target - turn.value) != np.sign(leg.target - here.value):
+        return None
+    orbit, *_ = yield Close(turn.value, turn.state, here.period)
+    return _place(turn.value, orbit) if orbit.period == here.period else None
+
+
+def _left(here: _Place, beyond: tuple[float, Orbit] | None, leg: Leg) -> Generator[Request, Answer, _Left]:
+    """The end behind the last place of a branch, and what was found beyond it."""
+    way = float(np.sign(leg.target - here.value))
+    known = here.orbit
+    if known is None:  # the branch ends at once
+        known, *_ = yield Close(here.value, here.state, here.period)
+    behind = beyond[0] if beyond else here.value + way * max(LOCATED * leg.size(here.value), leg.finest)
+    merged = beyond is not None and beyond[1].period < here.period
+    multipliers = None if beyond is None or merged else beyond[1].multipliers
+    kind = kind_of_end(known.multipliers, multipliers, merged)
+    value, within = 0.5 * (here.value + behind), abs(behind - here.value)
+    if kind in (FOLD, CORNER) and not leg.finest:
+        turn = (yield _round(here, leg)).rounded
+        if turn is not None and turn.folded:
+            kind, value, within = FOLD, turn.value, turn.within
+    end = BranchEnd(kind, value, within, here.period, complex(known.multipliers[0]))
+    seed = Seed(here.value, here.state, here.period, way)
+    if beyond is not None and merged:
+        seed = Seed(beyond[0], beyond[1].state, beyond[1].period, -way)
+    return _Left(here, end, seed, here.state if beyond is None else beyond[1].state)
+
+
+def _place(value: float, orbit: Orbit) -> _Place:
+    return _Place(value, orbit.state, orbit.period, orbit)
+
+
+def _guess(other: _Place | None, here: _Place, value: float) -> Float[Array, " state"]:
+    """The state at a value, by a straight line through a place and another, the last or one beyond."""
+    if other is None:
+        return here.state
+    share = (value - here.value) / (here.value - other.value)
+    return here.state + min(share, 2.0) * (here.state - other.state)
+
+
+def _comparable(here: _Place, orbit: Orbit, scale: Float[Array, " state"], step: float) -> bool:
+    """Whether a motion a step farther, over the parameter's magnitude, is surely of the same branch.
+
+    It is near, and no multiplier may have left the unit circle and come back in between.
+    """
+    if orbit.period < here.period and not orbit.stable:
+        return False  # the guess was nearer to the motion whose period doubled
+    extent = max(1.0, float(np.max(np.abs(here.state) / scale)))
+    if float(np.max(np.abs(orbit.state - here.state) / scale)) > MOVED * extent:
+        return False
+    if step > NARROW and _meeting(orbit.multipliers):
+        return False
+    if here.orbit is None or step <= LOCATED or orbit.period != here.period:
+        return True
+    mattering = [one for one in here.orbit.multipliers if abs(one) > MATTERS]
+    return all(np.min(np.abs(orbit.multipliers - one)) <= TURNED for one in mattering)
+
+
+def _meeting(multipliers: Complex[Array, " state"]) -> bool:
+    near = (np.abs(multipliers) > MATTERS) & (np.imag(multipliers) != 0.0)
+    return bool(np.any(near & (np.abs(np.imag(multipliers)) < MEETING)))

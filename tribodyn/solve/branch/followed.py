@@ -1,0 +1,164 @@
+"""Gear pairs followed along a parameter: `continuation` over `gear_map.GearMap`."""
+
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.dynamics.parameters import Model
+from tribodyn.errors import InputError, SimulationError
+from tribodyn.numerics.shapes import Array, Float
+from tribodyn.solve.branch.continuation import Arrival, Leg, follow
+from tribodyn.solve.branch.unstable import UnstableBranch, unstable_branches
+from tribodyn.solve.choice import choose
+from tribodyn.solve.orbit.gear_map import GearMap, moving_states
+from tribodyn.solve.orbit.period_map import PeriodMap
+from tribodyn.solve.orbit.periodic import FINE, Steady, sampled
+
+ModelAt = Callable[[int, float], Model]
+"""Gives the model on a line at a value of the parameter; raises InputError where there is none."""
+
+
+class Continued(NamedTuple):
+    """A branch beyond the end of its stable part.
+
+    Attributes
+    ----------
+    end : int
+        Number of that end among those of the leg.
+    branch : UnstableBranch
+    steadies : list of Steady
+        Its motions.
+    """
+
+    end: int
+    branch: UnstableBranch
+    steadies: list[Steady]
+
+
+class Followed(NamedTuple):
+    """What following one gear pair gave: the motion at the target, how the leg ended, what is unstable."""
+
+    steady: Steady
+    arrival: Arrival
+    continued: list[Continued]
+
+
+class Unstable(NamedTuple):
+    """What of the branches beyond their ends is wanted.
+
+    Attributes
+    ----------
+    span : (lowest, highest)
+        Range of the parameter.
+    motions : int
+        Motions on a branch at most, evenly along its arclength.
+    """
+
+    span: tuple[float, float]
+    motions: int
+
+
+class GearLines:
+    """Gear pairs on lines along a parameter, as `continued_family.Family`.
+
+    Parameters
+    ----------
+    model_at : callable
+    starts : mapping
+        Line -> (STATES,), by which states are scaled.
+    moving : tuple of int
+        See `gear_map.moving_states`.
+    **settings
+        Of `gear_map.GearMap`.
+    """
+
+    def __init__(
+        self,
+        model_at: ModelAt,
+        starts: dict[int, Float[Array, " state"]],
+        moving: tuple[int, ...],
+        **settings: Any,
+    ):
+        self.model_at, self.starts = model_at, starts
+        self.moving, self.settings = moving, settings
+
+    def at(self, lines: Sequence[int], values: Sequence[float]) -> tuple[PeriodMap, list[str]]:
+        """See `continued_family.Family`."""
+        models, starts, refusals = [], [], []
+        for line, value in zip(lines, values, strict=True):
+            try:
+                models.append(self.model_at(line, value))
+            except (InputError, SimulationError) as error:
+                refusals.append(str(error))
+                continue
+            starts.append(self.starts[line])
+            refusals.append("")
+        return GearMap(models, np.array(starts), self.moving, **self.settings), refusals
+
+
+def followed_states(
+    model_at: ModelAt,
+    legs: Sequence[Leg],
+    *,
+    samples: int,
+    rtol: float,
+    max_cycles: int,
+    solver: str,
+    max_steps: int,
+    workers: int | None,
+    tolerance: float = 1e-7,
+    unstable: Unstable | None = None,
+) -> list[Followed]:
+    """Follow gear pairs, each along its leg, to the steady motions at the targets.
+
+    Parameters
+    ----------
+    model_at : callable
+    legs : sequence of Leg
+        Their states are (STATES,) at phase 0 after engagement; those that are carried on likewise.
+    samples, rtol, max_cycles, solver, max_steps, workers, tolerance
+        As `periodic.steady_states` has them.
+    unstable : Unstable, optional
+        Continue branches beyond the ends of their stable parts.
+    """
+    alike: dict[tuple[Any, ...], list[int]] = {}
+    for number, leg in enumerate(legs):
+        model = model_at(leg.line, leg.target)
+        # lines are of one method each: it is estimated once
+        key = moving_states(model), choose(solver, model, leg.state).method
+        alike.setdefault(key, []).append(number)
+    results: dict[int, Followed] = {}
+    for (moving, method), numbers in alike.items():
+        rtols = {"rtol": rtol, "fine_rtol": FINE * tolerance}
+        starts = {legs[number].line: legs[number].state for number in numbers}
+        settings = {"solver": method, "max_steps": max_steps, "workers": workers, **rtols}
+        family = GearLines(model_at, starts, moving, **settings)
+        short = [legs[number]._replace(state=legs[number].state[list(moving)]) for number in numbers]
+        arrivals = follow(family, short, tolerance=tolerance, max_periods=max_cycles)
+        period_map, _ = family.at([leg.line for leg in short], [leg.target for leg in short])
+        assert isinstance(period_map, GearMap)
+        steadies = sampled(period_map, [one.orbit for one in arrivals], samples)
+        for number, steady, arrival in zip(numbers, steadies, arrivals, strict=True):
+            carried = period_map.full(arrival.carried[None])[0]
+            continued = (
+                [] if unstable is None else _continued(family, legs[number].line, arrival, unstable, samples)
+            )
+            results[number] = Followed(steady, arrival._replace(carried=carried), continued)
+    return [results[number] for number in range(len(legs))]
+
+
+def _continued(
+    family: GearLines, line: int, arrival: Arrival, unstable: Unstable, samples: int
+) -> list[Continued]:
+    """The branches beyond the ends of a leg."""
+    found = []
+    branches = unstable_branches(family, line, arrival.seeds, unstable.span)
+    for end, whole in enumerate(branches):
+        if whole is None:
+            continue
+        branch = whole.thinned(unstable.motions)
+        period_map, _ = family.at([line] * len(branch.values), branch.values.tolist())
+        assert isinstance(period_map, GearMap)
+        found.append(Continued(end, branch, sampled(period_map, branch.orbits(), samples)))
+    return found

@@ -1,0 +1,1 @@
+"""Integration through JAX: diffrax, one case or many."""

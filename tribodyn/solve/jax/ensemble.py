@@ -1,0 +1,220 @@
+"""Batches through JAX: diffrax over stacked models, on whatever device JAX has.
+
+The same right-hand side, mapped over the cases. For a GPU, and to compare with; on a CPU the lanes of
+`ensemble.march` are much faster, as all cases of a part wait for the slowest in every segment.
+"""
+
+import threading
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from functools import partial
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from tribodyn.dynamics.parameters import Model, Options
+from tribodyn.numerics.shapes import Array, Float, Int
+from tribodyn.solve.batch_result import Ensemble, nothing_yet
+from tribodyn.solve.integrator import March, Status
+from tribodyn.solve.jax.integrator import (
+    Carried,
+    SegmentControl,
+    SegmentResult,
+    beginning,
+    over_cycle,
+    padded_phases,
+    steps_end_on,
+    use_compilation_cache,
+)
+from tribodyn.solve.jax.method import DiffraxMethod
+from tribodyn.solve.lanes.packing import by_shape
+from tribodyn.solve.methods import method_file
+from tribodyn.solve.tolerances import tolerances_of_many
+
+#: Cases that are integrated side by side: a batch is done in parts of exactly so many, the last one filled up
+#: with copies of its last case, so that fewer cases compile nothing again. On a CPU one thread per part.
+WIDTH, WIDTH_ON_CPU = 1024, 64
+
+
+def width_here() -> int:
+    """Cases that are integrated side by side on the device that JAX has."""
+    return WIDTH_ON_CPU if jax.default_backend() == "cpu" else WIDTH
+
+
+class Part(NamedTuple):
+    """Cases that are integrated side by side, by their places in the batch.
+
+    Attributes
+    ----------
+    method : DiffraxMethod
+    width : int
+        At least the number of cases; what is missing is filled up.
+    one_table : bool
+        Whether all cases of this shape have the same.
+    places : (n,) int
+    """
+
+    method: DiffraxMethod
+    width: int
+    one_table: bool
+    places: Int[Array, " case"]
+
+
+def through_jax(
+    models: Sequence[Model],
+    states: Float[Array, "case state"],
+    method: str,
+    march: March,
+    workers: int,
+    progress: Callable[[float], None] | None = None,
+) -> Ensemble:
+    """Integrate with a method of diffrax, mapped over the cases: what `ensemble.march` does with those.
+
+    A failed case's state is the one at the end of the segment before, where `reached` points too. On a
+    processor the parts go to `workers` threads; elsewhere there is one.
+
+    Notes
+    -----
+    Compiled once for a method, a width, a shape of models (`lane_packing.ModelShape`), tables shared or
+    not, and every `diffrax_integrator.ROOM` samples per cycle; for no number, and not for fewer cases.
+    """
+    use_compilation_cache()
+    result = nothing_yet(states, march.window * march.samples, march.extremes)
+    parts = _parts(models, method_file(method).METHOD, width_here())
+    threads = workers if jax.default_backend() == "cpu" else 1
+    cancelled = threading.Event()
+    ticks: list[Part] = []
+
+    def one(part: Part) -> None:
+        for _ in _cycles(part, models, march, result):
+            ticks.append(part)
+            if progress:
+                progress(len(ticks) / (len(parts) * march.cycles))
+            if cancelled.is_set():
+                return
+
+    with ThreadPoolExecutor(threads) as pool:
+        try:
+            for job in as_completed([pool.submit(one, part) for part in parts]):
+                job.result()
+        finally:
+            cancelled.set()
+            pool.shutdown(cancel_futures=True)
+    return result
+
+
+def _parts(models: Sequence[Model], method: DiffraxMethod, width: int) -> list[Part]:
+    """Parts of cases of one shape, those of low speed, which take the most steps, side by side."""
+    parts = []
+    for group in by_shape(models):
+        one_table = all(models[case].table is models[group[0]].table for case in group)
+        order = np.array(sorted(group, key=lambda case: float(models[case].mechanics.nominal_speed)))
+        parts += [Part(method, width, one_table, order[i : i + width]) for i in range(0, len(order), width)]
+    return parts
+
+
+def _cycles(part: Part, models: Sequence[Model], march: March, result: Ensemble):
+    """Integrate a part, mesh cycle by mesh cycle, and put what comes into `result`."""
+    places = part.places
+    rows = np.pad(places, (0, part.width - len(places)), mode="edge")
+    mine = [models[case] for case in rows]
+    tables = [model.table for model in mine]
+    numbers = (
+        jax.tree.map(partial(jnp.asarray, dtype=float), tables[0]) if part.one_table else stacked(tables),
+        stacked([model.mechanics for model in mine]),
+        *(stacked([getattr(model, name) for model in mine]) for name in ("surfaces", "film", "friction")),
+    )
+    boundary = np.array([np.asarray(table.boundary) for table in tables])
+    grids = [padded_phases(row, march.samples) for row in boundary]
+    dense = np.array([at for at, _ in grids])
+    control = SegmentControl(
+        jnp.full(dense.shape, np.nan, dtype=float),
+        jnp.asarray(steps_end_on(mine)),
+        jnp.full(part.width, march.rtol, dtype=float),
+        jnp.asarray(tolerances_of_many(mine, result.state[rows], march.rtol)),
+        jnp.full(part.width, march.max_steps, dtype=int),
+    )
+    carried = beginning(result.state[rows])
+    for done in range(march.cycles):
+        kept = done - (march.cycles - march.window)
+        if kept == 0:
+            control = control._replace(at=jnp.asarray(dense))
+        carried, segments = _compiled(
+            part,
+            mine[0].options,
+            numbers,
+            carried,
+            march.first_cycle + done,
+            march.started or done > 0,
+            control,
+        )
+        cases = slice(len(places))
+        status = np.asarray(segments.status)[cases]
+        whole = np.argmax(np.pad(status, ((0, 0), (0, 1)), constant_values=-1) != Status.DONE, axis=1)
+        result.reached[places] += boundary[np.arange(len(places)), whole]
+        result.steps[places] += np.sum(np.asarray(segments.steps)[cases], axis=1)
+        result.evaluations[places] += np.sum(np.asarray(segments.evaluations)[cases], axis=1)
+        if kept >= 0 and march.samples:
+            sampled = np.asarray(segments.samples)
+            for i, case in enumerate(places):
+                block = [sampled[i, k, : grids[i][1][k]] for k in range(whole[i])]
+                block = np.concatenate([*block, np.empty((0, sampled.shape[-1]))])
+                first = kept * march.samples
+                result.samples[case, first : first + len(block)] = block
+        result.state[places] = np.asarray(carried.y)[cases]
+        result.status[places] = status[:, -1]
+        yield done
+        if np.all(status[:, -1] != Status.DONE):
+            return
+
+
+def _compiled(
+    part: Part,
+    options: Options,
+    numbers: Any,
+    carried: Carried,
+    cycle: int,
+    started: bool,
+    control: SegmentControl,
+) -> tuple[Carried, SegmentResult]:
+    """Give `over_one_cycle`; what was not yet compiled is compiled by one thread while the others wait."""
+    shapes = tuple((x.shape, x.dtype) for x in jax.tree.leaves((numbers, control)))
+    key = (part.method, options, part.one_table, shapes)
+    call = partial(over_one_cycle, part.method, options, part.one_table)
+    arguments = (numbers, carried, cycle, started, control)
+    if key not in _known:
+        with _lock:
+            result = jax.block_until_ready(call(*arguments))
+            _known.add(key)
+            return result
+    return call(*arguments)
+
+
+_lock = threading.Lock()
+_known: set[tuple[Any, ...]] = set()
+
+
+@partial(jax.jit, static_argnames=("method", "options", "one_table"))
+def over_one_cycle(
+    method: DiffraxMethod,
+    options: Options,
+    one_table: bool,
+    numbers: Any,
+    carried: Carried,
+    cycle: Any,
+    started: Any,
+    control: SegmentControl,
+) -> tuple[Carried, SegmentResult]:
+    """`diffrax_integrator.over_cycle` mapped over the cases: a leading axis on all but cycle and started."""
+
+    def one(numbers: Any, carried: Carried, control: SegmentControl) -> tuple[Carried, SegmentResult]:
+        return over_cycle(method, options, numbers, carried, cycle, started, control)
+
+    return jax.vmap(one, in_axes=((None if one_table else 0, 0, 0, 0, 0), 0, 0))(numbers, carried, control)
+
+
+def stacked(trees: list[Any]) -> Any:
+    """Pytrees of numbers and arrays as one with a leading axis."""
+    return jax.tree.map(lambda *leaves: jnp.asarray(np.array(leaves, dtype=float)), *trees)

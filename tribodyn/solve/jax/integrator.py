@@ -1,0 +1,289 @@
+"""diffrax's solvers (Tsit5, Dopri8, Kvaerno5) on the same right-hand side, through JAX.
+
+The reference solver, the stiff choice, and the way to gradients and to a GPU. A mesh cycle is one compiled
+function: a scan over segments, each solved from boundary to boundary with the segment passed explicitly, so
+that no number of the scenario is compiled in. Steps end where friction reverses, as the native ones do.
+"""
+
+import os
+from collections.abc import Sequence
+from functools import lru_cache, partial
+from typing import Any, NamedTuple
+
+# the error branch of equinox cannot be cached between processes; NaNs are checked for below instead
+os.environ.setdefault("EQX_ON_ERROR", "nan")
+
+import diffrax
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from tribodyn.dynamics.equations import derivatives
+from tribodyn.dynamics.parameters import DRIVE_SPEED, SLIDING_DYNAMIC, SLIP, STATES, XI_RATE, Model, Options
+from tribodyn.numerics.cache import trusted_folder
+from tribodyn.numerics.shapes import Array, Float, Int
+from tribodyn.solve.engagement import engaged
+from tribodyn.solve.integrator import IntegratedCycles, Status
+from tribodyn.solve.jax.limited_steps import GROWN, LimitedSteps
+from tribodyn.solve.jax.method import DiffraxMethod
+from tribodyn.solve.jax.turning_steps import TurningSteps
+from tribodyn.solve.march.reversal import SHARES, filled_up, stops_of_many
+from tribodyn.solve.march.step_control import FIRST_STEP, MINIMUM_STEP, RELATIVE
+from tribodyn.solve.march.turning import resolves_turns
+from tribodyn.solve.sampling import sample_phases
+from tribodyn.solve.tolerances import Tolerances
+
+jax.config.update("jax_enable_x64", True)
+
+#: Fills up the phases to sample: it passes diffrax's checks and is never due.
+NEVER = np.nan
+#: Samples that the compiled code has room for in a segment, or a multiple.
+ROOM = 256
+
+
+@lru_cache(maxsize=1)
+def use_compilation_cache() -> None:
+    """Keep XLA's compiled code between processes, beside the native kernel's."""
+    folder = trusted_folder("xla")
+    if folder is None:
+        return
+    jax.config.update("jax_compilation_cache_dir", str(folder))
+    jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.2)
+
+
+def right_hand_side(phase: Any, y: Any, args: Any) -> Any:
+    """Derivative of the state as a JAX array; `args` is (cycle, segment, model)."""
+    cycle, segment, model = args
+    return _rates(phase, y, cycle, segment, model[:-1], model.options)
+
+
+@partial(jax.jit, static_argnames="options")
+def _rates(phase: Any, y: Any, cycle: Any, segment: Any, numbers: Any, options: Options) -> Any:
+    """Traced once, however often a method's stages name it."""
+    rates: dict[int, Any] = {}
+    derivatives(phase, cycle, segment, y, Model(*numbers, options=options), {}, rates)
+    return jnp.stack([jnp.asarray(rates[i], dtype=y.dtype) for i in range(STATES)])
+
+
+class Carried(NamedTuple):
+    """What is handed from one segment to the next; all with leading axes for the cases of a batch.
+
+    Attributes
+    ----------
+    y : (STATES,)
+        At the end of the segment before; of a run that failed where the last whole segment ended.
+    step : float
+        First step to try, mesh cycles.
+    steps : int
+        Accepted in this mesh cycle so far.
+    status : int
+        A `Status`.
+    """
+
+    y: Float[Array, "*case state"]
+    step: Float[Array, "*case"]
+    steps: Int[Array, "*case"]
+    status: Int[Array, "*case"]
+
+
+class SegmentControl(NamedTuple):
+    """How to integrate, segment by segment; with a leading axis for the cases of a batch.
+
+    Attributes
+    ----------
+    at : (S, room)
+        Phases to sample, filled up with `NEVER`.
+    stops : (S, n)
+        Phases that steps end on.
+    rtol, atol : float, (STATES,)
+    max_steps : int
+        Steps allowed in one mesh cycle.
+    """
+
+    at: Float[Array, "*case segment room"]
+    stops: Float[Array, "*case segment stop"]
+    rtol: Float[Array, "*case"]
+    atol: Float[Array, "*case state"]
+    max_steps: Int[Array, "*case"]
+
+
+class SegmentResult(NamedTuple):
+    """What became of segments: their samples, as many as were due, and what they cost."""
+
+    samples: Float[Array, "*case segment room state"]
+    status: Int[Array, "*case segment"]
+    steps: Int[Array, "*case segment"]
+    evaluations: Int[Array, "*case segment"]
+
+
+def over_cycle(
+    method: DiffraxMethod,
+    options: Options,
+    numbers: Any,
+    carried: Carried,
+    cycle: Any,
+    started: Any,
+    control: SegmentControl,
+) -> tuple[Carried, SegmentResult]:
+    """Integrate over one mesh cycle: a scan over its segments, each solved from boundary to boundary.
+
+    `numbers` are the model's but for its options; `started` says whether the engagement at phase 0 comes
+    first.
+    """
+    model = Model(*numbers, options=options)
+    table, mechanics = model.table, model.mechanics
+    segments = table.in_contact.shape[0]
+    pid: Any = diffrax.PIDController(
+        control.rtol * RELATIVE,
+        control.atol,
+        pcoeff=method.proportional,
+        icoeff=method.integral,
+        dtmin=MINIMUM_STEP,
+        force_dtmin=False,
+    )
+    if options.sliding == SLIDING_DYNAMIC:
+        pid = TurningSteps(pid, resolves_turns(control.atol[XI_RATE], model))
+    stall = None
+    if options.drive != DRIVE_SPEED:
+        stall = diffrax.Event(lambda t, y, args, **kwargs: mechanics.nominal_speed + y[SLIP] <= 0.0)
+
+    def one(carried: Carried, segment: Any) -> tuple[Carried, SegmentResult]:
+        dead = carried.status != Status.DONE
+        start, end = table.boundary[segment], table.boundary[segment + 1]
+        y = jnp.stack(engaged(segment, (segment > 0) | started, carried.y, model))
+        # a case that failed waits for the others of its batch at a harmless state, over next to nothing
+        y = jnp.where(dead, 0.0, y)
+        end = jnp.where(dead, start + 1e-9 * (end - start), end)
+        at = jnp.where(dead, NEVER, control.at[segment])
+        clipped = diffrax.ClipStepSizeController(pid, step_ts=control.stops[segment])
+        solution = diffrax.diffeqsolve(
+            diffrax.ODETerm(right_hand_side),
+            method.solver(),
+            start,
+            end,
+            jnp.minimum(carried.step, end - start),
+            y,
+            args=(jnp.asarray(cycle, dtype=float), segment, model),
+            saveat=diffrax.SaveAt(ts=at, t1=True),
+            stepsize_controller=LimitedSteps(clipped, control.max_steps - carried.steps),
+            max_steps=None,
+            throw=False,
+            event=stall,
+        )
+        states: Any = solution.ys
+        last = states[jnp.sum(jnp.isfinite(at))]  # the end stands behind the samples that were due
+        accepted = solution.stats["num_accepted_steps"]
+        steps = carried.steps + accepted
+        status = jnp.where(jnp.all(jnp.isfinite(last)), Status.DONE, Status.NOT_FINITE)
+        failures = (
+            (diffrax.RESULTS.dt_min_reached, Status.STEP_TOO_SMALL),
+            (diffrax.RESULTS.event_occurred, Status.STALLED),
+            (diffrax.RESULTS.max_steps_reached, Status.TOO_MANY_STEPS),
+            (GROWN, Status.UNBOUNDED),
+        )
+        status = jnp.where(solution.result == diffrax.RESULTS.successful, status, Status.NOT_FINITE)
+        for result, meaning in failures:
+            status = jnp.where(solution.result == result, meaning, status)
+        status = jnp.where(dead, carried.status, status)
+        good = status == Status.DONE
+        mean_step = (end - start) / jnp.maximum(accepted, 1)
+        went_on = Carried(
+            jnp.where(good, last, carried.y),
+            jnp.where(good, mean_step, carried.step),
+            jnp.where(good, steps, carried.steps),
+            status,
+        )
+        taken = jnp.minimum(accepted, control.max_steps - carried.steps)  # the step too many is counted there
+        cost = jnp.where(dead, 0, solution.stats["num_steps"] * method.stages)
+        return went_on, SegmentResult(states[:-1], status, jnp.where(dead, 0, taken), cost)
+
+    return jax.lax.scan(one, carried._replace(steps=jnp.zeros_like(carried.steps)), jnp.arange(segments))
+
+
+over_one_cycle = jax.jit(over_cycle, static_argnames=("method", "options"))
+
+
+def beginning(state: Float[Array, "*case state"]) -> Carried:
+    """What is handed to the first segment; leading axes are those of the state.
+
+    Of the types that a mesh cycle hands on: a plain number's weak one would compile everything once more.
+    """
+    shape = state.shape[:-1]
+    none = jnp.zeros(shape, dtype=int)
+    step = jnp.full(shape, FIRST_STEP, dtype=float)
+    return Carried(jnp.asarray(state, dtype=float), step, none, none + Status.DONE)
+
+
+def padded_phases(
+    boundary: Float[Array, " boundary"], samples: int
+) -> tuple[Float[Array, "segment room"], list[int]]:
+    """Phases of the samples in every segment (S, room), filled up with `NEVER`, and how many are samples.
+
+    The room is a multiple of `ROOM`, so that neither another contact ratio nor another number of samples
+    compiles anything again.
+    """
+    groups = sample_phases(boundary, samples)
+    room = ROOM * max(1, -(-samples // ROOM))
+    filled = [np.append(group, np.full(room - len(group), NEVER)) for group in groups]
+    return np.array(filled), [len(group) for group in groups]
+
+
+def steps_end_on(models: Sequence[Model]) -> Float[Array, "case segment stop"]:
+    """Phases that steps end on, see `reversal.stops`; their number depends on the pair slots only."""
+    count = 1 + len(SHARES) * np.asarray(models[0].table.in_contact).shape[1]
+    return filled_up(stops_of_many(models), count)
+
+
+class DiffraxIntegrator:
+    """Integrates with diffrax; see `integrator.Integrator`.
+
+    Parameters
+    ----------
+    method : module
+        One of `methods` that diffrax runs: its `METHOD`.
+    model : Model
+    samples : int
+        Samples per mesh cycle.
+    tolerances : Tolerances
+    """
+
+    def __init__(self, method: Any, model: Model, samples: int, tolerances: Tolerances):
+        use_compilation_cache()
+        self.method: DiffraxMethod = method.METHOD
+        self.options: Options = model.options
+        self.numbers = jax.tree.map(partial(jnp.asarray, dtype=float), model.numbers)
+        self.boundary = np.asarray(model.table.boundary)
+        at, self.counts = padded_phases(self.boundary, samples)
+        self.control = SegmentControl(
+            jnp.asarray(at),
+            jnp.asarray(steps_end_on([model])[0]),
+            jnp.asarray(tolerances.rtol, dtype=float),
+            jnp.asarray(tolerances.atol, dtype=float),
+            jnp.asarray(tolerances.max_steps, dtype=int),
+        )
+        self.step = FIRST_STEP
+        self.started = False
+
+    def integrate(self, state: Float[Array, " state"], first_cycle: int, cycles: int) -> IntegratedCycles:
+        """See `integrator.Integrator`."""
+        carried = beginning(state)._replace(step=jnp.asarray(self.step, dtype=float))
+        samples, reached, steps, evaluations = [np.empty((0, STATES))], 0.0, 0, 0
+        for cycle in range(first_cycle, first_cycle + cycles):
+            carried, segments = over_one_cycle(
+                self.method, self.options, self.numbers, carried, cycle, self.started, self.control
+            )
+            self.started = True
+            status, sampled = np.asarray(segments.status), np.asarray(segments.samples)
+            failed = status != Status.DONE
+            whole = int(np.argmax(failed)) if failed.any() else len(status)
+            samples += [sampled[k, : self.counts[k]] for k in range(whole)]
+            steps += int(np.sum(segments.steps))
+            evaluations += int(np.sum(segments.evaluations))
+            reached += float(self.boundary[whole])
+            if whole < len(status):
+                break
+        self.step = float(carried.step)
+        status = Status(int(carried.status))
+        return IntegratedCycles(
+            np.concatenate(samples), np.array(carried.y), status, reached, steps, evaluations
+        )

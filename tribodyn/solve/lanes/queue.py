@@ -1,0 +1,245 @@
+"""The queue of cases, the lanes that work on it, and how cases pass between the two.
+
+Whatever differs by lane stands in rows of `WIDTH` floats, flags and counters too: the compiler reads a row as
+one vector, and compares and selects without conversion. Counters stay far below 2^53, where floats are exact.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from tribodyn.dynamics.contact_forces import QUANTITIES
+from tribodyn.dynamics.extremes import EXTREMES, LOWEST, Extremes, measures_of
+from tribodyn.dynamics.extremes import ROWS as ROWS_OF_MEASURES
+from tribodyn.dynamics.parameters import STATES
+from tribodyn.kernels.lanes.arrays import rows_of
+from tribodyn.kernels.lanes.vectors import WIDTH, count
+from tribodyn.kernels.native.parts import part
+from tribodyn.numerics.elementary import where
+from tribodyn.numerics.shapes import Array, Float, Int
+from tribodyn.solve.batch_result import Ensemble
+from tribodyn.solve.integrator import Status
+from tribodyn.solve.lanes.packing import Packed
+from tribodyn.solve.march.dormand_prince import STAGES
+from tribodyn.solve.march.step_control import FIRST_STEP, MINIMUM_ERROR
+
+#: Rows of the step control: phase (mesh cycles, 0 … 1); end of the segment, a lane runs while its phase is
+#: below; next stop, see `reversal`; the step, and what it was before it was cut to end there; the last error.
+PHASE, END, LIMIT, STEP, UNCUT_STEP, LAST_ERROR = range(6)
+#: Rows of counters: cycles done by the lane's case; steps accepted, and those before this mesh cycle;
+#: evaluations; number of the next stop in its segment.
+CYCLE, STEPS, STEPS_BEFORE, EVALUATIONS, STOP = range(6, 11)
+#: Rows of the case and its samples: number of the case, −1 for none; number of the next sample in the cycle
+#: and its phase, above 1 if none is left.
+CASE, SAMPLE, DUE = range(11, 14)
+#: Row of a counter: how often the step was tried again because friction turned too far.
+TRIES = 17
+#: Rows of flags, 0 or 1: no engagement opens the first cycle; the step was cut; the lane is selected (where
+#: it fails, with its status).
+FRESH, CUT, SELECTED = range(14, 17)
+ROWS = 18
+#: A phase that never comes.
+NEVER = 2.0
+
+
+class LaneBlock(NamedTuple):
+    """Scratch of the lanes that one thread works with.
+
+    Attributes
+    ----------
+    numbers, addresses : of the lanes' models, see `lane_packing`
+    rows : (ROWS, WIDTH)
+    y, new, sample, atol : (STATES, WIDTH)
+    k : (STAGES, STATES, WIDTH)
+    work : (quantities, pairs, WIDTH)
+    measures, extreme, cycles, segments, states
+        As in `extreme_search.Search`, each (…, WIDTH).
+    """
+
+    numbers: Float[Array, "number lane"]
+    addresses: Int[Array, "table lane"]
+    rows: Float[Array, "row lane"]
+    y: Float[Array, "state lane"]
+    new: Float[Array, "state lane"]
+    sample: Float[Array, "state lane"]
+    atol: Float[Array, "state lane"]
+    k: Float[Array, "stage state lane"]
+    work: Float[Array, "quantity pair lane"]
+    measures: Float[Array, "row measure lane"]
+    extreme: Float[Array, "extreme lane"]
+    cycles: Float[Array, "extreme lane"]
+    segments: Float[Array, "extreme lane"]
+    states: Float[Array, "extreme state lane"]
+
+
+class Queue(NamedTuple):
+    """Cases of one shape in the order in which they are begun, shared by all threads.
+
+    Attributes
+    ----------
+    numbers, addresses : (C, F) float64 and (C, T) int64
+        The models, see `lane_packing`.
+    atol : (C, STATES)
+    stops : (C, segments, stops)
+        Phases that steps end on, see `reversal.stops`.
+    state : (C, STATES), samples : (C, kept, STATES), status : (C,) int64, reached : (C,)
+    steps, evaluations : (C,) int64
+        Results; `state` holds the start before.
+    measure, at, segment : (C, EXTREMES), extreme_state : (C, EXTREMES, STATES)
+        Results: the `Extremes`, where they are sought.
+    taken, done, stop : (1,) int64
+        Cases begun; mesh cycles done; not 0 to stop all threads.
+    """
+
+    numbers: Float[Array, "case number"]
+    addresses: Int[Array, "case table"]
+    atol: Float[Array, "case state"]
+    stops: Float[Array, "case segment stop"]
+    state: Float[Array, "case state"]
+    samples: Float[Array, "case sample state"]
+    status: Int[Array, " case"]
+    reached: Float[Array, " case"]
+    steps: Int[Array, " case"]
+    evaluations: Int[Array, " case"]
+    measure: Float[Array, "case extreme"]
+    at: Float[Array, "case extreme"]
+    segment: Float[Array, "case extreme"]
+    extreme_state: Float[Array, "case extreme state"]
+    taken: Int[Array, "1"]
+    done: Int[Array, "1"]
+    stop: Int[Array, "1"]
+
+    def results(self) -> Ensemble:
+        """Results of the cases, in the order of the queue."""
+        extremes = Extremes(self.measure, self.at, self.segment, self.extreme_state)
+        return Ensemble(
+            self.state, self.samples, self.status, self.reached, self.steps, self.evaluations, extremes
+        )
+
+
+def empty_lanes(
+    packed: Packed, numbers: Float[Array, "number lane"], addresses: Int[Array, "table lane"]
+) -> LaneBlock:
+    """Lanes without cases."""
+    pairs = packed.shape.pairs
+    block = LaneBlock(
+        numbers,
+        addresses,
+        *(
+            np.zeros((*shape, WIDTH))
+            for shape in (
+                (ROWS,),
+                (STATES,),
+                (STATES,),
+                (STATES,),
+                (STATES,),
+                (STAGES, STATES),
+                (QUANTITIES + pairs, pairs),
+                (ROWS_OF_MEASURES, measures_of(pairs)),
+                (EXTREMES,),
+                (EXTREMES,),
+                (EXTREMES,),
+                (EXTREMES, STATES),
+            )
+        ),
+    )
+    block.rows[CASE] = -1.0
+    return block
+
+
+@part
+def copy(source, target):
+    """Copy one row of numbers."""
+    for i in range(source.shape[0]):
+        target[i] = source[i]
+
+
+@part
+def take_cases(block, queue, march):
+    """Fill the lanes that have no case; False if none has one any more."""
+    rows = block.rows
+    running = False
+    for lane in range(WIDTH):
+        if rows[CASE, lane] < 0.0 and queue.taken[0] < queue.state.shape[0]:
+            case = count(queue.taken, 1)
+            if case < queue.state.shape[0]:
+                copy(queue.numbers[case], block.numbers[:, lane])
+                copy(queue.addresses[case], block.addresses[:, lane])
+                copy(queue.state[case], block.y[:, lane])
+                copy(queue.atol[case], block.atol[:, lane])
+                for row in range(ROWS):
+                    rows[row, lane] = 0.0
+                rows[CASE, lane] = case
+                for i in range(EXTREMES):
+                    block.extreme[i, lane] = LOWEST
+                rows[STEP, lane] = FIRST_STEP
+                rows[LAST_ERROR, lane] = MINIMUM_ERROR
+                rows[FRESH, lane] = 0.0 if march.started else 1.0
+        if rows[CASE, lane] >= 0.0:
+            running = True
+            rows[STEPS_BEFORE, lane] = rows[STEPS, lane]
+            inside = rows[CYCLE, lane] >= march.cycles - march.window and march.samples > 0
+            rows[SAMPLE, lane] = 0.0
+            rows[DUE, lane] = 0.0 if inside else NEVER
+        else:
+            rows[DUE, lane] = NEVER
+    return running and queue.stop[0] == 0
+
+
+@part
+def close_cycle(block, queue, march):
+    """Count the cycle, and hand in the cases that have done all of theirs."""
+    rows = block.rows
+    for lane in range(WIDTH):
+        if rows[CASE, lane] >= 0.0:
+            rows[CYCLE, lane] += 1.0
+            count(queue.done, 1)
+            if rows[CYCLE, lane] >= march.cycles:
+                rows[PHASE, lane] = 0.0
+                let_go(lane, Status.DONE.value, block, queue)
+
+
+@part
+def let_go(lane, status, block, queue):
+    """Hand in a lane's case; the lane idles to the end of the cycle."""
+    rows = block.rows
+    case = int(rows[CASE, lane])
+    copy(block.y[:, lane], queue.state[case])
+    queue.status[case] = status
+    queue.reached[case] = rows[CYCLE, lane] + rows[PHASE, lane]
+    queue.steps[case] = int(rows[STEPS, lane])
+    queue.evaluations[case] = int(rows[EVALUATIONS, lane])
+    if queue.measure.shape[0] > 0:
+        copy(block.extreme[:, lane], queue.measure[case])
+        copy(block.cycles[:, lane], queue.at[case])
+        copy(block.segments[:, lane], queue.segment[case])
+        for i in range(EXTREMES):
+            copy(block.states[i, :, lane], queue.extreme_state[case, i])
+    rows[CASE, lane] = -1.0
+    rows[PHASE, lane] = rows[END, lane]
+
+
+@part
+def fail(failure, block, queue, march):
+    """Hand in the cases of those lanes as failed that have another `Status` than 0, which is DONE."""
+    rows_of(block.rows)[SELECTED] = failure
+    for lane in range(WIDTH):
+        if block.rows[SELECTED, lane] > 0.0:
+            count(queue.done, march.cycles - int(block.rows[CYCLE, lane]))
+            let_go(lane, int(block.rows[SELECTED, lane]), block, queue)
+
+
+@part
+def keep_sample(lanes, sample, block, queue, march):
+    """Copy the state in `sample` to the results of some lanes, and say when their next one is due."""
+    rows = block.rows
+    rows_of(rows)[SELECTED] = where(lanes, 1.0, 0.0)
+    for lane in range(WIDTH):
+        if rows[SELECTED, lane] > 0.0:
+            number = int(rows[SAMPLE, lane])
+            cycle = int(rows[CYCLE, lane]) - (march.cycles - march.window)
+            kept = queue.samples[int(rows[CASE, lane]), cycle * march.samples + number]
+            copy(sample[:, lane], kept)
+            number += 1
+            rows[SAMPLE, lane] = number
+            rows[DUE, lane] = number / march.samples if number < march.samples else NEVER

@@ -1,0 +1,1 @@
+"""The native march through mesh cycles: steps, samples, extremes, derivatives."""

@@ -1,0 +1,238 @@
+"""The march of the native methods through mesh cycles: segments, steps and samples, the same for all.
+
+A method is seven functions, see `Method`, and a buffer whose first two rows are the new state and its error.
+"""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.dynamics.parameters import MECHANICAL, SLIDING_DYNAMIC, SLIP, STATES, XI_RATE
+from tribodyn.kernels.native import kernel
+from tribodyn.numerics.elementary import largest_slope, maximum, minimum, plain
+from tribodyn.numerics.shapes import Array, Float
+from tribodyn.solve.engagement import engage
+from tribodyn.solve.integrator import Status
+from tribodyn.solve.march.step_control import (
+    MINIMUM_ERROR,
+    RELATIVE,
+    RETRY,
+    collected,
+    cut_at_stop,
+    judged,
+    next_step,
+    refused,
+    step_error,
+    unbounded,
+    weighed_error,
+)
+from tribodyn.solve.march.turning import (
+    MOST_TRIES,
+    begin_turning,
+    keep_turned,
+    longest_step,
+    resolves_turns,
+    turn_of,
+)
+
+#: Rows of a method's buffer: the new state and its error; the method's own rows follow.
+STATE, ERROR, SCRATCH = 0, 1, 2
+
+
+class Method(NamedTuple):
+    """What a method adds to the march: seven kernels.
+
+    Attributes
+    ----------
+    attempt : (fresh, step, place, y, control, model, work, buffer) -> int
+        Fills the first two rows of the buffer and returns how many right-hand sides that took; `fresh` says
+        that nothing is known yet at the place and `y`. It leaves `work` as it is at the end of the step.
+    sample : (theta, step, y, buffer, out)
+        Writes the state at the share `theta` of the step last attempted.
+    accept : (buffer) -> bool
+        Keeps what the next step can use of an accepted one; returns whether that one begins fresh.
+    adapted : (step, error, last_error, buffer) -> float
+        The next step to try.
+    contacts : (phase, segment, model, work, buffer)
+        Fills `work` with the contacts at the end of the step last attempted, if it is not so yet.
+    opened, stepped
+        What seeks extremes at the start of a segment and over an accepted step, see `extreme_search`: its
+        `open_segment` and `search_step`, or `ignore_segment` and `ignore_step`.
+    """
+
+    attempt: Callable[..., Any]
+    sample: Callable[..., Any]
+    accept: Callable[..., Any]
+    adapted: Callable[..., Any]
+    contacts: Callable[..., Any]
+    opened: Callable[..., Any]
+    stepped: Callable[..., Any]
+
+
+class Place(NamedTuple):
+    """Where in the mesh: phase, whole cycles before, the segment and the phase at which it ends."""
+
+    phase: float
+    cycle: float
+    segment: int
+    end: float
+
+
+class Control(NamedTuple):
+    """What the step control of one case needs.
+
+    Attributes
+    ----------
+    step : float
+        First step to try, mesh cycles.
+    atol : (STATES,)
+        Absolute tolerances.
+    scale : (STATES,)
+        Sizes of the states.
+    stops : (segments, stops)
+        Phases that steps end on, see `reversal.stops`.
+    slope_tolerance : float
+        Of derivatives with respect to the start, where numbers carry them, over the scale of the states.
+    """
+
+    step: float
+    atol: Float[Array, " state"]
+    scale: Float[Array, " state"]
+    stops: Float[Array, "segment stop"]
+    slope_tolerance: float = 1.0
+
+
+@kernel
+def march_with(method, march, control, model, y, out, work, buffer, search):
+    """Integrate mesh cycles from the state `y` at the end of the one before.
+
+    Parameters
+    ----------
+    method : Method
+    march : integrator.March
+        All its cycles are sampled, whatever its window.
+    control : Control
+    model : Model
+    y : (STATES,) float64, changed in place to the state reached
+    out : (cycles · samples, STATES)
+        Receives the states at the samples.
+    work, buffer : arrays
+        Scratch, from `right_hand_side.work_array` and the method's `buffer`.
+    search : extreme_search.Search
+        What is known of the extremes; used where `march.extremes` says that they are sought.
+
+    Returns
+    -------
+    status, reached (cycles since first_cycle), step, steps, evaluations, samples written
+    """
+    samples, table = march.samples, model.table
+    segments = table.in_contact.shape[0]
+    nominal_speed = model.mechanics.nominal_speed
+    step = control.step
+    steps = 0
+    evaluations = 0
+    written = 0
+    last_error = MINIMUM_ERROR
+    turning = model.options.sliding == SLIDING_DYNAMIC and resolves_turns(control.atol[XI_RATE], model)
+    for cycle in range(march.cycles):
+        whole = float(march.first_cycle + cycle)
+        steps_before = steps
+        for segment in range(segments):
+            phase = table.boundary[segment]
+            end = table.boundary[segment + 1]
+            if segment > 0 or march.started or cycle > 0:
+                engage(segment, True, y, model, work, y)
+            if written < (cycle + 1) * samples and (written - cycle * samples) / samples <= phase:
+                for i in range(STATES):
+                    out[written, i] = y[i]
+                written += 1
+            if march.extremes:
+                method.opened(Place(phase, whole, segment, end), y, model, work, search)
+            if turning:
+                begin_turning(phase, segment, y, model, work)
+            fresh = True
+            stop, tries = 0, 0.0
+            while phase < end:
+                limit = control.stops[segment, stop]
+                uncut_step = step
+                cut, step = cut_at_stop(phase, step, limit)
+                too_many, vanishing, at_rest = refused(
+                    steps - steps_before, march.max_steps, step, nominal_speed + y[SLIP], nominal_speed
+                )
+                if too_many:
+                    return Status.TOO_MANY_STEPS.value, cycle + phase, step, steps, evaluations, written
+                if at_rest:
+                    return Status.STALLED.value, cycle + phase, step, steps, evaluations, written
+                if vanishing:
+                    return Status.STEP_TOO_SMALL.value, cycle + phase, step, steps, evaluations, written
+                place = Place(phase, whole, segment, end)
+                evaluations += method.attempt(fresh, step, place, y, control, model, work, buffer)
+                fresh = False
+                worst, total = 0.0, 0.0
+                for i in range(STATES):
+                    weighed = weighed_error(
+                        plain(buffer[ERROR, i]),
+                        plain(y[i]),
+                        plain(buffer[STATE, i]),
+                        control.atol[i],
+                        march.rtol * RELATIVE[i],
+                    )
+                    worst, total = collected(worst, total, weighed)
+                for i in range(MECHANICAL):  # of the derivatives, where numbers carry them
+                    weighed = weighed_error(
+                        largest_slope(buffer[ERROR, i]),
+                        largest_slope(y[i]),
+                        largest_slope(buffer[STATE, i]),
+                        control.slope_tolerance * control.scale[i],
+                        control.slope_tolerance,
+                    )
+                    worst, total = collected(worst, total, weighed)
+                error = step_error(worst, total)
+                accepted, undefined, lost, stalled = judged(error, step, nominal_speed + buffer[STATE, SLIP])
+                if lost:
+                    return Status.NOT_FINITE.value, cycle + phase, step, steps, evaluations, written
+                if stalled:
+                    return Status.STALLED.value, cycle + phase, step, steps, evaluations, written
+                if accepted and unbounded(buffer[STATE], table):
+                    return Status.UNBOUNDED.value, cycle + phase, step, steps, evaluations, written
+                if undefined:
+                    step *= RETRY
+                    continue
+                if not accepted:
+                    step = method.adapted(step, error, last_error, buffer)
+                    continue
+                if turning:
+                    too_far, shorter = turn_of(step, segment, model, work)
+                    if too_far and tries < MOST_TRIES:
+                        step, tries = shorter, tries + 1.0
+                        continue
+                    tries = 0.0
+                    keep_turned(True, step, segment, model, work)
+                next_phase = limit if cut else phase + step
+                while written < (cycle + 1) * samples:
+                    at = (written - cycle * samples) / samples
+                    if at >= end or at > next_phase:
+                        break
+                    method.sample((at - phase) / step, step, y, buffer, out[written])
+                    written += 1
+                if march.extremes:
+                    place = Place(phase, whole, segment, next_phase)
+                    method.stepped(method, place, step, y, model, work, buffer, search)
+                phase = next_phase
+                for i in range(STATES):
+                    y[i] = buffer[STATE, i]
+                fresh = method.accept(buffer)
+                steps += 1
+                if cut:
+                    stop += 1
+                step = next_step(method.adapted(step, error, last_error, buffer), cut, uncut_step)
+                if turning:
+                    step = minimum(step, longest_step(segment, model, work))
+                last_error = maximum(error, MINIMUM_ERROR)
+    return Status.DONE.value, float(march.cycles), step, steps, evaluations, written
+
+
+def scratch_buffer(rows: int) -> Float[Array, "row state"]:
+    """Buffer with so many rows of a method's own."""
+    return np.zeros((SCRATCH + rows, STATES))

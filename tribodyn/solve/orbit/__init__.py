@@ -1,0 +1,1 @@
+"""Steady states of periodically driven systems, and their stability."""

@@ -1,0 +1,180 @@
+"""The map of gear pairs over one mesh cycle, as the search for steady states takes it.
+
+It takes the mechanical state at phase 0, just after engagement, to the same place a mesh cycle later. The
+rigid rotation has no part in it: the independent variable is the mesh's phase, and the time lag, on which
+nothing depends while the load is steady, is omitted together with the audit's works. With prescribed speed
+ten states remain, with a torque source eleven, with a shaft thirteen.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from tribodyn.dynamics.extremes import Extremes, no_extremes, put_extremes
+from tribodyn.dynamics.parameters import (
+    DISPLACEMENTS,
+    DRIVE_SHAFT,
+    DRIVE_SPEED,
+    ENERGY_CONSISTENT,
+    MOTOR_SLIP,
+    SLIP,
+    STATES,
+    TWIST,
+    VELOCITIES,
+    Model,
+)
+from tribodyn.kernels.native.internals import report_missing
+from tribodyn.numerics.shapes import Array, Float, Int
+from tribodyn.numerics.work import usable_cores
+from tribodyn.solve.choice import choose
+from tribodyn.solve.engagement import engage_next
+from tribodyn.solve.ensemble import march
+from tribodyn.solve.integrator import MAX_STEPS, REASONS, Status
+from tribodyn.solve.methods import Runs, runs
+from tribodyn.solve.orbit.period_map import DIFFERENCE, Marched, Tangent, by_differences
+from tribodyn.solve.tolerances import absolute_tolerances, mesh_deflection
+
+
+def moving_states(model: Model) -> tuple[int, ...]:
+    """Indices of the states that the map over a mesh cycle acts on."""
+    free = {*DISPLACEMENTS, *VELOCITIES}
+    if model.options.drive != DRIVE_SPEED:
+        free |= {SLIP}
+    if model.options.drive == DRIVE_SHAFT:
+        free |= {TWIST, MOTOR_SLIP}
+    return tuple(sorted(free))
+
+
+class GearMap:
+    """Maps over a mesh cycle of gear pairs with the same moving states, as `period_map.PeriodMap`.
+
+    Parameters
+    ----------
+    models : sequence of C Models
+    starts : (C, STATES)
+        States that scale and integration method are judged by.
+    moving : tuple of int
+        See `moving_states`.
+    solver, rtol, fine_rtol, max_steps, workers
+        Method, tolerances of marching and of fixed points, steps allowed per cycle, threads.
+
+    Notes
+    -----
+    Tangents are exact with native methods (`variational`); with others they are difference quotients.
+    """
+
+    def __init__(
+        self,
+        models: Sequence[Model],
+        starts: Float[Array, "case state"],
+        moving: tuple[int, ...],
+        *,
+        solver: str,
+        rtol: float,
+        fine_rtol: float,
+        max_steps: int,
+        workers: int | None,
+    ):
+        self.models = models
+        self.moving = list(moving)
+        self.rtol = {False: rtol, True: min(rtol, fine_rtol)}
+        self.settings: dict[str, Any] = {"max_steps": max_steps, "workers": workers}
+        self.solvers = [choose(solver, m, y).method for m, y in zip(models, starts, strict=True)]
+        self.blur = 0.0 if self.exact else DIFFERENCE
+        self.scale = np.array(
+            [
+                absolute_tolerances(model, 1.0, mesh_deflection(model, start))[self.moving]
+                for model, start in zip(models, starts, strict=True)
+            ]
+        )
+
+    @property
+    def exact(self) -> bool:
+        """Whether tangents come from the variational equations, as native methods integrate them."""
+        return all(runs(solver) is Runs.NATIVE for solver in self.solvers) and not report_missing()
+
+    def full(self, states: Float[Array, "row moving"]) -> Float[Array, "row state"]:
+        """States of the model from states of the map."""
+        whole = np.zeros((len(states), STATES))
+        whole[:, self.moving] = states
+        return whole
+
+    def march(
+        self, states: Float[Array, "row moving"], cases: Int[Array, " row"], periods: int, fine: bool
+    ) -> Marched:
+        """See `period_map.PeriodMap`."""
+        samples, end, reasons, _ = self.integrate(self.full(states), cases, periods, 1, fine)
+        for row, case in enumerate(cases):
+            if self.models[case].options.formulation == ENERGY_CONSISTENT and not reasons[row]:
+                engage_next(end[row], self.models[case])
+        after = np.concatenate([samples[:, 1:], end[:, None]], axis=1)[..., self.moving]
+        after[[bool(reason) for reason in reasons]] = np.nan
+        return Marched(after, reasons)
+
+    def tangent(self, states: Float[Array, "row moving"], cases: Int[Array, " row"], periods: int) -> Tangent:
+        """See `period_map.PeriodMap`; by the variational equations where `exact`, else by differences."""
+        if not self.exact:
+            return by_differences(self.march, states, cases, periods, self.scale)
+        from tribodyn.solve.march.variational import march_with_derivative
+
+        scale = self.scale[cases]
+        directions = np.zeros((len(cases), STATES, len(self.moving)))
+        directions[:, self.moving] = scale[:, :, None] * np.eye(len(self.moving))
+        derived = march_with_derivative(
+            [self.models[case] for case in cases],
+            self.full(states),
+            directions,
+            cycles=periods,
+            rtol=self.rtol[True],
+            # the derivatives may need more than the motion, for which the limit is
+            max_steps=max(MAX_STEPS, self.settings["max_steps"]),
+            methods=[self.solvers[case] for case in cases],
+            workers=self.settings["workers"] or usable_cores(),
+        )
+        reasons = [
+            _reason(status, reached) for status, reached in zip(derived.status, derived.reached, strict=True)
+        ]
+        image, jacobian = derived.state[:, self.moving], derived.slopes[:, self.moving] / scale[:, None, :]
+        image[derived.status != Status.DONE] = np.nan
+        return Tangent(image, jacobian, reasons)
+
+    def integrate(
+        self,
+        states: Float[Array, "row state"],
+        cases: Int[Array, " row"],
+        periods: int,
+        samples: int,
+        fine: bool,
+        extremes: bool = False,
+    ) -> tuple[Float[Array, "row sample state"], Float[Array, "row state"], list[str], Extremes]:
+        """Samples (R, periods · samples, STATES), states at the end before engagement, reasons, extremes."""
+        sampled = np.full((len(states), periods * samples, STATES), np.nan)
+        end = states.copy()
+        reasons = [""] * len(states)
+        found = no_extremes(len(states) if extremes else 0)
+        for solver in sorted(set(self.solvers)):
+            rows = [row for row, case in enumerate(cases) if self.solvers[case] == solver]
+            if not rows:
+                continue
+            batch = march(
+                [self.models[cases[row]] for row in rows],
+                states[rows],
+                cycles=periods,
+                window=periods,
+                samples=samples,
+                rtol=self.rtol[fine],
+                method=solver,
+                extremes=extremes,
+                **self.settings,
+            )
+            sampled[rows], end[rows] = batch.samples, batch.state
+            if extremes:
+                put_extremes(found, np.array(rows), batch.extremes)
+            for row, status, reached in zip(rows, batch.status, batch.reached, strict=True):
+                reasons[row] = _reason(status, reached)
+        return sampled, end, reasons, found
+
+
+def _reason(status: int, reached: float) -> str:
+    return "" if status == Status.DONE else f"{REASONS[Status(status)]} (after {reached:.2f} mesh cycles)"

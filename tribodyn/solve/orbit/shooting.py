@@ -1,0 +1,199 @@
+"""Shooting: Newton's method on x − Pⁿ(x) = 0 for many systems at once, and the Floquet multipliers there."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from tribodyn.numerics.shapes import Array, Complex, Float, Int
+from tribodyn.solve.orbit.period_map import PeriodMap
+
+#: Halvings of a Newton step before shooting gives up, and the smallest relative decrease that it must bring.
+HALVINGS = 7
+DECREASE = 1e-3
+#: A derivative serves the next step too where the last one brought the residual down to this share.
+WELL_DOWN = 0.1
+
+
+class Shot(NamedTuple):
+    """Result of shooting for one system.
+
+    Attributes
+    ----------
+    state : (N,)
+    residual : float
+        max |x − Pⁿ(x)| over the scale of each state; inf where the map failed.
+    multipliers : (N,) complex
+        Eigenvalues of the n-fold map's derivative, largest modulus first: Floquet's where the residual
+        vanishes.
+    jacobian : (N, N)
+        That derivative.
+    steps : int
+        Newton steps taken.
+    reason : str
+        Why there is no solution; empty where the residual is within the tolerance.
+    """
+
+    state: Float[Array, " state"]
+    residual: float
+    multipliers: Complex[Array, " state"]
+    jacobian: Float[Array, "state state"]
+    steps: int
+    reason: str
+
+
+def shoot(
+    period_map: PeriodMap,
+    states: Float[Array, "row state"],
+    cases: Int[Array, " row"],
+    periods: int,
+    tolerance: float,
+    max_steps: int = 20,
+) -> list[Shot]:
+    """Look for fixed points of the n-fold map near given states.
+
+    Parameters
+    ----------
+    period_map : PeriodMap
+    states : (R, N)
+        Where to start.
+    cases : (R,) int
+        The system of each row.
+    periods : int
+        n.
+    tolerance : float
+        Maximum scaled residual of a solution.
+    max_steps : int
+        Newton steps allowed; 0 only judges the states given.
+
+    Notes
+    -----
+    Each row has its own damping: a step is halved until the residual falls. Rows fail on their own.
+    """
+    rows = [_Row(state.copy(), case) for state, case in zip(states, map(int, cases), strict=True)]
+    scales = period_map.scale
+    going = rows
+    while going:
+        stale = [row for row in going if row.jacobian is None]
+        if stale:
+            tangent = period_map.tangent(
+                np.array([row.x for row in stale]), np.array([row.case for row in stale]), periods
+            )
+            for k, row in enumerate(stale):
+                row.take(tangent.image[k], tangent.jacobian[k], tangent.reasons[k], scales[row.case])
+        for row in going:
+            row.decide(tolerance, max_steps, scales[row.case], period_map.blur)
+        _search(period_map, [row for row in going if row.direction is not None], periods)
+        going = [row for row in going if not row.done]
+    return [row.shot() for row in rows]
+
+
+def critical_direction(
+    jacobian: Float[Array, "state state"], scale: Float[Array, " state"]
+) -> Float[Array, " state"]:
+    """Direction (N,), of scaled size 1, in which a state with this derivative is left, or comes near last."""
+    values, vectors = np.linalg.eig(jacobian)
+    direction = np.real(vectors[:, np.argmax(np.abs(values))])
+    return direction / np.max(np.abs(direction) / scale)
+
+
+class _Row:
+    """One system on its way: state, image, residual, and the derivative with the place it was taken at."""
+
+    def __init__(self, x: Float[Array, " state"], case: int):
+        self.x, self.case = x, case
+        self.residual = np.inf
+        self.steps = 0
+        self.reason = ""
+        self.done = False
+        self.image = self.base = x
+        self.jacobian: Float[Array, "state state"] | None = None
+        self.last_jacobian = np.full((len(x), len(x)), np.nan)
+        self.direction: Float[Array, " state"] | None = None
+
+    def take(
+        self,
+        image: Float[Array, " state"],
+        jacobian: Float[Array, "state state"],
+        reason: str,
+        scale: Float[Array, " state"],
+    ) -> None:
+        """Take a derivative in, and the image that came with it."""
+        self.image, self.base, self.reason = image, self.x, reason
+        self.jacobian = self.last_jacobian = jacobian
+        self.residual = _size(image - self.x, scale)
+
+    def decide(self, tolerance: float, max_steps: int, scale: Float[Array, " state"], blur: float) -> None:
+        """Be done, ask for another derivative, or set out in a direction."""
+        self.direction = None
+        if not self.reason and self.residual > tolerance:
+            assert self.jacobian is not None
+            direction = _newton_direction(self.image - self.x, self.jacobian, scale)
+            if direction is None:
+                self.reason = "the map's derivative has the multiplier 1: the steady state is not isolated"
+            elif self.steps >= max_steps:
+                self.reason = f"shooting ended after {max_steps} steps with the residual {self.residual:.1e}"
+            else:
+                self.direction = direction
+                return
+        if not self.reason and _size(self.x - self.base, scale) > blur:
+            self.jacobian = None
+            return
+        self.done = True
+
+    def shot(self) -> Shot:
+        multipliers = eigenvalues(self.last_jacobian)
+        return Shot(self.x, self.residual, multipliers, self.last_jacobian, self.steps, self.reason)
+
+
+def _search(period_map: PeriodMap, rows: list[_Row], periods: int) -> None:
+    """Take the steps of rows, each halved until its residual falls; where none does, the row is done."""
+    share = 1.0
+    for _ in range(HALVINGS + 1):
+        if not rows:
+            return
+        trial = np.array([row.x + share * np.asarray(row.direction) for row in rows])
+        cases = np.array([row.case for row in rows])
+        end = period_map.march(trial, cases, periods, True).states[:, -1]
+        rest = []
+        for row, x, image in zip(rows, trial, end, strict=True):
+            residual = _size(image - x, period_map.scale[row.case])
+            if residual >= (1.0 - DECREASE * share) * row.residual:
+                rest.append(row)
+                continue
+            if residual > WELL_DOWN * row.residual:
+                row.jacobian = None
+            row.x, row.image, row.residual = x, image, residual
+            row.steps += 1
+        rows = rest
+        share *= 0.5
+    for row in rows:
+        if row.base is row.x:
+            row.reason = f"no Newton step lowers the residual {row.residual:.1e}"
+            row.done = True
+        row.jacobian = None  # it was taken elsewhere: try with that of the place
+
+
+def _size(off: Float[Array, " state"], scale: Float[Array, " state"]) -> float:
+    return float(np.max(np.abs(off) / scale)) if np.all(np.isfinite(off)) else np.inf
+
+
+def _newton_direction(
+    off: Float[Array, " state"], jacobian: Float[Array, "state state"], scale: Float[Array, " state"]
+) -> Float[Array, " state"] | None:
+    """Newton step (N,) from the map's defect; None where the equations are singular."""
+    # in units of the scale, so that the singular values can be compared
+    matrix = jacobian * scale / scale[:, None]
+    if not (np.all(np.isfinite(matrix)) and np.all(np.isfinite(off))):
+        return None
+    left, values, right = np.linalg.svd(np.eye(len(matrix)) - matrix)
+    if values[-1] <= 1e-9 * max(1.0, values[0]):
+        return None
+    return scale * (right.T @ ((left.T @ (off / scale)) / values))
+
+
+def eigenvalues(jacobian: Float[Array, "state state"]) -> Complex[Array, " state"]:
+    """Multipliers (N,) of a map with this derivative (N, N), largest modulus first; NaN where it has none."""
+    if not np.all(np.isfinite(jacobian)):
+        return np.full(len(jacobian), np.nan, dtype=complex)
+    values = np.asarray(np.linalg.eigvals(jacobian), dtype=complex)
+    return values[np.lexsort((-np.imag(values), -np.round(np.abs(values), 12)))]

@@ -1,0 +1,1 @@
+"""Candidates of a search: from free keys to cases, figures and worth."""

@@ -1,0 +1,189 @@
+"""What a search evaluates: the scenario that is searched through, and further ones, its parts, on its drive.
+
+Sources go by name; that of the scenario itself is "". Figures and keys of a part begin with its name:
+``efficiency.loss``, ``efficiency.operating.pinion_speed``.
+"""
+
+import re
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
+
+from pydantic import ValidationError, create_model
+
+from tribodyn.errors import InputError, near_name, quoted, unknown_name
+from tribodyn.scenario.messages import explain
+from tribodyn.scenario.quantity import Table, parts_of
+from tribodyn.scenario.vary import base_units
+from tribodyn.studies import study_of
+from tribodyn.studies.protocol.evaluated import figure_units
+from tribodyn.studies.protocol.study import Study
+
+#: The scenario that is searched through.
+BASE = ""
+NAME = re.compile(r"[A-Za-z][A-Za-z0-9-]*", re.ASCII)
+
+
+class Source(NamedTuple):
+    """The study of a scenario, and the schema of its file."""
+
+    study: Study
+    schema: type[Table]
+
+
+Sources = Mapping[str, Source]
+
+
+def sources_of(datas: Mapping[str, Mapping[str, Any]]) -> dict[str, Source]:
+    """Studies and schemas of scenarios by name."""
+    found = {}
+    for name, data in datas.items():
+        study = study_of(data)
+        found[name] = Source(study, study.table(data))
+    return found
+
+
+def units_by_figure(studies: Mapping[str, Study]) -> dict[str, str]:
+    """SI units of all figures by their full names."""
+    return {
+        _joined(name, figure): unit
+        for name, study in studies.items()
+        for figure, unit in figure_units(study).items()
+    }
+
+
+def figure_name(place: str, name: Any, studies: Mapping[str, Study]) -> str:
+    """Return the full name of a figure.
+
+    Raises
+    ------
+    InputError
+        For a name that is none; it suggests another.
+    """
+    if not isinstance(name, str):
+        first = next(iter(figure_units(studies[BASE])), "")
+        raise InputError(place, quoted(name), "not the name of a figure", f"such as {first}")
+    part, dot, figure = name.partition(".")
+    if not dot:
+        part, figure = BASE, name
+    elif part not in studies:
+        names = [one for one in studies if one != BASE]
+        remedy = f"there is: {', '.join(names)}" if names else "add [design.part]"
+        raise InputError(place, quoted(name), f"there is no part {quoted(part)}", remedy)
+    study = studies[part]
+    known = figure_units(study)
+    full = study.short_names().get(figure, figure)
+    if full not in known:
+        what = f"figure of studies of kind {study.kind}"
+        raise unknown_name(place, figure, [*study.short_names(), *known], what)
+    return _joined(part, full)
+
+
+def _joined(part: str, name: str) -> str:
+    return f"{part}.{name}" if part else name
+
+
+def split(key: str, names: Any) -> tuple[str, str]:
+    """Name of the source that a key or a figure belongs to, and the rest of it."""
+    part, dot, rest = key.partition(".")
+    return (part, rest) if dot and part in names else (BASE, key)
+
+
+def own(name: str, schema: type[Table], overrides: Mapping[str, Any], names: Any) -> dict[str, Any]:
+    """The overrides that belong to a source.
+
+    A part takes the keys that its schema knows, and those that begin with its name in their place.
+    """
+    common = {key: value for key, value in overrides.items() if split(key, names)[0] == BASE}
+    if name == BASE:
+        return common
+    found = {key: value for key, value in common.items() if unknown_part(key, schema) is None}
+    named = ((split(key, names), value) for key, value in overrides.items())
+    return found | {rest: value for (part, rest), value in named if part == name}
+
+
+def require_key(place: str, key: str, sources: Sources) -> tuple[Source, str]:
+    """Return the source of a key, and the key within it.
+
+    Raises
+    ------
+    InputError
+        For a key that the schema of its scenario does not know; it suggests another.
+    """
+    part, rest = split(key, sources)
+    if (missing := unknown_part(rest, sources[part].schema)) is not None:
+        above, name, fields = missing
+        near = near_name(name, fields)
+        mean = f'did you mean "{".".join((*above, near))}"?' if near else f"there is: {', '.join(fields)}"
+        raise InputError(place, quoted(key), "unknown key", mean)
+    return sources[part], rest
+
+
+def refused(place: str, key: str, value: Any, source: Source) -> InputError | None:
+    """Why the schema of a scenario does not take a value at a key, said of `place`; None where it does.
+
+    Keys of a family or of a law are left to the scenario's own rules.
+    """
+    at: Any = source.schema
+    field: Any = None
+    for part in key.split("."):
+        fields = getattr(at, "model_fields", None)
+        if fields is None or part not in fields:
+            return None
+        field = fields[part]
+        at = next(_tables_in(field), None)
+    model: Any = create_model("Value", value=(field.annotation, field))
+    try:
+        model.model_validate({"value": value})
+    except ValidationError as error:
+        first = explain(error, model)[0]
+        return InputError(place, quoted(value), f"{key}: {first.rule}", first.remedy)
+    return None
+
+
+def unknown_part(key: str, schema: type[Table]) -> tuple[list[str], str, list[str]] | None:
+    """What stands above the first part of a key that a schema does not know, that part, and what it knows.
+
+    None where it knows the key. Keys of a family or of a law are known: the scenario's own rules judge them.
+    """
+    at: Any = schema
+    above: list[str] = []
+    for part in key.split("."):
+        fields = getattr(at, "model_fields", None)
+        if fields is None or part.isdecimal():
+            return None
+        if part not in fields:
+            return None if "law" in fields or "shape" in above else (above, part, list(fields))
+        at = next(_tables_in(fields[part]), None)
+        above.append(part)
+    return None
+
+
+def _tables_in(field: Any) -> Iterator[type[Table]]:
+    return (one for one in parts_of(field) if isinstance(one, type) and issubclass(one, Table))
+
+
+def standing(scenarios: Mapping[str, Mapping[str, Any]], key: str) -> Any:
+    """What stands at a dotted key of the scenarios of a search; None where nothing does."""
+    name, key = split(key, [one for one in scenarios if one != BASE])
+    data: Any = scenarios[name]
+    for part in key.split("."):
+        if isinstance(data, Mapping):
+            data = data.get(part)
+        elif isinstance(data, (list, tuple)) and part.isdecimal() and int(part) < len(data):
+            data = data[int(part)]
+        else:
+            return None
+    return data
+
+
+def in_unit(value: Any, unit: str, si: float) -> float | None:
+    """Number of a quantity in a unit, of which one is `si` in SI; None for no value."""
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        return float(value)
+    if not isinstance(value, str):
+        return None
+    number, _, own = value.strip().partition(" ")
+    if own.strip() == unit:
+        return float(number)
+    base = base_units(value)
+    return base[0] / si if base else None

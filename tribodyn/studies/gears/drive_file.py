@@ -1,0 +1,142 @@
+"""A gear pair without a scenario: from a drive file, or from any scenario, to what its geometry needs."""
+
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from pydantic import ValidationError
+
+from tribodyn.errors import InputError, InputErrors, quoted
+from tribodyn.geometry.drive import Drive
+from tribodyn.geometry.material import BodyMass, MaterialData
+from tribodyn.geometry.sheet.measures import Gauge
+from tribodyn.scenario.messages import Origins, explain
+from tribodyn.scenario.quantity import Table
+from tribodyn.scenario.resolve import resolve_table, unresolved_keys
+from tribodyn.scenario.sources import find_drive_or_scenario, read_toml
+from tribodyn.scenario.tables.drive_data import drive_of, masses_of, materials_of, rounded_distance_of
+from tribodyn.scenario.tables.drive_rules import broken_drive_rules
+from tribodyn.scenario.tables.model_files import DriveTable
+from tribodyn.scenario.tables.tolerances import tolerance_lines
+from tribodyn.scenario.tables.tooth_data import gauge_of
+from tribodyn.studies.protocol.load import load
+
+
+class DriveModel(NamedTuple):
+    """A gear pair as it stands in a drive file.
+
+    Parameters
+    ----------
+    title, name : str
+        Title of the drive or scenario, and its name.
+    family : str
+        Name of the family of paths of contact.
+    drive : Drive
+    materials : tuple of MaterialData
+    masses : tuple of BodyMass
+        None where they follow from the outline.
+    path : Path
+        The file that was named.
+    origins : Origins
+        Which file each part came from; the drive stands at the key "drive".
+    table : mapping
+        The drive as a drive file has it, with everything that it refers to.
+    """
+
+    title: str
+    name: str
+    family: str
+    drive: Drive
+    materials: tuple[MaterialData, MaterialData]
+    masses: tuple[BodyMass, BodyMass]
+    path: Path
+    origins: Origins
+    table: Mapping[str, Any]
+
+    @property
+    def gauges(self) -> tuple[Gauge, Gauge]:
+        """What the tooth thickness of pinion and gear is measured with."""
+        drive = DriveTable.model_validate(self.table)
+        return gauge_of(drive.pinion), gauge_of(drive.gear)
+
+    @property
+    def rounded(self) -> dict[str, Any]:
+        """Lines of the sheet on a centre distance within the rounding of its digits; else empty."""
+        rounded = rounded_distance_of(self.table)
+        return rounded.lines() if rounded else {}
+
+    @property
+    def tolerances(self) -> tuple[dict[str, Any], dict[str, Any]]:
+        """Lines of the sheet on the tolerances of pinion and gear, empty where no quality is given."""
+        return tolerance_lines(DriveTable.model_validate(self.table))
+
+
+class _DriveAlone(Table):
+    drive: DriveTable
+
+
+def load_drive(model: str | Mapping[str, Any], overrides: Mapping[str, Any] | None = None) -> DriveModel:
+    """Read the gear pair of a drive file or of a scenario.
+
+    Parameters
+    ----------
+    model : str or mapping
+        Name of a shipped drive or scenario, or the path of a file of either sort; or what a drive file holds.
+    overrides : mapping, optional
+        Dotted key, as in a scenario, to value: ``{"drive.pinion.profile_shift": "0.3"}``.
+
+    Raises
+    ------
+    InputError
+        If there is no such file, it describes no pair of gears, or anything in it is wrong.
+    """
+    if isinstance(model, Mapping):
+        return _of_table(dict(model), Path("drive"), overrides or {})
+    path = find_drive_or_scenario(model)
+    written = read_toml(path)
+    if "drive" in written or "kind" in written:
+        return _of_scenario(path, overrides or {})
+    return _of_table(written, path, overrides or {})
+
+
+def _of_table(written: dict[str, Any], path: Path, overrides: Mapping[str, Any]) -> DriveModel:
+    data, origins, unresolved = resolve_table({"drive": written}, path, overrides, lambda _: _DriveAlone)
+    try:
+        table = _DriveAlone.model_validate({"drive": data["drive"]}).drive
+    except ValidationError as error:
+        if "family" not in written:
+            raise _no_pair(path, "not a pair of gears: it names no family of paths of contact") from None
+        known = unresolved_keys(unresolved)
+        mistakes = [one for one in explain(error, _DriveAlone) if one.key not in known]
+        raise InputErrors([origins.locate(one) for one in (*unresolved, *mistakes)]) from None
+    errors = [*unresolved, *broken_drive_rules(table)]
+    if errors:
+        raise InputErrors([origins.locate(one) for one in errors])
+    return DriveModel(
+        table.title,
+        path.stem,
+        table.family,
+        drive_of(table),
+        materials_of(table),
+        masses_of(table),
+        path,
+        origins,
+        data["drive"],
+    )
+
+
+def _of_scenario(path: Path, overrides: Mapping[str, Any]) -> DriveModel:
+    case, study, _, origins = load(path, overrides)
+    if not study.has_gears:
+        raise _no_pair(path, f"not a pair of gears, but {study.about}")
+    # a quasi-static study needs no masses
+    masses = getattr(case, "masses", (BodyMass(), BodyMass()))
+    table = tomllib.loads(case.toml)["drive"]
+    return DriveModel(
+        case.title, case.name, case.family, case.drive, case.materials, masses, path, origins, table
+    )
+
+
+def _no_pair(path: Path, rule: str) -> InputError:
+    return InputError("model", quoted(path.stem), rule, "run a scenario of it instead: tribodyn run")

@@ -1,0 +1,1 @@
+"""Figures and pages of records, as their studies describe them."""

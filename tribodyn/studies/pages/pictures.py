@@ -1,0 +1,217 @@
+"""Figures, summaries and comparisons of records, as their studies make them."""
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Literal
+
+from tribodyn.errors import InputError, near_name
+from tribodyn.record.reader import Record
+from tribodyn.studies import STUDIES
+from tribodyn.studies.protocol.study import Study
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from rich.console import Group
+
+    from tribodyn.post.compare import Comparison
+    from tribodyn.post.figures.drawing import Drawing, SweepDrawing
+    from tribodyn.post.report import Line
+    from tribodyn.record.sweep_reader import SweepRecord
+
+OVERVIEW = "overview"
+
+
+def study_of_record(record: Record) -> Study:
+    """Return the study that a record is of.
+
+    Raises
+    ------
+    InputError
+        If it is of a kind that no installed package knows.
+    """
+    if record.kind not in STUDIES:
+        rule = f'a study of kind "{record.kind}", which nothing that is installed knows'
+        raise InputError("record", str(record.path), rule, "install the package that offers it")
+    return STUDIES[record.kind]
+
+
+def names(records: Sequence[Record]) -> tuple[str, ...]:
+    """Names of the figures that these records hold enough for, but the overview of the first."""
+    return tuple(name for name in drawable(records) if name != OVERVIEW)
+
+
+def drawable(records: Sequence[Record]) -> "Mapping[str, Drawing]":
+    """Figures that these records hold enough for, by name."""
+    known = drawings(records)
+    return {name: one for name, one in known.items() if all(one.fits(record) for record in records)}
+
+
+def drawings(records: Sequence[Record]) -> "Mapping[str, Drawing]":
+    """Figures that the studies of all records have; InputError where they share no quantities."""
+    first, *others = records
+    study = study_of_record(first)
+    known = dict(study.drawings())
+    for record in others:
+        other = study_of_record(record)
+        if other.quantities != study.quantities:
+            rule = f"of kind {record.kind}, the first of {first.kind}"
+            raise InputError("record", str(record.path), rule, "draw them apart")
+        also = other.drawings()
+        known = {name: one for name, one in known.items() if name in also}
+    return known
+
+
+def figure(
+    name: str,
+    records: Sequence[Record],
+    *,
+    cycles: int | Literal["auto"] | None = "auto",
+    against: str | None = None,
+) -> "Figure":
+    """Draw one figure from one record, or from several to compare them.
+
+    Parameters
+    ----------
+    name : str
+        One of `names(records)`, or `overview` (of the first record).
+    records : sequence of Record
+        Records, open; one colour each.
+    cycles : int, None or "auto"
+        How many of the last whole mesh cycles to show, None for the whole run. By default two, and the whole
+        run where speed or load change in it.
+    against : str, optional
+        `phase` (mesh cycles) or `time` (ms). By default phase, and time where speed or load change.
+
+    Raises
+    ------
+    InputError
+        For an unknown name or abscissa, no record, or a record without samples.
+    """
+    from tribodyn.post.cycles import transient
+    from tribodyn.post.figures.panel import View
+    from tribodyn.post.style import house_style
+
+    if not records:
+        raise InputError("records", None, "there is nothing to draw", "name at least one record")
+    if against not in ("phase", "time", None):
+        raise InputError("against", against, "no such abscissa", "phase or time")
+    if isinstance(cycles, int) and cycles < 1:
+        raise InputError("cycles", cycles, "at least one mesh cycle is drawn", "1 or more")
+    known = drawings(records)
+    if name not in known:
+        offered = drawable(records)
+        near = near_name(name, offered)
+        hint = f"did you mean {near}? " if near else ""
+        raise InputError("plot", name, "no such figure", f"{hint}There are: {', '.join(offered)}")
+    whole = cycles == "auto" and any(transient(record) for record in records)
+    number = (None if whole else 2) if cycles == "auto" else cycles
+    with house_style():
+        over = against or ("time" if whole else "phase")
+        return known[name].draw(records, View(number, over, against is not None))
+
+
+def overview(record: Record) -> "Figure":
+    """Draw the figure that sums up a record."""
+    return figure(OVERVIEW, [record])
+
+
+def summary_table(record: Record) -> "Group":
+    """Lay out the summary of a record for the terminal."""
+    from tribodyn.post import report
+
+    study = study_of_record(record)
+    return report.summary_table(record, study.lines(), study.sentences(record))
+
+
+def compare(records: Sequence[Record]) -> "Comparison":
+    """Set complete records side by side; see `tribodyn.post.compare`.
+
+    Raises
+    ------
+    InputError
+        Also for records whose quantities cannot be compared.
+    """
+    from tribodyn.post import compare as comparing
+
+    studies = [study_of_record(record) for record in records]
+    for record, study in zip(records, studies, strict=True):
+        if study.quantities != studies[0].quantities:
+            rule = f'kind "{record.kind}" and kind "{records[0].kind}" share no quantities to compare'
+            raise InputError("record", str(record.path), rule, "compare records of one kind")
+        if not study.compared:
+            rule = f"{study.about}: it has no means over a run to compare"
+            remedy = "draw them into one figure: tribodyn plot A.h5 B.h5"
+            raise InputError("record", str(record.path), rule, remedy)
+    return comparing.compare(records, _compared_lines(studies))
+
+
+def _compared_lines(studies: Sequence[Study]) -> "dict[str, tuple[Line, ...]]":
+    """Heading -> lines that any of the studies compares, in the order of the first that has them."""
+    headings: dict[str, dict[str, Any]] = {}
+    for study in studies:
+        lines = study.lines()
+        for heading in study.compared:
+            some = headings.setdefault(heading, {})
+            for line in lines.get(heading, ()):
+                some.setdefault(line.name, line)
+    return {heading: tuple(lines.values()) for heading, lines in headings.items()}
+
+
+def study_of_sweep(record: "SweepRecord") -> Study:
+    """Return the study whose cases a sweep has; raises as `study_of_record`."""
+    if record.kind_of_study not in STUDIES:
+        rule = f'a sweep of kind "{record.kind_of_study}", which nothing that is installed knows'
+        raise InputError("record", str(record.path), rule, "install the package that offers it")
+    return STUDIES[record.kind_of_study]
+
+
+def sweep_names(records: "Sequence[SweepRecord]") -> tuple[str, ...]:
+    """Names of the figures that can be drawn from sweeps."""
+    return tuple(drawable_of_sweep(records))
+
+
+def drawable_of_sweep(records: "Sequence[SweepRecord]") -> "Mapping[str, SweepDrawing]":
+    """Figures that can be drawn from sweeps, by name."""
+    study = study_of_sweep(records[0])
+    for record in records[1:]:
+        if study_of_sweep(record) is not study:
+            rule = f"of kind {record.kind_of_study}, the first of {study.kind}"
+            raise InputError("record", str(record.path), rule, "draw them apart")
+    return study.sweep_drawings()
+
+
+def sweep_figure(
+    name: str, records: "Sequence[SweepRecord]", at: Mapping[str, float | str] | None = None
+) -> "Figure":
+    """Draw one figure of sweeps.
+
+    Parameters
+    ----------
+    name : str
+        One of `sweep_names(records)`, or "overview", which is the first of them.
+    records : sequence of SweepRecord
+        Several are compared where the figure has curves; some figures show the first.
+    at : mapping, optional
+        Parameter's name to value in SI, for a figure of one case.
+
+    Raises
+    ------
+    InputError
+        For an unknown name or a sweep that the figure cannot show.
+    """
+    from tribodyn.post.style import house_style
+
+    known = drawable_of_sweep(records)
+    name = next(iter(known)) if name == OVERVIEW else name
+    if name not in known:
+        near = near_name(name, known)
+        hint = f"did you mean {near}? " if near else ""
+        raise InputError("plot", name, "no such figure of a sweep", f"{hint}There are: {', '.join(known)}")
+    with house_style():
+        return known[name].draw(records, at or {})
+
+
+def sweep_table(record: "SweepRecord") -> "Group":
+    """Lay out the summary of a sweep for the terminal."""
+    from tribodyn.post.sweep_report import sweep_table as table_of
+
+    return table_of(record, study_of_sweep(record).sweep_lines())

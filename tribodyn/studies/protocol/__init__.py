@@ -1,0 +1,1 @@
+"""What a study is, and how its cases are loaded, estimated, run and recorded."""

@@ -1,0 +1,123 @@
+"""From a scenario's name or path to a case."""
+
+import hashlib
+import re
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated, Any, NamedTuple, Union
+
+import tomli_w
+from pydantic import Field, TypeAdapter, ValidationError
+
+from tribodyn.errors import InputError, InputErrors, unknown_name
+from tribodyn.scenario.messages import Origins, explain
+from tribodyn.scenario.resolve import Resolved, resolve, unresolved_keys
+from tribodyn.scenario.sources import find_scenario
+from tribodyn.scenario.tables.spectrum import broken_spectrum_rules, in_force, of_duty, spectrum_of
+from tribodyn.studies import STUDIES, study_of
+from tribodyn.studies.protocol.study import CaseHead, Study
+
+
+class Loaded(NamedTuple):
+    """A case, its study, the file it was read from, and where each of its values stands."""
+
+    case: Any
+    study: Study
+    path: Path
+    origins: Origins
+
+    @contextmanager
+    def naming(self) -> Iterator[None]:
+        """Put the file into the errors that the physics raises inside the block."""
+        with self.origins.naming():
+            yield
+
+
+def load_scenario(scenario: str | Path, overrides: Mapping[str, Any] | None = None) -> Any:
+    """Read a scenario; return its case.
+
+    Parameters
+    ----------
+    scenario : str or Path
+        Path of a scenario file, or the name of a shipped one: "crc-23-47".
+    overrides : mapping, optional
+        Dotted key to value, ``{"operating.gear_torque": "600 N*m"}``; keys reach through references.
+
+    Raises
+    ------
+    InputError
+        Anything that is wrong with it; `InputErrors`, one per line, where there is more than one mistake.
+    """
+    return load(scenario, overrides).case
+
+
+def load(scenario: str | Path, overrides: Mapping[str, Any] | None = None) -> Loaded:
+    """Read a scenario as `load_scenario` does, and say where its values stand."""
+    path = find_scenario(str(scenario))
+    return loaded_from(resolve(path, overrides or {}, table_of), path)
+
+
+def table_of(data: Mapping[str, Any]) -> Any:
+    """Return the schema of a scenario's data."""
+    return study_of(data).table(data)
+
+
+def loaded_from(resolved: Resolved, path: Path) -> Loaded:
+    """Return the case of a scenario whose references and overrides have been put in; raises as `load` does.
+
+    Parameters
+    ----------
+    resolved : Resolved
+        Its data may have been changed since; it is not changed here but for a missing name.
+    path : Path
+        The scenario's file.
+    """
+    data, origins, unresolved = resolved
+    data.setdefault("name", re.sub(r"[^\w .-]", "-", path.stem).lstrip(" .-") or "scenario")
+    study, kind = study_of(data), data.get("kind")
+    model = study.table(data)
+    try:
+        if isinstance(kind, str) and kind not in STUDIES:
+            raise unknown_name("kind", kind, STUDIES, STUDIES.what)
+        scenario = model.model_validate(data)
+    except InputError as error:
+        raise origins.locate(error) from None
+    except ValidationError as error:
+        # a reference that could not be followed has been complained of already
+        known = unresolved_keys(unresolved)
+        mistakes = [one for one in explain(error, model) if one.key not in known]
+        raise _located([*unresolved, *mistakes], origins) from None
+    # of a key whose value only its family knows to be a file
+    if errors := unresolved or list(_broken_rules(study, scenario)):
+        raise _located(errors, origins)
+    toml = tomli_w.dumps(data)
+    case: CaseHead = study.case(in_force(scenario), toml, hashlib.sha256(toml.encode()).hexdigest())
+    return Loaded(case, study, path, origins)
+
+
+def _broken_rules(study: Study, scenario: Any) -> Iterator[InputError]:
+    """Go through the rules that a scenario breaks, with each duty of its load spectrum."""
+    if broken := list(broken_spectrum_rules(scenario)):
+        yield from broken
+        return
+    known: set[str] = set()
+    for number, (_, one) in enumerate(spectrum_of(scenario), start=1):
+        for error in study.broken_rules(one):
+            if str(error) not in known:
+                known.add(str(error))
+                yield of_duty(error, number)
+    if not known:
+        yield from study.broken_rules(in_force(scenario))
+
+
+def _located(errors: list[InputError], origins: Origins) -> InputError:
+    located = [origins.locate(error) for error in errors]
+    return InputErrors(located) if len(located) > 1 else located[0]
+
+
+def json_schema() -> dict[str, Any]:
+    """Return the JSON schema of a scenario file of any kind, the registries' names included."""
+    tables = tuple(table for _, table in STUDIES.each(lambda study: study.table()))
+    kinds: Any = Annotated[Union[tables], Field(discriminator="kind")]  # noqa: UP007
+    return {"title": "Scenario", **TypeAdapter(kinds).json_schema()}

@@ -1,0 +1,340 @@
+"""What a kind of study is: everything that the rest of the package needs of it."""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from importlib import import_module, resources
+from inspect import ismodule
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+from tribodyn.numerics.registry import cannot_be_loaded
+from tribodyn.record.withheld import withheld
+from tribodyn.studies.protocol.estimate import (
+    WORTH_SAYING,
+    Estimate,
+    as_data,
+    described,
+    not_resumed,
+    refuse_large,
+    share_of_limits,
+)
+from tribodyn.studies.protocol.results import Checked as Checked
+from tribodyn.studies.protocol.results import RunResult as RunResult
+from tribodyn.studies.protocol.results import TextTable as TextTable
+
+if TYPE_CHECKING:
+    from tribodyn.errors import InputError
+    from tribodyn.numerics.variable import Variable
+    from tribodyn.post.figures.drawing import Drawing, SweepDrawing
+    from tribodyn.post.page.maps import PageMap
+    from tribodyn.post.page.profiles import Profiles
+    from tribodyn.post.report import Line, Lines
+    from tribodyn.record.reader import Record
+    from tribodyn.scenario.quantity import Table
+    from tribodyn.studies.protocol.part import Role
+    from tribodyn.studies.sweeping.batch import Batch
+
+Progress = Callable[[float], None]
+"""Called with the share done, 0 … 1."""
+
+
+@dataclass(frozen=True)
+class CaseHead:
+    """What every case begins with.
+
+    Parameters
+    ----------
+    title : str
+        What it shows.
+    name : str
+        Stem of the scenario's file; names the record.
+    kind : str
+        Kind of the study.
+    toml : str
+        The scenario as TOML with everything written out (references replaced by their content, units kept,
+        overrides applied); loading it gives this case again.
+    sha256 : str
+        Digest of `toml`.
+    """
+
+    title: str
+    name: str
+    kind: str
+    toml: str
+    sha256: str
+
+
+@dataclass(frozen=True)
+class Study:
+    """A kind of study: what it is, and where its parts are.
+
+    The parts are modules of its package, or attributes of the package itself, imported on first
+    use, so that a registered study costs nothing.
+
+    ============= =================================================================================
+    part          what it holds
+    ============= =================================================================================
+    scenario      ``Scenario``, the schema of a file; ``table_for(data)``, that of a file with these data
+                  (optional); ``case_of(scenario, toml, sha256)``, its case, a `CaseHead` and more
+    rules         ``broken_rules(scenario)``, errors for the rules that tie keys together (optional)
+    check         ``check(case) -> Checked``; raises InputError where the case cannot be run
+    run           ``run(case, output, *, force, progress) -> RunResult``, see `run`; and
+                  ``figures(case) -> dict``, its figures without a record (optional: to be swept)
+    report        ``LINES``, heading -> lines of the summary; ``sentences(record)``, how far it is to be
+                  trusted; ``SWEPT``, figures that a sweep keeps, and ``SWEEP_LINES``, those that it
+                  prints (both optional); ``SHORT``, short names of figures (optional); ``PANELS``,
+                  datasets that a page shows at first (optional); ``TOP``, figures at the top of what is
+                  printed as JSON (optional);
+                  ``maps(record)``, its maps over the face (optional)
+    figures       ``DRAWINGS``, its pictures by name; the one called overview is drawn after a run
+    sweep_figures ``SWEEP_DRAWINGS``, pictures of its sweeps (optional: the response of its figures)
+    batch         ``BATCH``, how many cases are evaluated together (optional), see `sweeping.batch.Batch`
+    estimate      ``estimate(case) -> Estimate``, what a run takes (optional)
+    assess        ``ROLE``, the part that it plays in an assessment of a drive (optional), see `protocol.part`
+    page          ``page(record) -> str``, the HTML of a page of its own for a record (optional)
+    template      ``template.toml``, a commented scenario in which TITLE stands for its title, see
+                  `protocol.template.filled`; of a study in a single module its attribute ``TEMPLATE``
+    ============= =================================================================================
+
+    Parameters
+    ----------
+    kind : str
+        As scenarios name it.
+    about : str
+        What it is, in a line.
+    package : str
+        Where its parts are.
+    quantities : str
+        What its records are about. Records of studies with the same quantities can be compared and drawn
+        together.
+    compared : tuple of str
+        Headings of its summary that a comparison shows; none: its records cannot be compared in a table.
+    has_gears, resumes : bool
+        Whether its cases have a gear pair's `family`, `drive` and `materials`; whether a run can be resumed.
+    verb, resolution : str
+        Verb of the command line that runs its scenarios; key of the points of a cycle, as its cases have it.
+    """
+
+    kind: str
+    about: str
+    package: str
+    quantities: str
+    compared: tuple[str, ...] = ()
+    has_gears: bool = False
+    resumes: bool = False
+    verb: str = "run"
+    resolution: str = ""
+
+    def table(self, data: Mapping[str, Any] = MappingProxyType({})) -> "type[Table]":
+        """The schema of a scenario file, of one with these data where it depends on them."""
+        of_data = self._part("scenario", "table_for", optional=True)
+        return of_data(data) if of_data else self._part("scenario", "Scenario")
+
+    def broken_rules(self, scenario: Any) -> "Iterable[InputError]":
+        """Go through the rules that tie keys of a scenario together and that this one breaks."""
+        rules = self._part("rules", "broken_rules", optional=True)
+        return rules(scenario) if rules else ()
+
+    def case(self, scenario: Any, toml: str, sha256: str) -> Any:
+        """Make the case of a scenario that has passed schema and rules."""
+        return self._part("scenario", "case_of")(scenario, toml, sha256)
+
+    def template(self) -> str:
+        """A commented scenario to begin with, in which TITLE stands for its title."""
+        package = import_module(self.package)
+        if not hasattr(package, "__path__"):  # one module, which has no folder of its own
+            return package.TEMPLATE
+        return resources.files(package).joinpath("template.toml").read_text(encoding="utf-8")
+
+    def estimate(self, case: Any) -> Estimate:
+        """What a run of a case takes; nothing, where the study does not say."""
+        estimate = self._part("estimate", "estimate", optional=True)
+        return estimate(case) if estimate else Estimate()
+
+    def check(self, case: Any, *, allow_large: bool = False) -> Checked:
+        """Check a case and say what it describes, and what a run takes where that is much, without a run.
+
+        Raises
+        ------
+        InputError
+            Where it cannot be run, or takes more than is done unasked and that is not allowed.
+        """
+        estimate = self.estimate(case)
+        refuse_large(estimate, allow_large)
+        checked = self._part("check", "check")(case)
+        if self.has_gears:
+            from tribodyn.studies.gears.rounded import with_rounding
+
+            checked = with_rounding(checked, case.toml)
+        data, remarks = checked.data | {"estimate": as_data(estimate)}, checked.remarks
+        if share_of_limits(estimate) >= WORTH_SAYING:
+            remarks = (*remarks, f"A run takes about {described(estimate)}.")
+        return checked._replace(data=data, remarks=remarks)
+
+    def run(
+        self,
+        case: Any,
+        output: str | Path | None = None,
+        *,
+        force: bool = False,
+        progress: Progress | None = None,
+        allow_large: bool = False,
+        resume: bool = False,
+        client: Any = None,
+    ) -> RunResult:
+        """Run a case and write its record.
+
+        Parameters
+        ----------
+        case
+            From `case`.
+        output : path, optional
+            Name of the record; default ``<case name>.h5`` in the current folder.
+        force : bool
+            Replace an existing record.
+        progress : callable, optional
+        allow_large : bool
+            Run what takes more than `estimate.LIMITS`, too.
+        resume : bool
+            Go on from what an unfinished run left, if there is anything.
+        client : distributed.Client, optional
+            Whose workers evaluate, where a study evaluates many cases; default: this machine.
+
+        Returns
+        -------
+        RunResult
+            `status` is "failed" where the simulation could not go on: the path then is the partial record's.
+            An efficiency in `summary` that cannot be is None, see `record.withheld`.
+
+        Raises
+        ------
+        InputError
+            Before anything is written.
+        """
+        if resume and not self.resumes:
+            raise not_resumed(self.about)
+        refuse_large(self.estimate(case), allow_large)
+        how = {"resume": resume, "client": client} if self.resumes else {}
+        try:
+            result = self._part("run", "run")(case, output, force=force, progress=progress, **how)
+        except KeyboardInterrupt as error:
+            if not getattr(error, "__notes__", ()):  # nobody below has anything to keep
+                error.add_note("nothing is recorded yet, the same call begins anew")
+            raise
+        return result._replace(summary=withheld(result.summary))
+
+    def figures(self, case: Any) -> dict[str, Any]:
+        """Work out the figures of a case without a record, those of `swept` among them.
+
+        An efficiency that cannot be is None, see `record.withheld`.
+
+        Raises
+        ------
+        InputError, SimulationError
+            Where the case cannot be worked out.
+        """
+        return withheld(self._part("run", "figures")(case))
+
+    def drawings(self) -> "Mapping[str, Drawing]":
+        """Its pictures by name, in the order `tribodyn plot` draws them."""
+        return self._part("figures", "DRAWINGS")
+
+    def lines(self) -> "Lines":
+        """Heading -> lines of the summary's table, in order."""
+        return self._part("report", "LINES")
+
+    def sentences(self, record: "Record") -> list[str]:
+        """Say how far a record is to be trusted, and what its figures are not."""
+        return self._part("report", "sentences")(record)
+
+    def swept(self) -> "Mapping[str, Variable]":
+        """Figures that a sweep keeps of every case, by name; none: such a study cannot be swept."""
+        return self._part("report", "SWEPT", optional=True) or {}
+
+    def short_names(self) -> "Mapping[str, str]":
+        """Short names of figures to their full ones."""
+        return self._part("report", "SHORT", optional=True) or {}
+
+    def sweep_lines(self) -> "Sequence[Line]":
+        """Figures that a sweep prints: the study's own choice, or the summary's lines of those it keeps.
+
+        The latter are called as the record describes them, because a line of the summary may lean on the one
+        above it: "at the frequency".
+        """
+        chosen = self._part("report", "SWEEP_LINES", optional=True)
+        if chosen:
+            return chosen
+        lines = {line.name: line for lines in self.lines().values() for line in lines}
+        labels = {name: one.long_name for name, one in self.swept().items() if name in lines}
+        return [lines[name]._replace(label=text[:1].upper() + text[1:]) for name, text in labels.items()]
+
+    def sweep_drawings(self) -> "Mapping[str, SweepDrawing]":
+        """Pictures of its sweeps by name; the first is drawn where none is named."""
+        from tribodyn.post.figures.sweep.response import response_drawings
+
+        own = self._part("sweep_figures", "SWEEP_DRAWINGS", optional=True)
+        return own or response_drawings(self.sweep_lines())
+
+    def top(self) -> tuple[str, ...]:
+        """Figures of its summary that stand at the top of what `run --json` prints, too."""
+        return self._part("report", "TOP", optional=True) or ()
+
+    def panels(self) -> tuple[str, ...]:
+        """Datasets that a page shows at first; none: the first ones."""
+        return self._part("report", "PANELS", optional=True) or ()
+
+    def maps(self, record: "Record") -> "Sequence[PageMap]":
+        """Maps over roll angle and face that a page of a record shows; none: nothing varies over the face."""
+        found = self._part("report", "maps", optional=True)
+        return found(record) if found else ()
+
+    def profiles(self, record: "Record") -> "Profiles | None":
+        """What a page of a record shows over a place at its cursor; None: nothing."""
+        found = self._part("report", "profiles", optional=True)
+        return found(record) if found else None
+
+    def batch(self) -> "Batch | None":
+        """How many cases are evaluated together; None: one after the other, by `figures`."""
+        return self._part("batch", "BATCH", optional=True)
+
+    def role(self) -> "Role | None":
+        """The part that it plays in an assessment of a drive; None: it plays none."""
+        return self._part("assess", "ROLE", optional=True)
+
+    def own_page(self) -> "Callable[[Record], str] | None":
+        """What writes a page of its own for a record; None: it has the page that all studies share."""
+        return self._part("page", "page", optional=True)
+
+    def _part(self, part: str, name: str, optional: bool = False) -> Any:
+        """What a part of the study holds; None where it is optional and not there.
+
+        Raises
+        ------
+        InputError
+            If the study is of another package, and that lacks the part or cannot be imported.
+        """
+        try:
+            return self._imported(part, name, optional)
+        except Exception as error:
+            if self.package.startswith("tribodyn."):
+                raise
+            package = self.package.partition(".")[0]
+            raise cannot_be_loaded("kind", self.kind, package, error) from error
+
+    def _imported(self, part: str, name: str, optional: bool) -> Any:
+        package = import_module(self.package)
+        own = getattr(package, name, None)
+        if own is not None and not ismodule(own):  # a part may have the name of what it holds
+            return own
+        module = f"{self.package}.{part}"
+        try:
+            return getattr(import_module(module), name)
+        except ModuleNotFoundError as error:
+            if optional and error.name in (module, self.package):
+                return None
+            raise
+        except AttributeError as error:
+            if optional and error.name == name:
+                return None
+            raise

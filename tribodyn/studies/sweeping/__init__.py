@@ -1,0 +1,1 @@
+"""What studies say of sweeps: batches, cases between cases, ends of branches."""

@@ -1,0 +1,153 @@
+"""How many cases of a study are evaluated together, for sweeps."""
+
+from collections.abc import Collection, Hashable, Sequence
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+
+from tribodyn.record.sweep_schema import DONE, SweepLayout
+from tribodyn.studies.protocol.estimate import Estimate
+
+
+class Way(NamedTuple):
+    """The way to a case along the first varied parameter, from the neighbour whose motion it goes on from.
+
+    Attributes
+    ----------
+    neighbour : case
+    start, target : float
+        Values of the parameter, SI units.
+    period : int
+        Of the neighbour's motion; 0: it has none.
+    span : (lowest, highest)
+        Range of the parameter in the sweep.
+    """
+
+    neighbour: Any
+    start: float
+    target: float
+    period: int
+    span: tuple[float, float]
+
+    @property
+    def reach(self) -> float:
+        """Largest magnitude of the parameter in the sweep."""
+        return max(map(abs, self.span))
+
+
+class Chunk(NamedTuple):
+    """Cases to be evaluated together.
+
+    Attributes
+    ----------
+    numbers : (n,) int
+        Of the cases in the sweep's record.
+    cases : tuple of n cases or str
+        A text where the case could not even be made: why.
+    states : (n, states) or None
+        Where to start from; NaN, or None for all, where a case begins by itself.
+    ways : tuple of n Ways or None
+        How each got there; None, also for all, where a case begins by itself.
+    """
+
+    numbers: np.ndarray
+    cases: tuple[Any, ...]
+    states: np.ndarray | None = None
+    ways: tuple[Way | None, ...] | None = None
+
+
+class Batch(Protocol):
+    """Evaluates cases of one kind; its results for a case do not depend on the others beside it.
+
+    Attributes
+    ----------
+    states : int
+        Numbers from which a neighbouring case can continue; 0: every case begins by itself.
+    """
+
+    states: int
+
+    def settings(self, cases: Sequence[Any], transient: int | None, engine: str) -> Any:
+        """How cases are evaluated, as a named tuple of plain data.
+
+        Parameters
+        ----------
+        cases : sequence
+            Those at both ends of the grid.
+        transient : int or None
+            Mesh cycles to march instead of seeking a steady state.
+        engine : str
+            Where: "native", "jax", "dask".
+
+        Raises
+        ------
+        InputError
+            For what such a study does not know.
+        """
+        ...
+
+    def followed(self, settings: Any) -> Any:
+        """The settings of a sweep whose cases go on from each other."""
+        ...
+
+    def with_unstable(self, settings: Any) -> Any:
+        """The settings of such a sweep that continues branches beyond their ends, unstable, too.
+
+        Raises
+        ------
+        InputError
+            Where there are none to continue.
+        """
+        ...
+
+    def layout(self, settings: Any) -> SweepLayout:
+        """What is recorded of every case."""
+        ...
+
+    def size_of_chunk(self, settings: Any, total: int, width: int) -> int:
+        """Cases to be evaluated together, of so many; `width` of them at the cost of one."""
+        ...
+
+    def estimate(self, case: Any, settings: Any, total: int, width: int) -> Estimate:
+        """What one of so many cases takes: the memory of those evaluated together, the bytes of its row."""
+        ...
+
+    def sharing(self, case: Any) -> Hashable:
+        """Cases for which this is equal share costly work, and are evaluated one after the other."""
+        ...
+
+    def check(self, case: Any, settings: Any) -> None:
+        """Prepare a case; InputError says why it cannot be evaluated."""
+        ...
+
+    def evaluate(self, chunk: Chunk, settings: Any, workers: int | None) -> dict[str, np.ndarray]:
+        """Evaluate; rows (n, …) of every variable of the layout."""
+        ...
+
+
+def batched(
+    batch: Batch, cases: Sequence[Any], names: Collection[str], workers: int | None = None
+) -> list[dict[str, Any] | str]:
+    """Figures of cases that are evaluated together; a text instead where one fails: why.
+
+    Parameters
+    ----------
+    batch : Batch
+    cases : sequence of cases or str
+        A text where the case could not even be made.
+    names : collection of str
+        Of the figures.
+    workers : int, optional
+        Threads; default: one per core.
+    """
+    made = [case for case in cases if not isinstance(case, str)]
+    if not made:
+        return list(cases)
+    settings = batch.settings(made, None, "native")
+    rows = batch.evaluate(Chunk(np.arange(len(cases)), tuple(cases)), settings, workers)
+    return [
+        {name: float(rows[name][i]) for name in names}
+        if rows["status"][i] == DONE
+        else str(rows["message"][i])
+        for i in range(len(cases))
+    ]

@@ -1,0 +1,1 @@
+"""The fluid between the surfaces: viscosity, shear, heat and traction."""

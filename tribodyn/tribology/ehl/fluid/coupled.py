@@ -1,0 +1,187 @@
+"""The contact of a fluid that thins with shear and heat: pressure, film, shear and temperature together."""
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.errors import SimulationError
+from tribodyn.numerics.blas_threads import one_blas_thread
+from tribodyn.tribology.ehl.fluid import heat as heat_of
+from tribodyn.tribology.ehl.fluid import rheology as rheology_of
+from tribodyn.tribology.ehl.fluid.fluid import hot_log_viscosity, log_viscosity, relative_density
+from tribodyn.tribology.ehl.fluid.heat import Heat, Surfaces, Thermal, heated, surfaces_under
+from tribodyn.tribology.ehl.fluid.rheology import Rheology
+from tribodyn.tribology.ehl.fluid.shear import LAYERS, Shear, sheared
+from tribodyn.tribology.ehl.fluid.traction import shear_force
+from tribodyn.tribology.ehl.grid import STEP
+from tribodyn.tribology.ehl.mixing import Mixing
+from tribodyn.tribology.ehl.problem import LineContact
+from tribodyn.tribology.ehl.reynolds import Closure
+from tribodyn.tribology.ehl.steady import Solution, solve_steady
+
+Array = Any
+
+#: Change of film, friction and temperature, over each, at which all of them hold together.
+TOLERANCE = 1e-7
+MOST_ROUNDS = 100
+#: Weight of a kelvin beside a change of ln η by 1, in what is mixed.
+_KELVIN = 0.03
+#: Smallest share of a change of the closure that a round takes.
+_LEAST_SHARE = 0.05
+
+
+class CoupledSolution(NamedTuple):
+    """A contact with its shear and heat.
+
+    Attributes
+    ----------
+    solution : pressures and films, under the closure that shear and heat make
+    shear : Shear
+    heat : Heat, or None of an isothermal contact
+    friction : ∫ τ_m + f_c p_a dx, N/m, of the sign of the sliding speed
+    rounds : of shear, heat and pressures
+    """
+
+    solution: Solution
+    shear: Shear
+    heat: Heat | None
+    friction: float
+    rounds: int
+
+    @property
+    def temperature(self) -> Array:
+        """Mean over the film, K above the inlet's."""
+        if self.heat is None:
+            return np.zeros_like(self.solution.film)
+        return np.mean(self.heat.layers, axis=1)
+
+
+@one_blas_thread()
+@np.errstate(over="ignore", divide="ignore", invalid="ignore")
+def solve_coupled(
+    problem: LineContact,
+    rheology: Rheology,
+    thermal: Thermal | None = None,
+    start: Solution | None = None,
+    step: float = STEP,
+) -> CoupledSolution:
+    """Solve pressures, film, shear and, with `thermal`, temperatures of a steady contact.
+
+    Raises
+    ------
+    InputError
+        If a value has no meaning.
+    SimulationError
+        If pressures, or all together, do not converge.
+    """
+    rheology_of.check(rheology)
+    if thermal is not None:
+        heat_of.check(thermal)
+    solution = solve_steady(problem, start, step)
+    surfaces = (
+        surfaces_under(solution.place, problem.surface_speeds, thermal) if thermal is not None else None
+    )
+    mixing, share, last = Mixing(), 1.0, (math.inf,) * 3
+    closure, rise = solution.closure, np.zeros((len(solution.place), LAYERS))
+    heat: Heat | None = None
+    for rounds in range(1, MOST_ROUNDS + 1):
+        shear, heat, found = _closed(solution, rheology, surfaces, heat, rise)
+        warmed = heat.layers if heat is not None else rise
+        target = _packed(found, warmed)
+        if not np.all(np.isfinite(target)):
+            raise _diverged(problem, rounds)
+        wished = mixing.next(_packed(closure, rise), target)
+        while True:
+            closure, rise = _unpacked(wished)
+            try:
+                solution = solve_steady(problem, solution, closure=closure)
+                break
+            except SimulationError:
+                share *= 0.5
+                if share < _LEAST_SHARE:
+                    raise
+                wished = mixing.shorter(share)
+        friction = _friction(solution, shear, rheology)
+        known = (solution.central_film_thickness, friction, float(np.max(warmed)))
+        least = (0.0, 1e-3 * problem.line_load, 1e-2)
+        if all(abs(a - b) <= TOLERANCE * max(abs(a), c) for a, b, c in zip(known, last, least, strict=True)):
+            return CoupledSolution(solution, shear, heat, friction, rounds)
+        last = known
+    raise _diverged(problem, MOST_ROUNDS)
+
+
+def _diverged(problem: LineContact, rounds: int) -> SimulationError:
+    return SimulationError(
+        f"pressure, shear and heat of the line contact did not converge in {rounds} rounds (p_H "
+        f"{problem.hertz_pressure / 1e9:.3g} GPa, sliding {problem.sliding_speed:.3g} m/s)"
+    )
+
+
+def _rubbing(problem: LineContact) -> float:
+    return problem.roughness.friction if problem.roughness is not None else 0.0
+
+
+def _by_asperities(solution: Solution) -> float:
+    """Friction of the asperities, N/m."""
+    problem = solution.problem
+    load = solution.asperity_load_ratio * problem.line_load
+    return math.copysign(_rubbing(problem) * load, problem.sliding_speed) if problem.sliding_speed else 0.0
+
+
+def _packed(closure: Closure, rise: Array) -> Array:
+    """Closure and temperatures of the layers as one vector, of like sizes."""
+    return np.concatenate([np.array(closure).ravel(), _KELVIN * rise.ravel()])
+
+
+def _unpacked(vector: Array) -> tuple[Closure, Array]:
+    closure, rise = np.split(vector, [len(vector) * 3 // (3 + LAYERS)])
+    return Closure(*closure.reshape(3, -1)), rise.reshape(-1, LAYERS) / _KELVIN
+
+
+def friction_of(solution: Solution, rheology: Rheology, thermal: Thermal | None, rise: Array) -> float:
+    """Friction ∫ τ_m + f_c p_a dx, N/m, under temperatures of the layers, K above the inlet's (x, layer)."""
+    coefficient = thermal.temperature_viscosity if thermal is not None else 0.0
+    shear, _ = _sheared(solution, rheology, coefficient, rise)
+    return _friction(solution, shear, rheology)
+
+
+def _friction(solution: Solution, shear: Shear, rheology: Rheology) -> float:
+    """Of fluid and asperities, N/m."""
+    film = slice(0, solution.grid.end + 1)
+    within = solution.fluid_pressure[film], solution.place[film]
+    part = shear._replace(newtonian=shear.newtonian[film])
+    return shear_force(part, *within, rheology) + _by_asperities(solution)
+
+
+def _sheared(solution: Solution, rheology: Rheology, coefficient: float, rise: Array) -> tuple[Shear, Array]:
+    """Shear under given pressures, films and temperatures, and d ln η/dT in the layers."""
+    problem, fluid, pressure = solution.problem, solution.problem.fluid, solution.fluid_pressure
+    gradient = np.gradient(pressure, solution.place)
+    thickening, by_heat = hot_log_viscosity(pressure[:, None], rise, fluid, coefficient)
+    log_eta = math.log(fluid.viscosity) + thickening
+    shear = sheared(solution.mean_gap, pressure, gradient, log_eta, problem.surface_speeds, rheology)
+    # the film behind its end is broken: it shears, but in shreds
+    shear.stress[solution.grid.end + 1 :] = 0.0
+    shear.heat[solution.grid.end + 1 :] = 0.0
+    return shear, by_heat
+
+
+def _closed(
+    solution: Solution, rheology: Rheology, surfaces: Surfaces | None, heat: Heat | None, rise: Array
+) -> tuple[Shear, Heat | None, Closure]:
+    """Shear and heat under given pressures, films and temperatures of the layers."""
+    problem, fluid = solution.problem, solution.problem.fluid
+    pressure, film = solution.fluid_pressure, solution.mean_gap
+    coefficient = surfaces.thermal.temperature_viscosity if surfaces is not None else 0.0
+    shear, by_heat = _sheared(solution, rheology, coefficient, rise)
+    if surfaces is not None:
+        flow = relative_density(pressure, fluid)[0][:, None] * shear.velocity * film[:, None] / LAYERS
+        through = solution.flow_film_thickness * problem.entrainment_speed
+        flow = flow + (through - np.sum(flow, axis=1, keepdims=True)) / LAYERS
+        feedback = -by_heat * shear.response[:, None] * shear.heat
+        rubbed = _rubbing(problem) * abs(problem.sliding_speed) / LAYERS * solution.asperity_pressure
+        heat = heated(surfaces, film, flow, shear.heat + rubbed[:, None], feedback, rise, heat)
+    cold = log_viscosity(pressure, fluid)[0]
+    effective = -np.log(shear.fluidity * fluid.viscosity)
+    return shear, heat, Closure(effective - shear.response * cold, shear.response, shear.drift)

@@ -1,0 +1,282 @@
+"""Heat in the film and into both surfaces: the energy equation over layers, and moving sources of heat.
+
+In a layer of the film, with the flow ρ u of `Shear.velocity`, in the steady state:
+
+    d/dx (ρ c u Θ) dz + exchange with the neighbouring layers (flow and conduction) = τ γ' dz
+
+Θ is the temperature above the inlet's. The surfaces pass under the heat flux q at u_1 and u_2 (Jaeger 1942):
+
+    Θ_s(x) = 1/(π k_s) ∫ q(x') exp(u (x − x')/2κ) K_0(u |x − x'|/2κ) dx',   κ = k_s/(ρ_s c_s)
+
+which for u b/κ → ∞ is Blok's 1/√(π k_s ρ_s c_s u) ∫ q/√(x − x') dx'. All of it is one linear system.
+"""
+
+import math
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.linalg import get_lapack_funcs, lu_factor, lu_solve
+from scipy.sparse.linalg import LinearOperator, gmres
+from scipy.special import k0e, k1e
+
+from tribodyn.errors import InputError, SimulationError
+from tribodyn.tribology.ehl.fluid.shear import LAYERS
+from tribodyn.tribology.ehl.values import not_negative, positive
+
+Array = Any
+
+_BAND_FACTORS, _BAND_SOLVES = get_lapack_funcs(("gbtrf", "gbtrs"), dtype=np.float64)
+#: Speed (over κ, 1/m) below which a surface counts as moving as slowly as this.
+_SLOWEST = 1.0
+#: Of the iteration for the surfaces, which gains two digits or more in each.
+_SURFACE_STEPS = 40
+
+
+class Thermal(NamedTuple):
+    """What conducts and stores heat.
+
+    Attributes
+    ----------
+    temperature_viscosity : K_T = −d ln η/dT at ambient pressure, 1/K
+    conductivity : of the oil, W/(m K)
+    heat_capacity : of the oil, per volume at ambient pressure, J/(m³ K)
+    solid_conductivity, solid_heat_capacity : of surfaces 1 and 2, W/(m K), J/(m³ K)
+    """
+
+    temperature_viscosity: float
+    conductivity: float = 0.14
+    heat_capacity: float = 1.7e6
+    solid_conductivity: tuple[float, float] = (46.0, 46.0)
+    solid_heat_capacity: tuple[float, float] = (3.6e6, 3.6e6)
+
+
+class Heat(NamedTuple):
+    """Temperatures above the inlet's, K, and where the heat goes, W/m.
+
+    Attributes
+    ----------
+    layers : Θ (x, layer), from surface 2 to surface 1
+    surface_1, surface_2 : Θ of the surfaces (x)
+    made : by shear
+    into_1, into_2 : conducted into the surfaces
+    carried : by the oil out of the film
+    """
+
+    layers: Array
+    surface_1: Array
+    surface_2: Array
+    made: float
+    into_1: float
+    into_2: float
+    carried: float
+
+
+def check(thermal: Thermal) -> None:
+    """Raise InputError at the first value that is no number, or not positive."""
+    not_negative("temperature_viscosity", thermal.temperature_viscosity, "1/K")
+    for name in ("conductivity", "heat_capacity"):
+        positive(f"oil_{name}", getattr(thermal, name))
+    for name in ("solid_conductivity", "solid_heat_capacity"):
+        value = getattr(thermal, name)
+        if not isinstance(value, tuple) or len(value) != 2:
+            raise InputError(name, value, "must be two numbers", "give those of surface 1 and surface 2")
+        for one in value:
+            positive(name, one)
+
+
+def moving_source(place: Array, edge: Array, speed: float, conductivity: float, capacity: float) -> Array:
+    """Temperatures at places by unit fluxes through the cells between edges, K m²/W; (places, cells)."""
+    rate = 0.5 * speed * capacity / conductivity
+    if abs(rate) < _SLOWEST:
+        rate = math.copysign(_SLOWEST, rate)
+    ahead = rate * (place[:, None] - edge[None, :])
+    size = np.maximum(np.abs(ahead), 1e-300)
+    # ∫ e^s K_0(|s|) ds = s e^s (K_0(|s|) ± K_1(|s|)); scaled functions hold the exponentials in bounds
+    after = size * (k0e(size) + k1e(size))
+    before = -size * np.exp(-2.0 * size) * (k0e(size) - k1e(size))
+    whole = np.where(ahead >= 0.0, after - 1.0, before - 1.0)
+    return (whole[:, :-1] - whole[:, 1:]) / (math.pi * conductivity * abs(rate)) * math.copysign(1.0, rate)
+
+
+class Surfaces(NamedTuple):
+    """Both surfaces under the nodes of a film.
+
+    Attributes
+    ----------
+    thermal : Thermal
+    width : of the cells about the nodes, m (x)
+    response : temperatures of surfaces 1 and 2 by the fluxes into their cells, K m²/W, each (x, x)
+    """
+
+    thermal: Thermal
+    width: Array
+    response: tuple[Array, Array]
+
+
+def surfaces_under(place: Array, speeds: tuple[float, float], thermal: Thermal) -> Surfaces:
+    """Return how both surfaces warm, at u_1 and u_2, under the nodes at `place` (m)."""
+    edge = np.concatenate([place[:1], 0.5 * (place[1:] + place[:-1]), place[-1:]])
+    one, two = (
+        moving_source(place, edge, speed, k, c)
+        for speed, k, c in zip(speeds, thermal.solid_conductivity, thermal.solid_heat_capacity, strict=True)
+    )
+    return Surfaces(thermal, np.diff(edge), (one, two))
+
+
+def heated(
+    surfaces: Surfaces,
+    film: Array,
+    flow: Array,
+    made: Array,
+    feedback: Array,
+    known: Array,
+    guess: Heat | None = None,
+) -> Heat:
+    """Solve for the temperatures; SI.
+
+    Parameters
+    ----------
+    surfaces : Surfaces
+    film : (x,)
+        m.
+    flow : (x, layer)
+        Of mass over the density at ambient pressure, per layer, m²/s; its sum is the same at every x.
+    made : (x, layer)
+        Heat of shear, W/m², at the temperatures `known`, K.
+    feedback : (x, layer)
+        By how much less is made where the whole film is warmer, W/(m² K), ≥ 0.
+    guess : Heat, optional
+        Where the temperatures of the surfaces start.
+    """
+    thermal, width, response = surfaces
+    count = len(film)
+    source = (made + feedback * known) * width[:, None]
+    taken = feedback * width[:, None]
+    band, wall = _layers_system(film, width, taken, _through(flow), thermal)
+    factor = _factored(band)
+    inverse = _coupling(response, _conductances(film, feedback, thermal))
+
+    def answered(surface: Array, source: Array | float) -> tuple[Array, Array, Array]:
+        """Temperatures of the layers, and fluxes into both surfaces, at temperatures of these."""
+        right = np.zeros_like(made) + source
+        right[:, -1] += wall * width * surface[:count]
+        right[:, 0] += wall * width * surface[count:]
+        layers = _solved(factor, right.ravel()).reshape(made.shape)
+        return layers, wall * (layers[:, -1] - surface[:count]), wall * (layers[:, 0] - surface[count:])
+
+    def missing(surface: Array, source: Array | float = 0.0) -> Array:
+        _, *flux = answered(surface, source)
+        return surface - np.concatenate([response[0] @ flux[0], response[1] @ flux[1]])
+
+    size = (2 * count, 2 * count)
+    first = np.zeros(2 * count)
+    surface, failed = gmres(
+        _operator(size, missing),
+        -missing(first, source),
+        np.concatenate([guess.surface_1, guess.surface_2]) if guess is not None else first,
+        rtol=1e-10,
+        restart=_SURFACE_STEPS,
+        maxiter=2,
+        M=_operator(size, lambda one: lu_solve(inverse, one, check_finite=False)),
+    )
+    layers, *flux = answered(surface, source)
+    if failed or not np.all(np.isfinite(layers)):
+        raise SimulationError("the temperatures of the line contact did not converge")
+    left, right = np.minimum(flow[0], 0.0) @ layers[0], np.maximum(flow[-1], 0.0) @ layers[-1]
+    return Heat(
+        layers,
+        surface[:count],
+        surface[count:],
+        float(np.sum(source - taken * layers)),
+        float(flux[0] @ width),
+        float(flux[1] @ width),
+        thermal.heat_capacity * float(right - left),
+    )
+
+
+def _operator(size: tuple[int, int], product: Callable[[Array], Array]) -> Any:
+    made: Any = LinearOperator
+    return made(size, product, dtype=float)
+
+
+def _conductances(film: Array, feedback: Array, thermal: Thermal) -> tuple[Array, Array, Array]:
+    """Flux into surface 1 as it cools or surface 2 warms, and into surface 2 as it cools; W/(m² K).
+
+    Of conduction across the film with the heat that a warmer film does not make, without flow along x.
+    """
+    layer = thermal.conductivity * LAYERS / film
+    matrix = np.zeros((*feedback.shape, LAYERS))
+    inner = np.arange(LAYERS)
+    matrix[:, inner, inner] = feedback + 2.0 * layer[:, None]
+    matrix[:, inner[1:], inner[:-1]] = matrix[:, inner[:-1], inner[1:]] = -layer[:, None]
+    matrix[:, (0, -1), (0, -1)] += layer[:, None]
+    right = np.zeros((len(film), LAYERS, 2))
+    right[:, -1, 0] = right[:, 0, 1] = wall = 2.0 * layer
+    warmed = np.linalg.solve(matrix, right)
+    return wall * (1.0 - warmed[:, -1, 0]), wall * warmed[:, -1, 1], wall * (1.0 - warmed[:, 0, 1])
+
+
+def _coupling(response: tuple[Array, Array], conductance: tuple[Array, Array, Array]) -> tuple[Array, Array]:
+    """Factors of what couples the surfaces nearly alone: conduction across the film."""
+    own_1, between, own_2 = conductance
+    count = len(between)
+    matrix = np.empty((2 * count, 2 * count))
+    np.multiply(response[0], own_1, out=matrix[:count, :count])
+    np.multiply(response[0], -between, out=matrix[:count, count:])
+    np.multiply(response[1], -between, out=matrix[count:, :count])
+    np.multiply(response[1], own_2, out=matrix[count:, count:])
+    matrix[np.diag_indices(2 * count)] += 1.0
+    return lu_factor(matrix, overwrite_a=True, check_finite=False)
+
+
+def _through(flow: Array) -> Array:
+    """Flow of the layers through the edges of the cells, (x + 1, layer)."""
+    return np.concatenate([flow[:1], 0.5 * (flow[1:] + flow[:-1]), flow[-1:]])
+
+
+def _layers_system(
+    film: Array, width: Array, taken: Array, through: Array, thermal: Thermal
+) -> tuple[Array, Array]:
+    """Matrix of the layers' temperatures in LAPACK's band form, and conductance to the walls, W/(m² K)."""
+    capacity = thermal.heat_capacity
+    layer = thermal.conductivity * LAYERS / film
+    wall = 2.0 * layer
+    ahead, behind = np.maximum(through, 0.0) * capacity, np.minimum(through, 0.0) * capacity
+    # flow between layers from what enters and leaves a cell along x; positive from surface 2 to surface 1
+    across = -np.cumsum(np.diff(through, axis=0), axis=1)[:, :-1] * capacity
+    conducted = (layer * width)[:, None]
+    up, down = conducted + np.maximum(across, 0.0), conducted - np.minimum(across, 0.0)
+    diagonal = taken + ahead[1:] - behind[:-1]
+    diagonal[:, :-1] += up
+    diagonal[:, 1:] += down
+    diagonal[:, 0] += wall * width
+    diagonal[:, -1] += wall * width
+    size, reach = diagonal.size, LAYERS
+    band = np.zeros((3 * reach + 1, size))
+    middle = 2 * reach
+    band[middle] = diagonal.ravel()
+    to_next = np.zeros_like(diagonal)
+    to_next[:, 1:] = -down  # from the layer above into this one
+    band[middle - 1] = to_next.ravel()
+    from_last = np.zeros_like(diagonal)
+    from_last[:, :-1] = -up
+    band[middle + 1] = from_last.ravel()
+    forward = np.zeros_like(diagonal)
+    forward[:-1] = -ahead[1:-1]
+    band[middle + reach] = forward.ravel()
+    backward = np.zeros_like(diagonal)
+    backward[1:] = behind[1:-1]
+    band[middle - reach] = backward.ravel()
+    return band, wall
+
+
+def _factored(band: Array) -> tuple[Array, Array]:
+    lower_upper, pivots, failed = _BAND_FACTORS(band, LAYERS, LAYERS)
+    if failed:
+        raise SimulationError("the temperatures of the film have no solution")
+    return lower_upper, pivots
+
+
+def _solved(factor: tuple[Array, Array], right: Array) -> Array:
+    return _BAND_SOLVES(factor[0], LAYERS, LAYERS, right, factor[1])[0]

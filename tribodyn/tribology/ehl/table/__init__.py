@@ -1,0 +1,1 @@
+"""Solved contacts over the duty of a mesh, as laws read them."""
