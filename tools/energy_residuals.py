@@ -11,7 +11,7 @@ from tempfile import TemporaryDirectory
 
 from marked_block import put
 
-from tribodyn import load_scenario
+from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 
 STIFFNESSES = (1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12)
