@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.compliance.face_root_stress import root_stress
-from tribodyn.compliance.gear_compliance import NEIGHBOURS, at_radii
-from tribodyn.compliance.lead_harmonics import at_wave_numbers
-from tribodyn.geometry.corner_contact import pair_geometry
+from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, at_radii
+from tribodyn.compliance.fem.lead_harmonics import at_wave_numbers
+from tribodyn.compliance.sharing.face_root_stress import root_stress
+from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE
