@@ -1,22 +1,17 @@
-"""Statistics, refusals and drawings of the gear with rolling elements, in plain loops and by hand."""
+"""A revolution of the gear with rolling elements in plain loops: sheet, summary, record, limits."""
 
 import math
 from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
-from matplotlib.figure import Figure
-from matplotlib.patches import Circle
 
 from tribodyn.errors import InputError
 from tribodyn.record.reader import open_record
 from tribodyn.studies.protocol.load import load_scenario
-from tribodyn.studies.rolling import engagement, gear_picture, run
+from tribodyn.studies.rolling import run
 from tribodyn.studies.rolling.case import RollingCase
-from tribodyn.studies.rolling.checks import element_radius_limits
 from tribodyn.studies.rolling.engagement import RollingFriction, element_angles, engage, normal_loads
 from tribodyn.studies.rolling.geometry import (
     RollingDrive,
@@ -31,11 +26,10 @@ SAMPLES = 6
 
 @pytest.fixture(scope="module")
 def case() -> RollingCase:
-    found: RollingCase = (
-        load_scenario("irefc").case if hasattr(load_scenario("irefc"), "case") else load_scenario("irefc")
-    )
     drive = RollingDrive(0.05, 11, 1.3, 0.0025)
-    return replace(found, drive=drive, samples_per_cycle=SAMPLES, input_power=900.0, input_speed=70.0)
+    return replace(
+        load_scenario("irefc"), drive=drive, samples_per_cycle=SAMPLES, input_power=900.0, input_speed=70.0
+    )
 
 
 @pytest.fixture(scope="module")
@@ -43,10 +37,6 @@ def made(case: RollingCase, tmp_path_factory: pytest.TempPathFactory) -> tuple[P
     told: list[float] = []
     path = run.run(case, tmp_path_factory.mktemp("r") / "r.h5", progress=told.append).path
     return path, told
-
-
-def test_progress_reaches_the_whole(made: tuple[Path, list[float]]):
-    assert made[1][-1] == 1.0
 
 
 def test_a_sheet_is_in_the_units_of_a_drawing():
@@ -74,19 +64,6 @@ def test_a_sheet_is_in_the_units_of_a_drawing():
     for name, radius in (("cam", 1.0 / np.max(cam)), ("crown", -1.0 / np.min(crown))):
         limit = sheet[f"element radius at which the protrusions of the {name} are undercut"]
         assert limit == (pytest.approx(1e3 * radius, rel=1e-6), "mm")
-
-
-def test_limits_are_written_so_that_they_may_be_used():
-    from tribodyn.studies.rolling.checks import _millimetres
-
-    for length, text in (
-        (1.23456e-3, "1.234 mm"),
-        (12.3456e-3, "12.34 mm"),
-        (0.123456e-3, "0.1234 mm"),
-        (-1.0, "0 mm"),
-    ):
-        assert _millimetres(length) == text
-    assert _millimetres(0.0) == "0 mm"
 
 
 def test_the_summary_of_a_revolution_in_plain_loops(case: RollingCase):
@@ -144,62 +121,6 @@ def test_a_record_is_the_revolution(case: RollingCase, made: tuple[Path, list[fl
         assert record.summary["efficiency"] == pytest.approx(run.figures(case)["efficiency"])
 
 
-def test_the_picture_is_in_millimetres_about_the_shaft(case: RollingCase, made: tuple[Path, list[float]]):
-    state = engage(case.drive, element_angles(case.drive, np.zeros(1)), 900.0, 70.0, case.friction)
-    axes = Figure().subplots()
-    with open_record(made[0]) as record:
-        gear_picture.draw_gear(axes, record)
-    # in mm: cam and cage beside the shaft by two and one distances of centres
-    circles = [one for one in axes.patches if isinstance(one, Circle)]
-    pitch = {round(one.radius, 6): one.center[0] for one in circles[1:4]}
-    distance = 50.0 / 11.0
-    assert pitch == pytest.approx(
-        {round(50.0 + distance, 6): 0.0, 50.0: distance, round(50.0 - distance, 6): 2.0 * distance}
-    )
-    elements = circles[4:]
-    assert len(elements) == record_elements(case)
-    for number, one in enumerate(elements):
-        angle = 2.0 * math.pi * number / len(elements)
-        assert one.radius == pytest.approx(2.5)
-        assert one.center == pytest.approx((distance + 65.0 * math.cos(angle), 65.0 * math.sin(angle)))
-    arrows = [one for one in axes.texts if getattr(one, "arrow_patch", None) is not None]
-    loads, angles = state.normal_load[0], state.element_angle[0]
-    top = max(loads)
-    expected = [n for n in range(11) if 6.0 * loads[n] / top > 0.02]
-    assert len(arrows) == len(expected)
-    for arrow, n in zip(arrows, expected, strict=True):
-        centre = np.array([distance + 65.0 * math.cos(angles[n]), 65.0 * math.sin(angles[n])])
-        along = centre - np.array([50.0 + distance, 0.0])
-        along = along / math.hypot(*along)
-        tip = centre - 2.5 * along
-        np.testing.assert_allclose(arrow.xyann, tip, rtol=1e-9)  # pyright: ignore[reportAttributeAccessIssue]
-        tail = tip - 6.0 * 2.5 * loads[n] / top * along
-        np.testing.assert_allclose(arrow.xy, tail, rtol=1e-9, atol=1e-9)  # pyright: ignore[reportAttributeAccessIssue]
-
-
-def record_elements(case: RollingCase) -> int:
-    """Of the scenario, whose text stands in the record: the drive itself is made up here."""
-    import tomllib
-
-    return int(tomllib.loads(case.toml)["drive"]["elements"])
-
-
-def test_as_published_it_is_one_position(case: RollingCase):
-    published = replace(case, mode="as_published")
-    angles = run._shaft_angles(published)
-    assert list(angles) == [0.0]
-    state = run._engage(published, angles)
-    assert state.normal_load.shape == (1, 6)
-    found = run.figures(published)
-    assert found["efficiency"] == float(state.efficiency[0])
-    assert found["power_in_mean"] == float(state.power_in[0])
-    assert len(run._shaft_angles(case)) == SAMPLES * 12 + 1
-    blocks = list(run._blocks(np.arange(14.0), 6))
-    assert [(start, len(part)) for start, part in blocks] == [(0, 6), (6, 6), (12, 2)]
-    assert [run._whole(done, np.zeros(14)) for done in (6, 13, 14)] == [True, True, False]
-    assert run._whole(1, np.zeros(1))
-
-
 @pytest.mark.parametrize(
     ("arm", "sliding", "key"), [(1.0, 0.05, "rolling_arm"), (1e-5, 900.0, "sliding_coefficient")]
 )
@@ -207,9 +128,7 @@ def test_friction_that_locks_is_refused_with_the_limit(
     case: RollingCase, arm: float, sliding: float, key: str
 ):
     """At 0.99 of the limit that is named the gear turns, at 1.01 it locks."""
-    heavy = engagement.RollingFriction(
-        rolling_arm=arm * 1e-2 if arm < 1.0 else arm, sliding_coefficient=sliding
-    )
+    heavy = RollingFriction(rolling_arm=arm * 1e-2 if arm < 1.0 else arm, sliding_coefficient=sliding)
     with pytest.raises(InputError) as caught:
         run.prepare(replace(case, friction=heavy))
     assert caught.value.key == f"friction.{key}"
@@ -218,14 +137,6 @@ def test_friction_that_locks_is_refused_with_the_limit(
     run.prepare(replace(case, friction=heavy._replace(**{key: 0.985 * limit})))
     with pytest.raises(InputError, match="the gear locks"):
         run.prepare(replace(case, friction=heavy._replace(**{key: 1.015 * limit})))
-
-
-def test_elements_at_the_limit_are_refused():
-    for drive in (RollingDrive(0.05, 11, 1.3, 0.0025), RollingDrive(0.02, 40, 2.2, 0.001)):
-        limits = element_radius_limits(drive)
-        assert limits["neighbouring elements overlap"] == pytest.approx(
-            drive.displacement * drive.pitch_radius * math.sin(math.pi / drive.elements)
-        )
 
 
 def turned(points: np.ndarray, angle: np.ndarray) -> np.ndarray:
@@ -296,27 +207,6 @@ def test_distances_powers_and_torques_of_an_instant():
     assert two[0, 0] / two[0, 1] == pytest.approx(arms[0] / arms[1])
     assert two[0, 0] * arms[0] + two[0, 1] * arms[1] == pytest.approx(7.0 * 11 / 2.0)
     assert two[1, 0] * arms[2] == pytest.approx(7.0 * 11 / 2.0)
-
-
-@pytest.mark.parametrize(
-    ("friction", "key", "limit"),
-    [(160.0, "rolling_arm", "18 mm"), (300.0, "sliding_coefficient", "0.09")],
-)
-def test_the_limit_leaves_what_the_other_loss_leaves(friction: float, key: str, limit: str):
-    """At the worst instant 150 W are put in and rolling takes 100 W; sliding takes 60 W, or 200 W."""
-    crown = np.array([[1.0, 2.0], [30.0, 20.0], [9.0, 9.0]])
-    cycle: Any = SimpleNamespace(
-        power_out=np.array([5.0, -10.0, -2.0]),
-        power_crown=crown,
-        power_friction=np.array([20.0, friction, 30.0]),
-        power_in=np.array([150.0, 150.0, 150.0]),
-    )
-    asked: Any = SimpleNamespace(friction=RollingFriction(0.02, 0.12))
-    with pytest.raises(InputError, match=f"use less than {limit}") as caught:
-        run._refuse_locking(asked, cycle)
-    assert caught.value.key == f"friction.{key}"
-    assert f"{friction:g} W of the 150 W" in str(caught.value)
-    run._refuse_locking(asked, SimpleNamespace(power_out=np.array([5.0, 1e-3])))  # pyright: ignore[reportArgumentType]
 
 
 def test_as_published_every_element_takes_its_share_of_the_rest():
