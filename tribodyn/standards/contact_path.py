@@ -19,13 +19,9 @@ class ContactPath(NamedTuple):
 
     Parameters
     ----------
-    teeth : (float, float)
-    base_radius, tip_radius : (float, float)
-        r_b and r_a, m.
-    pressure_angle : float
-        α_wt, transverse, at the working pitch circles, rad.
-    base_helix_angle : float
-        β_b, rad.
+    base_radius, tip_radius : r_b and r_a, m
+    pressure_angle : α_wt, transverse, at the working pitch circles, rad
+    base_helix_angle : β_b, rad
     """
 
     teeth: tuple[float, float]

@@ -16,25 +16,16 @@ class DynamicMesh(NamedTuple):
 
     Parameters
     ----------
-    pinion_teeth : float
-    pinion_speed : float
-        rad/s.
-    reduced_mass : float
-        m_red per face width along the line of action, see `reduced_mass`, kg/m.
-    single_stiffness, mesh_stiffness : float
-        c' and c_γα per face width, Pa (1 N/(mm µm) is 1 GPa).
-    line_load : float
-        F_t K_A/b, N/m.
+    pinion_speed : rad/s
+    reduced_mass : m_red per face width along the line of action, see `reduced_mass`, kg/m
+    single_stiffness, mesh_stiffness : c' and c_γα per face width, Pa (1 N/(mm µm) is 1 GPa)
+    line_load : F_t K_A/b, N/m
     pitch_deviation, profile_deviation : float
         f_pb and f_fα, m, of the gear that has the larger ones; running-in is taken off here.
-    total_contact_ratio : float
-        ε_γ.
-    tip_relief : float
-        C_a, m; of unmodified gears that of running in, `run_in_relief`.
-    quality : float
-        Grade by ISO 1328-1 of the coarser gear.
-    run_in : float
-        y_p = y_f over the deviation: 0.075 of case-hardened and nitrided gears, at most 3 µm.
+    total_contact_ratio : ε_γ
+    tip_relief : C_a, m; of unmodified gears that of running in, `run_in_relief`
+    quality : grade by ISO 1328-1 of the coarser gear
+    run_in : y_p = y_f over the deviation: 0.075 of case-hardened and nitrided gears, at most 3 µm
     """
 
     pinion_teeth: float
@@ -56,7 +47,6 @@ class DynamicFactor(NamedTuple):
 
     Attributes
     ----------
-    factor : K_v
     resonance_ratio : N, speed over resonance speed
     resonance_speed : n_E1, rad/s of the pinion
     range : "subcritical", "main resonance", "intermediate" or "supercritical"

@@ -22,11 +22,8 @@ class Tolerances(NamedTuple):
     total_pitch : F_pT, range of the index deviations
     profile_form : f_fαT
     profile_slope : f_HαT, of either sign
-    total_profile : F_αT
     helix_form : f_fβT
     helix_slope : f_HβT, of either sign, over the face width
-    total_helix : F_βT
-    runout : F_rT
     """
 
     single_pitch: float

@@ -25,14 +25,10 @@ def mean_friction(
 
     Parameters
     ----------
-    line_load : float
-        w_Bt = K_A K_v K_Hβ K_Hα F_t/b, N/m.
-    speed_sum : float
-        v_ΣC = 2 v_t sin α_wt, m/s.
-    pitch_radius : float
-        Radius of relative curvature at the pitch point, m.
-    roughness : float
-        (Ra_1 + Ra_2)/2, m.
+    line_load : w_Bt = K_A K_v K_Hβ K_Hα F_t/b, N/m
+    speed_sum : v_ΣC = 2 v_t sin α_wt, m/s
+    pitch_radius : radius of relative curvature at the pitch point, m
+    roughness : (Ra_1 + Ra_2)/2, m
     """
     load = 1e-3 * line_load / (speed_sum * 1e3 * pitch_radius)
     return 0.060 * load**0.2 * lubricant * (1e6 * roughness) ** 0.25
@@ -57,7 +53,6 @@ def flash_rise(
     half_width : b_H of the Hertz contact, m
     speeds : v_g1, v_g2, m/s
     thermal_contact : B_M of pinion and gear, W s^½/(m² K)
-    approach : X_J
     """
     first, second = speeds
     share = thermal_contact[0] * np.sqrt(first) + thermal_contact[1] * np.sqrt(second)

@@ -73,10 +73,8 @@ def scuffing_temperature(load_stage: float, lubricant: float, structure: float =
 
     Parameters
     ----------
-    lubricant : float
-        X_L of `flash_temperature`, with the viscosity.
-    structure : float
-        X_W: 1 case-hardened with usual austenite, 1.5 nitrided (table 2).
+    lubricant : X_L of `flash_temperature`, with the viscosity
+    structure : X_W: 1 case-hardened with usual austenite, 1.5 nitrided (table 2)
     """
     return 273.15 + 80.0 + (0.85 + 1.4 * structure) * lubricant * load_stage**2
 
@@ -91,10 +89,8 @@ def scuffing_integral_temperature(
 
     Parameters
     ----------
-    lubricant : float
-        X_L of `integral_temperature`, without the viscosity.
-    viscosity_40 : float
-        Kinematic viscosity at 40 °C, m²/s.
+    lubricant : X_L of `integral_temperature`, without the viscosity
+    viscosity_40 : kinematic viscosity at 40 °C, m²/s
     """
     torque = scuffing_torque(load_stage)
     bulk = 80.0 + 0.23 * torque * lubricant

@@ -37,28 +37,17 @@ class Mesh(NamedTuple):
 
     Parameters
     ----------
-    line_load : float
-        w_Bt = K_A K_v K_Bβ K_Bα F_t/b, F_t at the reference circle, N/m.
-    pitch_speed : float
-        v at the reference circle, m/s.
-    viscosity : float
-        η at the oil's temperature, Pa·s.
-    oil_temperature : float
-        K.
-    roughness : float
-        (Ra_1 + Ra_2)/2, m.
-    reduced_modulus : float
-        E_r = 2/Σ(1 − ν²)/E, Pa.
-    thermal_contact : float
-        Mean B_M, W s^½/(m² K).
-    pressure_angle, helix_angle : float
-        α_n and β, rad.
-    lubricant, lubrication, tip_relief : float
-        X_L (without viscosity), X_S, X_Ca.
-    run_in : float
-        φ_E: 1 after running in, 0 of new flanks.
-    overlap_ratio : float
-        ε_β.
+    line_load : w_Bt = K_A K_v K_Bβ K_Bα F_t/b, F_t at the reference circle, N/m
+    pitch_speed : v at the reference circle, m/s
+    viscosity : η at the oil's temperature, Pa·s
+    oil_temperature : K
+    roughness : (Ra_1 + Ra_2)/2, m
+    reduced_modulus : E_r = 2/Σ(1 − ν²)/E, Pa
+    thermal_contact : mean B_M, W s^½/(m² K)
+    pressure_angle, helix_angle : α_n and β, rad
+    lubricant, lubrication, tip_relief : X_L (without viscosity), X_S, X_Ca
+    run_in : φ_E: 1 after running in, 0 of new flanks
+    overlap_ratio : ε_β
     """
 
     line_load: float

@@ -26,8 +26,7 @@ def transverse_load_factor(load: float, accurate_load: float) -> float:
 
     Parameters
     ----------
-    load, accurate_load : float
-        With the deviations and without, N.
+    load, accurate_load : with the deviations and without, N
     """
     return max(1.0, load / accurate_load)
 
@@ -41,10 +40,8 @@ def shared_load(
 
     Parameters
     ----------
-    load, roll : (positions, pairs)
-        N and rad.
-    limits : (first, last)
-        Roll angles of the path's ends without load, rad.
+    load, roll : (positions, pairs), N and rad
+    limits : (first, last), roll angles of the path's ends without load, rad
     """
     first, last = limits
     room = 1e-9 * (last - first)
@@ -63,12 +60,9 @@ def transverse_factor_b(
     Parameters
     ----------
     contact_ratios : (ε_α, ε_β)
-    mesh_stiffness : float
-        c_γα per face width, Pa.
-    pitch_deviation : float
-        f_pb − y_α, m.
-    line_load : float
-        F_tH/b = F_t K_A K_v K_Hβ/b, N/m.
+    mesh_stiffness : c_γα per face width, Pa
+    pitch_deviation : f_pb − y_α, m
+    line_load : F_tH/b = F_t K_A K_v K_Hβ/b, N/m
     """
     transverse, overlap = contact_ratios
     total = transverse + overlap

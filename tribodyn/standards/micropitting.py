@@ -31,13 +31,10 @@ class Oil(NamedTuple):
 
     Parameters
     ----------
-    viscosity : callable
-        Dynamic viscosity η, Pa·s, at a temperature, K.
-    pressure_viscosity : callable
-        α, 1/Pa, at a temperature, K.
-    lubricant_factor : float
-        X_L: 1.0 of mineral oil, 0.8 of PAO, 0.7 of PAG (0.6 where it dissolves in water), 1.3 of phosphate
-        esters: ISO/TR 15144-1:2014, table 3.
+    viscosity : dynamic viscosity η, Pa·s, at a temperature, K
+    pressure_viscosity : α, 1/Pa, at a temperature, K
+    lubricant_factor : X_L: 1.0 of mineral oil, 0.8 of PAO, 0.7 of PAG (0.6 where it dissolves in water), 1.3
+        of phosphate esters: ISO/TR 15144-1:2014, table 3
     """
 
     viscosity: Callable[[Any], Any]
@@ -50,14 +47,10 @@ class Flanks(NamedTuple):
 
     Parameters
     ----------
-    mean_roughness : float
-        Ra = (Ra_1 + Ra_2)/2, m.
-    reduced_modulus : float
-        E_r = 2/Σ(1 − ν²)/E, Pa.
-    thermal_contact : (float, float)
-        B_M = √(λ ρ c) of pinion and gear, W s^½/(m² K).
-    quality : float
-        Grade by ISO 1328-1 of the coarser gear.
+    mean_roughness : Ra = (Ra_1 + Ra_2)/2, m
+    reduced_modulus : E_r = 2/Σ(1 − ν²)/E, Pa
+    thermal_contact : B_M = √(λ ρ c) of pinion and gear, W s^½/(m² K)
+    quality : grade by ISO 1328-1 of the coarser gear
     """
 
     mean_roughness: float
@@ -71,20 +64,13 @@ class Load(NamedTuple):
 
     Parameters
     ----------
-    pinion_torque : float
-        T_1, N m.
-    pinion_speed : float
-        rad/s.
-    face_width : float
-        b, m.
-    oil_temperature : float
-        θ_oil, K.
-    application, dynamic, transverse, face : float
-        K_A, K_v, K_Hα, K_Hβ.
-    lubrication : str
-        One of `LUBRICATION_FACTORS`.
-    tip_relief : float
-        X_Ca, see `tip_relief_factor`.
+    pinion_torque : T_1, N m
+    pinion_speed : rad/s
+    face_width : b, m
+    oil_temperature : θ_oil, K
+    application, dynamic, transverse, face : K_A, K_v, K_Hα, K_Hβ
+    lubrication : one of `LUBRICATION_FACTORS`
+    tip_relief : X_Ca, see `tip_relief_factor`
     """
 
     pinion_torque: float
@@ -109,18 +95,12 @@ class Films(NamedTuple):
 
     Attributes
     ----------
-    friction_coefficient : float
-        μ_m.
-    bulk_temperature : float
-        θ_M, K.
-    pressure : (points,)
-        p_dyn,Y, Pa.
-    flash_rise : (points,)
-        θ_fl,Y, K.
-    film_thickness : (points,)
-        h_Y, m.
-    specific_film : (points,)
-        λ_GF,Y.
+    friction_coefficient : μ_m
+    bulk_temperature : θ_M, K
+    pressure : (points,), p_dyn,Y, Pa
+    flash_rise : (points,), θ_fl,Y, K
+    film_thickness : (points,), h_Y, m
+    specific_film : (points,), λ_GF,Y
     """
 
     friction_coefficient: float
@@ -145,16 +125,11 @@ def mean_friction(
 
     Parameters
     ----------
-    line_load : float
-        K F_bt K_Bγ/b, N/m.
-    speed_sum : float
-        v_ΣC = 2 v_t sin α_wt, m/s.
-    pitch_radius : float
-        ρ_n,C, m.
-    viscosity : float
-        η at the oil's temperature, Pa·s.
-    roughness, oil : float
-        X_R and X_L.
+    line_load : K F_bt K_Bγ/b, N/m
+    speed_sum : v_ΣC = 2 v_t sin α_wt, m/s
+    pitch_radius : ρ_n,C, m
+    viscosity : η at the oil's temperature, Pa·s
+    roughness, oil : X_R and X_L
     """
     load = 1e-3 * line_load / (speed_sum * 1e3 * pitch_radius)
     return 0.045 * load**0.2 * (1e3 * viscosity) ** -0.05 * roughness * oil
@@ -209,13 +184,9 @@ def film_thickness(
 
     Parameters
     ----------
-    pressure, radius, speed_sum
-        p_dyn,Y (Pa), ρ_n,Y (m), v_r1 + v_r2 (m/s).
-    temperatures : (bulk, contact)
-        θ_M and θ_B,Y, K.
-    oil : Oil
-    reduced_modulus : float
-        E_r, Pa.
+    pressure, radius, speed_sum : p_dyn,Y (Pa), ρ_n,Y (m), v_r1 + v_r2 (m/s)
+    temperatures : (bulk, contact), θ_M and θ_B,Y, K
+    reduced_modulus : E_r, Pa
     """
     bulk, contact = temperatures
     stiffening = oil.pressure_viscosity(bulk) * oil.viscosity(bulk)

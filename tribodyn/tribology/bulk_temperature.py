@@ -25,20 +25,13 @@ class TemperatureData:
 
     Parameters
     ----------
-    model : {"iso", "network"}
-        Estimate of ISO/TR 15144-1, or a lumped network.
-    lubrication : {"dip", "spray", "submerged"}
-        How the oil reaches the mesh, for the estimate.
-    tip_relief_factor : float
-        X_Ca of the estimate.
-    pinion_oil, gear_oil, oil_housing, housing_ambient : float
-        Conductances of the network, W/K.
-    oil_flow : float
-        Volume flow of the oil that is carried through, m³/s.
-    ambient_temperature : float
-        K.
-    mesh_loss : float or None
-        Mean loss to tooth friction, W, where it is known from the motion; None: quasi-static.
+    model : estimate of ISO/TR 15144-1, or a lumped network
+    lubrication : how the oil reaches the mesh, for the estimate
+    tip_relief_factor : X_Ca of the estimate
+    pinion_oil, gear_oil, oil_housing, housing_ambient : conductances of the network, W/K
+    oil_flow : volume flow of the oil that is carried through, m³/s
+    ambient_temperature : K
+    mesh_loss : mean loss to tooth friction, W, where it is known from the motion; None: quasi-static
     """
 
     model: Literal["iso", "network"]
@@ -117,10 +110,7 @@ def network_temperatures(network: Network, heat: Heat, oil_temperature: float) -
 
     Parameters
     ----------
-    network : Network
-    heat : Heat
-    oil_temperature : float
-        Of the oil that enters; of all oil where the network holds it.
+    oil_temperature : of the oil that enters; of all oil where the network holds it
     """
     oil = oil_temperature
     entering = heat.pinion + heat.gear + heat.oil
@@ -161,11 +151,8 @@ def fixed_point(
 
     Parameters
     ----------
-    step : callable
-        Is called within the bounds only.
-    start : (float, float)
-    bounds : (float, float)
-        Of both, K. Where the step leads out of them from their edge, its result is returned as it is.
+    step : is called within the bounds only
+    bounds : of both, K. Where the step leads out of them from their edge, its result is returned as it is.
 
     Raises
     ------

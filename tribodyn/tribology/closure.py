@@ -170,9 +170,7 @@ def exceeded_limits(case: Lubricated, closure_shares: Any, friction_shares: Any)
 
     Parameters
     ----------
-    case : Lubricated
-    closure_shares, friction_shares : (contacts, limits)
-        See `surface_state.range_shares`; of loaded contacts.
+    closure_shares, friction_shares : (contacts, limits), see `surface_state.range_shares`; of loaded contacts
     """
     film, friction = laws_of(case)
     found = {

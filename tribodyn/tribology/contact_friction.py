@@ -16,11 +16,8 @@ class ContactFriction(NamedTuple):
 
     Attributes
     ----------
-    surface : SurfaceState
-    radius, entrainment
-        Averaged over the contact's own width where they vanish at the pitch point.
-    contact : LocalContact
-        As the laws see it.
+    radius, entrainment : averaged over the contact's own width where they vanish at the pitch point
+    contact : as the laws see it
     """
 
     surface: SurfaceState
@@ -42,9 +39,7 @@ def contact_friction(
 
     Parameters
     ----------
-    closure : Closure
-    line_load, radius, pinion_speed, gear_speed : array
-        N/m, m, and the rolling speeds in m/s.
+    line_load, radius, pinion_speed, gear_speed : N/m, m, and the rolling speeds in m/s
     pitch_point_length, pitch_point_rate : float
         M (m) and entrainment over equivalent radius (1/s) of `geometry.pitch_point`; 0: nothing vanishes, or
         nothing is averaged. A traced length is taken as positive.

@@ -13,11 +13,9 @@ class FilmData:
 
     Parameters
     ----------
-    law : str, FilmLaw or None
-        Its name in `tribodyn.tribology.film.FILM_LAWS`, or the law itself; None: the one that goes with the
-        friction law.
-    values : mapping
-        Values of the law's own keys, by name, in SI units.
+    law : its name in `tribodyn.tribology.film.FILM_LAWS`, or the law itself; None: the one that goes with the
+        friction law
+    values : values of the law's own keys, by name, in SI units
     """
 
     law: str | FilmLaw | None = None
@@ -30,14 +28,10 @@ class FrictionData:
 
     Parameters
     ----------
-    law : str or FrictionLaw
-        Its name in `tribodyn.tribology.friction.FRICTION_LAWS`, or the law itself.
-    values : mapping
-        Values of the law's own keys, by name, in SI units.
-    sliding : {"kinematic", "dynamic"}
-        Sliding speed from the nominal rotation, or from the bodies as they move, vibration included.
-    reversal_width : float
-        Distance along the path of contact over which friction changes sign at the pitch point, m.
+    law : its name in `tribodyn.tribology.friction.FRICTION_LAWS`, or the law itself
+    values : values of the law's own keys, by name, in SI units
+    sliding : sliding speed from the nominal rotation, or from the bodies as they move, vibration included
+    reversal_width : distance along the path of contact over which friction changes sign at the pitch point, m
     """
 
     law: str | FrictionLaw

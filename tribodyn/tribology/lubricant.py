@@ -19,12 +19,9 @@ class FzgStages:
 
     Parameters
     ----------
-    scuffing : int or None
-        Test A/8.3/90 (ISO 14635-1).
-    micropitting : int or None
-        Test C-GF/8.3/90 (FVA 54/7).
-    micropitting_temperature : float
-        Oil temperature of the latter, K.
+    scuffing : test A/8.3/90 (ISO 14635-1)
+    micropitting : test C-GF/8.3/90 (FVA 54/7)
+    micropitting_temperature : oil temperature of the latter, K
     """
 
     scuffing: int | None = None
@@ -38,38 +35,23 @@ class LubricantData:
 
     Parameters
     ----------
-    asperity_friction : float
-        f_c, friction coefficient of the asperities.
-    limiting_shear_coefficient : float
-        Λ_lim, limiting shear stress over pressure.
-    inlet_viscosity : float
-        η0, dynamic viscosity at inlet temperature and ambient pressure, Pa s.
-    pressure_viscosity : float
-        α_PV, 1/Pa.
-    viscosity_pressure_index : float
-        z of Roelands' law.
-    temperature_viscosity : float
-        K_T, 1/K.
-    density : float
-        kg/m³; used by ISO/TR 14179-1 and by Veciana's variant of the Péclet number.
+    asperity_friction : f_c, friction coefficient of the asperities
+    limiting_shear_coefficient : Λ_lim, limiting shear stress over pressure
+    inlet_viscosity : η0, dynamic viscosity at inlet temperature and ambient pressure, Pa s
+    pressure_viscosity : α_PV, 1/Pa
+    viscosity_pressure_index : z of Roelands' law
+    temperature_viscosity : K_T, 1/K
+    density : kg/m³; used by ISO/TR 14179-1 and by Veciana's variant of the Péclet number
     load_exponent : float
         d of Niemann's lubricant factor X_L w^−d; 0.0651 of mineral oil 75W90 (Diez-Ibarbia et al.).
-    lubricant_factor : float
-        X_L of Niemann's mean friction coefficient and of ISO/TR 15144-1.
-    schlenk_factor : float
-        X_L of Schlenk's mean friction coefficient; default: mineral oil.
-    temperature : float or None
-        At which the numbers hold, K; None: not said.
-    type : OilType or None
-        Of an oil without a data sheet, where it is given.
-    given : set of str or None
-        Numbers that are neither of the type nor defaults; None: all.
-    sheet : OilSheet or None
-        The data sheet that they come from, where they do.
-    fzg : FzgStages
-    supply : float or None
-        Temperature of the oil around the gears, K, where the numbers are those at the teeth's bulk
-        temperature: mean friction coefficients read the viscosity there.
+    lubricant_factor : X_L of Niemann's mean friction coefficient and of ISO/TR 15144-1
+    schlenk_factor : X_L of Schlenk's mean friction coefficient; default: mineral oil
+    temperature : at which the numbers hold, K; None: not said
+    type : of an oil without a data sheet, where it is given
+    given : numbers that are neither of the type nor defaults; None: all
+    sheet : the data sheet that they come from, where they do
+    supply : temperature of the oil around the gears, K, where the numbers are those at the teeth's bulk
+        temperature: mean friction coefficients read the viscosity there
     """
 
     asperity_friction: float

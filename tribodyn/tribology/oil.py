@@ -190,13 +190,9 @@ class OilSheet:
 
     Parameters
     ----------
-    type : {"mineral", "pao", "ester", "pag"}
-    viscosity_40, viscosity_100 : float
-        Kinematic, at 40 and 100 °C, m²/s; the first is the larger.
-    density_15 : float
-        At 15 °C, kg/m³.
-    given : mapping
-        Numbers of `LubricantData` that take the place of derived ones, by name.
+    viscosity_40, viscosity_100 : kinematic, at 40 and 100 °C, m²/s; the first is the larger
+    density_15 : at 15 °C, kg/m³
+    given : numbers of `LubricantData` that take the place of derived ones, by name
     """
 
     type: OilType

@@ -120,10 +120,8 @@ def exceeded(shares: np.ndarray, limits: Sequence[str]) -> dict[str, dict[str, A
 
     Parameters
     ----------
-    shares : (contacts, limits)
-        See `range_shares`; of loaded contacts.
-    limits : sequence of str
-        In words; none: the law says only whether it is inside.
+    shares : (contacts, limits), see `range_shares`; of loaded contacts
+    limits : in words; none: the law says only whether it is inside
 
     Returns
     -------

@@ -17,20 +17,13 @@ class Free(NamedTuple):
 
     Attributes
     ----------
-    keys : tuple of str
-        Dotted keys of the base scenario that take the same value.
-    name : str
-        Of its dataset in the record.
-    low, high : float
-        Bounds in its unit; of choices their numbers.
-    unit : str
-        As it is written; "" for a plain number.
-    si, units : float, str
-        Factor to SI, and the SI unit.
-    whole : bool
-        Whether its values are whole numbers.
-    choices : tuple
-        The values as TOML has them, where it is a choice; else none.
+    keys : dotted keys of the base scenario that take the same value
+    name : of its dataset in the record
+    low, high : bounds in its unit; of choices their numbers
+    unit : as it is written; "" for a plain number
+    si, units : factor to SI, and the SI unit
+    whole : whether its values are whole numbers
+    choices : the values as TOML has them, where it is a choice; else none
     """
 
     keys: tuple[str, ...]
@@ -86,11 +79,7 @@ class Tolerance(NamedTuple):
 
     Attributes
     ----------
-    key : str
-    name : str
-    plus_minus : float
-        In its unit.
-    unit : str
+    plus_minus : in its unit
     distribution : str
         "uniform", "normal" (`plus_minus` is three standard deviations), "ends" (both ends alone), `DRAWN`.
     """
@@ -128,29 +117,15 @@ class DesignCase(CaseHead):
 
     Parameters
     ----------
-    title, name, kind, toml, sha256
-        As in `tribodyn.studies.protocol.study.CaseHead`; `kind` is "design".
-    base : mapping
-        The scenario that is searched through, resolved, as TOML has it.
-    parts : mapping
-        Further scenarios by name, with the drive of the base.
-    base_kind : str
-        Kind of the base.
-    free : tuple of Free
-    objectives : tuple of Objective
-        One, or two for a front.
-    constraints : tuple of Constraint
-    duties : tuple of Duty
-        At least one.
-    over_duties : str
-        "mean" or "worst".
-    tolerances : tuple of Tolerance
-    robust : Robust
-    search : Search
-    confirm : mapping
-        Key to value, under which start and best are evaluated once more; empty: they are not.
-    sensitivities : bool
-        Whether each key and each tolerance is moved alone about the best.
+    title, name, kind, toml, sha256 : as in `tribodyn.studies.protocol.study.CaseHead`; `kind` is "design"
+    base : the scenario that is searched through, resolved, as TOML has it
+    parts : further scenarios by name, with the drive of the base
+    base_kind : kind of the base
+    objectives : one, or two for a front
+    duties : at least one
+    over_duties : "mean" or "worst"
+    confirm : key to value, under which start and best are evaluated once more; empty: they are not
+    sensitivities : whether each key and each tolerance is moved alone about the best
     """
 
     base: Mapping[str, Any]

@@ -37,9 +37,7 @@ def names_of(case: DesignCase, start: Figures) -> tuple[str, ...]:
 
     Parameters
     ----------
-    case : DesignCase
-    start : list
-        Figures of the base scenario's cases.
+    start : figures of the base scenario's cases
     """
     of_objectives = (name for one in case.objectives for name, _ in one.terms)
     of_start = (name for of in start if not isinstance(of, str) for name in of)

@@ -42,9 +42,7 @@ def parts_of_design(table: Any, sources: Sources) -> Parts:
 
     Parameters
     ----------
-    table : DesignTable
-    sources : mapping
-        What is evaluated.
+    sources : what is evaluated
     """
     errors: list[InputError] = []
     studies = {name: one.study for name, one in sources.items()}

@@ -109,10 +109,8 @@ def line_of(search: Mapping[str, Any], name: str) -> Line | None:
 
     Parameters
     ----------
-    search : mapping
-        The search as its record holds it.
-    name : str
-        Of the figure.
+    search : the search as its record holds it
+    name : of the figure
     """
     parts = search.get("design", {}).get("part") or {}
     part, figure = split(name, parts)

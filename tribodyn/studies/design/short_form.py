@@ -83,10 +83,8 @@ def loaded_search(
     ----------
     source : str, Path, mapping or case
         The scenario to search through, or a search: name, file, tables, or a case.
-    design : mapping
-        Keys of its table `[design]`; they take the place of those of a search.
-    overrides : mapping
-        Dotted key to value, of the scenario to search through.
+    design : keys of its table `[design]`; they take the place of those of a search
+    overrides : dotted key to value, of the scenario to search through
 
     Raises
     ------

@@ -22,18 +22,13 @@ class EhlCase(CaseHead):
     ----------
     title, name, kind, toml, sha256, family, drive, materials, roughness, mean_roughness, lubricant
         As in `tribodyn.studies.gear_pair.case.Case`; `kind` is "ehl".
-    operating : OperatingData
-        Pinion speed, and gear torque > 0, both constant.
-    mesh : MeshData
-        Compliance by which the pairs share the load.
-    positions : int
-        Positions of the pair at which its contact is solved.
-    transient : bool
-        Whether the way is also solved with squeeze.
+    operating : pinion speed, and gear torque > 0, both constant
+    mesh : compliance by which the pairs share the load
+    positions : positions of the pair at which its contact is solved
+    transient : whether the way is also solved with squeeze
     loads : (array, array) or None
         Roll angles from the pitch point, rad, and normal loads there, N; None: quasi-static.
-    step : float
-        Of the contact's grid, over the distance from inlet and end of the film.
+    step : of the contact's grid, over the distance from inlet and end of the film
     film, friction : FilmData, FrictionData
         None of their own: every law of the registries is evaluated beside the solution.
     """

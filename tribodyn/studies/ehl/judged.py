@@ -82,7 +82,6 @@ class Judgement(NamedTuple):
     title : of the scenario
     positions : of the pair, at which contacts were solved
     load_factors, speed_factors : on torque and speed, of the map; empty without a map
-    laws : list of Judged
     """
 
     title: str
@@ -158,11 +157,8 @@ def judged(
 
     Parameters
     ----------
-    case : EhlCase
-    loads, speeds : sequence of float
-        Factors on torque and speed that span a map; none: no map.
-    progress : callable, optional
-        Called with the share done, 0 … 1.
+    loads, speeds : factors on torque and speed that span a map; none: no map
+    progress : called with the share done, 0 … 1
     """
     tell = progress or (lambda _share: None)
     points = [(torque, speed) for torque in loads for speed in speeds]

@@ -13,16 +13,10 @@ class RollingCase(CaseHead):
 
     Parameters
     ----------
-    title, name, kind, toml, sha256 : str
-        As in `tribodyn.studies.gear_pair.case.Case`; `kind` is "irefc".
-    mode : {"corrected", "as_published"}
-        Motion in time with corrected speeds, or the paper's single position with its printed formulas.
-    drive : RollingDrive
-    input_power : float
-        Power of the shaft, W.
-    input_speed : float
-        Speed of the shaft, rad/s.
-    friction : RollingFriction
+    title, name, kind, toml, sha256 : as in `tribodyn.studies.gear_pair.case.Case`; `kind` is "irefc"
+    mode : motion in time with corrected speeds, or the paper's single position with its printed formulas
+    input_power : power of the shaft, W
+    input_speed : speed of the shaft, rad/s
     samples_per_cycle : int
         Samples while an element takes its neighbour's place: a cycle, of which a revolution has Z2 + 1.
     """

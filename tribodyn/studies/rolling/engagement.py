@@ -37,10 +37,8 @@ class RollingFriction(NamedTuple):
 
     Attributes
     ----------
-    rolling_arm : float
-        μ, lever arm of rolling resistance, m.
-    sliding_coefficient : float
-        f_s of the slip between element and cam.
+    rolling_arm : μ, lever arm of rolling resistance, m
+    sliding_coefficient : f_s of the slip between element and cam
     """
 
     rolling_arm: float
@@ -148,13 +146,8 @@ def engage(
 
     Parameters
     ----------
-    drive : RollingDrive
-    angle : (time, element)
-        From `element_angles`, or `published_angles` for the paper's table.
-    input_power, input_speed : float
-        W and rad/s of the shaft.
-    friction : RollingFriction
-    mode : {"corrected", "as_published"}
+    angle : (time, element), from `element_angles`, or `published_angles` for the paper's table
+    input_power, input_speed : W and rad/s of the shaft
     """
     load = normal_loads(drive, angle, input_power / input_speed)
     slip = slip_speed(drive, angle, input_speed, mode)

@@ -24,7 +24,6 @@ class LineContact(NamedTuple):
     line_load : w, N/m
     radius : R, 1/R = 1/R_1 + 1/R_2, m
     entrainment_speed : mean speed u = (u_1 + u_2)/2 of the surfaces relative to the contact, m/s, > 0
-    fluid : Fluid
     effective_modulus : E', 2/E' = (1 − ν_1²)/E_1 + (1 − ν_2²)/E_2, Pa
     sliding_speed : u_1 − u_2, m/s, any sign
     roughness : Roughness, or None of smooth surfaces

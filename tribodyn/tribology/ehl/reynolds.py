@@ -34,7 +34,6 @@ class Reduced(NamedTuple):
     ----------
     speed : λ
     hertz_pressure : p_H, Pa, at which `fluid` is evaluated
-    fluid : Fluid
     compliance : 1; 0: rigid surfaces
     """
 
@@ -62,9 +61,8 @@ class Closure(NamedTuple):
 
     Attributes
     ----------
-    thinning, response
-        ln(η_effective/η0) is thinning + response · ln(η/η0), η the Newtonian isothermal viscosity, as the
-        pressure varies about that at which they were made.
+    thinning, response : ln(η_effective/η0) is thinning + response · ln(η/η0), η the Newtonian isothermal
+        viscosity, as the pressure varies about that at which they were made
     drift : flow that layers of unequal viscosity add, over ρ u h
     """
 

@@ -40,9 +40,6 @@ class Solution(NamedTuple):
 
     Attributes
     ----------
-    problem : LineContact
-    reduced : Reduced
-    grid : Grid
     state : State, in Hertz's units
     film : H at the nodes
     closure : what shear and heat make of the flow
@@ -154,15 +151,10 @@ def solve_steady(
 
     Parameters
     ----------
-    problem : LineContact
-    start : Solution, optional
-        Of a similar contact: its grid and its state are taken. Default: by `first_state`, on a new grid.
-    step : float
-        Of a new grid; the errors of the film are of second order in it.
-    closure : Closure, optional
-        On the nodes of `start` or of `grid`. Default: that of `start`, or a Newtonian isothermal fluid.
-    grid : Grid, optional
-        Of a contact without `start`. Default: `grid_of` it.
+    start : of a similar contact: its grid and its state are taken. Default: by `first_state`, on a new grid.
+    step : of a new grid; the errors of the film are of second order in it
+    closure : on the nodes of `start` or of `grid`. Default: that of `start`, or a Newtonian isothermal fluid.
+    grid : of a contact without `start`. Default: `grid_of` it.
 
     Returns
     -------

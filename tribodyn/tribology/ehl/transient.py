@@ -41,13 +41,10 @@ def march(
 
     Parameters
     ----------
-    instant_at : callable
-        The contact at a time, s. Fluid and roughness must stay the same; load, radius and speeds may change.
-        A closure stands on the nodes of `start.grid`.
-    times : (K,)
-        s, increasing; the film is steady before the first.
-    start : Solution
-        At the first time, on a grid that suits the contact at all times (`grid_of`).
+    instant_at : the contact at a time, s. Fluid and roughness must stay the same; load, radius and speeds may
+        change. A closure stands on the nodes of `start.grid`.
+    times : (K,), s, increasing; the film is steady before the first
+    start : at the first time, on a grid that suits the contact at all times (`grid_of`)
 
     Raises
     ------

@@ -43,9 +43,7 @@ def palmgren(bearings: ShaftBearings, viscosity: float, density: float) -> Loss:
 
     Parameters
     ----------
-    bearings : ShaftBearings
-    viscosity, density : float
-        Dynamic, of the oil, Pa·s; kg/m³.
+    viscosity, density : dynamic, of the oil, Pa·s; kg/m³
     """
     flow = 1e6 * viscosity / density * bearings.speed * 30.0 / math.pi
     size = bearings.drag_factor * (1e3 * bearings.mean_diameter) ** 3

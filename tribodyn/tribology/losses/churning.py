@@ -22,11 +22,8 @@ def changenet_velex(wheel: Wheel, viscosity: float, density: float, oil_volume: 
 
     Parameters
     ----------
-    wheel : Wheel
-    viscosity, density : float
-        Dynamic, of the oil in the sump, Pa·s; kg/m³.
-    oil_volume : float
-        V_0, m³.
+    viscosity, density : dynamic, of the oil in the sump, Pa·s; kg/m³
+    oil_volume : V_0, m³
     """
     radius, width = wheel.pitch_radius, wheel.face_width
     diameter = 2.0 * radius
@@ -62,9 +59,7 @@ def iso_14179_1(wheel: Wheel, viscosity: float, density: float) -> Loss:
 
     Parameters
     ----------
-    wheel : Wheel
-    viscosity, density : float
-        Dynamic, of the oil in the sump, Pa·s; kg/m³.
+    viscosity, density : dynamic, of the oil in the sump, Pa·s; kg/m³
     """
     diameter, width = 2e3 * wheel.tip_radius, 1e3 * wheel.face_width
     dip = min(wheel.immersion / (2.0 * wheel.tip_radius), 1.0)

@@ -46,14 +46,10 @@ class LossData:
 
     Parameters
     ----------
-    churning, windage, bearings : str or None
-        Names of formulas: `CHURNING`, `WINDAGE`, `BEARINGS`.
-    pinion_immersion, gear_immersion : float
-        Depth of each tip circle's lowest point below the oil's level, m.
-    oil_volume : float or None
-        In the sump, m³.
-    drag : (BearingDragData or None, the same)
-        Of the pinion's and the gear's shaft.
+    churning, windage, bearings : names of formulas: `CHURNING`, `WINDAGE`, `BEARINGS`
+    pinion_immersion, gear_immersion : depth of each tip circle's lowest point below the oil's level, m
+    oil_volume : in the sump, m³
+    drag : (BearingDragData or None, the same), of the pinion's and the gear's shaft
     """
 
     churning: str | None = None
@@ -72,11 +68,8 @@ def losses_of_pair(
 
     Parameters
     ----------
-    asked : LossData
-    wheels : (Wheel, Wheel)
-        Pinion and gear, with their immersion.
-    viscosity, density : float
-        Dynamic, of the oil that surrounds the gears, Pa·s; kg/m³.
+    wheels : pinion and gear, with their immersion
+    viscosity, density : dynamic, of the oil that surrounds the gears, Pa·s; kg/m³
     """
     found: dict[str, Loss] = {}
     if asked.churning is not None:

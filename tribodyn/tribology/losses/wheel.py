@@ -12,7 +12,6 @@ class Wheel(NamedTuple):
     pitch_radius, tip_radius, root_radius : m
     face_width : m
     module : m
-    teeth : number
     immersion : depth of the tip circle's lowest point below the oil's level at rest, m; 0: not immersed
     """
 

@@ -26,13 +26,9 @@ class Evaluation(NamedTuple):
 
     Attributes
     ----------
-    values : mapping
-        Of the free keys, as TOML has them.
-    numbers : (free,) tuple of float
-        The same as the record has them.
-    found : list
-        Figures of its cases.
-    judged : Judged
+    values : of the free keys, as TOML has them
+    numbers : (free,), the same as the record has them
+    found : figures of its cases
     """
 
     values: Overrides
@@ -50,20 +46,13 @@ class Archive:
 
     Parameters
     ----------
-    case : DesignCase
-    judge : Judge
-    pool : Evaluators
-    keep : callable
-        See `Keep`.
-    known : sequence
-        Values and figures of candidates that were evaluated before: `recorded`. `keep` does not get them.
-    more : mapping, optional
-        Further keys of every candidate: a resolution other than that of the scenario.
+    keep : see `Keep`
+    known : values and figures of candidates that were evaluated before: `recorded`. `keep` does not get them.
+    more : further keys of every candidate: a resolution other than that of the scenario
 
     Attributes
     ----------
-    evaluations : list of Evaluation
-        What the methods asked for, each once: what they decide by.
+    evaluations : what the methods asked for, each once: what they decide by
     """
 
     def __init__(

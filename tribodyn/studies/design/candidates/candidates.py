@@ -72,11 +72,8 @@ def cases_of(
 
     Parameters
     ----------
-    case : DesignCase
-    free : mapping
-        Values of free keys; none: the base scenario as it stands.
-    more : mapping, optional
-        Further keys, for all.
+    free : values of free keys; none: the base scenario as it stands
+    more : further keys, for all
     alone : (number of a tolerance, deviation), optional
         Takes the place of all samples: the others do not deviate.
     """

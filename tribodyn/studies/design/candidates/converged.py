@@ -43,14 +43,10 @@ class Converged(NamedTuple):
 
     Attributes
     ----------
-    archive : Archive
-        Of the last resolution.
-    factor : int
-        That one over the resolution of the scenario; 1: there is none to refine.
-    stands : bool or None
-        Whether the figures stand; None where that was not asked.
-    evaluations : int
-        On finer resolutions.
+    archive : of the last resolution
+    factor : that one over the resolution of the scenario; 1: there is none to refine
+    stands : whether the figures stand; None where that was not asked
+    evaluations : on finer resolutions
     """
 
     archive: Archive

@@ -27,9 +27,7 @@ class Nominal:
 
     Parameters
     ----------
-    case : DesignCase
-    keys : mapping
-        Its keys and their values.
+    keys : its keys and their values
     """
 
     def __init__(self, case: DesignCase, keys: Mapping[str, Any]) -> None:
@@ -56,10 +54,7 @@ def deviating(one: Tolerance, deviation: float, nominal: Nominal) -> dict[str, A
 
     Parameters
     ----------
-    one : Tolerance
-    deviation : float
-        −1 … 1. Of what is drawn point by point, or is a number of a sample, it stands for a seed.
-    nominal : Nominal
+    deviation : −1 … 1. Of what is drawn point by point, or is a number of a sample, it stands for a seed.
     """
     if deviation == 0.0:
         return {}

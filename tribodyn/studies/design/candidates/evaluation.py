@@ -41,12 +41,9 @@ def evaluate(
 
     Parameters
     ----------
-    scenarios : mapping
-        Data of the scenario that is searched through, and of its parts, by their names as sources.
-    several : sequence of mapping
-        Overrides of each case.
-    workers : int, optional
-        Threads of a study that evaluates cases together.
+    scenarios : data of the scenario that is searched through, and of its parts, by their names as sources
+    several : overrides of each case
+    workers : threads of a study that evaluates cases together
     """
     found: list[dict[str, Any] | str] = [{} for _ in several]
     for name, data in scenarios.items():

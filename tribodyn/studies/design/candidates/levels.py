@@ -18,14 +18,9 @@ class Levels:
 
     Parameters
     ----------
-    case : DesignCase
-    pool : Evaluators
-    left : Left
-        What was evaluated before.
-    begun : callable
-        Called with a factor and the figures of the base scenario's cases there, before any candidate.
-    keep : callable
-        Called with every evaluation and its factor, as `archive.Keep`.
+    left : what was evaluated before
+    begun : called with a factor and the figures of the base scenario's cases there, before any candidate
+    keep : called with every evaluation and its factor, as `archive.Keep`
     """
 
     def __init__(

@@ -48,10 +48,8 @@ class Pool:
 
     Parameters
     ----------
-    scenarios : mapping
-        As `evaluation.evaluate` takes them.
-    workers : int
-        How many at a time.
+    scenarios : as `evaluation.evaluate` takes them
+    workers : how many at a time
     """
 
     name = "native"
@@ -114,8 +112,7 @@ class Cluster:
 
     Parameters
     ----------
-    scenarios : mapping
-        As `evaluation.evaluate` takes them.
+    scenarios : as `evaluation.evaluate` takes them
     client : distributed.Client
     """
 

@@ -20,12 +20,9 @@ class Left(NamedTuple):
 
     Attributes
     ----------
-    known : mapping
-        Values and figures of candidates, in their order, by their resolution over that of the scenario.
-    start : mapping
-        Figures of the base scenario's cases, by the same; none where they have to be evaluated.
-    moved : mapping
-        See `Moved`.
+    known : values and figures of candidates, in their order, by their resolution over that of the scenario
+    start : figures of the base scenario's cases, by the same; none where they have to be evaluated
+    moved : see `Moved`
     """
 
     known: Mapping[int, Sequence[tuple[Overrides, Figures]]]

@@ -19,19 +19,13 @@ class Judged(NamedTuple):
 
     Attributes
     ----------
-    objectives : tuple of float
-        NaN where it has no figures.
-    margins : tuple of float
-        Of the constraints, over their limits: not negative where they hold.
-    by_duty : (duties,) tuple of float
-        The first objective at each duty.
-    figures : dict
-        Figures over all duties, as the objectives take them.
-    message : str
-        Why it has no figures.
-    shape : float or None
-        The least distance of its gears from the limits of their existence, in modules; None where the free
-        keys do not change them.
+    objectives : NaN where it has no figures
+    margins : of the constraints, over their limits: not negative where they hold
+    by_duty : (duties,), the first objective at each duty
+    figures : figures over all duties, as the objectives take them
+    message : why it has no figures
+    shape : the least distance of its gears from the limits of their existence, in modules; None where the
+        free keys do not change them
     """
 
     objectives: tuple[float, ...]
@@ -59,9 +53,7 @@ class Judge:
 
     Parameters
     ----------
-    case : DesignCase
-    start : sequence
-        Figures of the base scenario's cases, as `evaluation.evaluate` gives them.
+    start : figures of the base scenario's cases, as `evaluation.evaluate` gives them
     """
 
     def __init__(self, case: DesignCase, start: Sequence[dict[str, Any] | str]) -> None:

@@ -17,10 +17,7 @@ class Scalar:
 
     Parameters
     ----------
-    archive : Archive
-    objective : int
-    bound : float, optional
-        Upper bound of the other objective.
+    bound : upper bound of the other objective
     """
 
     def __init__(self, archive: Archive, objective: int = 0, bound: float | None = None) -> None:

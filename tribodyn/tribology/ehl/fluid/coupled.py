@@ -37,7 +37,6 @@ class CoupledSolution(NamedTuple):
     Attributes
     ----------
     solution : pressures and films, under the closure that shear and heat make
-    shear : Shear
     heat : Heat, or None of an isothermal contact
     friction : ∫ τ_m + f_c p_a dx, N/m, of the sign of the sliding speed
     rounds : of shear, heat and pressures

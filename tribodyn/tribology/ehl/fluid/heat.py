@@ -104,7 +104,6 @@ class Surfaces(NamedTuple):
 
     Attributes
     ----------
-    thermal : Thermal
     width : of the cells about the nodes, m (x)
     response : temperatures of surfaces 1 and 2 by the fluxes into their cells, K m²/W, each (x, x)
     """
@@ -137,17 +136,12 @@ def heated(
 
     Parameters
     ----------
-    surfaces : Surfaces
-    film : (x,)
-        m.
+    film : (x,), m
     flow : (x, layer)
         Of mass over the density at ambient pressure, per layer, m²/s; its sum is the same at every x.
-    made : (x, layer)
-        Heat of shear, W/m², at the temperatures `known`, K.
-    feedback : (x, layer)
-        By how much less is made where the whole film is warmer, W/(m² K), ≥ 0.
-    guess : Heat, optional
-        Where the temperatures of the surfaces start.
+    made : (x, layer), heat of shear, W/m², at the temperatures `known`, K
+    feedback : (x, layer), by how much less is made where the whole film is warmer, W/(m² K), ≥ 0
+    guess : where the temperatures of the surfaces start
     """
     thermal, width, response = surfaces
     count = len(film)

@@ -22,9 +22,8 @@ class Rheology(NamedTuple):
     ----------
     law : "newtonian", "eyring", "limiting" or "carreau"
     eyring_stress : τ_0, Pa: γ' = τ_0/η sinh(τ/τ_0)
-    limiting_coefficient, limiting_floor
-        Λ and τ_00 (Pa) of the limiting shear stress τ_L = τ_00 + Λ p: γ' = −τ_L/η ln(1 − |τ|/τ_L) (Bair &
-        Winer 1979)
+    limiting_coefficient, limiting_floor : Λ and τ_00 (Pa) of the limiting shear stress τ_L = τ_00 + Λ p: γ' =
+        −τ_L/η ln(1 − |τ|/τ_L) (Bair & Winer 1979)
     carreau_modulus, carreau_index : G (Pa) and n: τ = η γ' [1 + (η γ'/G)²]^((n − 1)/2) (Bair 2007)
     """
 

@@ -70,12 +70,9 @@ def sheared(
 
     Parameters
     ----------
-    film, pressure, gradient : (x,)
-        h (m), p (Pa), dp/dx (Pa/m).
-    log_viscosity : (x, layer)
-        ln of η in Pa s.
-    speeds : (float, float)
-        u_1 and u_2, m/s.
+    film, pressure, gradient : (x,), h (m), p (Pa), dp/dx (Pa/m)
+    log_viscosity : (x, layer), ln of η in Pa s
+    speeds : u_1 and u_2, m/s
     """
     sliding, entrained = speeds[0] - speeds[1], 0.5 * (speeds[0] + speeds[1])
     thickness = film[:, None] / LAYERS
