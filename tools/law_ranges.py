@@ -29,7 +29,7 @@ from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import FilmLaw, FrictionLaw, LawInput
 from tribodyn.tribology.lubricant import LubricantData
-from tribodyn.tribology.nominal import NominalConditions
+from tribodyn.tribology.mesh_conditions import NominalConditions
 from tribodyn.tribology.surface_state import range_shares, surface_state
 
 Array = Any

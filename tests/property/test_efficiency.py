@@ -13,7 +13,7 @@ from tribodyn.studies.efficiency.loss_factor import exact, hoehn
 from tribodyn.studies.efficiency.torque_ratio import cycloid_contact, path_contact, torque_ratio
 from tribodyn.tribology.friction.iso_14179_1 import iso_14179_1
 from tribodyn.tribology.friction.niemann import niemann
-from tribodyn.tribology.nominal import NominalConditions
+from tribodyn.tribology.mesh_conditions import NominalConditions
 
 teeth = st.integers(14, 60)
 ratios = st.floats(1.0, 5.0)

@@ -12,15 +12,15 @@ with the weight of Hertz's pressure, for a gap f presses with E*∫ x f' dx/√(
 
     1/ρ̄ = 2/(π a²) ∫ √(a² − x²) (k_1 + k_2)/√x dx over 0 … a  =  (2 J/π) (k_1 + k_2)/√a,
 
-J = ½ B(1/4, 3/2). So ρ̄² = M a, with one length M that the geometry gives (`averaged_radius`
-carries it on to contacts beside P).
+J = ½ B(1/4, 3/2). So ρ̄² = M a, with one length M that the geometry gives
+(`tribology.contact.averaged_radius` carries it on to contacts beside P).
 """
 
 import math
 from typing import Any, NamedTuple
 
 from tribodyn.geometry.path import Path, sine_at_pitch_point
-from tribodyn.numerics.elementary import exp, law, log, maximum, namespace, sqrt
+from tribodyn.numerics.elementary import namespace, sqrt
 
 _BETA = math.gamma(0.25) * math.gamma(1.5) / math.gamma(1.75) / 2
 # A pressure angle at P below this (rad) is zero but for rounding.
@@ -60,25 +60,3 @@ def pitch_point(path: Path) -> PitchPoint:
         rates.append((pinion + gear) / 2 * ((1 + kappa) / pinion + (ratio - kappa) / gear))
     length = (2 * _BETA / math.pi * (curvatures[0] + curvatures[1])) ** -2
     return PitchPoint(xp.where(vanishes, length, 0.0), xp.where(vanishes, (rates[0] + rates[1]) / 2, 0.0))
-
-
-@law
-def averaged_radius(radius, line_load, effective_modulus, pitch_point_length):
-    """Equivalent radius averaged over the half width a of its own contact, m; for one that vanishes at P.
-
-    The exact mean at P is ρ̄² = M a (the module's docstring). A contact beside P covers P while that is nearer
-    than a; for it there is no closed form, but ρ⁴ = ρ̄⁴ + 14 (M a)² − 15 (M a)⁴/ρ̄⁴ is exact at P and where the
-    contact's edge is at P, goes over to ρ̄ = ρ far away, and between meets the mean over a flank of curvature
-    k/√s to 10 %. With a² = 8 w' ρ̄/(π E') it is a polynomial in ρ̄, to whose root Newton's steps come down.
-    A load below 1 N/m counts as that; with M = 0 the radius stays as it is.
-    """
-    scale = pitch_point_length * pitch_point_length * 8.0 * maximum(line_load, 1.0)
-    scale = exp(log(maximum(scale / (math.pi * effective_modulus), 1e-60)) / 3.0)  # ρ̄ at P
-    fourth = (radius / scale) * (radius / scale) * (radius / scale) * (radius / scale)
-    root = sqrt(1.0 + (radius / scale) * (radius / scale))
-    for _ in range(6):
-        square = root * root
-        cube = square * root
-        value = cube * cube + 14.0 * cube - 15.0 - fourth * square
-        root = root - value / (6.0 * cube * square + 42.0 * square - 2.0 * fourth * root)
-    return scale * root

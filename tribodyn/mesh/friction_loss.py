@@ -11,8 +11,8 @@ from tribodyn.mesh.quasi_static import cycle_integral, cycle_mean, quasi_static
 from tribodyn.numerics.elementary import namespace
 from tribodyn.numerics.iteration import iterate
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.tribology.contact_friction import ContactFriction, contact_friction
 from tribodyn.tribology.law import Closure
+from tribodyn.tribology.surface_state import ContactFriction, contact_friction
 
 # Loads follow friction through μ tan α only: each step shrinks the error tenfold or more.
 _STEPS, _DIFFERENTIATED = 12, 6

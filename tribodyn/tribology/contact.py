@@ -1,17 +1,16 @@
-"""Surfaces and lubricant as the laws read them, the state of a local contact, and the Hertz line contact."""
+"""Surfaces and lubricant as laws read them, and a local contact: Hertz, flash temperature, Moes' numbers."""
 
 import math
 from typing import Any, NamedTuple
 
-# of a radius that the geometry gives, for whoever evaluates laws: dynamics see no geometry
-from tribodyn.geometry.pitch_point import averaged_radius as averaged_radius
-from tribodyn.numerics.elementary import absolute, law, maximum, sqrt
+from tribodyn.numerics.elementary import absolute, exp, law, log, maximum, sqrt
 
 #: Minimum line load (N/m) and entrainment speed (m/s) at which laws are evaluated: they diverge at zero.
 MINIMUM_LINE_LOAD = 1.0
 MINIMUM_ENTRAINMENT = 1e-6
 #: Of the pressure in a Hertz line contact.
 MAXIMUM_OVER_MEAN = 4.0 / math.pi
+ROOT_PI = math.sqrt(math.pi)
 
 
 class Surfaces(NamedTuple):
@@ -99,3 +98,49 @@ def inlet_heating(contact, surfaces):
 def hertz_pressure(line_load, curvature, effective_modulus):
     """Maximum Hertz pressure p_H = √(w' E'/(2π ρ)), Pa."""
     return sqrt(line_load * effective_modulus * curvature / (2.0 * math.pi))
+
+
+@law
+def averaged_radius(radius, line_load, effective_modulus, pitch_point_length):
+    """Equivalent radius averaged over the half width a of its own contact, m; for one that vanishes at P.
+
+    The exact mean at P is ρ̄² = M a (`geometry.pitch_point`). A contact beside P covers P while that is nearer
+    than a; for it there is no closed form, but ρ⁴ = ρ̄⁴ + 14 (M a)² − 15 (M a)⁴/ρ̄⁴ is exact at P and where the
+    contact's edge is at P, goes over to ρ̄ = ρ far away, and between meets the mean over a flank of curvature
+    k/√s to 10 %. With a² = 8 w' ρ̄/(π E') it is a polynomial in ρ̄, to whose root Newton's steps come down.
+    A load below 1 N/m counts as that; with M = 0 the radius stays as it is.
+    """
+    scale = pitch_point_length * pitch_point_length * 8.0 * maximum(line_load, 1.0)
+    scale = exp(log(maximum(scale / (math.pi * effective_modulus), 1e-60)) / 3.0)  # ρ̄ at P
+    fourth = (radius / scale) * (radius / scale) * (radius / scale) * (radius / scale)
+    root = sqrt(1.0 + (radius / scale) * (radius / scale))
+    for _ in range(6):
+        square = root * root
+        cube = square * root
+        value = cube * cube + 14.0 * cube - 15.0 - fourth * square
+        root = root - value / (6.0 * cube * square + 42.0 * square - 2.0 * fourth * root)
+    return scale * root
+
+
+@law
+def flash_temperature_rise(heat_flux, half_width, pinion_speed, gear_speed, solids):
+    """Average temperature rise ΔT in the contact, K.
+
+    ΔT = 2 a_H q/{√π [K_1 √(1 + Pe_1) + K_2 √(1 + Pe_2)]}, Pe_j = a_H |u_j| (ρ_s c_p)_j/(2 K_j): Tian &
+    Kennedy (1994); Liu & Ni (22), who leave the solid's heat capacity per volume ρ_s c_p out of Pe.
+
+    Parameters
+    ----------
+    heat_flux : q, W/m²
+    half_width : a_H, m
+    pinion_speed, gear_speed : speeds of the heat sources along the surfaces, m/s, any sign
+    solids : Surfaces, or any record with these four of its fields
+        pinion_conductivity, gear_conductivity (W/(m K)), pinion_heat_capacity, gear_heat_capacity (J/(m³ K)).
+    """
+    # K √(1 + Pe) with K drawn into the root, which saves two divisions
+    pinion_flow = 0.5 * half_width * absolute(pinion_speed) * solids.pinion_heat_capacity
+    gear_flow = 0.5 * half_width * absolute(gear_speed) * solids.gear_heat_capacity
+    conducted = sqrt(solids.pinion_conductivity * (solids.pinion_conductivity + pinion_flow)) + sqrt(
+        solids.gear_conductivity * (solids.gear_conductivity + gear_flow)
+    )
+    return heat_flux * (2.0 / ROOT_PI * half_width / conducted)

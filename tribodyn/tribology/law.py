@@ -16,12 +16,10 @@ from tribodyn.errors import InputError, near_name, quoted
 from tribodyn.geometry.material import MaterialData
 from tribodyn.numerics.elementary import LAWS, absolute, law
 from tribodyn.numerics.parameter import Parameter
-from tribodyn.tribology.contact import Surfaces, hertz_half_width
-from tribodyn.tribology.duty_range import DutyRange, without_duty
-from tribodyn.tribology.flash import flash_temperature_rise
+from tribodyn.tribology.contact import Surfaces, flash_temperature_rise, hertz_half_width
 from tribodyn.tribology.judged_range import JudgedRange
 from tribodyn.tribology.lubricant import LubricantData
-from tribodyn.tribology.nominal import NominalConditions
+from tribodyn.tribology.mesh_conditions import DutyRange, NominalConditions, without_duty
 
 
 class LawInput(NamedTuple):

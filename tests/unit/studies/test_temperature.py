@@ -16,7 +16,7 @@ from tribodyn.studies.gear_pair.prepare import prepare as prepare_motion
 from tribodyn.studies.gear_pair.settled import at_own_temperature
 from tribodyn.studies.gears import temperature
 from tribodyn.studies.protocol.load import load_scenario
-from tribodyn.tribology.losses.of_pair import LossData
+from tribodyn.tribology.losses import LossData
 from tribodyn.tribology.oil import TEMPERATURE_RANGE
 
 SCENARIO = tomllib.loads(

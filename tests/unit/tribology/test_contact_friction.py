@@ -5,8 +5,7 @@ import pytest
 
 from tests.support.closures import MIXED, VECIANA, under
 from tribodyn.tribology.contact import averaged_radius, local_contact
-from tribodyn.tribology.contact_friction import contact_friction
-from tribodyn.tribology.surface_state import surface_state
+from tribodyn.tribology.surface_state import contact_friction, surface_state
 
 #: M, m, and entrainment over radius, 1/s, of a cycloid; line load, N/m; sliding, m/s.
 LENGTH, RATE, LINE_LOAD, SLIDING = 0.02, 300.0, 4e5, 0.4

@@ -15,7 +15,7 @@ from tribodyn.tribology.friction.niemann import niemann
 from tribodyn.tribology.friction.xu import steepness as xu_steepness
 from tribodyn.tribology.friction.xu import xu
 from tribodyn.tribology.law import Worse
-from tribodyn.tribology.nominal import NominalConditions
+from tribodyn.tribology.mesh_conditions import NominalConditions
 
 #: Coefficients of friction (EHL, mixed EHL) over the slide-to-roll ratio: a separate prototype of the two
 #: laws at Veciana's Table 2 (R 5 mm, V_e 5 m/s, p_H 2 GPa), with the literal reading of the mixed one.

@@ -20,7 +20,7 @@ from tribodyn.tribology.friction.iso_14179_1 import LAW as ISO
 from tribodyn.tribology.friction.niemann import LAW as NIEMANN
 from tribodyn.tribology.friction.schlenk import LAW as SCHLENK
 from tribodyn.tribology.law import Worse
-from tribodyn.tribology.nominal import NominalConditions
+from tribodyn.tribology.mesh_conditions import NominalConditions
 from tribodyn.tribology.surface_state import range_shares, surface_state
 
 PAGE = Path(__file__).parents[3] / "docs" / "ehl.md"

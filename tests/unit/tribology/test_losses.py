@@ -7,11 +7,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tribodyn.tribology.losses.bearing_drag import DRAG_FACTORS, ShaftBearings, palmgren
-from tribodyn.tribology.losses.churning import changenet_velex, iso_14179_1
-from tribodyn.tribology.losses.of_pair import BearingDragData, LossData, losses_of_pair
-from tribodyn.tribology.losses.wheel import Wheel
-from tribodyn.tribology.losses.windage import anderson_loewenthal, dawson
+from tribodyn.tribology.losses import (
+    DRAG_FACTORS,
+    BearingDragData,
+    LossData,
+    Wheel,
+    anderson_loewenthal,
+    changenet_velex,
+    dawson,
+    iso_14179_1,
+    losses_of_pair,
+    palmgren,
+)
 
 RPM = math.pi / 30.0
 #: Module 3 mm, 53 teeth.
@@ -111,7 +118,7 @@ def test_palmgren_by_hand():
         for count in (1, 3):
             flow = 0.0391 / 853 * 1e6 * rpm
             moment = 1e-7 * 3.3 * 71.0**3 * (flow ** (2 / 3) if flow >= 2000 else 160)
-            found = palmgren(ShaftBearings(rpm * RPM, 71e-3, 3.3, count), 0.0391, 853.0).power
+            found = palmgren(BearingDragData(71e-3, 3.3, count), rpm * RPM, 0.0391, 853.0).power
             assert found == pytest.approx(count * moment * 1e-3 * rpm * RPM, rel=1e-12)
 
 
@@ -130,8 +137,7 @@ def test_losses_of_both_gears_are_added_and_limits_said_once():
             assert found["windage"].power == pytest.approx(blown(pinion).power + blown(gear).power)
             assert len(found["churning"].exceeded) == (churning == "iso-14179-1")
             shafts = [
-                palmgren(ShaftBearings(one.speed, drag.mean_diameter, drag.drag_factor, drag.count), *OIL)
-                for one, drag in zip((pinion, gear), drags, strict=True)
+                palmgren(drag, one.speed, *OIL) for one, drag in zip((pinion, gear), drags, strict=True)
             ]
             assert found["bearings"].power == pytest.approx(sum(one.power for one in shafts))
 
@@ -183,13 +189,15 @@ def test_windage_of_both_formulas_is_of_the_same_order_and_grows_alike():
 
 def test_drag_of_bearings_by_hand():
     """d_m 60 mm, 1500 rpm, 100 mm²/s: (1.5e5)^⅔ = 2823; 1e-7 · 2 · 2823 · 216000 = 122 N mm; 19 W."""
-    shaft = ShaftBearings(1500 * RPM, 60e-3, 2.0, 1)
-    assert palmgren(shaft, 0.085, 850.0).power == pytest.approx(19.16, rel=2e-3)
-    assert palmgren(replace(shaft, count=2), 0.085, 850.0).power == pytest.approx(2 * 19.16, rel=2e-3)
+    shaft = BearingDragData(60e-3, 2.0, 1)
+    assert palmgren(shaft, 1500 * RPM, 0.085, 850.0).power == pytest.approx(19.16, rel=2e-3)
+    assert palmgren(replace(shaft, count=2), 1500 * RPM, 0.085, 850.0).power == pytest.approx(
+        2 * 19.16, rel=2e-3
+    )
     # below ν n = 2000 the moment is constant, and both formulas meet there: 2000^⅔ = 158.7, printed as 160
-    slow, slower = (palmgren(replace(shaft, speed=n * RPM), 0.085, 850.0).power for n in (16.0, 8.0))
+    slow, slower = (palmgren(shaft, n * RPM, 0.085, 850.0).power for n in (16.0, 8.0))
     assert slow / slower == pytest.approx(2.0)
-    joint = [palmgren(replace(shaft, speed=n * RPM), 0.085, 850.0).power for n in (19.99, 20.01)]
+    joint = [palmgren(shaft, n * RPM, 0.085, 850.0).power for n in (19.99, 20.01)]
     assert joint[1] / joint[0] == pytest.approx(1.0, abs=0.01)
 
 
@@ -201,4 +209,4 @@ def test_only_what_is_asked_for_is_lost():
     found = losses_of_pair(replace(asked, drag=(None, drag)), both, *OIL)
     assert set(found) == {"churning", "bearings"}
     assert found["churning"].power == iso_14179_1(WHEEL, *OIL).power
-    assert found["bearings"].power == palmgren(ShaftBearings(WHEEL.speed, 60e-3, 2.0, 2), *OIL).power
+    assert found["bearings"].power == palmgren(drag, WHEEL.speed, *OIL).power

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from tribodyn.tribology import oil
+from tribodyn.tribology.friction.masjedi_khonsari import log_roelands_viscosity
 from tribodyn.tribology.friction.niemann import niemann
 from tribodyn.tribology.friction.schlenk import schlenk
 from tribodyn.tribology.lubricant import (
@@ -18,9 +19,8 @@ from tribodyn.tribology.lubricant import (
     lubricant_from,
     oil_values,
 )
-from tribodyn.tribology.nominal import NominalConditions
+from tribodyn.tribology.mesh_conditions import NominalConditions
 from tribodyn.tribology.oil import OIL_TYPES, T_40, T_100, ZERO_CELSIUS, OilSheet
-from tribodyn.tribology.rheology import log_roelands_viscosity
 
 #: Of the KISSsoft report of 2017: ISO VG 220, mineral.
 REPORT = OilSheet("mineral", 220e-6, 19e-6, 890.0)

@@ -7,11 +7,19 @@ import numpy as np
 import pytest
 
 from tests.support.closures import LIU_NI, MIXED, POINT, known, under
-from tribodyn.tribology.contact import hertz_half_width, hertz_pressure, inlet_heating, local_contact
+from tribodyn.tribology.contact import (
+    flash_temperature_rise,
+    hertz_half_width,
+    hertz_pressure,
+    inlet_heating,
+    local_contact,
+)
 from tribodyn.tribology.film.masjedi_khonsari import asperity_load_ratio
-from tribodyn.tribology.flash import flash_temperature_rise
-from tribodyn.tribology.friction.masjedi_khonsari import saturated
-from tribodyn.tribology.rheology import limiting_shear_share, log_roelands_viscosity
+from tribodyn.tribology.friction.masjedi_khonsari import (
+    limiting_shear_share,
+    log_roelands_viscosity,
+    saturated,
+)
 
 LAWS = under(MIXED)
 

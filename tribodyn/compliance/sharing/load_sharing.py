@@ -24,10 +24,11 @@ from tribodyn.compliance.sharing.pair_flexibility import PairFlexibility
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.geometry.flanks.corner_contact import pair_geometry, part_of
-from tribodyn.geometry.pitch_point import averaged_radius, pitch_point
+from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.numerics.blas_threads import one_blas_thread
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.numerics.work import steps
+from tribodyn.tribology.contact import averaged_radius
 
 #: Depth of the local region, in modules, and refinement of the mesh: together within 0.1 % of their limits
 #: (test_load_contact).

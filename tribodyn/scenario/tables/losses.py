@@ -8,8 +8,7 @@ from pydantic import Field
 from tribodyn.errors import InputError, quoted
 from tribodyn.scenario import units
 from tribodyn.scenario.quantity import Count, Positive, Quantity, Table, written
-from tribodyn.tribology.losses.bearing_drag import DRAG_FACTORS
-from tribodyn.tribology.losses.of_pair import BearingDragData, LossData
+from tribodyn.tribology.losses import DRAG_FACTORS, BearingDragData, LossData
 
 Depth = Annotated[float, Quantity(units.not_negative(units.LENGTH), "20 mm")]
 SIDES = ("pinion", "gear")

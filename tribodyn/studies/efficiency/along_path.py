@@ -18,9 +18,8 @@ from tribodyn.mesh.power_flow import efficiency
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.studies.efficiency.places import Places, Sharing, places
 from tribodyn.studies.efficiency.quadrature import Array, piecewise
-from tribodyn.tribology.contact_friction import ContactFriction, contact_friction
 from tribodyn.tribology.law import Closure
-from tribodyn.tribology.surface_state import range_shares
+from tribodyn.tribology.surface_state import ContactFriction, contact_friction, range_shares
 
 #: Nodes between two breaks of the integrand.
 POINTS = 20

@@ -10,7 +10,7 @@ from tribodyn.mesh.data import MeshData
 from tribodyn.studies.protocol.study import CaseHead
 from tribodyn.tribology.bulk_temperature import TemperatureData
 from tribodyn.tribology.data import FilmData, FrictionData
-from tribodyn.tribology.losses.of_pair import LossData
+from tribodyn.tribology.losses import LossData
 from tribodyn.tribology.lubricant import LubricantData
 
 if TYPE_CHECKING:  # the study's array code, and SciPy with it, is for the run

@@ -14,8 +14,8 @@ from tribodyn.errors import SimulationError
 from tribodyn.geometry.path import Path, kinematics
 from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.studies.efficiency.quadrature import Array, from_pitch_point
-from tribodyn.tribology.contact_friction import contact_friction
 from tribodyn.tribology.law import Closure
+from tribodyn.tribology.surface_state import contact_friction
 
 #: Nodes on either side of the pitch point: the efficiency is then known to 1e-7 for every family and law.
 POINTS = 24

@@ -16,7 +16,6 @@ from tribodyn.studies.ehl.layout import BEGIN, END, PLACES
 from tribodyn.studies.ehl.loads import given_loads, quasi_static_loads
 from tribodyn.tribology.closure import surfaces_of, untried_closure_of
 from tribodyn.tribology.contact import hertz_half_width
-from tribodyn.tribology.contact_friction import ContactFriction, contact_friction
 from tribodyn.tribology.data import FilmData, FrictionData
 from tribodyn.tribology.ehl.fluid.coupled import CoupledSolution, solve_coupled
 from tribodyn.tribology.ehl.problem import LEAST_LOAD, LineContact
@@ -25,6 +24,7 @@ from tribodyn.tribology.ehl.table.table import Contact, contact_of
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import LawInput
+from tribodyn.tribology.surface_state import ContactFriction, contact_friction
 
 Array = Any
 

@@ -17,12 +17,11 @@ from tribodyn.studies.ehl.run import solve
 from tribodyn.studies.protocol.load import loaded_from, table_of
 from tribodyn.studies.protocol.study import CaseHead, Progress
 from tribodyn.tribology.closure import untried_closure_of
-from tribodyn.tribology.contact_friction import ContactFriction
 from tribodyn.tribology.data import FilmData, FrictionData
 from tribodyn.tribology.film import FILM_LAWS
 from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import FilmLaw, FrictionLaw
-from tribodyn.tribology.surface_state import range_shares
+from tribodyn.tribology.surface_state import ContactFriction, range_shares
 
 Array = Any
 

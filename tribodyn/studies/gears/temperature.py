@@ -22,8 +22,7 @@ from tribodyn.tribology.bulk_temperature import (
     heat_given_off,
     network_temperatures,
 )
-from tribodyn.tribology.losses.of_pair import LossData, losses_of_pair
-from tribodyn.tribology.losses.wheel import Loss, Wheel
+from tribodyn.tribology.losses import Loss, LossData, Wheel, losses_of_pair
 from tribodyn.tribology.lubricant import LubricantData, lubricant_at
 from tribodyn.tribology.oil import TEMPERATURE_RANGE, ZERO_CELSIUS, specific_heat
 

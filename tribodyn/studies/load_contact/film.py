@@ -11,8 +11,7 @@ from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.studies.load_contact.case import Oiled
 from tribodyn.tribology.closure import closure_of, exceeded_limits, law_figures
-from tribodyn.tribology.contact_friction import contact_friction
-from tribodyn.tribology.surface_state import fraction_in_range, range_shares
+from tribodyn.tribology.surface_state import contact_friction, fraction_in_range, range_shares
 
 
 class FaceFilm(NamedTuple):

@@ -4,7 +4,7 @@ from tribodyn.numerics.elementary import as_float, exp, log, minimum
 from tribodyn.tribology.friction.coulomb import Constant, constant, range_of_constant
 from tribodyn.tribology.judged_range import JudgedRange
 from tribodyn.tribology.law import FrictionLaw, LawInput, steepness_of_heat
-from tribodyn.tribology.nominal import NominalConditions
+from tribodyn.tribology.mesh_conditions import NominalConditions
 
 #: Pitch line speed (m/s) and load intensity (Pa) for which the standard gives the formula.
 SPEED_RANGE = (2.0, 25.0)

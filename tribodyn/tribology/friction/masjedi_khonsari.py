@@ -8,18 +8,18 @@ from functools import partial
 from typing import Any, NamedTuple
 
 from tribodyn.numerics.elementary import absolute, exp, expm1, law, log, maximum, minimum, skippable
-from tribodyn.tribology.contact import hertz_half_width, moes_numbers
+from tribodyn.tribology.contact import flash_temperature_rise, hertz_half_width, moes_numbers
 from tribodyn.tribology.film.masjedi_khonsari import LIMITS, RANGE, in_fitted_range
-from tribodyn.tribology.flash import flash_temperature_rise
 from tribodyn.tribology.judged_range import JudgedRange
 from tribodyn.tribology.law import FrictionLaw, LawInput, compounded, film_at
-from tribodyn.tribology.rheology import limiting_shear_share, log_roelands_viscosity
 
 #: Where friction is within a factor of 2 of the solved contact: Moes' L, and the stress η |v_s|/h_c of a
 #: Newtonian film by the law over Λ_lim p. Below that the solved film shears more easily than the law's.
 JUDGED_RANGE = {"L": (2.0, 20.0), "stress": 0.1}
 (_L_LOW, _L_HIGH), _STRESS_LOW = JUDGED_RANGE.values()
 JUDGED_LIMITS = "L ≥ 2", "L ≤ 20", "Newtonian stress ≥ 0.1 Λ_lim p"
+#: Above this the exponential overflows; 1 − exp(−η …) has long reached 1.
+MAXIMUM_EXPONENT = 600.0
 
 
 class MixedFriction(NamedTuple):
@@ -51,6 +51,28 @@ class MixedFriction(NamedTuple):
     gear_conductivity: Any
     pinion_heat_capacity: Any
     gear_heat_capacity: Any
+
+
+@law
+def log_roelands_viscosity(pressure, temperature_rise, log_inlet_viscosity, index, temperature_coefficient):
+    """Average viscosity in the contact, ln of Pa·s, from the logarithm of the one at the inlet, η0 in Pa·s.
+
+    η = η0 exp{(ln η0 + 9.67) [−1 + (1 + 5.1e-9 p)^z] − K_T ΔT}, Roelands (1966); Liu & Ni (21). The exponent
+    is clipped (near a cycloid's pitch point the Hertz pressure diverges).
+    """
+    rise = exp(index * log(1.0 + 5.1e-9 * pressure)) - 1.0
+    exponent = (log_inlet_viscosity + 9.67) * rise - temperature_coefficient * temperature_rise
+    exponent = maximum(minimum(exponent, MAXIMUM_EXPONENT), -MAXIMUM_EXPONENT)
+    return log_inlet_viscosity + exponent
+
+
+@law
+def limiting_shear_share(asperity_share, coefficient, limiting_share):
+    """Shear stress that the fluid cannot exceed over the pressure, τ_lim/p = Λ_lim (1 − λ); Liu & Ni (20).
+
+    With `limiting_share` 0 it is Λ_lim: the variant that brings Liu & Ni's friction levels closest.
+    """
+    return coefficient * (1.0 - limiting_share * asperity_share)
 
 
 @law

@@ -4,7 +4,7 @@ from tribodyn.numerics.elementary import as_float, exp, log
 from tribodyn.tribology.friction.coulomb import Constant, constant, range_of_constant
 from tribodyn.tribology.judged_range import JudgedRange
 from tribodyn.tribology.law import FrictionLaw, LawInput, steepness_of_heat
-from tribodyn.tribology.nominal import NominalConditions
+from tribodyn.tribology.mesh_conditions import NominalConditions
 
 #: Pitch line speed up to which the FZG tests behind the formula went, m/s.
 MAXIMUM_SPEED = 50.0

@@ -5,7 +5,7 @@ from tribodyn.tribology.friction.coulomb import Constant, constant, range_of_con
 from tribodyn.tribology.friction.niemann import MAXIMUM_SPEED, mean_of_fzg_tests
 from tribodyn.tribology.judged_range import JudgedRange
 from tribodyn.tribology.law import FrictionLaw, LawInput, steepness_of_heat
-from tribodyn.tribology.nominal import NominalConditions
+from tribodyn.tribology.mesh_conditions import NominalConditions
 
 
 def schlenk(conditions: NominalConditions) -> float:

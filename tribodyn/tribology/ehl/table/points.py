@@ -11,13 +11,13 @@ import numpy as np
 from tribodyn.errors import SimulationError
 from tribodyn.numerics import child
 from tribodyn.numerics.work import steps, usable_cores
-from tribodyn.tribology.duty_range import DutyRange
 from tribodyn.tribology.ehl.asperities import Roughness
 from tribodyn.tribology.ehl.fluid.coupled import solve_coupled
 from tribodyn.tribology.ehl.fluid.fluid import Fluid
 from tribodyn.tribology.ehl.fluid.heat import Thermal
 from tribodyn.tribology.ehl.fluid.rheology import Rheology
 from tribodyn.tribology.ehl.problem import LineContact
+from tribodyn.tribology.mesh_conditions import DutyRange
 
 if TYPE_CHECKING:
     import subprocess

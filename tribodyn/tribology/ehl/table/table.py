@@ -17,7 +17,6 @@ from tribodyn.numerics.cache import arrays_kept_or_made
 from tribodyn.numerics.elementary import is_jax
 from tribodyn.numerics.sources import digest_of
 from tribodyn.tribology.contact import hertz_half_width
-from tribodyn.tribology.duty_range import DutyRange
 from tribodyn.tribology.ehl.asperities import Roughness
 from tribodyn.tribology.ehl.fluid.fluid import Fluid
 from tribodyn.tribology.ehl.fluid.heat import Thermal
@@ -25,6 +24,7 @@ from tribodyn.tribology.ehl.fluid.rheology import Rheology
 from tribodyn.tribology.ehl.table.lookup import TERMS, mixed_friction, most_of_film
 from tribodyn.tribology.ehl.table.points import Contact, solve_all, spread
 from tribodyn.tribology.law import LawInput
+from tribodyn.tribology.mesh_conditions import DutyRange
 
 Array = Any
 

@@ -1,7 +1,8 @@
-"""Nominal conditions of a mesh at its pitch point, for laws that give the whole mesh one mean coefficient."""
+"""What laws may read of a mesh: its pitch point, for mean coefficients; its range of duties, for tables."""
 
 from typing import Any, NamedTuple
 
+from tribodyn.errors import InputError
 from tribodyn.numerics.elementary import cos, sin
 
 
@@ -63,3 +64,30 @@ class NominalConditions(NamedTuple):
     @property
     def _sum_of_curvatures(self) -> Any:
         return 1.0 / self.pinion_pitch_radius + 1.0 / self.gear_pitch_radius
+
+
+class DutyRange(NamedTuple):
+    """Least and greatest of each, as `LocalContact` has them; SI.
+
+    Attributes
+    ----------
+    line_load : N/m
+    entrainment : m/s
+    curvature : 1/m
+    slide_to_roll : |v_s|/u
+    places : entrainment at nominal speed, curvature and slide-to-roll ratio at places along the path of
+        contact, where they belong together; none: they vary each for itself
+    """
+
+    line_load: tuple[float, float]
+    entrainment: tuple[float, float]
+    curvature: tuple[float, float]
+    slide_to_roll: tuple[float, float]
+    places: tuple[tuple[float, float, float], ...] = ()
+
+
+def without_duty() -> DutyRange:
+    """Stand for the duty where there is no mesh: raise InputError."""
+    raise InputError(
+        "film.law", '"solved"', "is tabulated over the duty of a mesh, and there is none", "use another law"
+    )
