@@ -98,16 +98,6 @@ def test_a_study_is_checked_and_shown(both: dict[str, Path]):
     assert "The loads carry the torque to within" in shown
 
 
-def test_a_scenario_to_begin_with(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    from tribodyn.studies.protocol.load import load_scenario
-
-    monkeypatch.chdir(tmp_path)
-    tribodyn("init", "mine", "--kind", "load-contact")
-    case = load_scenario("mine.toml")
-    assert case.kind == "load-contact"
-    assert case.slices == 21
-
-
 def test_a_face_that_is_lifted_is_refused(tmp_path: Path):
     tilted = ("--set", "mesh.misalignment.in_plane=1 deg", "--set", "mesh.slices=5")
     done = CliRunner().invoke(app, ["run", PLAIN, *tilted, "-o", str(tmp_path / "tilted.h5")])

@@ -9,11 +9,8 @@ from typer.testing import CliRunner
 
 from tribodyn.cli.app import app
 from tribodyn.record.reader import open_record
-from tribodyn.studies.pages.pictures import names
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
-
-FIGURES = ("elements", "element-angle", "gear", "normal-load", "efficiency")
 
 
 @pytest.fixture(scope="module")
@@ -51,14 +48,6 @@ def test_a_record_holds_a_revolution_of_every_element(folder):
         assert record.summary["efficiency"] == pytest.approx(work["power_out"] / work["power_in"])
 
 
-def test_xarray_opens_the_record(folder):
-    xarray = pytest.importorskip("xarray")
-    with xarray.open_dataset(folder / "irefc.h5", engine="h5netcdf") as data:
-        assert data.normal_load.dims == ("time", "element")
-        assert data.normal_load.sel(element=5).max() > 900
-        assert not data.spin_speed.isnull().any()
-
-
 @pytest.mark.parametrize("name", ["irefc", "irefc-as-published"])
 def test_every_output_says_the_mode(folder, name):
     mode = "corrected" if name == "irefc" else "as_published"
@@ -69,20 +58,6 @@ def test_every_output_says_the_mode(folder, name):
     assert checked["mode"] == mode
     assert checked["geometry"]["teeth of the cam"] == [25, ""]
     assert checked["geometry"]["eccentricity"] == [pytest.approx(40 / 26), "mm"]
-
-
-def test_figures_are_drawn_by_name_alone_and_together(folder, tmp_path):
-    paths = [folder / f"{name}.h5" for name in ("irefc", "irefc-as-published")]
-    drawn = json.loads(said("plot", paths[0], "-o", tmp_path, "--json"))["pictures"]
-    assert [Path(picture).name for picture in drawn] == [f"irefc-{name}.png" for name in FIGURES]
-    both = json.loads(said("plot", *paths, "-o", tmp_path, "--against", "time", "--json"))["pictures"]
-    assert [Path(picture).stem.removeprefix("irefc-irefc-as-published-") for picture in both] == [
-        "elements",
-        "element-angle",
-        "gear",
-    ]
-    with open_record(paths[0]) as record:
-        assert names([record]) == FIGURES
 
 
 def test_figures_that_a_record_does_not_hold_are_refused(folder):

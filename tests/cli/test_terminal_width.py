@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from tests.support.short_studies import SHORT, written_template
+from tests.support.short_studies import written_template
 from tribodyn.cli.app import app
 from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.load import load_scenario
@@ -24,7 +24,7 @@ WIDE, NARROW = 1000, (80, 60)
 def studies(tmp_path_factory, short_runs) -> Path:
     """A scenario and a short record of every kind, and a sweep."""
     folder = tmp_path_factory.mktemp("studies")
-    for kind in SHORT:
+    for kind in STUDIES:
         written_template(kind, folder)
         shutil.copy(short_runs(kind).path, folder)
     swept = ["sweep", "gear-pair.toml", "--vary", "operating.pinion_speed=1000,12000rpm", "-o", "swept.h5"]
@@ -55,7 +55,7 @@ def check_narrow(words: list[str]) -> None:
         assert not {number for number in numbers if numbers[number] > found[number]}, words
 
 
-@pytest.mark.parametrize("kind", SHORT)
+@pytest.mark.parametrize("kind", list(STUDIES))
 def test_summaries_and_checks(kind, studies, monkeypatch):
     monkeypatch.chdir(studies)
     checked = STUDIES[kind].check(load_scenario(f"{kind}.toml"))
@@ -78,21 +78,6 @@ def test_sweeps_and_comparisons(studies, monkeypatch):
 )
 def test_lists_sheets_and_validations(words):
     check_narrow(words)
-
-
-@pytest.mark.parametrize("kind", SHORT)
-def test_every_figure_that_is_listed_for_a_record_is_drawn_and_no_other(kind, studies, monkeypatch):
-    monkeypatch.chdir(studies)
-    listed = re.findall(r"^ (\S+)  ", shown(["list", "plots", f"{kind}.h5"], WIDE), re.MULTILINE)[1:]
-    refused = CliRunner().invoke(app, ["plot", f"{kind}.h5", "no-such"])
-    assert refused.exit_code == 2
-    assert refused.stderr.strip().endswith(f"There are: {', '.join(listed)}")
-    from tribodyn.record.reader import open_record
-    from tribodyn.studies.pages.pictures import figure
-
-    with open_record(f"{kind}.h5") as record:
-        for name in listed:
-            assert figure(name, [record]).axes
 
 
 def test_figures_are_listed_for_sweeps_and_refused_for_what_has_none(studies, monkeypatch):

@@ -11,7 +11,9 @@ from tribodyn.studies.protocol.results import RunResult
 from tribodyn.studies.protocol.run import run
 from tribodyn.studies.protocol.template import filled
 
-#: Kind -> overrides under which its template takes seconds.
+#: Kinds whose runs take long even when they are short.
+FINITE_ELEMENTS = ("load-contact", "design", "assessment")
+#: Kind -> overrides under which its template takes seconds; that of another kind is taken as it stands.
 SHORT: dict[str, dict[str, Any]] = {
     "gear-pair": {"solver.cycles": 4, "output.samples_per_cycle": 40},
     "efficiency": {"output.samples_per_cycle": 40},
@@ -44,7 +46,8 @@ SHORT: dict[str, dict[str, Any]] = {
 
 def shortened(kind: str) -> list[str]:
     """Options of a verb that make the template of a kind short."""
-    written = {key: json.dumps(one) if isinstance(one, list) else one for key, one in SHORT[kind].items()}
+    given = SHORT.get(kind, {})
+    written = {key: json.dumps(value) if isinstance(value, list) else value for key, value in given.items()}
     return [word for key, value in written.items() for word in ("--set", f"{key}={value}")]
 
 
@@ -57,7 +60,7 @@ def written_template(kind: str, folder: Path) -> Path:
 
 def short_case(kind: str, folder: Path, **more: Any) -> Any:
     """The case of a kind's template, made short; `more` are overrides with `__` in place of dots."""
-    overrides = SHORT[kind] | {key.replace("__", "."): value for key, value in more.items()}
+    overrides = SHORT.get(kind, {}) | {key.replace("__", "."): value for key, value in more.items()}
     return load_scenario(written_template(kind, folder), overrides)
 
 

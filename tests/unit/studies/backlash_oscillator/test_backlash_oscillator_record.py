@@ -1,13 +1,8 @@
 """Scenario, record, summary and figures of the oscillator with backlash."""
 
-import json
-
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
-from tribodyn.cli.app import app
-from tribodyn.errors import InputError
 from tribodyn.record.reader import open_record
 from tribodyn.studies.backlash_oscillator.linear import linear_amplitude, linear_figures
 from tribodyn.studies.pages.pictures import figure, names
@@ -52,28 +47,6 @@ def test_frequencies_are_a_list_or_a_range(given, expected):
     case = load_scenario(NAME, {"frequency": given})
     assert case.frequencies == pytest.approx(expected, abs=1e-12)
     assert case.frequencies[-1] == expected[-1]
-
-
-def test_the_record_has_its_dimensions_and_units(record):
-    assert record.kind == NAME
-    assert record.axis == "frequency"
-    assert list(record["direction"]) == ["up", "down"]
-    for name in record:
-        dims = record[name].shape
-        assert dims[0] == 71
-        assert name == "frequency" or dims[1] == 2
-        assert record.units(name) == ("rad" if name == "multiplier_angle" else "1")
-        assert record.long_name(name)
-    assert record["multiplier_modulus"].shape == (71, 2, 2)
-
-
-def test_xarray_reads_it(record):
-    xarray = pytest.importorskip("xarray")
-    with xarray.open_dataset(record.path, engine="h5netcdf") as data:
-        assert data.rms_displacement.dims == ("frequency", "direction")
-        upper = data.rms_displacement.sel(direction="down").sel(frequency=0.78, method="nearest")
-        lower = data.rms_displacement.sel(direction="up").sel(frequency=0.78, method="nearest")
-        assert float(upper) > 1.5 * float(lower)
 
 
 def test_without_contact_loss_it_is_the_linear_response(record):
@@ -125,37 +98,6 @@ def test_figures_show_every_point(record, name):
 def test_two_records_share_a_figure(record):
     drawn = figure("response", [record, record])
     assert len({line.get_color() for line in drawn.axes[0].get_lines() if line.get_linewidth() < 4}) == 2
-
-
-def test_a_sweep_knows_no_time(record):
-    with pytest.raises(InputError, match="knows no time"):
-        figure("response", [record], against="time")
-
-
-def test_the_verbs_know_the_kind(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    few = ("--set", "frequency=[0.5, 0.8, 1.2]")
-
-    def said(*words):
-        ended = CliRunner().invoke(app, words)
-        assert ended.exit_code == 0, ended.output
-        return ended.output
-
-    assert "contact_loss_from" in said("check", NAME)
-    assert json.loads(said("check", NAME, "--json"))["linear"]["resonance"] == pytest.approx(1.0025, abs=1e-4)
-    assert "Up and down differ" in said("run", NAME, *few)
-    shown = json.loads(said("show", f"{NAME}.h5", "--json"))
-    assert shown["summary"]["points"] == 6
-    assert "response" in said("plot", f"{NAME}.h5", "response")
-    assert (tmp_path / f"{NAME}-response.png").is_file()
-    assert NAME in said("list", "scenarios")
-    assert "multipliers" in said("list", "plots")
-    assert "backlash-oscillator" in said("schema")
-
-
-def test_it_is_no_pair_of_gears():
-    ended = CliRunner().invoke(app, ["gear", "sheet", NAME])
-    assert ended.exit_code == 2
 
 
 def test_the_summary_counts_points_of_longer_period(tmp_path):

@@ -56,13 +56,6 @@ def test_axes_carry_engineers_units(records: list[Record], name: str):
     assert [axes.get_ylabel() for axes in figure(name, records[:1]).axes] == LABELS[name]
 
 
-@pytest.mark.parametrize("name", [*NAMES, "overview"])
-@pytest.mark.parametrize("count", [pytest.param(1, marks=pytest.mark.soak), 2])
-def test_every_figure_can_be_saved(records: list[Record], tmp_path: Path, name: str, count: int):
-    path = save(figure(name, records[:count]), tmp_path / "picture.png")
-    assert path.read_bytes().startswith(b"\x89PNG")
-
-
 @pytest.mark.parametrize("name", [*NAMES[:-1], "overview"])
 def test_a_study_of_one_slice_and_torque_is_drawn(plain: Record, name: str):
     figure(name, [plain]).draw_without_rendering()
@@ -73,11 +66,6 @@ def test_a_map_needs_torques(plain: Record, records: list[Record]):
     assert names([records[0], plain]) == NAMES[:-1]
     with pytest.raises(InputError, match="gear_torques"):
         figure("harris", [plain])
-
-
-def test_there_is_no_time_to_draw_against(plain: Record):
-    with pytest.raises(InputError, match="knows no time"):
-        figure("loaded-error", [plain], against="time")
 
 
 def test_one_cycle_is_shown_twice_because_it_repeats(plain: Record):
