@@ -6,8 +6,8 @@ from scipy.integrate import solve_ivp
 
 from tests.support.foreign_marching import oscillator_march
 from tests.support.harmonic_balance import HarmonicBalance, restoring, turning_points
-from tribodyn.solve.branch.end import FOLD, PERIOD_DOUBLING
-from tribodyn.solve.orbit.steady_orbit import find
+from tribodyn.solve.branch.family import FOLD, PERIOD_DOUBLING
+from tribodyn.solve.orbit.search import find
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.motion import OscillatorMap
 from tribodyn.studies.backlash_oscillator.response import (

@@ -14,7 +14,7 @@ from tribodyn.solve.orbit.periodic import steady_states
 from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import SampledStates, TransientSettings, make_integrator, transient
 from tribodyn.studies.gear_pair.batch import BATCH
-from tribodyn.studies.gear_pair.batch.evaluate import Settings, evaluate
+from tribodyn.studies.gear_pair.batch.evaluate import SweepSettings, evaluate
 from tribodyn.studies.gear_pair.summary import RECORDED, RunningExtremes
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
@@ -138,7 +138,9 @@ def test_figures_of_steady_states_do_not_depend_on_the_samples():
         for samples in (16, 4000)
     ]
     few, many = (
-        evaluate(Chunk(np.arange(1), (case,)), Settings(True, 200, 4, 8, case.output.samples_per_cycle, 5))
+        evaluate(
+            Chunk(np.arange(1), (case,)), SweepSettings(True, 200, 4, 8, case.output.samples_per_cycle, 5)
+        )
         for case in cases
     )
     for name in (*RECORDED, "transmission_error_peak_to_peak", "dynamic_factor"):

@@ -7,8 +7,8 @@ from scipy.interpolate import CubicSpline
 from tests.support.foreign_marching import gear_march, oscillator_march
 from tests.support.harmonic_balance import HarmonicBalance, turning_points
 from tribodyn.solve.branch.continuation import Leg
-from tribodyn.solve.branch.end import FOLD, MERGING, PERIOD_DOUBLING
-from tribodyn.solve.branch.followed import Unstable, followed_states
+from tribodyn.solve.branch.family import FOLD, MERGING, PERIOD_DOUBLING
+from tribodyn.solve.branch.gear_pairs import UnstableRange, followed_states
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.tolerances import absolute_tolerances, mesh_deflection
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
@@ -88,8 +88,8 @@ def test_round_the_fold_of_a_gear_pair():
     }
     begin = [Leg(0, 440.0, 440.0, static_equilibrium(model), 0)]
     ((first, arrival, _),) = followed_states(model_at, begin, **settings)
-    leg = Leg(0, 440.0, 486.0, arrival.carried, first.period, reach=486.0)
-    unstable = Unstable((480.0, 486.0), 12)
+    leg = Leg(0, 440.0, 486.0, arrival.next_state, first.period, reach=486.0)
+    unstable = UnstableRange((480.0, 486.0), 12)
     ((_, arrival, (beyond,)),) = followed_states(model_at, [leg], unstable=unstable, **settings)
     assert [end.kind for end in arrival.ends] == [FOLD]
     values, modulus = beyond.branch.values, np.abs(beyond.branch.multipliers[:, 0])

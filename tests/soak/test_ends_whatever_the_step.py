@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from tribodyn.solve.branch.continuation import Leg, follow
-from tribodyn.solve.branch.end import NEIMARK_SACKER
-from tribodyn.solve.branch.followed import GearLines
+from tribodyn.solve.branch.family import NEIMARK_SACKER
+from tribodyn.solve.branch.gear_pairs import GearLines
 from tribodyn.solve.orbit.gear_map import moving_states
 from tribodyn.solve.orbit.periodic import steady_states
 from tribodyn.solve.orbit.shooting import shoot
@@ -51,7 +51,7 @@ def test_a_neimark_sacker_point():
                 assert end.kind == NEIMARK_SACKER
                 assert end.within <= 1e-4 * end.value
                 break
-            leg = Leg(0, value, value, arrival.carried, arrival.orbit.period, reach=START)
+            leg = Leg(0, value, value, arrival.next_state, arrival.orbit.period, reach=START)
     print(located)
     assert len(located) == len(WAYS)
     middle = float(np.mean(list(located.values())))

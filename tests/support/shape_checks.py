@@ -24,11 +24,10 @@ CHECKED = (
     "tribodyn.mesh",
     "tribodyn.drawing",
     "tribodyn.solve.branch.continuation",
-    "tribodyn.solve.branch.continued_family",
-    "tribodyn.solve.orbit.progress",
+    "tribodyn.solve.branch.requests",
+    "tribodyn.solve.orbit.motions",
+    "tribodyn.solve.orbit.search",
     "tribodyn.solve.orbit.shooting",
-    "tribodyn.solve.orbit.steady_orbit",
-    "tribodyn.solve.orbit.wandering",
 )
 
 

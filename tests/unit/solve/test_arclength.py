@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from tests.support.closed_form_maps import Lines, cubic, delayed, logistic
-from tribodyn.solve.branch.arclength import Arclength, Place
+from tribodyn.solve.branch.arclength import Arclength, BranchPoint
 from tribodyn.solve.branch.continuation import Leg, follow
-from tribodyn.solve.branch.end import FOLD, MERGING, PERIOD_DOUBLING, Seed
+from tribodyn.solve.branch.family import FOLD, MERGING, PERIOD_DOUBLING, Seed
 from tribodyn.solve.branch.unstable import unstable_branches
 
 
@@ -33,8 +33,12 @@ def beyond(family, start, target, state, period, span):
     (arrival,) = follow(family, [leg], tolerance=1e-9)
     (end,), (branch,) = arrival.ends, unstable_branches(family, 0, arrival.seeds, span, tolerance=1e-9)
     assert branch is not None
-    assert np.max(branch.residuals) <= 1e-9
+    assert max(orbit.residual for orbit in branch.orbits) <= 1e-9
     assert branch.states.shape == (len(branch.values), family.size)
+    some = branch.thinned(3)
+    assert len(some.values) == len(some.orbits) == min(3, len(branch.values))
+    assert some.values[0] == branch.values[0]
+    assert some.orbits[-1] is branch.orbits[-1]
     assert np.all(np.abs(branch.multipliers[:, 0]) > 1.0)
     return end, branch
 
@@ -136,7 +140,9 @@ def test_the_parameter_turns_at_the_vertex_of_a_parabola():
     for x in (-3e-4, 5e-4):
         tangent = np.array([1.0, -x])  # of (x, a/2)
         ends.append(
-            Place(np.array([x, 0.45 - 0.5 * x * x]), tangent / np.linalg.norm(tangent), np.ones(1), 0.0, None)
+            BranchPoint(
+                np.array([x, 0.45 - 0.5 * x * x]), tangent / np.linalg.norm(tangent), np.ones(1), 0.0, None
+            )
         )
     way = cast(Any, SimpleNamespace(units=np.array([1.0, 2.0])))
     found, value, within = Arclength.turning(way, *ends)

@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 from tests.support.closed_form_maps import Lines, cubic, delayed, logistic
-from tribodyn.solve.branch.carried import between
-from tribodyn.solve.branch.continuation import Leg, follow
-from tribodyn.solve.branch.end import CORNER, FOLD, MERGING, NEIMARK_SACKER, PERIOD_DOUBLING
+from tribodyn.solve.branch.continuation import Leg, between, follow
+from tribodyn.solve.branch.family import CORNER, FOLD, MERGING, NEIMARK_SACKER, PERIOD_DOUBLING
 
 
 def swept(family, values, start, **options):
@@ -19,7 +18,7 @@ def swept(family, values, start, **options):
         (arrival,) = follow(family, [leg], tolerance=1e-9, **options)
         found.append(arrival.orbit)
         ends += arrival.ends
-        leg = Leg(0, float(value), float(value), arrival.carried, arrival.orbit.period, reach=reach)
+        leg = Leg(0, float(value), float(value), arrival.next_state, arrival.orbit.period, reach=reach)
     return found, ends
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tribodyn.solve.orbit.recurrence import recognised, recurrences
+from tribodyn.solve.orbit.motions import recognised, recurrences
 
 
 @pytest.mark.parametrize("period", [1, 2, 3, 4])

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from tests.support.closed_form_maps import ClosedForm, logistic
-from tribodyn.solve.orbit.steady_orbit import BLOCK, find
-from tribodyn.solve.orbit.wandering import wanderings
+from tribodyn.solve.orbit.motions import wanderings
+from tribodyn.solve.orbit.search import BLOCK, find
 
 TOLERANCE = 1e-9
 
@@ -130,7 +130,7 @@ def test_a_slow_case_is_handed_over_to_shooting():
     (orbit,) = find(slow, np.array([[0.4, -0.2]]), tolerance=TOLERANCE)
     assert orbit.kind == "period-1"
     assert orbit.method == "shooting"
-    assert orbit.marched <= 8 * BLOCK
+    assert orbit.cycles <= 8 * BLOCK
 
 
 def test_a_rotation_that_never_settles_has_no_period():
@@ -152,7 +152,7 @@ def test_one_case_that_runs_away_leaves_the_others_alone():
 def test_cases_that_are_done_are_not_marched_on():
     both = ClosedForm(logistic, [2.0, 3.9], 1)
     done, _ = find(both, np.full((2, 1), 0.31), tolerance=1e-9, max_periods=600)
-    assert done.marched == BLOCK
+    assert done.cycles == BLOCK
     assert both.marched[0] < 100 < both.marched[1]
 
 

@@ -6,15 +6,11 @@ import numpy as np
 import pytest
 
 from tests.support.closed_form_maps import ClosedForm, logistic
-from tribodyn.solve.branch.carried import CARRIED, VALUES, between, carried
-from tribodyn.solve.branch.continued_family import Carry
-from tribodyn.solve.branch.end import CORNER, FOLD, MERGING, NEIMARK_SACKER, PERIOD_DOUBLING, kind_of_end
-from tribodyn.solve.orbit.progress import BLOCK, LOOK, NOISE, Progress
-from tribodyn.solve.orbit.recurrence import Recurrence, recognised, recurrences
-from tribodyn.solve.orbit.result import failed_orbit
-from tribodyn.solve.orbit.shooting import critical_direction, eigenvalues, shoot
-from tribodyn.solve.orbit.stability import judge, way_out
-from tribodyn.solve.orbit.wandering import wanderings
+from tribodyn.solve.branch.continuation import VALUES, between
+from tribodyn.solve.branch.family import CORNER, FOLD, MERGING, NEIMARK_SACKER, PERIOD_DOUBLING, kind_of_end
+from tribodyn.solve.orbit.motions import Recurrence, recognised, recurrences, wanderings
+from tribodyn.solve.orbit.search import BLOCK, LOOK, NOISE, Progress
+from tribodyn.solve.orbit.shooting import closed_orbit, critical_direction, eigenvalues, shoot, way_out
 
 
 class Affine(ClosedForm):
@@ -116,15 +112,15 @@ def shot_at(x, rate, periods, tolerance=1e-10):
 @pytest.mark.parametrize("over", [2, 4])
 def test_a_motion_is_judged_by_its_shortest_period(over):
     """The logistic map's fixed point, shot over 2 and 4 periods; its two-cycle, shot over 4."""
-    fixed = judge(ClosedForm(logistic, [2.8], 1), shot_at(0.64, 2.8, over), 0, over, 36, 1e-10)
-    assert (fixed.period, fixed.kind, fixed.stable, fixed.marched) == (1, "period-1", True, 36)
+    fixed = closed_orbit(ClosedForm(logistic, [2.8], 1), shot_at(0.64, 2.8, over), 0, over, 36, 1e-10)
+    assert (fixed.period, fixed.kind, fixed.stable, fixed.cycles) == (1, "period-1", True, 36)
     assert fixed.multipliers[0].real == pytest.approx(-0.8, abs=1e-5)
     rate = 3.3
     cycle = min(np.roots([rate**2, -rate * (rate + 1.0), rate + 1.0]).real)
-    two = judge(ClosedForm(logistic, [rate], 1), shot_at(cycle + 1e-4, rate, over), 0, over, 0, 1e-10)
+    two = closed_orbit(ClosedForm(logistic, [rate], 1), shot_at(cycle + 1e-4, rate, over), 0, over, 0, 1e-10)
     assert (two.period, two.kind) == (2, "period-2")
     assert two.multipliers[0].real == pytest.approx(4 + 2 * rate - rate**2, abs=1e-5)
-    left = judge(ClosedForm(logistic, [rate], 1), shot_at(1 - 1 / rate, rate, 1), 0, 1, 0, 1e-10)
+    left = closed_orbit(ClosedForm(logistic, [rate], 1), shot_at(1 - 1 / rate, rate, 1), 0, 1, 0, 1e-10)
     assert (left.stable, left.kind) == (False, "unstable")
     assert "twice the period" in left.message
 
@@ -133,7 +129,7 @@ def test_a_neutral_motion_is_said_to_be():
     turn = np.array([[0.0, -1.0], [1.0, 0.0]])
     neutral = Affine(turn, np.zeros(2), np.ones(2))
     (shot,) = shoot(neutral, np.zeros((1, 2)), np.array([0]), 1, 1e-9)
-    told = judge(cast(Any, neutral), shot, 0, 1, 0, 1e-9)
+    told = closed_orbit(cast(Any, neutral), shot, 0, 1, 0, 1e-9)
     assert told.stable
     assert told.message.startswith("neutral")
     assert told.method == "marching"
@@ -168,17 +164,17 @@ def progress(size=1, scale=2.0):
 
 
 def test_progress_keeps_the_last_states_over_their_scale():
-    so_far, scale = progress(), np.array([2.0])
+    so_far = progress()
     for block in range(3):
-        so_far.take(1, (block * BLOCK + 1.0 + np.arange(BLOCK))[:, None], scale)
+        so_far.take(1, (block * BLOCK + 1.0 + np.arange(BLOCK))[:, None])
     assert so_far.current[1] == 36.0
     assert so_far.current[0] == 0.0
     assert so_far.marched.tolist() == [0, 3 * BLOCK]
     assert len(so_far.track[1]) == LOOK
     np.testing.assert_allclose(so_far.track[1][:, 0], np.arange(12.0, 37.0) / 2.0)
     assert so_far.smallest[1] == pytest.approx(0.5)
-    assert so_far.away(1, np.array([30.0]), scale) == pytest.approx(3.0)
-    so_far.put(1, np.array([4.0]), scale)
+    assert so_far.away(1, np.array([30.0])) == pytest.approx(3.0)
+    so_far.put(1, np.array([4.0]))
     assert so_far.current[1] == 4.0
     np.testing.assert_allclose(so_far.track[1], [[2.0]])
 
@@ -188,7 +184,7 @@ def test_the_period_that_shows_is_that_of_the_smallest_change():
     k = np.arange(1.0, 25.0)
     for amplitude, shown in ((1e-4, {3, 6}), (0.3, {1})):
         states = (np.cos(2.0 * np.pi * k / 3.0) + amplitude * np.cos(k))[:, None]
-        so_far.take(0, states, np.array([1.0]))
+        so_far.take(0, states)
         assert so_far.shown(0) in shown
 
 
@@ -249,23 +245,3 @@ def test_values_of_a_motion_without_period_do_not_depend_on_those_asked_for():
         whole = size[(size >= 1.0) & (size < 2.0)]
         assert len(whole) == (VALUES if (low < 1.0 < 2.0 < high or -high < 1.0 < 2.0 < -low) else VALUES - 1)
     assert between(1.0, 1.0) == between(-0.5, 0.5) == between(0.0, 2.0) == []
-
-
-def test_a_motion_without_period_is_marched_from_value_to_value():
-    asking = carried(np.array([0.0]), 1.0, 1.0 + 3.5 / VALUES)
-    asked, request = [], next(asking)
-
-    def answer():
-        orbit = failed_orbit(request.state + 1.0, 0, "")._replace(kind="not periodic")
-        return asking.send(cast(Any, (orbit, np.ones(1), None)))
-
-    for _ in range(3):
-        assert isinstance(request, Carry)
-        assert request.periods == CARRIED
-        asked.append((request.value, float(request.state[0])))
-        if len(asked) < 3:
-            request = answer()
-    with pytest.raises(StopIteration) as stop:
-        answer()
-    assert stop.value.value == [3.0]
-    assert asked == [(1.0 + k / VALUES, k - 1.0) for k in (1, 2, 3)]

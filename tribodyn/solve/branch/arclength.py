@@ -11,8 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.numerics.shapes import Array, Complex, Float
-from tribodyn.solve.branch.end import Seed
-from tribodyn.solve.branch.family import Family
+from tribodyn.solve.branch.family import Seed, SystemFamily
 from tribodyn.solve.orbit.shooting import eigenvalues
 
 #: Steps: the first, the factor to the next, the largest change of state and of parameter, and the smallest
@@ -32,7 +31,7 @@ LOCATED, GONE_ON = 2e-5, 1e-4
 NEUTRAL = 1e-6
 
 
-class Place(NamedTuple):
+class BranchPoint(NamedTuple):
     """A motion on a branch.
 
     Attributes
@@ -70,7 +69,7 @@ class Arclength:
 
     Parameters
     ----------
-    family : Family
+    family : SystemFamily
     line : int
         Which of its lines.
     seed : Seed
@@ -81,7 +80,7 @@ class Arclength:
         Maximum scaled change over a period of the motion.
     """
 
-    def __init__(self, family: Family, line: int, seed: Seed, size: float, tolerance: float) -> None:
+    def __init__(self, family: SystemFamily, line: int, seed: Seed, size: float, tolerance: float) -> None:
         self.family, self.line, self.seed = family, line, seed
         period_map, _ = family.at([line], [seed.value])
         scale = period_map.scale[0] if len(period_map.scale) else np.ones_like(seed.state)
@@ -89,13 +88,13 @@ class Arclength:
         self.units = np.append(scale * extent, size)
         self.extent, self.tolerance = extent, tolerance / extent
 
-    def begin(self) -> Place | None:
+    def begin(self) -> BranchPoint | None:
         """The place of the seed, the tangent in its sense."""
         along = np.zeros(len(self.units))
         along[-1] = self.seed.way
         return self.met(np.append(self.seed.state, self.seed.value) / self.units, along, along)
 
-    def next(self, here: Place, step: float) -> tuple[Place, float] | None:
+    def next(self, here: BranchPoint, step: float) -> tuple[BranchPoint, float] | None:
         """The next place, no farther than a step, and the step that led there."""
         farthest = [LARGEST / np.max(np.abs(here.tangent[:-1])), LARGEST_PARAMETER / abs(here.tangent[-1])]
         step = min(step, *farthest)
@@ -111,26 +110,26 @@ class Arclength:
         guess: Float[Array, " unknown"],
         normal: Float[Array, " unknown"],
         before: Float[Array, " unknown"],
-    ) -> Place | None:
+    ) -> BranchPoint | None:
         """The place of the branch on the plane through a guess, its tangent in the sense of another."""
         point = guess
         for _ in range(STEPS):
-            told = self.defect(point)
-            if told is None:
+            defect = self.defect(point)
+            if defect is None:
                 return None
-            off, slopes = told
+            off, slopes = defect
             if np.max(np.abs(off)) <= self.tolerance:
                 tangent = np.linalg.svd(slopes)[2][-1]
                 tangent *= 1.0 if tangent @ before >= 0.0 else -1.0
                 jacobian = slopes[:, :-1] + np.eye(len(off))
                 residual = float(np.max(np.abs(off)))
-                return Place(point, tangent, eigenvalues(jacobian), residual, self.halves(point))
+                return BranchPoint(point, tangent, eigenvalues(jacobian), residual, self.halves(point))
             matrix = np.vstack([slopes, normal])
             wanted = np.append(-off, normal @ (guess - point))
             point = point + np.linalg.lstsq(matrix, wanted)[0]
         return None
 
-    def turning(self, last: Place, beyond: Place) -> tuple[Place, float, float]:
+    def turning(self, last: BranchPoint, beyond: BranchPoint) -> tuple[BranchPoint, float, float]:
         """Where the parameter turns back between two places: one there, the parameter, and how closely.
 
         Between places so near the parameter is a parabola over the arclength.
@@ -180,7 +179,7 @@ class Arclength:
         return (end - state) / self.units[:-1]
 
 
-class Rounded(NamedTuple):
+class Turn(NamedTuple):
     """How a branch goes on where nothing is found behind a value of the parameter.
 
     Attributes
@@ -201,29 +200,24 @@ class Rounded(NamedTuple):
     state: Float[Array, " state"]
 
 
-def rounded(family: Family, line: int, seed: Seed, size: float, *, tolerance: float = 1e-7) -> Rounded | None:
+def follow_arc(
+    family: SystemFamily, line: int, seed: Seed, size: float, *, tolerance: float = 1e-7
+) -> Turn | None:
     """Follow a branch from near its end by its arclength, until its parameter turns back or it has gone on.
 
-    None where it cannot be followed.
-
-    Parameters
-    ----------
-    family, line, seed, tolerance
-        As `unstable_branches` has them.
-    size : float
-        Magnitude of the parameter.
+    None where it cannot be followed; parameters as `Arclength` has them.
     """
-    way = Arclength(family, line, seed, size, tolerance)
-    here, step = way.begin(), FIRST
+    branch = Arclength(family, line, seed, size, tolerance)
+    here, step = branch.begin(), FIRST
     for _ in range(MOST_PLACES):
-        found = None if here is None else way.next(here, step)
+        found = None if here is None else branch.next(here, step)
         if here is None or found is None:
             break
         beyond, step = found
         if seed.way * beyond.tangent[-1] < 0.0:
-            place, value, within = way.turning(here, beyond)
-            return Rounded(True, value, within, place.point[:-1] * way.units[:-1])
+            point, value, within = branch.turning(here, beyond)
+            return Turn(True, value, within, point.point[:-1] * branch.units[:-1])
         if seed.way * (beyond.point[-1] - seed.value / size) > GONE_ON:
-            return Rounded(False, float(beyond.point[-1] * size), 0.0, beyond.point[:-1] * way.units[:-1])
+            return Turn(False, float(beyond.point[-1] * size), 0.0, beyond.point[:-1] * branch.units[:-1])
         here, step = beyond, step * GROWTH
     return None

@@ -11,20 +11,19 @@ Legs are generators that ask for what they need; what all legs ask for at a time
 """
 
 from collections.abc import Generator, Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from tribodyn.numerics.shapes import Array, Complex, Float
-from tribodyn.solve.branch.carried import carried
-from tribodyn.solve.branch.continued_family import Answer, Close, Request, Round, Settle, answered
-from tribodyn.solve.branch.end import CORNER, FOLD, NEAR_ZERO, BranchEnd, Seed, kind_of_end
-from tribodyn.solve.branch.family import Family
-from tribodyn.solve.orbit.result import FAILED, Orbit
+from tribodyn.solve.branch.family import CORNER, FOLD, NEAR_ZERO, BranchEnd, Seed, SystemFamily, kind_of_end
+from tribodyn.solve.branch.requests import Continue, Correct, FollowArc, Relax, Request, Result, fulfil
+from tribodyn.solve.orbit.motions import FAILED, Orbit
 
-#: Steps of the parameter, over its magnitude (`Leg.size`): the first of a leg, the largest, the largest where
-#: two complex multipliers are about to meet on the real axis, where an unstable range may be narrow, and that
-#: to which an end is located.
+#: Steps of the parameter, over its magnitude (`Leg.size`): the first of a leg, the largest, that where two
+#: complex multipliers are about to meet on the real axis, where an unstable range may be narrow, and that to
+#: which an end is located.
 FIRST, LARGEST, NARROW, LOCATED = 5e-3, 1e-2, 2.5e-3, 2e-5
 #: Distance beyond an end, over the parameter's magnitude, at which the system is marched on.
 NUDGE = 1e-3
@@ -39,6 +38,8 @@ MATTERS, MEETING = 0.8, 0.2
 SHARES = (0.5, 0.35, 0.65, 0.2, 0.8)
 #: Ends in one leg after which it is marched.
 MOST_ENDS = 8
+#: Values in every factor of two at which a motion without period is marched, and periods at each.
+VALUES, PERIODS = 256, 96
 
 
 class Leg(NamedTuple):
@@ -80,8 +81,8 @@ class Arrival(NamedTuple):
     ----------
     orbit : Orbit
         At the target.
-    carried : (N,)
-        State from which the next leg begins; of a motion without period the last one marched in between.
+    next_state : (N,)
+        From which the next leg begins; of a motion without period the last one marched in between.
     ends : tuple of BranchEnd
         Of the branches that were left on the way.
     seeds : tuple of Seed
@@ -89,42 +90,34 @@ class Arrival(NamedTuple):
     """
 
     orbit: Orbit
-    carried: Float[Array, " state"]
+    next_state: Float[Array, " state"]
     ends: tuple[BranchEnd, ...]
     seeds: tuple[Seed, ...] = ()
 
 
-_Asking = Generator[Request, Answer, Arrival]
+_Requests = Generator[Request, Result, Arrival]
 
 
 def follow(
-    family: Family, legs: Sequence[Leg], *, tolerance: float = 1e-7, max_periods: int = 2000
+    family: SystemFamily, legs: Sequence[Leg], *, tolerance: float = 1e-7, max_periods: int = 2000
 ) -> list[Arrival]:
-    """Go all legs, side by side.
-
-    Parameters
-    ----------
-    family : Family
-    legs : sequence of Leg
-    tolerance, max_periods
-        As `steady_orbit.find` has them.
-    """
+    """Go all legs, side by side; `tolerance` and `max_periods` are those of `search.find`."""
     arrivals: dict[int, Arrival] = {}
-    going: dict[int, _Asking] = {number: _go(leg) for number, leg in enumerate(legs)}
-    asked = {number: next(one) for number, one in going.items()}
+    going: dict[int, _Requests] = {number: _go(leg) for number, leg in enumerate(legs)}
+    requests = {number: next(steps) for number, steps in going.items()}
     while going:
         lines = {number: legs[number].line for number in going}
-        answers = answered(family, lines, asked, tolerance, max_periods)
-        for number, answer in answers.items():
+        results = fulfil(family, lines, requests, tolerance, max_periods)
+        for number, result in results.items():
             try:
-                asked[number] = going[number].send(answer)
+                requests[number] = going[number].send(result)
             except StopIteration as stop:
                 arrivals[number] = stop.value
-                del going[number], asked[number]
+                del going[number], requests[number]
     return [arrivals[number] for number in range(len(legs))]
 
 
-class _Place(NamedTuple):
+class _Motion(NamedTuple):
     """A motion at a value of the parameter; without an orbit only its state and period are known."""
 
     value: float
@@ -132,25 +125,28 @@ class _Place(NamedTuple):
     period: int
     orbit: Orbit | None = None
 
+    @classmethod
+    def of(cls, value: float, orbit: Orbit) -> "_Motion":
+        return cls(value, orbit.state, orbit.period, orbit)
 
-class _Left(NamedTuple):
-    """The last place of a branch, the end behind it, from where it goes on, and the state to march from."""
 
-    place: _Place
+class _Exit(NamedTuple):
+    """The end of a branch, from where it goes on, and the state to march from."""
+
     end: BranchEnd
     seed: Seed
     state: Float[Array, " state"]
 
 
-def _go(leg: Leg) -> _Asking:
+def _go(leg: Leg) -> _Requests:
     """One leg."""
-    here = _Place(leg.start, leg.state, leg.period)
+    here = _Motion(leg.start, leg.state, leg.period)
     ends: list[BranchEnd] = []
     seeds: list[Seed] = []
     way = np.sign(leg.target - leg.start)
     while here.period and here.value != leg.target and len(ends) < MOST_ENDS and np.isfinite(leg.finest):
         outcome = yield from _along(here, leg)
-        if isinstance(outcome, _Place):
+        if isinstance(outcome, _Motion):
             here = outcome
             break
         if np.sign(leg.target - here.value) != way:  # back from beyond an end: the branch begins behind it
@@ -162,25 +158,43 @@ def _go(leg: Leg) -> _Asking:
             here = here._replace(state=outcome.state, period=0)
             break
         value = outcome.end.value + way * NUDGE * leg.size(outcome.end.value)
-        orbit, *_ = yield Settle(value, outcome.state)
-        here = _Place(value, orbit.last, orbit.period, orbit)
+        orbit, *_ = yield Relax(value, outcome.state)
+        here = _Motion(value, orbit.last, orbit.period, orbit)
         if orbit.kind == FAILED:
-            here = _Place(outcome.end.value, outcome.state, 0)
+            here = _Motion(outcome.end.value, outcome.state, 0)
     if here.orbit is not None and here.value == leg.target:
         return Arrival(here.orbit, here.orbit.state, tuple(ends), tuple(seeds))
     state = here.state
     if not here.period and not leg.finest:
-        state = yield from carried(state, here.value, leg.target)
-    orbit, *_ = yield Settle(leg.target, state)
+        for value in between(here.value, leg.target):
+            orbit, *_ = yield Continue(value, state, PERIODS)
+            if orbit.kind == FAILED:
+                break
+            state = orbit.last
+    orbit, *_ = yield Relax(leg.target, state)
     return Arrival(orbit, orbit.state if orbit.period else state, tuple(ends), tuple(seeds))
 
 
-def _along(here: _Place, leg: Leg) -> Generator[Request, Answer, "_Place | _Left"]:
+def between(start: float, target: float) -> list[float]:
+    """Values between two, the same whatever these are: `VALUES` in every factor of two, in order of going."""
+    if start == target or start * target <= 0.0:
+        return []
+    values: list[float] = []
+    low, high = sorted((start, target))
+    exponent = int(np.floor(np.log2(min(abs(start), abs(target)))))
+    while 2.0**exponent <= max(abs(start), abs(target)):
+        octave = np.sign(start) * 2.0**exponent * (1.0 + np.arange(VALUES) / VALUES)
+        values += octave[(low < octave) & (octave < high)].tolist()
+        exponent += 1
+    return sorted(values, reverse=bool(target < start))
+
+
+def _along(here: _Motion, leg: Leg) -> Generator[Request, Result, "_Motion | _Exit"]:
     """Follow a branch to the target, or to its end."""
     target, finest = leg.target, leg.finest
     way = float(np.sign(target - here.value))
-    before: _Place | None = None
-    beyond: tuple[float, Orbit] | None = None
+    before: _Motion | None = None
+    beyond: _Motion | None = None
     step = abs(target - here.value) if finest else FIRST * leg.size(here.value)
     good = missed = 0
     while here.value != target:
@@ -188,24 +202,24 @@ def _along(here: _Place, leg: Leg) -> Generator[Request, Answer, "_Place | _Left
         least = max(LOCATED * size, finest)
         room = abs(target - here.value)
         if beyond is not None:
-            room = abs(beyond[0] - here.value)
+            room = abs(beyond.value - here.value)
             if room <= least or missed == len(SHARES):
                 break
             step = room * SHARES[missed]
         trial = target if beyond is None and step >= 0.99 * room else here.value + way * min(step, room)
-        other = before if beyond is None or beyond[1].period < here.period else _place(*beyond)
-        orbit, scale, _ = yield Close(trial, _guess(other, here, trial), here.period)
+        other = before if beyond is None or beyond.period < here.period else beyond
+        orbit, scale, _ = yield Correct(trial, _guess(other, here, trial), here.period)
         if orbit.period and not _comparable(here, orbit, scale, abs(trial - here.value) / size):
-            orbit = orbit._replace(kind=FAILED, period=0)
+            orbit = replace(orbit, kind=FAILED, period=0)
         if orbit.period == here.period and orbit.stable:
-            before, here = here, _Place(trial, orbit.state, orbit.period, orbit)
+            before, here = here, _Motion.of(trial, orbit)
             good, missed = good + 1, 0
             step *= 2.0 if good > 1 else 1.0
             step = min(step, max(LARGEST * size, finest))
             continue
         good = 0
         if orbit.period:
-            beyond, missed = (trial, orbit), 0
+            beyond, missed = _Motion.of(trial, orbit), 0
             continue
         if beyond is not None:
             missed += 1
@@ -219,56 +233,54 @@ def _along(here: _Place, leg: Leg) -> Generator[Request, Answer, "_Place | _Left
         if on.orbit.stable:
             before, here, step = here, on, FIRST * size
         else:
-            beyond = on.value, on.orbit
+            beyond = on
     if here.value == target:
         return here
-    return (yield from _left(here, beyond, leg))
+    return (yield from _exit(here, beyond, leg))
 
 
-def _round(here: _Place, leg: Leg) -> Request:
-    """Ask how a branch goes on behind a place by its arclength."""
+def _follow_arc(here: _Motion, leg: Leg) -> FollowArc:
     way = float(np.sign(leg.target - here.value))
-    return Round(here.value, here.state, here.period, way, leg.size(here.value))
+    return FollowArc(here.value, here.state, here.period, way, leg.size(here.value))
 
 
-def _gone_on(here: _Place, leg: Leg) -> Generator[Request, Answer, _Place | None]:
+def _gone_on(here: _Motion, leg: Leg) -> Generator[Request, Result, _Motion | None]:
     """A place behind one behind which nothing was found; None where the branch ends."""
     if leg.finest:
         return None
-    turn = (yield _round(here, leg)).rounded
+    turn = (yield _follow_arc(here, leg)).turn
     if turn is None or turn.folded or np.sign(leg.target - turn.value) != np.sign(leg.target - here.value):
         return None
-    orbit, *_ = yield Close(turn.value, turn.state, here.period)
-    return _place(turn.value, orbit) if orbit.period == here.period else None
+    orbit, *_ = yield Correct(turn.value, turn.state, here.period)
+    return _Motion.of(turn.value, orbit) if orbit.period == here.period else None
 
 
-def _left(here: _Place, beyond: tuple[float, Orbit] | None, leg: Leg) -> Generator[Request, Answer, _Left]:
+def _exit(here: _Motion, beyond: _Motion | None, leg: Leg) -> Generator[Request, Result, _Exit]:
     """The end behind the last place of a branch, and what was found beyond it."""
     way = float(np.sign(leg.target - here.value))
-    known = here.orbit
-    if known is None:  # the branch ends at once
-        known, *_ = yield Close(here.value, here.state, here.period)
-    behind = beyond[0] if beyond else here.value + way * max(LOCATED * leg.size(here.value), leg.finest)
-    merged = beyond is not None and beyond[1].period < here.period
-    multipliers = None if beyond is None or merged else beyond[1].multipliers
-    kind = kind_of_end(known.multipliers, multipliers, merged)
-    value, within = 0.5 * (here.value + behind), abs(behind - here.value)
+    last = here.orbit
+    if last is None:  # the branch ends at once
+        last, *_ = yield Correct(here.value, here.state, here.period)
+    value = beyond.value if beyond else here.value + way * max(LOCATED * leg.size(here.value), leg.finest)
+    seed, multipliers, state = Seed(here.value, here.state, here.period, way), None, here.state
+    merged = False
+    if beyond is not None and beyond.orbit is not None:
+        state, merged = beyond.state, beyond.period < here.period
+        if merged:
+            seed = Seed(beyond.value, beyond.state, beyond.period, -way)
+        else:
+            multipliers = beyond.orbit.multipliers
+    kind = kind_of_end(last.multipliers, multipliers, merged)
+    value, within = 0.5 * (here.value + value), abs(value - here.value)
     if kind in (FOLD, CORNER) and not leg.finest:
-        turn = (yield _round(here, leg)).rounded
+        turn = (yield _follow_arc(here, leg)).turn
         if turn is not None and turn.folded:
             kind, value, within = FOLD, turn.value, turn.within
-    end = BranchEnd(kind, value, within, here.period, complex(known.multipliers[0]))
-    seed = Seed(here.value, here.state, here.period, way)
-    if beyond is not None and merged:
-        seed = Seed(beyond[0], beyond[1].state, beyond[1].period, -way)
-    return _Left(here, end, seed, here.state if beyond is None else beyond[1].state)
+    end = BranchEnd(kind, value, within, here.period, complex(last.multipliers[0]))
+    return _Exit(end, seed, state)
 
 
-def _place(value: float, orbit: Orbit) -> _Place:
-    return _Place(value, orbit.state, orbit.period, orbit)
-
-
-def _guess(other: _Place | None, here: _Place, value: float) -> Float[Array, " state"]:
+def _guess(other: _Motion | None, here: _Motion, value: float) -> Float[Array, " state"]:
     """The state at a value, by a straight line through a place and another, the last or one beyond."""
     if other is None:
         return here.state
@@ -276,7 +288,7 @@ def _guess(other: _Place | None, here: _Place, value: float) -> Float[Array, " s
     return here.state + min(share, 2.0) * (here.state - other.state)
 
 
-def _comparable(here: _Place, orbit: Orbit, scale: Float[Array, " state"], step: float) -> bool:
+def _comparable(here: _Motion, orbit: Orbit, scale: Float[Array, " state"], step: float) -> bool:
     """Whether a motion a step farther, over the parameter's magnitude, is surely of the same branch.
 
     It is near, and no multiplier may have left the unit circle and come back in between.
@@ -290,8 +302,8 @@ def _comparable(here: _Place, orbit: Orbit, scale: Float[Array, " state"], step:
         return False
     if here.orbit is None or step <= LOCATED or orbit.period != here.period:
         return True
-    mattering = [one for one in here.orbit.multipliers if abs(one) > MATTERS]
-    return all(np.min(np.abs(orbit.multipliers - one)) <= TURNED for one in mattering)
+    mattering = [multiplier for multiplier in here.orbit.multipliers if abs(multiplier) > MATTERS]
+    return all(np.min(np.abs(orbit.multipliers - before)) <= TURNED for before in mattering)
 
 
 def _meeting(multipliers: Complex[Array, " state"]) -> bool:

@@ -6,10 +6,25 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.numerics.shapes import Array, Complex, Float
-from tribodyn.solve.branch.arclength import FIRST, GROWTH, LOCATED, MOST_PLACES, SMALLEST, Arclength, Place
-from tribodyn.solve.branch.end import FOLD, MERGING, NEAR_ZERO, BranchEnd, Seed, kind_of_end
-from tribodyn.solve.branch.family import Family
-from tribodyn.solve.orbit.result import UNSTABLE, Orbit
+from tribodyn.solve.branch.arclength import (
+    FIRST,
+    GROWTH,
+    LOCATED,
+    MOST_PLACES,
+    SMALLEST,
+    Arclength,
+    BranchPoint,
+)
+from tribodyn.solve.branch.family import (
+    FOLD,
+    MERGING,
+    NEAR_ZERO,
+    BranchEnd,
+    Seed,
+    SystemFamily,
+    kind_of_end,
+)
+from tribodyn.solve.orbit.motions import UNSTABLE, Orbit
 
 #: Places on a branch at most.
 MOST = 600
@@ -26,11 +41,8 @@ class UnstableBranch(NamedTuple):
         Periods of the excitation in one of the motion.
     values : (P,)
         Of the parameter.
-    states : (P, N)
-    multipliers : (P, N) complex
-        Largest first.
-    residuals : (P,)
-        Scaled change over a period of the motion.
+    orbits : list of Orbit
+        The motions.
     finish : BranchEnd or None
         Where it becomes stable again, or merges with a motion of fewer periods; None: it goes on beyond the
         range, or cannot be followed farther.
@@ -38,34 +50,28 @@ class UnstableBranch(NamedTuple):
 
     period: int
     values: Float[Array, " point"]
-    states: Float[Array, "point state"]
-    multipliers: Complex[Array, "point state"]
-    residuals: Float[Array, " point"]
+    orbits: list[Orbit]
     finish: BranchEnd | None
+
+    @property
+    def states(self) -> Float[Array, "point state"]:
+        """States of the motions."""
+        return np.array([orbit.state for orbit in self.orbits])
+
+    @property
+    def multipliers(self) -> Complex[Array, "point state"]:
+        """Their multipliers, largest first."""
+        return np.array([orbit.multipliers for orbit in self.orbits])
 
     def thinned(self, most: int) -> "UnstableBranch":
         """At most so many of the motions, the first and the last among them."""
         count = len(self.values)
         kept = np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))
-        return self._replace(
-            values=self.values[kept],
-            states=self.states[kept],
-            multipliers=self.multipliers[kept],
-            residuals=self.residuals[kept],
-        )
-
-    def orbits(self) -> list[Orbit]:
-        """The motions, as the search for stable ones gives them."""
-        return [
-            Orbit(state, state, self.period, float(residual), multipliers, False, UNSTABLE, "shooting", 0, "")
-            for state, multipliers, residual in zip(
-                self.states, self.multipliers, self.residuals, strict=True
-            )
-        ]
+        return self._replace(values=self.values[kept], orbits=[self.orbits[place] for place in kept])
 
 
 def unstable_branches(
-    family: Family,
+    family: SystemFamily,
     line: int,
     seeds: Sequence[Seed],
     span: tuple[float, float],
@@ -74,18 +80,8 @@ def unstable_branches(
 ) -> list[UnstableBranch | None]:
     """The unstable motions beyond the ends of stable branches, within a range of the parameter.
 
-    None where there are none that can be followed.
-
-    Parameters
-    ----------
-    family : Family
-    line : int
-        Which of its lines.
-    seeds : sequence of Seed
-    span : (lowest, highest)
-        Range of the parameter.
-    tolerance : float
-        Maximum scaled change over a period of the motion.
+    None where there are none that can be followed. Parameters are those of `arclength.Arclength`, and the
+    span (lowest, highest) of the parameter.
     """
     reach = max(map(abs, span))
     found = []
@@ -99,7 +95,7 @@ def _followed(way: Arclength, span: tuple[float, float]) -> UnstableBranch | Non
     """The unstable part within a range of the parameter; None where there is none."""
     seed = way.seed
     here = way.begin()
-    step, places, count = FIRST, list[Place](), 0
+    step, places, count = FIRST, list[BranchPoint](), 0
     finish = None
     while here is not None and count < MOST and not (count > MOST_PLACES and not places):
         found = way.next(here, step)
@@ -120,13 +116,20 @@ def _followed(way: Arclength, span: tuple[float, float]) -> UnstableBranch | Non
         here, step = beyond, step * GROWTH
     if not places:
         return None
-    points = np.array([one.point for one in places]) * way.units
-    multipliers = np.array([one.multipliers for one in places])
-    residuals = way.extent * np.array([one.residual for one in places])
-    return UnstableBranch(seed.period, points[:, -1], points[:, :-1], multipliers, residuals, finish)
+    values = np.array([place.point[-1] for place in places]) * way.units[-1]
+    return UnstableBranch(seed.period, values, [_orbit(way, place) for place in places], finish)
 
 
-def _at_border(way: Arclength, here: Place, beyond: Place, span: tuple[float, float]) -> Place | None:
+def _orbit(way: Arclength, place: BranchPoint) -> Orbit:
+    state, residual = place.point[:-1] * way.units[:-1], way.extent * place.residual
+    return Orbit(
+        state, state, way.seed.period, residual, place.multipliers, False, UNSTABLE, "shooting", 0, ""
+    )
+
+
+def _at_border(
+    way: Arclength, here: BranchPoint, beyond: BranchPoint, span: tuple[float, float]
+) -> BranchPoint | None:
     """The place at the border of the range, between one inside and one outside."""
     borders = np.array(span) / way.units[-1]
     border = borders[int(beyond.point[-1] > borders[1])]
@@ -136,11 +139,11 @@ def _at_border(way: Arclength, here: Place, beyond: Place, span: tuple[float, fl
     return way.met(here.point + share * (beyond.point - here.point), along, here.tangent)
 
 
-def _inside(way: Arclength, place: Place, span: tuple[float, float]) -> bool:
+def _inside(way: Arclength, place: BranchPoint, span: tuple[float, float]) -> bool:
     return span[0] <= place.point[-1] * way.units[-1] <= span[1]
 
 
-def _finish(way: Arclength, last: Place, beyond: Place, merged: bool) -> BranchEnd:
+def _finish(way: Arclength, last: BranchPoint, beyond: BranchPoint, merged: bool) -> BranchEnd:
     """Where the branch becomes stable, or merges, between two of its places."""
     period, multiplier = way.seed.period, complex(last.multipliers[0])
     if not merged and last.tangent[-1] * beyond.tangent[-1] < 0.0:
@@ -157,12 +160,12 @@ def _finish(way: Arclength, last: Place, beyond: Place, merged: bool) -> BranchE
         else:
             last = middle
     kind = MERGING if merged else kind_of_end(beyond.multipliers, last.multipliers, False)
-    value, behind = (float(one.point[-1] * way.units[-1]) for one in (last, beyond))
+    value, behind = (float(place.point[-1] * way.units[-1]) for place in (last, beyond))
     return BranchEnd(kind, 0.5 * (value + behind), abs(value - behind), period, multiplier)
 
 
-def _merged(one: Place, other: Place) -> bool:
+def _merged(last: BranchPoint, place: BranchPoint) -> bool:
     """Whether a motion's halves become equal, or have changed places, so that they were equal in between."""
-    if one.halves is None or other.halves is None:
+    if last.halves is None or place.halves is None:
         return False
-    return float(one.halves @ other.halves) < 0.0 or float(np.max(np.abs(other.halves))) <= MERGED
+    return float(last.halves @ place.halves) < 0.0 or float(np.max(np.abs(place.halves))) <= MERGED

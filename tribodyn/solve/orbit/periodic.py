@@ -1,23 +1,20 @@
-"""Periodic steady states of gear pairs: fixed points of `gear_map.GearMap`, from `steady_orbit.find`."""
+"""Periodic steady states of gear pairs: fixed points of `gear_map.GearMap`, from `search.find`."""
 
 from collections.abc import Callable, Sequence
-from typing import Any, NamedTuple
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from tribodyn.dynamics.extremes import Extremes, extremes_of
-from tribodyn.dynamics.parameters import (
-    DRIVE_SPEED,
-    STATES,
-    Model,
-)
+from tribodyn.dynamics.parameters import DRIVE_SPEED, STATES, Model
 from tribodyn.errors import InputError, SimulationError
-from tribodyn.numerics.shapes import Array, Complex, Float
+from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.integrator import MAX_STEPS
 from tribodyn.solve.orbit.gear_map import GearMap, moving_states
-from tribodyn.solve.orbit.result import FAILED, Orbit
-from tribodyn.solve.orbit.steady_orbit import Method, find
+from tribodyn.solve.orbit.motions import FAILED, Orbit, failed_orbit
+from tribodyn.solve.orbit.search import Method, find
 
 #: The integration's relative tolerance for a fixed point, as a share of the residual required: a map that
 #: carries more noise than a tenth of the residual does not reach it.
@@ -30,32 +27,16 @@ NOISE, ONCE_MORE = 1e-5, 120
 WANDERING = 16
 
 
-class Steady(NamedTuple):
-    """The steady motion of one gear pair: state, samples and end are of the motion that `kind` names.
+@dataclass(frozen=True)
+class SteadyMotion(Orbit):
+    """The steady motion of one gear pair: an orbit, of all states, and its samples.
+
+    Its states stand at phase 0 after engagement, with lag and works zero; its multipliers leave the rigid
+    rotation out, and displacements are measured by the static deflection, velocities by that times the mesh's
+    natural frequency.
 
     Attributes
     ----------
-    state : (STATES,)
-        At phase 0 after engagement; lag and works zero.
-    last : (STATES,)
-        Where marching ended, likewise: the place to start a neighbouring case from.
-    period : int
-        Mesh cycles in one period of the motion; 0 where it has none.
-    residual : float
-        Maximum change of the mechanical state over one period, each over its scale: displacements over the
-        static deflection, velocities over that times the mesh's natural frequency.
-    multipliers : (N,) complex
-        Floquet multipliers over one period of the motion, largest first, without the rigid rotation; NaN
-        where it has none.
-    stable : bool
-        Whether the motion is periodic and stable.
-    kind : str
-        "period-1" … "period-8"; "longer period"; "quasi-periodic", "chaotic", or "not periodic" where it is
-        undecided which; "failed"; "unstable" only with `method="shooting"`.
-    method : str
-        "marching" or "shooting".
-    cycles : int
-        Mesh cycles marched before the state was found or given up.
     samples : (cycles · samples, STATES)
         Over one period of the motion, works counted from its start; over `WANDERING` mesh cycles of a motion
         without period.
@@ -63,22 +44,11 @@ class Steady(NamedTuple):
         At the end of the samples, before the next engagement: the works and the lag of whole mesh cycles.
     extremes : Extremes or None
         Of the dense motion over those cycles; None where it failed.
-    message : str
     """
 
-    state: Float[Array, " state"]
-    last: Float[Array, " state"]
-    period: int
-    residual: float
-    multipliers: Complex[Array, " multiplier"]
-    stable: bool
-    kind: str
-    method: str
-    cycles: int
     samples: Float[Array, "sample state"]
     end: Float[Array, " state"]
     extremes: Extremes | None
-    message: str
 
 
 def steady_states(
@@ -94,7 +64,7 @@ def steady_states(
     max_steps: int = MAX_STEPS,
     workers: int | None = None,
     progress: Callable[[float], None] | None = None,
-) -> list[Steady]:
+) -> list[SteadyMotion]:
     """Find the periodic steady states of many gear pairs.
 
     Parameters
@@ -113,7 +83,7 @@ def steady_states(
     max_cycles : int
         Mesh cycles to march before giving up.
     method : {"auto", "marching", "shooting"}
-        See `steady_orbit.find`.
+        See `search.find`.
     solver : str
         Integration method, as `solver.method` of a scenario.
     max_steps : int
@@ -128,37 +98,36 @@ def steady_states(
     InputError
         For a load that varies in time otherwise than with the mesh.
     """
-    steadies: list[Steady | None] = [None] * len(models)
     for model in models:
         refuse_time_dependent(model)
-    starts: dict[int, Float[Array, " state"]] = {}
+    motions: dict[int, SteadyMotion] = {}
+    groups: dict[tuple[int, ...], dict[int, Float[Array, " state"]]] = {}
     for case, model in enumerate(models):
         try:
-            given = static_equilibrium(model) if states is None else states[case]
-            starts[case] = np.asarray(given, dtype=float)
+            start = static_equilibrium(model) if states is None else states[case]
+            groups.setdefault(moving_states(model), {})[case] = np.asarray(start, dtype=float)
         except SimulationError as error:
-            steadies[case] = _without_state(np.zeros(STATES), error.reason)
-    groups: dict[tuple[int, ...], list[int]] = {}
-    for case in starts:
-        groups.setdefault(moving_states(models[case]), []).append(case)
-    for moving, cases in groups.items():
-        settings: dict[str, Any] = {"solver": solver, "max_steps": max_steps, "workers": workers}
-        begin = np.array([starts[case] for case in cases])
-        rtols = {"rtol": rtol, "fine_rtol": FINE * tolerance}
-        period_map = GearMap([models[case] for case in cases], begin, moving, **rtols, **settings)
-        limits: dict[str, Any] = {"tolerance": tolerance, "max_periods": max_cycles, "method": method}
+            motions[case] = _failed(np.zeros(STATES), error.reason)
+    settings: dict[str, Any] = {"solver": solver, "max_steps": max_steps, "workers": workers}
+    rtols = {"rtol": rtol, "fine_rtol": FINE * tolerance}
+    limits: dict[str, Any] = {"tolerance": tolerance, "max_periods": max_cycles, "method": method}
+    for moving, starts in groups.items():
+        begin = np.array(list(starts.values()))
+        period_map = GearMap([models[case] for case in starts], begin, moving, **rtols, **settings)
         orbits = find(period_map, begin[:, list(moving)], progress=progress, **limits)
         if method == "auto":
-            _once_more(period_map, orbits, tolerance, settings)
-        for case, steady in zip(cases, sampled(period_map, orbits, samples), strict=True):
-            steadies[case] = steady
-    return [steady for steady in steadies if steady is not None]
+            _search_finely(period_map, orbits, tolerance, settings)
+        motions |= zip(starts, sampled(period_map, orbits, samples), strict=True)
+    return [motions[case] for case in range(len(models))]
 
 
-def _once_more(before: "GearMap", orbits: list[Orbit], tolerance: float, settings: dict[str, Any]) -> None:
-    """Seek from where marching ended, more finely, what all but repeated."""
-    wandering = [i for i, one in enumerate(orbits) if not one.period and one.kind != FAILED]
-    noisy = [i for i in wandering if orbits[i].residual <= NOISE]
+def _search_finely(before: GearMap, orbits: list[Orbit], tolerance: float, settings: dict[str, Any]) -> None:
+    """Seek once more, from where marching ended and more finely, what all but repeated."""
+    noisy = [
+        i
+        for i, orbit in enumerate(orbits)
+        if not orbit.period and orbit.kind != FAILED and orbit.residual <= NOISE
+    ]
     if not noisy:
         return
     models, begin = [before.models[i] for i in noisy], np.array([orbits[i].last for i in noisy])
@@ -167,7 +136,7 @@ def _once_more(before: "GearMap", orbits: list[Orbit], tolerance: float, setting
     finer = find(finest, begin, tolerance=tolerance, max_periods=ONCE_MORE)
     for i, orbit in zip(noisy, finer, strict=True):
         if orbit.period and orbit.stable:
-            orbits[i] = orbit._replace(marched=orbits[i].marched + orbit.marched)
+            orbits[i] = replace(orbit, cycles=orbits[i].cycles + orbit.cycles)
 
 
 def refuse_time_dependent(model: Model) -> None:
@@ -198,40 +167,29 @@ def refuse_time_dependent(model: Model) -> None:
             )
 
 
-def sampled(period_map: GearMap, orbits: list[Orbit], samples: int) -> list[Steady]:
+def sampled(period_map: GearMap, orbits: list[Orbit], samples: int) -> list[SteadyMotion]:
     """Each orbit with its samples, marched once more over its period, or over some mesh cycles without."""
-    sampled: dict[int, tuple[Float[Array, "sample state"], Float[Array, " state"], str, Extremes | None]] = {}
     cycles = [0 if orbit.kind == FAILED else orbit.period or WANDERING for orbit in orbits]
-    for period in sorted({*cycles} - {0}):
-        cases = np.array([case for case, count in enumerate(cycles) if count == period])
-        states = period_map.full(np.array([orbits[case].state for case in cases]))
-        *batch, extremes = period_map.integrate(states, cases, period, samples, True, extremes=True)
-        rows = zip(*batch, (extremes_of(extremes, row) for row in range(len(cases))), strict=True)
-        sampled |= {int(case): row for case, row in zip(cases, rows, strict=True)}
-    steadies = []
+    motions: dict[int, SteadyMotion] = {}
     for case, orbit in enumerate(orbits):
         state, last = period_map.full(np.array([orbit.state, orbit.last]))
-        window, end, reason, extremes = sampled.get(case, (np.empty((0, STATES)), state, "", None))
-        steady = Steady(
-            state,
-            last,
-            orbit.period,
-            orbit.residual,
-            orbit.multipliers,
-            orbit.stable,
-            orbit.kind,
-            orbit.method,
-            orbit.marched,
-            window,
-            end,
-            extremes,
-            orbit.message,
+        whole = vars(orbit) | {"state": state, "last": last}
+        motions[case] = SteadyMotion(**whole, samples=np.empty((0, STATES)), end=state, extremes=None)
+    for period in sorted({*cycles} - {0}):
+        cases = np.flatnonzero(np.array(cycles) == period)
+        states = np.array([motions[case].state for case in cases.tolist()])
+        window, end, reasons, extremes = period_map.integrate(
+            states, cases, period, samples, True, extremes=True
         )
-        steadies.append(_without_state(state, reason) if reason else steady)
-    return steadies
+        for row, case in enumerate(cases.tolist()):
+            if reasons[row]:
+                motions[case] = _failed(states[row], reasons[row])
+                continue
+            found = extremes_of(extremes, row)
+            motions[case] = replace(motions[case], samples=window[row], end=end[row], extremes=found)
+    return [motions[case] for case in range(len(orbits))]
 
 
-def _without_state(state: Float[Array, " state"], reason: str) -> Steady:
-    nothing = np.empty(0, dtype=complex)
-    empty = np.empty((0, STATES))
-    return Steady(state, state, 0, np.inf, nothing, False, FAILED, "marching", 0, empty, state, None, reason)
+def _failed(state: Float[Array, " state"], reason: str) -> SteadyMotion:
+    orbit = failed_orbit(state, 0, reason)
+    return SteadyMotion(**vars(orbit), samples=np.empty((0, STATES)), end=state, extremes=None)

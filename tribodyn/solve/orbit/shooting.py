@@ -1,10 +1,11 @@
-"""Shooting: Newton's method on x − Pⁿ(x) = 0 for many systems at once, and the Floquet multipliers there."""
+"""Shooting: Newton's method on x − Pⁿ(x) = 0 for many systems at once, and the orbit that it closes."""
 
 from typing import NamedTuple
 
 import numpy as np
 
 from tribodyn.numerics.shapes import Array, Complex, Float, Int
+from tribodyn.solve.orbit.motions import UNSTABLE, Orbit, periodic
 from tribodyn.solve.orbit.period_map import PeriodMap
 
 #: Halvings of a Newton step before shooting gives up, and the smallest relative decrease that it must bring.
@@ -12,6 +13,10 @@ HALVINGS = 7
 DECREASE = 1e-3
 #: A derivative serves the next step too where the last one brought the residual down to this share.
 WELL_DOWN = 0.1
+#: Distance of a multiplier's modulus from 1 within which a state counts as neutral.
+NEUTRAL = 1e-6
+#: Distance over the scale, about the third root of the smallest tolerance, at which motions may have merged.
+MERGED = 1e-3
 
 
 class Shot(NamedTuple):
@@ -197,3 +202,64 @@ def eigenvalues(jacobian: Float[Array, "state state"]) -> Complex[Array, " state
         return np.full(len(jacobian), np.nan, dtype=complex)
     values = np.asarray(np.linalg.eigvals(jacobian), dtype=complex)
     return values[np.lexsort((-np.imag(values), -np.round(np.abs(values), 12)))]
+
+
+def closed_orbit(
+    period_map: PeriodMap, shot: Shot, case: int, period: int, cycles: int, tolerance: float
+) -> Orbit:
+    """The orbit of a converged shot over some periods: its shortest period and its stability.
+
+    Parameters
+    ----------
+    period_map, shot, case
+        The shot and its system.
+    period, cycles : int
+        Periods of the excitation that the shot closes over, and those marched before.
+    tolerance : float
+        Of the shot.
+    """
+    for n in range(1, period):
+        if period % n == 0:
+            again = _over_fewer(period_map, shot, case, n, tolerance)
+            if again is not None:
+                shot, period = again._replace(steps=again.steps + shot.steps), n
+                break
+    modulus = float(np.abs(shot.multipliers[0]))
+    stable = modulus <= 1.0 + NEUTRAL
+    message = "" if stable else f"an unstable state of period {period}: {way_out(shot.multipliers)}"
+    if stable and modulus >= 1.0 - NEUTRAL:
+        message = "neutral: a multiplier of modulus 1, neighbouring states neither return nor leave"
+    kind, method = periodic(period) if stable else UNSTABLE, "shooting" if shot.steps else "marching"
+    state, residual, multipliers = shot.state, shot.residual, shot.multipliers
+    return Orbit(state, state, period, residual, multipliers, stable, kind, method, cycles, message)
+
+
+def _over_fewer(period_map: PeriodMap, shot: Shot, case: int, periods: int, tolerance: float) -> Shot | None:
+    """The shot over fewer periods, where the motion has no more.
+
+    It has no more where it comes back to within a hundred times the tolerance; and where it nearly does and
+    the motion of fewer periods is there and stable: where two merge, the residual falls with the third power
+    of the distance and tells them apart no better, but then only one of them is stable.
+    """
+    scale = period_map.scale[case]
+    end = period_map.march(shot.state[None], np.array([case]), periods, True).states[0, -1]
+    off = np.max(np.abs(end - shot.state) / scale)
+    if not off <= MERGED:
+        return None
+    again = shoot(period_map, shot.state[None], np.array([case]), periods, tolerance)[0]
+    away = np.max(np.abs(again.state - shot.state) / scale)
+    if again.reason or away > MERGED:
+        return None
+    stable = np.abs(again.multipliers[0]) <= 1.0 + NEUTRAL
+    return again if stable or off <= 100.0 * tolerance else None
+
+
+def way_out(multipliers: Complex[Array, " state"]) -> str:
+    """In words, how a state with these multipliers, the largest first, is left."""
+    largest = multipliers[0]
+    modulus = f"largest multiplier {abs(largest):.4g}"
+    if abs(largest.imag) > 1e-6 * abs(largest):
+        return f"{modulus} at ±{np.degrees(abs(np.angle(largest))):.0f}°, left by a second frequency"
+    if largest.real < 0.0:
+        return f"{modulus}, negative: left towards twice the period"
+    return f"{modulus}, positive: left towards another state"

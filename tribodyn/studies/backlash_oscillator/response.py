@@ -7,10 +7,10 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.solve.branch.continuation import Arrival, Leg, follow
-from tribodyn.solve.branch.end import BranchEnd
+from tribodyn.solve.branch.family import BranchEnd
 from tribodyn.solve.branch.unstable import unstable_branches
-from tribodyn.solve.orbit import result as orbit
-from tribodyn.solve.orbit.result import Orbit
+from tribodyn.solve.orbit import motions as orbit
+from tribodyn.solve.orbit.motions import Orbit
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.motion import (
     BACK,
@@ -141,14 +141,14 @@ def frequency_response(
                 _go_on(response, family, direction, arrival)
             response.ends.extend((direction, end) for end in arrival.ends)
             failed = found.kind == orbit.FAILED
-            at[direction] = None if failed else (legs[direction].target, arrival.carried, found.period)
+            at[direction] = None if failed else (legs[direction].target, arrival.next_state, found.period)
         if progress:
             progress((step + 1) / count)
     return response
 
 
 class _Oscillators:
-    """The oscillator over its frequency, as `continued_family.Family`."""
+    """The oscillator over its frequency, as `family.SystemFamily`."""
 
     def __init__(self, case: BacklashOscillatorCase):
         self.case = case

@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from tribodyn.numerics.variable import Variable
-from tribodyn.solve.branch.end import KINDS
+from tribodyn.solve.branch.family import KINDS
 from tribodyn.solve.branch.unstable import UnstableBranch
 from tribodyn.studies.backlash_oscillator.motion import (
     FREE,
@@ -95,13 +95,13 @@ def rows_of(beyond: Beyond) -> list[dict[str, Any]]:
             "unstable_rms_displacement": beyond.rms[i],
             "unstable_peak_to_peak_displacement": beyond.peak_to_peak[i],
             "unstable_contact_loss_fraction": beyond.free[i],
-            "unstable_multiplier_modulus": abs(branch.multipliers[i, 0]),
-            "unstable_multiplier_angle": np.angle(branch.multipliers[i, 0]),
-            "unstable_residual": branch.residuals[i],
-            "unstable_section_displacement": branch.states[i, 0],
-            "unstable_section_velocity": branch.states[i, 1],
+            "unstable_multiplier_modulus": abs(orbit.multipliers[0]),
+            "unstable_multiplier_angle": np.angle(orbit.multipliers[0]),
+            "unstable_residual": orbit.residual,
+            "unstable_section_displacement": orbit.state[0],
+            "unstable_section_velocity": orbit.state[1],
         }
-        for i in range(len(branch.values))
+        for i, orbit in enumerate(branch.orbits)
     ]
 
 

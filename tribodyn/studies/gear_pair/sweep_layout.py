@@ -6,7 +6,7 @@ import numpy as np
 
 from tribodyn.numerics.variable import Variable, flag
 from tribodyn.record.sweep_schema import OF_EVERY_SWEEP, WORD, SweepLayout
-from tribodyn.solve.orbit.recurrence import MAX_PERIOD
+from tribodyn.solve.orbit.motions import MAX_PERIOD
 from tribodyn.studies.gears.temperature import THERMAL_FIGURES
 from tribodyn.studies.protocol.estimate import variable_bytes
 from tribodyn.studies.sweeping import ends, unstable

@@ -7,7 +7,7 @@ import numpy as np
 
 from tribodyn.numerics.variable import Variable, flag
 from tribodyn.record.sweep_schema import FIRST_PARAMETER
-from tribodyn.solve.branch.end import KINDS, BranchEnd
+from tribodyn.solve.branch.family import KINDS, BranchEnd
 
 #: Ends that are kept of each case: those between its neighbour and it.
 ENDS = 4

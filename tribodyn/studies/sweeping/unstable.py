@@ -6,7 +6,7 @@ import numpy as np
 
 from tribodyn.numerics.variable import Variable
 from tribodyn.record.sweep_schema import FIRST_PARAMETER
-from tribodyn.solve.branch.end import KINDS
+from tribodyn.solve.branch.family import KINDS
 from tribodyn.studies.sweeping.ends import kind_variable
 
 if TYPE_CHECKING:  # the layout of a sweep needs no solver
@@ -47,6 +47,7 @@ def fill_branch(rows: dict[str, Any], i: int, end: int, branch: "UnstableBranch"
         rows["unstable_finish"][i, end] = 1 + KINDS.index(branch.finish.kind)
         rows["unstable_finish_value"][i, end] = branch.finish.value
     rows["unstable_value"][i, end, :count] = branch.values
-    rows["unstable_multiplier_modulus"][i, end, :count] = np.abs(branch.multipliers[:, 0])
-    rows["unstable_multiplier_angle"][i, end, :count] = np.angle(branch.multipliers[:, 0])
-    rows["unstable_residual"][i, end, :count] = branch.residuals
+    largest = branch.multipliers[:, 0]
+    rows["unstable_multiplier_modulus"][i, end, :count] = np.abs(largest)
+    rows["unstable_multiplier_angle"][i, end, :count] = np.angle(largest)
+    rows["unstable_residual"][i, end, :count] = [orbit.residual for orbit in branch.orbits]

@@ -5,9 +5,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tribodyn.solve.branch.end import FOLD, KINDS, BranchEnd
+from tribodyn.solve.branch.family import FOLD, KINDS, BranchEnd
 from tribodyn.solve.branch.unstable import UnstableBranch
-from tribodyn.solve.orbit import result as orbit
+from tribodyn.solve.orbit import motions as orbit
+from tribodyn.solve.orbit.motions import Orbit
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.estimate import estimate
 from tribodyn.studies.backlash_oscillator.motion import OscillatorMap
@@ -178,7 +179,11 @@ def test_figures_of_unstable_motions():
     states = np.column_stack([1.4 + shapes.real, -frequencies * shapes.imag])
     multipliers = np.array([[1.2j, 0.1], [-1.5 + 0j, 0.2]])
     finish = BranchEnd(FOLD, 0.9, 1e-5, 2, 1 + 0j)
-    branch = UnstableBranch(2, frequencies, states, multipliers, np.array([1e-9, 2e-9]), finish)
+    orbits = [
+        Orbit(state, state, 2, 1e-9, largest, False, "unstable", "shooting", 0, "")
+        for state, largest in zip(states, multipliers, strict=True)
+    ]
+    branch = UnstableBranch(2, frequencies, orbits, finish)
     found = measured(3, branch, oscillator_at(case((0.6, 1.3)), frequencies))
     np.testing.assert_allclose(found.rms, np.abs(shapes) / np.sqrt(2.0), rtol=1e-7)
     np.testing.assert_allclose(found.peak_to_peak, 2.0 * np.abs(shapes), rtol=1e-7)

@@ -4,18 +4,18 @@ import numpy as np
 import pytest
 
 from tribodyn.dynamics.parameters import STATES
-from tribodyn.solve.orbit.periodic import Steady
-from tribodyn.studies.gear_pair.batch.outcome import UNKNOWN, Outcome
+from tribodyn.solve.orbit.periodic import SteadyMotion
+from tribodyn.studies.gear_pair.batch.marched import UNKNOWN, Outcome
 from tribodyn.studies.gear_pair.batch.steady import _described, _periodic
 
 NONE = np.full(3, np.nan + 0j)
 
 
-def steady(kind: str, period: int, multipliers=NONE, stable=False, cycles=5) -> Steady:
+def steady(kind: str, period: int, multipliers=NONE, stable=False, cycles=5) -> SteadyMotion:
     samples = np.arange(6.0)[:, None] * np.ones(STATES)
     one = np.ones(STATES)
-    return Steady(
-        one, one, period, 3e-9, multipliers, stable, kind, "shooting", cycles, samples, one, None, "a remark"
+    return SteadyMotion(
+        one, one, period, 3e-9, multipliers, stable, kind, "shooting", cycles, "a remark", samples, one, None
     )
 
 

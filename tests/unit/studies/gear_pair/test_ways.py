@@ -3,7 +3,7 @@
 import pytest
 
 from tribodyn.studies.gear_pair.batch.evaluate import tabulated
-from tribodyn.studies.gear_pair.batch.ways import prepared_between
+from tribodyn.studies.gear_pair.batch.steady import prepared_between
 from tribodyn.studies.sweeping.batch import Way
 
 

@@ -9,9 +9,9 @@ from tribodyn.dynamics.parameters import STATES
 from tribodyn.errors import InputError
 from tribodyn.record.sweep_schema import SweepLayout
 from tribodyn.solve.methods import Runs, runs
+from tribodyn.solve.orbit.motions import MAX_PERIOD
 from tribodyn.solve.orbit.periodic import refuse_time_dependent
-from tribodyn.solve.orbit.recurrence import MAX_PERIOD
-from tribodyn.studies.gear_pair.batch.evaluate import Settings, evaluate, tabulated
+from tribodyn.studies.gear_pair.batch.evaluate import SweepSettings, evaluate, tabulated
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.estimate import STEADY_CYCLES, swept
 from tribodyn.studies.gear_pair.prepare import prepare, table_key
@@ -36,7 +36,7 @@ class GearPairs:
 
     states = STATES
 
-    def settings(self, cases: Sequence[Case], transient: int | None, engine: str) -> Settings:
+    def settings(self, cases: Sequence[Case], transient: int | None, engine: str) -> SweepSettings:
         """How the cases are brought to their windows."""
         base = cases[0]
         samples = base.output.samples_per_cycle
@@ -45,16 +45,16 @@ class GearPairs:
         through_jax = engine == "jax" and runs(base.solver.method) is not Runs.JAX
         method = "tsit5" if through_jax else ""
         if transient is None:
-            return Settings(True, MOST_CYCLES, STEADY_WINDOW, STEADY_POINTS, samples, modes, method)
+            return SweepSettings(True, MOST_CYCLES, STEADY_WINDOW, STEADY_POINTS, samples, modes, method)
         window = max(1, min(TRANSIENT_WINDOW, transient // 4))
         points = max(window, min(TRANSIENT_POINTS, transient // 2))
-        return Settings(False, transient, window, points, samples, modes, method)
+        return SweepSettings(False, transient, window, points, samples, modes, method)
 
-    def followed(self, settings: Settings) -> Settings:
+    def followed(self, settings: SweepSettings) -> SweepSettings:
         """Steady motions are followed to the ends of their branches."""
         return settings._replace(followed=settings.steady)
 
-    def with_unstable(self, settings: Settings) -> Settings:
+    def with_unstable(self, settings: SweepSettings) -> SweepSettings:
         """Branches of steady motions only are continued."""
         if not settings.steady:
             raise InputError(
@@ -62,16 +62,16 @@ class GearPairs:
             )
         return settings._replace(unstable=True)
 
-    def layout(self, settings: Settings) -> SweepLayout:
+    def layout(self, settings: SweepSettings) -> SweepLayout:
         """Figures, the window of the transmission error, Poincaré section, modes, and the state."""
         return layout_of(settings)
 
-    def size_of_chunk(self, settings: Settings, total: int, width: int) -> int:
+    def size_of_chunk(self, settings: SweepSettings, total: int, width: int) -> int:
         """Cases to be evaluated together, by the room that their windows take."""
         by_room = max(1, min(MOST_IN_CHUNK, CHUNK_BYTES // (settings.window * settings.samples * STATES * 8)))
         return max(width, min(by_room, max(MINIMUM_IN_CHUNK, total // CHUNKS)))
 
-    def estimate(self, case: Case, settings: Settings, total: int, width: int) -> Estimate:
+    def estimate(self, case: Case, settings: SweepSettings, total: int, width: int) -> Estimate:
         """What one of so many cases takes."""
         together = min(total, self.size_of_chunk(settings, total, width))
         taken = swept(case, STEADY_CYCLES if settings.steady else settings.cycles, settings.window, together)
@@ -81,13 +81,13 @@ class GearPairs:
         """What the table of the mesh depends on."""
         return table_key(case)
 
-    def check(self, case: Case, settings: Settings) -> None:
+    def check(self, case: Case, settings: SweepSettings) -> None:
         """Prepare a case; a steady state needs a load that does not change with time."""
         model = prepare(case, tabulated(case)).model
         if settings.steady:
             refuse_time_dependent(model)
 
-    def evaluate(self, chunk: Chunk, settings: Settings, workers: int | None) -> dict[str, np.ndarray]:
+    def evaluate(self, chunk: Chunk, settings: SweepSettings, workers: int | None) -> dict[str, np.ndarray]:
         """Bring every case to its window and sum it up."""
         return evaluate(chunk, settings, workers)
 

@@ -18,11 +18,11 @@ from tribodyn.errors import InputError, SimulationError
 from tribodyn.record.sweep_schema import DONE, FAILED
 from tribodyn.record.trust import TRUST, number
 from tribodyn.record.withheld import remarked, remarks, warned
+from tribodyn.solve.branch.gear_pairs import UnstableRange
 from tribodyn.solve.initial import initial_state, static_equilibrium
-from tribodyn.studies.gear_pair.batch.figures import window_figures
-from tribodyn.studies.gear_pair.batch.marched import marched
-from tribodyn.studies.gear_pair.batch.outcome import Outcome
-from tribodyn.studies.gear_pair.batch.ways import PreparedAt, legs_of, prepared_between
+from tribodyn.studies.gear_pair.batch.figures import fill_unstable, window_figures
+from tribodyn.studies.gear_pair.batch.marched import Outcome, marched
+from tribodyn.studies.gear_pair.batch.steady import PreparedAt, legs_of, prepared_between, steady
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.prepare import Prepared, Tabulated, prepare, table_key, tables
 from tribodyn.studies.gear_pair.settled import MOST, at_own_temperature
@@ -39,7 +39,7 @@ TABLES_KEPT = 32
 CREEP = 1e-3
 
 
-class Settings(NamedTuple):
+class SweepSettings(NamedTuple):
     """How every case of a sweep is brought to its window.
 
     Attributes
@@ -74,13 +74,13 @@ class Settings(NamedTuple):
     unstable: bool = False
 
 
-def evaluate(chunk: Chunk, settings: Settings, workers: int | None = None) -> dict[str, np.ndarray]:
+def evaluate(chunk: Chunk, settings: SweepSettings, workers: int | None = None) -> dict[str, np.ndarray]:
     """Return a row for every case of a chunk, for all datasets of its layout.
 
     Parameters
     ----------
     chunk : Chunk
-    settings : Settings
+    settings : SweepSettings
     workers : int, optional
         Threads; by default one per core.
     """
@@ -116,7 +116,7 @@ def _at_own_temperature(chunk: Chunk, rows: dict[str, np.ndarray]) -> dict[int, 
     return found
 
 
-def _evaluate(chunk: Chunk, settings: Settings, workers: int | None) -> dict[str, np.ndarray]:
+def _evaluate(chunk: Chunk, settings: SweepSettings, workers: int | None) -> dict[str, np.ndarray]:
     """Evaluate every case once."""
     rows = layout_of(settings).empty_rows(len(chunk.cases))
     ready: dict[int, tuple[Prepared, np.ndarray]] = {}
@@ -139,8 +139,6 @@ def _evaluate(chunk: Chunk, settings: Settings, workers: int | None) -> dict[str
         for line, (i, outcome) in enumerate(zip(numbers, outcomes, strict=True)):
             _fill(rows, i, ready[i][0], outcome, settings)
             if outcome.continued:
-                from tribodyn.studies.gear_pair.batch.unstable import fill_unstable
-
                 fill_unstable(rows, i, outcome.continued, partial(prepared_at, line), settings.samples)
     return rows
 
@@ -157,7 +155,7 @@ def _solve(
     cases: list[tuple[Prepared, np.ndarray]],
     ways: Sequence[Way | None],
     prepared_at: PreparedAt,
-    settings: Settings,
+    settings: SweepSettings,
     workers: int | None,
 ) -> list[Outcome]:
     solver = cases[0][0].case.solver
@@ -172,38 +170,34 @@ def _solve(
     }
     models, states = [one.model for one, _ in cases], np.array([state for _, state in cases])
     if settings.steady:
-        from tribodyn.studies.gear_pair.batch.steady import steady
-
         if settings.followed:
             common["legs"] = legs_of(cases, ways)
             common["model_at"] = lambda line, value: prepared_at(line, value).model
         if settings.unstable:
-            from tribodyn.solve.branch.followed import Unstable
-
             # all ways of a chunk are along the same values
             span = next((way.span for way in ways if way is not None), (0.0, 0.0))
-            common["unstable"] = Unstable(span, MOTIONS)
+            common["unstable"] = UnstableRange(span, MOTIONS)
         return steady(models, states, **common)
     return marched(models, states, window=settings.window, **common)
 
 
 def _fill(
-    rows: dict[str, np.ndarray], i: int, prepared: Prepared, outcome: Outcome, settings: Settings
+    rows: dict[str, np.ndarray], i: int, prepared: Prepared, outcome: Outcome, settings: SweepSettings
 ) -> None:
     """Put the outcome of a case into its row."""
     for name in ("period", "stable", "multiplier_max", "residual", "cycles", "solution", "message"):
         rows[name][i] = getattr(outcome, name)
-    if outcome.passage is None:
+    if outcome.window is None:
         rows["status"][i] = FAILED
         return
-    figures, judged = window_figures(prepared, outcome.passage, settings.samples)
+    figures, judged = window_figures(prepared, outcome.window, settings.samples)
     for name, value in figures.items():
         rows[name][i] = value
     warning = warning_of(figures["friction_work_on_vibration"], prepared.case.friction.sliding)
     said = [*remarks(judged | {"warning": warning}), *remarks_in_brief(prepared.case.toml)]
     rows["message"][i] = remarked(rows["message"][i], *map(warned, said))
     rows[TRUST][i] = number(judged)
-    error = outcome.passage.window[:, XI]
+    error = outcome.window.window[:, XI]
     room = settings.window * settings.samples
     whole = room if outcome.period == 0 else room // error.size * error.size
     rows["transmission_error_rotational"][i, :whole] = np.resize(error, whole)
@@ -234,7 +228,7 @@ _lock = threading.Lock()
 _tables: OrderedDict[Hashable, Tabulated] = OrderedDict()
 
 
-def _start(prepared: Prepared, settings: Settings) -> np.ndarray:
+def _start(prepared: Prepared, settings: SweepSettings) -> np.ndarray:
     """Where a case begins: as its scenario says, or for a steady state at the equilibrium without friction.
 
     The latter is taken at `CREEP`, where it is the same at all speeds, and is therefore found once. At the

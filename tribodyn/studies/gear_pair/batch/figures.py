@@ -1,6 +1,7 @@
-"""The figures of one case, from its states in the window."""
+"""The figures of one case, from its states in the window, and of unstable motions beyond branches' ends."""
 
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -9,38 +10,37 @@ from tribodyn.dynamics.parameters import XI
 from tribodyn.record.trust import Judge, judge_tribology
 from tribodyn.solve.engagement import engage_next
 from tribodyn.studies.gear_pair.assumptions import judge_block
-from tribodyn.studies.gear_pair.batch.outcome import Passage
+from tribodyn.studies.gear_pair.batch.marched import Window
 from tribodyn.studies.gear_pair.prepare import Prepared
 from tribodyn.studies.gear_pair.summary import RunningExtremes, steady_figures
-from tribodyn.studies.gear_pair.sweep_layout import FIGURES
+from tribodyn.studies.gear_pair.sweep_layout import FIGURES, UNSTABLE_FIGURES
 from tribodyn.studies.gears.temperature import thermal_figures
+from tribodyn.studies.sweeping.unstable import PREFIX, fill_branch
+
+if TYPE_CHECKING:
+    from tribodyn.solve.branch.gear_pairs import ContinuedBranch
 
 
 def window_figures(
-    prepared: Prepared, passage: Passage, samples: int
+    prepared: Prepared, window: Window, samples: int
 ) -> tuple[dict[str, float], dict[str, Any]]:
     """Return the figures of `sweep_layout.FIGURES` over a window, SI units, and what is said of their trust.
 
-    Parameters
-    ----------
-    prepared : Prepared
-    passage : Passage
-    samples : int
-        Per mesh cycle of the window.
+    `samples` are those in a mesh cycle of the window.
     """
-    count, last = len(passage.window), passage.end.copy()
+    count, last = len(window.states), window.end.copy()
     engage_next(last, prepared.model)
-    cycles = passage.first_cycle + np.arange(count + 1) / samples
-    states = np.concatenate([passage.window, last[None]])
-    block, extreme, at = outputs_with_extremes(cycles, states, passage.extremes, prepared.model)
+    cycles = window.first_cycle + np.arange(count + 1) / samples
+    states = np.concatenate([window.states, last[None]])
+    block, extreme, at = outputs_with_extremes(cycles, states, window.extremes, prepared.model)
     extremes = RunningExtremes(prepared.cycle)
     extremes.add(cycles, block)
     extremes.add(at, extreme)
-    error = passage.window[:, XI]
+    error = window.states[:, XI]
     speed = prepared.case.operating.pinion_speed
-    work = passage.end - passage.start
-    window = {name: values[:count] for name, values in block.items()}
-    figures = steady_figures(window, work, prepared.cycle, samples, speed, extremes)
+    work = window.end - window.start
+    inside = {name: values[:count] for name, values in block.items()}
+    figures = steady_figures(inside, work, prepared.cycle, samples, speed, extremes)
     # a run's summary means the newest pair's; over a sweep only the error of the whole mesh is continuous
     figures |= extremes.values() | {
         "transmission_error_rms": float(np.std(error)),
@@ -55,3 +55,29 @@ def window_figures(
     judge_tribology(judge, figures)
     named = {name: float("nan") if (value := figures.get(name)) is None else value for name in FIGURES}
     return named, judge.figures()
+
+
+def fill_unstable(
+    rows: dict[str, np.ndarray],
+    i: int,
+    branches: "Sequence[ContinuedBranch]",
+    prepared_at: Callable[[float], Prepared],
+    samples: int,
+) -> None:
+    """Put branches into the row of a case, with the figures of their motions over one period each.
+
+    `prepared_at` gives the prepared case at a value of the first parameter.
+    """
+    for end, branch, steadies in branches:
+        if end >= rows["unstable_period"].shape[1]:
+            break
+        fill_branch(rows, i, end, branch)
+        for motion, (value, steady) in enumerate(zip(branch.values.tolist(), steadies, strict=True)):
+            if not len(steady.samples):  # it cannot be integrated over its period once more
+                continue
+            window = Window(0, steady.samples, steady.state, steady.end, steady.extremes)
+            figures, _ = window_figures(prepared_at(value), window, samples)
+            for name in UNSTABLE_FIGURES:
+                rows[PREFIX + name][i, end, motion] = figures[name]
+            section = steady.samples[::samples, XI]
+            rows["unstable_poincare_error"][i, end, motion, : len(section)] = section

@@ -1,16 +1,93 @@
-"""Cases marched over a given number of mesh cycles, the last of them kept."""
+"""Cases marched over a given number of mesh cycles, the last of them kept; what a case comes to."""
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics.extremes import extremes_of
-from tribodyn.dynamics.parameters import STATES, Model
+from tribodyn.dynamics.extremes import Extremes, extremes_of
+from tribodyn.dynamics.parameters import LAG, STATES, WORKS, Model
+from tribodyn.solve.branch.family import BranchEnd
 from tribodyn.solve.engagement import engage_next
 from tribodyn.solve.ensemble import march
-from tribodyn.solve.integrator import Status
-from tribodyn.studies.gear_pair.batch.outcome import Outcome, Passage, continued, failed, stopped
+from tribodyn.solve.integrator import REASONS, Status
+from tribodyn.studies.gear_pair.sweep_layout import UNKNOWN
+
+if TYPE_CHECKING:
+    from tribodyn.solve.branch.gear_pairs import ContinuedBranch
+
+
+class Window(NamedTuple):
+    """A case's way through its window.
+
+    Attributes
+    ----------
+    first_cycle : int
+        Whole mesh cycles done before.
+    states : (cycles · samples, STATES)
+        Over whole mesh cycles, the sample that closes the last not included.
+    start, end : (STATES,)
+        States at both ends; the difference of their works is the window's.
+    extremes : Extremes or None
+        Of the motion between the samples.
+    """
+
+    first_cycle: int
+    states: np.ndarray
+    start: np.ndarray
+    end: np.ndarray
+    extremes: Extremes | None = None
+
+
+class Outcome(NamedTuple):
+    """Outcome of a case.
+
+    Attributes
+    ----------
+    window : Window or None
+        None where the case failed.
+    state : (STATES,)
+        After the engagement at phase 0, clock and audit at zero: where a neighbour continues.
+    section : (points, STATES)
+        States at the start of mesh cycles, the last ones.
+    solution : str
+        Sort of motion, as `orbit.motions.Orbit.kind`; or "transient".
+    cycles : int
+        Mesh cycles integrated.
+    message : str
+        Why it failed, or a remark on its result.
+    period, stable, multiplier_max, residual
+        As `sweep_layout.CASES` has them.
+    ends : tuple of BranchEnd
+        Of the branches that were left on the way from the neighbour.
+    continued : tuple of ContinuedBranch
+        Those branches beyond their ends.
+    """
+
+    window: Window | None
+    state: np.ndarray
+    section: np.ndarray
+    solution: str
+    cycles: int
+    message: str = ""
+    period: int = 0
+    stable: int = UNKNOWN
+    multiplier_max: float = float("nan")
+    residual: float = float("nan")
+    ends: tuple[BranchEnd, ...] = ()
+    continued: "tuple[ContinuedBranch, ...]" = ()
+
+
+def failed(state: np.ndarray, cycles: float, reason: str) -> Outcome:
+    """The outcome of a case that could not go on."""
+    return Outcome(None, state, np.empty((0, state.size)), "failed", int(cycles), reason)
+
+
+def without_audit(state: np.ndarray) -> np.ndarray:
+    """The state with its clock and its audit at zero."""
+    state = state.copy()
+    state[[LAG, *WORKS]] = 0.0
+    return state
 
 
 def marched(
@@ -37,13 +114,9 @@ def marched(
         Further arguments of `ensemble.march`.
     """
     before = cycles - window
-    led = march(
-        models, states, cycles=before, window=max(0, min(points, cycles) - window), samples=1, **solver
-    )
-    outcomes: list[Outcome | None] = [None] * len(models)
-    for i in map(int, np.flatnonzero(led.status != Status.DONE)):
-        outcomes[i] = failed(led.state[i], led.reached[i], stopped(int(led.status[i]), led.reached[i]))
-    good = [int(i) for i in np.flatnonzero(led.status == Status.DONE)]
+    sections = max(0, min(points, cycles) - window)
+    led = march(models, states, cycles=before, window=sections, samples=1, **solver)
+    good = np.flatnonzero(led.status == Status.DONE)
     ran = march(
         [models[i] for i in good],
         led.state[good],
@@ -55,18 +128,19 @@ def marched(
         extremes=True,
         **solver,
     )
-    for row, i in enumerate(good):
-        reached = before + float(ran.reached[row])
-        if ran.status[row] != Status.DONE:
-            outcomes[i] = failed(ran.state[row], reached, stopped(int(ran.status[row]), reached))
+    rows = {int(i): row for row, i in enumerate(good)}
+    outcomes = []
+    for i, model in enumerate(models):
+        part, row = (ran, rows[i]) if i in rows else (led, i)
+        reached = float(part.reached[row]) + (before if i in rows else 0)
+        if part.status[row] != Status.DONE:
+            reason = f"stopped after {reached:.4g} mesh cycles: {REASONS[Status(int(part.status[row]))]}"
+            outcomes.append(failed(part.state[row], reached, reason))
             continue
-        section = np.concatenate([led.samples[i], ran.samples[row, ::samples]])
+        section = np.concatenate([led.samples[i], ran.samples[row, ::samples]]).reshape(-1, STATES)
         state = ran.state[row].copy()
-        engage_next(state, models[i])
-        passage = Passage(
-            before, ran.samples[row], led.state[i], ran.state[row], extremes_of(ran.extremes, row)
-        )
-        outcomes[i] = Outcome(
-            passage, continued(state), section.reshape(-1, STATES)[-points:], "transient", int(reached)
-        )
-    return [one for one in outcomes if one is not None]
+        engage_next(state, model)
+        extremes = extremes_of(ran.extremes, row)
+        kept = Window(before, ran.samples[row], led.state[i], ran.state[row], extremes)
+        outcomes.append(Outcome(kept, without_audit(state), section[-points:], "transient", int(reached)))
+    return outcomes

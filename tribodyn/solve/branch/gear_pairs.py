@@ -13,13 +13,13 @@ from tribodyn.solve.branch.unstable import UnstableBranch, unstable_branches
 from tribodyn.solve.choice import choose
 from tribodyn.solve.orbit.gear_map import GearMap, moving_states
 from tribodyn.solve.orbit.period_map import PeriodMap
-from tribodyn.solve.orbit.periodic import FINE, Steady, sampled
+from tribodyn.solve.orbit.periodic import FINE, SteadyMotion, sampled
 
 ModelAt = Callable[[int, float], Model]
 """Gives the model on a line at a value of the parameter; raises InputError where there is none."""
 
 
-class Continued(NamedTuple):
+class ContinuedBranch(NamedTuple):
     """A branch beyond the end of its stable part.
 
     Attributes
@@ -27,24 +27,24 @@ class Continued(NamedTuple):
     end : int
         Number of that end among those of the leg.
     branch : UnstableBranch
-    steadies : list of Steady
+    steadies : list of SteadyMotion
         Its motions.
     """
 
     end: int
     branch: UnstableBranch
-    steadies: list[Steady]
+    steadies: list[SteadyMotion]
 
 
-class Followed(NamedTuple):
+class LegResult(NamedTuple):
     """What following one gear pair gave: the motion at the target, how the leg ended, what is unstable."""
 
-    steady: Steady
+    steady: SteadyMotion
     arrival: Arrival
-    continued: list[Continued]
+    continued: list[ContinuedBranch]
 
 
-class Unstable(NamedTuple):
+class UnstableRange(NamedTuple):
     """What of the branches beyond their ends is wanted.
 
     Attributes
@@ -60,7 +60,7 @@ class Unstable(NamedTuple):
 
 
 class GearLines:
-    """Gear pairs on lines along a parameter, as `continued_family.Family`.
+    """Gear pairs on lines along a parameter, as `family.SystemFamily`.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ class GearLines:
         self.moving, self.settings = moving, settings
 
     def at(self, lines: Sequence[int], values: Sequence[float]) -> tuple[PeriodMap, list[str]]:
-        """See `continued_family.Family`."""
+        """See `family.SystemFamily`."""
         models, starts, refusals = [], [], []
         for line, value in zip(lines, values, strict=True):
             try:
@@ -108,18 +108,18 @@ def followed_states(
     max_steps: int,
     workers: int | None,
     tolerance: float = 1e-7,
-    unstable: Unstable | None = None,
-) -> list[Followed]:
+    unstable: UnstableRange | None = None,
+) -> list[LegResult]:
     """Follow gear pairs, each along its leg, to the steady motions at the targets.
 
     Parameters
     ----------
     model_at : callable
     legs : sequence of Leg
-        Their states are (STATES,) at phase 0 after engagement; those that are carried on likewise.
+        Their states are (STATES,) at phase 0 after engagement; those that are handed on likewise.
     samples, rtol, max_cycles, solver, max_steps, workers, tolerance
         As `periodic.steady_states` has them.
-    unstable : Unstable, optional
+    unstable : UnstableRange, optional
         Continue branches beyond the ends of their stable parts.
     """
     alike: dict[tuple[Any, ...], list[int]] = {}
@@ -128,7 +128,7 @@ def followed_states(
         # lines are of one method each: it is estimated once
         key = moving_states(model), choose(solver, model, leg.state).method
         alike.setdefault(key, []).append(number)
-    results: dict[int, Followed] = {}
+    results: dict[int, LegResult] = {}
     for (moving, method), numbers in alike.items():
         rtols = {"rtol": rtol, "fine_rtol": FINE * tolerance}
         starts = {legs[number].line: legs[number].state for number in numbers}
@@ -138,19 +138,19 @@ def followed_states(
         arrivals = follow(family, short, tolerance=tolerance, max_periods=max_cycles)
         period_map, _ = family.at([leg.line for leg in short], [leg.target for leg in short])
         assert isinstance(period_map, GearMap)
-        steadies = sampled(period_map, [one.orbit for one in arrivals], samples)
+        steadies = sampled(period_map, [arrival.orbit for arrival in arrivals], samples)
         for number, steady, arrival in zip(numbers, steadies, arrivals, strict=True):
-            carried = period_map.full(arrival.carried[None])[0]
+            next_state = period_map.full(arrival.next_state[None])[0]
             continued = (
                 [] if unstable is None else _continued(family, legs[number].line, arrival, unstable, samples)
             )
-            results[number] = Followed(steady, arrival._replace(carried=carried), continued)
+            results[number] = LegResult(steady, arrival._replace(next_state=next_state), continued)
     return [results[number] for number in range(len(legs))]
 
 
 def _continued(
-    family: GearLines, line: int, arrival: Arrival, unstable: Unstable, samples: int
-) -> list[Continued]:
+    family: GearLines, line: int, arrival: Arrival, unstable: UnstableRange, samples: int
+) -> list[ContinuedBranch]:
     """The branches beyond the ends of a leg."""
     found = []
     branches = unstable_branches(family, line, arrival.seeds, unstable.span)
@@ -160,5 +160,5 @@ def _continued(
         branch = whole.thinned(unstable.motions)
         period_map, _ = family.at([line] * len(branch.values), branch.values.tolist())
         assert isinstance(period_map, GearMap)
-        found.append(Continued(end, branch, sampled(period_map, branch.orbits(), samples)))
+        found.append(ContinuedBranch(end, branch, sampled(period_map, branch.orbits, samples)))
     return found
