@@ -38,14 +38,10 @@ class Differentiable:
 
     Parameters
     ----------
-    case
-        Of a gear pair; its gears need not exist.
-    schema : type
-        Of its scenario: ``study_of(table).table()``.
-    of : sequence of str
-        Names of `QUANTITIES` or `ALSO`; one program evaluates all together.
-    wrt : sequence of str
-        Dotted keys of `numbers_of`; entries of lists by their index from 0, ``drive.shape.angles.3``.
+    case : of a gear pair; its gears need not exist
+    schema : of its scenario: ``study_of(table).table()``
+    of : names of `QUANTITIES` or `ALSO`; one program evaluates all together
+    wrt : dotted keys of `numbers_of`; entries of lists by their index from 0, ``drive.shape.angles.3``
 
     Raises
     ------
@@ -54,12 +50,9 @@ class Differentiable:
 
     Attributes
     ----------
-    of, wrt : tuple of str
-        Names of the figures, and keys.
-    at : array, (key,)
-        The numbers of the case, SI.
-    units, key_units : tuple of str
-        SI units of figures and keys.
+    of, wrt : names of the figures, and keys
+    at : the numbers of the case, SI
+    units, key_units : SI units of figures and keys
     """
 
     def __init__(self, case: Any, schema: type[BaseModel], of: Sequence[str], wrt: Sequence[str]) -> None:

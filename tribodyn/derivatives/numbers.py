@@ -35,12 +35,9 @@ class Number(NamedTuple):
 
     Parameters
     ----------
-    value : float
-        SI.
-    unit : str
-        SI unit, "1" for plain numbers.
-    put : callable
-        (case, value) -> the case with another value, which may be traced.
+    value : SI
+    unit : SI unit, "1" for plain numbers
+    put : (case, value) -> the case with another value, which may be traced
     """
 
     value: float

@@ -29,10 +29,8 @@ class Fixed(NamedTuple):
 
     Parameters
     ----------
-    pairs : int
-        Pairs in contact at most.
-    vanishing : bool
-        Whether radius and rolling speeds are zero at the pitch point.
+    pairs : pairs in contact at most
+    vanishing : whether radius and rolling speeds are zero at the pitch point
     """
 
     pairs: int
@@ -44,9 +42,7 @@ class Evaluation:
 
     Parameters
     ----------
-    case
-        With gears; its numbers may be traced.
-    fixed : Fixed
+    case : with gears; its numbers may be traced
     """
 
     def __init__(self, case: Any, fixed: Fixed) -> None:
@@ -106,18 +102,12 @@ class Quantity(NamedTuple):
 
     Parameters
     ----------
-    about : str
-        What it is.
-    unit : str
-        SI.
-    function : callable
-        Evaluation -> its value.
-    needs : tuple of str
-        What the case must have beside its gears: "mesh", "operating", "friction".
-    at_pitch_point : bool
-        Whether it is a figure of the contact at the pitch point, which must then be a contact.
-    limit : bool
-        Whether it is a distance from a limit of existence, positive where gears exist.
+    about : what it is
+    unit : SI
+    function : evaluation -> its value
+    needs : what the case must have beside its gears: "mesh", "operating", "friction"
+    at_pitch_point : whether it is a figure of the contact at the pitch point, which must then be a contact
+    limit : whether it is a distance from a limit of existence, positive where gears exist
     """
 
     about: str

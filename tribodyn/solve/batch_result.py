@@ -14,18 +14,12 @@ class Ensemble(NamedTuple):
 
     Attributes
     ----------
-    state : (C, STATES)
-        At the end, before the next engagement; of a failed case the last one that was accepted.
-    samples : (C, window · samples, STATES)
-        States over the last `window` cycles at phases k/samples; NaN from where a case failed.
-    status : (C,) int
-        An `integrator.Status`.
-    reached : (C,)
-        Mesh cycles done by this call.
-    steps, evaluations : (C,) int
-        Accepted steps, and evaluations of the right-hand side.
-    extremes : Extremes
-        Of the motion over the window; of no cases where they were not sought.
+    state : at the end, before the next engagement; of a failed case the last one that was accepted
+    samples : states over the last `window` cycles at phases k/samples; NaN from where a case failed
+    status : an `integrator.Status`
+    reached : mesh cycles done by this call
+    steps, evaluations : accepted steps, and evaluations of the right-hand side
+    extremes : of the motion over the window; of no cases where they were not sought
     """
 
     state: Float[Array, "case state"]

@@ -17,16 +17,11 @@ def engage(segment, applies, y, model, work, behind):
 
     Parameters
     ----------
-    segment : int
-        The segment that begins.
-    applies : bool
-        Whether the state stands before the boundary; if not, it stays: at the start of a run.
+    segment : the segment that begins
+    applies : whether the state stands before the boundary; if not, it stays: at the start of a run
     y : (STATES,)
-    model : Model
-    work : mapping
-        Scratch, as for `dynamics.equations.derivatives`.
-    behind : mapping
-        Receives the `JUMPING` states behind the boundary; may be `y`.
+    work : scratch, as for `dynamics.equations.derivatives`
+    behind : receives the `JUMPING` states behind the boundary; may be `y`
     """
     boundary = model.table.boundary
     segments = model.table.in_contact.shape[0]

@@ -48,31 +48,19 @@ def march(
 
     Parameters
     ----------
-    models : sequence of C Models
-        They may differ in every number, table and option.
-    states : (C, STATES)
-        Where each case starts, at phase 0.
-    cycles : int
-        Mesh cycles to do; with 0 the states come back as they are.
-    window, samples : int
-        Last cycles to keep, 0 … cycles, and samples in each of them.
-    rtol : float
-    max_steps : int
-        Steps, accepted ones, that one mesh cycle may take.
-    started : bool
-        Whether the states stand before the engagement at phase 0, as a march leaves them (False at the start
-        of a run).
-    first_cycle : int
-        Whole mesh cycles done before; with the phase and the lag they give the time.
-    method : str
-        "auto": explicit, and where that takes too many steps what `choice.choose` gives; or a method's name,
-        see `methods`; those of diffrax are mapped over the cases, see `jax_ensemble`.
-    extremes : bool
-        Whether to seek the extremes of the motion over the window, between its samples too.
-    workers : int, optional
-        Threads; by default as many as cores that this process may use.
-    progress : callable, optional
-        Called with the share done, 0 … 1.
+    models : they may differ in every number, table and option
+    states : where each case starts, at phase 0
+    cycles : mesh cycles to do; with 0 the states come back as they are
+    window, samples : last cycles to keep, 0 … cycles, and samples in each of them
+    max_steps : steps, accepted ones, that one mesh cycle may take
+    started : whether the states stand before the engagement at phase 0, as a march leaves them (False at the
+        start of a run)
+    first_cycle : whole mesh cycles done before; with the phase and the lag they give the time
+    method : "auto": explicit, and where that takes too many steps what `choice.choose` gives; or a method's
+        name, see `methods`; those of diffrax are mapped over the cases, see `jax_ensemble`
+    extremes : whether to seek the extremes of the motion over the window, between its samples too
+    workers : threads; by default as many as cores that this process may use
+    progress : called with the share done, 0 … 1
     """
     states = np.asarray(states, dtype=float)
     cases = len(models)

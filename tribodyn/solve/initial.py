@@ -58,9 +58,7 @@ def accelerations(
 
     Parameters
     ----------
-    states : (..., STATES)
-    phase, segment : float and int, or (...)
-        Where in the mesh cycle each state stands.
+    phase, segment : where in the mesh cycle each state stands
     """
     rates: dict[int, Any] = {}
     derivatives(phase, 0.0, segment, np.moveaxis(states, -1, 0), model, {}, rates)

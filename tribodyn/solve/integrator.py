@@ -40,23 +40,15 @@ class March(NamedTuple):
 
     Attributes
     ----------
-    first_cycle : int
-        Whole mesh cycles done before; with the phase and the lag they give the time.
-    cycles : int
-        Mesh cycles to do.
-    window : int
-        Last cycles of which samples are kept.
-    samples : int
-        Samples in a mesh cycle.
-    started : bool
-        Whether the states stand before the engagement at phase 0, as a march leaves them: not at the start
-        of a run.
-    rtol : float
-    max_steps : int
-        Steps, accepted ones, that one mesh cycle may take; a case that needs more fails. This is what
+    first_cycle : whole mesh cycles done before; with the phase and the lag they give the time
+    cycles : mesh cycles to do
+    window : last cycles of which samples are kept
+    samples : samples in a mesh cycle
+    started : whether the states stand before the engagement at phase 0, as a march leaves them: not at the
+        start of a run
+    max_steps : steps, accepted ones, that one mesh cycle may take; a case that needs more fails. This is what
         `solver.max_steps` means whatever the method.
-    extremes : bool
-        Whether extremes are sought, over the window.
+    extremes : whether extremes are sought, over the window
     """
 
     first_cycle: int
@@ -74,19 +66,12 @@ class IntegratedCycles(NamedTuple):
 
     Attributes
     ----------
-    samples : (n, STATES)
-        States at phases k/samples_per_cycle, first one included, last one not; fewer on a failure.
-    state : (STATES,)
-        State at the end, before the next engagement.
-    status : Status
-    reached : float
-        Mesh cycles done in this call.
-    steps, evaluations : int
-        Accepted steps, and evaluations of the right-hand side.
-    message : str
-        The solver's own words, if any.
-    extremes : Extremes or None
-        Of the dense motion; None where they were not sought.
+    samples : states at phases k/samples_per_cycle, first one included, last one not; fewer on a failure
+    state : state at the end, before the next engagement
+    reached : mesh cycles done in this call
+    steps, evaluations : accepted steps, and evaluations of the right-hand side
+    message : the solver's own words, if any
+    extremes : of the dense motion; None where they were not sought
     """
 
     samples: Float[Array, "sample state"]

@@ -47,12 +47,8 @@ class ScipyIntegrator:
 
     Parameters
     ----------
-    method : module
-        One of `methods` that SciPy runs: its `METHOD` is a class of solvers.
-    model : Model
-    samples : int
-        Samples per mesh cycle.
-    tolerances : Tolerances
+    method : one of `methods` that SciPy runs: its `METHOD` is a class of solvers
+    samples : samples per mesh cycle
     """
 
     def __init__(self, method: Any, model: Model, samples: int, tolerances: Tolerances):

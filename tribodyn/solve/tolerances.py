@@ -47,12 +47,9 @@ class TableScales(NamedTuple):
 
     Attributes
     ----------
-    stiffness : float
-        See `mean_stiffness`.
-    per_torque : float
-        Deflection per torque, `static_deflection(model, 1.0)`, m/(N m).
-    gap_slope : float
-        See `gap_slope`.
+    stiffness : see `mean_stiffness`
+    per_torque : deflection per torque, `static_deflection(model, 1.0)`, m/(N m)
+    gap_slope : see `gap_slope`
     """
 
     stiffness: float

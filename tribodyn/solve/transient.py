@@ -23,19 +23,12 @@ class TransientSettings(NamedTuple):
 
     Attributes
     ----------
-    method : str
-        A definite method, see `choice.choose`.
-    rtol : float
-    cycles : int
-        Mesh cycles to do.
-    max_steps : int
-        Steps allowed in one mesh cycle.
-    samples : int
-        Samples per mesh cycle.
-    window : int
-        Last mesh cycles that writes must not straddle the start of; 0: they may.
-    extremes : bool
-        Whether extremes are sought.
+    method : a definite method, see `choice.choose`
+    cycles : mesh cycles to do
+    max_steps : steps allowed in one mesh cycle
+    samples : samples per mesh cycle
+    window : last mesh cycles that writes must not straddle the start of; 0: they may
+    extremes : whether extremes are sought
     """
 
     method: str
@@ -91,10 +84,7 @@ def transient(
 
     Parameters
     ----------
-    model : Model
-    state : (STATES,)
-        Start, at phase 0 with the pairs of the first segment in contact.
-    settings : TransientSettings
+    state : start, at phase 0 with the pairs of the first segment in contact
 
     Notes
     -----

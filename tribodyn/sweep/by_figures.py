@@ -24,8 +24,7 @@ class ByFigures:
 
     Parameters
     ----------
-    study : Study
-        One with `swept` figures.
+    study : one with `swept` figures
     """
 
     states = 0

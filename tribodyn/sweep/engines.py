@@ -38,10 +38,8 @@ class Local:
 
     Parameters
     ----------
-    workers : int, optional
-        Threads; by default one per core.
-    width : int
-        See `Engine`.
+    workers : threads; by default one per core
+    width : see `Engine`
     """
 
     def __init__(self, workers: int | None = None, width: int = 1) -> None:

@@ -23,12 +23,9 @@ class Grid:
 
     Parameters
     ----------
-    scenario : str
-        Path of a scenario file, or the name of a shipped one.
-    vary : list of str
-        ``KEY=VALUES``, see `tribodyn.scenario.vary`.
-    overrides : mapping
-        Dotted key to value, for all cases.
+    scenario : path of a scenario file, or the name of a shipped one
+    vary : ``KEY=VALUES``, see `tribodyn.scenario.vary`
+    overrides : dotted key to value, for all cases
 
     Raises
     ------

@@ -19,11 +19,8 @@ def single_steps(grid: Grid, waiting: np.ndarray, size: int) -> Iterator[list[Ch
 
     Parameters
     ----------
-    grid : Grid
-    waiting : (cases,) bool
-        Which are still to be done.
-    size : int
-        Cases in a chunk.
+    waiting : (cases,) bool, which are still to be done
+    size : cases in a chunk
     """
     numbers = _by_table(grid)
     numbers = numbers[waiting[numbers]]

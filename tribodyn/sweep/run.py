@@ -55,20 +55,11 @@ def run(
 
     Parameters
     ----------
-    grid : Grid
-    settings
-        From `settings_of`.
-    engine : Engine
-    output : path
-    directions : sequence of "up", "down"
-        Senses in which to follow the first parameter; none: every case begins by itself.
-    unstable : bool
-        Continue branches beyond the ends of their stable parts.
-    force, resume : bool
-        Replace a record, or go on with what an unfinished sweep left.
-    follow : callable, optional
-    allow_large : bool
-        Evaluate what takes more than is done unasked, too (`sweep.size`).
+    settings : from `settings_of`
+    directions : senses in which to follow the first parameter; none: every case begins by itself
+    unstable : continue branches beyond the ends of their stable parts
+    force, resume : replace a record, or go on with what an unfinished sweep left
+    allow_large : evaluate what takes more than is done unasked, too (`sweep.size`)
 
     Raises
     ------

@@ -22,13 +22,9 @@ def estimate_of(grid: Grid, settings: Any, directions: int, width: int = 1) -> E
 
     Parameters
     ----------
-    grid : Grid
-    settings
-        From `sweep.run.settings_of`.
-    directions : int
-        Senses in which the first parameter is followed; 0: cases begin by themselves.
-    width : int
-        See `engines.Engine`.
+    settings : from `sweep.run.settings_of`
+    directions : senses in which the first parameter is followed; 0: cases begin by themselves
+    width : see `engines.Engine`
     """
     cases = float(np.prod(grid.shape, dtype=float)) * max(1, directions)
     together = int(min(cases, 10.0**9))

@@ -36,15 +36,10 @@ class BranchPoint(NamedTuple):
 
     Attributes
     ----------
-    point : (N + 1,)
-        State and parameter in units of the branch.
-    tangent : (N + 1,)
-        Of the branch, of length 1.
-    multipliers : (N,) complex
-    residual : float
-        Change over a period, in units.
-    halves : (N,) or None
-        Change of the state over half the period, in units; None where the period is odd.
+    point : state and parameter in units of the branch
+    tangent : of the branch, of length 1
+    residual : change over a period, in units
+    halves : change of the state over half the period, in units; None where the period is odd
     """
 
     point: Float[Array, " unknown"]
@@ -69,15 +64,10 @@ class Arclength:
 
     Parameters
     ----------
-    family : SystemFamily
-    line : int
-        Which of its lines.
-    seed : Seed
-        Where it begins.
-    size : float
-        Magnitude by which the parameter is measured.
-    tolerance : float
-        Maximum scaled change over a period of the motion.
+    line : which of its lines
+    seed : where it begins
+    size : magnitude by which the parameter is measured
+    tolerance : maximum scaled change over a period of the motion
     """
 
     def __init__(self, family: SystemFamily, line: int, seed: Seed, size: float, tolerance: float) -> None:
@@ -184,14 +174,10 @@ class Turn(NamedTuple):
 
     Attributes
     ----------
-    folded : bool
-        Whether the parameter turns back.
-    value : float
-        Where it does; otherwise a value behind, at which the branch goes on.
-    within : float
-        Distance between the places that locate it.
-    state : (N,)
-        There.
+    folded : whether the parameter turns back
+    value : where it does; otherwise a value behind, at which the branch goes on
+    within : distance between the places that locate it
+    state : there
     """
 
     folded: bool

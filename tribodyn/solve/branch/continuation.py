@@ -47,18 +47,12 @@ class Leg(NamedTuple):
 
     Attributes
     ----------
-    line : int
-        Which of the family's lines.
-    start, target : float
-        Values of the parameter; equal where nothing was found before.
-    state : (N,)
-        At the start.
-    period : int
-        Of the motion there; 0: it has none, or is not known.
-    finest : float
-        Minimum step where steps are expensive; 0: as small as it takes; inf: there is nothing in between.
-    reach : float
-        Largest magnitude that the parameter takes: near zero, steps are measured by a quarter of it.
+    line : which of the family's lines
+    start, target : values of the parameter; equal where nothing was found before
+    state : at the start
+    period : of the motion there; 0: it has none, or is not known
+    finest : minimum step where steps are expensive; 0: as small as it takes; inf: there is nothing in between
+    reach : largest magnitude that the parameter takes: near zero, steps are measured by a quarter of it
     """
 
     line: int
@@ -79,14 +73,10 @@ class Arrival(NamedTuple):
 
     Attributes
     ----------
-    orbit : Orbit
-        At the target.
-    next_state : (N,)
-        From which the next leg begins; of a motion without period the last one marched in between.
-    ends : tuple of BranchEnd
-        Of the branches that were left on the way.
-    seeds : tuple of Seed
-        From where these go on, one for each end.
+    orbit : at the target
+    next_state : from which the next leg begins; of a motion without period the last one marched in between
+    ends : of the branches that were left on the way
+    seeds : from where these go on, one for each end
     """
 
     orbit: Orbit

@@ -42,16 +42,11 @@ class BranchEnd(NamedTuple):
 
     Attributes
     ----------
-    kind : str
-        One of `KINDS`.
-    value : float
-        Of the parameter.
-    within : float
-        The branch was found on one side of it and not on the other, no farther apart than this.
-    period : int
-        Of the motion that ends.
-    multiplier : complex
-        Largest by modulus, at the last point found on the branch.
+    kind : one of `KINDS`
+    value : of the parameter
+    within : the branch was found on one side of it and not on the other, no farther apart than this
+    period : of the motion that ends
+    multiplier : largest by modulus, at the last point found on the branch
     """
 
     kind: str
@@ -66,14 +61,10 @@ class Seed(NamedTuple):
 
     Attributes
     ----------
-    value : float
-        Of the parameter.
-    state : (N,)
-        Of a stable motion there.
-    period : int
-        Of that: of fewer periods than the branch has had where it ends by merging.
-    way : float
-        Sense of the parameter, ±1, in which the end is from there.
+    value : of the parameter
+    state : of a stable motion there
+    period : of that: of fewer periods than the branch has had where it ends by merging
+    way : sense of the parameter, ±1, in which the end is from there
     """
 
     value: float

@@ -24,11 +24,8 @@ class ContinuedBranch(NamedTuple):
 
     Attributes
     ----------
-    end : int
-        Number of that end among those of the leg.
-    branch : UnstableBranch
-    steadies : list of SteadyMotion
-        Its motions.
+    end : number of that end among those of the leg
+    steadies : its motions
     """
 
     end: int
@@ -49,10 +46,8 @@ class UnstableRange(NamedTuple):
 
     Attributes
     ----------
-    span : (lowest, highest)
-        Range of the parameter.
-    motions : int
-        Motions on a branch at most, evenly along its arclength.
+    span : (lowest, highest), range of the parameter
+    motions : motions on a branch at most, evenly along its arclength
     """
 
     span: tuple[float, float]
@@ -64,13 +59,9 @@ class GearLines:
 
     Parameters
     ----------
-    model_at : callable
-    starts : mapping
-        Line -> (STATES,), by which states are scaled.
-    moving : tuple of int
-        See `gear_map.moving_states`.
-    **settings
-        Of `gear_map.GearMap`.
+    starts : line -> (STATES,), by which states are scaled
+    moving : see `gear_map.moving_states`
+    **settings : of `gear_map.GearMap`
     """
 
     def __init__(
@@ -114,13 +105,9 @@ def followed_states(
 
     Parameters
     ----------
-    model_at : callable
-    legs : sequence of Leg
-        Their states are (STATES,) at phase 0 after engagement; those that are handed on likewise.
-    samples, rtol, max_cycles, solver, max_steps, workers, tolerance
-        As `periodic.steady_states` has them.
-    unstable : UnstableRange, optional
-        Continue branches beyond the ends of their stable parts.
+    legs : their states are (STATES,) at phase 0 after engagement; those that are handed on likewise
+    samples, rtol, max_cycles, solver, max_steps, workers, tolerance : as `periodic.steady_states` has them
+    unstable : continue branches beyond the ends of their stable parts
     """
     alike: dict[tuple[Any, ...], list[int]] = {}
     for number, leg in enumerate(legs):

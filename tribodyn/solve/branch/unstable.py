@@ -37,15 +37,11 @@ class UnstableBranch(NamedTuple):
 
     Attributes
     ----------
-    period : int
-        Periods of the excitation in one of the motion.
-    values : (P,)
-        Of the parameter.
-    orbits : list of Orbit
-        The motions.
-    finish : BranchEnd or None
-        Where it becomes stable again, or merges with a motion of fewer periods; None: it goes on beyond the
-        range, or cannot be followed farther.
+    period : periods of the excitation in one of the motion
+    values : of the parameter
+    orbits : the motions
+    finish : where it becomes stable again, or merges with a motion of fewer periods; None: it goes on beyond
+        the range, or cannot be followed farther
     """
 
     period: int

@@ -48,12 +48,8 @@ class Part(NamedTuple):
 
     Attributes
     ----------
-    method : DiffraxMethod
-    width : int
-        At least the number of cases; what is missing is filled up.
-    one_table : bool
-        Whether all cases of this shape have the same.
-    places : (n,) int
+    width : at least the number of cases; what is missing is filled up
+    one_table : whether all cases of this shape have the same
     """
 
     method: DiffraxMethod

@@ -70,14 +70,10 @@ class Carried(NamedTuple):
 
     Attributes
     ----------
-    y : (STATES,)
-        At the end of the segment before; of a run that failed where the last whole segment ended.
-    step : float
-        First step to try, mesh cycles.
-    steps : int
-        Accepted in this mesh cycle so far.
-    status : int
-        A `Status`.
+    y : at the end of the segment before; of a run that failed where the last whole segment ended
+    step : first step to try, mesh cycles
+    steps : accepted in this mesh cycle so far
+    status : a `Status`
     """
 
     y: Float[Array, "*case state"]
@@ -91,13 +87,9 @@ class SegmentControl(NamedTuple):
 
     Attributes
     ----------
-    at : (S, room)
-        Phases to sample, filled up with `NEVER`.
-    stops : (S, n)
-        Phases that steps end on.
-    rtol, atol : float, (STATES,)
-    max_steps : int
-        Steps allowed in one mesh cycle.
+    at : phases to sample, filled up with `NEVER`
+    stops : phases that steps end on
+    max_steps : steps allowed in one mesh cycle
     """
 
     at: Float[Array, "*case segment room"]
@@ -239,12 +231,8 @@ class DiffraxIntegrator:
 
     Parameters
     ----------
-    method : module
-        One of `methods` that diffrax runs: its `METHOD`.
-    model : Model
-    samples : int
-        Samples per mesh cycle.
-    tolerances : Tolerances
+    method : one of `methods` that diffrax runs: its `METHOD`
+    samples : samples per mesh cycle
     """
 
     def __init__(self, method: Any, model: Model, samples: int, tolerances: Tolerances):

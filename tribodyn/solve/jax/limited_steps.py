@@ -22,9 +22,7 @@ class LimitedSteps(WrappedSteps):
 
     Parameters
     ----------
-    controller : AbstractAdaptiveStepSizeController
-    allowed : int
-        Accepted steps.
+    allowed : accepted steps
     """
 
     allowed: Any

@@ -9,12 +9,9 @@ class DiffraxMethod(NamedTuple):
 
     Attributes
     ----------
-    solver : callable
-        () -> diffrax's solver.
-    stages : int
-        Evaluations of the right-hand side in a step, without those of an implicit method's iteration.
-    proportional, integral : float
-        Gains of the step-size controller.
+    solver : () -> diffrax's solver
+    stages : evaluations of the right-hand side in a step, without those of an implicit method's iteration
+    proportional, integral : gains of the step-size controller
     """
 
     solver: Callable[[], Any]

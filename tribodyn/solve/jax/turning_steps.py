@@ -22,9 +22,7 @@ class TurningSteps(WrappedSteps):
 
     Parameters
     ----------
-    controller : AbstractAdaptiveStepSizeController
-    applies : bool
-        Whether the tolerance sees friction turn, see `turning.resolves_turns`.
+    applies : whether the tolerance sees friction turn, see `turning.resolves_turns`
     """
 
     applies: Any

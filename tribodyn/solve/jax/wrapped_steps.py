@@ -9,12 +9,7 @@ _Controller: Any = diffrax.AbstractAdaptiveStepSizeController
 
 
 class WrappedSteps(_Controller):
-    """A controller around another one, whose tolerances are its own.
-
-    Parameters
-    ----------
-    controller : AbstractAdaptiveStepSizeController
-    """
+    """A controller around another one, whose tolerances are its own."""
 
     controller: diffrax.AbstractAdaptiveStepSizeController
 

@@ -41,7 +41,6 @@ class Packed(NamedTuple):
 
     Attributes
     ----------
-    shape : ModelShape
     fields : fields of every record
     numbers : (C, F) float64
     addresses : (C, T) int64

@@ -48,12 +48,7 @@ class LaneBlock(NamedTuple):
     Attributes
     ----------
     numbers, addresses : of the lanes' models, see `lane_packing`
-    rows : (ROWS, WIDTH)
-    y, new, sample, atol : (STATES, WIDTH)
-    k : (STAGES, STATES, WIDTH)
-    work : (quantities, pairs, WIDTH)
-    measures, extreme, cycles, segments, states
-        As in `extreme_search.Search`, each (…, WIDTH).
+    measures, extreme, cycles, segments, states : as in `extreme_search.Search`, each (…, WIDTH)
     """
 
     numbers: Float[Array, "number lane"]
@@ -77,18 +72,11 @@ class Queue(NamedTuple):
 
     Attributes
     ----------
-    numbers, addresses : (C, F) float64 and (C, T) int64
-        The models, see `lane_packing`.
-    atol : (C, STATES)
-    stops : (C, segments, stops)
-        Phases that steps end on, see `reversal.stops`.
-    state : (C, STATES), samples : (C, kept, STATES), status : (C,) int64, reached : (C,)
-    steps, evaluations : (C,) int64
-        Results; `state` holds the start before.
-    measure, at, segment : (C, EXTREMES), extreme_state : (C, EXTREMES, STATES)
-        Results: the `Extremes`, where they are sought.
-    taken, done, stop : (1,) int64
-        Cases begun; mesh cycles done; not 0 to stop all threads.
+    numbers, addresses : the models, see `lane_packing`
+    stops : phases that steps end on, see `reversal.stops`
+    steps, evaluations : results; `state` holds the start before
+    measure, at, segment : results: the `Extremes`, where they are sought
+    taken, done, stop : cases begun; mesh cycles done; not 0 to stop all threads
     """
 
     numbers: Float[Array, "case number"]

@@ -51,13 +51,10 @@ class GearMap:
 
     Parameters
     ----------
-    models : sequence of C Models
-    starts : (C, STATES)
-        States that scale and integration method are judged by.
-    moving : tuple of int
-        See `moving_states`.
-    solver, rtol, fine_rtol, max_steps, workers
-        Method, tolerances of marching and of fixed points, steps allowed per cycle, threads.
+    starts : states that scale and integration method are judged by
+    moving : see `moving_states`
+    solver, rtol, fine_rtol, max_steps, workers : method, tolerances of marching and of fixed points, steps
+        allowed per cycle, threads
 
     Notes
     -----

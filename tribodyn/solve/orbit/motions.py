@@ -55,27 +55,17 @@ class Orbit:
 
     Attributes
     ----------
-    state : (N,)
-        On the motion that `kind` names, at the start of a period of the excitation.
-    last : (N,)
-        Where marching ended: the start for a neighbouring system.
-    period : int
-        Periods of the excitation in one of the motion; 0 where none was found.
-    residual : float
-        Maximum change of the state over one period of the motion, each over its scale; of a motion that is
-        not periodic the smallest over 1 … `MAX_PERIOD` periods.
-    multipliers : (N,) complex
-        Floquet multipliers over one period of the motion, largest first; NaN where it has none.
-    stable : bool
-        Whether the motion is periodic, with no multiplier outside the unit circle.
-    kind : str
-        "period-1" … "period-8"; "longer period"; "quasi-periodic", "chaotic", or "not periodic" where it is
-        undecided which; "failed"; "unstable" only where shooting alone was asked for.
-    method : str
-        "marching" or "shooting": what closed the orbit to the tolerance.
-    cycles : int
-        Periods of the excitation marched before the motion was found or given up.
-    message : str
+    state : on the motion that `kind` names, at the start of a period of the excitation
+    last : where marching ended: the start for a neighbouring system
+    period : periods of the excitation in one of the motion; 0 where none was found
+    residual : maximum change of the state over one period of the motion, each over its scale; of a motion
+        that is not periodic the smallest over 1 … `MAX_PERIOD` periods
+    multipliers : Floquet multipliers over one period of the motion, largest first; NaN where it has none
+    stable : whether the motion is periodic, with no multiplier outside the unit circle
+    kind : "period-1" … "period-8"; "longer period"; "quasi-periodic", "chaotic", or "not periodic" where it
+        is undecided which; "failed"; "unstable" only where shooting alone was asked for
+    method : "marching" or "shooting": what closed the orbit to the tolerance
+    cycles : periods of the excitation marched before the motion was found or given up
     """
 
     state: Float[Array, " state"]
@@ -109,12 +99,8 @@ class Recurrence(NamedTuple):
 
     Attributes
     ----------
-    period : int
-    change : float
-        Maximum change over that period, of states in units of their scale.
-    earlier : float
-        The same, `half` periods before.
-    half : int
+    change : maximum change over that period, of states in units of their scale
+    earlier : the same, `half` periods before
     """
 
     period: int
@@ -161,12 +147,10 @@ class Wandering(NamedTuple):
 
     Attributes
     ----------
-    kind : str
-        Chaotic where neighbours part, quasi-periodic where they neither part nor gather and the motion comes
-        back near former states, of a longer period where they gather; not periodic where none of these
-        holds, or the motion is not settled.
-    exponent, error : float
-        Largest Lyapunov exponent, per period of the excitation, and its standard error.
+    kind : chaotic where neighbours part, quasi-periodic where they neither part nor gather and the motion
+        comes back near former states, of a longer period where they gather; not periodic where none of these
+        holds, or the motion is not settled
+    exponent, error : largest Lyapunov exponent, per period of the excitation, and its standard error
     """
 
     kind: str

@@ -22,10 +22,8 @@ class Marched(NamedTuple):
 
     Attributes
     ----------
-    states : (R, periods, N)
-        After one, two, … periods; NaN from a failure on.
-    reasons : list of str
-        One per row, empty where all went well.
+    states : after one, two, … periods; NaN from a failure on
+    reasons : one per row, empty where all went well
     """
 
     states: Float[Array, "row period state"]
@@ -37,11 +35,8 @@ class Tangent(NamedTuple):
 
     Attributes
     ----------
-    image : (R, N)
-        NaN where a row failed.
-    jacobian : (R, N, N)
-        ∂image_i/∂state_j: at a fixed point the monodromy matrix.
-    reasons : list of str
+    image : NaN where a row failed
+    jacobian : ∂image_i/∂state_j: at a fixed point the monodromy matrix
     """
 
     image: Float[Array, "row state"]

@@ -37,13 +37,10 @@ class SteadyMotion(Orbit):
 
     Attributes
     ----------
-    samples : (cycles · samples, STATES)
-        Over one period of the motion, works counted from its start; over `WANDERING` mesh cycles of a motion
-        without period.
-    end : (STATES,)
-        At the end of the samples, before the next engagement: the works and the lag of whole mesh cycles.
-    extremes : Extremes or None
-        Of the dense motion over those cycles; None where it failed.
+    samples : over one period of the motion, works counted from its start; over `WANDERING` mesh cycles of a
+        motion without period
+    end : at the end of the samples, before the next engagement: the works and the lag of whole mesh cycles
+    extremes : of the dense motion over those cycles; None where it failed
     """
 
     samples: Float[Array, "sample state"]
@@ -69,29 +66,18 @@ def steady_states(
 
     Parameters
     ----------
-    models : sequence of C Models
-        They may differ in every number, table and option.
-    states : (C, STATES), optional
-        Where each starts, at phase 0 after engagement; default: the static equilibrium. Where several steady
-        states coexist this decides which one results.
-    samples : int
-        Samples per mesh cycle of the steady states.
-    rtol : float
-        Of marching; the last steps and the samples are integrated to a hundredth of `tolerance`.
-    tolerance : float
-        Maximum scaled change over a period of the motion.
-    max_cycles : int
-        Mesh cycles to march before giving up.
-    method : {"auto", "marching", "shooting"}
-        See `search.find`.
-    solver : str
-        Integration method, as `solver.method` of a scenario.
-    max_steps : int
-        Steps allowed in one mesh cycle.
-    workers : int, optional
-        See `ensemble.march`.
-    progress : callable, optional
-        Called with the share of cases done.
+    models : they may differ in every number, table and option
+    states : where each starts, at phase 0 after engagement; default: the static equilibrium. Where several
+        steady states coexist this decides which one results.
+    samples : samples per mesh cycle of the steady states
+    rtol : of marching; the last steps and the samples are integrated to a hundredth of `tolerance`
+    tolerance : maximum scaled change over a period of the motion
+    max_cycles : mesh cycles to march before giving up
+    method : {"auto", "marching", "shooting"}; see `search.find`
+    solver : integration method, as `solver.method` of a scenario
+    max_steps : steps allowed in one mesh cycle
+    workers : see `ensemble.march`
+    progress : called with the share of cases done
 
     Raises
     ------

@@ -64,18 +64,13 @@ def find(
 
     Parameters
     ----------
-    period_map : PeriodMap
-    states : (C, N)
-        Where each system starts.
-    tolerance : float
-        Maximum scaled change over a period of the motion.
-    max_periods : int
-        Periods that a system may march.
-    method : {"auto", "marching", "shooting"}
-        "marching" takes only what marching alone brings within the tolerance; "shooting" starts Newton's
-        method for one period from the states given and takes unstable states too.
-    progress : callable, optional
-        Called with the share of systems done.
+    states : where each system starts
+    tolerance : maximum scaled change over a period of the motion
+    max_periods : periods that a system may march
+    method : {"auto", "marching", "shooting"}; "marching" takes only what marching alone brings within the
+        tolerance; "shooting" starts Newton's method for one period from the states given and takes unstable
+        states too
+    progress : called with the share of systems done
     """
     if method == "shooting":
         orbits = []
@@ -98,8 +93,7 @@ class Progress:
 
     Parameters
     ----------
-    states, scale : (C, N)
-        Where each starts, and sizes by which states are measured.
+    states, scale : where each starts, and sizes by which states are measured
     """
 
     def __init__(self, states: Float[Array, "case state"], scale: Float[Array, "case state"]):

@@ -24,18 +24,12 @@ class Shot(NamedTuple):
 
     Attributes
     ----------
-    state : (N,)
-    residual : float
-        max |x − Pⁿ(x)| over the scale of each state; inf where the map failed.
-    multipliers : (N,) complex
-        Eigenvalues of the n-fold map's derivative, largest modulus first: Floquet's where the residual
-        vanishes.
-    jacobian : (N, N)
-        That derivative.
-    steps : int
-        Newton steps taken.
-    reason : str
-        Why there is no solution; empty where the residual is within the tolerance.
+    residual : max |x − Pⁿ(x)| over the scale of each state; inf where the map failed
+    multipliers : eigenvalues of the n-fold map's derivative, largest modulus first: Floquet's where the
+        residual vanishes
+    jacobian : that derivative
+    steps : Newton steps taken
+    reason : why there is no solution; empty where the residual is within the tolerance
     """
 
     state: Float[Array, " state"]
@@ -58,17 +52,11 @@ def shoot(
 
     Parameters
     ----------
-    period_map : PeriodMap
-    states : (R, N)
-        Where to start.
-    cases : (R,) int
-        The system of each row.
-    periods : int
-        n.
-    tolerance : float
-        Maximum scaled residual of a solution.
-    max_steps : int
-        Newton steps allowed; 0 only judges the states given.
+    states : where to start
+    cases : the system of each row
+    periods : n
+    tolerance : maximum scaled residual of a solution
+    max_steps : Newton steps allowed; 0 only judges the states given
 
     Notes
     -----
@@ -211,12 +199,9 @@ def closed_orbit(
 
     Parameters
     ----------
-    period_map, shot, case
-        The shot and its system.
-    period, cycles : int
-        Periods of the excitation that the shot closes over, and those marched before.
-    tolerance : float
-        Of the shot.
+    period_map, shot, case : the shot and its system
+    period, cycles : periods of the excitation that the shot closes over, and those marched before
+    tolerance : of the shot
     """
     for n in range(1, period):
         if period % n == 0:

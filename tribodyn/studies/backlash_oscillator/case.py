@@ -13,22 +13,15 @@ class BacklashOscillatorCase(CaseHead):
 
     Parameters
     ----------
-    title, name, kind, toml, sha256 : str
-        As in `tribodyn.studies.gear_pair.case.Case`; `kind` is "backlash-oscillator".
-    damping : float
-        ζ.
-    mean_force : float
-        F_m.
-    error_amplitude : float
-        F_e, amplitude of the transmission error.
-    stiffness_variation : float
-        ε, of which no more than 1 makes sense.
-    frequencies : tuple of float
-        Ω, increasing.
-    max_periods : int
-        Periods of the excitation marched at each frequency before a motion is called not periodic.
-    unstable : bool
-        Whether branches are continued beyond the ends of their stable parts.
+    title, name, kind, toml, sha256 : as in `tribodyn.studies.gear_pair.case.Case`; `kind` is
+        "backlash-oscillator"
+    damping : ζ
+    mean_force : F_m
+    error_amplitude : F_e, amplitude of the transmission error
+    stiffness_variation : ε, of which no more than 1 makes sense
+    frequencies : Ω, increasing
+    max_periods : periods of the excitation marched at each frequency before a motion is called not periodic
+    unstable : whether branches are continued beyond the ends of their stable parts
     """
 
     damping: float

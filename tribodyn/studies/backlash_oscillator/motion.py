@@ -231,13 +231,9 @@ class Rows(NamedTuple):
 
     Attributes
     ----------
-    strobes : (R, periods, 2)
-        States after every period.
-    tangents : (R, 2, 2)
-        The identity before, the derivative of the last state after.
-    figures : (R, FIGURES)
-        Zeros before, extremes ∓inf.
-    status : (R,) int
+    strobes : states after every period
+    tangents : the identity before, the derivative of the last state after
+    figures : zeros before, extremes ∓inf
     """
 
     strobes: Float[Array, "row period 2"]
@@ -268,8 +264,7 @@ class OscillatorMap:
 
     Parameters
     ----------
-    parameters : (C, 5)
-        Rows of ζ, F_m, F_e, ε, Ω.
+    parameters : rows of ζ, F_m, F_e, ε, Ω
 
     Notes
     -----

@@ -54,30 +54,19 @@ class Response(NamedTuple):
 
     Attributes
     ----------
-    frequency : (F,)
-        Ω.
-    rms : (F, 2)
-        Root mean square of x about its mean, over one period of the motion; over `WINDOW` periods of the
-        excitation where it is not periodic. NaN where it failed.
+    frequency : (F,), Ω
+    rms : (F, 2), root mean square of x about its mean, over one period of the motion; over `WINDOW` periods
+        of the excitation where it is not periodic. NaN where it failed.
     peak_to_peak, mean : (F, 2)
-    free, back : (F, 2)
-        Shares of the time without contact, and in contact on the back side.
-    period : (F, 2)
-        Of the motion in periods of the excitation; 0 where it is not periodic.
-    kind : (F, 2)
-        Of `MotionKind`; STABLE: periodic.
-    residual : (F, 2)
-        Change of the state over a period of the motion.
-    multiplier : (F, 2, 2) complex
-        Floquet multipliers over a period of the motion; NaN where it has none.
-    displacement, velocity : (F, 2)
-        State where cos Ωτ = 1, at the start of the motion.
-    messages : list of (frequency, direction, text)
-        Remarks on single points.
-    ends : list of (direction, BranchEnd)
-        Where branches were left, in the order in which they were met.
-    beyond : list of Beyond
-        Unstable motions beyond these, where the case asks for them.
+    free, back : (F, 2), shares of the time without contact, and in contact on the back side
+    period : (F, 2), of the motion in periods of the excitation; 0 where it is not periodic
+    kind : (F, 2), of `MotionKind`; STABLE: periodic
+    residual : (F, 2), change of the state over a period of the motion
+    multiplier : (F, 2, 2) complex, Floquet multipliers over a period of the motion; NaN where it has none
+    displacement, velocity : (F, 2), state where cos Ωτ = 1, at the start of the motion
+    messages : remarks on single points
+    ends : where branches were left, in the order in which they were met
+    beyond : unstable motions beyond these, where the case asks for them
     """
 
     frequency: np.ndarray

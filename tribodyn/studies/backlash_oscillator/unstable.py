@@ -53,11 +53,8 @@ class Beyond(NamedTuple):
 
     Attributes
     ----------
-    end : int
-        Place of that end in `Response.ends`.
-    branch : UnstableBranch
-    rms, peak_to_peak, free : (P,)
-        Of its motions, as in `Response`.
+    end : place of that end in `Response.ends`
+    rms, peak_to_peak, free : (P,), of its motions, as in `Response`
     """
 
     end: int
@@ -72,10 +69,7 @@ def measured(end: int, branch: UnstableBranch, oscillator: OscillatorMap) -> Bey
 
     Parameters
     ----------
-    end : int
-    branch : UnstableBranch
-    oscillator : OscillatorMap
-        At the branch's frequencies.
+    oscillator : at the branch's frequencies
     """
     figures = oscillator.figures(branch.states, np.arange(len(branch.values)), branch.period)
     duration = branch.period * 2.0 * np.pi / branch.values

@@ -14,13 +14,9 @@ class Way(NamedTuple):
 
     Attributes
     ----------
-    neighbour : case
-    start, target : float
-        Values of the parameter, SI units.
-    period : int
-        Of the neighbour's motion; 0: it has none.
-    span : (lowest, highest)
-        Range of the parameter in the sweep.
+    start, target : values of the parameter, SI units
+    period : of the neighbour's motion; 0: it has none
+    span : (lowest, highest), range of the parameter in the sweep
     """
 
     neighbour: Any
@@ -40,14 +36,10 @@ class Chunk(NamedTuple):
 
     Attributes
     ----------
-    numbers : (n,) int
-        Of the cases in the sweep's record.
-    cases : tuple of n cases or str
-        A text where the case could not even be made: why.
-    states : (n, states) or None
-        Where to start from; NaN, or None for all, where a case begins by itself.
-    ways : tuple of n Ways or None
-        How each got there; None, also for all, where a case begins by itself.
+    numbers : (n,) int, of the cases in the sweep's record
+    cases : a text where the case could not even be made: why
+    states : (n, states) or None, where to start from; NaN, or None for all, where a case begins by itself
+    ways : how each got there; None, also for all, where a case begins by itself
     """
 
     numbers: np.ndarray
@@ -61,8 +53,7 @@ class Batch(Protocol):
 
     Attributes
     ----------
-    states : int
-        Numbers from which a neighbouring case can continue; 0: every case begins by itself.
+    states : numbers from which a neighbouring case can continue; 0: every case begins by itself
     """
 
     states: int
@@ -72,12 +63,9 @@ class Batch(Protocol):
 
         Parameters
         ----------
-        cases : sequence
-            Those at both ends of the grid.
-        transient : int or None
-            Mesh cycles to march instead of seeking a steady state.
-        engine : str
-            Where: "native", "jax", "dask".
+        cases : those at both ends of the grid
+        transient : mesh cycles to march instead of seeking a steady state
+        engine : where: "native", "jax", "dask"
 
         Raises
         ------
@@ -132,13 +120,9 @@ def batched(
 
     Parameters
     ----------
-    batch : Batch
-    cases : sequence of cases or str
-        A text where the case could not even be made.
-    names : collection of str
-        Of the figures.
-    workers : int, optional
-        Threads; default: one per core.
+    cases : a text where the case could not even be made
+    names : of the figures
+    workers : threads; default: one per core
     """
     made = [case for case in cases if not isinstance(case, str)]
     if not made:

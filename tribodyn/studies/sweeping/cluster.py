@@ -15,10 +15,8 @@ def client_of(workers: int | None, scheduler: str | None) -> Iterator[Any]:
 
     Parameters
     ----------
-    workers : int, optional
-        Processes of a cluster of this machine; default: one per core.
-    scheduler : str, optional
-        Address of a scheduler, ``tcp://host:8786``.
+    workers : processes of a cluster of this machine; default: one per core
+    scheduler : address of a scheduler, ``tcp://host:8786``
 
     Raises
     ------

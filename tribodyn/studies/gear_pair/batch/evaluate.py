@@ -44,23 +44,14 @@ class SweepSettings(NamedTuple):
 
     Attributes
     ----------
-    steady : bool
-        Whether the periodic motion is sought; otherwise `cycles` mesh cycles are marched.
-    cycles : int
-        Mesh cycles to march, or at most to march in search of the steady state.
-    window : int
-        Mesh cycles that the figures are taken from.
-    points : int
-        Points of the Poincaré section, one per mesh cycle.
-    samples : int
-        Samples in a mesh cycle.
-    modes : int
-    method : str
-        Integration method instead of the scenario's; empty for the scenario's own.
-    followed : bool
-        Whether steady motions are followed from case to case, to the ends of their branches.
-    unstable : bool
-        Whether branches are continued beyond these.
+    steady : whether the periodic motion is sought; otherwise `cycles` mesh cycles are marched
+    cycles : mesh cycles to march, or at most to march in search of the steady state
+    window : mesh cycles that the figures are taken from
+    points : points of the Poincaré section, one per mesh cycle
+    samples : samples in a mesh cycle
+    method : integration method instead of the scenario's; empty for the scenario's own
+    followed : whether steady motions are followed from case to case, to the ends of their branches
+    unstable : whether branches are continued beyond these
     """
 
     steady: bool
@@ -79,10 +70,7 @@ def evaluate(chunk: Chunk, settings: SweepSettings, workers: int | None = None) 
 
     Parameters
     ----------
-    chunk : Chunk
-    settings : SweepSettings
-    workers : int, optional
-        Threads; by default one per core.
+    workers : threads; by default one per core
     """
     rows = _evaluate(chunk, settings, workers)
     for _ in range(MOST - 1):
@@ -197,7 +185,7 @@ def _fill(
     said = [*remarks(judged | {"warning": warning}), *remarks_in_brief(prepared.case.toml)]
     rows["message"][i] = remarked(rows["message"][i], *map(warned, said))
     rows[TRUST][i] = number(judged)
-    error = outcome.window.window[:, XI]
+    error = outcome.window.states[:, XI]
     room = settings.window * settings.samples
     whole = room if outcome.period == 0 else room // error.size * error.size
     rows["transmission_error_rotational"][i, :whole] = np.resize(error, whole)

@@ -22,14 +22,10 @@ class Window(NamedTuple):
 
     Attributes
     ----------
-    first_cycle : int
-        Whole mesh cycles done before.
-    states : (cycles · samples, STATES)
-        Over whole mesh cycles, the sample that closes the last not included.
-    start, end : (STATES,)
-        States at both ends; the difference of their works is the window's.
-    extremes : Extremes or None
-        Of the motion between the samples.
+    first_cycle : whole mesh cycles done before
+    states : (cycles · samples, STATES), over whole mesh cycles, the sample that closes the last not included
+    start, end : (STATES,), states at both ends; the difference of their works is the window's
+    extremes : of the motion between the samples
     """
 
     first_cycle: int
@@ -44,24 +40,15 @@ class Outcome(NamedTuple):
 
     Attributes
     ----------
-    window : Window or None
-        None where the case failed.
-    state : (STATES,)
-        After the engagement at phase 0, clock and audit at zero: where a neighbour continues.
-    section : (points, STATES)
-        States at the start of mesh cycles, the last ones.
-    solution : str
-        Sort of motion, as `orbit.motions.Orbit.kind`; or "transient".
-    cycles : int
-        Mesh cycles integrated.
-    message : str
-        Why it failed, or a remark on its result.
-    period, stable, multiplier_max, residual
-        As `sweep_layout.CASES` has them.
-    ends : tuple of BranchEnd
-        Of the branches that were left on the way from the neighbour.
-    continued : tuple of ContinuedBranch
-        Those branches beyond their ends.
+    window : None where the case failed
+    state : (STATES,), after the engagement at phase 0, clock and audit at zero: where a neighbour continues
+    section : (points, STATES), states at the start of mesh cycles, the last ones
+    solution : sort of motion, as `orbit.motions.Orbit.kind`; or "transient"
+    cycles : mesh cycles integrated
+    message : why it failed, or a remark on its result
+    period, stable, multiplier_max, residual : as `sweep_layout.CASES` has them
+    ends : of the branches that were left on the way from the neighbour
+    continued : those branches beyond their ends
     """
 
     window: Window | None
@@ -104,14 +91,11 @@ def marched(
 
     Parameters
     ----------
-    models : sequence of C Models
     states : (C, STATES)
-    cycles, window, points : int
-        Mesh cycles to march, those of them whose samples are kept, and those whose first state is.
-    samples : int
-        Samples in a mesh cycle.
-    **solver
-        Further arguments of `ensemble.march`.
+    cycles, window, points : mesh cycles to march, those of them whose samples are kept, and those whose first
+        state is
+    samples : samples in a mesh cycle
+    **solver : further arguments of `ensemble.march`
     """
     before = cycles - window
     sections = max(0, min(points, cycles) - window)

@@ -82,16 +82,12 @@ def steady(
 
     Parameters
     ----------
-    models : sequence of C Models
     states : (C, STATES)
-    cycles : int
-        Mesh cycles to march at most.
-    points, samples : int
-        Points of the section of a motion without period; samples in a mesh cycle.
-    legs, model_at, unstable
-        To follow a neighbour's motion to each case, see `gear_pairs.followed_states`; lines are cases.
-    method, **solver
-        Method, and rtol, max_steps and workers, as `ensemble.march` takes them.
+    cycles : mesh cycles to march at most
+    points, samples : points of the section of a motion without period; samples in a mesh cycle
+    legs, model_at, unstable : to follow a neighbour's motion to each case, see `gear_pairs.followed_states`;
+        lines are cases
+    method, **solver : method, and rtol, max_steps and workers, as `ensemble.march` takes them
     """
     outcomes: dict[int, Outcome] = {}
     for i, model in enumerate(models):
