@@ -45,45 +45,6 @@ def test_the_overview_is_drawn_by_another_process_as_by_its_own(tmp_path):
     assert one == two
 
 
-def test_an_answer_that_is_none_is_no_picture(monkeypatch):
-    for program in ("pass", "print('nonsense')", "import sys; sys.exit(3)"):
-        monkeypatch.setattr(ahead, "TARGET", ("builtins:exec", program))
-        drawer = ahead.Drawer()
-        drawer.draw(Path("no-such.h5"), False)
-        assert drawer.pictures() is None
-        drawer.close()
-
-
-def test_a_process_without_a_record_ends(monkeypatch):
-    monkeypatch.setattr("tribodyn.OWN_PROCESS", True)
-    monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0, 1}, raising=False)
-    with ahead.drawer(wanted=True) as drawer:
-        assert drawer is not None
-    assert drawer._process.returncode is not None
-    with ahead.drawer(wanted=False) as drawer:
-        assert drawer is None
-
-
-@pytest.mark.parametrize(
-    ("words", "starts"),
-    [
-        (("run", "irefc"), True),
-        (("run", "irefc", "--no-plot"), False),
-        (("run", "irefc", "--plot"), False),
-        (("run", "--help"), False),
-        (("show", "run"), False),
-        ((), False),
-    ],
-)
-def test_it_starts_with_a_command_that_draws_one_picture(words, starts, monkeypatch):
-    monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0, 1}, raising=False)
-    ahead.begin(words)
-    assert len(ahead._begun) == starts
-    with ahead.drawer(wanted=starts) as drawer:
-        assert (drawer is not None) == starts
-        assert not ahead._begun
-
-
 def test_it_ends_with_the_process_that_began_it(monkeypatch):
     """A command that fails before it has anything to draw leaves nothing behind."""
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0, 1}, raising=False)

@@ -125,15 +125,6 @@ def test_labels_of_equal_names_are_told_apart_by_their_folders(tmp_path: Path):
     comparison_table(comparison)
 
 
-def test_three_records_each_against_the_first(tmp_path: Path):
-    paths = [
-        synthetic_record.write(tmp_path / f"{name}.h5", cycles=2, per_cycle=40) for name in ("a", "b", "c")
-    ]
-    result = compared(*map(str, paths))
-    assert result["quantities"]["efficiency"]["relative_differences"] == [0.0, 0.0]
-    assert result["quantities"]["friction_force_mean"]["values"][2] == [150.0, 310.0]
-
-
 @pytest.mark.parametrize(
     ("words", "said"),
     [

@@ -55,27 +55,6 @@ def test_drive_file_and_scenario_give_the_same_sheet():
     assert by_scenario == by_name == by_file
 
 
-def test_the_sheet_for_people_names_what_an_engineer_looks_for():
-    shown = gear("involute-18-36")
-    assert shown.exit_code == 0
-    for name in (
-        "module",
-        "approach contact ratio",
-        "base diameter",
-        "tip thickness",
-        "undercut margin",
-        "minimum specific sliding",
-        "moment of inertia",
-    ):
-        assert name in shown.stdout
-
-
-def test_keys_are_set_as_in_a_scenario():
-    assert sheet("liu-ni-involute-23-47", "--set", "drive.pinion.profile_shift=0.25")["geometry"]["pinion"][
-        "profile shift"
-    ] == [0.25, ""]
-
-
 def test_drawings(tmp_path: Path):
     printed = sheet("liu-ni-involute-23-47", "-o", str(tmp_path / "new" / "folder"), "--points", "20")
     files = [Path(file) for file in printed["files"]]
@@ -139,13 +118,6 @@ def test_materials_of_an_own_drive_are_found_beside_it(tmp_path: Path):
     light = sheet(own_drive(tmp_path / "drives", "steel-liu-ni-2022", "light"))["geometry"]["gear"]
     steel = sheet("liu-ni-involute-23-47")["geometry"]["gear"]
     assert light["mass"][0] == pytest.approx(steel["mass"][0] / 2)
-
-
-def test_a_folder_that_cannot_be_made_is_bad_input(tmp_path: Path):
-    (tmp_path / "file").write_text("", encoding="utf-8")
-    refused = gear("liu-ni-crc-23-47", "-o", str(tmp_path / "file"))
-    assert refused.exit_code == 2
-    assert "choose another name or folder" in refused.stderr
 
 
 def test_a_pair_as_a_free_form_one(tmp_path):

@@ -66,24 +66,11 @@ def test_every_verb_shows_an_example_that_parses(verb: str):
         command.commands[verb].make_context(verb, words)  # type: ignore[attr-defined]
 
 
-@pytest.mark.parametrize(
-    "verb", ["run", "sweep", "check", "gear", "show", "plot", "compare", "list", "validate"]
-)
-def test_verbs_that_print_results_have_json(verb: str):
-    assert "--json" in CliRunner().invoke(app, [verb, "--help"]).stdout
-
-
 def test_no_verb_is_help_and_an_unknown_one_is_refused():
     assert "Usage" in CliRunner().invoke(app, []).output
     refused = CliRunner().invoke(app, ["rnu"])
     assert refused.exit_code == 2
     assert "rnu" in refused.stderr
-
-
-def test_the_version_is_the_package_s():
-    from tribodyn import __version__
-
-    assert CliRunner().invoke(app, ["--version"]).stdout == f"tribodyn {__version__}\n"
 
 
 @pytest.mark.parametrize(

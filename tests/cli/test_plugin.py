@@ -28,17 +28,6 @@ pytestmark = pytest.mark.slow
 
 GEARS, EFFICIENCY, SLIDING = "circle-23-47", "efficiency-circle-23-47", "sliding-circle-23-47"
 SHORT = ("solver.cycles=2", "output.samples_per_cycle=40", "solver.rtol=1e-8")
-#: The same pair and film under the shipped law.
-COULOMB = """
-title = "The same under Coulomb's law"
-lubricant = "liu-ni-2022"
-drive = {like = "liu-ni-involute-23-47", family = "circle", shape = {diameter = "-300 mm"}}
-operating = {pinion_speed = "300 rad/s", gear_torque = "500 N*m"}
-mesh = {damping_ratio = 0.05}
-film = {law = "constant-film", thickness = "0.5 um"}
-friction = {law = "coulomb", coefficient = 0.05}
-"""
-AS_COULOMB = ("solver.method=dopri5", "friction.boundary_coefficient=0.05", "friction.fluid_coefficient=0.05")
 #: The same circle as two arcs, which the shipped family has.
 AS_ARCS = ("drive.family=circular-arc", 'drive.shape={approach_diameter="300 mm",recess_diameter="-300 mm"}')
 
@@ -147,20 +136,6 @@ def test_own_keys_are_held_to_their_units(plugin, tmp_path):
     assert 'did you mean "thickness"?' in wrong.stderr
 
 
-@pytest.mark.soak
-def test_the_law_reduces_to_coulombs(plugin, tmp_path):
-    """Without a decay; the film is the one that is given."""
-    shipped = tmp_path / "shipped.toml"
-    shipped.write_text(COULOMB, encoding="utf-8")
-    theirs = arrays(run(plugin, tmp_path, "coulomb", *SHORT, AS_COULOMB[0], scenario=str(shipped)))
-    own = arrays(run(plugin, tmp_path, GEARS, *SHORT, *AS_COULOMB))
-    for name in theirs.keys() - {"friction_in_range"}:
-        scale = np.nanmax(np.abs(theirs[name])) or 1.0
-        np.testing.assert_allclose(own[name], theirs[name], rtol=0, atol=1e-12 * scale, err_msg=name)
-    loaded = own["normal_load"] > 0.0
-    np.testing.assert_allclose(own["central_film_thickness"][loaded], 0.5e-6, rtol=1e-12)
-
-
 def test_the_family_reduces_to_two_arcs(plugin, tmp_path):
     """Of opposite diameters, for which the shipped family has closed forms where the example integrates."""
     own = run(plugin, tmp_path, "circle", scenario=plugin.scenario(SLIDING))
@@ -169,28 +144,6 @@ def test_the_family_reduces_to_two_arcs(plugin, tmp_path):
         assert one.summary["contact_ratio"] == pytest.approx(other.summary["contact_ratio"], rel=1e-12)
         for name in other:
             np.testing.assert_allclose(one[name], other[name], rtol=1e-10, atol=1e-13, err_msg=name)
-
-
-@pytest.mark.soak
-def test_all_integrators_agree(plugin, tmp_path):
-    """The native kernels, JAX and SciPy over NumPy, on one case, to what their tolerances leave."""
-    found = {}
-    for method in ("dopri5", "tsit5", "radau"):
-        found[method] = arrays(
-            run(plugin, tmp_path, GEARS, *SHORT, f"solver.method={method}", "solver.cycles=1")
-        )
-        (tmp_path / f"{GEARS}.h5").unlink()
-    first = found["dopri5"]
-    for name in ("transmission_error_rotational", "normal_load", "friction_coefficient", "friction_force"):
-        scale = np.nanmax(np.abs(first[name]))
-        for method, other in found.items():
-            np.testing.assert_allclose(
-                other[name], first[name], rtol=0, atol=1e-5 * scale, err_msg=f"{name} {method}"
-            )
-    speed, coefficient = first["entrainment_speed"], first["friction_coefficient"]
-    expected = 0.03 + 0.09 * np.exp(-np.abs(speed) / 2.0)
-    np.testing.assert_allclose(coefficient, expected, rtol=1e-12)
-    assert set(np.unique(first["friction_in_range"][first["normal_load"] > 0.0])) == {1}
 
 
 def test_a_kernel_is_kept_until_the_source_changes(plugin, tmp_path):
@@ -283,39 +236,6 @@ def test_the_study_runs_draws_shows_and_compares(plugin, tmp_path):
             minimum = np.min(record[f"{body}_specific_sliding"])
             assert minimum == record.summary[f"{body}_specific_sliding_min"]
             assert minimum == pytest.approx(sheet[body]["minimum specific sliding"][0], rel=1e-9)
-
-
-def test_specific_sliding_of_an_involute(plugin, tmp_path):
-    """Closed form: u_p = ω_p (r_p sin α + r), u_g = ω_p r_p/r_g (r_g sin α − r)."""
-    path = run(plugin, tmp_path, "involute", "drive.family=involute", "drive.shape={}",
-               scenario=plugin.scenario(SLIDING))  # fmt: skip
-    r_p, r_g, sine = 3e-3 * 23 / 2, 3e-3 * 47 / 2, np.sin(np.radians(20.0))
-    with open_record(path) as record:
-        r = record["signed_distance"]
-        u_p, u_g = r_p * sine + r, r_p / r_g * (r_g * sine - r)
-        np.testing.assert_allclose(record["pinion_specific_sliding"], 1 - u_g / u_p, rtol=1e-12, atol=1e-12)
-        np.testing.assert_allclose(record["gear_specific_sliding"], 1 - u_p / u_g, rtol=1e-12, atol=1e-12)
-        speed = 1500 * np.pi / 30
-        np.testing.assert_allclose(
-            record["sliding_speed"], speed * (1 + r_p / r_g) * r, rtol=1e-12, atol=1e-12
-        )
-
-
-def test_a_sweep_of_the_study(plugin, tmp_path):
-    """Over a key of its own: the sliding speed goes with the speed, and nothing else changes."""
-    vary = "operating.pinion_speed=500:2000:500rpm"
-    plugin("sweep", plugin.scenario(SLIDING), "--vary", vary, "-o", "sweep.h5", folder=tmp_path)
-    with SweepRecord(tmp_path / "sweep.h5") as record:
-        fastest = record["sliding_speed_max"]
-        np.testing.assert_allclose(fastest / fastest[0], [1.0, 2.0, 3.0, 4.0], rtol=1e-12)
-        assert len(set(record["pinion_specific_sliding_min"])) == 1
-    plugin("plot", "sweep.h5", folder=tmp_path)
-    assert list(tmp_path.glob("sweep-*.png"))
-
-
-def test_init_writes_a_scenario_of_the_study(plugin, tmp_path):
-    plugin("init", "mine", "--kind", "specific-sliding", folder=tmp_path)
-    plugin("check", "mine.toml", folder=tmp_path)
 
 
 BROKEN = {

@@ -68,19 +68,12 @@ def test_figures_that_a_record_does_not_hold_are_refused(folder):
 
 MISTAKES = {
     "two elements": ("drive.elements=2", "drive.elements = 2", "too few", "use 3 or more"),
-    "no elements": ("drive.elements=0", "drive.elements = 0", "greater than 0", "write a larger number"),
-    "half an element": ("drive.elements=5.5", "drive.elements", "not a whole number", "write a whole number"),
     "overlap": ('drive.element_radius="3.4 mm"', "drive.element_radius = 3.4 mm", "overlap", "3.375 mm"),
     "undercut": ('drive.element_radius="5 mm"', "drive.element_radius = 5 mm", "undercut", "3.375 mm"),
     "no room": ("drive.elements=80", "drive.element_radius = 2 mm", "overlap", "fewer elements"),
     "on the pitch circle": ("drive.displacement=1.0", "drive.displacement = 1.0", "cusps", "more than 1"),
-    "inside it": ("drive.displacement=0.5", "drive.displacement = 0.5", "cusps", "more than 1"),
-    "no unit": ("drive.pitch_radius=20", "drive.pitch_radius = 20", "without a unit", '"20 mm"'),
-    "wrong unit": ('operating.input_power="3 N"', "operating.input_power", "not a unit of power", "1500 W"),
-    "negative power": ('operating.input_power="-3 W"', "operating.input_power", "greater than zero", "1500"),
     "locked by rolling": ('friction.rolling_arm="2 mm"', "friction.rolling_arm = 2 mm", "locks", "1.04 mm"),
     "locked by sliding": ("friction.sliding_coefficient=90", "friction.sliding_coefficient", "locks", "16.2"),
-    "unknown mode": ('mode="as-published"', 'mode = "as-published"', "not one of", '"as_published"'),
     "key of a gear pair": ("solver.cycles=2", "solver", "unknown key", "known keys"),
     "drive of a gear pair": ('drive="liu-ni-crc-23-47"', "drive.pitch_radius", "missing", "20 mm"),
 }

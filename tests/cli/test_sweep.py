@@ -1,7 +1,6 @@
 """The verb sweep as its user meets it: records, figures, failed cases, what is refused."""
 
 import json
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -86,27 +85,6 @@ def test_the_first_case_of_a_direction_is_the_run_of_its_scenario(grid: Path, tm
         )
 
 
-def test_a_single_cycle_is_the_first_of_a_run(tmp_path: Path):
-    """Nothing comes before the window of `--transient 1`."""
-    samples = ("--set", "output.samples_per_cycle=40")
-    tribodyn("sweep", "crc-23-47", "--vary", SPEEDS, "--transient", "1", *samples, "-o", tmp_path / "s.h5")
-    once = ("--set", "operating.pinion_speed=200 rad/s", "--set", "solver.cycles=1")
-    tribodyn("run", "crc-23-47", "--no-plot", *once, *samples, "-o", tmp_path / "run.h5")
-    with open_record(tmp_path / "run.h5") as record, SweepRecord(tmp_path / "s.h5") as sweep:
-        np.testing.assert_allclose(
-            sweep["transmission_error_rotational"][1],
-            record["transmission_error_rotational"][:-1],
-            rtol=1e-7,
-        )
-        assert sweep["cycles"].tolist() == [1, 1, 1]
-
-
-def test_directions_share_the_end_where_one_begins_only_by_their_history(grid: Path):
-    with SweepRecord(grid) as record:
-        states = record["state"]
-        assert not np.array_equal(states[1, :, 0], states[1, :, 1])
-
-
 @pytest.mark.parametrize("name", STUDIES["gear-pair"].sweep_drawings())
 def test_every_figure_is_drawn(grid: Path, name: str, tmp_path: Path):
     at = ("--at", "pinion_speed=1900rpm", "--at", "direction=down") if name == "poincare" else ()
@@ -185,19 +163,6 @@ def test_a_load_that_changes_over_time_has_no_steady_state(tmp_path: Path):
     assert ended.exit_code == 2
     assert "operating.gear_torque_table" in ended.stderr
     assert not list(tmp_path.iterdir())
-
-
-def test_verbs_for_runs_refuse_a_sweep(grid: Path, tmp_path: Path):
-    copy = shutil.copy(grid, tmp_path / "copy.h5")
-    ended = CliRunner().invoke(app, ["compare", str(grid), str(copy)])
-    assert ended.exit_code == 2
-    assert "the record of a sweep, not of a run" in ended.stderr
-
-
-def test_an_existing_record_is_kept(grid: Path):
-    ended = CliRunner().invoke(app, ["sweep", "crc-23-47", "--vary", SPEEDS, *SHORT, "-o", str(grid)])
-    assert ended.exit_code == 2
-    assert "--force" in ended.stderr
 
 
 def test_neither_jax_nor_dask_nor_matplotlib_is_imported(tmp_path: Path):

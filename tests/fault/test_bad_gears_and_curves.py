@@ -42,8 +42,6 @@ CURVES = {
     "no units": ("time,torque\n0,1\n1,2\n", "line 1", 'no column "time [unit]"'),
     "no column": ("time [s],load [N*m]\n0,1\n1,2\n", "line 1", 'no column "torque [unit]"'),
     "not a number": ("time [s],torque [N*m]\n0,1\n1,x\n", "line 3", '"x" is not a number (torque)'),
-    "short row": ("time [s],torque [N*m]\n\n0\n", "line 3", "is not a number (torque)"),
-    "one point": ("time [s],torque [N*m]\n0,1\n", "time.values", "fewer than 2 values"),
     "not finite": ("time [s],torque [N*m]\n0,1\n1,nan\n", "torque.values.1 = nan", "not a finite number"),
     "wrong unit": ("time [s],torque [N]\n0,1\n1,2\n", "operating.gear_torque_table", "not a unit of torque"),
     "not sorted": ("time [s],torque [N*m]\n0,1\n0,2\n", "operating.gear_torque_table", "does not increase"),

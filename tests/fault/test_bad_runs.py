@@ -1,16 +1,13 @@
 """Bad input to the verbs, in processes of their own: one line, exit status 2, nothing written or lost."""
 
 import os
-import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
 
 from tests.support.forked_verbs import ForkedVerbs
-from tribodyn.record.reader import open_record
 
 SHORT = ("--set", "solver.cycles=1", "--set", "output.samples_per_cycle=16", "--no-plot")
 
@@ -31,11 +28,6 @@ def contents(folder: Path) -> dict[str, bytes]:
     return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
 
-def samples(path: Path) -> int:
-    with open_record(path) as record:
-        return record.samples
-
-
 COMMANDS = {
     "bad value": (
         ("run", "crc-23-47", "--set", "operating.pinion_speed=10", *SHORT),
@@ -49,15 +41,9 @@ COMMANDS = {
     "record exists": (("run", "crc-23-47", "-o", "there.h5", *SHORT), ("output = there.h5:", "--force")),
     "remains of a run": (("run", "crc-23-47", "-o", "dead.h5", *SHORT), ("output = dead.h5:", "--force")),
     "no such folder": (("run", "crc-23-47", "-o", "no/such.h5", *SHORT), ("output = no/such.h5:", "create")),
-    "record is a folder": (("run", "crc-23-47", "-o", "folder", *SHORT), ("output = folder:", "name a file")),
-    "folder is a file": (
-        ("run", "crc-23-47", "-o", "there.h5/a.h5", *SHORT),
-        ("output = there.h5/a.h5:", "create"),
-    ),
     "show nothing": (("show", "nothing.h5"), ("record = nothing.h5: no such file",)),
     "show text": (("show", "text.h5"), ("record = text.h5: not an HDF5 file",)),
     "plot nothing": (("plot", "nothing.h5"), ("record = nothing.h5: no such file",)),
-    "plot no record": (("plot", "film"), ('record = "film": no such file',)),
     "init over a file": (("init", "mine"), ("mine.toml: the file exists", "--force")),
     "init into nowhere": (("init", "no/where"), ('name = "no/where.toml": the folder does not exist',)),
     "validate nothing": (("validate", "liu-ni-2202"), ("liu-ni-2022",)),
@@ -120,48 +106,6 @@ def test_a_simulation_that_gives_up_says_when_and_keeps_what_it_has(tmp_path: Pa
     shown = forked("show", "crc-23-47.partial.h5", folder=tmp_path)
     assert shown.returncode == 0
     assert "failed" in shown.stdout
-
-
-# a shell's background job ignores the signal, and so would its children
-HEEDING_INTERRUPTS = """
-import signal
-signal.signal(signal.SIGINT, signal.default_int_handler)
-from tribodyn.cli import main
-main()
-"""
-
-
-LONG = ("--set", "solver.cycles=20000", "--set", "output.samples_per_cycle=20")
-
-
-@pytest.mark.parametrize(
-    ("asked", "status"),
-    [(signal.SIGINT, 130), pytest.param(signal.SIGTERM, 143, marks=pytest.mark.soak)],
-)
-def test_an_interrupted_run_keeps_what_it_has(asked: signal.Signals, status: int, tmp_path: Path):
-    process = subprocess.Popen(
-        [sys.executable, "-c", HEEDING_INTERRUPTS, "run", "crc-23-47", *LONG],
-        cwd=tmp_path,
-        stderr=subprocess.PIPE,
-        text=True,
-        env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])},
-    )
-    partial = tmp_path / "crc-23-47.partial.h5"
-    started = time.monotonic()
-    while not partial.exists() or samples(partial) == 0:
-        assert process.poll() is None
-        assert time.monotonic() - started < 300
-        time.sleep(0.1)
-    process.send_signal(asked)
-    _, said = process.communicate(timeout=300)
-    assert process.returncode == status
-    assert said.startswith("interrupted" if asked is signal.SIGINT else "terminated")
-    assert len(said.splitlines()) == 1
-    with open_record(partial) as record:
-        assert f"; the first {record.samples} of 400001 samples: crc-23-47.partial.h5" in said
-        assert record.status == "failed"
-        assert record.samples > 0
-        assert (record["normal_load"] >= 0).all()
 
 
 def test_a_bug_is_one_line_unless_the_traceback_is_asked_for(tmp_path: Path):

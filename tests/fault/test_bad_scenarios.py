@@ -26,10 +26,6 @@ IN_TEXT = {
     "unknown key": Mistake(
         TORQUE, TORQUE + "\ngear_torqe = 5", "operating.gear_torqe = 5", "unknown key", '"gear_torque"?'
     ),
-    "unknown key, nothing near": Mistake(
-        TORQUE, TORQUE + "\nzzz = 5", "operating.zzz = 5", "unknown key", "known keys: pinion_speed"
-    ),
-    "unknown table": Mistake("[solver]", "[solvr]", "solvr = {cycles = 2}", "unknown key", '"solver"?'),
     "missing key": Mistake(TORQUE, "", "operating.gear_torque", "missing", 'add gear_torque = "500 N*m"'),
     "missing table": Mistake('[friction]\nlaw = "none"', "", "friction", "missing", "table [friction]"),
     "missing reference": Mistake(
@@ -42,9 +38,6 @@ IN_TEXT = {
         "a number without a unit",
         'write a quantity with a unit of angular speed, such as "10 rad/s"',
     ),
-    "no unit": Mistake(
-        SPEED, '"10"', 'operating.pinion_speed = "10"', "a number without a unit", '"10 rad/s"'
-    ),
     "wrong unit": Mistake(
         SPEED, '"10 kg"', "operating.pinion_speed", '"kg" is not a unit of angular speed', '"10 rad/s"'
     ),
@@ -52,22 +45,12 @@ IN_TEXT = {
         SPEED, '"10 parsnips/s"', "operating.pinion_speed", 'unknown unit "parsnips"', '"10 rad/s"'
     ),
     "turns or radians": Mistake(SPEED, '"10 Hz"', "operating.pinion_speed", "turns or radians", '"10 rad/s"'),
-    "nan with unit": Mistake(
-        SPEED, '"nan rad/s"', 'operating.pinion_speed = "nan rad/s"', "not a finite number", '"10 rad/s"'
-    ),
-    "inf with unit": Mistake(
-        SPEED, '"inf rad/s"', 'operating.pinion_speed = "inf rad/s"', "not a finite number", '"10 rad/s"'
-    ),
     "nan": Mistake("0.05", "nan", "mesh.damping_ratio = nan", "not a finite number", "a plain number"),
-    "inf": Mistake("0.05", "inf", "mesh.damping_ratio = inf", "not a finite number", "a plain number"),
     "negative number": Mistake(
         "0.05", "-0.05", "mesh.damping_ratio = -0.05", "must be at least 0", "write 0 or more"
     ),
     "number as text": Mistake(
         "0.05", '"0.05"', 'mesh.damping_ratio = "0.05"', "not a plain number", "without quotes"
-    ),
-    "zero speed": Mistake(
-        SPEED, '"0 rpm"', 'operating.pinion_speed = "0 rpm"', "must be greater than zero", '"10 rad/s"'
     ),
     "zero torque": Mistake(
         '"500 N*m"', '"0 N*m"', "operating.gear_torque = 0 N*m", "must be greater than zero", "backlash"
@@ -75,19 +58,12 @@ IN_TEXT = {
     "fraction of a cycle": Mistake(
         "cycles = 2", "cycles = 2.5", "solver.cycles = 2.5", "not a whole number", "such as 20"
     ),
-    "no cycles": Mistake("cycles = 2", "cycles = 0", "solver.cycles = 0", "must be greater than 0", "larger"),
     "rtol": Mistake("cycles = 2", "rtol = 0.5", "solver.rtol = 0.5", "must be at most 0.01", "or less"),
     "unknown choice": Mistake(
         '"energy"', '"enrgy"', 'mesh.compliance = "enrgy"', "not one of the choices", 'mean "energy"?'
     ),
-    "unknown kind": Mistake(
-        '"gear-pair"', '"gear-pairs"', 'kind = "gear-pairs"', "no such kind of scenario", 'mean "gear-pair"?'
-    ),
     "unknown law": Mistake(
         '"none"', '"masjedi"', 'friction.law = "masjedi"', "no such friction law", '"masjedi-khonsari"?'
-    ),
-    "unknown solver": Mistake(
-        "cycles = 2", 'method = "rado"', 'solver.method = "rado"', "no such solver", 'did you mean "radau"?'
     ),
     "missing model": Mistake(
         "liu-ni-involute-23-47",
@@ -96,18 +72,8 @@ IN_TEXT = {
         "models/drives",
         'did you mean "liu-ni-involute-23-47"?',
     ),
-    "missing model by path": Mistake(
-        "liu-ni-2022", "oil.toml", 'lubricant = "oil.toml"', "no such file", "check the path"
-    ),
     "list for a table": Mistake(
         '"liu-ni-2022"', "[1, 2]", "lubricant = [1, 2]", "not a table", "write a table"
-    ),
-    "table of text": Mistake(
-        "damping_ratio = 0.05",
-        "damping_ratio = {a = 1}",
-        "mesh.damping_ratio = {a = 1}",
-        "not a plain",
-        "1.0",
     ),
     "motor without torque source": Mistake(
         TORQUE,
@@ -143,20 +109,6 @@ IN_TEXT = {
         'contradicts compliance = "energy"',
         "leave stiffness out",
     ),
-    "Hertz beside constant": Mistake(
-        ENERGY,
-        'compliance = "constant"\nstiffness = "2.8e8 N/m"\nhertz = "load-dependent"',
-        "mesh.hertz",
-        'contradicts compliance = "constant"',
-        "leave hertz out",
-    ),
-    "ring beside constant": Mistake(
-        ENERGY,
-        'compliance = "constant"\nstiffness = "2.8e8 N/m"\nfoundation = "ring"',
-        "mesh.foundation",
-        'contradicts compliance = "constant"',
-        "leave foundation out",
-    ),
     "Coulomb without coefficient": Mistake(
         '"none"', '"coulomb"', "friction.coefficient", "missing", "add coefficient = "
     ),
@@ -182,16 +134,7 @@ IN_TEXT = {
 
 WITH_SET = {
     "pinion without teeth": ("drive.pinion.teeth=0", "drive.pinion.teeth = 0", "must be at least 4"),
-    "half a tooth": ("drive.gear.teeth=20.5", "drive.gear.teeth = 20.5", "not a whole number"),
-    "zero module": ("drive.module=0 mm", 'drive.module = "0 mm"', "must be greater than zero"),
-    "negative width": (
-        "drive.gear.face_width=-20 mm",
-        'drive.gear.face_width = "-20 mm"',
-        "must be greater than zero",
-    ),
-    "nan shift": ("drive.gear.profile_shift=nan", "drive.gear.profile_shift = nan", "not a finite number"),
     "no material": ("drive.material=stel", 'drive.material = "stel"', "no such file in models/materials"),
-    "unknown family": ("drive.family=involut", 'drive.family = "involut"', 'did you mean "involute"?'),
     "Poisson's ratio": (
         "drive.material.poisson_ratio=0.5",
         "drive.material.poisson_ratio = 0.5",

@@ -182,11 +182,6 @@ def test_axes_beyond_all_use(vary: str, scenario: Path, refused: Refused):
     assert not list(scenario.parent.glob("*.h5"))
 
 
-def test_overrides_of_python_are_bounded_too(scenario: Path):
-    with pytest.raises(InputError, match="beyond 64 bits"):
-        load_scenario(scenario, {"solver.cycles": 2**64})
-
-
 def test_the_name_of_an_unknown_key_is_cut(tmp_path: Path):
     (tmp_path / "long.toml").write_text(f"{'a' * 5000} = 1\n", encoding="utf-8")
     with pytest.raises(InputError) as error:

@@ -9,10 +9,8 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 from tests.support.record_samples import block, gear_pair_writer, geometry
-from tribodyn.cli.app import app
 from tribodyn.errors import OutputError
 from tribodyn.numerics import cache
 from tribodyn.numerics.variable import Variable
@@ -211,16 +209,3 @@ def test_standard_output_on_a_full_disk_is_no_bug(tmp_path: Path):
             command, cwd=tmp_path, stdout=full, stderr=subprocess.PIPE, text=True, check=False
         )
     assert (ended.returncode, ended.stderr) == (3, "the output: cannot be written: No space left on device\n")
-
-
-def test_the_verb_says_what_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(cache.os, "replace", _full)
-    words = ["run", "backlash-oscillator", "--no-plot", "-o", str(tmp_path / "run.h5")]
-    ended = CliRunner().invoke(app, words)
-    assert ended.exit_code == 3
-    assert ended.stderr == f"{tmp_path / 'run.h5'}: cannot be written: No space left on device\n"
-    assert not list(tmp_path.iterdir())
-
-
-def _full(*_: object) -> None:
-    raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+from tests.support.killed_sweeps import differences
 from tribodyn.cli.app import app
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE, WAITING
@@ -27,15 +28,6 @@ ONE_A_CHUNK = (
 )
 WORDS = ("crc-23-47", "--transient", "40", "--set", "output.samples_per_cycle=40")
 VARY = ("--vary", "operating.pinion_speed=20:400/30 rad/s")
-
-
-def same(one: Path, other: Path) -> None:
-    """All datasets are equal, bit for bit."""
-    with h5py.File(one) as a, h5py.File(other) as b:
-        assert set(a) == set(b)
-        for name in a:
-            if isinstance(a[name], h5py.Dataset):
-                assert a[name][...].tobytes() == b[name][...].tobytes(), name  # pyright: ignore
 
 
 @pytest.mark.parametrize(
@@ -83,7 +75,7 @@ def test_a_killed_sweep_goes_on_where_it_stopped(direction: tuple[str, ...], tmp
         assert record.summary["cases_done_by_this_call"] == np.sum(before == WAITING)
     whole = ["sweep", *WORDS, *VARY, *direction, "-o", str(tmp_path / "whole.h5")]
     assert CliRunner().invoke(app, whole).exit_code == 0
-    same(tmp_path / "killed.h5", tmp_path / "whole.h5")
+    assert differences(tmp_path / "killed.h5", tmp_path / "whole.h5") == []
 
 
 def _done(path: Path) -> int:
@@ -133,7 +125,7 @@ def test_a_cluster_that_loses_a_worker_gives_the_same_record(tmp_path: Path, mon
                 process.terminate()
                 process.wait()
     assert there.failed == 0
-    same(here.path, there.path)
+    assert differences(here.path, there.path) == []
 
 
 def _start(program: str, address: Path, *words: str) -> "subprocess.Popen[bytes]":

@@ -16,31 +16,9 @@ NAMES = sorted(
     {
         *(name for name in sys.stdlib_module_names if not name.startswith("_")),
         *("_distutils_hack", "_strptime", "_pydecimal", "_pydatetime", "sitecustomize", "usercustomize"),
-        *(
-            "dask",
-            "distributed",
-            "ezdxf",
-            "h5py",
-            "jax",
-            "llvmlite",
-            "matplotlib",
-            "numba",
-            "numpy",
-            "pandas",
-        ),
-        *(
-            "PIL",
-            "pint",
-            "platformdirs",
-            "psutil",
-            "pydantic",
-            "rich",
-            "scipy",
-            "tomli_w",
-            "tornado",
-            "typer",
-        ),
-        *("click", "cloudpickle", "contourpy", "diffrax", "equinox", "msgpack", "yaml", "zict"),
+        *"dask distributed ezdxf h5py jax llvmlite matplotlib numba numpy pandas PIL pint".split(),
+        *"platformdirs psutil pydantic rich scipy tomli_w tornado typer click cloudpickle contourpy".split(),
+        *"diffrax equinox msgpack yaml zict".split(),
     }
 )
 #: Commands in order, in one folder.

@@ -1,5 +1,6 @@
 """Two processes want to write one record: the second is refused, until the first has ended or was killed."""
 
+import os
 import subprocess
 import sys
 import threading
@@ -12,7 +13,7 @@ from typer.testing import CliRunner
 from tribodyn.cli.app import app
 from tribodyn.errors import InputError
 from tribodyn.record.writer import check_target
-from tribodyn.record.writing_lock import WritingLock, lock_path
+from tribodyn.record.writing_lock import WritingLock, lock_path, refuse_if_written
 
 HOLD = (
     "import sys\nfrom pathlib import Path\nfrom tribodyn.record.writing_lock import WritingLock\n"
@@ -92,4 +93,17 @@ def test_never_two_at_a_time(tmp_path: Path):
         thread.join()
     assert len(most) == 200
     assert set(most) == {1}
+    assert not lock_path(path).exists()
+
+
+def test_a_lock_is_taken_over_from_any_number_of_dead_writers(tmp_path: Path):
+    path = tmp_path / "record.h5"
+    for _ in range(4):
+        lock = WritingLock(path)
+        assert lock_path(path).read_text(encoding="ascii") == str(os.getpid())
+        assert lock._number is not None
+        os.close(lock._number)  # as the system does when a process is killed: the file stays
+        refuse_if_written(path)
+    last = WritingLock(path)
+    last.release()
     assert not lock_path(path).exists()

@@ -30,12 +30,6 @@ def test_columns_of_different_units_are_related_to_themselves():
     assert one.relative == relative(old, new, by_column=True)
 
 
-def test_residuals_are_shares_already():
-    old, new = {"summary@energy_residual": np.array(1e-17)}, {"summary@energy_residual": np.array(-3e-17)}
-    (one,) = compared(old, new).differences
-    assert one.relative == pytest.approx(4e-17)
-
-
 @pytest.mark.parametrize(
     "new",
     [
@@ -51,13 +45,6 @@ def test_shape_type_and_nan_are_compared(new):
     assert one.how
     _, unexplained = difference_table([compared({"load": LOADS}, {"load": new})], 1.0, [])
     assert unexplained == ["a case:load"]
-
-
-def test_words_are_told_apart_from_results():
-    old, new = {"load@units": "N", "load@dims": "time"}, {"load@units": "kN", "load@dims": "time pair"}
-    both = compared(old, new)
-    assert [one.name for one in both.words] == ["load@units"]
-    assert [one.name for one in both.differences] == ["load@dims"]
 
 
 def test_what_is_missing_needs_a_reason_and_what_is_new_none():

@@ -1,15 +1,13 @@
 """The order of the test files and the choice of the quick tests."""
 
 import json
-import subprocess
-import sys
 from types import SimpleNamespace
 from typing import Any, cast
 
 import pytest
 
 from tests.support import durations
-from tests.support.durations import QUICK_SHARE, Durations, processor_time
+from tests.support.durations import Durations
 
 NAMES = (
     "unit/test_a.py::test_1",
@@ -56,35 +54,3 @@ def test_the_longest_files_come_first_and_new_ones_before_them(measured):
 def test_quick_tests_are_the_shortest_and_the_new_ones(measured):
     run({NAMES[0]: 0.2, NAMES[1]: 20.0, NAMES[2]: 0.3, **{f"unit/test_c.py::{n}": 1.0 for n in range(30)}})
     assert collected("--quick") == [NAMES[3], NAMES[0], NAMES[2]]
-
-
-def test_the_quick_ones_take_their_share():
-    seconds = [0.1 * 1.1**n for n in range(60)]
-    limit = durations._quick_limit(seconds)
-    assert sum(one for one in seconds if one <= limit) <= QUICK_SHARE * sum(seconds)
-    assert limit > 0.5
-
-
-def test_who_prepares_in_the_place_of_the_first_is_no_longer_quick(measured):
-    run({NAMES[0]: 20.0, NAMES[1]: 0.1, NAMES[2]: 0.1})
-    limit = json.loads(measured.read_text())["quick limit"]
-    assert collected("--quick") == [NAMES[3], NAMES[1], NAMES[2]]
-    run({NAMES[1]: limit + 10.0, NAMES[2]: 0.1}, "--quick")
-    assert collected("--quick") == [NAMES[3], NAMES[2]]
-    assert json.loads(measured.read_text())["quick limit"] == limit
-
-
-@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="needs /proc")
-def test_processor_time_counts_processes_below_and_no_waiting():
-    before = processor_time()
-    work = "import sys, time; end = time.process_time() + 0.2\nwhile time.process_time() < end: pass"
-    waits = f"{work}\nprint(); sys.stdin.read()"
-    command = [sys.executable, "-c", waits]
-    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as running:
-        assert running.stdout is not None
-        running.stdout.readline()
-        while_running = processor_time() - before
-        running.communicate()
-    subprocess.run([sys.executable, "-c", "import time; time.sleep(0.6)"], check=True)
-    assert while_running > 0.18
-    assert processor_time() - before == pytest.approx(while_running, abs=0.4)

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from tools.package_shape import by_file, by_folder, circles, imports, naming_kinds, shape
+from tools.package_shape import by_file, by_folder, circles, imports
 
 FILES = {
     "__init__.py": "",
@@ -51,11 +51,3 @@ def test_circles_close_by_late_imports(package):
         ["tribodyn.high.other", "tribodyn.high.top", "tribodyn.low.far"]
     ]
     assert circles(by_folder(package)) == [["high", "low"]]
-
-
-def test_the_shape_counts(package):
-    assert naming_kinds(package) == [package / "high/other.py"]
-    figures = shape(package.parent)
-    assert figures["files of the package"] == len(FILES)
-    assert [figure for title, figure in figures.items() if "root" in title] == [1]
-    assert figures["lines of the package"] == sum(text.count("\n") for text in FILES.values())

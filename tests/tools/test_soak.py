@@ -9,23 +9,19 @@ import pytest
 from tools.soak.cases import CASES, GROUP, SHARES, SORTS, Refused, bare, case, sort_of, written
 from tools.soak.drives import FAMILIES
 from tools.soak.gear_records import faults
-from tools.soak.kept import add, read
 from tools.soak.other_records import (
     assessment_faults,
     load_contact_faults,
     search_faults,
     solved_contact_faults,
 )
-from tools.soak.outcome import COMPLETE, FAULTY, REFUSED, Outcome
 from tools.soak.refusals import untrue
-from tools.soak.table import table
 from tribodyn.errors import InputError
 from tribodyn.record.reader import Record
 from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
 
-ONE = Outcome(1, 17, "gear-pair", "crc", COMPLETE, "", (), 2, 0.5, 0.3)
 RTOL = 1e-6
 
 
@@ -98,25 +94,6 @@ def test_advice_is_tried(tmp_path, remedy, expected):
     assert not said or expected in said[0]
 
 
-def test_outcomes_are_kept(tmp_path):
-    path = tmp_path / "kept" / "outcomes.jsonl"
-    add(path, ONE)
-    add(path, ONE._replace(case=18, status=FAULTY, faults=("a", "b")))
-    with path.open("a", encoding="utf-8") as file:
-        file.write('{"seed": 1, "ca')
-    first, second = read(path)
-    assert first == ONE
-    assert second.faults == ("a", "b")
-
-
-def test_the_table_counts():
-    refused = ONE._replace(status=REFUSED, reason='/tmp/a/case.toml: drive.module = 3: a rule of 5; "use 4"')
-    text = table([ONE, ONE, refused])
-    assert "| gear-pair | 3 | 2 | 1 | 0 | 0 |" in text
-    assert "| drive.module: a rule of # | 1 |" in text
-    assert "0.5, 0.5, 0.5, 0.5" in text
-
-
 def test_a_sound_record_has_no_faults(record):
     with Record(record) as sound:
         assert list(faults(sound, RTOL)) == []
@@ -139,15 +116,6 @@ def test_what_is_wrong_is_noticed(record, tmp_path, name, factor, expected):
         file[name][...] = factor * file[name][...]
     with Record(damaged) as one:
         assert any(fault.startswith(expected) for fault in faults(one, RTOL))
-
-
-def test_energy_that_is_not_kept_is_noticed(record, tmp_path):
-    damaged = tmp_path / "damaged.h5"
-    damaged.write_bytes(record.read_bytes())
-    with h5py.File(damaged, "r+") as file:
-        file["summary"].attrs["energy_residual"] = 1e-4
-    with Record(damaged) as one:
-        assert list(faults(one, RTOL)) == ["energy residual 0.0001, 100 times rtol"]
 
 
 @pytest.mark.parametrize(

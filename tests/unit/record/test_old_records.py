@@ -82,28 +82,9 @@ def test_the_record_s_kind_is_its_scenario_s(name):
             assert record.kind == scenario["kind"]
 
 
-@pytest.mark.parametrize("name", FIGURES)
-def test_it_is_shown(name):
-    path = RECORDS / f"{name}.h5"
-    shown = CliRunner().invoke(app, ["show", str(path)])
-    assert shown.exit_code == 0, shown.output
-    with h5py.File(path) as file:
-        assert tomllib.loads(file.attrs["scenario"])["title"] in shown.output
-
-
 @pytest.mark.parametrize(("name", "figure"), PRINTED.items())
 def test_its_figures_are_printed(name, figure):
     key, value = figure
     shown = CliRunner().invoke(app, ["show", str(RECORDS / f"{name}.h5"), "--json"])
     assert shown.exit_code == 0, shown.output
     assert json.loads(shown.output)["summary"][key] == value
-
-
-@pytest.mark.parametrize(("name", "figure"), FIGURES.items())
-def test_a_figure_is_drawn(name, figure, tmp_path):
-    drawn = CliRunner().invoke(
-        app, ["plot", str(RECORDS / f"{name}.h5"), figure, "-o", str(tmp_path), "--json"]
-    )
-    assert drawn.exit_code == 0, drawn.output
-    (picture,) = json.loads(drawn.output)["pictures"]
-    assert Path(picture).read_bytes().startswith(b"\x89PNG")

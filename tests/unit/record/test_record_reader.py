@@ -5,7 +5,6 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-import xarray
 
 from tests.support.record_samples import block, gear_pair_writer, geometry
 from tribodyn.dynamics.recorded import SAMPLES
@@ -18,27 +17,6 @@ def record_path(tmp_path: Path) -> Path:
     with gear_pair_writer(tmp_path / "run.h5", 30, outlines=geometry()) as record:
         record.write(0, block(0, 30))
         return record.finish({"efficiency": 0.98})
-
-
-def test_xarray_reads_it_with_units(record_path: Path):
-    with xarray.open_dataset(record_path, engine="h5netcdf") as data:
-        assert data.normal_load.dims == ("time", "pair")
-        assert data.normal_load.attrs["units"] == "N"
-        assert data.time.attrs["units"] == "s"
-        assert data.attrs["status"] == "complete"
-        np.testing.assert_array_equal(data.velocity.sel(dof="theta_p"), block(0, 30)["velocity"][:, 4])
-        np.testing.assert_array_equal(data.normal_load.sel(pair=1), block(0, 30)["normal_load"][:, 1])
-    for group in ("mesh_cycle", "geometry", "summary"):
-        with xarray.open_dataset(record_path, engine="h5netcdf", group=group) as data:
-            assert all("units" in variable.attrs for variable in data.data_vars.values())
-
-
-def test_h5py_reads_it_with_units_and_scales(record_path: Path):
-    with h5py.File(record_path) as file:
-        for name, variable in SAMPLES.items():
-            assert file[name].attrs["units"] == variable.units
-            assert file[name].attrs["long_name"] == variable.long_name
-            assert [dim[0].name.strip("/") for dim in file[name].dims] == list(variable.dims)
 
 
 def test_no_string_of_variable_length_is_a_dataset(record_path: Path):

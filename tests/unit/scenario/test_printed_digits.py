@@ -10,11 +10,8 @@ import tomli_w
 
 import tribodyn
 from tribodyn.errors import InputError
-from tribodyn.geometry.families import family
 from tribodyn.geometry.families.involute import shift_sensitivity, tight_centre_distance
-from tribodyn.geometry.limits.checks import check
-from tribodyn.scenario.printed import half_unit, shift_rounding
-from tribodyn.studies.design.candidates.evaluation import loaded_case
+from tribodyn.scenario.printed import shift_rounding
 from tribodyn.studies.gears.drive_file import load_drive
 from tribodyn.studies.gears.rounded import BRIEF
 from tribodyn.studies.protocol.load import load, load_scenario
@@ -54,22 +51,6 @@ def without_backlash(module: float, teeth: tuple[int, int], shift: float) -> flo
         middle = (low + high) / 2
         low, high = (middle, high) if math.tan(middle) - middle < target else (low, middle)
     return 0.5e-3 * module * total * math.cos(alpha) / math.cos(low)
-
-
-@pytest.mark.parametrize(
-    ("number", "half"),
-    [
-        ("91.5", 0.05),
-        ("91.50", 0.005),
-        ("584", 0.5),
-        ("9.15e1", 0.05),
-        (".5", 0.05),
-        ("3.", 0.5),
-        ("1E3", 500.0),
-    ],
-)
-def test_half_a_unit_of_the_last_digit(number: str, half: float):
-    assert half_unit(number) == pytest.approx(half, rel=1e-15)
 
 
 @pytest.mark.parametrize(
@@ -163,19 +144,6 @@ def test_teeth_without_shift_at_their_own_distance_need_no_rounding():
         tribodyn.drive(pair(3.0, (18, 36), (0, 0), "80.99 mm"))
 
 
-def test_the_shift_of_measured_teeth_does_not_move_their_distance():
-    module, teeth, shifts = FZG
-    table = pair(module, teeth, shifts, "91.500 mm")
-    sheet = tribodyn.drive(table).sheet
-    slope = sheet["rounding of the printed digits"][0] - 0.0005
-    for side in ("pinion", "gear"):
-        count = int(sheet[side]["teeth of the span"][0])
-        table[side] |= {"span": f"{sheet[side]['span'][0]!r} mm", "span_teeth": count}
-    measured = tribodyn.drive(table).sheet
-    assert measured["rounding of the printed digits"][0] == pytest.approx(0.0005, rel=1e-9)
-    assert slope > 0.0003
-
-
 @pytest.fixture
 def scenario(tmp_path: Path) -> Path:
     """An efficiency study of the pair of the FZG rig."""
@@ -203,25 +171,3 @@ def test_a_sweep_says_of_which_cases_it_is(scenario: Path):
     messages = [str(one) for one in swept["message"].values]
     assert "the teeth overlap" in messages[1]
     assert [BRIEF in one for one in messages] == [True, False, False]
-
-
-def test_a_search_holds_the_axes_where_they_are_meant(scenario: Path):
-    """Its candidates have shifts of many digits: what rounding excuses of a drawing is no room for them."""
-    text = tomllib.loads(scenario.read_text())
-    free = [{"key": "drive.pinion.profile_shift", "from": 0.1, "to": 0.3}]
-    design = {
-        "title": "shift",
-        "kind": "design",
-        "scenario": text,
-        "design": {"free": free, "minimise": "loss"},
-    }
-    path = scenario.parent / "design.toml"
-    path.write_text(tomli_w.dumps(design))
-    base = load_scenario(str(path)).base
-    assert loaded_case(base, {}).case.drive.centre_distance == pytest.approx(
-        without_backlash(FZG[0], FZG[1], sum(FZG[2])), rel=1e-12
-    )
-    larger = loaded_case(base, {"drive.pinion.profile_shift": 0.19}).case
-    with pytest.raises(InputError, match="the teeth overlap"):
-        check(family("involute"), larger.drive)
-    assert load(str(scenario), {"drive.pinion.profile_shift": 0.19}).case.drive.centre_distance > 91.53e-3

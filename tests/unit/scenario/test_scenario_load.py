@@ -9,8 +9,7 @@ from tribodyn.errors import InputError
 from tribodyn.geometry.families import FAMILIES, family
 from tribodyn.scenario.sources import names, shipped
 from tribodyn.solve.methods import SOLVERS, solver
-from tribodyn.studies import STUDIES
-from tribodyn.studies.protocol.load import json_schema, load, load_scenario
+from tribodyn.studies.protocol.load import load, load_scenario
 from tribodyn.tribology.film import FILM_LAWS, film_law
 from tribodyn.tribology.friction import FRICTION_LAWS, friction_law
 
@@ -126,13 +125,6 @@ def test_overrides_reach_through_references_and_into_lists(written):
     assert case.title == "another"
 
 
-def test_an_override_may_exchange_the_drive_and_then_change_it(written):
-    overrides = {"drive.pinion.profile_shift": "0.1", "drive": "liu-ni-involute-23-47"}
-    case = load_scenario(written(SCENARIO), overrides)
-    assert case.family == "involute"
-    assert case.drive.pinion.profile_shift == 0.1
-
-
 def test_each_gear_may_have_its_own_material(written):
     case = load_scenario(written(SCENARIO), {"drive.gear.material": "steel-diez-ibarbia"})
     assert [material.youngs_modulus for material in case.materials] == pytest.approx([206e9, 207e9])
@@ -156,20 +148,6 @@ def test_a_curve_comes_from_csv_in_any_unit_and_column_order(written):
     assert table is not None
     np.testing.assert_allclose(table[0], [0.0, 0.005], rtol=1e-15)
     np.testing.assert_allclose(table[1], [0.0, 100.0], rtol=1e-15)
-
-
-def test_stiffness_and_error_curves_are_read_over_roll_angle(written):
-    written("roll_angle [deg],stiffness [N/um]\n-180,200\n180,300\n", "k.csv")
-    written("roll_angle [rad],error [um]\n-0.2,0\n0.2,3\n", "e.csv")
-    text = SCENARIO.replace(
-        "damping_ratio = 0.05",
-        'damping_ratio = 0.05\ncompliance = "table"\ntable = "k.csv"\ntransmission_error.table = "e.csv"',
-    )
-    mesh = load_scenario(written(text)).mesh
-    assert mesh.table is not None
-    assert mesh.error_table is not None
-    np.testing.assert_allclose(mesh.table, [[-pi, pi], [2e8, 3e8]], rtol=1e-14)
-    np.testing.assert_allclose(mesh.error_table, [[-0.2, 0.2], [0.0, 3e-6]], rtol=1e-14)
 
 
 def test_the_name_of_a_record_is_fit_for_a_file(written):
@@ -209,26 +187,3 @@ def test_registries_know_their_names_and_suggest_near_ones():
     ):
         with pytest.raises(InputError, match=f'did you mean "{right}"'):
             lookup(wrong)
-
-
-def test_the_json_schema_offers_references_and_the_registries_names():
-    schema = json_schema()
-    assert schema["$defs"]["Friction"]["properties"]["law"]["enum"] == list(FRICTION_LAWS)
-    kinds = [study.table().__name__ for _, study in STUDIES.items()]
-    assert [shape["$ref"] for shape in schema["oneOf"]] == [f"#/$defs/{kind}" for kind in kinds]
-    assert schema["$defs"]["EfficiencyFriction"]["properties"]["law"]["enum"] == list(FRICTION_LAWS)
-    film = schema["$defs"]["FilmTable"]
-    assert film["properties"]["law"]["anyOf"][0]["enum"] == list(FILM_LAWS)
-    for table in ("Friction", "EfficiencyFriction"):
-        coefficient = schema["$defs"][table]["properties"]["coefficient"]
-        assert (coefficient["type"], coefficient["minimum"]) == ("number", 0)
-        assert schema["$defs"][table]["additionalProperties"] is False
-    gear_pair = schema["$defs"]["GearPairScenario"]
-    drive = gear_pair["properties"]["drive"]
-    name, written_out, changed = drive["anyOf"]
-    assert name["type"] == "string"
-    assert written_out["$ref"] == "#/$defs/DriveTable"
-    assert changed["required"] == ["like"]
-    speed = schema["$defs"]["Operating"]["properties"]["pinion_speed"]
-    assert speed["anyOf"][0]["examples"] == ["10 rad/s"]
-    assert gear_pair["additionalProperties"] is False

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tribodyn.errors import InputError
-from tribodyn.geometry.flanks.modification import UNMODIFIED, LeadRelief, Misalignment, Relief
+from tribodyn.geometry.flanks.modification import LeadRelief, Misalignment, Relief
 from tribodyn.studies.protocol.load import load, load_scenario
 
 STUDY = "load-contact-18-36"
@@ -27,23 +27,6 @@ def scenario(tmp_path: Path) -> Path:
         encoding="utf-8",
     )
     return path
-
-
-def test_nothing_is_modified_unless_said():
-    case = load_scenario(STUDY)
-    assert case.modifications == UNMODIFIED
-    assert case.slices == 1
-    assert load_scenario("involute-18-36-fem").mesh.modifications == UNMODIFIED
-
-
-def test_a_relief_without_a_length_reaches_a_module():
-    case = load_scenario(
-        STUDY, {PINION + "tip_relief": "20 um", "drive.gear.modification.root_relief": "5 um"}
-    )
-    pinion, gear, _ = case.modifications
-    assert case.drive.module == 3e-3
-    assert pinion.tip == Relief(20e-6, 3e-3, 1.0)
-    assert gear.root == Relief(5e-6, 3e-3, 1.0)
 
 
 def test_quantities_in_si():
@@ -67,11 +50,6 @@ def test_quantities_in_si():
     assert pinion.root == pytest.approx((12.7e-6, 2.54e-3, 2.0))
     assert gear.lead == LeadRelief(8e-6, 6e-6, 8e-3)
     assert misalignment == pytest.approx(Misalignment(3 / 60 * pi / 180, -0.1 * pi / 180))
-
-
-def test_crowning_is_the_same_relief_at_both_ends():
-    case = load_scenario(STUDY, {PINION + "crowning": "8 um"})
-    assert case.modifications.pinion.lead == LeadRelief(crowning=8e-6)
 
 
 @pytest.mark.parametrize(
@@ -150,10 +128,3 @@ def test_errors_of_profile_and_pitch_from_csv_files(scenario: Path):
     np.testing.assert_allclose(case.modifications.pinion.pitch_error, 0.25e-6 * np.arange(18))
     listed = load_scenario(scenario, {PINION + "pitch_errors": [f"{0.25 * tooth} um" for tooth in range(18)]})
     assert listed.modifications.pinion.pitch_error == case.modifications.pinion.pitch_error
-
-
-def test_a_harris_map_has_torques_in_order():
-    case = load_scenario("harris-18-36-tip-relief")
-    assert len(case.gear_torques) >= 2
-    assert sorted(case.gear_torques) == list(case.gear_torques)
-    assert case.gear_torque == 318.3
