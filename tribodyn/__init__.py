@@ -11,9 +11,12 @@ As a library::
 `docs/extending.md` says how laws, tooth families and kinds of study are added from outside.
 """
 
-import sys
-from types import ModuleType
 from typing import TYPE_CHECKING, Any
+
+# folders with the names of functions: imported and unbound, so that no later import binds these names
+from tribodyn import scenario, sweep
+
+del scenario, sweep
 
 __version__ = "0.2.0"
 
@@ -21,13 +24,13 @@ __version__ = "0.2.0"
 OWN_PROCESS = False
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from tribodyn.derivatives.differentiable import Differentiable
     from tribodyn.errors import InputError, OutputError, SimulationError
     from tribodyn.geometry.family import Family
-    from tribodyn.interface.design import Design, design
     from tribodyn.interface.drive import GearPair, constraints, drive
     from tribodyn.interface.gradient import Gradient, differentiable, gradient
-    from tribodyn.interface.judge import judge
     from tribodyn.interface.line_contact import line_contact
     from tribodyn.interface.run import Run, run
     from tribodyn.interface.scenario import scenario
@@ -36,7 +39,12 @@ if TYPE_CHECKING:
     from tribodyn.interface.validation import validate
     from tribodyn.numerics.parameter import Parameter
     from tribodyn.studies.protocol.study import Study
+    from tribodyn.studies.protocol.verb import Answer
     from tribodyn.tribology.law import FilmLaw, FrictionLaw
+
+    Design: type[Run]
+    design: Callable[..., Run]
+    judge: Callable[..., Answer]
 
 __all__ = [
     "Design",
@@ -70,7 +78,6 @@ __all__ = [
 
 # imported when asked for, so that `tribodyn --help` needs none of it
 _PLACES = {
-    "Design": "tribodyn.interface.design",
     "Differentiable": "tribodyn.derivatives.differentiable",
     "Family": "tribodyn.geometry.family",
     "FilmLaw": "tribodyn.tribology.law",
@@ -85,11 +92,9 @@ _PLACES = {
     "Study": "tribodyn.studies.protocol.study",
     "Sweep": "tribodyn.interface.sweep",
     "constraints": "tribodyn.interface.drive",
-    "design": "tribodyn.interface.design",
     "differentiable": "tribodyn.interface.gradient",
     "drive": "tribodyn.interface.drive",
     "gradient": "tribodyn.interface.gradient",
-    "judge": "tribodyn.interface.judge",
     "line_contact": "tribodyn.interface.line_contact",
     "open": "tribodyn.interface.sweep:open_result",
     "run": "tribodyn.interface.run",
@@ -100,24 +105,18 @@ _PLACES = {
 
 
 def __getattr__(name: str) -> Any:
-    if name not in _PLACES:
-        raise AttributeError(f"module 'tribodyn' has no attribute {name!r}")
     from importlib import import_module
 
-    module, _, attribute = _PLACES[name].partition(":")
-    return getattr(import_module(module), attribute or name)
+    if name in _PLACES:
+        module, _, attribute = _PLACES[name].partition(":")
+        return getattr(import_module(module), attribute or name)
+    if not name.startswith("_"):
+        from tribodyn.interface.of_studies import offered
+
+        if found := offered(name):
+            return found
+    raise AttributeError(f"module 'tribodyn' has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:
     return __all__
-
-
-class _Interface(ModuleType):
-    """What the module is: a folder with the name of a function, `sweep`, does not take its place."""
-
-    def __setattr__(self, name: str, value: Any) -> None:
-        if not (name in _PLACES and isinstance(value, ModuleType)):
-            super().__setattr__(name, value)
-
-
-sys.modules[__name__].__class__ = _Interface

@@ -1,18 +1,18 @@
 """The typer application: its verbs in the order that a newcomer needs them."""
 
 import sys
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
+from typer.core import TyperGroup
+from typer.main import get_command
 
 from tribodyn.cli import (
     assess,
     check,
     compare,
-    design,
     gear,
     init,
-    judge,
     plot,
     report,
     run,
@@ -24,7 +24,34 @@ from tribodyn.cli import (
 from tribodyn.cli import list as list_
 from tribodyn.cli.outcome import verb
 
+
+class Verbs(TyperGroup):
+    """The verbs of this package, then those of studies, which are looked for only where needed."""
+
+    def list_commands(self, ctx: Any) -> list[str]:
+        """Names of all verbs."""
+        from tribodyn.cli.of_studies import study_verbs
+
+        return [*super().list_commands(ctx), *(name for name, _ in study_verbs())]
+
+    def get_command(self, ctx: Any, cmd_name: str) -> Any:
+        """Find a verb by its name; None: there is none."""
+        if found := super().get_command(ctx, cmd_name):
+            return found
+        from tribodyn.cli.of_studies import command_of, study_verbs
+
+        for name, offered in study_verbs():
+            if name == cmd_name:
+                alone = typer.Typer(
+                    rich_markup_mode=None, add_completion=False, pretty_exceptions_enable=False
+                )
+                alone.command(name, epilog=offered.examples)(verb(command_of(name, offered)))
+                return get_command(alone)
+        return None
+
+
 app = typer.Typer(
+    cls=Verbs,
     help="From tooth shape to transmission error, loads, film thickness and efficiency.",
     epilog="\b\nBegin with:\n"
     "  tribodyn list                what there is to run\n"
@@ -45,10 +72,8 @@ for module in (
     run,
     assess,
     sweep,
-    design,
     check,
     gear,
-    judge,
     show,
     plot,
     report,

@@ -5,7 +5,7 @@ import tempfile
 import weakref
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, nullcontext
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -15,8 +15,9 @@ from tribodyn.interface.scenario import Source, scenario
 from tribodyn.interface.words import in_python
 from tribodyn.record import trust
 from tribodyn.record.reader import Record, open_record
+from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.run import run as run_case
-from tribodyn.studies.protocol.study import Progress
+from tribodyn.studies.protocol.study import CaseHead, Progress
 
 if TYPE_CHECKING:
     import xarray
@@ -289,12 +290,30 @@ def run(
         "progress": progress,
         "allow_large": allow_large,
     }
+    return recorded(case, output, force=force, **how)
+
+
+def recorded(case: CaseHead, output: str | Path | None, **how: Any) -> Run:
+    """Run a case into a file, or into a temporary folder that is removed with the result."""
     if output is not None:
-        return Run(run_case(case, output, force=force, **how).path)
+        return open_run(run_case(case, output, **how).path)
     folder = tempfile.mkdtemp(prefix="tribodyn-")
     try:
-        done = run_case(case, Path(folder) / f"{case.name}.h5", **how)
-        return Run(done.path, folder)
+        return open_run(run_case(case, Path(folder) / f"{case.name}.h5", **how).path, folder)
     except BaseException:
         shutil.rmtree(folder, ignore_errors=True)
         raise
+
+
+def open_run(path: Path, folder: str | None = None) -> Run:
+    """Open a record as a `Run`, with the properties that its study gives its runs."""
+    with open_record(path) as record:
+        kind = record.kind
+    return run_class(kind)(path, folder)
+
+
+@cache
+def run_class(kind: str) -> type[Run]:
+    """The class of the runs of a kind of study."""
+    own = STUDIES[kind].run_properties() if kind in STUDIES else None
+    return Run if own is None else type(own.__name__, (own, Run), {"__doc__": own.__doc__})

@@ -9,7 +9,7 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.interface import datasets, shown
-from tribodyn.interface.run import Run
+from tribodyn.interface.run import Run, open_run
 from tribodyn.interface.scenario import Source, in_toml, scenario
 from tribodyn.interface.words import in_python
 from tribodyn.numerics.output_files import write_output
@@ -200,7 +200,7 @@ def open_result(path: str | Path) -> Run | Sweep:
     InputError
         If there is none, or it is damaged.
     """
-    return Sweep(path) if is_sweep(path) else Run(Path(path))
+    return Sweep(path) if is_sweep(path) else open_run(Path(path))
 
 
 def _grid(

@@ -17,6 +17,34 @@ FREE = "--free"
 _UNIT = re.compile(r"\s*[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?\s*(\S.*?)?\s*$", re.ASCII)
 
 
+def entries(free: Mapping[str, Any] | Sequence[Any]) -> list[Any]:
+    """Entries of `design.free`, from a mapping of keys to bounds, or from texts as `free_of` reads them.
+
+    Raises
+    ------
+    InputError
+        For bounds that are none.
+    """
+    if isinstance(free, Mapping):
+        return [{"key": str(key), **_bounds(str(key), bounds)} for key, bounds in free.items()]
+    return [free_of(entry) if isinstance(entry, str) else entry for entry in free]
+
+
+def _bounds(key: str, bounds: Any) -> Mapping[str, Any]:
+    if isinstance(bounds, Mapping):
+        return bounds
+    if isinstance(bounds, list) and len(bounds) == 2 and not all(map(_is_word, bounds)):
+        return {"from": bounds[0], "to": bounds[1]}
+    if isinstance(bounds, list):
+        return {"choices": bounds}
+    rule = "neither two bounds nor a list of choices"
+    raise InputError(key, quoted(bounds), rule, 'give them like ("0 um", "40 um")')
+
+
+def _is_word(value: Any) -> bool:
+    return isinstance(value, str) and value.strip()[:1] not in "+-.0123456789"
+
+
 def free_of(option: str) -> dict[str, Any]:
     """Read ``KEY=FROM:TO`` or ``KEY=VALUE,VALUE,…``; a unit may stand once, at the end.
 
@@ -99,7 +127,6 @@ def loaded_search(
         path = find_scenario(str(source))
         data = read_toml(path)
     data = dict(data)
-    design = {key: value for key, value in design.items() if value is not None}
     if data.get("kind") == KIND:
         data["design"] = {**data.get("design", {}), **design}
         return loaded_from(resolve_table(data, path, _prefixed(overrides), table_of), path)
@@ -118,23 +145,3 @@ def _prefixed(overrides: Mapping[str, Any]) -> dict[str, Any]:
     """Keys of the scenario within; those of the search itself stay."""
     own = (f"{KIND}.", "scenario.")
     return {key if key.startswith(own) else f"scenario.{key}": value for key, value in overrides.items()}
-
-
-def as_options(
-    free: Sequence[str],
-    minimise: Sequence[str],
-    maximise: str | None,
-    subject_to: Sequence[str],
-    more: Mapping[str, Any],
-) -> dict[str, Any]:
-    """Keys of `[design]` from the options of the command line; those that are not given are left out."""
-    design: dict[str, Any] = {name: value for name, value in more.items() if value is not None}
-    if free:
-        design["free"] = [free_of(option) for option in free]
-    if minimise:
-        design["minimise"] = minimise[0] if len(minimise) == 1 else list(minimise)
-    if maximise is not None:
-        design["maximise"] = maximise
-    if subject_to:
-        design["subject_to"] = list(subject_to)
-    return design

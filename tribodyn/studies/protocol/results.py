@@ -4,8 +4,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tribodyn.record import trust
-
 
 class RunResult(NamedTuple):
     """How a run ended: the record's path, "complete" or "failed", why, and its figures."""
@@ -18,11 +16,15 @@ class RunResult(NamedTuple):
     @property
     def trust(self) -> str:
         """Whether the result lies within its model: "inside the model", "outside the model", or ""."""
+        from tribodyn.record import trust
+
         return trust.verdict(self.summary)
 
     @property
     def reasons(self) -> list[str]:
         """What lies outside the model, in words; the numbers are in ``summary["trust_reasons"]``."""
+        from tribodyn.record import trust
+
         return trust.reasons(self.summary)
 
 

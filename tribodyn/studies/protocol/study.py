@@ -9,7 +9,6 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from tribodyn.numerics.registry import cannot_be_loaded
-from tribodyn.record.withheld import withheld
 from tribodyn.studies.protocol.estimate import (
     WORTH_SAYING,
     Estimate,
@@ -33,6 +32,7 @@ if TYPE_CHECKING:
     from tribodyn.record.reader import Record
     from tribodyn.scenario.quantity import Table
     from tribodyn.studies.protocol.part import Role
+    from tribodyn.studies.protocol.verb import Verb
     from tribodyn.studies.sweeping.batch import Batch
 
 Progress = Callable[[float], None]
@@ -93,6 +93,9 @@ class Study:
     estimate      ``estimate(case) -> Estimate``, what a run takes (optional)
     assess        ``ROLE``, the part that it plays in an assessment of a drive (optional), see `protocol.part`
     page          ``page(record) -> str``, the HTML of a page of its own for a record (optional)
+    verbs         ``VERBS``, verbs and Python functions that it offers (optional), see `protocol.verb`;
+                  ``RUN_PROPERTIES``, a class of properties that its runs have in Python beside those of a
+                  `Run` (optional): ``tribodyn`` has that class by its name
     template      ``template.toml``, a commented scenario in which TITLE stands for its title, see
                   `protocol.template.filled`; of a study in a single module its attribute ``TEMPLATE``
     ============= =================================================================================
@@ -183,34 +186,13 @@ class Study:
         resume: bool = False,
         client: Any = None,
     ) -> RunResult:
-        """Run a case and write its record.
-
-        Parameters
-        ----------
-        case
-            From `case`.
-        output : path, optional
-            Name of the record; default ``<case name>.h5`` in the current folder.
-        force : bool
-            Replace an existing record.
-        progress : callable, optional
-        allow_large : bool
-            Run what takes more than `estimate.LIMITS`, too.
-        resume : bool
-            Go on from what an unfinished run left, if there is anything.
-        client : distributed.Client, optional
-            Whose workers evaluate, where a study evaluates many cases; default: this machine.
+        """Run a case and write its record; arguments and errors as of `protocol.run.run`.
 
         Returns
         -------
         RunResult
             `status` is "failed" where the simulation could not go on: the path then is the partial record's.
             An efficiency in `summary` that cannot be is None, see `record.withheld`.
-
-        Raises
-        ------
-        InputError
-            Before anything is written.
         """
         if resume and not self.resumes:
             raise not_resumed(self.about)
@@ -222,6 +204,8 @@ class Study:
             if not getattr(error, "__notes__", ()):  # nobody below has anything to keep
                 error.add_note("nothing is recorded yet, the same call begins anew")
             raise
+        from tribodyn.record.withheld import withheld
+
         return result._replace(summary=withheld(result.summary))
 
     def figures(self, case: Any) -> dict[str, Any]:
@@ -234,6 +218,8 @@ class Study:
         InputError, SimulationError
             Where the case cannot be worked out.
         """
+        from tribodyn.record.withheld import withheld
+
         return withheld(self._part("run", "figures")(case))
 
     def drawings(self) -> "Mapping[str, Drawing]":
@@ -301,6 +287,14 @@ class Study:
     def role(self) -> "Role | None":
         """The part that it plays in an assessment of a drive; None: it plays none."""
         return self._part("assess", "ROLE", optional=True)
+
+    def verbs(self) -> "Mapping[str, Verb]":
+        """Verbs of the command line that it offers, by name."""
+        return self._part("verbs", "VERBS", optional=True) or {}
+
+    def run_properties(self) -> type | None:
+        """A class of properties that its runs have in Python beside those of a `Run`; None: no others."""
+        return self._part("verbs", "RUN_PROPERTIES", optional=True)
 
     def own_page(self) -> "Callable[[Record], str] | None":
         """What writes a page of its own for a record; None: it has the page that all studies share."""

@@ -1,18 +1,25 @@
-"""Film and friction laws beside the solved contact, as an object."""
+"""`tribodyn judge` and `td.judge`: every film and friction law beside the solved contact."""
 
-from collections.abc import Mapping
+import math
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from tribodyn.errors import InputError
-from tribodyn.interface.scenario import Source, scenario
-from tribodyn.interface.words import in_python
-from tribodyn.studies.ehl.judged import FACTORS, Judgement, judgement
-from tribodyn.studies.protocol.study import Progress
+from tribodyn.studies.protocol.verb import Option, Verb
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from tribodyn.studies.ehl.judged import Judgement
+    from tribodyn.studies.protocol.results import TextTable
+
+EXAMPLES = (
+    "\b\nExamples:\n"
+    "  tribodyn judge crc-23-47\n"
+    "  tribodyn judge my-drive.toml --map -o judged.png\n"
+    '  tribodyn judge involute-23-47 --set operating.gear_torque="100 N*m"'
+)
 #: Positions of the pair, at least and at most.
 FEWEST, MOST = 4, 2000
 
@@ -36,11 +43,11 @@ class LawsJudged:
         Which laws are right over the whole way.
     """
 
-    found: Judgement
+    found: "Judgement"
 
     @property
     def laws(self) -> dict[tuple[str, str], Any]:  # noqa: D102
-        return {(one.what, one.law): one for one in self.found.laws}
+        return {(law.what, law.law): law for law in self.found.laws}
 
     @property
     def load_factors(self) -> tuple[float, ...]:  # noqa: D102
@@ -54,9 +61,52 @@ class LawsJudged:
     def said(self) -> str:  # noqa: D102
         return self.found.said
 
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What the command line says below the tables."""
+        return (self.said,)
+
     def as_dict(self) -> dict[str, Any]:
         """Return all of it as ``tribodyn judge --json`` prints it."""
         return self.found.as_dict()
+
+    def tables(self) -> "list[TextTable]":
+        """Tables as the command line prints them."""
+        from tribodyn.studies.protocol.results import TextTable
+
+        laws, factors = self.found.laws, self.speed_factors
+        ratios = [
+            [
+                *(law.what, law.law, law.against),
+                *(f"{value:.3f}" for value in law[2:5]),
+                *(_share(law.in_range), _share(law.in_judged_range, "none")),
+            ]
+            for law in laws
+        ]
+        columns = (
+            "",
+            "law",
+            "compared with",
+            "minimum",
+            "median",
+            "maximum",
+            "inside its range",
+            "judged range",
+        )
+        ranges = [[law.what, law.law, law.range or "none stated"] for law in laws]
+        tables = [
+            TextTable("Law over solved contact, along the way of a pair", columns, ratios),
+            TextTable("Ranges of the laws", ("", "law", "range"), ranges),
+        ]
+        if factors:
+            lines = [
+                [law.what, law.law, f"× {factor:g}", *(f"{value:.3f}" for value in row)]
+                for law in laws
+                for factor, row in zip(self.load_factors, law.map, strict=True)
+            ]
+            head = ("", "law", "load", *(f"speed × {factor:g}" for factor in factors))
+            tables.append(TextTable("Median over load and speed", head, lines))
+        return tables
 
     def plot(self) -> "Figure":
         """Draw the ratios of every law."""
@@ -68,14 +118,12 @@ class LawsJudged:
         return f"<tribodyn laws judged for {self.found.title}: {self.said}>"
 
 
-@in_python()
 def judge(
-    source: Source,
-    overrides: Mapping[str, Any] | None = None,
+    case: Any,
     *,
-    positions: int = 24,
-    map: bool = False,
-    progress: Progress | None = None,
+    positions: Annotated[int, Option("Positions of the pair along its way.", min=FEWEST, max=MOST)] = 24,
+    map: Annotated[bool, Option("Also over 1/4 to 2 times the load and the speed.")] = False,
+    progress: Callable[[float], None] | None = None,
 ) -> LawsJudged:
     """Compare every film and friction law with the solved contact.
 
@@ -97,7 +145,15 @@ def judge(
     InputError
         For what is wrong with the scenario, or one without drive, lubricant or duty.
     """
+    from tribodyn.studies.ehl.judged import FACTORS, judgement
+
     if isinstance(positions, bool) or not isinstance(positions, int) or not FEWEST <= positions <= MOST:
         raise InputError("positions", positions, f"is no whole number from {FEWEST} to {MOST}", "give one")
-    case = scenario(source, overrides)
     return LawsJudged(judgement(case, positions, FACTORS if map else (), progress))
+
+
+def _share(value: float, without: str = "not stated") -> str:
+    return without if math.isnan(value) else f"{100 * value:.0f} %"
+
+
+VERBS = {"judge": Verb(judge, EXAMPLES, answers=True)}

@@ -1,0 +1,180 @@
+"""Verbs that studies offer, found through the registry; see `studies.protocol.verb`."""
+
+import inspect
+from collections.abc import Callable, Iterator
+from contextlib import nullcontext
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, get_args
+
+import typer
+
+from tribodyn.cli.options import (
+    ForceOption,
+    JsonOption,
+    LargeOption,
+    PageOption,
+    PlotOption,
+    ReplaceOption,
+    ScenarioArgument,
+    SetOption,
+    SummaryOption,
+    overrides,
+    require_one_way,
+)
+from tribodyn.errors import InputError
+
+if TYPE_CHECKING:
+    from tribodyn.studies.protocol.verb import Answer, Option, Verb
+
+#: Endings of files that keep an answer.
+ENDINGS = (".json", ".png", ".svg", ".pdf")
+
+
+class EngineName(StrEnum):
+    """Where candidates are evaluated."""
+
+    native = "native"
+    dask = "dask"
+
+
+def study_verbs() -> "Iterator[tuple[str, Verb]]":
+    """Go through the verbs of all studies."""
+    from tribodyn.studies import STUDIES
+
+    for _, verbs in STUDIES.each(lambda study: study.verbs()):
+        yield from verbs.items()
+
+
+def command_of(name: str, verb: "Verb") -> Callable[..., None]:
+    """The verb as typer takes it: its own options, then those that all verbs of its form have."""
+    form = _answer if verb.answers else _run
+    own = {
+        parameter.name: parameter.replace(
+            annotation=_annotation(parameter, option), kind=parameter.KEYWORD_ONLY
+        )
+        for parameter in inspect.signature(verb.function).parameters.values()
+        if (option := _option_of(parameter)) is not None
+    }
+    _, scenario, *others = inspect.signature(form).parameters.values()
+
+    def command(**given: Any) -> None:
+        options = {key: given.pop(key) for key in own}
+        form(lambda *source, **how: verb.function(*source, **options, **how), **given)
+
+    signature = inspect.Signature([scenario.replace(kind=scenario.KEYWORD_ONLY), *own.values(), *others])
+    command.__name__, command.__doc__ = name, (verb.function.__doc__ or "").partition("\n")[0]
+    command.__annotations__ = {key: value.annotation for key, value in signature.parameters.items()}
+    vars(command)["__signature__"] = signature
+    return command
+
+
+def _option_of(parameter: inspect.Parameter) -> "Option | None":
+    from tribodyn.studies.protocol.verb import Option
+
+    return next((part for part in get_args(parameter.annotation) if isinstance(part, Option)), None)
+
+
+def _annotation(parameter: inspect.Parameter, option: "Option") -> Any:
+    kind = get_args(parameter.annotation)[0] if option.type is None else option.type
+    shown = {"help": option.help, "metavar": option.metavar, "min": option.min, "max": option.max}
+    return Annotated[kind, typer.Option(f"--{parameter.name.replace('_', '-')}", **shown)]
+
+
+def _run(
+    function: Callable[..., Any],
+    scenario: ScenarioArgument,
+    *,
+    resume: Annotated[bool, typer.Option("--resume", help="Continue a stopped run of that name.")] = False,
+    engine: Annotated[
+        EngineName, typer.Option(help="native: the cores of this machine; dask: many machines.")
+    ] = EngineName.native,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(metavar="ADDRESS", help="Dask's scheduler, tcp://host:8786; default: one of its own."),
+    ] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", help="The record; default: the scenario's name and the verb's."),
+    ] = None,
+    settings: SetOption = None,
+    force: ForceOption = False,
+    allow_large: LargeOption = False,
+    plot: PlotOption = None,
+    report: PageOption = False,
+    json: SummaryOption = False,
+) -> None:
+    """Run the scenario that a verb makes, and show what became of it, as `tribodyn run` does."""
+    from tribodyn.cli.run import Shown, run_loaded
+    from tribodyn.studies.sweeping.cluster import client_of
+
+    require_one_way(resume=resume, force=force)
+    if scheduler is not None and engine is EngineName.native:
+        raise InputError("--scheduler", scheduler, "belongs to --engine dask", "add --engine dask")
+    how = {"output": output, "force": force, "resume": resume, "allow_large": allow_large}
+    with nullcontext() if engine is EngineName.native else client_of(None, scheduler) as client:
+        run_loaded(
+            lambda: function(scenario, overrides=overrides(settings)),
+            Shown(plot, report, json),
+            **how,
+            client=client,
+        )
+
+
+def _answer(
+    function: Callable[..., "Answer"],
+    scenario: ScenarioArgument,
+    *,
+    settings: SetOption = None,
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", help="Keep it in this file: .json, or a picture: .png, .svg, .pdf."),
+    ] = None,
+    force: ReplaceOption = False,
+    json: JsonOption = False,
+) -> None:
+    """Print what a verb finds, and keep it."""
+    from tribodyn.cli.printing import print_json, print_prose, print_text_table, quoted_path
+    from tribodyn.cli.progress import progress_bar
+    from tribodyn.studies.protocol.load import load
+
+    _check(output, force)
+    loaded = load(scenario, overrides(settings))
+    with progress_bar(loaded.case.name) as progress, loaded.naming():
+        answer = function(loaded.case, progress=progress)
+    if output is not None:
+        _keep(answer, output, force)
+    if json:
+        print_json(answer.as_dict() | ({"files": [str(output)]} if output is not None else {}))
+        return
+    for table in answer.tables():
+        print_text_table(table)
+    for remark in answer.remarks:
+        print_prose(remark)
+    if output is not None:
+        typer.echo(f"kept     {quoted_path(output)}")
+
+
+def _check(output: Path | None, force: bool) -> None:
+    """Raise InputError at a file that could not be written in the end."""
+    from tribodyn.numerics.output_files import check_output
+
+    if output is None:
+        return
+    if output.suffix not in ENDINGS:
+        rule = f"ends with none of {', '.join(ENDINGS)}"
+        raise InputError("--output", str(output), rule, f'write "{output.with_suffix(".json")}"')
+    if not output.absolute().parent.is_dir():
+        raise InputError("--output", str(output), "its folder is not there", "make it, or choose another")
+    check_output(output, force)
+
+
+def _keep(answer: "Answer", output: Path, force: bool) -> None:
+    if output.suffix == ".json":
+        from tribodyn.cli.printing import write_json
+
+        write_json(output, answer.as_dict(), force)
+        return
+    from tribodyn.post.style import save
+
+    save(answer.plot(), output, force=force)

@@ -1,0 +1,63 @@
+"""Python functions that studies offer beside those of this package, found through the registry."""
+
+import inspect
+from collections.abc import Callable, Mapping
+from functools import cache, wraps
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from tribodyn.interface.run import Run, recorded, run_class
+from tribodyn.interface.scenario import Source, in_toml, scenario
+from tribodyn.interface.words import in_python
+from tribodyn.studies import STUDIES
+from tribodyn.studies.protocol.study import Progress
+
+if TYPE_CHECKING:
+    from tribodyn.studies.protocol.verb import Answer, Verb
+
+
+@cache
+def offered(name: str) -> Any:
+    """The function of a study's verb, or the class of a study's runs, by its name; None: there is none."""
+    for kind, verbs in STUDIES.each(lambda study: study.verbs()):
+        if name in verbs:
+            return _function(verbs[name])
+        if verbs and run_class(kind).__name__ == name:
+            return run_class(kind)
+    return None
+
+
+def _function(verb: "Verb") -> Callable[..., Any]:
+    """The verb's function, which takes a scenario as `run` does, and gives a run or an answer."""
+
+    def run(
+        *values: Any,
+        output: str | Path | None = None,
+        force: bool = False,
+        resume: bool = False,
+        progress: Progress | None = None,
+        allow_large: bool = False,
+        client: Any = None,
+        **keys: Any,
+    ) -> Run:
+        loaded = verb.function(*map(in_toml, values), **{key: in_toml(value) for key, value in keys.items()})
+        how = {"force": force, "resume": resume, "allow_large": allow_large}
+        return recorded(loaded.case, output, progress=progress, client=client, **how)
+
+    def answer(source: Source, overrides: Mapping[str, Any] | None = None, **options: Any) -> "Answer":
+        return verb.function(scenario(source, overrides), **options)
+
+    function = answer if verb.answers else run
+    function = wraps(verb.function)(answer if verb.answers else run)
+    own = [
+        parameter.replace(annotation=getattr(parameter.annotation, "__origin__", parameter.annotation))
+        if hasattr(parameter.annotation, "__metadata__")
+        else parameter
+        for parameter in inspect.signature(verb.function).parameters.values()
+    ]
+    any_number = (inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD)
+    mine = inspect.signature(function, follow_wrapped=False).parameters.values()
+    added = [parameter for parameter in mine if parameter.kind not in any_number]
+    shown = [*added, *own[1:]] if verb.answers else [*own, *added]
+    vars(function)["__signature__"] = inspect.Signature(sorted(shown, key=lambda parameter: parameter.kind))
+    return in_python()(function)
