@@ -16,7 +16,7 @@ from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, WIDTH, house_style, 
 from tribodyn.record.reader import open_record
 from tribodyn.studies.design.candidates.candidates import cases_of, chosen, number_of, value_at
 from tribodyn.studies.design.candidates.pool import Pool
-from tribodyn.studies.design.candidates.worth import Judge
+from tribodyn.studies.design.candidates.scoring import Scoring
 from tribodyn.studies.pages.pictures import overview
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
@@ -40,9 +40,9 @@ def scan(case: Any, points: int) -> tuple[np.ndarray, np.ndarray]:
     """Objective and feasibility (second key, first key) on a grid of both free keys: brute force."""
     shares = np.linspace(0.0, 1.0, points)
     with Pool(case.scenarios, 2) as pool:
-        judge = Judge(case, pool.submit(cases_of(case, {})).result())
+        scoring = Scoring(case, pool.submit(cases_of(case, {})).result())
         waiting = [[pool.submit(cases_of(case, chosen(case, (x, y)))) for x in shares] for y in shares]
-        rows = [[judge.judged(one.result()) for one in row] for row in waiting]
+        rows = [[scoring.score(one.result()) for one in row] for row in waiting]
     values = np.array([[one.objectives[0] for one in row] for row in rows])
     return values, np.array([[one.feasible for one in row] for row in rows])
 

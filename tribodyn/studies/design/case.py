@@ -1,6 +1,6 @@
-"""A case of a search: everything that one run needs to know."""
+"""A case of a search: everything that one run needs to know, and the names of its keys and duties."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -120,7 +120,6 @@ class DesignCase(CaseHead):
     title, name, kind, toml, sha256 : as in `tribodyn.studies.protocol.study.CaseHead`; `kind` is "design"
     base : the scenario that is searched through, resolved, as TOML has it
     parts : further scenarios by name, with the drive of the base
-    base_kind : kind of the base
     objectives : one, or two for a front
     duties : at least one
     over_duties : "mean" or "worst"
@@ -130,7 +129,6 @@ class DesignCase(CaseHead):
 
     base: Mapping[str, Any]
     parts: Mapping[str, Mapping[str, Any]]
-    base_kind: str
     free: tuple[Free, ...]
     objectives: tuple[Objective, ...]
     constraints: tuple[Constraint, ...]
@@ -143,6 +141,51 @@ class DesignCase(CaseHead):
     sensitivities: bool
 
     @property
+    def figures(self) -> tuple[str, ...]:
+        """Names of the figures that objectives and constraints are made of."""
+        of_objectives = (name for objective in self.objectives for name, _ in objective.terms)
+        return (*of_objectives, *(constraint.figure for constraint in self.constraints))
+
+    @property
     def scenarios(self) -> dict[str, Mapping[str, Any]]:
         """All scenarios that are evaluated, by their names as sources."""
         return {"": self.base, **self.parts}
+
+
+def naming_key(keys: str | Sequence[str]) -> str:
+    """The key that names a free key: of several its parts that all of them have."""
+    if isinstance(keys, str):
+        return keys
+    shared = set(keys[0].split(".")).intersection(*(key.split(".") for key in keys[1:]))
+    return ".".join(part for part in keys[0].split(".") if part in shared) or keys[0]
+
+
+def apart(keys: Sequence[str]) -> list[str]:
+    """Shortest names for keys: their last parts, of such length that all differ; gears are always named."""
+    for length in range(1, 12):
+        ends = [key.split(".")[-length:] for key in keys]
+        gears = [next((part for part in key.split(".") if part in ("pinion", "gear")), "") for key in keys]
+        names = [
+            "_".join(([gear] if gear and gear not in end else []) + end)
+            for gear, end in zip(gears, ends, strict=True)
+        ]
+        if len(set(names)) == len(names):
+            return names
+    return [key.replace(".", "_") for key in keys]
+
+
+def flat(table: Mapping[str, Any], above: str = "") -> dict[str, Any]:
+    """Nested tables as dotted keys."""
+    keys: dict[str, Any] = {}
+    for name, value in table.items():
+        key = f"{above}{name}"
+        keys |= flat(value, f"{key}.") if isinstance(value, Mapping) else {key: value}
+    return keys
+
+
+def duty_names(design: Mapping[str, Any]) -> list[str]:
+    """A name for each duty: the values of the keys in which duties differ."""
+    sets = [flat(duty.get("set", {})) for duty in design.get("duty", ())]
+    keys = list(dict.fromkeys(key for set in sets for key in set))
+    different = [key for key in keys if len({str(set.get(key)) for set in sets}) > 1]
+    return ["\n".join(str(set.get(key, "")) for key in different) for set in sets]

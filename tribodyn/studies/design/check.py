@@ -10,16 +10,18 @@ from tribodyn.studies.protocol.study import Checked, TextTable
 def check(case: DesignCase) -> Checked:
     """Check a case and say what is searched."""
     name, reason = method_of(case)
+    starts = [standing(case.scenarios, free.keys[0]) for free in case.free]
     rows = [
-        (", ".join(one.keys), _shown(standing(case.scenarios, one.keys[0])), bounds(one)) for one in case.free
+        (", ".join(free.keys), "–" if start is None else str(start), bounds(free))
+        for free, start in zip(case.free, starts, strict=True)
     ]
     cases = len(case.duties) * len(samples_of(case))
-    wanted = [one.name.removeprefix("-") for one in case.objectives]
+    wanted = [objective.name.removeprefix("-") for objective in case.objectives]
     more = case.objectives[0].name.startswith("-")
     data = {
-        "free": {key: bounds(one) for one in case.free for key in one.keys},
+        "free": {key: bounds(free) for free in case.free for key in free.keys},
         "objective": wanted,
-        "subject_to": [one.text for one in case.constraints],
+        "subject_to": [constraint.text for constraint in case.constraints],
         "method": name,
         "cases_per_evaluation": cases,
     }
@@ -30,8 +32,8 @@ def check(case: DesignCase) -> Checked:
             ("", ""),
             (
                 ("maximise" if more else "minimise", " and ".join(wanted)),
-                *(("part", f"{name}: {one.get('title', '')}") for name, one in case.parts.items()),
-                *(("subject to", one.text) for one in case.constraints),
+                *(("part", f"{name}: {part.get('title', '')}") for name, part in case.parts.items()),
+                *(("subject to", constraint.text) for constraint in case.constraints),
                 ("method", f"{name}: {reason}"),
                 ("evaluations", f"{case.search.evaluations} at most, {cases} cases each"),
             ),
@@ -40,12 +42,8 @@ def check(case: DesignCase) -> Checked:
     return Checked(data, tables)
 
 
-def bounds(one: Free) -> str:
+def bounds(free: Free) -> str:
     """The range of a free key in words."""
-    if one.choices:
-        return ", ".join(map(str, one.choices))
-    return f"{one.low:g} … {one.high:g} {one.unit}".rstrip()
-
-
-def _shown(value: object) -> str:
-    return "–" if value is None else str(value)
+    if free.choices:
+        return ", ".join(map(str, free.choices))
+    return f"{free.low:g} … {free.high:g} {free.unit}".rstrip()

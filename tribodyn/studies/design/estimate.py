@@ -1,11 +1,9 @@
 """What a search takes, before any work."""
 
-from tribodyn.studies import study_of
+from tribodyn.studies.design.candidates.archive import resolutions
 from tribodyn.studies.design.candidates.candidates import Overrides, cases_of, chosen, start_of
 from tribodyn.studies.design.candidates.converged import counts
-from tribodyn.studies.design.candidates.evaluation import loaded_case
-from tribodyn.studies.design.candidates.levels import resolutions
-from tribodyn.studies.design.candidates.sources import own
+from tribodyn.studies.design.candidates.evaluation import loaded_source
 from tribodyn.studies.design.case import DesignCase
 from tribodyn.studies.design.layout import FACTORS, layout_of, names_of, scales_of
 from tribodyn.studies.design.methods import method_of
@@ -26,25 +24,24 @@ def estimate(case: DesignCase) -> Estimate:
         asked = cases_of(case, chosen(case, start_of(case)), more)
         some = [_of_one(name, case, asked[0]) for name in case.scenarios]
         several += some
-        seconds += candidates * len(asked) * sum(one.seconds for one in some)
-    one = max(several, key=lambda some: some.memory)
+        seconds += candidates * len(asked) * sum(candidate.seconds for candidate in some)
+    largest = max(several, key=lambda estimate: estimate.memory)
     names = names_of(case, [])
     scales = scales_of(case, names)
     sizes = {
         "evaluation": len(FACTORS) * case.search.evaluations,
-        **{name: len(one) for name, one in scales.items()},
+        **{name: len(scale) for name, scale in scales.items()},
     }
     return Estimate(
-        one.memory,
+        largest.memory,
         record_bytes(layout_of(case), sizes),
         seconds,
-        (Driver("design.evaluations", count, USUAL), *one.drivers),
-        one.shared,
+        (Driver("design.evaluations", count, USUAL), *largest.drivers),
+        largest.shared,
     )
 
 
 def _of_one(name: str, case: DesignCase, overrides: Overrides) -> Estimate:
     """What one case of one of the scenarios takes."""
-    data = case.scenarios[name]
-    study = study_of(data)
-    return study.estimate(loaded_case(data, own(name, study.table(data), overrides, case.parts)).case)
+    loaded = loaded_source(case.scenarios, name, overrides)
+    return loaded.study.estimate(loaded.case)

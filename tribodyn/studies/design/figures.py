@@ -14,8 +14,8 @@ from tribodyn.post.figures.panel import View, record_label, record_title
 from tribodyn.post.report import Line
 from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, QUIET, WIDTH, literal, new_figure
 from tribodyn.record.reader import Record
+from tribodyn.studies.design.case import apart, duty_names, naming_key
 from tribodyn.studies.design.layout import LOWER, OBJECTIVES, UPPER, searched
-from tribodyn.studies.design.naming import apart, duty_names, naming_key
 from tribodyn.studies.design.report import line_of
 
 #: Duties that are drawn as bars, at most.
@@ -157,7 +157,7 @@ def _draw_values(axes: Axes, record: Record) -> None:
     least = np.nanmin(np.where(feasible, values, np.nan))
     span = abs(np.nan_to_num(_first(record, "objective_start")) * _Shown(record).factor)
     near = feasible & (values <= least + 0.1 * abs(least or span))
-    keys = [naming_key(one["key"]) for one in entries]
+    keys = [naming_key(entry["key"]) for entry in entries]
     labels = []
     for row, (name, entry) in enumerate(zip(names, entries, strict=True)):
         key = entry["key"] if isinstance(entry["key"], str) else entry["key"][0]
@@ -208,8 +208,10 @@ def _draw_sensitivities(axes: Axes, record: Record) -> None:
     names = [f"{name.replace('_', ' ')} ± 2 %" for name in apart(keys)]
     tolerances = design.get("tolerance", ())
     names += [
-        f"{name.replace('_', ' ')} ± {one['plus_minus']}"
-        for name, one in zip(apart([one["key"] for one in tolerances]), tolerances, strict=True)
+        f"{name.replace('_', ' ')} ± {tolerance['plus_minus']}"
+        for name, tolerance in zip(
+            apart([tolerance["key"] for tolerance in tolerances]), tolerances, strict=True
+        )
     ]
     best = float(np.atleast_1d(record.summary["objective"])[0]) * abs(shown.factor)
     place = np.arange(len(names))

@@ -1,4 +1,4 @@
-"""Datasets of a search: over its evaluations, in their order."""
+"""Datasets of a search over its evaluations, in their order: written, and read by a search that goes on."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -9,11 +9,11 @@ from tribodyn.numerics.variable import Variable, flag
 from tribodyn.record.reader import Record
 from tribodyn.record.schema import Layout
 from tribodyn.studies import study_of
-from tribodyn.studies.design.candidates.archive import Evaluation
-from tribodyn.studies.design.candidates.candidates import samples_of, shapes_gears
+from tribodyn.studies.design.candidates.archive import Evaluation, Unfinished
+from tribodyn.studies.design.candidates.candidates import Overrides, samples_of, shapes_gears, value_at
 from tribodyn.studies.design.candidates.pool import Figures
 from tribodyn.studies.design.candidates.sources import units_by_figure
-from tribodyn.studies.design.case import DesignCase, Objective
+from tribodyn.studies.design.case import DesignCase, Free, Objective
 
 EVALUATION = Variable(("evaluation",), "1", "number of the evaluation")
 #: Bytes kept of a message.
@@ -39,11 +39,9 @@ def names_of(case: DesignCase, start: Figures) -> tuple[str, ...]:
     ----------
     start : figures of the base scenario's cases
     """
-    of_objectives = (name for one in case.objectives for name, _ in one.terms)
     of_start = (name for of in start if not isinstance(of, str) for name in of)
     known = known_units(case)
-    of_constraints = (one.figure for one in case.constraints)
-    return tuple(dict.fromkeys((*of_objectives, *of_constraints, *of_start, *known)))
+    return tuple(dict.fromkeys((*case.figures, *of_start, *known)))
 
 
 def known_units(case: DesignCase) -> dict[str, str]:
@@ -51,24 +49,24 @@ def known_units(case: DesignCase) -> dict[str, str]:
     return units_by_figure({name: study_of(data) for name, data in case.scenarios.items()})
 
 
-def objective_units(case: DesignCase, one: Objective) -> str:
+def objective_units(case: DesignCase, objective: Objective) -> str:
     """SI unit of an objective; "1" of a sum of relative figures."""
     units = known_units(case)
-    return "1" if one.relative else units.get(one.terms[0][0], "1")
+    return "1" if objective.relative else units.get(objective.terms[0][0], "1")
 
 
 def layout_of(case: DesignCase) -> Layout:
     """The layout of a search's record."""
     along = ("evaluation",)
     samples: dict[str, Variable] = {}
-    for one in case.free:
-        about = f"free key {', '.join(one.keys)}"
-        if one.choices:
-            about += f": number of the choice of {', '.join(map(str, one.choices))}"
-        samples[f"free_{one.name}"] = Variable(along, one.units, about)
-    for name, one in zip(OBJECTIVES, case.objectives, strict=False):
-        about = f"objective: {one.name.removeprefix('-')}"
-        samples[name] = Variable(along, objective_units(case, one), about)
+    for free in case.free:
+        about = f"free key {', '.join(free.keys)}"
+        if free.choices:
+            about += f": number of the choice of {', '.join(map(str, free.choices))}"
+        samples[f"free_{free.name}"] = Variable(along, free.units, about)
+    for name, objective in zip(OBJECTIVES, case.objectives, strict=False):
+        about = f"objective: {objective.name.removeprefix('-')}"
+        samples[name] = Variable(along, objective_units(case, objective), about)
     units = objective_units(case, case.objectives[0])
     samples["objective_at_duty"] = Variable((*along, "duty"), units, "first objective at each duty")
     if case.constraints:
@@ -127,25 +125,25 @@ def scales_of(case: DesignCase, names: Sequence[str]) -> dict[str, np.ndarray]:
     return scales | ({"constraint": np.arange(len(case.constraints))} if case.constraints else {})
 
 
-def rows_of(
-    case: DesignCase, names: Sequence[str], some: Sequence[Evaluation], start: int, factor: int
-) -> dict[str, Any]:
-    """Rows of the record for evaluations on one resolution, the first of which has the number `start`."""
-    numbers = np.array([one.numbers for one in some], dtype=float).reshape(len(some), len(case.free))
+def rows_of(case: DesignCase, names: Sequence[str], some: Sequence[Evaluation], start: int) -> dict[str, Any]:
+    """Rows of the record for evaluations, the first of which has the number `start`."""
+    numbers = np.array([candidate.numbers for candidate in some], dtype=float)
+    numbers = numbers.reshape(len(some), len(case.free))
+    scores = [candidate.score for candidate in some]
     rows: dict[str, Any] = {"evaluation": np.arange(start, start + len(some), dtype=float)}
-    for place, one in enumerate(case.free):
-        rows[f"free_{one.name}"] = numbers[:, place]
+    for place, free in enumerate(case.free):
+        rows[f"free_{free.name}"] = numbers[:, place]
     for place, name in enumerate(OBJECTIVES[: len(case.objectives)]):
-        rows[name] = np.array([one.judged.objectives[place] for one in some])
-    rows["objective_at_duty"] = np.array([one.judged.by_duty for one in some])
+        rows[name] = np.array([score.objectives[place] for score in scores])
+    rows["objective_at_duty"] = np.array([score.by_duty for score in scores])
     if case.constraints:
-        rows["margin"] = np.array([one.judged.margins for one in some])
-    rows["case_figures"] = np.array([figure_rows(names, one.found) for one in some])
+        rows["margin"] = np.array([score.margins for score in scores])
+    rows["case_figures"] = np.array([figure_rows(names, candidate.found) for candidate in some])
     if shapes_gears(case):
-        rows["shape"] = np.array([np.nan if one.judged.shape is None else one.judged.shape for one in some])
-    rows[REFINEMENT] = np.full(len(some), float(factor))
-    rows["feasible"] = np.array([float(one.judged.feasible) for one in some])
-    rows["message"] = np.array([_cut(one.judged.message) for one in some], dtype=f"S{MESSAGE}")
+        rows["shape"] = np.array([np.nan if score.shape is None else score.shape for score in scores])
+    rows[REFINEMENT] = np.array([float(candidate.factor) for candidate in some])
+    rows["feasible"] = np.array([float(score.feasible) for score in scores])
+    rows["message"] = np.array([_cut(score.message) for score in scores], dtype=f"S{MESSAGE}")
     return rows
 
 
@@ -159,3 +157,42 @@ def figure_rows(names: Sequence[str], found: Figures) -> np.ndarray:
 def _cut(text: str) -> bytes:
     raw = " ".join(text.split()).encode()
     return raw if len(raw) <= MESSAGE else raw[: MESSAGE - 3].decode(errors="ignore").encode() + b"..."
+
+
+def unfinished_in(case: DesignCase, record: Record) -> Unfinished:
+    """Read what a record of the same search holds."""
+    names = [str(name) for name in record["figure"]]
+    columns = [record[f"free_{free.name}"] for free in case.free]
+    known: dict[int, list[tuple[Overrides, Figures]]] = {}
+    for row, (cases, message) in enumerate(zip(record["case_figures"], record["message"], strict=True)):
+        values: Overrides = {}
+        for free, column in zip(case.free, columns, strict=True):
+            values |= dict.fromkeys(free.keys, _value(free, float(column[row])))
+        found: Figures = [_figures_in(names, numbers) or str(message) for numbers in cases]
+        if not any(isinstance(of, str) and not of for of in found):
+            known.setdefault(int(record[REFINEMENT][row]), []).append((values, found))
+    start: dict[int, Figures] = {}
+    for factor, cases in zip(record["level"], record[START_FIGURES], strict=True):
+        of_start = [of for numbers in cases if (of := _figures_in(names, numbers))]
+        if len(of_start) == len(cases):
+            start[int(factor)] = list(of_start)
+    moved = {
+        (place, name): float(value)
+        for name in (LOWER, UPPER)
+        for place, value in enumerate(record[name])
+        if np.isfinite(value)
+    }
+    return Unfinished(known, start, moved)
+
+
+def _value(free: Free, number: float) -> object:
+    """Value of a free key, as TOML has it, for its number in the record."""
+    if free.choices:
+        return free.choices[int(number)]
+    return value_at(free, (number / free.si - free.low) / (free.high - free.low))
+
+
+def _figures_in(names: Sequence[str], numbers: Sequence[float]) -> dict[str, float] | None:
+    if np.all(np.isnan(numbers)):
+        return None
+    return {name: float(value) for name, value in zip(names, numbers, strict=True) if not np.isnan(value)}

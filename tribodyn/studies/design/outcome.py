@@ -10,10 +10,9 @@ import tomli_w
 
 from tribodyn.errors import printable
 from tribodyn.numerics.output_files import MARKS, check_output, write_output
-from tribodyn.studies import study_of
 from tribodyn.studies.design.candidates.archive import Archive, Evaluation
-from tribodyn.studies.design.candidates.evaluation import loaded_case
-from tribodyn.studies.design.candidates.sources import own, standing
+from tribodyn.studies.design.candidates.evaluation import loaded_source
+from tribodyn.studies.design.candidates.sources import standing
 from tribodyn.studies.design.case import DesignCase
 from tribodyn.studies.design.methods.front import front
 
@@ -39,11 +38,10 @@ def write_best(case: DesignCase, values: Mapping[str, Any], record: Path, force:
     """
     files: list[Path] = []
     loaded = None
-    for name, scenario in case.scenarios.items():
-        schema = study_of(scenario).table(scenario)
-        one = loaded_case(scenario, own(name, schema, values, case.parts))
-        loaded = loaded or one
-        data = tomllib.loads(one.case.toml)
+    for name in case.scenarios:
+        source = loaded_source(case.scenarios, name, values)
+        loaded = loaded or source
+        data = tomllib.loads(source.case.toml)
         more = f"-{name}" if name else ""
         data |= {"title": f"{data['title']}: best of {case.name}", "name": f"{case.name}-best{more}"}
         text = f"{HEAD}{printable(case.title)}\n{tomli_w.dumps(data)}"
@@ -64,23 +62,24 @@ def headline(case: DesignCase, archive: Archive, searched: Archive | None = None
     They are those of an archive; what was evaluated is that of the one that was searched, if it is another.
     """
     searched = searched or archive
-    judge, best = archive.judge, chosen_best(case, archive)
-    judged = judge.judged(judge.start)
+    scoring, best = archive.scoring, chosen_best(case, archive)
+    score = scoring.score(scoring.start)
+    scores = [candidate.score for candidate in searched.evaluations]
     summary: dict[str, Any] = {
-        "objective_name": " and ".join(one.name.removeprefix("-") for one in case.objectives),
-        "objective_start": None if judged.message else signed(case, judged.objectives),
-        "start_feasible": judged.feasible,
-        "evaluations": len(searched.evaluations),
-        "evaluations_without_figures": sum(bool(one.judged.message) for one in searched.evaluations),
-        "evaluations_feasible": sum(one.judged.feasible for one in searched.evaluations),
+        "objective_name": " and ".join(objective.name.removeprefix("-") for objective in case.objectives),
+        "objective_start": None if score.message else signed(case, score.objectives),
+        "start_feasible": score.feasible,
+        "evaluations": len(scores),
+        "evaluations_without_figures": sum(bool(other.message) for other in scores),
+        "evaluations_feasible": sum(candidate.score.feasible for candidate in searched.evaluations),
     }
-    if judged.message:
-        summary["start_message"] = judged.message
-    if messages := Counter(one.judged.message for one in searched.evaluations if one.judged.message):
+    if score.message:
+        summary["start_message"] = score.message
+    if messages := Counter(other.message for other in scores if other.message):
         summary["without_figures_message"] = messages.most_common(1)[0][0]
     if best is None:
         return summary
-    summary["objective"] = signed(case, best.judged.objectives)
+    summary["objective"] = signed(case, best.score.objectives)
     summary["best"] = {
         key: value if isinstance(value, (int, float)) else str(value) for key, value in best.values.items()
     }
@@ -91,20 +90,20 @@ def headline(case: DesignCase, archive: Archive, searched: Archive | None = None
     }
     if len(case.duties) > 1:
         summary["duties"] = {
-            "start": [float(one) for one in judged.by_duty],
-            "best": [float(one) for one in best.judged.by_duty],
+            "start": list(map(float, score.by_duty)),
+            "best": list(map(float, best.score.by_duty)),
         }
     if case.constraints:
-        summary["constraints_start"] = judge.constrained(judge.start)
-        summary["constraints_best"] = judge.constrained(best.found)
-    summary["figures_start"] = dict(judge.at_start)
-    summary["figures_best"] = dict(best.judged.figures)
+        summary["constraints_start"] = scoring.constrained(scoring.start)
+        summary["constraints_best"] = scoring.constrained(best.found)
+    summary["figures_start"] = dict(scoring.at_start)
+    summary["figures_best"] = dict(best.score.figures)
     if len(case.objectives) > 1:
         points = front(archive.evaluations)
         summary["front"] = {
             "points": len(points),
-            "objective": [one.judged.objectives[0] for one in points],
-            "objective_2": [one.judged.objectives[1] for one in points],
+            "objective": [point.score.objectives[0] for point in points],
+            "objective_2": [point.score.objectives[1] for point in points],
         }
     return summary
 
@@ -112,8 +111,8 @@ def headline(case: DesignCase, archive: Archive, searched: Archive | None = None
 def signed(case: DesignCase, objectives: tuple[float, ...]) -> Any:
     """Objectives with the signs of their figures; of one objective that number alone."""
     found = [
-        -one if aim.name.startswith("-") else one
-        for one, aim in zip(objectives, case.objectives, strict=True)
+        -objective if aim.name.startswith("-") else objective
+        for objective, aim in zip(objectives, case.objectives, strict=True)
     ]
     return found[0] if len(found) == 1 else found
 
@@ -129,11 +128,11 @@ def chosen_best(case: DesignCase, archive: Archive) -> Evaluation | None:
     points = front(archive.evaluations)
     if not points:
         return None
-    columns = list(zip(*(one.judged.objectives for one in points), strict=True))
+    columns = list(zip(*(point.score.objectives for point in points), strict=True))
     lows, spans = [min(column) for column in columns], [max(column) - min(column) for column in columns]
 
-    def distance(one: Evaluation) -> float:
-        parts = zip(one.judged.objectives, lows, spans, strict=True)
+    def distance(candidate: Evaluation) -> float:
+        parts = zip(candidate.score.objectives, lows, spans, strict=True)
         return sum(((value - low) / (span or 1.0)) ** 2 for value, low, span in parts)
 
     return min(points, key=distance)

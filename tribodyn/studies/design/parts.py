@@ -9,7 +9,7 @@ from tribodyn.errors import InputError, quoted
 from tribodyn.scenario.resolve import toml_value
 from tribodyn.scenario.units import Kind, NotAQuantity, factor_to_si, to_si
 from tribodyn.scenario.vary import base_units, is_drawn, is_whole, kind_at
-from tribodyn.studies.design.candidates.deviations import PROFILE_ERROR
+from tribodyn.studies.design.candidates.candidates import PROFILE_ERROR
 from tribodyn.studies.design.candidates.sources import (
     Sources,
     figure_name,
@@ -17,8 +17,18 @@ from tribodyn.studies.design.candidates.sources import (
     require_key,
     units_by_figure,
 )
-from tribodyn.studies.design.case import DRAWN, START, Constraint, Duty, Free, Objective, Tolerance
-from tribodyn.studies.design.naming import apart, flat, naming_key
+from tribodyn.studies.design.case import (
+    DRAWN,
+    START,
+    Constraint,
+    Duty,
+    Free,
+    Objective,
+    Tolerance,
+    apart,
+    flat,
+    naming_key,
+)
 from tribodyn.studies.protocol.study import Study
 
 T = TypeVar("T")
@@ -45,19 +55,19 @@ def parts_of_design(table: Any, sources: Sources) -> Parts:
     sources : what is evaluated
     """
     errors: list[InputError] = []
-    studies = {name: one.study for name, one in sources.items()}
+    studies = {name: source.study for name, source in sources.items()}
     units = units_by_figure(studies)
 
     def collect(some: Sequence[T], read: Callable[[int, T], Any]) -> list[Any]:
         found = []
-        for number, one in enumerate(some):
+        for number, candidate in enumerate(some):
             try:
-                found.append(read(number, one))
+                found.append(read(number, candidate))
             except InputError as error:
                 errors.append(error)
         return found
 
-    free = collect(table.free, lambda number, one: _free(f"design.free.{number}", one, sources))
+    free = collect(table.free, lambda number, entry: _free(f"design.free.{number}", entry, sources))
     if not table.free:
         rule, remedy = "nothing is free", 'add { key = "…", from = "…", to = "…" }'
         errors.append(InputError("design.free", "[]", rule, remedy))
@@ -68,39 +78,41 @@ def parts_of_design(table: Any, sources: Sources) -> Parts:
         lambda number, text: _constraint(f"design.subject_to.{number}", text, studies, units),
     )
     errors += _contradictions(constraints)
-    duties = collect(table.duty, lambda number, one: _duty(number, one, free, sources))
+    duties = collect(table.duty, lambda number, entry: _duty(number, entry, free, sources))
     tolerances = collect(
-        table.tolerance, lambda number, one: _tolerance(f"design.tolerance.{number}", one, sources)
+        table.tolerance, lambda number, entry: _tolerance(f"design.tolerance.{number}", entry, sources)
     )
     collect(list(flat(table.confirm)), lambda _, key: require_key("design.confirm", key, sources))
+    key_names = apart([naming_key(entry.keys) for entry in free])
+    names = apart([tolerance.key for tolerance in tolerances])
     return Parts(
-        _named_apart(free),
+        tuple(key._replace(name=name) for key, name in zip(free, key_names, strict=True)),
         objectives[0] if objectives else (),
         tuple(constraints),
         tuple(duties) or (Duty(1.0, {}, ""),),
-        _tolerances_apart(tolerances),
+        tuple(tol._replace(name=name) for tol, name in zip(tolerances, names, strict=True)),
         tuple(errors),
     )
 
 
-def _free(place: str, one: Any, sources: Sources) -> Free:
-    keys = (one.key,) if isinstance(one.key, str) else one.key
+def _free(place: str, table: Any, sources: Sources) -> Free:
+    keys = (table.key,) if isinstance(table.key, str) else table.key
     if not isinstance(keys, (list, tuple)) or not keys or not all(isinstance(key, str) for key in keys):
-        raise InputError(f"{place}.key", quoted(one.key), "not a key", 'write key = "drive.module"')
+        raise InputError(f"{place}.key", quoted(table.key), "not a key", 'write key = "drive.module"')
     for key in keys:
         _varied(f"{place}.key", key, sources)
     (_, schema), key = require_key(f"{place}.key", keys[0], sources)
-    low, high = getattr(one, "from"), one.to
-    if one.choices is not None:
+    low, high = getattr(table, "from"), table.to
+    if table.choices is not None:
         if low is not None or high is not None:
             raise InputError(place, None, "has both choices and from or to", "give one of them")
-        if len(one.choices) < 2:
-            raise InputError(f"{place}.choices", quoted(list(one.choices)), "nothing to choose", "give two")
-        for number, value in enumerate(one.choices):
-            if value in one.choices[:number]:
+        if len(table.choices) < 2:
+            raise InputError(f"{place}.choices", quoted(list(table.choices)), "nothing to choose", "give two")
+        for number, value in enumerate(table.choices):
+            if value in table.choices[:number]:
                 raise InputError(f"{place}.choices.{number}", quoted(value), "is there twice", "remove one")
             _require(f"{place}.choices.{number}", keys, (value,), sources)
-        return Free(tuple(keys), "", 0.0, len(one.choices) - 1.0, choices=tuple(one.choices))
+        return Free(tuple(keys), "", 0.0, len(table.choices) - 1.0, choices=tuple(table.choices))
     for name, value in (("from", low), ("to", high)):
         if value is None:
             raise InputError(f"{place}.{name}", None, "missing", f'add {name} = "…" with its unit')
@@ -179,8 +191,8 @@ def _factor(unit: str, kind: Kind | None) -> float:
 def _twice(free: Sequence[Free]) -> list[InputError]:
     seen: set[str] = set()
     errors = []
-    for number, one in enumerate(free):
-        for key in one.keys:
+    for number, entry in enumerate(free):
+        for key in entry.keys:
             if key in seen:
                 place = f"design.free.{number}.key"
                 errors.append(InputError(place, quoted(key), "is free twice", "give it once"))
@@ -200,11 +212,11 @@ def _objectives(table: Any, studies: Mapping[str, Study]) -> tuple[Objective, ..
     if isinstance(given, str):
         name = figure_name("design.minimise", given, studies)
         return (Objective(name, ((name, 1.0),)),)
-    if isinstance(given, (list, tuple)) and given and all(isinstance(one, str) for one in given):
+    if isinstance(given, (list, tuple)) and given and all(isinstance(name, str) for name in given):
         if len(given) > 2:
             rule = f"{len(given)} objectives; a front has two"
             raise InputError("design.minimise", quoted(list(given)), rule, "bound the others: subject_to")
-        names = [figure_name(f"design.minimise.{i}", one, studies) for i, one in enumerate(given)]
+        names = [figure_name(f"design.minimise.{i}", name, studies) for i, name in enumerate(given)]
         if len(set(names)) < len(names):
             raise InputError("design.minimise", quoted(list(given)), "the same twice", "name another figure")
         return tuple(Objective(name, ((name, 1.0),)) for name in names)
@@ -216,12 +228,12 @@ def _objectives(table: Any, studies: Mapping[str, Study]) -> tuple[Objective, ..
 
 def _weighted(given: Sequence[Any], studies: Mapping[str, Study]) -> Objective:
     terms = []
-    for number, one in enumerate(given):
+    for number, entry in enumerate(given):
         place = f"design.minimise.{number}"
-        if not isinstance(one, Mapping) or set(one) - {"figure", "weight"} or "figure" not in one:
+        if not isinstance(entry, Mapping) or set(entry) - {"figure", "weight"} or "figure" not in entry:
             remedy = 'write { figure = "peak_to_peak", weight = 0.5 }'
-            raise InputError(place, quoted(one), "not a figure and its weight", remedy)
-        weight = one.get("weight", 1.0)
+            raise InputError(place, quoted(entry), "not a figure and its weight", remedy)
+        weight = entry.get("weight", 1.0)
         if (
             isinstance(weight, bool)
             or not isinstance(weight, (int, float))
@@ -229,7 +241,7 @@ def _weighted(given: Sequence[Any], studies: Mapping[str, Study]) -> Objective:
             or not weight
         ):
             raise InputError(f"{place}.weight", quoted(weight), "not a weight", "write a number such as 0.5")
-        terms.append((figure_name(f"{place}.figure", one["figure"], studies), float(weight)))
+        terms.append((figure_name(f"{place}.figure", entry["figure"], studies), float(weight)))
     return Objective(" + ".join(f"{weight:g} {name}" for name, weight in terms), tuple(terms))
 
 
@@ -272,43 +284,33 @@ def _contradictions(constraints: Sequence[Constraint]) -> list[InputError]:
     return errors
 
 
-def _duty(number: int, one: Any, free: Sequence[Free], sources: Sources) -> Duty:
-    keys = flat(one.set)
+def _duty(number: int, table: Any, free: Sequence[Free], sources: Sources) -> Duty:
+    keys = flat(table.set)
     for key in keys:
         _require(f"design.duty.{number}.set", (key,), (keys[key],), sources)
         if any(key in other.keys for other in free):
             raise InputError(f"design.duty.{number}.set", quoted(key), "is free too", "choose one of them")
     name = ", ".join(f"{key.rpartition('.')[2]} {value}" for key, value in keys.items())
-    return Duty(one.weight, keys, name)
+    return Duty(table.weight, keys, name)
 
 
-def _tolerance(place: str, one: Any, sources: Sources) -> Tolerance:
-    _varied(f"{place}.key", one.key, sources)
-    (_, schema), key = require_key(f"{place}.key", one.key, sources)
+def _tolerance(place: str, table: Any, sources: Sources) -> Tolerance:
+    _varied(f"{place}.key", table.key, sources)
+    (_, schema), key = require_key(f"{place}.key", table.key, sources)
     if is_drawn(schema, key):
-        if one.plus_minus is not None:
-            raise InputError(f"{place}.plus_minus", quoted(one.plus_minus), "counts samples", "omit it")
-        return Tolerance(one.key, "", 0.0, "", DRAWN)
-    if one.plus_minus is None:
+        if table.plus_minus is not None:
+            raise InputError(f"{place}.plus_minus", quoted(table.plus_minus), "counts samples", "omit it")
+        return Tolerance(table.key, "", 0.0, "", DRAWN)
+    if table.plus_minus is None:
         raise InputError(f"{place}.plus_minus", None, "missing", 'add plus_minus = "…" with its unit')
     kind = kind_at(schema, key)
     kind = kind._replace(allowed="any") if isinstance(kind, Kind) else None
-    if kind is None and not one.key.endswith(PROFILE_ERROR):
-        _require(f"{place}.key", (one.key,), (one.plus_minus,), sources)
-    size, unit, units = _number(f"{place}.plus_minus", one.plus_minus, kind)
-    if one.key.endswith(PROFILE_ERROR) and units != "m":
-        raise InputError(f"{place}.plus_minus", quoted(one.plus_minus), "not a length", "write such as 3 um")
+    if kind is None and not table.key.endswith(PROFILE_ERROR):
+        _require(f"{place}.key", (table.key,), (table.plus_minus,), sources)
+    size, unit, units = _number(f"{place}.plus_minus", table.plus_minus, kind)
+    written = quoted(table.plus_minus)
+    if table.key.endswith(PROFILE_ERROR) and units != "m":
+        raise InputError(f"{place}.plus_minus", written, "not a length", "write such as 3 um")
     if size <= 0:
-        raise InputError(f"{place}.plus_minus", quoted(one.plus_minus), "not positive", "write such as 1 um")
-    return Tolerance(one.key, one.key.rpartition(".")[2], size / _factor(unit, kind), unit, one.distribution)
-
-
-def _named_apart(free: Sequence[Free]) -> tuple[Free, ...]:
-    """Give every free key the shortest end of its key that no other has."""
-    names = apart([naming_key(one.keys) for one in free])
-    return tuple(one._replace(name=name) for one, name in zip(free, names, strict=True))
-
-
-def _tolerances_apart(some: Sequence[Tolerance]) -> tuple[Tolerance, ...]:
-    names = apart([one.key for one in some])
-    return tuple(one._replace(name=name) for one, name in zip(some, names, strict=True))
+        raise InputError(f"{place}.plus_minus", written, "not positive", "write such as 1 um")
+    return Tolerance(table.key, "", size / _factor(unit, kind), unit, table.distribution)

@@ -58,7 +58,7 @@ def sentences(record: Record) -> list[str]:
         return []
     search = record.scenario
     names = str(summary["objective_name"]).split(" and ")
-    start, best = (np.atleast_1d(summary.get(f"objective{one}", np.nan)) for one in ("_start", ""))
+    start, best = (np.atleast_1d(summary.get(f"objective{end}", np.nan)) for end in ("_start", ""))
     said = []
     for place, name in enumerate(names):
         before = start[place] if place < len(start) and start[place] is not None else np.nan
@@ -75,7 +75,7 @@ def sentences(record: Record) -> list[str]:
     if "resolution" in summary:
         said.append(_resolution(search, names, summary))
     if "objective_confirmed" in summary:
-        ends = (summary[f"objective_{one}confirmed"] for one in ("start_", ""))
+        ends = (summary[f"objective_{end}confirmed"] for end in ("start_", ""))
         change = _change(search, names[0], *ends)
         said.append(f"Evaluated once more as design.confirm says: {change}.")
     if "without_figures_message" in summary:
@@ -88,8 +88,8 @@ def _resolution(search: Mapping[str, Any], names: Sequence[str], summary: Mappin
     """Say on which resolution the figures stand, and what the best is on the one that was searched on."""
     lines = [line_of(search, name) or Line(name, name) for name in names]
     fine, coarse = (
-        ", ".join(f"{key} = {value}" for key, value in summary[one].items())
-        for one in ("resolution", "resolution_searched")
+        ", ".join(f"{key} = {value}" for key, value in summary[name].items())
+        for name in ("resolution", "resolution_searched")
     )
     stands = "do not change there" if summary["figure_stands"] else "still change there"
     before = " and ".join(

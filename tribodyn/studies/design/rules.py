@@ -22,15 +22,15 @@ def broken_rules(scenario: Any) -> Iterator[InputError]:
     parts = {name: getattr(given, name) for name in type(given).model_fields} if given is not None else {}
     sources: dict[str, Source] = {}
     clear = True
-    for name, place, one in [
+    for name, place, source in [
         (BASE, "scenario", scenario.scenario),
         *((name, f"design.part.{name}", part) for name, part in parts.items()),
     ]:
-        errors = list(_of_scenario(place, one))
+        errors = list(_of_scenario(place, source))
         yield from errors
         clear = clear and not any(error.key == f"{place}.kind" for error in errors)
         if clear:
-            sources[name] = Source(study_of({"kind": one.kind}), type(one))
+            sources[name] = Source(study_of({"kind": source.kind}), type(source))
     fields = type(scenario.scenario).model_fields if isinstance(scenario.scenario, Table) else {}
     for name in parts:
         if name in fields:

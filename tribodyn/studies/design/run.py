@@ -1,6 +1,6 @@
 """From a case of a search to its record: every evaluation, the best, and what was evaluated about it."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator
 from concurrent.futures import Future
 from contextlib import ExitStack, contextmanager, suppress
 from functools import partial
@@ -15,13 +15,19 @@ from tribodyn.numerics.sources import computing_digest
 from tribodyn.record.reader import open_record
 from tribodyn.record.schema import partial_path, require_same_code
 from tribodyn.record.writer import RecordWriter, check_target
-from tribodyn.studies.design.candidates.archive import Archive, Evaluation, SpentError
+from tribodyn.studies.design.candidates.archive import (
+    Archive,
+    Evaluation,
+    Levels,
+    Moved,
+    SpentError,
+    Unfinished,
+    resolutions,
+)
 from tribodyn.studies.design.candidates.candidates import cases_of, chosen, share_of, start_of
 from tribodyn.studies.design.candidates.converged import Converged, converged
-from tribodyn.studies.design.candidates.levels import Levels, resolutions
 from tribodyn.studies.design.candidates.pool import Cluster, Evaluators, Figures, Pool, workers_for
-from tribodyn.studies.design.candidates.unfinished import NOTHING_LEFT, Left, Moved, left_in
-from tribodyn.studies.design.candidates.worth import HELD, Judge
+from tribodyn.studies.design.candidates.scoring import SLACK, Scoring
 from tribodyn.studies.design.case import DesignCase
 from tribodyn.studies.design.layout import (
     FACTORS,
@@ -34,6 +40,7 @@ from tribodyn.studies.design.layout import (
     names_of,
     rows_of,
     scales_of,
+    unfinished_in,
 )
 from tribodyn.studies.design.methods import METHODS, method_of
 from tribodyn.studies.design.outcome import check_targets, chosen_best, headline, signed, write_best
@@ -57,17 +64,18 @@ def run(
     """
     name, reason = method_of(case)
     path = Path(output) if output is not None else Path(f"{case.name}.h5")
-    left = _left(case, path) if resume and not force else NOTHING_LEFT
+    before = _unfinished(case, path) if resume and not force else None
     best_of = partial(write_best, case, record=path, force=force)
     check_targets(case, path, force)
-    force = force or left is not NOTHING_LEFT
+    force = force or before is not None
+    before = before or Unfinished()
     path = target(case, path, force)
     begun = perf_counter()
     with ExitStack() as stack:
-        pool, start = stack.enter_context(_started(case, left.start.get(1), client))
-        left = left._replace(start={**left.start, 1: start})
+        pool, start = stack.enter_context(_started(case, before.start.get(1), client))
+        before = before._replace(start={**before.start, 1: start})
         names = names_of(case, start)
-        room = sum(map(len, left.known.values())) + len(FACTORS) * case.search.evaluations
+        room = sum(map(len, before.known.values())) + len(FACTORS) * case.search.evaluations
         scales = scales_of(case, names)
         how: dict[str, Any] = {"scales": scales, "force": force, "code": computing_digest()}
         record = stack.enter_context(writer(case, path, layout_of(case), room, **how))
@@ -75,11 +83,16 @@ def run(
         def started(factor: int, of: Figures) -> None:
             record.put(FACTORS.index(factor), {START_FIGURES: figure_rows(names, of)})
 
-        levels = Levels(case, pool, left, started, _keeper(case, record, names, progress))
+        def keep(candidate: Evaluation) -> None:
+            record.write(record.written, rows_of(case, names, [candidate], record.written))
+            if progress:
+                progress(min(1.0, record.written / case.search.evaluations))
+
+        levels = Levels(case, pool, before, started, keep)
         archive = searched = levels.at(1)
-        for factor in sorted(left.known):
+        for factor in sorted(before.known):
             known = levels.at(factor).recorded
-            record.write(record.written, rows_of(case, names, known, record.written, factor))
+            record.write(record.written, rows_of(case, names, known, record.written))
 
         def so_far(**more: Any) -> dict[str, Any]:
             where = {"engine": pool.name, "workers": pool.workers}
@@ -97,7 +110,7 @@ def run(
                 return RunResult(record.fail(message, so_far()), "failed", message, so_far())
             summary = so_far(
                 **_resolved(case, searched, end, best),
-                **_about(case, archive, pool, best, left.moved, record),
+                **_about(case, archive, pool, best, before.moved, record),
             )
         except KeyboardInterrupt as error:
             archive.close()
@@ -117,7 +130,7 @@ def figures(case: DesignCase) -> dict[str, Any]:
     """Figures of a search without a record; raises SimulationError where nothing is feasible."""
     name, _ = method_of(case)
     with _started(case) as (pool, start):
-        levels = Levels(case, pool, NOTHING_LEFT._replace(start={1: start}))
+        levels = Levels(case, pool, Unfinished(start={1: start}))
         _search(case, levels.at(1), name)
         end = converged(case, levels, name)
         found = headline(case, end.archive, levels.at(1))
@@ -140,28 +153,17 @@ def _started(
 def _search(case: DesignCase, archive: Archive, name: str) -> None:
     start = start_of(case)
     with suppress(SpentError):
-        archive.ask(start)
+        archive.score(start)
         METHODS[name](archive, start)
-
-
-def _keeper(
-    case: DesignCase, record: RecordWriter, names: Sequence[str], progress: Progress | None
-) -> Callable[[Evaluation, int], None]:
-    def keep(one: Evaluation, factor: int) -> None:
-        record.write(record.written, rows_of(case, names, [one], record.written, factor))
-        if progress:
-            progress(min(1.0, record.written / case.search.evaluations))
-
-    return keep
 
 
 def _resolved(case: DesignCase, searched: Archive, end: Converged, best: Evaluation) -> dict[str, Any]:
     """On which resolution the figures stand, and what the best is on the one that was searched on."""
     if end.stands is None:
         return {}
-    before = searched.judge.judged(searched.found_of(best.values).result()).objectives
+    before = searched.scoring.score(searched.found_of(best.values).result()).objectives
     return {
-        "resolution": resolutions(case, end.factor),
+        "resolution": resolutions(case, end.archive.factor),
         "resolution_searched": resolutions(case, 1),
         "objective_searched": signed(case, before),
         "figure_stands": end.stands,
@@ -169,30 +171,30 @@ def _resolved(case: DesignCase, searched: Archive, end: Converged, best: Evaluat
     }
 
 
-def _left(case: DesignCase, path: Path) -> Left:
-    """What an unfinished search left; nothing, where there is nothing."""
-    left = partial_path(path)
-    if not left.exists():
-        return NOTHING_LEFT
+def _unfinished(case: DesignCase, path: Path) -> Unfinished | None:
+    """What an unfinished search recorded; None where there is no such record."""
+    partial = partial_path(path)
+    if not partial.exists():
+        return None
     check_target(path, force=True)
     other = "move it away, or --force to begin anew"
-    with open_record(left) as record:
+    with open_record(partial) as record:
         if record.kind != case.kind or record.attrs["scenario_sha256"] != case.sha256:
-            raise InputError("--resume", str(left), "made from another scenario", other)
-        require_same_code(record.attrs, left)
-        return left_in(case, record)
+            raise InputError("--resume", str(partial), "made from another scenario", other)
+        require_same_code(record.attrs, partial)
+        return unfinished_in(case, record)
 
 
 def _why_none(case: DesignCase, archive: Archive) -> str:
     """Why there is no best: what the nearest candidate misses, or why none has figures."""
     nearest = archive.nearest()
     if nearest is None:
-        reason = archive.evaluations[-1].judged.message if archive.evaluations else "none was evaluated"
+        reason = archive.evaluations[-1].score.message if archive.evaluations else "none was evaluated"
         return f"no candidate has figures: {reason}"
     missed = [
-        f"{one.text} by {-100 * margin:.3g} %"
-        for one, margin in zip(case.constraints, nearest.judged.margins, strict=True)
-        if margin < -HELD
+        f"{constraint.text} by {-100 * margin:.3g} %"
+        for constraint, margin in zip(case.constraints, nearest.score.margins, strict=True)
+        if margin < -SLACK
     ]
     values = ", ".join(f"{key} = {value}" for key, value in nearest.values.items())
     return f"no candidate satisfies all constraints; the nearest, {values}, misses {' and '.join(missed)}"
@@ -210,15 +212,15 @@ def _about(
 
     What stands in `moved`, of the search that this one goes on from, is not evaluated again.
     """
-    shares = np.array([share_of(one, best.values[one.keys[0]]) for one in case.free])
+    shares = np.array([share_of(free, best.values[free.keys[0]]) for free in case.free])
     waiting: list[tuple[int, str, Future[Figures]]] = []
-    for place, one in enumerate(case.free if case.sensitivities else ()):
+    for place, free in enumerate(case.free if case.sensitivities else ()):
         for name, step in ((LOWER, -MOVED), (UPPER, MOVED)):
             if (place, name) in moved:
                 continue
             changed = shares.copy()
             changed[place] = np.clip(changed[place] + step, 0.0, 1.0)
-            values = chosen(case, changed) if one.continuous else best.values
+            values = chosen(case, changed) if free.continuous else best.values
             waiting.append((place, name, archive.found_of(values)))
     for place in range(len(case.tolerances) if case.sensitivities else 0):
         for name, side in ((LOWER, -1.0), (UPPER, 1.0)):
@@ -229,11 +231,11 @@ def _about(
     confirming = [pool.submit(cases_of(case, values, {**archive.more, **case.confirm})) for values in ends]
     for (place, name), value in moved.items():
         record.put(place, {name: value})
-    for place, name, one in waiting:
-        record.put(place, {name: _objective(archive.judge, one.result())})
-    confirmed = [_objective(archive.judge, one.result()) for one in confirming]
+    for place, name, figures in waiting:
+        record.put(place, {name: _objective(archive.scoring, figures.result())})
+    confirmed = [_objective(archive.scoring, figures.result()) for figures in confirming]
     return {"objective_start_confirmed": confirmed[0], "objective_confirmed": confirmed[1]} if ends else {}
 
 
-def _objective(judge: Judge, found: Figures) -> float:
-    return judge.judged(found).objectives[0]
+def _objective(scoring: Scoring, found: Figures) -> float:
+    return scoring.score(found).objectives[0]

@@ -12,8 +12,7 @@ from tribodyn.scenario.quantity import Count, Positive, Switch, Table, Text, sce
 from tribodyn.scenario.tables.drive_data import with_axes_held
 from tribodyn.studies import DEFAULT, STUDIES, study_of
 from tribodyn.studies.design.candidates.sources import BASE, NAME, sources_of
-from tribodyn.studies.design.case import DesignCase, Robust, Search
-from tribodyn.studies.design.naming import flat
+from tribodyn.studies.design.case import DesignCase, Robust, Search, flat
 from tribodyn.studies.design.parts import parts_of_design
 
 KIND = "design"
@@ -136,7 +135,7 @@ def table_for(data: Mapping[str, Any]) -> type[Table]:
     design = data.get("design")
     given = design.get("part") if isinstance(design, Mapping) else None
     parts = given if isinstance(given, Mapping) else {}
-    named = tuple((name, _schema_of(one)) for name, one in parts.items() if is_name(name))
+    named = tuple((name, _schema_of(part)) for name, part in parts.items() if is_name(name))
     return _around(_schema_of(data.get("scenario")), named)
 
 
@@ -191,13 +190,12 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> DesignCase:
     base = data["scenario"]
     if "drive" in base:
         base |= {"drive": with_axes_held(base["drive"])}
-    further = {name: _on_drive(one, base) for name, one in (data["design"].get("part") or {}).items()}
+    further = {name: _on_drive(part, base) for name, part in (data["design"].get("part") or {}).items()}
     parts = parts_of_design(table, sources_of({BASE: base, **further}))
     return DesignCase(
         **head_of(scenario, toml, sha256),
         base=base,
         parts=further,
-        base_kind=study_of(base).kind,
         free=parts.free,
         objectives=parts.objectives,
         constraints=parts.constraints,

@@ -54,7 +54,7 @@ def free_of(option: str) -> dict[str, Any]:
         For what is neither.
     """
     key, equals, text = option.partition("=")
-    keys = [one.strip() for one in key.split("+")]
+    keys = [part.strip() for part in key.split("+")]
     if not equals or not text.strip() or not all(keys):
         raise _refusal(option)
     named: dict[str, Any] = {"key": keys if len(keys) > 1 else keys[0]}
@@ -72,8 +72,8 @@ def free_of(option: str) -> dict[str, Any]:
         raise _refusal(option)
     match = _UNIT.match(values[-1])
     if match and match[1]:
-        values = [f"{one} {match[1]}" if re.fullmatch(r"[\d.eE+-]+", one) else one for one in values]
-    return {**named, "choices": [toml_value(one) for one in values]}
+        values = [f"{value} {match[1]}" if re.fullmatch(r"[\d.eE+-]+", value) else value for value in values]
+    return {**named, "choices": [toml_value(value) for value in values]}
 
 
 def _refusal(option: str) -> InputError:
@@ -91,7 +91,7 @@ def parts_of(options: Sequence[str]) -> dict[str, str]:
     """
     parts: dict[str, str] = {}
     for option in options:
-        name, equals, scenario = (one.strip() for one in option.partition("="))
+        name, equals, scenario = (part.strip() for part in option.partition("="))
         if not equals or not name or not scenario or name in parts:
             rule = "is given twice" if name in parts else "not NAME=SCENARIO"
             remedy = "write it like --part efficiency=efficiency-involute-18-36"

@@ -7,9 +7,9 @@ import pytest
 
 import tribodyn as td
 from tribodyn.studies import study_of
+from tribodyn.studies.design.candidates.archive import Levels
 from tribodyn.studies.design.candidates.candidates import share_of
 from tribodyn.studies.design.candidates.converged import converged
-from tribodyn.studies.design.candidates.levels import Levels
 from tribodyn.studies.design.estimate import estimate
 from tribodyn.studies.design.outcome import headline
 from tribodyn.studies.design.short_form import loaded_search
@@ -94,11 +94,11 @@ def test_a_front_is_that_of_a_resolution_at_which_all_its_members_stand():
     case, pool = loaded_search("load-contact-18-36", TWO, {}).case, Sampled()
     levels = Levels(case, pool)
     for values in ((-1.0, 0.0), (0.0, 0.02), (0.01, 0.0), (1.0, 0.0), (2.0, 0.0), (0.5, 0.8)):
-        levels.at(1).ask([share_of(one, value) for one, value in zip(case.free, values, strict=True)])
+        levels.at(1).score([share_of(one, value) for one, value in zip(case.free, values, strict=True)])
     before, searched = len(pool.asked), headline(case, levels.at(1))["front"]
     assert searched["objective"] == pytest.approx([2.0, 2.97, 4.0, 5.0])
     end = converged(case, levels, "epsilon-constraint")
-    assert (end.factor, end.stands, end.evaluations) == (5, True, 9)
+    assert (end.archive.factor, end.stands, end.evaluations) == (5, True, 9)
     found = headline(case, end.archive, levels.at(1))
     assert found["front"]["objective"] == pytest.approx([2.0, 3.01, 4.0])
     assert found["front"]["objective_2"] == pytest.approx([4.0, 2.99, 2.0])

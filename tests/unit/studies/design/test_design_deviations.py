@@ -8,8 +8,7 @@ import pytest
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
-from tribodyn.studies.design.candidates.candidates import cases_of, chosen
-from tribodyn.studies.design.candidates.deviations import BEYOND
+from tribodyn.studies.design.candidates.candidates import BEYOND, cases_of, chosen
 from tribodyn.studies.design.candidates.evaluation import evaluate, loaded_case
 from tribodyn.studies.design.short_form import loaded_search
 

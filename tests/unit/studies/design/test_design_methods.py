@@ -10,7 +10,6 @@ import pytest
 from tribodyn.errors import InputError
 from tribodyn.studies.design.candidates.archive import Archive
 from tribodyn.studies.design.candidates.candidates import start_of
-from tribodyn.studies.design.candidates.worth import Judge
 from tribodyn.studies.design.methods import METHODS, method_of
 from tribodyn.studies.design.methods.front import front
 from tribodyn.studies.design.outcome import chosen_best, headline
@@ -43,10 +42,10 @@ class Formulas:
 def search(formulas: Formulas, **design: Any) -> tuple[Archive, list[Any]]:
     free = [{"key": key, "from": -1.0, "to": 1.0} for key in KEYS]
     case = loaded_search("load-contact-18-36", {"free": free, "minimise": F, **design}, {}).case
-    judge = Judge(case, formulas.submit([{}]).result())
+    start = formulas.submit([{}]).result()
     kept: list[Any] = []
-    archive = Archive(case, judge, formulas, kept.append, {})  # pyright: ignore[reportArgumentType]
-    archive.ask(start_of(case))
+    archive = Archive(case, start, formulas, kept.append)  # pyright: ignore[reportArgumentType]
+    archive.score(start_of(case))
     METHODS[method_of(case)[0]](archive, start_of(case))
     return archive, kept
 
@@ -69,7 +68,7 @@ def test_the_minimum_of_a_bowl(method: str, most: int):
     best = archive.best()
     assert best is not None
     np.testing.assert_allclose(values_of(best), [0.3, -0.4], atol=0.02)
-    assert best.judged.objectives[0] == pytest.approx(1.0, abs=1e-3)
+    assert best.score.objectives[0] == pytest.approx(1.0, abs=1e-3)
     # each candidate once, kept in the order in which it came, and no more than allowed
     assert len(set(formulas.asked[1:])) == len(formulas.asked) - 1 == len(kept) <= most
     assert archive.evaluations == kept
@@ -82,9 +81,9 @@ def test_a_minimum_on_a_constraint(method: str):
     archive, _ = search(formulas, method=method, evaluations=400, subject_to=[f"{G} >= 3.0"])
     best = archive.best()
     assert best is not None
-    assert best.judged.figures[G] >= 3.0 - 1e-8
+    assert best.score.figures[G] >= 3.0 - 1e-8
     np.testing.assert_allclose(values_of(best), [0.5, 0.5], atol=0.06)
-    assert best.judged.objectives[0] == pytest.approx(1.5, abs=0.02)
+    assert best.score.objectives[0] == pytest.approx(1.5, abs=0.02)
 
 
 def test_candidates_that_cannot_be_made_do_not_end_it():
@@ -93,8 +92,8 @@ def test_candidates_that_cannot_be_made_do_not_end_it():
     best = archive.best()
     assert best is not None
     assert values_of(best)[0] <= 0.1
-    assert best.judged.objectives[0] == pytest.approx(bowl(0.1, -0.4 + 0.2 / 6), abs=0.03)
-    assert {one.judged.message for one in archive.evaluations} == {"", "undercut"}
+    assert best.score.objectives[0] == pytest.approx(bowl(0.1, -0.4 + 0.2 / 6), abs=0.03)
+    assert {one.score.message for one in archive.evaluations} == {"", "undercut"}
 
 
 def test_the_best_of_a_kinked_figure():
@@ -130,7 +129,7 @@ def test_a_front():
     )
     archive, _ = search(formulas, minimise=[F, H], evaluations=500)
     points = front(archive.evaluations)
-    objectives = np.array([one.judged.objectives for one in points]) - 1e-3
+    objectives = np.array([one.score.objectives for one in points]) - 1e-3
     assert len(points) > 7
     np.testing.assert_allclose(np.sqrt(objectives).sum(axis=1), 1.0, atol=0.08)
     assert objectives[:, 0].min() < 0.01
@@ -177,7 +176,7 @@ def test_a_front_by_nsga2():
         **{F: lambda x, y: 1e-3 + x * x + y * y, H: lambda x, y: 1e-3 + (x - 1.0) ** 2 + y * y}
     )
     archive, _ = search(formulas, minimise=[F, H], method="nsga2", evaluations=400)
-    objectives = np.array([one.judged.objectives for one in front(archive.evaluations)]) - 1e-3
+    objectives = np.array([one.score.objectives for one in front(archive.evaluations)]) - 1e-3
     assert len(objectives) > 10
     np.testing.assert_allclose(np.sqrt(objectives).sum(axis=1), 1.0, atol=0.15)
 

@@ -73,13 +73,13 @@ def test_an_interrupted_search_keeps_its_best_and_goes_on(tmp_path: Path, monkey
     assert of_whole >= whole.evaluations + 1  # the start, and about the best what is not known
 
     class Interrupted(archive.Archive):
-        def ask_all(self, several: Any) -> Any:
+        def score_all(self, several: Any) -> Any:
             if len(self.evaluations) > 3:
                 raise KeyboardInterrupt
-            return super().ask_all(several)
+            return super().score_all(several)
 
     with monkeypatch.context() as patch:
-        patch.setattr("tribodyn.studies.design.candidates.levels.Archive", Interrupted)
+        patch.setattr("tribodyn.studies.design.candidates.archive.Archive", Interrupted)
         with pytest.raises(KeyboardInterrupt) as stopped:
             search(tmp_path / "stopped.h5")
     assert any("the best so far" in note for note in stopped.value.__notes__)

@@ -10,7 +10,7 @@ from scipy.special import ndtr
 
 from tribodyn.studies.design.candidates.archive import Evaluation
 from tribodyn.studies.design.candidates.candidates import samples_of
-from tribodyn.studies.design.candidates.worth import Judge, Judged
+from tribodyn.studies.design.candidates.scoring import Score, Scoring
 from tribodyn.studies.design.case import Constraint, DesignCase, Duty, Objective, Robust, Tolerance
 from tribodyn.studies.design.methods.front import front
 from tribodyn.studies.design.short_form import loaded_search
@@ -74,8 +74,8 @@ def test_objectives_and_margins_in_plain_loops(over: str, over_duties: str):
         constraints=constraints,
         robust=Robust(over, share, 4, 0),
     )
-    judge = Judge(case, rows_of(START))
-    found = judge.judged(rows_of(FOUND), 0.3)
+    scoring = Scoring(case, rows_of(START))
+    found = scoring.score(rows_of(FOUND), 0.3)
 
     def figure(values: np.ndarray, name: str, sign: float) -> float:
         place = NAMES.index(name)
@@ -94,7 +94,7 @@ def test_objectives_and_margins_in_plain_loops(over: str, over_duties: str):
     assert found.objectives == pytest.approx((first, -2.0 * figure(FOUND, "c", -1.0)))
     assert found.by_duty == pytest.approx([first_at(one) for one in FOUND])
     assert found.figures == pytest.approx({name: figure(FOUND, name, 1.0) for name in NAMES})
-    assert judge.at_start == pytest.approx({name: figure(START, name, 1.0) for name in NAMES})
+    assert scoring.at_start == pytest.approx({name: figure(START, name, 1.0) for name in NAMES})
 
     def worst(values: np.ndarray, name: str, sign: float) -> float:
         way = "quantile" if over == "quantile" else "worst"
@@ -111,7 +111,7 @@ def test_objectives_and_margins_in_plain_loops(over: str, over_duties: str):
     assert found.violation == pytest.approx(sum(max(0.0, -one) for one in margins))
     assert not found.feasible
     assert found.shape == 0.3
-    assert judge.constrained(rows_of(FOUND)) == pytest.approx(
+    assert scoring.constrained(rows_of(FOUND)) == pytest.approx(
         {
             "a <= 3.1": worst(FOUND, "a", 1.0),
             "b >= 2.2": worst(FOUND, "b", -1.0),
@@ -128,25 +128,25 @@ def evaluations(count: int, feasible: bool = False) -> list[Evaluation]:
         first = float(rng.integers(2, 12))
         objectives = first, 14.0 - first + float(rng.integers(0, 4))
         margin = 1.0 if feasible or rng.uniform() > 0.3 else -0.5
-        judged = Judged(objectives, (margin,), objectives[:1], {})
-        found.append(Evaluation({"n": number}, (float(number),), [], judged))
+        score = Score(objectives, (margin,), objectives[:1], {})
+        found.append(Evaluation({"n": number}, (float(number),), [], score))
     return found
 
 
 def test_the_front_is_what_nothing_is_better_than():
     some = evaluations(60)
-    feasible = {one.judged.objectives for one in some if one.judged.margins[0] > 0}
+    feasible = {one.score.objectives for one in some if one.score.margins[0] > 0}
     expected = {
         one
         for one in feasible
         if not any(other != one and other[0] <= one[0] and other[1] <= one[1] for other in feasible)
     }
     found = front(some)
-    assert [one.judged.objectives for one in found] == sorted(expected)
+    assert [one.score.objectives for one in found] == sorted(expected)
     assert len(expected) > 3
     for one in found:  # of equal ones the first
         assert one.numbers == min(
-            i.numbers for i in some if i.judged.objectives == one.judged.objectives and i.judged.feasible
+            i.numbers for i in some if i.score.objectives == one.score.objectives and i.score.feasible
         )
 
 

@@ -1,17 +1,28 @@
-"""From shares of the free keys' ranges to values, and to the cases that a candidate is evaluated by."""
+"""From shares of the free keys' ranges to values, and to the cases, with tolerances, of a candidate."""
 
 from collections.abc import Mapping, Sequence
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
+from tribodyn.errors import InputError
+from tribodyn.geometry.assembly import Assembly, assemble
+from tribodyn.geometry.families import family
 from tribodyn.numerics.shapes import Array, Float
-from tribodyn.studies.design.candidates.deviations import Nominal, deviating
-from tribodyn.studies.design.candidates.sources import in_unit, standing
-from tribodyn.studies.design.case import DesignCase, Free
+from tribodyn.scenario.vary import base_units
+from tribodyn.studies.design.candidates.evaluation import loaded_source
+from tribodyn.studies.design.candidates.sources import BASE, in_unit, standing
+from tribodyn.studies.design.case import DRAWN, DesignCase, Free, Tolerance
 
 #: Values are written to this share of their range, so that what is written is what was evaluated.
 _FINEST = 1e-7
+#: Names at the end of keys whose values are lists and curves: errors of each tooth, and along the profile.
+PITCH_ERRORS, PROFILE_ERROR = "pitch_errors", "profile_error"
+#: The distance of the axes, which is that of nominal teeth where a drive does not say it.
+CENTRE_DISTANCE = "drive.centre_distance"
+#: Points of a profile that deviates, and by how much of the path they go beyond its ends on either side.
+POINTS, BEYOND = 7, 0.25
 
 Overrides = dict[str, Any]
 """Dotted key to value as TOML has it."""
@@ -52,13 +63,13 @@ def share_of(free: Free, value: Any) -> float:
 
 def start_of(case: DesignCase) -> Float[Array, " free"]:
     """Shares at which the base scenario stands."""
-    return np.array([share_of(one, standing(case.scenarios, one.keys[0])) for one in case.free])
+    return np.array([share_of(free, standing(case.scenarios, free.keys[0])) for free in case.free])
 
 
 def chosen(case: DesignCase, shares: Sequence[float] | np.ndarray) -> Overrides:
     """Values of all free keys at shares of their ranges."""
     return {
-        key: value_at(one, share) for one, share in zip(case.free, shares, strict=True) for key in one.keys
+        key: value_at(free, share) for free, share in zip(case.free, shares, strict=True) for key in free.keys
     }
 
 
@@ -85,8 +96,8 @@ def cases_of(
         nominal = Nominal(case, {**free, **duty.set, **(more or {})})
         for row in rows:
             deviated = dict(nominal.keys)
-            for one, deviation in zip(case.tolerances, row, strict=True):
-                deviated |= deviating(one, float(deviation), nominal)
+            for tolerance, deviation in zip(case.tolerances, row, strict=True):
+                deviated |= deviating(tolerance, float(deviation), nominal)
             found.append(deviated)
     return found
 
@@ -104,15 +115,91 @@ def samples_of(case: DesignCase) -> list[Float[Array, "..."]]:
     count, robust = len(case.tolerances), case.robust
     points = qmc.LatinHypercube(count, rng=np.random.default_rng(robust.seed)).random(robust.samples)
     rows = 2.0 * points - 1.0
-    for place, one in enumerate(case.tolerances):
-        if one.distribution == "normal":
+    for place, tolerance in enumerate(case.tolerances):
+        if tolerance.distribution == "normal":
             rows[:, place] = ndtri(points[:, place]) / 3.0
-        elif one.distribution == "ends":
+        elif tolerance.distribution == "ends":
             rows[:, place] = np.sign(rows[:, place])
     return list(rows)
 
 
 def shapes_gears(case: DesignCase) -> bool:
     """Whether free keys change the gears, not what is taken off their flanks alone."""
-    keys = (key for one in case.free for key in one.keys)
+    keys = (key for free in case.free for key in free.keys)
     return any(key.startswith("drive.") and ".modification." not in key for key in keys)
+
+
+class Nominal:
+    """A candidate under one duty, before anything deviates.
+
+    Parameters
+    ----------
+    keys : its keys and their values
+    """
+
+    def __init__(self, case: DesignCase, keys: Mapping[str, Any]) -> None:
+        self.case = case
+        self.keys = dict(keys)
+
+    def at(self, key: str) -> Any:
+        """The value of a key; None where there is none."""
+        return self.keys.get(key, standing(self.case.scenarios, key))
+
+    @cached_property
+    def gears(self) -> Assembly | None:
+        """The pair put together; None where it cannot be, for the evaluation to say why."""
+        try:
+            case = loaded_source(self.case.scenarios, BASE, self.keys).case
+            return assemble(family(case.family), case.drive)
+        except InputError:
+            return None
+
+
+def deviating(tolerance: Tolerance, deviation: float, nominal: Nominal) -> dict[str, Any]:
+    """The keys that a tolerance changes, and their values; none without deviation.
+
+    Parameters
+    ----------
+    deviation : −1 … 1. Of what is drawn point by point, or is a number of a sample, it stands for a seed.
+    """
+    if deviation == 0.0:
+        return {}
+    if tolerance.distribution == DRAWN:
+        return {tolerance.key: int(abs(deviation) * 2**20)}
+    draw = np.random.default_rng(int(abs(deviation) * 2**52))
+    if tolerance.key.endswith(PITCH_ERRORS):
+        teeth = int(nominal.at(tolerance.key.replace(f"modification.{PITCH_ERRORS}", "teeth")))
+        errors = draw.uniform(-tolerance.plus_minus, tolerance.plus_minus, teeth)
+        return {tolerance.key: [f"{float(error)!r} {tolerance.unit}" for error in errors]}
+    if tolerance.key.endswith(PROFILE_ERROR):
+        return _profile(tolerance, draw, nominal)
+    si = base_units(f"1 {tolerance.unit}") if tolerance.unit else None
+    factor = si[0] if si else 1.0
+    number = in_unit(nominal.at(tolerance.key), tolerance.unit, factor)
+    if number is None and tolerance.key == CENTRE_DISTANCE and nominal.gears is not None:
+        path = nominal.gears.path
+        number = float(path.pinion_pitch_radius + path.gear_pitch_radius) / factor
+    value = (number or 0.0) + deviation * tolerance.plus_minus
+    return {tolerance.key: f"{value!r} {tolerance.unit}" if tolerance.unit else value}
+
+
+def _profile(tolerance: Tolerance, draw: np.random.Generator, nominal: Nominal) -> dict[str, Any]:
+    """A profile with an error drawn at points of the path, linear between, added to the one that stands."""
+    if nominal.gears is None:
+        return {}
+    start, end = (float(limit) for limit in nominal.gears.roll_limits)
+    roll = np.linspace(start - BEYOND * (end - start), end + BEYOND * (end - start), POINTS)
+    error = draw.uniform(-tolerance.plus_minus, tolerance.plus_minus, POINTS)
+    if isinstance(given := nominal.at(tolerance.key), Mapping):
+        known, errors = (given[name] for name in ("roll_angle", "error"))
+        at = np.array(known["values"], dtype=float) * base_units(f"1 {known['unit']}")[0]  # pyright: ignore
+        every = np.union1d(roll, at)
+        factor = base_units(f"1 {errors['unit']}")[0] / base_units(f"1 {tolerance.unit}")[0]  # pyright: ignore
+        error = np.interp(every, roll, error) + np.interp(every, at, np.array(errors["values"])) * factor
+        roll = every
+    return {
+        tolerance.key: {
+            "roll_angle": {"unit": "rad", "values": roll.tolist()},
+            "error": {"unit": tolerance.unit, "values": error.tolist()},
+        }
+    }

@@ -12,9 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.studies.design.candidates.archive import Archive, Evaluation, SpentError
+from tribodyn.studies.design.candidates.archive import Archive, Evaluation, Levels, SpentError, resolutions
 from tribodyn.studies.design.candidates.candidates import share_of
-from tribodyn.studies.design.candidates.levels import Levels, resolutions
 from tribodyn.studies.design.case import DesignCase
 from tribodyn.studies.design.layout import FACTORS
 from tribodyn.studies.design.methods import SMOOTH
@@ -44,13 +43,11 @@ class Converged(NamedTuple):
     Attributes
     ----------
     archive : of the last resolution
-    factor : that one over the resolution of the scenario; 1: there is none to refine
     stands : whether the figures stand; None where that was not asked
     evaluations : on finer resolutions
     """
 
     archive: Archive
-    factor: int = 1
     stands: bool | None = None
     evaluations: int = 0
 
@@ -64,7 +61,7 @@ def converged(case: DesignCase, levels: Levels, method: str) -> Converged:
         factor, stands = _of_front(case, levels.at)
     else:
         factor, stands = _of_one(case, levels.at, method)
-    return Converged(levels.at(factor), factor, stands, levels.finer)
+    return Converged(levels.at(factor), stands, levels.finer)
 
 
 def counts(case: DesignCase, method: str) -> dict[int, int]:
@@ -81,7 +78,7 @@ def counts(case: DesignCase, method: str) -> dict[int, int]:
 def _of_one(case: DesignCase, at: At, method: str) -> tuple[int, bool]:
     """Factor at which the figure of the best stands, and whether it does."""
     some = _best_of(at(1), 1)
-    if _stands(some[0], [at(one) for one in FACTORS[:3]], case):
+    if _stands(some[0], [at(factor) for factor in FACTORS[:3]], case):
         return SEARCHED, True
     some = _asked(at(SEARCHED), _best_of(at(1), KEPT), case)
     if method in SMOOTH:
@@ -92,7 +89,7 @@ def _of_one(case: DesignCase, at: At, method: str) -> tuple[int, bool]:
         if at(factor).best() is None and method in SMOOTH:  # what held before fails here, by little
             _search_about(at(factor), near=True)
         best = _best_of(at(factor), 1)
-        if best and _stands(best[0], [at(one) for one in FACTORS[number - 2 : number + 1]], case):
+        if best and _stands(best[0], [at(last) for last in FACTORS[number - 2 : number + 1]], case):
             return factor, True
     return FACTORS[-1], False
 
@@ -104,8 +101,8 @@ def _of_front(case: DesignCase, at: At) -> tuple[int, bool]:
         members = _asked(fine, front(coarse.evaluations) or coarse.evaluations, case)
         _asked(fine, _near(coarse, fine, members), case)
         end = front(fine.evaluations)
-        last = [at(one) for one in FACTORS[number - 2 : number + 1]] if number > 1 else []
-        if last and end and all(_stands(one, last, case) for one in end):
+        last = [at(each) for each in FACTORS[number - 2 : number + 1]] if number > 1 else []
+        if last and end and all(_stands(member, last, case) for member in end):
             return factor, True
     return FACTORS[-1], False
 
@@ -115,29 +112,29 @@ def _near(coarse: Archive, fine: Archive, members: list[Evaluation]) -> list[Eva
 
     The nearest of them, at most as many as there are members, or `KEPT`.
     """
-    known = {one.numbers: one.judged for one in fine.evaluations}
-    asked = [one for one in members if one.numbers in known]
-    moved = [np.subtract(known[one.numbers].objectives, one.judged.objectives) for one in asked]
+    known = {candidate.numbers: candidate.score for candidate in fine.evaluations}
+    asked = [member for member in members if member.numbers in known]
+    moved = [np.subtract(known[request.numbers].objectives, request.score.objectives) for request in asked]
     # what is left of errors of first order is as much again
     changes = 2.0 * np.nanmax(np.abs(moved), axis=0, initial=TINY)
-    some = [one for one in coarse.evaluations if one.judged.feasible and one.numbers not in known]
+    some = [other for other in coarse.evaluations if other.score.feasible and other.numbers not in known]
     if not some:
         return []
-    better = np.array([one.judged.objectives for one in members])
-    over = np.array([one.judged.objectives for one in some])[:, None] - better
+    better = np.array([member.score.objectives for member in members])
+    over = np.array([candidate.score.objectives for candidate in some])[:, None] - better
     gaps = (over / changes).min(axis=2).max(axis=1)
     nearest = [some[place] for place in np.argsort(gaps, kind="stable") if gaps[place] <= 1.0]
     return nearest[: max(KEPT, len(members))]
 
 
-def _shares(case: DesignCase, one: Evaluation) -> np.ndarray:
-    return np.array([share_of(free, one.values[free.keys[0]]) for free in case.free])
+def _shares(case: DesignCase, candidate: Evaluation) -> np.ndarray:
+    return np.array([share_of(free, candidate.values[free.keys[0]]) for free in case.free])
 
 
 def _best_of(archive: Archive, count: int) -> list[Evaluation]:
     """The best feasible candidates, the nearest to holding where none is."""
-    some = [one for one in archive.evaluations if one.judged.feasible]
-    some.sort(key=lambda one: (one.judged.objectives[0], one.numbers))
+    some = [candidate for candidate in archive.evaluations if candidate.score.feasible]
+    some.sort(key=lambda candidate: (candidate.score.objectives[0], candidate.numbers))
     nearest = archive.nearest()
     return some[:count] or ([nearest] if nearest else [])
 
@@ -145,7 +142,7 @@ def _best_of(archive: Archive, count: int) -> list[Evaluation]:
 def _asked(archive: Archive, some: list[Evaluation], case: DesignCase) -> list[Evaluation]:
     """Evaluate candidates on another resolution; gives them back."""
     with suppress(SpentError):
-        archive.ask_all([_shares(case, one) for one in some])
+        archive.score_all([_shares(case, candidate) for candidate in some])
     return some
 
 
@@ -169,7 +166,7 @@ def _search_about(archive: Archive, near: bool = False) -> None:
         best = _shares(case, _best_of(archive, 1)[0])
         steps = np.where(best > 0.5, -SIMPLEX, SIMPLEX)
         minimize(
-            lambda shares: view.merit(archive.ask(shares)),
+            lambda shares: view.merit(archive.score(shares)),
             best,
             method="Nelder-Mead",
             bounds=[(0.0, 1.0)] * count,
@@ -177,13 +174,13 @@ def _search_about(archive: Archive, near: bool = False) -> None:
         )
 
 
-def _stands(one: Evaluation, levels: list[Archive], case: DesignCase) -> bool:
+def _stands(candidate: Evaluation, levels: list[Archive], case: DesignCase) -> bool:
     """Whether a candidate's figures change little from level to level; its constraints hold on the last."""
     try:
-        several = [level.ask(_shares(case, one)) for level in levels]
+        several = [level.score(_shares(case, candidate)) for level in levels]
     except SpentError:
         return False
-    values = np.array([judged.objectives for judged in several])
+    values = np.array([score.objectives for score in several])
     if not np.isfinite(values).all() or not several[-1].feasible:
         return False
     return bool(np.all(np.abs(np.diff(values, axis=0)) <= STANDS * np.abs(values[-1])))

@@ -32,6 +32,14 @@ def loaded_case(base: Mapping[str, Any], overrides: Mapping[str, Any]) -> Loaded
     return loaded_from(resolve_table(data, FILE, overrides, table_of), FILE)
 
 
+def loaded_source(
+    scenarios: Mapping[str, Mapping[str, Any]], name: str, overrides: Mapping[str, Any]
+) -> Loaded:
+    """Load one of the scenarios of a search with those of the overrides that belong to it."""
+    data = scenarios[name]
+    return loaded_case(data, own(name, study_of(data).table(data), overrides, scenarios))
+
+
 def evaluate(
     scenarios: Mapping[str, Mapping[str, Any]],
     several: Sequence[Mapping[str, Any]],
@@ -49,10 +57,10 @@ def evaluate(
     for name, data in scenarios.items():
         schema = study_of(data).table(data)
         asked = [own(name, schema, overrides, scenarios) for overrides in several]
-        once = {json.dumps(one, sort_keys=True): one for one in asked}
+        once = {json.dumps(request, sort_keys=True): request for request in asked}
         known = dict(zip(once, _figures(data, list(once.values()), workers), strict=True))
-        for place, one in enumerate(asked):
-            found[place] = _with(found[place], name, known[json.dumps(one, sort_keys=True)])
+        for place, request in enumerate(asked):
+            found[place] = _with(found[place], name, known[json.dumps(request, sort_keys=True)])
     return found
 
 
@@ -79,7 +87,7 @@ def _figures(
         found = evaluated(study_of(data), cases, workers)
     except InputError as error:  # of all cases together
         found = [str(error)] * len(cases)
-    return [one if isinstance(one, str) else numbers(one) for one in found]
+    return [value if isinstance(value, str) else numbers(value) for value in found]
 
 
 def distance_from_limits(base: Mapping[str, Any], overrides: Mapping[str, Any]) -> float:
@@ -95,8 +103,8 @@ def distance_from_limits(base: Mapping[str, Any], overrides: Mapping[str, Any]) 
         case = loaded_case(base, overrides).case
     except InputError:
         return -1.0
-    found = plain_distances(assemble(family(case.family), case.drive))
-    return min(one / (case.drive.module if LIMITS[name].unit == "m" else 1.0) for name, one in found.items())
+    found, module = plain_distances(assemble(family(case.family), case.drive)), case.drive.module
+    return min(value / (module if LIMITS[name].unit == "m" else 1.0) for name, value in found.items())
 
 
 def numbers(figures: Mapping[str, Any]) -> dict[str, float]:

@@ -128,7 +128,7 @@ class Cluster:
         return self
 
     def __exit__(self, *_: object) -> None:
-        self.client.cancel([one for one in self._sent if not one.done()])
+        self.client.cancel([future for future in self._sent if not future.done()])
 
     def submit(self, several: Sequence[Mapping[str, Any]]) -> "_Answer":
         """Evaluate cases by their overrides, as `evaluation.evaluate` does."""

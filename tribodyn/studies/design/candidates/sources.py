@@ -66,7 +66,7 @@ def figure_name(place: str, name: Any, studies: Mapping[str, Study]) -> str:
     if not dot:
         part, figure = BASE, name
     elif part not in studies:
-        names = [one for one in studies if one != BASE]
+        names = [study for study in studies if study != BASE]
         remedy = f"there is: {', '.join(names)}" if names else "add [design.part]"
         raise InputError(place, quoted(name), f"there is no part {quoted(part)}", remedy)
     study = studies[part]
@@ -159,12 +159,12 @@ def unknown_part(key: str, schema: type[Table]) -> tuple[list[str], str, list[st
 
 
 def _tables_in(field: Any) -> Iterator[type[Table]]:
-    return (one for one in parts_of(field) if isinstance(one, type) and issubclass(one, Table))
+    return (part for part in parts_of(field) if isinstance(part, type) and issubclass(part, Table))
 
 
 def standing(scenarios: Mapping[str, Mapping[str, Any]], key: str) -> Any:
     """What stands at a dotted key of the scenarios of a search; None where nothing does."""
-    name, key = split(key, [one for one in scenarios if one != BASE])
+    name, key = split(key, [scenario for scenario in scenarios if scenario != BASE])
     data: Any = scenarios[name]
     for part in key.split("."):
         if isinstance(data, Mapping):

@@ -8,10 +8,9 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.studies.design.candidates.archive import Archive
 from tribodyn.studies.design.case import DesignCase
-from tribodyn.studies.design.methods.every import count_of_all, every
 from tribodyn.studies.design.methods.front import epsilon_constraint, nsga2
 from tribodyn.studies.design.methods.local import derivatives_of, local
-from tribodyn.studies.design.methods.population import cma_es, differential_evolution
+from tribodyn.studies.design.methods.population import cma_es, count_of_all, differential_evolution, every
 
 Method = Callable[[Archive, np.ndarray], None]
 """Searches from the shares at which the base scenario stands."""
@@ -54,7 +53,7 @@ def method_of(case: DesignCase) -> tuple[str, str]:
 def _fitting(case: DesignCase) -> tuple[str, str]:
     """The method that is wanted, or that fits, and why."""
     wanted = case.search.method
-    smooth = all(one.continuous for one in case.free)
+    smooth = all(free.continuous for free in case.free)
     two = len(case.objectives) == 2
     if wanted == "auto":
         if not smooth and not two and count_of_all(case) <= case.search.evaluations:

@@ -14,12 +14,12 @@ from tribodyn.studies.design.methods.views import Scalar
 
 def front(evaluations: list[Evaluation]) -> list[Evaluation]:
     """The feasible candidates that no other is better than in both objectives, by the first objective."""
-    some = [one for one in evaluations if one.judged.feasible]
-    some.sort(key=lambda one: (one.judged.objectives, one.numbers))
+    some = [candidate for candidate in evaluations if candidate.score.feasible]
+    some.sort(key=lambda candidate: (candidate.score.objectives, candidate.numbers))
     found: list[Evaluation] = []
-    for one in some:
-        if not found or one.judged.objectives[1] < found[-1].judged.objectives[1]:
-            found.append(one)
+    for candidate in some:
+        if not found or candidate.score.objectives[1] < found[-1].score.objectives[1]:
+            found.append(candidate)
     return found
 
 
@@ -40,7 +40,7 @@ def epsilon_constraint(archive: Archive, start: np.ndarray) -> None:
         found = front(archive.evaluations)
         if len(found) < 2:
             return
-        high, low = found[0].judged.objectives[1], found[-1].judged.objectives[1]
+        high, low = found[0].score.objectives[1], found[-1].score.objectives[1]
         bounds = np.linspace(high, low, case.search.points)[1:-1]
         in_turn([partial(_under, archive, float(bound), share) for bound in bounds])
 
@@ -49,10 +49,10 @@ def epsilon_constraint(archive: Archive, start: np.ndarray) -> None:
 
 def _under(archive: Archive, bound: float, most: int) -> None:
     """Minimise the first objective from the best candidate that keeps a bound of the second."""
-    keeping = [one for one in front(archive.evaluations) if one.judged.objectives[1] <= bound]
+    keeping = [point for point in front(archive.evaluations) if point.score.objectives[1] <= bound]
     if keeping:
-        best = min(keeping, key=lambda one: one.judged.objectives[0])
-        start = [share_of(one, best.values[one.keys[0]]) for one in archive.case.free]
+        best = min(keeping, key=lambda point: point.score.objectives[0])
+        start = [share_of(free, best.values[free.keys[0]]) for free in archive.case.free]
         minimise("cobyqa", Scalar(archive, 0, bound), np.array(start), most)
 
 
@@ -70,9 +70,10 @@ def nsga2(archive: Archive, start: np.ndarray) -> None:
             super().__init__(n_var=count, n_obj=2, n_ieq_constr=len(case.constraints) + 1, xl=0.0, xu=1.0)
 
         def _evaluate(self, x: np.ndarray, out: dict[str, np.ndarray], *_: Any, **__: Any) -> None:
-            judged = archive.ask_all(list(x))
-            out["F"] = np.array([[view.value(one) for view in views] for one in judged])
-            out["G"] = np.array([[*(-m for m in one.margins), float(bool(one.message))] for one in judged])
+            scores = archive.score_all(list(x))
+            out["F"] = np.array([[view.value(score) for view in views] for score in scores])
+            missed = [[*(-m for m in score.margins), float(bool(score.message))] for score in scores]
+            out["G"] = np.array(missed)
 
     size = max(16, PER_KEY * count)
 

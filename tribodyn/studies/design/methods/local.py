@@ -47,9 +47,9 @@ def rounds(name: str, view: Scalar) -> None:
     archive, radius, before = view.archive, RADIUS / 2, np.inf
     best = archive.best()
     finest = archive.case.search.accuracy
-    while best is not None and radius > finest and view.value(best.judged) < before - GAIN:
-        before = view.value(best.judged)
-        place = [share_of(one, best.values[one.keys[0]]) for one in archive.case.free]
+    while best is not None and radius > finest and view.value(best.score) < before - GAIN:
+        before = view.value(best.score)
+        place = [share_of(free, best.values[free.keys[0]]) for free in archive.case.free]
         minimise(name, view, np.array(place), radius=radius)
         best, radius = archive.best(), radius / 2
 
@@ -79,8 +79,8 @@ def sobol(dimensions: int, count: int, seed: int) -> np.ndarray:
 
 def in_turn(searches: Sequence[Callable[[], None]]) -> None:
     """Run searches one after the other: SciPy runs one COBYQA at a time, whichever begins first."""
-    for one in searches:
-        ended_when_spent(one)
+    for search in searches:
+        ended_when_spent(search)
 
 
 def together(archive: Archive, searches: Sequence[Callable[[], None]]) -> None:
@@ -89,7 +89,7 @@ def together(archive: Archive, searches: Sequence[Callable[[], None]]) -> None:
     Shares are equal; the first searches take what is left over.
     """
     share, over = divmod(archive.room, max(1, len(searches)))
-    before = archive.asked
+    before = archive.requested
 
     def alone(number: int, search: Callable[[], None]) -> None:
         with archive.at_most(share + (number < over), before):
@@ -97,8 +97,8 @@ def together(archive: Archive, searches: Sequence[Callable[[], None]]) -> None:
 
     with ThreadPoolExecutor(len(searches) or 1) as threads:
         try:
-            for one in [threads.submit(alone, *each) for each in enumerate(searches)]:
-                one.result()
+            for running in [threads.submit(alone, *each) for each in enumerate(searches)]:
+                running.result()
         except BaseException:
             archive.close()
             raise
@@ -119,13 +119,13 @@ def minimise(
     from scipy.optimize import NonlinearConstraint, minimize
 
     search, count = view.archive.case.search, len(start)
-    margins = len(view.margins(view.archive.ask(start)))
+    margins = len(view.margins(view.archive.score(start)))
 
     def function(shares: np.ndarray) -> float:
-        return view.value(view.archive.ask(shares))
+        return view.value(view.archive.score(shares))
 
     def constraint(shares: np.ndarray) -> np.ndarray:
-        return np.array(view.margins(view.archive.ask(shares)))
+        return np.array(view.margins(view.archive.score(shares)))
 
     gradient, jacobian = slopes_of(view, derivatives_of(view.archive.case) if name != "cobyqa" else None)
     derivatives: dict[str, Any] = {} if name == "cobyqa" else {"jac": gradient}
@@ -191,25 +191,26 @@ def slopes_of(
         found = archive.figures_of(shares)
         assert derivatives is not None
         slopes = derivatives.at(shares)
-        value = objective_slope(archive.judge, aim, found, slopes) / view.scales[view.objective]
-        margins = [margin_slope(archive.judge, one, found, slopes) for one in archive.case.constraints]
-        middle = archive.ask(shares).shape
+        value = objective_slope(archive.scoring, aim, found, slopes) / view.scales[view.objective]
+        limits = archive.case.constraints
+        margins = [margin_slope(archive.scoring, limit, found, slopes) for limit in limits]
+        middle = archive.score(shares).shape
         if middle is not None:
             steps = np.where(shares + STEP <= 1.0, STEP, -STEP)
-            around = [archive.shape_of(chosen(archive.case, one)) for one in shares + np.diag(steps)]
-            margins.append(np.array([(one or 0.0) - middle for one in around]) / steps)
+            around = [archive.shape_of(chosen(archive.case, share)) for share in shares + np.diag(steps)]
+            margins.append(np.array([(shape or 0.0) - middle for shape in around]) / steps)
         return value, np.array(margins).reshape(-1, len(shares))
 
     def slopes(shares: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         shares = np.clip(shares, 0.0, 1.0)
-        if derivatives is not None and view.bound is None and not archive.ask(shares).message:
+        if derivatives is not None and view.bound is None and not archive.score(shares).message:
             return exact(shares)
         steps = np.where(shares + STEP <= 1.0, STEP, -STEP)
         around = shares + np.diag(steps)
-        middle, *others = view.archive.ask_all([shares, *around])
-        value = np.array([view.value(one) - view.value(middle) for one in others]) / steps
-        held = np.array(view.margins(middle))
-        margins = np.array([np.array(view.margins(one)) - held for one in others]).T / steps
+        middle, *others = view.archive.score_all([shares, *around])
+        value = np.array([view.value(other) - view.value(middle) for other in others]) / steps
+        at_middle = np.array(view.margins(middle))
+        margins = np.array([np.array(view.margins(other)) - at_middle for other in others]).T / steps
         return value, margins
 
     return lambda shares: slopes(shares)[0], lambda shares: slopes(shares)[1]

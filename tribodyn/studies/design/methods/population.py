@@ -1,8 +1,12 @@
-"""Global searches by a population of candidates: differential evolution, CMA-ES."""
+"""Global searches: differential evolution, CMA-ES, every combination of whole numbers and choices."""
+
+import math
+from itertools import product
 
 import numpy as np
 
 from tribodyn.studies.design.candidates.archive import Archive
+from tribodyn.studies.design.case import DesignCase, Free
 from tribodyn.studies.design.methods.local import ended_when_spent, sobol
 from tribodyn.studies.design.methods.views import Scalar
 
@@ -57,3 +61,25 @@ def cma_es(archive: Archive, start: np.ndarray) -> None:
             strategy.tell(candidates, view.merits(candidates).tolist())
 
     ended_when_spent(search)
+
+
+def count_of(free: Free) -> float:
+    """How many values a free key has."""
+    return math.inf if free.continuous else free.high - free.low + 1.0
+
+
+def count_of_all(case: DesignCase) -> float:
+    """How many combinations there are."""
+    return math.prod(count_of(free) for free in case.free)
+
+
+def every(archive: Archive, _start: np.ndarray) -> None:
+    """Evaluate every combination."""
+    axes = []
+    for free in archive.case.free:
+        count = int(count_of(free))
+        if free.choices:
+            axes.append((np.arange(count) + 0.5) / count)
+        else:
+            axes.append(np.arange(count) / max(1, count - 1))
+    archive.score_all(list(product(*axes)))

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from tribodyn.studies.design.candidates.archive import Archive
-from tribodyn.studies.design.candidates.worth import HELD, NO_FIGURES, Judged
+from tribodyn.studies.design.candidates.scoring import NO_FIGURES, SLACK, Score
 
 #: Stands for the objective of a candidate without figures, over that of the start.
 POOR = 1.5
@@ -27,38 +27,38 @@ class Scalar:
         self.scales = [self._scale(place) for place in range(len(archive.case.objectives))]
 
     def _scale(self, place: int) -> float:
-        values = [one.judged.objectives[place] for one in self.archive.evaluations]
+        values = [candidate.score.objectives[place] for candidate in self.archive.evaluations]
         known = [abs(value) for value in values if math.isfinite(value) and value]
         return known[0] if known else 1.0
 
-    def value(self, judged: Judged) -> float:
+    def value(self, score: Score) -> float:
         """The objective over its scale; a poor one where there is none."""
-        value = judged.objectives[self.objective] / self.scales[self.objective]
+        value = score.objectives[self.objective] / self.scales[self.objective]
         return value if math.isfinite(value) else POOR
 
-    def margins(self, judged: Judged) -> list[float]:
+    def margins(self, score: Score) -> list[float]:
         """Margins of the constraints, that of the bound last."""
-        margins = [self._unknown(judged) if judged.message else one for one in judged.margins]
-        if judged.shape is not None:
-            margins.append(judged.shape)
+        margins = [self._unknown(score) if score.message else margin for margin in score.margins]
+        if score.shape is not None:
+            margins.append(score.shape)
         if self.bound is None:
             return margins
-        other = judged.objectives[1 - self.objective]
+        other = score.objectives[1 - self.objective]
         room = (self.bound - other) / self.scales[1 - self.objective]
-        return [*margins, room if math.isfinite(room) else self._unknown(judged)]
+        return [*margins, room if math.isfinite(room) else self._unknown(score)]
 
     @staticmethod
-    def _unknown(judged: Judged) -> float:
+    def _unknown(score: Score) -> float:
         """Stands for a margin of a candidate without figures: the distance of its shape, if known."""
-        return -NO_FIGURES if judged.shape is None else min(judged.shape, 0.0)
+        return -NO_FIGURES if score.shape is None else min(score.shape, 0.0)
 
-    def merit(self, judged: Judged) -> float:
+    def merit(self, score: Score) -> float:
         """Objective of a feasible candidate; of others above all those, growing with what they miss."""
-        missed = -sum(min(0.0, one) for one in self.margins(judged))
-        if judged.message:
-            return 1e6 + judged.violation
-        return 1e6 + missed if missed > HELD else self.value(judged)
+        missed = -sum(min(0.0, margin) for margin in self.margins(score))
+        if score.message:
+            return 1e6 + score.violation
+        return 1e6 + missed if missed > SLACK else self.value(score)
 
     def merits(self, several: Sequence[np.ndarray]) -> np.ndarray:
         """Merits of candidates that are evaluated side by side."""
-        return np.array([self.merit(one) for one in self.archive.ask_all(several)])
+        return np.array([self.merit(score) for score in self.archive.score_all(several)])

@@ -9,12 +9,16 @@ import numpy as np
 from tribodyn.studies.design.case import START, Constraint, DesignCase, Objective
 
 #: Share of its limit within which a constraint holds.
-HELD = 1e-6
+SLACK = 1e-6
 #: What a candidate without figures misses its constraints by: more than any other.
 NO_FIGURES = 10.0
 
 
-class Judged(NamedTuple):
+Rows = Sequence[Sequence[Mapping[str, float]]]
+"""Figures by duty and sample."""
+
+
+class Score(NamedTuple):
     """What a candidate is worth.
 
     Attributes
@@ -40,16 +44,16 @@ class Judged(NamedTuple):
         """Sum of what the constraints are missed by; 0 where all hold."""
         if self.message:
             return NO_FIGURES - min(0.0, self.shape or 0.0)
-        return -sum(min(0.0, one) for one in self.margins)
+        return -sum(min(0.0, margin) for margin in self.margins)
 
     @property
     def feasible(self) -> bool:
         """Whether it has figures and all constraints hold."""
-        return not self.message and self.violation <= HELD
+        return not self.message and self.violation <= SLACK
 
 
-class Judge:
-    """Judges candidates of a search, once it knows the figures at the start.
+class Scoring:
+    """Scores candidates of a search, once it knows the figures at the start.
 
     Parameters
     ----------
@@ -64,71 +68,57 @@ class Judge:
         self._start = self.rows(start)
         if self._start is not None:
             self.at_start = {name: self._over_all(name, self._start, 1.0) for name in self._start[0][0]}
-        for one in case.constraints:
-            limit = self.limit(one)
-            self.scales[one.text] = abs(limit) if limit and math.isfinite(limit) else 1.0
+        for constraint in case.constraints:
+            limit = self.limit(constraint)
+            self.scales[constraint.text] = abs(limit) if limit and math.isfinite(limit) else 1.0
 
-    def limit(self, one: Constraint) -> float:
+    def limit(self, constraint: Constraint) -> float:
         """Limit of a constraint, SI; infinite where it is that of a start without figures."""
-        if one.limit != START:
-            return float(one.limit)
-        if self._start is None or one.figure not in self.at_start:
-            return one.sign * math.inf
-        return one.sign * self._worst(one, self._start)
+        if constraint.limit != START:
+            return float(constraint.limit)
+        if self._start is None or constraint.figure not in self.at_start:
+            return constraint.sign * math.inf
+        return constraint.sign * self._worst(constraint, self._start)
 
-    def judged(self, found: Sequence[dict[str, Any] | str], shape: float | None = None) -> Judged:
-        """Judge the figures of a candidate's cases, in the order of `candidates.cases_of`."""
-        case = self.case
-        none = math.nan
-        rows = self.rows(found)
-        wanted = {name for one in case.objectives for name, _ in one.terms}
-        wanted |= {one.figure for one in case.constraints}
-        missing = sorted(wanted - set(rows[0][0])) if rows else []
+    def score(self, found: Sequence[dict[str, Any] | str], shape: float | None = None) -> Score:
+        """Score the figures of a candidate's cases, in the order of `candidates.cases_of`."""
+        case, rows = self.case, self.rows(found)
+        missing = sorted(set(case.figures) - set(rows[0][0])) if rows else []
         if rows is None or missing:
-            message = next((one for one in found if isinstance(one, str)), "")
+            message = next((value for value in found if isinstance(value, str)), "")
             message = message or f"it has no {missing[0]}"
-            gone = tuple(none for _ in case.objectives)
-            return Judged(
-                gone,
-                tuple(-NO_FIGURES for _ in case.constraints),
-                tuple(none for _ in case.duties),
-                {},
-                message,
-                shape,
-            )
-        objectives = tuple(self._objective(one, rows) for one in case.objectives)
-        by_duty = tuple(self._objective(case.objectives[0], [row], 1.0) for row in rows)
-        margins = tuple(self._margin(one, rows) for one in case.constraints)
+            none, missed = (math.nan,), (-NO_FIGURES,)
+            sizes = len(case.objectives), len(case.constraints), len(case.duties)
+            return Score(none * sizes[0], missed * sizes[1], none * sizes[2], {}, message, shape)
+        objectives = tuple(self._objective(objective, rows) for objective in case.objectives)
+        by_duty = tuple(self._objective(case.objectives[0], [row]) for row in rows)
+        margins = tuple(self._margin(constraint, rows) for constraint in case.constraints)
         figures = {name: self._over_all(name, rows, 1.0) for name in rows[0][0]}
-        return Judged(objectives, margins, by_duty, figures, shape=shape)
+        return Score(objectives, margins, by_duty, figures, shape=shape)
 
     def rows(self, found: Sequence[dict[str, Any] | str]) -> list[list[Mapping[str, float]]] | None:
         """Figures by duty and sample, those that all cases have; None where a case has none."""
-        if any(isinstance(one, str) for one in found):
+        if any(isinstance(value, str) for value in found):
             return None
         some: list[Any] = list(found)
         shared = set(some[0]).intersection(*some[1:])
         names = [name for name in some[0] if name in shared]
-        plain: list[Mapping[str, float]] = [{name: one[name] for name in names} for one in some]
+        plain: list[Mapping[str, float]] = [{name: candidate[name] for name in names} for candidate in some]
         count = len(some) // len(self.case.duties)
         return [plain[i : i + count] for i in range(0, len(plain), count)]
 
-    def _objective(
-        self, one: Objective, rows: Sequence[Sequence[Mapping[str, float]]], weight: float | None = None
-    ) -> float:
+    def _objective(self, objective: Objective, rows: Rows) -> float:
         total = 0.0
-        for name, factor in one.terms:
-            value = self._over_all(name, rows, math.copysign(1.0, factor), alone=weight is not None)
+        for name, factor in objective.terms:
+            value = self._over_all(name, rows, math.copysign(1.0, factor))
             reference = abs(self.at_start.get(name, 1.0)) or 1.0
-            total += factor * (value / reference if one.relative else value)
+            total += factor * (value / reference if objective.relative else value)
         return total
 
-    def _over_all(
-        self, name: str, rows: Sequence[Sequence[Mapping[str, float]]], sign: float, alone: bool = False
-    ) -> float:
-        """A figure over samples, then over duties; larger is worse for a positive sign."""
-        values = [sign * self._over_samples([sign * one[name] for one in row]) for row in rows]
-        if alone:
+    def _over_all(self, name: str, rows: Rows, sign: float) -> float:
+        """A figure over samples, then over duties if there are several; larger is worse for sign 1."""
+        values = [sign * self._over_samples([sign * figures[name] for figures in row]) for row in rows]
+        if len(values) == 1:
             return values[0]
         if self.case.over_duties == "worst":
             return sign * max(sign * value for value in values)
@@ -148,17 +138,21 @@ class Judge:
         rows = self.rows(found)
         if rows is None:
             return {}
-        known = (one for one in self.case.constraints if one.figure in rows[0][0])
-        return {one.text: one.sign * self._worst(one, rows) for one in known}
+        known = (constraint for constraint in self.case.constraints if constraint.figure in rows[0][0])
+        return {each.text: each.sign * self._worst(each, rows) for each in known}
 
-    def _margin(self, one: Constraint, rows: Sequence[Sequence[Mapping[str, float]]]) -> float:
-        limit = self.limit(one) * one.sign
-        return (limit - self._worst(one, rows)) / self.scales[one.text] if math.isfinite(limit) else 1.0
+    def _margin(self, constraint: Constraint, rows: Rows) -> float:
+        limit = self.limit(constraint) * constraint.sign
+        return (
+            (limit - self._worst(constraint, rows)) / self.scales[constraint.text]
+            if math.isfinite(limit)
+            else 1.0
+        )
 
-    def _worst(self, one: Constraint, rows: Sequence[Sequence[Mapping[str, float]]]) -> float:
+    def _worst(self, constraint: Constraint, rows: Rows) -> float:
         """A figure times its sign at the worst duty, and the worst or the quantile of its samples."""
         robust = self.case.robust
         return max(
             float(np.quantile(values, robust.quantile)) if robust.over == "quantile" else max(values)
-            for values in ([case[one.figure] * one.sign for case in row] for row in rows)
+            for values in ([case[constraint.figure] * constraint.sign for case in row] for row in rows)
         )
