@@ -1,4 +1,4 @@
-"""Tables of docs/summary.md: every line of every summary, from the lines of the studies.
+"""Tables of docs/summary.md: every quantity of every summary, from the catalogue and the studies.
 
 python -m tools.summary_table            # writes them into the page
 """
@@ -20,12 +20,11 @@ def tables() -> str:
             continue
         parts += [f"### `{kind}`", "", f"{study.about[:1].upper()}{study.about[1:]}.", ""]
         parts += ["| line | name in the record | unit | definition |", "|---|---|---|---|"]
-        for heading, lines in study.lines().items():
-            for line in lines:
-                definition = line.definition.replace("|", "\\|")
-                parts.append(
-                    f"| {heading}: {line.label} | `{line.name}` | {line.unit or '–'} | {definition} |"
-                )
+        for heading, quantities in study.reported().items():
+            for quantity in quantities:
+                name = f"{heading}: {quantity.in_table} | `{quantity.name}`"
+                definition = quantity.definition.replace("|", "\\|")
+                parts.append(f"| {name} | {quantity.unit or '–'} | {definition} |")
         parts.append("")
     return "\n".join(parts)
 

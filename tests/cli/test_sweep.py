@@ -15,8 +15,8 @@ from tribodyn.record.reader import open_record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE, FAILED
 from tribodyn.studies import STUDIES
-from tribodyn.studies.gear_pair.sweep_layout import FIGURES
-from tribodyn.studies.gears.temperature import THERMAL_FIGURES
+from tribodyn.studies.gear_pair.sweep_layout import SWEPT
+from tribodyn.studies.gears.reported import TEMPERATURE_SWEPT
 
 SPEEDS = "operating.pinion_speed=100:300:100rad/s"
 SHORT = ("--transient", "4", "--set", "output.samples_per_cycle=40")
@@ -49,8 +49,9 @@ def test_the_record_is_a_dataset_over_the_parameters(grid: Path):
         assert (data.status == DONE).all()
         assert set(data.solution.values.ravel()) == {"transient"}
         assert data.attrs["status"] == "complete"
-        for name in FIGURES:
-            asked_for = name not in THERMAL_FIGURES  # this scenario asks for none of those
+        for quantity in SWEPT:
+            name = quantity.name
+            asked_for = quantity not in TEMPERATURE_SWEPT  # this scenario asks for none of those
             assert np.isfinite(data[name]).all() == asked_for, name
             assert data[name].attrs["units"]
             assert data[name].attrs["long_name"]

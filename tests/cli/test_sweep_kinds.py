@@ -103,7 +103,7 @@ def test_it_is_shown_and_drawn(kind: str, swept, tmp_path: Path):
     path, said = swept(kind)
     assert "minimum" in said
     assert "2 done" in said
-    lines = [line for line in STUDIES[kind].sweep_lines() if line.label in invoked("show", path)]
+    lines = [one for one in STUDIES[kind].sweep_table() if one.title in invoked("show", path)]
     assert len(lines) >= 3
     drawn = json.loads(invoked("plot", path, "-o", tmp_path, "--json"))["pictures"]
     assert [Path(picture).name for picture in drawn] == ["sweep-response.png"]

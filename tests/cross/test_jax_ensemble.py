@@ -18,7 +18,7 @@ from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.integrator import Status
 from tribodyn.solve.jax import ensemble as jax_ensemble
 from tribodyn.studies.gear_pair import batch
-from tribodyn.studies.gear_pair.sweep_layout import FIGURES
+from tribodyn.studies.gear_pair.sweep_layout import SWEPT
 from tribodyn.sweep.engines import Local
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.run import run, settings_of
@@ -141,7 +141,7 @@ def assert_alike(jax_path: Path, native_path: Path, figures: float) -> None:
         ):
             assert np.isfinite(a).all() == np.isfinite(b).all()
             assert not np.isfinite(b).all() or np.max(np.abs(a - b)) < AGREE * np.ptp(b)
-        for name in FIGURES:
+        for name in (one.name for one in SWEPT):
             np.testing.assert_allclose(one[name], other[name], rtol=figures, atol=0.0, err_msg=name)
 
 

@@ -227,7 +227,7 @@ class Run:
                 shown.heading(str(self.scenario.get("title", self.path.stem)), self.status, self.trust),
                 warnings_of(record, named=False),
                 shown.picture_of_run(record, study),
-                summary_tables([record], [study.lines()]),
+                summary_tables([record], [study.reported()]),
                 shown.listed("How far to trust it", [*self.reasons, *study.sentences(record)]),
             )
 

@@ -92,10 +92,10 @@ def picture_of_sweep(data: "xarray.Dataset", study: Study) -> str:
     """Draw the first figure of a sweep over its first key; nothing, where there are no numbers to draw."""
     from tribodyn.post.style import literal
 
-    line = next((one for one in study.sweep_lines() if one.name in data), None)
-    if line is None:
+    quantity = next((one for one in study.sweep_table() if one.name in data), None)
+    if quantity is None:
         return ""
-    values = data[line.name] * line.factor
+    values = quantity.in_unit(data[quantity.name])
     first, *others = values.dims
     if data[first].dtype.kind != "f":
         return ""
@@ -107,7 +107,7 @@ def picture_of_sweep(data: "xarray.Dataset", study: Study) -> str:
             one = stacked.isel(others=place)
             label = ", ".join(f"{name} {_short(one[name].item())}" for name in others)
             axes.plot(data[first], one, marker=".", label=literal(label))
-        axes.set_title(literal(f"{line.label} ({line.unit})" if line.unit else line.label), loc="left")
+        axes.set_title(literal(quantity.titled), loc="left")
         unit = data[first].attrs.get("units", "1")
         name = str(first).replace("_", " ")
         axes.set_xlabel(literal(name if unit == "1" else f"{name} ({unit})"))

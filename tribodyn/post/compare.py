@@ -10,12 +10,13 @@ from rich.table import Table
 from rich.text import Text
 
 from tribodyn.errors import InputError
-from tribodyn.post.report import Line, Lines, shown
+from tribodyn.quantities.catalogue import QUANTITIES
+from tribodyn.quantities.quantity import Quantity, Reported
 from tribodyn.record.reader import Record
 from tribodyn.record.withheld import reasons, warnings
 
 #: The share of the power that is lost, beside the efficiency whose difference it shows better.
-LOSS = Line("loss", "Loss, share of the power in", 100.0, "%", ".3f")
+LOSS = QUANTITIES["loss_fraction"]
 #: Parts of a scenario that say under which conditions a drive ran, not which drive nor how it was solved.
 CONDITIONS = ("kind", "mode", "operating", "lubricant", "friction", "bearings", "mesh")
 _PROSE = ("source", "assumptions")
@@ -26,13 +27,13 @@ class Row(NamedTuple):
 
     Parameters
     ----------
-    line : Line
+    quantity : Quantity
         What it is and how it is written.
     values : tuple
         SI, in the order of the records; None where a record lacks it.
     """
 
-    line: Line
+    quantity: Quantity
     values: tuple[Any, ...]
 
     def differences(self) -> tuple[float | None, ...]:
@@ -66,14 +67,14 @@ class Comparison(NamedTuple):
     warnings: tuple[tuple[str, ...], ...] = ()
 
 
-def compare(records: Sequence[Record], lines: Lines) -> Comparison:
+def compare(records: Sequence[Record], reported: Reported) -> Comparison:
     """Set complete records whose quantities can be compared side by side; their labels become distinct.
 
     Parameters
     ----------
     records : sequence of Record
-    lines : mapping
-        Heading -> lines that are compared.
+    reported : mapping
+        Heading -> quantities that are compared.
 
     Raises
     ------
@@ -85,9 +86,9 @@ def compare(records: Sequence[Record], lines: Lines) -> Comparison:
         record.label = label
     summaries = [_with_loss(record.summary) for record in records]
     groups = {}
-    for heading, some in lines.items():
-        with_loss = (*some, LOSS) if any(line.name == "efficiency" for line in some) else some
-        rows = (Row(line, tuple(summary.get(line.name) for summary in summaries)) for line in with_loss)
+    for heading, some in reported.items():
+        with_loss = (*some, LOSS) if any(one.name == "efficiency" for one in some) else some
+        rows = (Row(one, tuple(summary.get(one.name) for summary in summaries)) for one in with_loss)
         groups[heading] = tuple(row for row in rows if any(value is not None for value in row.values))
     return Comparison(
         tuple(record.label for record in records),
@@ -196,11 +197,11 @@ def comparison_table(comparison: Comparison) -> Group:
     for heading, rows in comparison.groups.items():
         table.add_row(Text(heading, style="bold cyan"))
         for row in rows:
-            written = [_written(row.line, value) for value in row.values]
+            written = ["–" if value is None else row.quantity.written(value) for value in row.values]
             cells = [written[0]]
             for value, difference in zip(written[1:], _differences(row), strict=True):
                 cells += [value, difference]
-            table.add_row(f"  {row.line.label}", *cells, row.line.unit)
+            table.add_row(f"  {row.quantity.title}", *cells, row.quantity.unit)
     warned = [
         Text(f"Warning, {label}: {warning}", style="bold red")
         for label, some in zip(comparison.labels, comparison.warnings, strict=True)
@@ -210,17 +211,13 @@ def comparison_table(comparison: Comparison) -> Group:
     return Group(*parts)
 
 
-def _written(line: Line, value: Any) -> str:
-    return "–" if value is None else shown(line, value)
-
-
 def _differences(row: Row) -> list[str]:
     """Write how later records differ from the first: in per cent, or of shares in percentage points."""
     texts = []
     for value, relative in zip(row.values[1:], row.differences(), strict=True):
         if relative is None:
             texts.append("")
-        elif row.line.unit == "%" and row.line is not LOSS:
+        elif row.quantity.unit == "%" and row.quantity is not LOSS:
             texts.append(f"{100 * (value - row.values[0]):+.2f} pp")
         else:
             texts.append(f"{100 * relative:+.1f} %")
@@ -244,8 +241,8 @@ def as_json(comparison: Comparison) -> dict[str, Any]:
             for label, title in zip(comparison.labels, comparison.titles, strict=True)
         ],
         "quantities": {
-            row.line.name: {
-                "label": row.line.label,
+            row.quantity.name: {
+                "label": row.quantity.title,
                 "values": list(row.values),
                 "relative_differences": list(row.differences()),
             }

@@ -2,62 +2,29 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from rich.console import Group
 from rich.table import Table
 from rich.text import Text
 
+from tribodyn.quantities.quantity import Reported
 from tribodyn.record import trust
 from tribodyn.record.reader import Record
 from tribodyn.record.withheld import reasons, warnings
-
-
-class Line(NamedTuple):
-    """A line of the table.
-
-    Attributes
-    ----------
-    name : str
-        In the summary.
-    label : str
-        What it is called.
-    factor, unit, form
-        From SI to what is shown, the unit of that, and the format of the number.
-    definition : str
-        What it is, in a sentence or two: over which part of the run, of which pairs, by which formula.
-    listed : bool
-        Whether an array is a list to be shown in its order; else its entries belong to pairs.
-    offset : float
-        Added to the number in SI: −273.15 from K to °C.
-    """
-
-    name: str
-    label: str
-    factor: float = 1.0
-    unit: str = ""
-    form: str = ".4g"
-    definition: str = ""
-    listed: bool = False
-    offset: float = 0.0
-
-
-Lines = Mapping[str, tuple[Line, ...]]
-"""Heading -> lines of a summary's table, in order; a line whose name a summary lacks is left out."""
-
 
 #: How a sentence on exceeded limits of a law begins: it is shown in another colour.
 EXCEEDED = "Limits of the"
 
 
-def summary_table(record: Record, lines: Lines, sentences: Sequence[str]) -> Group:
+def summary_table(record: Record, reported: Reported, sentences: Sequence[str]) -> Group:
     """Lay out the summary of a record for the terminal (a rich renderable), in engineers' units.
 
     Parameters
     ----------
     record : Record
-    lines : mapping
+    reported : mapping
         What the study of the record has in its summary.
     sentences : sequence of str
         What it says of how far the record is to be trusted.
@@ -75,21 +42,24 @@ def summary_table(record: Record, lines: Lines, sentences: Sequence[str]) -> Gro
     table.add_column(justify="right")
     table.add_column(no_wrap=True)
     withheld = reasons(record.summary)
-    for group, all_lines in lines.items():
+    for group, quantities in reported.items():
         present = [
-            line for line in all_lines if record.summary.get(line.name) is not None or line.name in withheld
+            quantity
+            for quantity in quantities
+            if record.summary.get(quantity.name) is not None or quantity.name in withheld
         ]
         if not present:
             continue
         table.add_row(Text(group, style="bold cyan"), "", "")
-        for line in present:
-            label, unit = line.label, line.unit
-            if line.name in withheld:
+        for quantity in present:
+            label = quantity.in_table
+            if quantity.name in withheld:
                 table.add_row(f"  {label}", "withheld", "")
                 continue
-            if np.ndim(record.summary[line.name]) and not line.listed:
+            value = record.summary[quantity.name]
+            if np.ndim(value) and not quantity.listed:
                 label += f", pairs {', '.join(str(pair) for pair in reversed(record.pairs))}"
-            table.add_row(f"  {label}", shown(line, record.summary[line.name]), unit)
+            table.add_row(f"  {label}", quantity.written(value), quantity.unit)
     parts.append(table)
     parts.append(Text("How far to trust it", style="bold cyan"))
     unfinished = f"The run is {record.status}: {record.samples} samples were written."
@@ -100,20 +70,6 @@ def summary_table(record: Record, lines: Lines, sentences: Sequence[str]) -> Gro
         for sentence in said or ["The record has no summary."]
     ]
     return Group(*parts)
-
-
-def shown(line: Line, value: Any) -> str:
-    """Write one value in its unit; the values of pairs from pair 1 on, those of a list in its order."""
-    if isinstance(value, str):
-        return value
-    if np.ndim(value):
-        items = np.asarray(value).tolist()
-        return " / ".join(shown(line, item) for item in (items if line.listed else reversed(items)))
-    if isinstance(value, float) and not math.isfinite(value):
-        return "–"
-    number = value + line.offset if line.offset else value
-    number = number * line.factor if line.factor != 1.0 else number
-    return format(int(number) if line.form.endswith("d") else number, line.form)
 
 
 def on_methods(summary: Mapping[str, Any]) -> list[str]:

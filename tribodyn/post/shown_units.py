@@ -1,20 +1,15 @@
 """Units that engineers read, for the SI units of a sweep's parameters."""
 
-import math
+from tribodyn.quantities.quantity import SHOWN
 
-#: SI unit: name and factor.
-SHOWN_IN = {
-    "rad/s": ("rpm", 30 / math.pi),
-    "N*m": ("N m", 1.0),
-    "m": ("mm", 1e3),
-    "rad": ("deg", 180 / math.pi),
-}
+#: SI unit: the unit in which a parameter is shown.
+SHOWN_IN = {"rad/s": "rpm", "N*m": "N m", "m": "mm", "rad": "°", "1": ""}
 
 
 def shown_unit(units: str) -> tuple[str, float]:
     """Name of the unit that a quantity in SI is shown in, empty for plain numbers, and the factor to it."""
-    name, factor = SHOWN_IN.get(units, (units, 1.0))
-    return ("" if name == "1" else name), factor
+    name = SHOWN_IN.get(units, units)
+    return name, SHOWN.get(name, ("", 1.0))[1]
 
 
 def shown(value: object, units: str, digits: int = 5) -> str:

@@ -9,9 +9,8 @@ from rich.table import Table
 from rich.text import Text
 
 from tribodyn.numerics.scatter import SPREAD, scatter
-from tribodyn.post.report import Line
-from tribodyn.post.report import shown as written
 from tribodyn.post.shown_units import shown, shown_unit
+from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE
 
@@ -21,17 +20,17 @@ FAILURES_SHOWN = 5
 ENDS_SHOWN = 12
 
 
-def sweep_table(record: SweepRecord, lines: Sequence[Line]) -> Group:
+def sweep_table(record: SweepRecord, quantities: Sequence[Quantity]) -> Group:
     """Lay out a sweep for the terminal: minimum and maximum of every figure, and where they are.
 
     Parameters
     ----------
     record : SweepRecord
-    lines : sequence of Line
-        The figures shown, by name; none: all, as the record describes them.
+    quantities : sequence of Quantity
+        Those shown; none: all, as the record describes them.
     """
     # a record of an older version lacks figures that have been added since
-    columns = [one for one in lines if one.name in record]
+    columns = [one for one in quantities if one.name in record]
     columns = columns or [described(record, name) for name in record.figures]
     parts: list[Any] = [Text(str(record.scenario.get("title", record.label)), style="bold")]
     if record.status != "complete":
@@ -64,7 +63,7 @@ def spread(record: SweepRecord, name: str) -> dict[str, np.ndarray] | None:
     return scatter(values, over)
 
 
-def _spread_table(record: SweepRecord, columns: Sequence[Line]) -> list[Any]:
+def _spread_table(record: SweepRecord, columns: Sequence[Quantity]) -> list[Any]:
     """Scatter over the samples, where nothing else is varied."""
     drawn = record.settings.get("drawn", [])
     if not drawn or any(dim not in drawn for dim in record.dims):
@@ -78,8 +77,8 @@ def _spread_table(record: SweepRecord, columns: Sequence[Line]) -> list[Any]:
     for column in columns:
         found = spread(record, column.name)
         if found is not None and np.isfinite(found["median"]):
-            cells = [written(column, float(found[name])) for name in SPREAD]
-            table.add_row(column.label, *cells, column.unit)
+            cells = [column.written(float(found[name])) for name in SPREAD]
+            table.add_row(column.title, *cells, column.unit)
     return [Text(""), table]
 
 
@@ -106,7 +105,7 @@ def weighted_mean(record: SweepRecord, name: str) -> np.ndarray | None:
     return np.where(total > 0.0, mean / np.where(total > 0.0, total, 1.0), np.nan)
 
 
-def _mean_table(record: SweepRecord, columns: Sequence[Line]) -> list[Any]:
+def _mean_table(record: SweepRecord, columns: Sequence[Quantity]) -> list[Any]:
     """Means over weighed cases, where nothing else is varied."""
     weights = record.settings.get("weights", {})
     if not weights or any(dim not in weights for dim in record.dims):
@@ -118,7 +117,7 @@ def _mean_table(record: SweepRecord, columns: Sequence[Line]) -> list[Any]:
     for column in columns:
         found = weighted_mean(record, column.name)
         if found is not None and np.isfinite(found):
-            table.add_row(column.label, written(column, float(found)), column.unit)
+            table.add_row(column.title, column.written(float(found)), column.unit)
     return [Text(""), table]
 
 
@@ -127,7 +126,7 @@ def sweep_said(record: SweepRecord) -> list[str]:
     return [*_head(record), *_tail(record)]
 
 
-def sweep_rows(record: SweepRecord, columns: Sequence[Line]) -> list[list[str]]:
+def sweep_rows(record: SweepRecord, columns: Sequence[Quantity]) -> list[list[str]]:
     """Rows of the table: name, minimum and where, maximum and where, unit; of figures with any value."""
     rows = []
     for column in columns:
@@ -225,11 +224,10 @@ def sweep_warnings(record: SweepRecord) -> list[str]:
     return [f"{count} of {done} cases: {text}" for text, count in record.warnings().items()]
 
 
-def described(record: SweepRecord, name: str) -> Line:
-    """A figure as the record itself describes it."""
-    unit, factor = shown_unit(record.units(name))
+def described(record: SweepRecord, name: str) -> Quantity:
+    """A quantity as the record itself describes it."""
     label = record.long_name(name)
-    return Line(name, label[:1].upper() + label[1:], factor, unit)
+    return Quantity(name, label[:1].upper() + label[1:], shown_unit(record.units(name))[0])
 
 
 def _counted(count: dict[str, int]) -> str:
@@ -245,11 +243,11 @@ def _kinds(record: SweepRecord) -> str:
     return ", ".join(f"{number} {name}" for name, number in zip(names, numbers, strict=True))
 
 
-def _row(record: SweepRecord, column: Line, values: np.ndarray) -> list[str]:
-    cells = [column.label]
+def _row(record: SweepRecord, column: Quantity, values: np.ndarray) -> list[str]:
+    cells = [column.title]
     for find in (np.nanargmin, np.nanargmax):
         place = tuple(int(i) for i in np.unravel_index(int(find(values)), values.shape))
-        cells += [written(column, float(values[place])), _place(record, record.at(place))]
+        cells += [column.written(float(values[place])), _place(record, record.at(place))]
     return [*cells, column.unit]
 
 

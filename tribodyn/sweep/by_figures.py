@@ -55,8 +55,8 @@ class ByFigures:
         raise InputError("--unstable", None, rule, "omit it")
 
     def layout(self, settings: Settings) -> SweepLayout:
-        """The figures that the study names."""
-        return SweepLayout(self.study.swept())
+        """The quantities that the study names."""
+        return SweepLayout({name: one.variable() for name, one in self.study.swept().items()})
 
     def size_of_chunk(self, settings: Settings, total: int, width: int) -> int:
         """One: each is recorded as soon as it is done."""

@@ -8,7 +8,7 @@ import pytest
 
 from tribodyn.errors import InputError
 from tribodyn.post.figures.sweep.branch import MARKS, branches, chosen_branch, colors_of
-from tribodyn.post.figures.sweep.response import maps_of, titled
+from tribodyn.post.figures.sweep.response import maps_of
 
 
 def sweep(*sizes: int, directions: tuple[str, ...] = ()) -> Any:
@@ -54,8 +54,3 @@ def test_the_branch_nearest_to_the_wish_is_chosen():
     assert first.place[1] == 0
     with pytest.raises(InputError, match="no such value"):
         chosen_branch([sweep(5, 3, 2)], {"law": "c"})
-
-
-def test_a_label_is_split_into_title_and_unit():
-    assert titled("Transmission error,\nRMS (µm)") == ("Transmission error, RMS", "µm")
-    assert titled("Dynamic factor (–)") == ("Dynamic factor", "")

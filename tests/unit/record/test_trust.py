@@ -15,6 +15,7 @@ from tests.support.record_samples import block, gear_pair_writer, geometry
 from tribodyn.cli.app import app
 from tribodyn.errors import SimulationError
 from tribodyn.post.report import as_json
+from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.record.reader import open_record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE, SweepLayout
@@ -34,7 +35,6 @@ from tribodyn.record.trust import (
     verdict,
 )
 from tribodyn.record.withheld import remarked, remarks, warned, warnings
-from tribodyn.studies.efficiency.report import SWEPT
 from tribodyn.studies.pages.pictures import summary_table, sweep_table
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
@@ -169,7 +169,7 @@ def test_a_record_inside_says_that_too(tmp_path):
 
 def test_a_sweep_says_it_case_by_case(tmp_path, outside):
     scale = ParameterScale("speed", "operating.pinion_speed", "rad/s", (1.0, 2.0, 3.0))
-    layout = SweepLayout({"efficiency": SWEPT["efficiency"]})
+    layout = SweepLayout({"efficiency": QUANTITIES["efficiency"].variable()})
     head = SweepHead('kind = "efficiency"', "0", (scale,), "", (), layout)
     with SweepWriter(tmp_path / "sweep.h5", head) as writer:
         rows = layout.empty_rows(3)

@@ -11,12 +11,12 @@ from tests.support import synthetic_record
 from tests.support.record_samples import block, gear_pair_writer, geometry
 from tribodyn.post import compare as comparing
 from tribodyn.post.report import as_json
+from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.record.reader import open_record
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE, SweepLayout
 from tribodyn.record.sweep_writer import ParameterScale, SweepHead, SweepWriter
 from tribodyn.record.withheld import is_efficiency, reason_to_withhold, samples_withheld, warnings, withheld
-from tribodyn.studies.efficiency.report import SWEPT
 from tribodyn.studies.pages.pictures import compare, summary_table, sweep_table
 
 
@@ -112,7 +112,7 @@ def test_a_comparison_withholds_the_figure_and_the_loss(wrong, tmp_path):
     other = open_record(synthetic_record.write(tmp_path / "right.h5", cycles=1, per_cycle=20))
     compared = compare([other, wrong])
     found = comparing.as_json(compared)
-    for name in ("efficiency", "loss"):
+    for name in ("efficiency", "loss_fraction"):
         values = found["quantities"][name]["values"]
         assert values[0] is not None
         assert values[1] is None
@@ -124,7 +124,7 @@ def test_a_comparison_withholds_the_figure_and_the_loss(wrong, tmp_path):
 
 def test_a_sweep_withholds_it_case_by_case(tmp_path):
     scale = ParameterScale("speed", "operating.pinion_speed", "rad/s", (1.0, 2.0, 3.0))
-    layout = SweepLayout({"efficiency": SWEPT["efficiency"]})
+    layout = SweepLayout({"efficiency": QUANTITIES["efficiency"].variable()})
     with SweepWriter(
         tmp_path / "sweep.h5", SweepHead('kind = "efficiency"', "0", (scale,), "", (), layout)
     ) as writer:

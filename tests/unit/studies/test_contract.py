@@ -19,10 +19,9 @@ from tests.support.short_studies import FINITE_ELEMENTS, short_case, written_tem
 from tribodyn.cli.app import app
 from tribodyn.errors import InputError
 from tribodyn.geometry.families import FAMILIES
-from tribodyn.numerics.variable import Variable
 from tribodyn.post.figures.drawing import Drawing, SweepDrawing
-from tribodyn.post.report import Line
 from tribodyn.post.style import save
+from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.reader import open_record
 from tribodyn.scenario.quantity import Table
 from tribodyn.studies import DEFAULT, STUDIES, study_of
@@ -56,14 +55,14 @@ def test_every_part_is_there(kind: str):
     assert "overview" in drawings
     assert len(drawings) > 1
     assert all(isinstance(drawing, Drawing) and drawing.about for drawing in drawings.values())
-    lines = [line for group in study.lines().values() for line in group]
-    assert lines
-    assert all(isinstance(line, Line) and line.label for line in lines)
-    assert set(study.compared) <= set(study.lines())
+    reported = [quantity for group in study.reported().values() for quantity in group]
+    assert reported
+    assert all(isinstance(quantity, Quantity) and quantity.label for quantity in reported)
+    assert set(study.compared) <= set(study.reported())
     swept = study.swept()
     assert swept
-    assert all(isinstance(known, Variable) and known.units and known.long_name for known in swept.values())
-    assert {line.name for line in study.sweep_lines()} <= set(swept)
+    assert all(isinstance(known, Quantity) and known.si for known in swept.values())
+    assert {quantity.name for quantity in study.sweep_table()} <= set(swept)
     assert all(isinstance(drawing, SweepDrawing) for drawing in study.sweep_drawings().values())
 
 
@@ -145,7 +144,7 @@ def test_a_quantity_has_one_value(kind: str, short_runs):
     study, result = STUDIES[kind], short_runs(kind)
     shown = json.loads(called("show", result.path, "--json"))["summary"]
     opened = td.open(result.path)
-    reported = {line.name for group in study.lines().values() for line in group}
+    reported = {quantity.name for group in study.reported().values() for quantity in group}
     with open_record(result.path) as record:
         assert set(record.summary) == {name for name, value in result.summary.items() if value is not None}
         assert len(reported & set(record.summary)) >= 3
@@ -207,9 +206,9 @@ def test_an_interrupted_run_keeps_what_is_done(kind: str, short_runs, tmp_path: 
     again = run(case, path, resume=True)
     assert again.status == "complete"
     whole = short_runs(kind).summary
-    for line in (line for group in study.lines().values() for line in group):
-        if line.name not in OF_THE_RUN and isinstance(whole.get(line.name), float):
-            assert again.summary[line.name] == whole[line.name], line.name
+    for name in (quantity.name for group in study.reported().values() for quantity in group):
+        if name not in OF_THE_RUN and isinstance(whole.get(name), float):
+            assert again.summary[name] == whole[name], name
 
 
 def test_a_gear_pair_is_compared_with_its_efficiency(short_runs):
@@ -218,7 +217,7 @@ def test_a_gear_pair_is_compared_with_its_efficiency(short_runs):
         open_record(short_runs("efficiency").path) as slow,
     ):
         compared = compare([motion, slow])
-        rows = {row.line.name: row.values for rows in compared.groups.values() for row in rows}
+        rows = {row.quantity.name: row.values for rows in compared.groups.values() for row in rows}
         for name in ("efficiency", "contact_ratio", "normal_load_max", "friction_coefficient_mean"):
             assert rows[name] == (motion.summary[name], slow.summary[name]), name
         assert compared.conditions["kind"] == ("gear-pair", "efficiency")

@@ -5,14 +5,14 @@ import pytest
 import tribodyn as td
 from tribodyn.geometry.limits.limits import LIMITS
 from tribodyn.studies import STUDIES, study_of
-from tribodyn.studies.protocol.evaluated import evaluated, figure_units
+from tribodyn.studies.protocol.evaluated import evaluated, evaluated_quantities
 
 
 @pytest.mark.parametrize(
     "kind", [name for name, study in STUDIES.items() if study.has_gears and study.swept()]
 )
 def test_teeth_have_their_distances_in_every_study_of_gears(kind):
-    units = figure_units(study_of({"kind": kind}))
+    units = {one.name: one.si for one in evaluated_quantities(study_of({"kind": kind})).values()}
     assert units["contact_ratio"] == "1"
     assert {name: units[name] for name in LIMITS} == {name: one.unit for name, one in LIMITS.items()}
 

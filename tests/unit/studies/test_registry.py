@@ -32,7 +32,7 @@ from matplotlib.figure import Figure
 
 from tribodyn.numerics.variable import Variable
 from tribodyn.post.figures.drawing import Drawing
-from tribodyn.post.report import Line
+from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.schema import TIME, Layout
 from tribodyn.scenario.quantity import Table, Text
 from tribodyn.studies.protocol.recording import target, writer
@@ -87,8 +87,8 @@ def _drawn(records, view):
 
 
 DRAWINGS = {"overview": Drawing("angle", _drawn), "angle": Drawing("angle over time", _drawn)}
-LINES = {"Motion": (Line("period", "Period", 1.0, "s"),)}
-SWEPT = {"period": Variable((), "s", "period of the pendulum")}
+PERIOD = Quantity("period", "Period of the pendulum", "s")
+REPORTED, SWEPT = {"Motion": (PERIOD,)}, (PERIOD,)
 
 
 def sentences(record):

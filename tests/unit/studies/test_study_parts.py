@@ -7,11 +7,13 @@ from typing import Any
 import pytest
 
 from tribodyn.errors import InputError
+from tribodyn.quantities.quantity import Quantity
 from tribodyn.studies.protocol import study as studying
 from tribodyn.studies.protocol.estimate import LIMITS, Driver, Estimate
 from tribodyn.studies.protocol.study import Checked, Study
 
 NAME = "pendulum_of_tests"
+SWING = Quantity("swing", "Swing of the bob", "°")
 
 
 @pytest.fixture
@@ -19,8 +21,7 @@ def package(monkeypatch: pytest.MonkeyPatch) -> ModuleType:
     """A package with one part, `report`, which holds lines and nothing else."""
     made, report = ModuleType(NAME), ModuleType(f"{NAME}.report")
     made.__path__ = []  # pyright: ignore[reportAttributeAccessIssue]
-    line = SimpleNamespace(name="swing", _replace=lambda label: f"swing: {label}")
-    vars(report)["LINES"] = {"Result": [line]}
+    vars(report)["REPORTED"] = {"Result": (SWING,)}
     monkeypatch.setitem(sys.modules, NAME, made)
     monkeypatch.setitem(sys.modules, f"{NAME}.report", report)
     return made
@@ -33,7 +34,7 @@ def study_of(**changed: Any) -> Study:
 def test_what_is_optional_may_be_missing(package: ModuleType):
     """A part, or what it holds; of what is needed the error names kind and package."""
     study = study_of()
-    assert list(study.lines()) == ["Result"]
+    assert list(study.reported()) == ["Result"]
     assert study.swept() == study.short_names() == {}
     assert (study.batch(), study.role(), study.own_page()) == (None, None, None)
     assert (study.panels(), study.top(), study.maps("record"), study.profiles("record")) == ((), (), (), None)  # pyright: ignore[reportArgumentType]
@@ -63,17 +64,15 @@ def test_a_part_that_cannot_be_imported_is_not_taken_for_missing(
             asked()
     ours = Study("pendulum", "a pendulum", "tribodyn.no_such_folder", "swings")
     with pytest.raises(ModuleNotFoundError):
-        ours.lines()
+        ours.reported()
 
 
 def test_a_study_in_a_single_module_holds_its_parts_itself(package: ModuleType):
     """But a part of the name of what it holds is a module, and no part."""
-    vars(package).update(
-        SWEPT={"swing": SimpleNamespace(long_name="swing of the bob")}, run=ModuleType("run")
-    )
+    vars(package).update(SWEPT=(SWING,), run=ModuleType("run"))
     study = study_of()
     assert list(study.swept()) == ["swing"]
-    assert study.sweep_lines() == ["swing: Swing of the bob"]
+    assert list(study.sweep_table()) == [SWING]
     vars(package)["figures"] = lambda case: {"efficiency": 1.5, "swing": 2.0}
     vars(package)["table_for"] = lambda data: ("table of", data)
     assert study.table({"a": 1}) == ("table of", {"a": 1})

@@ -17,8 +17,9 @@ from tribodyn.post.page.profiles import Profiles
 from tribodyn.post.page.profiles import as_data as profiles_as_data
 from tribodyn.post.page.rolling_teeth import rolling_teeth
 from tribodyn.post.page.series import as_data, extrapolated, in_engineers_units, packed, series_of
-from tribodyn.post.report import EXCEEDED, Lines, shown
+from tribodyn.post.report import EXCEEDED
 from tribodyn.post.style import inline
+from tribodyn.quantities.quantity import Quantity, Reported
 from tribodyn.record import trust
 from tribodyn.record.reader import Record
 from tribodyn.record.sweep_reader import SweepRecord
@@ -37,8 +38,8 @@ class Told(NamedTuple):
 
     Attributes
     ----------
-    lines : mapping
-        Lines of its summary by heading.
+    reported : mapping
+        Quantities of its summary by heading.
     sentences : sequence of str
         How far to trust it.
     panels : sequence of str
@@ -52,7 +53,7 @@ class Told(NamedTuple):
     pictures : sequence of (name, about, figure)
     """
 
-    lines: Lines
+    reported: Reported
     sentences: Sequence[str]
     panels: Sequence[str] = ()
     maps: Sequence[PageMap] = ()
@@ -103,7 +104,7 @@ def page(records: Sequence[Record], told: Sequence[Told], figures: bool = True) 
     title = " · ".join(dict.fromkeys(_title(record) for record in records))
     sections = {
         "WARNINGS": "".join(warnings_of(record, len(records) > 1) for record in records),
-        "SUMMARY": summary_tables(records, [one.lines for one in told]) if figures else "",
+        "SUMMARY": summary_tables(records, [one.reported for one in told]) if figures else "",
         "TRUST": "".join(
             _list(record, one.sentences, len(records) > 1) for record, one in zip(records, told, strict=True)
         ),
@@ -187,23 +188,23 @@ def warnings_of(record: Record, named: bool) -> str:
     )
 
 
-def summary_tables(records: Sequence[Record], lines: Sequence[Lines]) -> str:
+def summary_tables(records: Sequence[Record], reported: Sequence[Reported]) -> str:
     """Headings with a table each; a column per record."""
-    merged: dict[str, dict[str, Any]] = {}
-    for some in lines:
+    merged: dict[str, dict[str, Quantity]] = {}
+    for some in reported:
         for heading, group in some.items():
-            for line in group:
-                merged.setdefault(heading, {}).setdefault(line.name, line)
+            for quantity in group:
+                merged.setdefault(heading, {}).setdefault(quantity.name, quantity)
     tables = []
     for heading, group in merged.items():
         rows = []
-        for line in group.values():
-            cells = [_cell(record, line) for record in records]
+        for quantity in group.values():
+            cells = [_cell(record, quantity) for record in records]
             if any(cells):
-                about = f"{line.definition} In the record: {line.name}.".strip()
-                name = f'<td title="{escape(about)}">{escape(line.label)}</td>'
+                about = f"{quantity.definition} In the record: {quantity.name}.".strip()
+                name = f'<td title="{escape(about)}">{escape(quantity.in_table)}</td>'
                 values = "".join(f"<td>{escape(cell or '–')}</td>" for cell in cells)
-                rows.append(f"<tr>{name}{values}<td>{escape(line.unit)}</td></tr>")
+                rows.append(f"<tr>{name}{values}<td>{escape(quantity.unit)}</td></tr>")
         if rows:
             tables.append(f"<div><h3>{escape(heading)}</h3><table>{''.join(rows)}</table></div>")
     head = ""
@@ -212,11 +213,11 @@ def summary_tables(records: Sequence[Record], lines: Sequence[Lines]) -> str:
     return f'{head}<div class="summary tables wide">{"".join(tables)}</div>'
 
 
-def _cell(record: Record, line: Any) -> str:
-    if line.name in reasons(record.summary):
+def _cell(record: Record, quantity: Quantity) -> str:
+    if quantity.name in reasons(record.summary):
         return "withheld"
-    value = record.summary.get(line.name)
-    return "" if value is None else shown(line, value)
+    value = record.summary.get(quantity.name)
+    return "" if value is None else quantity.written(value)
 
 
 def _list(record: Record, sentences: Sequence[str], named: bool) -> str:

@@ -11,8 +11,8 @@ from tribodyn.errors import InputError
 from tribodyn.post.figures.sweep.branch import axis_label, branches
 from tribodyn.post.page.page import assembled, origin, picture, table
 from tribodyn.post.page.series import packed
-from tribodyn.post.report import Line
 from tribodyn.post.sweep_report import described, sweep_rows, sweep_said, sweep_warnings
+from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.sweep_reader import SweepRecord
 
 #: Figures shown at first.
@@ -21,7 +21,7 @@ FIGURES = 4
 
 def sweep_page(
     record: SweepRecord,
-    lines: Sequence[Line],
+    quantities: Sequence[Quantity],
     pictures: Sequence[tuple[str, str, Figure]],
     tables: Sequence[tuple[str, Sequence[str], Sequence[Sequence[str]]]],
 ) -> str:
@@ -30,8 +30,8 @@ def sweep_page(
     Parameters
     ----------
     record : SweepRecord
-    lines : sequence of Line
-        Figures that are shown, and their units; none: all, as the record describes them.
+    quantities : sequence of Quantity
+        Those that are shown; none: all, as the record describes them.
     pictures : sequence of (name, about, figure)
     tables : sequence of (title, columns, rows)
         What is known of the scenario that is varied.
@@ -41,7 +41,7 @@ def sweep_page(
     InputError
         If the first key is no number.
     """
-    known = [line for line in lines if line.name in record]
+    known = [quantity for quantity in quantities if quantity.name in record]
     known = known or [described(record, name) for name in record.figures]
     drawn = branches([record])
     if not drawn or not len(drawn[0].x):
@@ -49,20 +49,20 @@ def sweep_page(
     order = np.argsort(drawn[0].x)
     series = [
         {
-            "name": line.name,
-            "short": line.label,
-            "title": line.label,
-            "unit": line.unit or "–",
+            "name": quantity.name,
+            "short": quantity.title,
+            "title": quantity.title,
+            "unit": quantity.unit or "–",
             "curves": [
                 {
                     "label": ", ".join(filter(None, (branch.label, branch.direction))),
-                    "y": packed(branch.values(line.name)[order] * line.factor),
+                    "y": packed(quantity.in_unit(branch.values(quantity.name)[order])),
                     "i": None,
                 }
                 for branch in drawn
             ],
         }
-        for line in known
+        for quantity in known
     ]
     axis = drawn[0].x[order]
     span = [float(axis[0]), float(axis[-1]) if len(axis) > 1 else float(axis[0]) + 1.0]
@@ -77,7 +77,7 @@ def sweep_page(
     }
     payload = {
         "records": [data],
-        "panels": [line.name for line in known[:FIGURES]],
+        "panels": [quantity.name for quantity in known[:FIGURES]],
         "load": "",
         "axis": axis_label(record.parameters[0]),
     }
@@ -91,7 +91,7 @@ def sweep_page(
         payload,
         {
             "WARNINGS": "".join(f'<p class="warning">{escape(one)}</p>' for one in warnings),
-            "SUMMARY": table("Figures of the cases", columns, sweep_rows(record, known)),
+            "SUMMARY": table("Quantities of the cases", columns, sweep_rows(record, known)),
             "TRUST": f"<ul>{said}</ul>",
             "OVER": "Over the first varied key",
             "SHEET": f"<section><h2>The scenario that is varied</h2>{sheet}</section>" if sheet else "",

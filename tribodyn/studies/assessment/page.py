@@ -276,7 +276,7 @@ def _part(study: Study, title: str, done: Sequence[parts.Done]) -> str:
             continue
         with open_record(one.path) as record:
             picture = f"<p>{inline(overview(record), title)}</p>"
-            tables = summary_tables([record], [study.lines()])
+            tables = summary_tables([record], [study.reported()])
         return f"<section><h2>{escape(title)}</h2>{picture}{tables}</section>"
     return ""
 

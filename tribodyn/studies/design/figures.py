@@ -11,12 +11,12 @@ from matplotlib.figure import Figure
 from tribodyn.errors import InputError
 from tribodyn.post.figures.drawing import Drawing
 from tribodyn.post.figures.panel import View, record_label, record_title
-from tribodyn.post.report import Line
 from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, QUIET, WIDTH, literal, new_figure
+from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.reader import Record
 from tribodyn.studies.design.case import apart, duty_names, naming_key
 from tribodyn.studies.design.layout import LOWER, OBJECTIVES, UPPER, searched
-from tribodyn.studies.design.report import line_of
+from tribodyn.studies.design.report import quantity_of
 
 #: Duties that are drawn as bars, at most.
 MOST_BARS = 6
@@ -32,22 +32,22 @@ class _Shown:
         name = OBJECTIVES[place]
         units = record.units(name)
         about = record.long_name(name).removeprefix("objective: ")
-        line = line_of(record.scenario, about)
-        self.line = line or Line(about, about.replace("_", " "), unit="" if units == "1" else units)
+        plain = Quantity(about, about.replace("_", " "), "" if units == "1" else units)
+        self.quantity = quantity_of(record.scenario, about) or plain
         value = record.summary.get("objective")
         down = value is not None and float(np.atleast_1d(value)[place]) * _least(record, name) < 0
-        self.factor = -self.line.factor if down else self.line.factor
+        self.factor = -self.quantity.factor if down else self.quantity.factor
         self.values = self.factor * record[name][searched(record)]
 
     @property
     def label(self) -> str:
         """Label of an axis, over two lines where it is long."""
-        words, lines = literal(self.line.label).split(), [""]
+        words, lines = literal(self.quantity.title).split(), [""]
         for word in words:
             if len(lines[-1]) + len(word) > LONGEST:
                 lines.append("")
             lines[-1] = f"{lines[-1]} {word}".strip()
-        return "\n".join(lines) + (f" ({literal(self.line.unit)})" if self.line.unit else "")
+        return "\n".join(lines) + (f" ({literal(self.quantity.unit)})" if self.quantity.unit else "")
 
 
 def _least(record: Record, name: str) -> float:
@@ -221,7 +221,7 @@ def _draw_sensitivities(axes: Axes, record: Record) -> None:
     axes.axvline(0.0, color=INK, linewidth=0.7)
     axes.set_yticks(place, [literal(name) for name in names], fontsize=6.5)
     axes.set_ylim(len(names) - 0.4, -0.6)
-    unit = f" ({literal(shown.line.unit)})" if shown.line.unit else ""
+    unit = f" ({literal(shown.quantity.unit)})" if shown.quantity.unit else ""
     axes.set_xlabel(f"Change of the objective{unit}")
     axes.set_title("What the best depends on", loc="left")
     axes.margins(x=0.1)

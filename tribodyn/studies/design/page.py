@@ -7,10 +7,9 @@ import numpy as np
 
 from tribodyn.post.page.page import Told
 from tribodyn.post.page.page import page as write
-from tribodyn.post.report import shown
 from tribodyn.record.reader import Record
 from tribodyn.studies.design.figures import DRAWINGS
-from tribodyn.studies.design.report import LINES, PANELS, line_of, sentences
+from tribodyn.studies.design.report import PANELS, REPORTED, quantity_of, sentences
 from tribodyn.studies.pages.page import sheet
 from tribodyn.studies.pages.pictures import figure
 from tribodyn.studies.protocol.study import TextTable
@@ -27,7 +26,7 @@ def page(record: Record) -> str:
         if DRAWINGS[name].fits(record)
     ]
     told = Told(
-        LINES,
+        REPORTED,
         sentences(record),
         PANELS,
         tables=(*before_and_after(record), *sheet(record)),
@@ -54,10 +53,11 @@ def before_and_after(record: Record) -> tuple[TextTable, ...]:
 
 
 def _row(search: Mapping[str, Any], name: str, before: Any, after: Any) -> tuple[str, ...] | None:
-    line = line_of(search, name)
-    if line is None:
+    quantity = quantity_of(search, name)
+    if quantity is None:
         return None
     change = "–"
     if before is not None and np.isfinite(before) and before:
         change = f"{100.0 * (after / before - 1.0):+.1f} %"
-    return line.label, "–" if before is None else shown(line, before), shown(line, after), line.unit, change
+    first = "–" if before is None else quantity.written(before)
+    return quantity.title, first, quantity.written(after), quantity.unit, change

@@ -1,53 +1,30 @@
-"""Lines and sentences of the summary of a search."""
+"""Reported quantities of a search, and how far to trust them."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
-from tribodyn.numerics.variable import Variable
-from tribodyn.post.report import Line, Lines, shown
+from tribodyn.quantities.catalogue import quantities
+from tribodyn.quantities.quantity import Quantity, Reported
 from tribodyn.record.reader import Record
 from tribodyn.studies import study_of
 from tribodyn.studies.design.candidates.sources import split
-from tribodyn.studies.gears.shared import WALL_TIME
 
-LINES: Lines = {
-    "Search": (
-        Line("objective_name", "Objective", definition="Figure, or sum of figures, that was sought."),
-        Line("method", "Method", definition="Method of the search, see method_reason in the summary."),
-        Line("evaluations", "Evaluations", form=",d", definition="Candidates that were evaluated."),
-        Line(
-            "evaluations_feasible",
-            "of these feasible",
-            form=",d",
-            definition="Candidates that satisfy all constraints.",
-        ),
-        Line(
-            "evaluations_without_figures",
-            "of these without figures",
-            form=",d",
-            definition="Candidates that cannot be made, or for which no state was found; `message` says why.",
-        ),
+REPORTED: Reported = {
+    "Search": quantities(
+        "objective_name", "method", "evaluations", "evaluations_feasible", "evaluations_without_figures"
     ),
-    "Solver": (WALL_TIME,),
+    "Solver": quantities("wall_time"),
 }
 
-SWEPT: dict[str, Variable] = {
-    "objective": Variable((), "1", "objective at the best, in SI units of its own"),
-    "objective_start": Variable((), "1", "objective at the start, in SI units of its own"),
-    "evaluations": Variable((), "1", "candidates that were evaluated"),
-    "evaluations_feasible": Variable((), "1", "candidates that satisfy all constraints"),
-    "evaluations_without_figures": Variable((), "1", "candidates without figures"),
-}
-SWEEP_LINES = (
-    Line("objective", "Objective at the best"),
-    Line("objective_start", "Objective at the start"),
-    Line("evaluations", "Evaluations", form=",d"),
+SWEPT = quantities(
+    "objective", "objective_start", "evaluations", "evaluations_feasible", "evaluations_without_figures"
 )
+SWEEP_TABLE = quantities("objective", "objective_start", "evaluations")
 
 PANELS = ("objective",)
-#: Figures that stand at the top of what `run --json` prints.
+#: Quantities that stand at the top of what `run --json` prints.
 TOP = ("objective_start", "objective", "best", "evaluations")
 
 
@@ -62,7 +39,7 @@ def sentences(record: Record) -> list[str]:
     said = []
     for place, name in enumerate(names):
         before = start[place] if place < len(start) and start[place] is not None else np.nan
-        said.append(f"{_named(search, name)}: {_change(search, name, before, best[place])}.")
+        said.append(f"{_quantity_or_name(search, name).title}: {_change(search, name, before, best[place])}.")
     said += [
         f"{key}: {summary.get('start', {}).get(key, 'not set')} at the start, {value} at the best."
         for key, value in summary.get("best", {}).items()
@@ -86,15 +63,15 @@ def sentences(record: Record) -> list[str]:
 
 def _resolution(search: Mapping[str, Any], names: Sequence[str], summary: Mapping[str, Any]) -> str:
     """Say on which resolution the figures stand, and what the best is on the one that was searched on."""
-    lines = [line_of(search, name) or Line(name, name) for name in names]
+    sought = [_quantity_or_name(search, name) for name in names]
     fine, coarse = (
         ", ".join(f"{key} = {value}" for key, value in summary[name].items())
         for name in ("resolution", "resolution_searched")
     )
     stands = "do not change there" if summary["figure_stands"] else "still change there"
     before = " and ".join(
-        f"{shown(line, float(value))} {line.unit}".rstrip()
-        for line, value in zip(lines, np.atleast_1d(summary["objective_searched"]), strict=True)
+        quantity.with_unit(float(value))
+        for quantity, value in zip(sought, np.atleast_1d(summary["objective_searched"]), strict=True)
     )
     return f"Figures are those of {fine}, and {stands}; searched with {coarse}, where the best has {before}."
 
@@ -104,30 +81,27 @@ def _figure_in(text: str, figures: Mapping[str, Any]) -> str:
     return name if name in figures else ""
 
 
-def line_of(search: Mapping[str, Any], name: str) -> Line | None:
-    """The line for a figure of the summary of the search's scenario, or of a part of it.
+def quantity_of(search: Mapping[str, Any], name: str) -> Quantity | None:
+    """The quantity of a name, as the search's scenario or a part of it reports it; None: a sum of several.
 
     Parameters
     ----------
     search : the search as its record holds it
-    name : of the figure
+    name : of the quantity
     """
     parts = search.get("design", {}).get("part") or {}
-    part, figure = split(name, parts)
-    data = parts[part] if part else search.get("scenario", {})
-    lines = (line for some in study_of(data).lines().values() for line in some)
-    found = next((line for line in lines if line.name == figure), None)
-    return found._replace(label=f"{found.label} ({part})") if found and part else found
+    part, plain = split(name, parts)
+    found = study_of(parts[part] if part else search.get("scenario", {})).quantity(plain)
+    return found._replace(label=f"{found.title} ({part})", symbol="") if part and found else found
 
 
-def _named(search: Mapping[str, Any], name: str) -> str:
-    line = line_of(search, name)
-    return line.label if line else name
+def _quantity_or_name(search: Mapping[str, Any], name: str) -> Quantity:
+    return quantity_of(search, name) or Quantity(name, name)
 
 
 def _change(search: Mapping[str, Any], name: str, before: Any, after: Any) -> str:
-    line = line_of(search, name) or Line(name, name)
-    first = "no figure"
+    quantity = _quantity_or_name(search, name)
+    first = "no value"
     if before is not None and not np.isnan(before):
-        first = f"{shown(line, float(before))} {line.unit}".rstrip()
-    return f"{first} at the start, {shown(line, float(after))} {line.unit}".rstrip() + " at the best"
+        first = quantity.with_unit(float(before))
+    return f"{first} at the start, {quantity.with_unit(float(after))} at the best"

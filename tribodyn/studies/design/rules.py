@@ -8,7 +8,7 @@ from tribodyn.scenario.quantity import Table
 from tribodyn.studies import STUDIES, study_of
 from tribodyn.studies.design.candidates.sources import BASE, Source
 from tribodyn.studies.design.parts import parts_of_design
-from tribodyn.studies.protocol.evaluated import figure_units
+from tribodyn.studies.protocol.evaluated import evaluated_quantities
 
 
 def broken_rules(scenario: Any) -> Iterator[InputError]:
@@ -51,7 +51,7 @@ def _of_scenario(place: str, scenario: Any) -> Iterator[InputError]:
         yield InputError(f"{place}.kind", quoted(kind), rule, "name a scenario of another kind")
         return
     study = study_of({"kind": kind})
-    if not figure_units(study):
+    if not evaluated_quantities(study):
         rule = f"a {kind} study names no figures that could be sought"
         yield InputError(f"{place}.kind", quoted(kind), rule, "name a scenario of another kind")
         return

@@ -5,14 +5,15 @@ from tribodyn.post.figures.sweep.campbell import campbell_figure
 from tribodyn.post.figures.sweep.response import Panel, response_figure
 from tribodyn.post.figures.sweep.section import bifurcation_figure, poincare_figure
 from tribodyn.post.figures.sweep.waterfall import waterfall_figure
+from tribodyn.quantities.catalogue import QUANTITIES
 
 PANELS = (
-    Panel("transmission_error_rms", 1e6, "Transmission error,\nRMS (µm)", True),
-    Panel("transmission_error_peak_to_peak", 1e6, "Transmission error,\npeak to peak (µm)", True),
-    Panel("dynamic_factor", 1.0, "Dynamic factor (–)"),
-    Panel("contact_loss_fraction", 100.0, "Time without\ncontact (%)", True),
-    Panel("film_min", 1e6, "Minimum film\nthickness (µm)", True),
-    Panel("efficiency", 100.0, "Efficiency (%)"),
+    Panel(QUANTITIES["transmission_error_rms"], from_zero=True),
+    Panel(QUANTITIES["transmission_error_peak_to_peak"], from_zero=True),
+    Panel(QUANTITIES["dynamic_factor"]),
+    Panel(QUANTITIES["contact_loss_fraction"], from_zero=True),
+    Panel(QUANTITIES["film_min"], from_zero=True),
+    Panel(QUANTITIES["efficiency"]),
 )
 
 SWEEP_DRAWINGS: dict[str, SweepDrawing] = {

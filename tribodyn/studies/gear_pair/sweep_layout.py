@@ -5,9 +5,10 @@ from typing import Any
 import numpy as np
 
 from tribodyn.numerics.variable import Variable, flag
+from tribodyn.quantities.catalogue import quantities
 from tribodyn.record.sweep_schema import OF_EVERY_SWEEP, WORD, SweepLayout
 from tribodyn.solve.orbit.motions import MAX_PERIOD
-from tribodyn.studies.gears.temperature import THERMAL_FIGURES
+from tribodyn.studies.gears.reported import TEMPERATURE_SWEPT
 from tribodyn.studies.protocol.estimate import variable_bytes
 from tribodyn.studies.sweeping import ends, unstable
 
@@ -15,41 +16,31 @@ from tribodyn.studies.sweeping import ends, unstable
 UNKNOWN = -1
 
 
-def _figure(units: str, long_name: str) -> Variable:
-    return Variable((), units, long_name)
-
-
 #: One number per case, from its steady window.
-FIGURES: dict[str, Variable] = {
-    "mesh_frequency": _figure("Hz", "mean mesh frequency"),
-    "transmission_error_rms": _figure(
-        "m", "root mean square of the rotational transmission error about its mean"
+SWEPT = (
+    *quantities(
+        "mesh_frequency",
+        "transmission_error_rms",
+        "transmission_error_peak_to_peak",
+        "transmission_error_mean",
+        "dynamic_factor",
+        "normal_load_max",
+        "hertz_pressure_max",
+        "film_min",
+        "film_parameter_min",
+        "flash_temperature_max",
+        "friction_coefficient_mean",
+        "efficiency",
+        "power_in_mean",
+        "power_friction_mean",
+        "friction_work_on_vibration",
     ),
-    "transmission_error_peak_to_peak": _figure("m", "rotational transmission error, peak to peak"),
-    "transmission_error_mean": _figure("m", "mean rotational transmission error"),
-    "dynamic_factor": _figure("1", "maximum mesh moment over the mean load's"),
-    "normal_load_max": _figure("N", "maximum normal load of a pair"),
-    "hertz_pressure_max": _figure("Pa", "maximum Hertz pressure"),
-    "film_min": _figure("m", "minimum central film thickness"),
-    "film_parameter_min": _figure("1", "minimum film parameter"),
-    "flash_temperature_max": _figure("K", "maximum flash temperature rise"),
-    "friction_coefficient_mean": _figure("1", "friction coefficient, mean by loss"),
-    "efficiency": _figure("1", "efficiency over whole mesh cycles"),
-    "power_in_mean": _figure("W", "mean power that the driving gear puts in"),
-    "power_friction_mean": _figure("W", "mean power lost to tooth friction"),
-    "friction_work_on_vibration": _figure(
-        "1", "work of friction on the vibration over the loss that the rotation alone has; > 0: fed"
-    ),
-    **THERMAL_FIGURES,
-    "contact_loss_fraction": _figure("1", "share of the time without any contact"),
-    "closure_in_range_fraction": _figure("1", "share of the contact in which the film law is in its range"),
-    "friction_in_range_fraction": _figure(
-        "1", "share of the contact in which the friction law is in its range"
-    ),
-}
+    *TEMPERATURE_SWEPT,
+    *quantities("contact_loss_fraction", "closure_in_range_fraction", "friction_in_range_fraction"),
+)
 
-#: Figures that are kept of unstable motions too.
-UNSTABLE_FIGURES = (
+#: Quantities that are kept of unstable motions too.
+UNSTABLE_QUANTITIES = (
     "transmission_error_rms",
     "transmission_error_peak_to_peak",
     "dynamic_factor",
@@ -59,15 +50,15 @@ UNSTABLE_FIGURES = (
 
 #: Everything a sweep records of a case.
 CASES: dict[str, Variable] = {
-    **FIGURES,
+    **{quantity.name: quantity.variable() for quantity in SWEPT},
     "period": Variable((), "1", "mesh cycles in one period of the motion; 0: it has none", "<i4", 0),
     "stable": flag(
         (),
         "whether the periodic motion is stable: 1 yes, 0 no, -1 not periodic, or not known",
         "unknown unstable stable",
     ),
-    "multiplier_max": _figure("1", "maximum modulus of the Floquet multipliers"),
-    "residual": _figure("1", "scaled change of the state over one period of the motion"),
+    "multiplier_max": Variable((), "1", "maximum modulus of the Floquet multipliers"),
+    "residual": Variable((), "1", "scaled change of the state over one period of the motion"),
     "cycles": Variable((), "1", "mesh cycles integrated", "<i8", 0),
     "solution": Variable((), "1", "sort of motion that was found", f"S{WORD}", b""),
     "transmission_error_rotational": Variable(
@@ -91,10 +82,10 @@ CASES: dict[str, Variable] = {
 UNSTABLE: dict[str, Variable] = {
     **unstable.VARIABLES,
     **{
-        unstable.PREFIX + name: FIGURES[name]._replace(
-            dims=("end", "motion"), long_name=f"{FIGURES[name].long_name}, of an unstable motion"
+        unstable.PREFIX + name: CASES[name]._replace(
+            dims=("end", "motion"), long_name=f"{CASES[name].long_name}, of an unstable motion"
         )
-        for name in UNSTABLE_FIGURES
+        for name in UNSTABLE_QUANTITIES
     },
     "unstable_poincare_error": Variable(
         ("end", "motion", "return"),

@@ -11,7 +11,6 @@ from typing import Any, NamedTuple
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, Side, body_of, tip_radius
-from tribodyn.numerics.variable import Variable
 from tribodyn.standards.micropitting import LUBRICATION_FACTORS, bulk_rise
 from tribodyn.tribology.bulk_temperature import (
     Heat,
@@ -26,12 +25,6 @@ from tribodyn.tribology.losses import Loss, LossData, Wheel, losses_of_pair
 from tribodyn.tribology.lubricant import LubricantData, lubricant_at
 from tribodyn.tribology.oil import TEMPERATURE_RANGE, ZERO_CELSIUS, specific_heat
 
-#: What sweeps keep of a case that asks for them.
-THERMAL_FIGURES = {
-    "bulk_temperature": Variable((), "K", "bulk temperature of the teeth"),
-    "power_load_independent": Variable((), "W", "losses to churning, windage and bearings"),
-    "efficiency_with_losses": Variable((), "1", "efficiency with load-independent losses"),
-}
 #: Share of the heat of tooth friction that either gear takes.
 SHARE = 0.5
 

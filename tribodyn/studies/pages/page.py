@@ -44,7 +44,7 @@ def report(records: Sequence[Record], figures: bool = True) -> str:
         return own(records[0])
     told = [
         Told(
-            one.lines(),
+            one.reported(),
             one.sentences(record),
             one.panels(),
             one.maps(record),
@@ -79,7 +79,7 @@ def sweep_report(record: SweepRecord) -> str:
             pictures.append((name, study.sweep_drawings()[name].about, sweep_figure(name, [record])))
         except InputError:  # of a sweep that lacks what the picture shows
             continue
-    return sweep_page(record, study.sweep_lines(), pictures, sheet(record))
+    return sweep_page(record, study.sweep_table(), pictures, sheet(record))
 
 
 def write_report(records: Sequence[Record | SweepRecord], path: str | Path, *, force: bool = False) -> Path:

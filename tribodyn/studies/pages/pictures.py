@@ -1,7 +1,7 @@
 """Figures, summaries and comparisons of records, as their studies make them."""
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 from tribodyn.errors import InputError, near_name
 from tribodyn.record.reader import Record
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from tribodyn.post.compare import Comparison
     from tribodyn.post.figures.drawing import Drawing, SweepDrawing
-    from tribodyn.post.report import Line
+    from tribodyn.quantities.quantity import Quantity, Reported
     from tribodyn.record.sweep_reader import SweepRecord
 
 OVERVIEW = "overview"
@@ -119,7 +119,7 @@ def summary_table(record: Record) -> "Group":
     from tribodyn.post import report
 
     study = study_of_record(record)
-    return report.summary_table(record, study.lines(), study.sentences(record))
+    return report.summary_table(record, study.reported(), study.sentences(record))
 
 
 def compare(records: Sequence[Record]) -> "Comparison":
@@ -141,19 +141,18 @@ def compare(records: Sequence[Record]) -> "Comparison":
             rule = f"{study.about}: it has no means over a run to compare"
             remedy = "draw them into one figure: tribodyn plot A.h5 B.h5"
             raise InputError("record", str(record.path), rule, remedy)
-    return comparing.compare(records, _compared_lines(studies))
+    return comparing.compare(records, _compared(studies))
 
 
-def _compared_lines(studies: Sequence[Study]) -> "dict[str, tuple[Line, ...]]":
-    """Heading -> lines that any of the studies compares, in the order of the first that has them."""
-    headings: dict[str, dict[str, Any]] = {}
+def _compared(studies: Sequence[Study]) -> "Reported":
+    """Heading -> quantities that any of the studies compares, in the order of the first that has them."""
+    headings: dict[str, dict[str, Quantity]] = {}
     for study in studies:
-        lines = study.lines()
         for heading in study.compared:
             some = headings.setdefault(heading, {})
-            for line in lines.get(heading, ()):
-                some.setdefault(line.name, line)
-    return {heading: tuple(lines.values()) for heading, lines in headings.items()}
+            for quantity in study.reported().get(heading, ()):
+                some.setdefault(quantity.name, quantity)
+    return {heading: tuple(some.values()) for heading, some in headings.items()}
 
 
 def study_of_sweep(record: "SweepRecord") -> Study:
@@ -214,4 +213,4 @@ def sweep_table(record: "SweepRecord") -> "Group":
     """Lay out the summary of a sweep for the terminal."""
     from tribodyn.post.sweep_report import sweep_table as table_of
 
-    return table_of(record, study_of_sweep(record).sweep_lines())
+    return table_of(record, study_of_sweep(record).sweep_table())

@@ -1,4 +1,4 @@
-"""Figures of a study by name, and of its cases without a record."""
+"""Quantities of a study by name, and of its cases without a record: for sweeps, searches and Python."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -7,33 +7,36 @@ from tribodyn.errors import InputError, SimulationError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
 from tribodyn.geometry.limits.limits import LIMITS, plain_distances
-from tribodyn.scenario.vary import base_units
+from tribodyn.quantities.catalogue import QUANTITIES
+from tribodyn.quantities.quantity import Quantity
 from tribodyn.studies.protocol.study import Study
 
 CONTACT_RATIO = "contact_ratio"
 
 
-def figure_units(study: Study) -> dict[str, str]:
-    """SI units of a study's figures by name: those that a sweep keeps, and of single cases the summary's.
+def evaluated_quantities(study: Study) -> dict[str, Quantity]:
+    """Quantities of a study's cases without a record: those that a sweep keeps, and those of its summary.
 
-    Of gear pairs the contact ratio and the distances from the limits of existence too.
+    Of studies with a `batch` the former alone. Of gears the contact ratio and the distances from the limits
+    of existence too. None, where a study cannot be swept.
     """
-    units = {name: one.units for name, one in study.swept().items()}
-    if not units:
-        return units
+    found = dict(study.swept())
+    if not found:
+        return found
     if study.has_gears:
-        units |= {CONTACT_RATIO: "1"} | {name: one.unit for name, one in LIMITS.items()}
-    if study.batch():
-        return units
-    for heading, lines in study.lines().items():
-        for line in () if heading == "Solver" else lines:
-            base = base_units(f"1 {line.unit}") if line.unit not in ("", "%") else None
-            units.setdefault(line.name, base[1] if base else "1")
-    return units
+        found.setdefault(CONTACT_RATIO, QUANTITIES[CONTACT_RATIO])
+        for name, limit in LIMITS.items():
+            shown = "mm" if limit.unit == "m" else ""
+            found[name] = Quantity(name, name.replace("_", " "), shown, definition=limit.about)
+    if not study.batch():
+        for heading, some in study.reported().items():
+            for quantity in some if heading != "Solver" else ():
+                found.setdefault(quantity.name, quantity)
+    return found
 
 
 def evaluated(study: Study, cases: Sequence[Any], workers: int | None = None) -> list[dict[str, Any] | str]:
-    """Work out the figures of cases without a record; a text instead where one fails: why.
+    """Work out the quantities of cases without a record; a text instead where one fails: why.
 
     Cases of a study with a `batch` are steady states.
 

@@ -24,11 +24,10 @@ from tribodyn.studies.protocol.results import TextTable as TextTable
 
 if TYPE_CHECKING:
     from tribodyn.errors import InputError
-    from tribodyn.numerics.variable import Variable
     from tribodyn.post.figures.drawing import Drawing, SweepDrawing
     from tribodyn.post.page.maps import PageMap
     from tribodyn.post.page.profiles import Profiles
-    from tribodyn.post.report import Line, Lines
+    from tribodyn.quantities.quantity import Quantity, Reported
     from tribodyn.record.reader import Record
     from tribodyn.scenario.quantity import Table
     from tribodyn.studies.protocol.part import Role
@@ -81,11 +80,11 @@ class Study:
     check         ``check(case) -> Checked``; raises InputError where the case cannot be run
     run           ``run(case, output, *, force, progress) -> RunResult``, see `run`; and
                   ``figures(case) -> dict``, its figures without a record (optional: to be swept)
-    report        ``LINES``, heading -> lines of the summary; ``sentences(record)``, how far it is to be
-                  trusted; ``SWEPT``, figures that a sweep keeps, and ``SWEEP_LINES``, those that it
-                  prints (both optional); ``SHORT``, short names of figures (optional); ``PANELS``,
-                  datasets that a page shows at first (optional); ``TOP``, figures at the top of what is
-                  printed as JSON (optional);
+    report        ``REPORTED``, heading -> quantities of the summary; ``sentences(record)``, how far it is
+                  to be trusted; ``SWEPT``, quantities that a sweep keeps, and ``SWEEP_TABLE``, those that
+                  it prints (both optional); ``SHORT``, short names of quantities (optional); ``PANELS``,
+                  datasets that a page shows at first (optional); ``TOP``, quantities at the top of what
+                  is printed as JSON (optional);
                   ``maps(record)``, its maps over the face (optional)
     figures       ``DRAWINGS``, its pictures by name; the one called overview is drawn after a run
     sweep_figures ``SWEEP_DRAWINGS``, pictures of its sweeps (optional: the response of its figures)
@@ -226,41 +225,40 @@ class Study:
         """Its pictures by name, in the order `tribodyn plot` draws them."""
         return self._part("figures", "DRAWINGS")
 
-    def lines(self) -> "Lines":
-        """Heading -> lines of the summary's table, in order."""
-        return self._part("report", "LINES")
+    def reported(self) -> "Reported":
+        """Heading -> quantities of the summary's table, in order."""
+        return self._part("report", "REPORTED")
 
     def sentences(self, record: "Record") -> list[str]:
-        """Say how far a record is to be trusted, and what its figures are not."""
+        """Say how far a record is to be trusted, and what its numbers are not."""
         return self._part("report", "sentences")(record)
 
-    def swept(self) -> "Mapping[str, Variable]":
-        """Figures that a sweep keeps of every case, by name; none: such a study cannot be swept."""
-        return self._part("report", "SWEPT", optional=True) or {}
+    def swept(self) -> "Mapping[str, Quantity]":
+        """Quantities that a sweep keeps of every case, by name; none: such a study cannot be swept."""
+        swept = self._part("report", "SWEPT", optional=True) or ()
+        return {quantity.name: quantity for quantity in swept}
+
+    def quantity(self, name: str) -> "Quantity | None":
+        """A quantity that its summary or its sweeps have, by name."""
+        every = (*self.swept().values(), *(one for some in self.reported().values() for one in some))
+        return next((quantity for quantity in every if quantity.name == name), None)
 
     def short_names(self) -> "Mapping[str, str]":
         """Short names of figures to their full ones."""
         return self._part("report", "SHORT", optional=True) or {}
 
-    def sweep_lines(self) -> "Sequence[Line]":
-        """Figures that a sweep prints: the study's own choice, or the summary's lines of those it keeps.
-
-        The latter are called as the record describes them, because a line of the summary may lean on the one
-        above it: "at the frequency".
-        """
-        chosen = self._part("report", "SWEEP_LINES", optional=True)
-        if chosen:
-            return chosen
-        lines = {line.name: line for lines in self.lines().values() for line in lines}
-        labels = {name: one.long_name for name, one in self.swept().items() if name in lines}
-        return [lines[name]._replace(label=text[:1].upper() + text[1:]) for name, text in labels.items()]
+    def sweep_table(self) -> "Sequence[Quantity]":
+        """Quantities that a sweep prints: the study's own choice, or those of the summary that it keeps."""
+        chosen = self._part("report", "SWEEP_TABLE", optional=True)
+        reported = {quantity.name for some in self.reported().values() for quantity in some}
+        return chosen or [quantity for name, quantity in self.swept().items() if name in reported]
 
     def sweep_drawings(self) -> "Mapping[str, SweepDrawing]":
         """Pictures of its sweeps by name; the first is drawn where none is named."""
         from tribodyn.post.figures.sweep.response import response_drawings
 
         own = self._part("sweep_figures", "SWEEP_DRAWINGS", optional=True)
-        return own or response_drawings(self.sweep_lines())
+        return own or response_drawings(self.sweep_table())
 
     def top(self) -> tuple[str, ...]:
         """Figures of its summary that stand at the top of what `run --json` prints, too."""

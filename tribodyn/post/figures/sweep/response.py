@@ -1,7 +1,6 @@
-"""The response to a parameter: figures of the cases over the first of them."""
+"""The response to a parameter: quantities of the cases over the first of them."""
 
 from collections.abc import Mapping, Sequence
-from textwrap import wrap
 from typing import NamedTuple
 
 import numpy as np
@@ -20,20 +19,18 @@ from tribodyn.post.figures.sweep.branch import (
     shade_contact_loss,
     sweep_title,
 )
-from tribodyn.post.report import Line
 from tribodyn.post.shown_units import shown_unit
 from tribodyn.post.style import PANEL_HEIGHT, WIDTH, literal, mark_panel, new_figure
 from tribodyn.post.sweep_report import described
+from tribodyn.quantities.quantity import Quantity
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE
 
 
 class Panel(NamedTuple):
-    """One figure of the cases: dataset, factor from SI, label, whether the axis starts at 0."""
+    """A quantity of the cases, and whether its axis starts at 0."""
 
-    name: str
-    factor: float
-    label: str
+    quantity: Quantity
     from_zero: bool = False
 
 
@@ -43,30 +40,25 @@ MOST_PANELS = 6
 FLAT = 1e-5
 
 
-def panels_of(records: Sequence[SweepRecord], lines: Sequence[Line]) -> list[Panel]:
-    """Panels of the first figures that vary; of the first that there are where none does.
+def panels_of(records: Sequence[SweepRecord], quantities: Sequence[Quantity]) -> list[Panel]:
+    """Panels of the first quantities that vary; of the first that there are where none does.
 
     Parameters
     ----------
     records : sequence of SweepRecord
-    lines : sequence of Line
-        What the figures are called, and their units; none: as the first record describes them.
+    quantities : sequence of Quantity
+        Those that may be drawn; none: all, as the first record describes them.
     """
-    lines = lines or [described(records[0], name) for name in records[0].figures]
-    known = [line for line in lines if all(line.name in record for record in records)]
-    varying = [line for line in known if _varies(records, line.name)]
-    return [_panel(line) for line in (varying or known)[:MOST_PANELS]]
+    quantities = quantities or [described(records[0], name) for name in records[0].figures]
+    known = [one for one in quantities if all(one.name in record for record in records)]
+    varying = [one for one in known if _varies(records, one.name)]
+    return [Panel(one) for one in (varying or known)[:MOST_PANELS]]
 
 
 def _varies(records: Sequence[SweepRecord], name: str) -> bool:
     values = np.concatenate([record[name].ravel() for record in records])
     values = values[np.isfinite(values)]
     return bool(values.size) and np.ptp(values) > FLAT * np.max(np.abs(values))
-
-
-def _panel(line: Line) -> Panel:
-    label = "\n".join(wrap(f"{line.label} ({line.unit or '–'})", 28))
-    return Panel(line.name, line.factor, label)
 
 
 def response_figure(records: Sequence[SweepRecord], panels: Sequence[Panel]) -> Figure:
@@ -89,13 +81,12 @@ def response_figure(records: Sequence[SweepRecord], panels: Sequence[Panel]) -> 
     for axes in rows.flat[len(panels) :]:
         axes.set_visible(False)
     drawn = branches(records)
-    for letter, axes, (name, factor, label, from_zero) in zip("abcdef", rows.flat, panels, strict=False):
+    for letter, axes, (quantity, from_zero) in zip("abcdef", rows.flat, panels, strict=False):
         for branch in drawn:
-            draw_branch(axes, branch, branch.values(name) * factor)
-        draw_unstable(axes, drawn, f"unstable_{name}", factor)
+            draw_branch(axes, branch, quantity.in_unit(branch.values(quantity.name)))
+        draw_unstable(axes, drawn, f"unstable_{quantity.name}", quantity.factor)
         axes.margins(x=0.02)
-        title, unit = titled(label)
-        axes.set_ylabel(unit)
+        axes.set_ylabel(literal(quantity.unit))
         if from_zero:
             axes.set_ylim(bottom=0)
         elif np.ptp(axes.dataLim.intervaly) < FLAT * abs(axes.dataLim.y1):
@@ -103,7 +94,7 @@ def response_figure(records: Sequence[SweepRecord], panels: Sequence[Panel]) -> 
             axes.set_ylim(0.98 * axes.dataLim.y1, 1.004 * axes.dataLim.y1)
         shade_contact_loss(axes, drawn)
         mark_ends(axes, drawn)
-        mark_panel(axes, letter, title)
+        mark_panel(axes, letter, literal(quantity.title))
     for axes in rows.flat[max(0, len(panels) - columns) : len(panels)]:
         axes.tick_params(labelbottom=True)
         axes.set_xlabel(axis_label(records[0].parameters[0]))
@@ -111,14 +102,6 @@ def response_figure(records: Sequence[SweepRecord], panels: Sequence[Panel]) -> 
     branch_legend(figure, drawn, marks=regime_handles(drawn))
     figure.suptitle(sweep_title(records), x=0.01, ha="left", fontsize=9)
     return figure
-
-
-def titled(label: str) -> tuple[str, str]:
-    """Title of a panel, and its unit, from a label such as "Dynamic factor (–)"."""
-    text = " ".join(label.split())
-    title, _, unit = text.rpartition(" (")
-    unit = unit.removesuffix(")")
-    return literal(title), "" if unit == "–" else literal(unit)
 
 
 def maps_of(records: Sequence[SweepRecord]) -> bool:
@@ -144,14 +127,13 @@ def _maps(record: SweepRecord, panels: Sequence[Panel]) -> Figure:
         axes.set_visible(False)
     x, y = (one.values * shown_unit(one.units)[1] for one in record.parameters)
     done = record["status"] == DONE
-    for letter, axes, (name, factor, label, _) in zip("abcdef", rows.flat, panels, strict=False):
-        values = np.where(done, record[name], np.nan) * factor
-        title, unit = titled(label)
+    for letter, axes, (quantity, _) in zip("abcdef", rows.flat, panels, strict=False):
+        values = quantity.in_unit(np.where(done, record[quantity.name], np.nan))
         image = axes.pcolormesh(x, y, values.T, cmap="viridis", shading="nearest", rasterized=True)
-        bar = figure.colorbar(image, ax=axes, label=unit, pad=0.02)
+        bar = figure.colorbar(image, ax=axes, label=literal(quantity.unit), pad=0.02)
         bar.outline.set_visible(False)
         axes.grid(False)
-        mark_panel(axes, letter, title)
+        mark_panel(axes, letter, literal(quantity.title))
         if "contact_loss_fraction" in record:
             lost = np.argwhere(done & (record["contact_loss_fraction"] > 0.0))
             axes.plot(x[lost[:, 0]], y[lost[:, 1]], ".", color="white", markersize=2.5)
@@ -166,10 +148,10 @@ def _maps(record: SweepRecord, panels: Sequence[Panel]) -> Figure:
     return figure
 
 
-def response_drawings(lines: Sequence[Line]) -> dict[str, SweepDrawing]:
-    """The drawing of a study that has none of its own: its figures over the first key."""
+def response_drawings(quantities: Sequence[Quantity]) -> dict[str, SweepDrawing]:
+    """The drawing of a study that has none of its own: its quantities over the first key."""
 
     def draw(records: Sequence[SweepRecord], _: Mapping[str, float | str]) -> Figure:
-        return response_figure(records, panels_of(records, lines))
+        return response_figure(records, panels_of(records, quantities))
 
-    return {"response": SweepDrawing("figures of the cases over the first varied key", draw)}
+    return {"response": SweepDrawing("quantities of the cases over the first varied key", draw)}

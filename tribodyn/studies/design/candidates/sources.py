@@ -15,7 +15,7 @@ from tribodyn.scenario.messages import explain
 from tribodyn.scenario.quantity import Table, parts_of
 from tribodyn.scenario.vary import base_units
 from tribodyn.studies import study_of
-from tribodyn.studies.protocol.evaluated import figure_units
+from tribodyn.studies.protocol.evaluated import evaluated_quantities
 from tribodyn.studies.protocol.study import Study
 
 #: The scenario that is searched through.
@@ -45,9 +45,9 @@ def sources_of(datas: Mapping[str, Mapping[str, Any]]) -> dict[str, Source]:
 def units_by_figure(studies: Mapping[str, Study]) -> dict[str, str]:
     """SI units of all figures by their full names."""
     return {
-        _joined(name, figure): unit
+        _joined(name, figure): quantity.si
         for name, study in studies.items()
-        for figure, unit in figure_units(study).items()
+        for figure, quantity in evaluated_quantities(study).items()
     }
 
 
@@ -60,7 +60,7 @@ def figure_name(place: str, name: Any, studies: Mapping[str, Study]) -> str:
         For a name that is none; it suggests another.
     """
     if not isinstance(name, str):
-        first = next(iter(figure_units(studies[BASE])), "")
+        first = next(iter(evaluated_quantities(studies[BASE])), "")
         raise InputError(place, quoted(name), "not the name of a figure", f"such as {first}")
     part, dot, figure = name.partition(".")
     if not dot:
@@ -70,7 +70,7 @@ def figure_name(place: str, name: Any, studies: Mapping[str, Study]) -> str:
         remedy = f"there is: {', '.join(names)}" if names else "add [design.part]"
         raise InputError(place, quoted(name), f"there is no part {quoted(part)}", remedy)
     study = studies[part]
-    known = figure_units(study)
+    known = evaluated_quantities(study)
     full = study.short_names().get(figure, figure)
     if full not in known:
         what = f"figure of studies of kind {study.kind}"

@@ -13,7 +13,7 @@ from tribodyn.studies.gear_pair.assumptions import judge_block
 from tribodyn.studies.gear_pair.batch.marched import Window
 from tribodyn.studies.gear_pair.prepare import Prepared
 from tribodyn.studies.gear_pair.summary import RunningExtremes, steady_figures
-from tribodyn.studies.gear_pair.sweep_layout import FIGURES, UNSTABLE_FIGURES
+from tribodyn.studies.gear_pair.sweep_layout import SWEPT, UNSTABLE_QUANTITIES
 from tribodyn.studies.gears.temperature import thermal_figures
 from tribodyn.studies.sweeping.unstable import PREFIX, fill_branch
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 def window_figures(
     prepared: Prepared, window: Window, samples: int
 ) -> tuple[dict[str, float], dict[str, Any]]:
-    """Return the figures of `sweep_layout.FIGURES` over a window, SI units, and what is said of their trust.
+    """Return the figures of `sweep_layout.SWEPT` over a window, SI units, and what is said of their trust.
 
     `samples` are those in a mesh cycle of the window.
     """
@@ -53,8 +53,8 @@ def window_figures(
     judge_block(judge, at, extreme, prepared, between_samples=True)
     judge.take({"efficiency": figures["efficiency"]})
     judge_tribology(judge, figures)
-    named = {name: float("nan") if (value := figures.get(name)) is None else value for name in FIGURES}
-    return named, judge.figures()
+    values = ((one.name, figures.get(one.name)) for one in SWEPT)
+    return {name: float("nan") if value is None else value for name, value in values}, judge.figures()
 
 
 def fill_unstable(
@@ -77,7 +77,7 @@ def fill_unstable(
                 continue
             window = Window(0, steady.samples, steady.state, steady.end, steady.extremes)
             figures, _ = window_figures(prepared_at(value), window, samples)
-            for name in UNSTABLE_FIGURES:
+            for name in UNSTABLE_QUANTITIES:
                 rows[PREFIX + name][i, end, motion] = figures[name]
             section = steady.samples[::samples, XI]
             rows["unstable_poincare_error"][i, end, motion, : len(section)] = section

@@ -1,0 +1,63 @@
+"""Every reported quantity is defined once, is shown in its unit, and stands on the page of the summary."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from pint import UnitRegistry
+
+from tools.summary_table import tables
+from tribodyn.quantities import computation, load, losses, motion, oscillator, rolling, solved
+from tribodyn.quantities.catalogue import QUANTITIES
+from tribodyn.quantities.quantity import SHOWN, Quantity
+from tribodyn.studies import STUDIES
+
+PAGE = Path(__file__).parents[3] / "docs" / "summary.md"
+STANDARDS = {quantity.name for quantity in load.STANDARDS}
+
+
+def test_no_name_means_two_things():
+    modules = (computation, load, losses, motion, oscillator, rolling, solved)
+    names = [quantity.name for module in modules for quantity in module.QUANTITIES]
+    assert len(names) == len(set(names)) == len(QUANTITIES)
+
+
+@pytest.mark.parametrize("name", [name for name in QUANTITIES if name not in STANDARDS])
+def test_every_quantity_has_a_definition(name: str):
+    assert QUANTITIES[name].definition.endswith(".")
+
+
+@pytest.mark.parametrize("kind", [kind for kind in STUDIES if STUDIES[kind].package.startswith("tribodyn.")])
+def test_studies_report_what_the_catalogue_defines(kind: str):
+    study = STUDIES[kind]
+    every = [*study.swept().values(), *(one for some in study.reported().values() for one in some)]
+    for quantity in every:
+        assert quantity == QUANTITIES.get(quantity.name) or quantity.name.endswith("_spread")
+    assert {one.name for one in study.sweep_table()} <= set(study.swept())
+
+
+@pytest.mark.parametrize("unit", [unit for unit in SHOWN if unit not in ("", "%")])
+def test_numbers_are_shown_in_their_unit(unit: str):
+    quantity, units = Quantity("length", "Length", unit), UnitRegistry(autoconvert_offset_to_baseunit=True)
+    value = units.Quantity(300.0, quantity.si.replace("m2", "m**2")).to(unit.replace("mm µm", "mm*µm"))
+    assert quantity.in_unit(np.array([300.0])) == pytest.approx(value.magnitude, rel=1e-12)
+
+
+def test_values_are_written_with_their_digits():
+    film = Quantity("film", "Film", "µm", ".3g", symbol="h")
+    assert (film.written(1.23456e-6), film.with_unit(1e-6), film.written(float("nan"))) == (
+        "1.23",
+        "1 µm",
+        "–",
+    )
+    assert film.written(np.array([1e-6, 2e-6])) == "2 / 1"
+    assert film._replace(listed=True).written(np.array([1e-6, 2e-6])) == "1 / 2"
+    assert Quantity("steps", "Steps", digits=",d").written(12345.0) == "12,345"
+    assert film.variable()[:3] == ((), "m", "film")
+    assert (film.title, film.titled, film.in_table) == ("Film h", "Film h (µm)", "Film h")
+
+
+def test_the_page_has_the_quantities_as_they_are():
+    text = PAGE.read_text(encoding="utf-8")
+    inside = text.partition("<!-- begin summary lines -->")[2].partition("<!-- end summary lines -->")[0]
+    assert inside.strip() == tables().strip(), "write the page anew: python -m tools.summary_table"

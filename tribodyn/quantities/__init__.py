@@ -1,0 +1,1 @@
+"""The catalogue of reported numbers, each defined once. A quantity is a number, a figure a picture."""

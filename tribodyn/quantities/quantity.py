@@ -1,0 +1,108 @@
+"""What one reported number is: its name, unit and meaning, and how it is shown."""
+
+import math
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.numerics.variable import Variable
+
+#: Unit in which a number is shown: the SI unit of it, what to multiply with, and what to add before that.
+SHOWN: dict[str, tuple[str, float, float]] = {
+    "": ("1", 1.0, 0.0),
+    "%": ("1", 100.0, 0.0),
+    "mm": ("m", 1e3, 0.0),
+    "µm": ("m", 1e6, 0.0),
+    "mm/s": ("m/s", 1e3, 0.0),
+    "N m": ("N*m", 1.0, 0.0),
+    "N/mm": ("N/m", 1e-3, 0.0),
+    "N/µm": ("N/m", 1e-6, 0.0),
+    "N/(mm µm)": ("N/m2", 1e-9, 0.0),
+    "MPa": ("Pa", 1e-6, 0.0),
+    "GPa": ("Pa", 1e-9, 0.0),
+    "°C": ("K", 1.0, -273.15),
+    "°": ("rad", 180.0 / math.pi, 0.0),
+    "rpm": ("rad/s", 30.0 / math.pi, 0.0),
+}
+
+
+class Quantity(NamedTuple):
+    """A number that studies report, in SI units wherever it is kept.
+
+    Attributes
+    ----------
+    name : in summaries, sweeps, searches and JSON
+    label : what a person calls it
+    unit : in which it is shown: one of `SHOWN`, or any SI unit
+    digits : format of the number shown
+    definition : what it is, over which part of the run, of which pairs, by what formula
+    symbol : beside the label
+    below : its label in a table directly below the quantity to which it belongs: "at the frequency"
+    listed : whether an array is a list to be shown in its order; else its entries belong to pairs
+    """
+
+    name: str
+    label: str
+    unit: str = ""
+    digits: str = ".4g"
+    definition: str = ""
+    symbol: str = ""
+    below: str = ""
+    listed: bool = False
+
+    @property
+    def si(self) -> str:
+        """SI unit in which it is kept, "1" of plain numbers."""
+        return SHOWN.get(self.unit, (self.unit,))[0]
+
+    @property
+    def factor(self) -> float:
+        """What `in_unit` multiplies with."""
+        return SHOWN.get(self.unit, ("", 1.0))[1]
+
+    def in_unit(self, value: Any) -> Any:
+        """A number or an array in SI, in the unit in which it is shown."""
+        _, factor, offset = SHOWN.get(self.unit, ("", 1.0, 0.0))
+        moved = value + offset if offset else value
+        return moved * factor if factor != 1.0 else moved
+
+    @property
+    def title(self) -> str:
+        """Label and symbol."""
+        return f"{self.label} {self.symbol}".rstrip()
+
+    @property
+    def titled(self) -> str:
+        """Label, symbol, and in brackets the unit."""
+        return f"{self.title} ({self.unit})" if self.unit else self.title
+
+    @property
+    def in_table(self) -> str:
+        """What a table of the summary calls it, where it may lean on the line above."""
+        return self.below or self.title
+
+    def variable(self) -> Variable:
+        """The dataset of a sweep that keeps it, one number per case."""
+        first, second = self.label[0], self.label[1:]
+        return Variable((), self.si, (first if second[:1].isupper() else first.lower()) + second)
+
+    def written(self, value: Any) -> str:
+        """One value in its unit; the values of pairs from pair 1 on, those of a list in its order."""
+        if isinstance(value, str):
+            return value
+        if np.ndim(value):
+            items = np.asarray(value).tolist()
+            return " / ".join(self.written(item) for item in (items if self.listed else reversed(items)))
+        if isinstance(value, float) and not math.isfinite(value):
+            return "–"
+        number = self.in_unit(value)
+        return format(int(number) if self.digits.endswith("d") else number, self.digits)
+
+    def with_unit(self, value: Any) -> str:
+        """One value with its unit behind it."""
+        return f"{self.written(value)} {self.unit}".rstrip()
+
+
+Reported = Mapping[str, tuple[Quantity, ...]]
+"""Heading -> quantities of a summary's table, in order; one that a summary lacks is left out."""
