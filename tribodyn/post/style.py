@@ -20,7 +20,6 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine, LayoutEngine
 
 from tribodyn.errors import InputError, cut, harmless
 from tribodyn.numerics.output_files import MARKS, check_output, write_output
-from tribodyn.post.png import png
 
 #: Okabe & Ito (2008), the colours that stay apart for every kind of colour vision; yellow is left out, too
 #: pale for a line on white.
@@ -205,7 +204,7 @@ def save(figure: Figure, path: str | Path, *, force: bool = False) -> Path:
     check_output(path, force)
     with house_style():
         if path.suffix == ".png":
-            content = png(painted(figure), STYLE["savefig.dpi"])
+            content = _png(painted(figure), STYLE["savefig.dpi"])
         else:
             stream = BytesIO()
             figure.savefig(stream, format=path.suffix[1:], metadata={"Creator": "tribodyn"})
@@ -226,8 +225,18 @@ def inline(figure: Figure, about: str = "", share: float = INLINE) -> str:
     """
     dpi = share * STYLE["savefig.dpi"]
     with house_style():
-        data = base64.b64encode(png(painted(figure, dpi), dpi)).decode("ascii")
+        data = base64.b64encode(_png(painted(figure, dpi), dpi)).decode("ascii")
     return f'<img alt="{escape(about)}" src="data:image/png;base64,{data}">'
+
+
+def _png(pixels: np.ndarray, dpi: float) -> bytes:
+    """Write pixels as a PNG file; beyond this level files hardly shrink, but take twice as long."""
+    from PIL import Image, PngImagePlugin  # which matplotlib brings
+
+    stream, about = BytesIO(), PngImagePlugin.PngInfo()
+    about.add_text("Software", "tribodyn")
+    Image.fromarray(pixels).save(stream, "png", compress_level=3, dpi=(dpi, dpi), pnginfo=about)
+    return stream.getvalue()
 
 
 @functools.cache

@@ -232,7 +232,7 @@ class Record:
     def _check(self) -> None:
         if self._file.attrs.get("format") != schema.FORMAT:
             raise InputError(
-                "record", str(self.path), "an HDF5 file, but not a record", "name a file of tribodyn run"
+                "record", str(self.path), "an HDF5 file, but not a record", "name the record of a run"
             )
         version = int(self.attrs["format_version"])
         if version > schema.FORMAT_VERSION:
@@ -248,7 +248,7 @@ class Record:
                 "record",
                 str(self.path),
                 "the record of a sweep, not of a run",
-                "tribodyn show and plot read it",
+                "show, plot or open it",
             )
         _ = self.axis, self.pairs, self.elements
         for name in str(self.attrs.get("datasets", self.axis)).split():
@@ -279,7 +279,7 @@ def open_record(path: str | Path) -> Record:
 def open_file(path: Path) -> h5py.File:
     """Open an HDF5 file for reading; InputError says what hinders it."""
     if not path.is_file():
-        raise InputError("record", str(path), "no such file", "name a file of tribodyn run")
+        raise InputError("record", str(path), "no such file", "name the record of a run")
     try:
         check_sound(path)
         return h5py.File(path, "r")
@@ -288,7 +288,7 @@ def open_file(path: Path) -> h5py.File:
     except OSError as error:
         if h5py.is_hdf5(path):
             raise InputError("record", str(path), f"damaged: {error}", "run the scenario again") from error
-        raise InputError("record", str(path), "not an HDF5 file", "name a file of tribodyn run") from error
+        raise InputError("record", str(path), "not an HDF5 file", "name the record of a run") from error
 
 
 def dims_in(file: h5py.File, name: str, scales: dict[int, str]) -> tuple[str, ...]:

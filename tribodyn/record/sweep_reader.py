@@ -60,7 +60,7 @@ class SweepRecord:
         try:
             if self._file.attrs.get("kind") != SWEEP:
                 raise InputError(
-                    "record", str(path), "not the record of a sweep", "name a file of tribodyn sweep"
+                    "record", str(path), "not the record of a sweep", "name the record of a sweep"
                 )
             self._check()
         except UNREADABLE as error:

@@ -122,7 +122,7 @@ def _can_be_continued(grid: Grid, directions: Sequence[str]) -> None:
         raise InputError("--unstable", None, rule, "omit it")
     if not directions:
         rule = "continues the branches that --direction follows"
-        raise InputError("--unstable", None, rule, "add --direction up, down or both")
+        raise InputError("--unstable", None, rule, "add --direction: up, down or both")
     if grid.changes_what_is_shared(0):
         rule = f"each value of {grid.axes[0].key} needs a table of the mesh of its own"
         raise InputError("--unstable", None, rule, "vary another key first, or omit it")

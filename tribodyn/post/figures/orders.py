@@ -78,7 +78,7 @@ def track(record: Record) -> Track:
             "record",
             str(record.path),
             f"holds {signal.size // per_cycle} mesh cycles, too few to track orders",
-            f"run at least {2 * WINDOW}: --set solver.cycles=800",
+            f"run at least {2 * WINDOW}: solver.cycles = 800",
         )
     starts = np.arange(0, signal.size - size, step)
     part = starts[:, None] + np.arange(size)

@@ -85,7 +85,7 @@ def unnamed_duty(scenario: Any) -> Iterator[InputError]:
         yield InputError(
             "operating.duty",
             rule=f"missing: this kind of study runs one duty of the {count} at a time",
-            remedy=f"add duty = 1, or sweep them all with --vary operating.duty=1:{count}:1",
+            remedy=f"add duty = 1, or sweep operating.duty over 1:{count}:1",
         )
 
 

@@ -139,7 +139,7 @@ def compare(records: Sequence[Record]) -> "Comparison":
             raise InputError("record", str(record.path), rule, "compare records of one kind")
         if not study.compared:
             rule = f"{study.about}: it has no means over a run to compare"
-            remedy = "draw them into one figure: tribodyn plot A.h5 B.h5"
+            remedy = "draw them into one figure"
             raise InputError("record", str(record.path), rule, remedy)
     return comparing.compare(records, _compared(studies))
 

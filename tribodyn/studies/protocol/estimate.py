@@ -128,8 +128,7 @@ def refuse_large(estimate: Estimate, allow_large: bool) -> None:
         worst.key,
         None if worst.remedy else f"{worst.value:.10g}",
         f"takes about {described(estimate)}, more than is done unasked: {allowed}",
-        f"{worst.remedy or f'reduce it ({worst.usual:g} is usual)'}, "
-        "or add --allow-large (in Python allow_large=True)",
+        f"{worst.remedy or f'reduce it ({worst.usual:g} is usual)'}, or add --allow-large",
     )
 
 
