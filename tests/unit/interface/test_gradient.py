@@ -1,8 +1,6 @@
 """Derivatives of figures by a scenario's numbers: closed forms, and central differences of other runs."""
 
 import math
-import tomllib
-from time import perf_counter
 
 import jax
 import numpy as np
@@ -116,15 +114,6 @@ def test_losses_can_be_traced(name):
     assert (found.shape, found.dtype) == ((), np.float64)
 
 
-def test_a_gradient_shows_itself():
-    found = td.gradient(INVOLUTE, "hertz_pressure", "operating.gear_torque")
-    text = found._repr_html_()
-    assert "operating.gear_torque" in text
-    assert "Pa per N m" in text
-    assert "+0.5 %" in text
-    assert "hertz_pressure" in repr(found)
-
-
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
@@ -223,37 +212,6 @@ def test_what_check_refuses_has_a_negative_distance(name):
     with pytest.raises(td.InputError):
         td.drive(scenario, overrides)
     assert td.constraints(scenario, overrides)[distance] < 0.0
-
-
-@pytest.mark.soak
-def test_twelve_slopes_of_the_efficiency_take_less_than_three_evaluations():
-    path = {"drive": tomllib.loads(td.drive("crc-23-47").as_spline(12).toml)}
-    keys = [f"drive.shape.angles.{i}" for i in range(12)]
-    function = td.differentiable("efficiency-crc-23-47", "efficiency", keys, path)
-
-    def time(call):
-        call(function.at)
-        times = []
-        for _ in range(30):
-            begun = perf_counter()
-            call(function.at)
-            times.append(perf_counter() - begun)
-        return min(times)
-
-    assert time(function.gradient) < 3 * time(function.values)
-
-
-@pytest.mark.soak
-def test_slopes_of_a_search_over_a_free_form_path():
-    """Figures of quasi-static contact by all values of the path, in the time of a few evaluations."""
-    keys = [f"drive.shape.angles.{i}" for i in range(7)]
-    of = ["efficiency", "hertz_pressure_max", "film_min", "contact_ratio", "mesh_stiffness_mean"]
-    function = td.differentiable("spline-23-47", of, keys)
-    values, slopes = function.jacobian(function.at)
-    case = td.scenario("spline-23-47")
-    assert values == pytest.approx([figure(case, name) for name in of], rel=1e-9)
-    expected = differences(case, of, keys)
-    np.testing.assert_allclose(slopes, expected, atol=2e-6 * np.abs(expected).max(axis=1).max(), rtol=2e-5)
 
 
 @pytest.mark.soak

@@ -69,15 +69,6 @@ def test_its_record_goes_with_it_unless_it_is_kept(tmp_path: Path):
     assert isinstance(td.open(kept), Run)
 
 
-def test_an_output_is_kept_and_not_replaced(tmp_path: Path):
-    overrides = {"frequency": [0.5]}
-    first = td.run("backlash-oscillator", overrides, output=tmp_path / "a.h5")
-    assert first.path == tmp_path / "a.h5"
-    with pytest.raises(td.InputError, match="exists"):
-        td.run("backlash-oscillator", overrides, output=tmp_path / "a.h5")
-    assert td.run("backlash-oscillator", overrides, output=tmp_path / "a.h5", force=True).status == "complete"
-
-
 def test_pictures_stand_by_themselves_or_among_others(crc):
     assert {"overview", "film"} <= set(crc.plots)
     assert isinstance(crc.plot("film"), Figure)
@@ -130,11 +121,6 @@ def test_a_sweep_is_a_dataset_over_its_grid(tmp_path: Path):
 def test_a_grid_that_is_none(vary, said):
     with pytest.raises(td.InputError, match=said):
         td.sweep("backlash-oscillator", vary)
-
-
-def test_a_direction_that_is_none():
-    with pytest.raises(td.InputError, match="no such direction"):
-        td.sweep("crc-23-47", {"mesh.damping_ratio": [0.1]}, direction="sideways")  # pyright: ignore[reportArgumentType]
 
 
 def test_a_gear_pair_has_teeth_sheet_and_stiffness():

@@ -40,10 +40,7 @@ def registry(monkeypatch):
     return Registry("table.thing", "thing", {"shipped": f"{__name__}:SHIPPED"}, "things", Thing)
 
 
-def test_a_shipped_name_cannot_be_taken(registry, monkeypatch):
-    monkeypatch.setattr(
-        "tribodyn.numerics.registry.import_module", lambda module: SimpleNamespace(SHIPPED=SHIPPED)
-    )
+def test_a_shipped_name_cannot_be_taken(registry):
     assert registry["shipped"] is SHIPPED
     assert registry["sound"].name == "sound"
     assert list(registry) == ["shipped", "broken", "half", "misnamed", "sound", "twice"]
@@ -71,10 +68,7 @@ def test_what_cannot_be_had_is_one_line(registry, name, said):
     assert "\n" not in str(caught.value)
 
 
-def test_a_walk_leaves_out_what_cannot_be_had_and_says_so_once(registry, monkeypatch, caplog):
-    monkeypatch.setattr(
-        "tribodyn.numerics.registry.import_module", lambda module: SimpleNamespace(SHIPPED=SHIPPED)
-    )
+def test_a_walk_leaves_out_what_cannot_be_had_and_says_so_once(registry, caplog):
     with caplog.at_level(logging.WARNING):
         for _ in range(2):
             assert [name for name, _ in registry.items()] == ["shipped", "sound"]
@@ -82,11 +76,8 @@ def test_a_walk_leaves_out_what_cannot_be_had_and_says_so_once(registry, monkeyp
     assert sum("package bad" in one.getMessage() for one in caplog.records) == 1
 
 
-def test_a_part_that_fails_is_left_out_too(registry, monkeypatch, caplog):
+def test_a_part_that_fails_is_left_out_too(registry, caplog):
     """Of a package's things; an error of this package's own is raised."""
-    monkeypatch.setattr(
-        "tribodyn.numerics.registry.import_module", lambda module: SimpleNamespace(SHIPPED=SHIPPED)
-    )
 
     def part_of(name):
         def part(thing):

@@ -1,7 +1,6 @@
 """K_v and contact temperature of runs: the standard's formulas written out, sums of temperatures."""
 
 import math
-from dataclasses import replace
 
 import pytest
 
@@ -12,7 +11,6 @@ from tribodyn.geometry.families import involute
 from tribodyn.geometry.material import MaterialData
 from tribodyn.standards.flank_tolerances import flank_tolerances
 from tribodyn.studies.gears.by_standard import quality_of, rated
-from tribodyn.studies.gears.temperature import contact_figures
 
 STEEL = MaterialData("steel", 206e9, 0.3, 7830.0, 46.0, 470.0, 6e9)
 
@@ -50,12 +48,3 @@ def test_both_gears_have_a_quality_or_the_drive_has_none(tmp_path):
     assert both == (8.0, coarse.single_pitch, coarse.profile_form)
     assert short_case("gear-pair", tmp_path).quality is None
     assert short_case("gear-pair", tmp_path, drive__quality=6).quality.grade == 6.0
-
-
-def test_contact_temperature_is_bulk_and_flash(tmp_path):
-    oil = short_case("efficiency", tmp_path).lubricant
-    known, unknown = replace(oil, temperature=353.0), replace(oil, temperature=None)
-    assert contact_figures(known, {"flash_temperature_max": 20.0}) == {"contact_temperature_max": 373.0}
-    warm = {"flash_temperature_max": 20.0, "bulk_temperature": 360.0}
-    assert contact_figures(known, warm) == {"contact_temperature_max": 380.0}
-    assert contact_figures(unknown, {"flash_temperature_max": 20.0}) == {}

@@ -1,14 +1,9 @@
 """What `check` says of the ranges of film and friction law, before anything runs."""
 
-from types import SimpleNamespace
-from typing import Any
-
-import numpy as np
 import pytest
 
 from tribodyn.numerics.elementary import law
 from tribodyn.studies.gear_pair.check import check
-from tribodyn.studies.gears import law_ranges
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.study import Checked
 from tribodyn.tribology.closure import with_laws
@@ -54,29 +49,3 @@ def test_a_law_of_ones_own_has_none():
     laws = check(with_laws(load_scenario("involute-23-47"), friction=mine)).data["laws"]
     assert laws["friction_range"] == "none stated"
     assert not {"friction_judged", "friction_exceeded"} & set(laws)
-
-
-def test_contacts_of_the_nominal_duty(monkeypatch: pytest.MonkeyPatch):
-    """At every place of the path, all load on one pair; without a load or a speed there is none."""
-    places = [(0.4, 110.0, 0.2), (0.5, 120.0, 0.0), (0.7, 90.0, 0.6)]
-    seen: list[Any] = []
-    monkeypatch.setattr(law_ranges, "duty_range", lambda _: SimpleNamespace(places=places))
-    monkeypatch.setattr(law_ranges, "nominal_line_load", lambda _: 3e5)
-    monkeypatch.setattr(law_ranges, "local_contact", lambda *given: seen.append(given))
-    monkeypatch.setattr(law_ranges, "range_shares", lambda contact, closure: ("film", "friction"))
-    monkeypatch.setattr(law_ranges, "exceeded_limits", lambda case, *shares: {"shares": shares})
-    closure: Any = "closure"
-    for torque, speed in ((0.0, 5.0), (5.0, 0.0), (0.0, 0.0)):
-        idle: Any = SimpleNamespace(operating=SimpleNamespace(gear_torque=torque, pinion_speed=speed))
-        assert law_ranges._exceeded(idle, closure) == {}
-    case: Any = SimpleNamespace(operating=SimpleNamespace(gear_torque=-5.0, pinion_speed=5.0))
-    assert law_ranges._exceeded(case, closure) == {"shares": ("film", "friction")}
-    ((load, curvature, entrainment, sliding, first, second),) = seen
-    assert load == 3e5
-    for k, (mean, curved, ratio) in enumerate(places):
-        assert (entrainment[k], curvature[k]) == (mean, curved)
-        assert sliding[k] == pytest.approx(ratio * mean)
-        # the entrainment is the mean of both flanks' speeds, the sliding their difference
-        assert (first[k] + second[k]) / 2.0 == pytest.approx(mean)
-        assert first[k] - second[k] == pytest.approx(ratio * mean)
-    assert np.all(first >= second)

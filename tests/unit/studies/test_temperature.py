@@ -8,15 +8,10 @@ import pytest
 
 import tribodyn as td
 from tribodyn.errors import InputError
-from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.families import involute
 from tribodyn.interface.scenario import scenario
 from tribodyn.studies.efficiency.run import figures, prepare
 from tribodyn.studies.gear_pair.prepare import prepare as prepare_motion
 from tribodyn.studies.gear_pair.settled import at_own_temperature
-from tribodyn.studies.gears import temperature
-from tribodyn.studies.protocol.load import load_scenario
-from tribodyn.tribology.losses import LossData
 from tribodyn.tribology.oil import TEMPERATURE_RANGE
 
 SCENARIO = tomllib.loads(
@@ -186,30 +181,3 @@ def test_steady_states_and_runs_settle_at_the_temperature_of_their_own_loss(tmp_
     fast = {"operating.pinion_speed": "6000 rpm", "solver.cycles": 60}
     summary = td.run(MOTION, fast, output=tmp_path / "run.h5").summary
     assert abs(off(summary["bulk_temperature"], summary["power_friction_mean"])) < 0.11
-
-
-def test_wheels_of_the_idle_losses_turn_on_one_another(monkeypatch: pytest.MonkeyPatch):
-    """Same speed at both pitch circles, radii in order, each with its own depth."""
-    case = load_scenario("efficiency-oil-18-36")
-    seen: list[Any] = []
-
-    def noted(asked: Any, wheels: Any, viscosity: float, density: float) -> dict[str, Any]:
-        seen.append((wheels, viscosity, density))
-        return {}
-
-    monkeypatch.setattr(temperature, "losses_of_pair", noted)
-    losses = LossData(pinion_immersion=3e-3, gear_immersion=11e-3)
-    asked = replace(case, losses=losses, operating=replace(case.operating, pinion_speed=130.0))
-    drive = case.drive._replace(gear=case.drive.gear._replace(face_width=0.7 * case.drive.gear.face_width))
-    asked = replace(asked, drive=drive)
-    assembly = assemble(involute.FAMILY, drive)
-    temperature.idle_losses(asked, assembly, case.lubricant)
-    [((pinion, gear), viscosity, density)] = seen
-    assert pinion.speed == pytest.approx(130.0)
-    assert pinion.speed * pinion.pitch_radius == pytest.approx(gear.speed * gear.pitch_radius, rel=1e-12)
-    assert gear.pitch_radius / pinion.pitch_radius == pytest.approx(gear.teeth / pinion.teeth, rel=1e-12)
-    for wheel in (pinion, gear):
-        assert wheel.root_radius < wheel.pitch_radius < wheel.tip_radius
-    assert (pinion.immersion, gear.immersion) == (3e-3, 11e-3)
-    assert gear.face_width == pytest.approx(0.7 * pinion.face_width)
-    assert (viscosity, density) == (case.lubricant.inlet_viscosity, case.lubricant.density)

@@ -150,13 +150,6 @@ def test_of_many_intervals_the_shortest_gaps_are_closed():
     assert intervals[-1][1] == 2 * count - 2
 
 
-def test_the_sheet_of_the_gears_and_definitions_are_on_the_page(page):
-    text = page.read_text(encoding="utf-8")
-    assert "<h2>Geometry</h2>" in text
-    assert "centre distance" in text
-    assert "Below 1 mixed to boundary" in text
-
-
 def test_a_load_contact_page_has_maps_to_the_edges_of_the_face(tmp_path: Path):
     result = td.run("load-contact-18-36")
     (record,) = data_of(result.report(tmp_path / "map.html"))["records"]
@@ -209,13 +202,6 @@ def test_a_page_replaces_pages_only(crc, tmp_path: Path):
         assert crc.report(tmp_path / "again.html").is_file()
     with pytest.raises(td.InputError, match="No such file"):
         crc.report(tmp_path / "none" / "x.html")
-
-
-def test_records_of_different_quantities_have_pages_of_their_own(crc, tmp_path: Path):
-    other = td.run("irefc", {"output.samples_per_cycle": 8})
-    with pytest.raises(td.InputError, match="a page of its own"):
-        crc.report(tmp_path / "x.html", other)
-    assert other.report(tmp_path / "irefc.html").is_file()
 
 
 HOSTILE = (

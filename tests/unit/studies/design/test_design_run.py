@@ -14,8 +14,6 @@ from tribodyn.record.reader import open_record
 from tribodyn.studies.design.candidates import archive, pool
 from tribodyn.studies.design.report import sentences
 from tribodyn.studies.pages.page import report
-from tribodyn.studies.protocol.load import load_scenario
-from tribodyn.studies.protocol.run import run
 
 #: A case of it takes milliseconds.
 BASE = {
@@ -143,12 +141,6 @@ def test_nothing_of_the_users_is_replaced(tmp_path: Path):
     (tmp_path / "a-best.toml").write_text("mine", encoding="utf-8")
     with pytest.raises(InputError, match=r"a-best\.toml: the file exists"):
         search(tmp_path / "a.h5")
-
-
-def test_only_a_search_can_go_on(tmp_path: Path):
-    case = load_scenario("efficiency-involute-18-36")
-    with pytest.raises(InputError, match="such a run cannot go on"):
-        run(case, tmp_path / "a.h5", resume=True)
 
 
 def test_a_cluster_finds_what_this_machine_finds(tmp_path: Path):

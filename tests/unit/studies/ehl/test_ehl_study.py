@@ -8,11 +8,8 @@ import pytest
 import tribodyn as td
 from tests.support.pages import data_of, needs_browser, shown, unpacked
 from tribodyn.geometry.families import family
-from tribodyn.post.figures.panel import View
-from tribodyn.record.reader import open_record
 from tribodyn.studies.ehl import along_path
 from tribodyn.studies.ehl.along_path import jump_width, prepare, way
-from tribodyn.studies.ehl.figures import DRAWINGS
 from tribodyn.studies.ehl.judged import case_for
 from tribodyn.studies.protocol.load import load_scenario
 
@@ -90,20 +87,6 @@ def test_a_law_is_compared_with_what_it_stands_for(run, judged):
     smooth, rough = (data[name].to_numpy() for name in ("central_film_smooth", "central_film_thickness"))
     assert np.all(smooth < rough)
     assert np.all(data["minimum_film_smooth"].to_numpy() < smooth)
-
-
-def test_picture_of_judged_laws(judged):
-    films, frictions = judged.plot().axes
-    assert len(films.get_yticks()) == len([one for one in judged.laws if one[0] == "film"])
-    assert len(frictions.get_yticks()) == len([one for one in judged.laws if one[0] == "friction"])
-
-
-@pytest.mark.soak
-def test_maps_have_a_row_per_load_and_a_column_per_speed():
-    from tribodyn.studies.ehl.judged import judged as over
-
-    found = over(case_for(load_scenario("crc-23-47"), 4), (1.0,), (0.5, 1.0))
-    assert all(np.shape(one.map) == (1, 2) for one in found)
 
 
 def test_friction_shares_in_the_torque(monkeypatch):
@@ -198,10 +181,3 @@ def test_jumps_of_the_load_are_spread(monkeypatch):
     jump = np.max(np.abs(np.diff(sharp[1])))
     steepest = np.max(np.abs(np.diff(over.table[1]) / np.diff(over.table[0])))
     assert steepest == pytest.approx(2.0 * jump / width, rel=0.1)
-
-
-def test_figure_of_the_way_with_squeeze(run, squeezed):
-    with open_record(squeezed.path) as with_it, open_record(run.path) as without:
-        assert DRAWINGS["transient"].fits(with_it)
-        assert not DRAWINGS["transient"].fits(without)
-        assert len(DRAWINGS["transient"].draw([with_it], View()).axes) == 3

@@ -71,13 +71,6 @@ def test_axes_carry_engineers_units(records: list[Record], name: str):
     assert all(axes.get_title(loc="left") for axes in drawn.axes)
 
 
-@pytest.mark.parametrize("name", [*LABELS, "overview"])
-@pytest.mark.parametrize("count", [pytest.param(1, marks=pytest.mark.soak), 2])
-def test_every_figure_can_be_saved(records: list[Record], tmp_path: Path, name: str, count: int):
-    path = save(figure(name, records[:count]), tmp_path / "picture.png")
-    assert path.read_bytes().startswith(b"\x89PNG")
-
-
 @pytest.mark.parametrize("ending", ["pdf", "svg"])
 def test_figures_can_be_saved_for_print(records: list[Record], tmp_path: Path, ending: str):
     assert save(figure("film", records), tmp_path / f"picture.{ending}").stat().st_size > 1000
@@ -89,35 +82,6 @@ def test_units_are_converted(records: list[Record]):
     window = last_cycles(records[0])
     assert np.nanmax(error) == pytest.approx(1e6 * np.nanmax(records[0]["transmission_error"][window.part]))
     assert np.nanmax(stiffness) == pytest.approx(320, rel=1e-3)  # 3.2e8 N/m in N/µm
-
-
-def test_two_cycles_are_shown_from_phase_zero(records: list[Record]):
-    phase, _ = curve(figure("normal-load", records[:1]), "pair 1")
-    assert np.nanmin(phase) == 0.0
-    assert np.nanmax(phase) == 2.0
-    phase, _ = curve(figure("normal-load", records[:1], cycles=None), "pair 1")
-    assert np.nanmax(phase) == 4.0
-
-
-def test_time_is_in_milliseconds(records: list[Record]):
-    drawn = figure("normal-load", records[:1], against="time")
-    time, _ = curve(drawn, "pair 1")
-    assert drawn.axes[0].get_xlabel() == "Time (ms)"
-    assert np.nanmax(time) == pytest.approx(4 * PITCH_ANGLE / SPEED * 1e3)
-
-
-def test_key_points_of_both_pairs_are_named(records: list[Record]):
-    named = texts(figure("normal-load", records[:1], cycles=1))
-    for name, times in {
-        "$B_g$": 2,
-        "$C_g$": 2,
-        "$C_p$": 1,
-        "$B_p$": 1,
-        "$P$": 1,
-        "pair 1": 1,
-        "pair 0": 1,
-    }.items():
-        assert named.count(name) == times, name
 
 
 def test_key_points_stand_at_their_phases(records: list[Record]):
@@ -164,13 +128,6 @@ def at_phase(phase: np.ndarray, values: np.ndarray, where: float) -> float:
     return float(np.interp(where, phase[left : left + 2], values[left : left + 2]))
 
 
-def test_where_a_law_is_extrapolated_is_shaded(records: list[Record]):
-    drawn = figure("film", records[:1])
-    outside = (records[0]["closure_in_range"] == 0) & (records[0]["normal_load"] > 0.0)
-    labels = [text.get_text() for text in drawn.legends[0].get_texts()]
-    assert ("film law extrapolated" in labels) == bool(outside[last_cycles(records[0]).part].any())
-
-
 def test_the_total_stiffness_is_told_from_that_of_pairs(records: list[Record]):
     drawn = figure("mesh-stiffness", records[:1])
     _, total = curve(drawn, r"all pairs, $\Sigma\, k_i \cos^2 α_i$")
@@ -178,12 +135,6 @@ def test_the_total_stiffness_is_told_from_that_of_pairs(records: list[Record]):
     angle = np.nan_to_num(record["pressure_angle"][part])
     expected = np.sum(record["mesh_stiffness"][part] * np.cos(angle) ** 2, axis=1) * 1e-6
     np.testing.assert_allclose(total, expected, rtol=1e-12)
-
-
-def test_a_whole_run_is_not_covered_with_marks(records: list[Record], tmp_path: Path):
-    path = synthetic_record.write(tmp_path / "long.h5", cycles=9, per_cycle=20)
-    with open_record(path) as long:
-        assert texts(figure("normal-load", [long], cycles=None)) == []
 
 
 def test_each_pair_is_followed_to_the_end_of_its_cycle(records: list[Record]):
@@ -199,13 +150,6 @@ def test_each_pair_is_followed_to_the_end_of_its_cycle(records: list[Record]):
     # sliding grows with constant slope along an involute's path: no step inside a piece
     slope = np.diff(newest[1][: at + 1])
     np.testing.assert_allclose(slope, slope[0], rtol=1e-9)
-
-
-def test_pairs_out_of_contact_are_not_drawn(records: list[Record]):
-    phase, load = curve(figure("normal-load", records[:1], cycles=1), "pair 0")
-    leaves = next(point.phase for point in key_points(records[0]) if point.names.get(0) == "B_p")
-    assert np.isnan(load[phase > leaves + 1e-9]).all()
-    assert np.isfinite(load[phase < leaves]).all()
 
 
 def test_records_are_compared_by_colour_with_a_legend(records: list[Record]):
@@ -257,14 +201,6 @@ def test_flanks_touch_where_the_contact_is(records: list[Record], phase: float):
         assert gap < 15e-6  # chords of the outline, 12 points per flank
 
 
-def test_the_path_is_drawn_with_both_teeth_and_tip_circles(records: list[Record]):
-    drawn = figure("path-of-contact", records[:1])
-    axes = drawn.axes[0]
-    assert len(axes.patches) == 2
-    assert {"$B_g$", "$C_p$", "$P$", "$C_g$", "$B_p$", "gear", "pinion"} <= set(texts(drawn))
-    assert axes.get_aspect() == 1.0
-
-
 def test_the_overview_keeps_its_labels_in_the_figure_and_apart(records: list[Record]):
     """Its margins are of fixed size."""
     drawn = overview(records[0])
@@ -278,13 +214,6 @@ def test_the_overview_keeps_its_labels_in_the_figure_and_apart(records: list[Rec
     for upper, lower in zip(boxes[:3], boxes[3:], strict=True):
         assert upper.y0 >= lower.y1
     assert min(box.y0 for box in boxes) >= max(legend.get_window_extent().y1 for legend in drawn.legends)
-
-
-def test_the_overview_has_six_panels(records: list[Record]):
-    drawn = overview(records[0])
-    assert len(drawn.axes) == 6
-    for letter, axes in zip("abcdef", drawn.axes, strict=True):
-        assert axes.get_title(loc="left").startswith(rf"$\mathbf{{({letter})}}$ ")
 
 
 def test_an_overview_prepared_before_its_record_is_the_same(records: list[Record]):

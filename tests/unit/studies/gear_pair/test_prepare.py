@@ -1,14 +1,12 @@
 """What a case is made into: the numbers of its mechanics, and enough sweeps over the coupled pairs."""
 
 import math
-from itertools import product
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
-from tribodyn.dynamics import parameters
 from tribodyn.dynamics.contact_forces import ELASTIC_LOAD, XI
 from tribodyn.dynamics.data import BearingData, OperatingData
 from tribodyn.dynamics.equations import strain_energy
@@ -129,71 +127,3 @@ def test_numbers_of_the_mechanics(operating: dict[str, Any]):
     assert set(expected) == set(found._fields)
     for name, value in expected.items():
         np.testing.assert_allclose(getattr(found, name), value, rtol=1e-12, err_msg=name)
-
-
-@pytest.mark.parametrize(
-    ("source", "stiffness", "drive"),
-    [("speed", None, "DRIVE_SPEED"), ("torque", None, "DRIVE_TORQUE"), ("torque", 50.0, "DRIVE_SHAFT")],
-)
-def test_what_is_switched(source: str, stiffness: float | None, drive: str):
-    case = described(source=source, shaft_stiffness=stiffness)
-    laws: Any = SimpleNamespace(
-        film=SimpleNamespace(functions="of film"), friction=SimpleNamespace(functions="of friction")
-    )
-    for sliding, formulation, hertz, length in product(
-        ("kinematic", "dynamic"), ("classical", "energy-consistent"), (0.0, 1e-13), (0.0, 2e-4)
-    ):
-        case.friction.sliding, case.mesh.formulation = sliding, formulation
-        cycle = cycle_of(
-            hertz_coefficient=hertz,
-            pitch_point_length=length,
-            coupling=np.zeros((1, 2, 1, 1)),
-            compliance=np.ones((1, 2, 1)),
-        )
-        found = preparing._options(case, cycle, laws)
-        assert (found.film, found.friction) == ("of film", "of friction")
-        assert found.drive == getattr(parameters, drive)
-        assert found.sliding == getattr(parameters, f"SLIDING_{sliding.upper()}")
-        assert found.formulation == getattr(parameters, formulation.upper().replace("-", "_"))
-        assert found.hertz == (parameters.HERTZ_POWER_LAW if hertz else parameters.HERTZ_IN_TABLE)
-        assert (found.averaged, found.sweeps) == (int(length > 0.0), 1)
-
-
-def test_sweeps_by_how_strongly_pairs_that_touch_are_coupled():
-    """By the square of the coupling over what each deflects alone, at the worst place."""
-    coupling, alone = np.zeros((2, 3, 2, 2)), np.ones((2, 3, 2)) * np.array([2e-9, 5e-9])
-    both = np.ones((2, 2))
-
-    def sweeps(share: float, touching: np.ndarray = both, hertz: float = 0.0) -> int:
-        coupling[1, 2, [0, 1], [1, 0]] = math.sqrt(share * 2e-9 * 5e-9)
-        cycle = cycle_of(hertz_coefficient=hertz, coupling=coupling, compliance=alone, in_contact=touching)
-        return preparing._sweeps(cycle)
-
-    assert sweeps(0.0) == 1
-    assert sweeps(0.095) < sweeps(0.105) < sweeps(0.105, hertz=1e-13) == sweeps(0.095, hertz=1e-13)
-    assert sweeps(0.105, np.array([[1.0, 1.0], [0.0, 1.0]])) == sweeps(0.095)
-
-
-def test_the_loss_of_slow_rotation_is_what_is_lost_in_a_second(monkeypatch: pytest.MonkeyPatch):
-    """Energy per radian of the pinion times its speed; nothing is made without a load."""
-    split: Any = cycle_of(pitch_point_length=3e-4)
-    made: Any = SimpleNamespace(split=lambda: split)
-    monkeypatch.setattr(preparing, "closure_of", lambda case: case.laws)
-    monkeypatch.setattr(preparing, "contacts", lambda *given: given)
-    monkeypatch.setattr(preparing, "settled", lambda cycle, torque, found: (cycle, torque, found))
-    monkeypatch.setattr(preparing, "friction_loss", lambda cycle, *loads: 0.35 if loads[0] is cycle else 0.0)
-    lost = preparing._quasi_static_loss(made)
-    case: Any = SimpleNamespace(
-        operating=OperatingData("speed", pinion_speed=120.0, gear_torque=80.0), laws="laws"
-    )
-    assert lost(case) == pytest.approx(0.35 * 120.0)
-    seen: list[Any] = []
-    monkeypatch.setattr(preparing, "friction_loss", lambda cycle, *loads: seen.append(loads) or 1.0)
-    lost(case)
-    assert seen == [(split, 80.0, (split, 80.0, 120.0, "laws", True))]
-    made.split = lambda: cycle_of()
-    lost(case)
-    assert seen[-1][2][-1] is False
-    idle: Any = SimpleNamespace(operating=OperatingData("speed", pinion_speed=120.0, gear_torque=0.0))
-    made.split = None
-    assert lost(idle) == 0.0

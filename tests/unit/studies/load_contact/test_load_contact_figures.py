@@ -4,12 +4,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from matplotlib.figure import Figure
 
 from tests.support import synthetic_load_contact
 from tests.support.synthetic_load_contact import END, LOAD, PITCH, START, WIDTH
 from tribodyn.errors import InputError
-from tribodyn.post.style import save
 from tribodyn.record.reader import Record, open_record
 from tribodyn.studies.load_contact.figures import DRAWINGS
 from tribodyn.studies.load_contact.rolled import (
@@ -76,14 +74,6 @@ def test_one_cycle_is_shown_twice_because_it_repeats(plain: Record):
     np.testing.assert_allclose(error, 1.2e-5 + 2e-6 * np.cos(2 * np.pi * phase))
 
 
-def test_several_cycles_are_shown_once(tmp_path: Path):
-    with open_record(synthetic_load_contact.write(tmp_path / "long.h5", cycles=3, torques=())) as record:
-        phase, _ = over_phase(record, "loaded_transmission_error")
-        assert phase[-1] == 3.0
-        for name in ("loaded-error", "load-sharing"):
-            save(figure(name, [record]), tmp_path / "picture.png")
-
-
 def test_a_pair_goes_on_in_the_number_before(plain: Record):
     """At the end of a cycle the curve of pair 1 ends where that of pair 0 begins."""
     ends, begins = (pair_over_phase(plain, "normal_load", pair) for pair in (1, 0))
@@ -124,17 +114,3 @@ def test_a_map_covers_the_contact_and_the_face(records: list[Record]):
     middle = np.argmin(np.abs(found.roll))
     assert np.all(np.diff(found.values[middle]) > 0)
     np.testing.assert_allclose(np.mean(at_pitch_point(records[1], "line_load")), LOAD / WIDTH)
-
-
-def test_maps_of_several_records_have_one_scale(records: list[Record]):
-    drawn: Figure = figure("line-load", records)
-    tops = [axes.collections[0].get_clim()[1] for axes in drawn.axes[:2]]
-    assert tops == [pytest.approx(1e-3 * np.max(records[1]["line_load"]))] * 2
-
-
-def test_the_recorded_torque_stands_on_the_map(records: list[Record]):
-    axes = figure("harris", records[:1]).axes[0]
-    map_curve, recorded = axes.lines
-    np.testing.assert_allclose(map_curve.get_xdata(), [100, 200, 300])
-    np.testing.assert_allclose(map_curve.get_ydata(), 1e6 * records[0]["map_peak_to_peak"])
-    assert list(recorded.get_xdata()) == [318.0]
