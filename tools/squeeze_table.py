@@ -11,7 +11,7 @@ import numpy as np
 
 from tools.marked_block import put
 from tribodyn.studies.ehl.along_path import prepare, way
-from tribodyn.studies.ehl.judged import case_for
+from tribodyn.studies.ehl.judgement import case_for
 from tribodyn.studies.ehl.run import solve, squeeze_figures
 from tribodyn.studies.protocol.load import load_scenario
 
@@ -29,7 +29,7 @@ def row(scenario: str) -> str:
         begun = process_time()
         arrays = solve(study, way(study), lambda _share: None)
         seconds.append(process_time() - begun)
-    found = squeeze_figures(case, arrays)
+    found = squeeze_figures(arrays)
     film, least = (
         f"{100 * found[f'{name}_film_departure_mean']:.1f}, {100 * found[f'{name}_film_departure_max']:.0f}"
         for name in ("central", "minimum")

@@ -57,6 +57,11 @@ class Way(NamedTuple):
     speeds: tuple[Array, Array]
     table: tuple[Array, Array]
 
+    @property
+    def sliding(self) -> Array:
+        """Sliding speed, m/s, of the pinion's flank over the gear's."""
+        return self.speeds[0] - self.speeds[1]
+
 
 def prepare(case: EhlCase) -> Prepared:
     """Check the geometry and tabulate the mesh; raises InputError where teeth cannot be made or run."""
@@ -130,11 +135,9 @@ def _spread(nodes: Array, loads: Array, width: float) -> tuple[Array, Array]:
 def friction_along(study: Prepared, over: Way) -> Array:
     """Friction coefficient of the solved contact, of the sign of the sliding; NaN where there is none."""
     seen, contact = seen_by(study, over, None, "none"), contact_for(study.case)
-    sliding = over.speeds[0] - over.speeds[1]
     found = np.full(len(over.roll), np.nan)
     for at in np.flatnonzero(loaded(over)):
-        duty = over.line_load[at], seen.radius[at], seen.entrainment[at], sliding[at]
-        solved = solved_at(contact, *(float(one) for one in duty), step=study.case.step)
+        solved = solved_at(contact, over, seen, at, study.case.step)
         if solved is not None:
             found[at] = solved.friction / float(over.line_load[at])
     return found
@@ -189,33 +192,31 @@ def meant_by(study: Prepared, over: Way, law: str) -> str:
     Its central or its minimum film; and that between smooth surfaces, where the law knows no roughness.
     """
     smooth = study._replace(case=replace(study.case, roughness=1e-3 * study.case.roughness))
-    rough, flat = (seen_by(one, over, law, "none").surface.central_film_thickness for one in (study, smooth))
+    rough, flat = (
+        seen_by(prepared, over, law, "none").surface.central_film_thickness for prepared in (study, smooth)
+    )
     kind = "smooth" if np.array_equal(np.asarray(rough), np.asarray(flat)) else "thickness"
     return f"{FILM_LAWS[law].thickness}_film_{kind}"
 
 
 def solved_at(
     contact: Contact,
-    line_load: float,
-    radius: float,
-    entrainment: float,
-    sliding: float,
-    *,
+    over: Way,
+    seen: ContactFriction,
+    at: Any,
     step: float,
+    slide_to_roll: float | None = None,
     smooth: bool = False,
 ) -> CoupledSolution | None:
-    """Solve one contact, mixed and with heat, or of `smooth` surfaces, on a grid of so long a `step`.
+    """Solve the contact at a position, mixed and with heat, or of `smooth` surfaces.
 
     None: next to no load, or no solution was found.
     """
+    line_load, radius, speed = (float(x[at]) for x in (over.line_load, seen.radius, seen.entrainment))
+    sliding = float(over.sliding[at]) if slide_to_roll is None else float(slide_to_roll * speed)
+    roughness = None if smooth else contact.roughness
     problem = LineContact(
-        line_load,
-        radius,
-        entrainment,
-        contact.fluid,
-        contact.effective_modulus,
-        sliding,
-        None if smooth else contact.roughness,
+        line_load, radius, speed, contact.fluid, contact.effective_modulus, sliding, roughness
     )
     if problem.moes_load < LEAST_LOAD:
         return None

@@ -1,34 +1,55 @@
-"""Figures of solved contact studies: films and friction beside the laws, profiles, maps, Moes' chart."""
+"""Figures of solved contacts: films and friction beside the laws, profiles, maps, Moes' chart."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribodyn.errors import InputError
-from tribodyn.post.figures.drawing import Drawing
+from tribodyn.post.figures.drawing import Drawing, always
 from tribodyn.post.figures.panel import View, record_title
-from tribodyn.post.style import PALETTE, PANEL_HEIGHT, WIDTH, new_figure
+from tribodyn.post.style import (
+    GRID,
+    PALETTE,
+    PANEL_HEIGHT,
+    QUIET,
+    WIDTH,
+    house_style,
+    literal,
+    new_figure,
+)
 from tribodyn.record.reader import Record
 from tribodyn.tribology.ehl.start import survey_film
+
+if TYPE_CHECKING:
+    from tribodyn.studies.ehl.judgement import LawRatio
 
 ROLL = "Roll angle from the pitch point (°)"
 _PLACE = "Place over half width of the Hertz contact"
 _SHOWN = 5
 
 
-def _one(records: Sequence[Record], view: View) -> Record:
-    if view.against == "time":
-        raise InputError("against", "time", "a study of the solved contact knows no time", "phase")
-    if len(records) != 1:
-        raise InputError("plot", "records", "this figure shows one record", "give one")
-    return records[0]
+def _drawing(
+    about: str, draw: Callable[[Record, Figure], None], height: float, fits: Callable[[Record], bool] = always
+) -> Drawing:
+    """A figure of one record, so many panels high."""
+
+    def figure(records: Sequence[Record], view: View) -> Figure:
+        if view.against == "time":
+            raise InputError("against", "time", "a study of the solved contact knows no time", "phase")
+        if len(records) != 1:
+            raise InputError("plot", "records", "this figure shows one record", "give one")
+        drawn = new_figure(WIDTH, height * PANEL_HEIGHT)
+        draw(records[0], drawn)
+        drawn.suptitle(record_title(records[0]))
+        return drawn
+
+    return Drawing(about, figure, fits)
 
 
-def _overview(records: Sequence[Record], view: View) -> Figure:
-    record = _one(records, view)
-    drawn = new_figure(WIDTH, 3.0 * PANEL_HEIGHT)
+def _overview(record: Record, drawn: Figure) -> None:
     film, friction, load = drawn.subplots(3, 1, sharex=True)
     roll = np.degrees(record["roll_angle"])
     film.plot(roll, 1e6 * record["central_film_thickness"], color="black", lw=2, label="solved, central")
@@ -45,8 +66,6 @@ def _overview(records: Sequence[Record], view: View) -> Figure:
     for axes in (film, friction):
         axes.set_ylim(bottom=0)
         axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize="x-small")
-    drawn.suptitle(record_title(record))
-    return drawn
 
 
 def _laws(axes: Axes, roll: np.ndarray, values: np.ndarray, names: np.ndarray) -> None:
@@ -69,9 +88,7 @@ _PROFILES = (
 )
 
 
-def _profiles(records: Sequence[Record], view: View) -> Figure:
-    record = _one(records, view)
-    drawn = new_figure(WIDTH, 2.2 * PANEL_HEIGHT)
+def _profiles(record: Record, drawn: Figure) -> None:
     rows = drawn.subplots(2, 2, sharex=True)
     for axes, (name, scale, label) in zip(rows.ravel(), _PROFILES, strict=True):
         for number, at in enumerate(_chosen(record)):
@@ -83,13 +100,9 @@ def _profiles(records: Sequence[Record], view: View) -> Figure:
     rows[0, 0].legend(title="roll angle", fontsize="x-small")
     for axes in rows[1]:
         axes.set_xlabel(_PLACE)
-    drawn.suptitle(record_title(record))
-    return drawn
 
 
-def _maps(records: Sequence[Record], view: View) -> Figure:
-    record = _one(records, view)
-    drawn = new_figure(WIDTH, 2.2 * PANEL_HEIGHT)
+def _maps(record: Record, drawn: Figure) -> None:
     rows = drawn.subplots(2, 2, sharex=True, sharey=True)
     roll, top = np.degrees(record["roll_angle"]), 3e6 * np.nanmax(record["central_film_thickness"])
     for axes, (name, scale, label) in zip(rows.ravel(), _PROFILES, strict=True):
@@ -101,19 +114,15 @@ def _maps(records: Sequence[Record], view: View) -> Figure:
         axes.set_xlabel(ROLL)
     for axes in rows[:, 0]:
         axes.set_ylabel("Place over half width")
-    drawn.suptitle(record_title(record))
-    return drawn
 
 
-def _moes(records: Sequence[Record], view: View) -> Figure:
-    record = _one(records, view)
-    drawn = new_figure(WIDTH, 1.6 * PANEL_HEIGHT)
+def _moes(record: Record, drawn: Figure) -> None:
     axes = drawn.subplots()
     load = np.geomspace(0.5, 2e4, 80)
-    for number, material in enumerate((1.0, 2.5, 5.0, 10.0, 25.0)):
+    for color, material in zip(PALETTE, (1.0, 2.5, 5.0, 10.0, 25.0), strict=False):
         # in b²/R = 8 W R/π, over R √U_Σ
-        film = [survey_film(one, material) * 8.0 * one / np.pi for one in load]
-        axes.loglog(load, film, color=PALETTE[number], lw=1, label=f"L = {material:g}")
+        film = [survey_film(number, material) * 8.0 * number / np.pi for number in load]
+        axes.loglog(load, film, color=color, lw=1, label=f"L = {material:g}")
     solved = np.isfinite(record["moes_load"])
     unit = record["half_width"] ** 2 / record["equivalent_radius"]
     film = record["central_film_thickness"] / unit * 8.0 * record["moes_load"] / np.pi
@@ -122,31 +131,23 @@ def _moes(records: Sequence[Record], view: View) -> Figure:
     axes.loglog(record["moes_load"][solved], film[solved], "k.-", label=label)
     axes.set(xlabel="Load parameter M", ylabel="Central film, h/(R √U_Σ)")
     axes.legend(fontsize="small")
-    drawn.suptitle(record_title(record))
-    return drawn
 
 
-def _traction(records: Sequence[Record], view: View) -> Figure:
-    record = _one(records, view)
-    drawn = new_figure(WIDTH, 1.4 * PANEL_HEIGHT)
+def _traction(record: Record, drawn: Figure) -> None:
     axes = drawn.subplots()
     axes.semilogx(record["slide_to_roll"], record["traction"], "o-", color=PALETTE[0])
     axes.set(xlabel="Slide-to-roll ratio", ylabel="Friction coefficient", ylim=(0.0, None))
-    drawn.suptitle(record_title(record))
-    return drawn
 
 
-def _transient(records: Sequence[Record], view: View) -> Figure:
-    record = _one(records, view)
+def _transient(record: Record, drawn: Figure) -> None:
     if not _with_squeeze(record):
         raise InputError(
             "plot", "transient", "the record has no film with squeeze", "set contact.transient = true"
         )
-    drawn = new_figure(WIDTH, 3.0 * PANEL_HEIGHT)
     film, departure, friction = drawn.subplots(3, 1, sharex=True)
     roll = np.degrees(record["roll_angle"])
     for number, (name, label) in enumerate((("central", "central"), ("minimum", "minimum"))):
-        steady, squeezed = (record[f"{one}{name}_film_thickness"] for one in ("", "transient_"))
+        steady, squeezed = (record[f"{way}{name}_film_thickness"] for way in ("", "transient_"))
         film.plot(roll, 1e6 * steady, "--", color=PALETTE[number], lw=1, label=f"{label}, steady")
         film.plot(roll, 1e6 * squeezed, color=PALETTE[number], label=f"{label}, with squeeze")
         departure.plot(roll, 100.0 * (squeezed / steady - 1.0), color=PALETTE[number], label=label)
@@ -157,8 +158,6 @@ def _transient(records: Sequence[Record], view: View) -> Figure:
     friction.set(ylabel="Friction coefficient", ylim=(0.0, None), xlabel=ROLL)
     for axes in (film, departure, friction):
         axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize="x-small")
-    drawn.suptitle(record_title(record))
-    return drawn
 
 
 def _with_squeeze(record: Record) -> bool:
@@ -166,10 +165,48 @@ def _with_squeeze(record: Record) -> bool:
 
 
 DRAWINGS: dict[str, Drawing] = {
-    "overview": Drawing("film and friction beside every law, Hertz pressure", _overview),
-    "profiles": Drawing("pressure, film, temperature and shear at chosen places", _profiles),
-    "maps": Drawing("the same over the way of the pair", _maps),
-    "moes": Drawing("Moes' chart with the drive's duty", _moes),
-    "transient": Drawing("film and friction with squeeze beside the steady ones", _transient, _with_squeeze),
-    "traction": Drawing("friction over slide-to-roll ratio, where the load is highest", _traction),
+    "overview": _drawing("film and friction beside every law, Hertz pressure", _overview, 3.0),
+    "profiles": _drawing("pressure, film, temperature and shear at chosen places", _profiles, 2.2),
+    "maps": _drawing("the same over the way of the pair", _maps, 2.2),
+    "moes": _drawing("Moes' chart with the drive's duty", _moes, 1.6),
+    "transient": _drawing(
+        "film and friction with squeeze beside the steady ones", _transient, 3.0, _with_squeeze
+    ),
+    "traction": _drawing("friction over slide-to-roll ratio, where the load is highest", _traction, 1.4),
 }
+
+
+def laws_figure(title: str, ratios: Sequence["LawRatio"], right: Mapping[str, float]) -> Figure:
+    """Draw minimum, median and maximum of each law over the solved contact; points: medians of the map."""
+    groups = [[law for law in ratios if law.what == what] for what in right]
+    with house_style():
+        drawn = new_figure(WIDTH, 1.2 + 0.22 * len(ratios))
+        panels = drawn.subplots(len(groups), 1, height_ratios=[len(laws) for laws in groups], squeeze=False)
+        for axes, what, laws in zip(panels[:, 0], right, groups, strict=True):
+            _rows(axes, laws)
+            axes.axvspan(1.0 - right[what], 1.0 + right[what], color=GRID, zorder=0)
+            axes.set_xlabel(f"{what.capitalize()} by the law over the solved one")
+        drawn.suptitle(literal(title))
+    return drawn
+
+
+def _rows(axes: Axes, laws: Sequence["LawRatio"]) -> None:
+    for row, law in enumerate(laws):
+        points = np.ravel(law.map)
+        axes.plot(points, np.full(len(points), row), ".", color=QUIET, ms=3, zorder=2)
+        axes.plot([law.minimum, law.maximum], [row, row], color=PALETTE[0], lw=2.5, zorder=3)
+        axes.plot([law.median], [row], "o", color=PALETTE[1], ms=4, zorder=4)
+    axes.set_xscale("log")
+    axes.axvline(1.0, color=QUIET, lw=0.8)
+    axes.set_yticks(range(len(laws)), [_name(law) for law in laws])
+    axes.set_ylim(len(laws) - 0.5, -0.5)
+    shown = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
+    axes.set_xticks(shown, [f"{ratio:g}" for ratio in shown])
+    axes.minorticks_off()
+    every = [value for law in laws for value in (law.minimum, law.maximum, *np.ravel(law.map))]
+    known = [value for value in every if np.isfinite(value)]
+    axes.set_xlim(max(min([*known, 0.5]) / 1.2, 0.05), min(max([*known, 2.0]) * 1.2, 20.0))
+
+
+def _name(law: "LawRatio") -> str:
+    return literal(f"{law.law} ({law.against})" if law.what == "film" else law.law)

@@ -37,7 +37,7 @@ def quasi_static_loads(
     load = np.asarray(quasi_static(cycle, gear_torque, signed).normal_load)[:, :, :pairs]
     touching = np.broadcast_to(np.asarray(cycle.in_contact)[:, None, :pairs] > 0, load.shape)
     # a pair passes through the phases as the youngest, then once more as the one before
-    roll, load, touching = (np.moveaxis(one, 2, 0)[::-1] for one in (roll, load, touching))
+    roll, load, touching = (np.moveaxis(values, 2, 0)[::-1] for values in (roll, load, touching))
     return roll[touching], load[touching]
 
 
@@ -98,6 +98,6 @@ def loads_of_record(path: Path, key: str) -> dict[str, Any]:
     roll = float(cycle["roll_start"]) + 2.0 * np.pi / float(cycle["pinion_teeth"]) * age
     values = np.nan_to_num(load[np.arange(len(age)), column])
     return {
-        "roll_angle": {"unit": "rad", "values": [float(one) for one in roll]},
-        "normal_load": {"unit": "N", "values": [float(one) for one in values]},
+        "roll_angle": {"unit": "rad", "values": list(map(float, roll))},
+        "normal_load": {"unit": "N", "values": [float(value) for value in values]},
     }

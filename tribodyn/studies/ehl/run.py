@@ -23,7 +23,7 @@ from tribodyn.studies.ehl.along_path import (
 )
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.studies.ehl.layout import BEGIN, END, PLACES, SAMPLES, layout_of
-from tribodyn.studies.ehl.squeezed import Steady, kept, squeezed
+from tribodyn.studies.ehl.squeezed import SteadyContact, kept, squeezed
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import Progress, RunResult
 
@@ -83,7 +83,6 @@ def solve(study: Prepared, over: Way, progress: Progress) -> dict[str, Array]:
     """Datasets of all positions; NaN where the pair carries nothing or the contact was not solved."""
     case = study.case
     seen = seen_by(study, over, None, "none")
-    sliding = over.speeds[0] - over.speeds[1]
     start, count = float(study.cycle.roll_start), len(over.roll)
     arrays: dict[str, Array] = {
         name: np.full((count, PLACES) if name in _PROFILES else count, np.nan)
@@ -97,14 +96,13 @@ def solve(study: Prepared, over: Way, progress: Progress) -> dict[str, Array]:
         "line_load": over.line_load,
         "equivalent_radius": np.asarray(seen.radius),
         "entrainment_speed": np.asarray(seen.entrainment),
-        "sliding_speed": sliding,
+        "sliding_speed": over.sliding,
         "hertz_pressure": np.asarray(seen.surface.hertz_pressure),
     }
     contact = contact_for(case)
-    steady: list[Steady | None] = [None] * count
+    steady: list[SteadyContact | None] = [None] * count
     for at in np.flatnonzero(loaded(over)):
-        duty = over.line_load[at], seen.radius[at], seen.entrainment[at], sliding[at]
-        found = solved_at(contact, *(float(one) for one in duty), step=case.step)
+        found = solved_at(contact, over, seen, at, case.step)
         if found is not None:
             solution, problem = found.solution, found.solution.problem
             gap = solution.mean_gap
@@ -125,7 +123,7 @@ def solve(study: Prepared, over: Way, progress: Progress) -> dict[str, Array]:
                 arrays[name][at] = value
             if case.transient:
                 steady[at] = kept(found)
-        flat = solved_at(contact, *(float(one) for one in duty), step=case.step, smooth=True)
+        flat = solved_at(contact, over, seen, at, case.step, smooth=True)
         if flat is not None:
             arrays["central_film_smooth"][at] = flat.solution.central_film_thickness
             arrays["minimum_film_smooth"][at] = flat.solution.minimum_film_thickness
@@ -140,17 +138,9 @@ def _traction(study: Prepared, over: Way) -> list[float]:
     """Friction coefficient over slide-to-roll ratio, where the load is highest; NaN: not solved."""
     seen, contact = seen_by(study, over, None, "none"), contact_for(study.case)
     at = int(np.argmax(over.line_load))
-    speed = float(seen.entrainment[at])
     curve = []
     for ratio in TRACTION:
-        found = solved_at(
-            contact,
-            float(over.line_load[at]),
-            float(seen.radius[at]),
-            speed,
-            float(ratio * speed),
-            step=study.case.step,
-        )
+        found = solved_at(contact, over, seen, at, study.case.step, slide_to_roll=ratio)
         curve.append(np.nan if found is None else abs(found.friction) / float(over.line_load[at]))
     return curve
 
@@ -165,18 +155,15 @@ def _figures(
     def of(name: str) -> Array:
         return arrays[name][solved]
 
-    # friction weighted by what it loses
-    weight = of("normal_load") * np.abs(of("sliding_speed"))
     film = {
         name: np.nanmedian(values / arrays[meant_by(study, over, name)])
         for name, values in laws["film"].items()
     }
-    mean = float(np.sum(weight * of("friction_coefficient")) / np.sum(weight))
+    mean = _mean_by_loss(arrays, arrays["friction_coefficient"], solved)
     friction = {
-        name: float(np.sum(weight * values[solved]) / np.sum(weight)) / mean
-        for name, values in laws["friction"].items()
+        name: _mean_by_loss(arrays, values, solved) / mean for name, values in laws["friction"].items()
     }
-    squeeze = squeeze_figures(study.case, arrays) if study.case.transient else {}
+    squeeze = squeeze_figures(arrays) if study.case.transient else {}
     return {
         **squeeze,
         **_judged(study.case, arrays, solved),
@@ -212,7 +199,13 @@ def _judged(case: EhlCase, arrays: dict[str, Array], solved: Array) -> dict[str,
     return judge.figures()
 
 
-def squeeze_figures(case: EhlCase, arrays: dict[str, Array]) -> dict[str, Any]:
+def _mean_by_loss(arrays: dict[str, Array], values: Array, solved: Array) -> float:
+    """Mean of a friction coefficient over the way, weighted by what it loses."""
+    weight = arrays["normal_load"][solved] * np.abs(arrays["sliding_speed"][solved])
+    return float(np.sum(weight * values[solved]) / np.sum(weight))
+
+
+def squeeze_figures(arrays: dict[str, Array]) -> dict[str, Any]:
     """How far films and friction with squeeze depart from the steady ones."""
     solved = np.isfinite(arrays["transient_central_film_thickness"])
     found: dict[str, Any] = {
@@ -229,9 +222,8 @@ def squeeze_figures(case: EhlCase, arrays: dict[str, Array]) -> dict[str, Any]:
         departure = np.abs(of(f"transient_{name}_film_thickness") / of(f"{name}_film_thickness") - 1.0)
         found[f"{name}_film_departure_max"] = float(np.max(departure))
         found[f"{name}_film_departure_mean"] = float(np.mean(departure))
-    weight = of("normal_load") * np.abs(of("sliding_speed"))
     friction, steady = (
-        float(np.sum(weight * of(name)) / np.sum(weight))
+        _mean_by_loss(arrays, arrays[name], solved)
         for name in ("transient_friction_coefficient", "friction_coefficient")
     )
     return found | {

@@ -36,7 +36,7 @@ _SCALARS = ("central_film_thickness", "minimum_film_thickness", "friction_coeffi
 PREFIX = "transient_"
 
 
-class Steady(NamedTuple):
+class SteadyContact(NamedTuple):
     """What is kept of a position's steady contact; arrays over the places ξ of its own grid.
 
     `whole` is the pressure of fluid and asperities over Hertz's, `rise` the temperature of the layers.
@@ -54,23 +54,23 @@ class Stretch(NamedTuple):
     """Positions one after another at which the pair carries load, on one grid."""
 
     times: Array
-    steady: Sequence[Steady]
+    steady: Sequence[SteadyContact]
     closures: Array
     rises: Array
     grid: Grid
     loads: tuple[Array, Array]
 
 
-def kept(found: CoupledSolution) -> Steady:
+def kept(found: CoupledSolution) -> SteadyContact:
     """Return what is kept of a steady contact."""
     solution = found.solution
     rise = np.zeros((len(solution.place), LAYERS)) if found.heat is None else found.heat.layers
     whole = solution.pressure / solution.problem.hertz_pressure
-    return Steady(solution.problem, solution.state, solution.grid.node, whole, solution.closure, rise)
+    return SteadyContact(solution.problem, solution.state, solution.grid.node, whole, solution.closure, rise)
 
 
 def squeezed(
-    over: Way, case: EhlCase, contact: Contact, steady: Sequence[Steady | None], progress: Progress
+    over: Way, case: EhlCase, contact: Contact, steady: Sequence[SteadyContact | None], progress: Progress
 ) -> dict[str, Array]:
     """Datasets of the way with squeeze, NaN where it was not solved, and `restarts` within the way.
 
@@ -84,8 +84,8 @@ def squeezed(
     arrays: dict[str, Array] = {PREFIX + name: np.full(count, np.nan) for name in _SCALARS}
     arrays |= {PREFIX + name: np.full((count, PLACES), np.nan) for name in _PROFILES}
     begun = 0
-    for first, last in _runs([one is not None for one in steady]):
-        chosen = [one for one in steady[first : last + 1] if one is not None]
+    for first, last in _runs([position is not None for position in steady]):
+        chosen = [position for position in steady[first : last + 1] if position is not None]
         stretch = _stretch(chosen, over, np.arange(first, last + 1), case)
         begun += _through(stretch, contact, arrays, first, progress)
     return arrays | {"restarts": np.array(max(begun - 1, 0))}
@@ -98,12 +98,15 @@ def _runs(good: Sequence[bool]) -> list[tuple[int, int]]:
     return [(int(a), int(b) - 1) for a, b in pairs if b - a > 1]
 
 
-def _stretch(steady: Sequence[Steady], over: Way, at: Array, case: EhlCase) -> Stretch:
+def _stretch(steady: Sequence[SteadyContact], over: Way, at: Array, case: EhlCase) -> Stretch:
     """One grid for all positions, with shear and heat of the steady contacts on its nodes."""
-    problems = [one.problem for one in steady]
+    problems = [position.problem for position in steady]
     grid = grid_of(problems[0], case.step, *problems[1:])
-    closures = np.array([[np.interp(grid.node, one.node, row) for row in one.closure] for one in steady])
-    rises = np.array([[np.interp(grid.node, one.node, row) for row in one.rise.T] for one in steady])
+    closures, rises = (
+        np.array([[np.interp(grid.node, at.node, row) for row in rows(at)] for at in steady])
+        for rows in (lambda at: at.closure, lambda at: at.rise.T)
+    )
+
     (nodes, loads), speed = over.table, case.operating.pinion_speed
     return Stretch(over.roll[at] / speed, steady, closures, rises, grid, (nodes / speed, loads))
 
@@ -139,19 +142,19 @@ def _carried(stretch: Stretch, begin: int) -> Iterator[tuple[int, Solution]]:
 
 
 def _begun(stretch: Stretch, at: int) -> Solution:
-    """Steady contact of a position, on the grid of the stretch."""
-    one, grid = stretch.steady[at], stretch.grid
-    reduced = reduced_problem(one.problem)
+    """SteadyContact contact of a position, on the grid of the stretch."""
+    contact, grid = stretch.steady[at], stretch.grid
+    reduced = reduced_problem(contact.problem)
 
     def seen(values: Array) -> Array:
-        return np.interp(grid.node, one.node, values, left=0.0, right=0.0)
+        return np.interp(grid.node, contact.node, values, left=0.0, right=0.0)
 
-    state = one.state._replace(pressure=seen(one.whole))
+    state = contact.state._replace(pressure=seen(contact.whole))
     if isinstance(reduced, RoughReduced):
-        state = with_films(state, reduced, grid)._replace(pressure=seen(one.state.pressure))
+        state = with_films(state, reduced, grid)._replace(pressure=seen(contact.state.pressure))
     closure = Closure(*stretch.closures[at])
-    start = Solution(one.problem, reduced, grid, state, film(state, reduced, grid), closure, 0, math.nan)
-    return solve_steady(one.problem, start)
+    start = Solution(contact.problem, reduced, grid, state, film(state, reduced, grid), closure, 0, math.nan)
+    return solve_steady(contact.problem, start)
 
 
 def _times(stretch: Stretch, at: int) -> tuple[Array, dict[int, int]]:
@@ -173,8 +176,8 @@ class _Instants:
     def __init__(self, stretch: Stretch) -> None:
         self._stretch = stretch
         values = [
-            (one.problem.radius, one.problem.entrainment_speed, one.problem.sliding_speed)
-            for one in stretch.steady
+            (position.problem.radius, position.problem.entrainment_speed, position.problem.sliding_speed)
+            for position in stretch.steady
         ]
         self._smooth = CubicSpline(stretch.times, np.array(values))
 
@@ -184,7 +187,7 @@ class _Instants:
         low = min(int(place), len(stretch.times) - 2)
         part = place - low
         closure = (1.0 - part) * stretch.closures[low] + part * stretch.closures[low + 1]
-        radius, entrainment, sliding = (float(one) for one in self._smooth(time))
+        radius, entrainment, sliding = map(float, self._smooth(time))
         problem = stretch.steady[0].problem._replace(
             line_load=float(np.interp(time, *stretch.loads)),
             radius=radius,

@@ -65,8 +65,9 @@ def test_the_step_is_that_of_the_grid():
     for step in (0.1, 0.2):
         study = prepare(load("ehl-crc-23-47", {"output.positions": 4, "contact.step": step}).case)
         assert study.case.step == step
-        duty = 4e5, 9e-3, 0.2, 0.01
-        found[step] = solved_at(contact_for(study.case), *duty, step=study.case.step).solution
+        over = way(study)
+        seen = seen_by(study, over, None, "none")
+        found[step] = solved_at(contact_for(study.case), over, seen, 1, study.case.step).solution
     assert 1.7 < len(found[0.1].place) / len(found[0.2].place) < 2.2
     films = [one.central_film_thickness for one in found.values()]
     assert 0.0 < abs(films[1] / films[0] - 1.0) < 3e-3
@@ -79,10 +80,7 @@ def test_the_film_begins_anew_behind_a_loss_of_contact():
     )
     over, contact = way(study), contact_for(study.case)
     seen = seen_by(study, over, None, "none")
-    duties = np.stack(
-        [over.line_load, seen.radius, seen.entrainment, over.speeds[0] - over.speeds[1]], axis=1
-    )
-    solved = {at: solved_at(contact, *(float(one) for one in duties[at]), step=0.2) for at in (1, 2, 5, 6, 7)}
+    solved = {at: solved_at(contact, over, seen, at, 0.2) for at in (1, 2, 5, 6, 7)}
     steady = [kept(one) if (one := solved.get(at)) else None for at in range(8)]
     found = squeezed(over, study.case, contact, steady, lambda _share: None)
     film = found["transient_central_film_thickness"]

@@ -10,7 +10,7 @@ from tests.support.pages import data_of, needs_browser, shown, unpacked
 from tribodyn.geometry.families import family
 from tribodyn.studies.ehl import along_path
 from tribodyn.studies.ehl.along_path import jump_width, prepare, way
-from tribodyn.studies.ehl.judged import case_for
+from tribodyn.studies.ehl.judgement import case_for
 from tribodyn.studies.protocol.load import load_scenario
 
 

@@ -1,10 +1,11 @@
 """Every film and friction law beside the solved contact, over a pair's way and over load and speed."""
 
+import math
 import tomllib
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from tribodyn.studies.ehl.along_path import Prepared, by_laws, meant_by, prepare
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.studies.ehl.run import solve
 from tribodyn.studies.protocol.load import loaded_from, table_of
+from tribodyn.studies.protocol.results import TextTable
 from tribodyn.studies.protocol.study import CaseHead, Progress
 from tribodyn.tribology.closure import untried_closure_of
 from tribodyn.tribology.data import FilmData, FrictionData
@@ -23,7 +25,8 @@ from tribodyn.tribology.friction import FRICTION_LAWS
 from tribodyn.tribology.law import FilmLaw, FrictionLaw
 from tribodyn.tribology.surface_state import ContactFriction, range_shares
 
-Array = Any
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 #: Deviation from the solved contact up to which a law is called right: of the film, of friction.
 RIGHT = {"film": 0.10, "friction": 0.25}
@@ -43,7 +46,7 @@ AGAINST = {
 _TABLES = ("drive", "lubricant", "operating")
 
 
-class Judged(NamedTuple):
+class LawRatio(NamedTuple):
     """A law beside the solved contact; all numbers are shares.
 
     Attributes
@@ -72,40 +75,99 @@ class Judged(NamedTuple):
     against: str = ""
     range: str = ""
 
+    def row(self) -> list[str]:
+        """Its row of the table."""
+        ratios = [f"{value:.3f}" for value in (self.minimum, self.median, self.maximum)]
+        shares = [_share(self.in_range, "not stated"), _share(self.in_judged_range, "none")]
+        return [self.what, self.law, self.against, *ratios, *shares]
 
-class Judgement(NamedTuple):
-    """All laws beside the solved contact of a scenario.
+
+def _share(value: float, without: str) -> str:
+    return without if math.isnan(value) else f"{100 * value:.0f} %"
+
+
+@dataclass(frozen=True)
+class LawsJudged:
+    """All laws beside the solved contact of a scenario: what `judge` found.
 
     Attributes
     ----------
     title : of the scenario
     positions : of the pair, at which contacts were solved
     load_factors, speed_factors : on torque and speed, of the map; empty without a map
+    ratios : of every law
     """
 
     title: str
     positions: int
     load_factors: tuple[float, ...]
     speed_factors: tuple[float, ...]
-    laws: list[Judged]
+    ratios: list[LawRatio]
+
+    @property
+    def laws(self) -> dict[tuple[str, str], LawRatio]:
+        """(what, law) to its ratios: ("film", "moes")."""
+        return {(ratio.what, ratio.law): ratio for ratio in self.ratios}
 
     @property
     def said(self) -> str:
         """Which laws are right over the whole way of this duty, in a sentence."""
-        return sentence(self.laws)
+        parts = []
+        for what, share in RIGHT.items():
+            names = [ratio.law for ratio in self.ratios if ratio.what == what and ratio.right == 1.0]
+            which = ", ".join(names) if names else "none"
+            parts.append(f"within {100 * share:.0f} % of the solved {what} at every position: {which}")
+        return f"{'; '.join(parts)}.".capitalize()
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What the command line says below the tables."""
+        return (self.said,)
 
     def as_dict(self) -> dict[str, Any]:
-        """Return it as `tribodyn judge --json` prints it."""
+        """Return all of it as ``tribodyn judge --json`` prints it."""
         return {
-            **self._asdict(),
-            "laws": [one._asdict() for one in self.laws],
+            "title": self.title,
+            "positions": self.positions,
+            "load_factors": self.load_factors,
+            "speed_factors": self.speed_factors,
+            "laws": [ratio._asdict() for ratio in self.ratios],
             "said": self.said,
         }
+
+    def tables(self) -> list[TextTable]:
+        """Tables as the command line prints them."""
+        ends = "minimum", "median", "maximum"
+        columns = ("", "law", "compared with", *ends, "inside its range", "judged range")
+        rows = [ratio.row() for ratio in self.ratios]
+        ranges = [[ratio.what, ratio.law, ratio.range or "none stated"] for ratio in self.ratios]
+        tables = [
+            TextTable("Law over solved contact, along the way of a pair", columns, rows),
+            TextTable("Ranges of the laws", ("", "law", "range"), ranges),
+        ]
+        if self.speed_factors:
+            lines = [
+                [ratio.what, ratio.law, f"× {factor:g}", *(f"{value:.3f}" for value in row)]
+                for ratio in self.ratios
+                for factor, row in zip(self.load_factors, ratio.map, strict=True)
+            ]
+            head = ("", "law", "load", *(f"speed × {factor:g}" for factor in self.speed_factors))
+            tables.append(TextTable("Median over load and speed", head, lines))
+        return tables
+
+    def plot(self) -> "Figure":
+        """Draw the ratios of every law."""
+        from tribodyn.studies.ehl.figures import laws_figure
+
+        return laws_figure(self.title, self.ratios, RIGHT)
+
+    def __repr__(self) -> str:
+        return f"<tribodyn laws judged for {self.title}: {self.said}>"
 
 
 def judgement(
     case: CaseHead, positions: int, factors: tuple[float, ...] = (), progress: Progress | None = None
-) -> Judgement:
+) -> LawsJudged:
     """Compare every law with the solved contact of a case of any study, over factors on load and speed too.
 
     Raises
@@ -113,8 +175,8 @@ def judgement(
     InputError
         As `case_for`.
     """
-    found = judged(case_for(case, positions), factors, factors, progress)
-    return Judgement(case.title, positions, factors, factors, found)
+    ratios = ratios_over(case_for(case, positions), factors, factors, progress)
+    return LawsJudged(case.title, positions, factors, factors, ratios)
 
 
 def case_for(case: CaseHead, positions: int) -> EhlCase:
@@ -146,12 +208,12 @@ def case_for(case: CaseHead, positions: int) -> EhlCase:
     return loaded_from(resolve_table(tables, path, {}, table_of), path).case
 
 
-def judged(
+def ratios_over(
     case: EhlCase,
     loads: Sequence[float] = (),
     speeds: Sequence[float] = (),
     progress: Progress | None = None,
-) -> list[Judged]:
+) -> list[LawRatio]:
     """Compare every law with the solved contact.
 
     Parameters
@@ -163,28 +225,23 @@ def judged(
     points = [(torque, speed) for torque in loads for speed in speeds]
     done = case.positions / (case.positions + AT_A_POINT * len(points))
     found = _compared(case, lambda share: tell(done * share))
-    medians: dict[tuple[str, str], list[float]] = {(one.what, one.law): [] for one in found}
+    medians: dict[tuple[str, str], list[float]] = {(value.what, value.law): [] for value in found}
     for number, (torque, speed) in enumerate(points):
         duty = replace(
             case.operating,
             gear_torque=case.operating.gear_torque * torque,
             pinion_speed=case.operating.pinion_speed * speed,
         )
-        for one in _compared(replace(case, operating=duty, positions=AT_A_POINT), lambda _share: None):
-            medians[one.what, one.law].append(one.median)
+        for law in _compared(replace(case, operating=duty, positions=AT_A_POINT), lambda _share: None):
+            medians[law.what, law.law].append(law.median)
         tell(done + (1.0 - done) * (number + 1) / len(points))
     width = max(len(speeds), 1)
-    return [
-        one._replace(
-            map=tuple(
-                tuple(medians[one.what, one.law][row : row + width]) for row in range(0, len(points), width)
-            )
-        )
-        for one in found
-    ]
+    rows = range(0, len(points), width)
+    maps = [[medians[law.what, law.law][row : row + width] for row in rows] for law in found]
+    return [law._replace(map=tuple(map(tuple, rows))) for law, rows in zip(found, maps, strict=True)]
 
 
-def _compared(case: EhlCase, progress: Progress) -> list[Judged]:
+def _compared(case: EhlCase, progress: Progress) -> list[LawRatio]:
     study = prepare(case)
     over = way(study)
     arrays = solve(study, over, progress)
@@ -202,10 +259,10 @@ def _compared(case: EhlCase, progress: Progress) -> list[Judged]:
             inside = _inside(study, seen, stated)
             low = middle = high = float("nan")
             if len(ratio):
-                low, middle, high = (float(one(ratio)) for one in (np.min, np.median, np.max))
+                low, middle, high = (float(function(ratio)) for function in (np.min, np.median, np.max))
             right = float(np.mean(np.abs(ratio - 1.0) <= RIGHT[what])) if len(ratio) else 0.0
-            said = Judged(what, law, low, middle, high, *inside, right)
-            found.append(said._replace(against=AGAINST[meant], range=stated.stated))
+            ratios = LawRatio(what, law, low, middle, high, *inside, right)
+            found.append(ratios._replace(against=AGAINST[meant], range=stated.stated))
     return found
 
 
@@ -219,13 +276,3 @@ def _inside(study: Prepared, seen: ContactFriction, law: FilmLaw | FrictionLaw) 
     if law.judged is None or not law.judged.limits:
         return whole, float("nan")
     return whole, float(np.mean(np.all(shares[..., -law.judged.limits :] >= 1.0, axis=-1)))
-
-
-def sentence(found: Sequence[Judged]) -> str:
-    """Say which laws are right over the whole way of this duty."""
-    said = []
-    for what, share in RIGHT.items():
-        names = [one.law for one in found if one.what == what and one.right == 1.0]
-        which = ", ".join(names) if names else "none"
-        said.append(f"within {100 * share:.0f} % of the solved {what} at every position: {which}")
-    return f"{'; '.join(said)}.".capitalize()
