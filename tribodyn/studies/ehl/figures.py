@@ -1,7 +1,7 @@
 """Figures of solved contacts: films and friction beside the laws, profiles, maps, Moes' chart."""
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -22,9 +22,6 @@ from tribodyn.post.style import (
 )
 from tribodyn.record.reader import Record
 from tribodyn.tribology.ehl.start import survey_film
-
-if TYPE_CHECKING:
-    from tribodyn.studies.ehl.judgement import LawRatio
 
 ROLL = "Roll angle from the pitch point (°)"
 _PLACE = "Place over half width of the Hertz contact"
@@ -176,8 +173,8 @@ DRAWINGS: dict[str, Drawing] = {
 }
 
 
-def laws_figure(title: str, ratios: Sequence["LawRatio"], right: Mapping[str, float]) -> Figure:
-    """Draw minimum, median and maximum of each law over the solved contact; points: medians of the map."""
+def laws_figure(title: str, ratios: Sequence[Any], right: Mapping[str, float]) -> Figure:
+    """Draw minimum, median and maximum of each `judgement.LawRatio`; points: medians of the map."""
     groups = [[law for law in ratios if law.what == what] for what in right]
     with house_style():
         drawn = new_figure(WIDTH, 1.2 + 0.22 * len(ratios))
@@ -190,7 +187,7 @@ def laws_figure(title: str, ratios: Sequence["LawRatio"], right: Mapping[str, fl
     return drawn
 
 
-def _rows(axes: Axes, laws: Sequence["LawRatio"]) -> None:
+def _rows(axes: Axes, laws: Sequence[Any]) -> None:
     for row, law in enumerate(laws):
         points = np.ravel(law.map)
         axes.plot(points, np.full(len(points), row), ".", color=QUIET, ms=3, zorder=2)
@@ -208,5 +205,5 @@ def _rows(axes: Axes, laws: Sequence["LawRatio"]) -> None:
     axes.set_xlim(max(min([*known, 0.5]) / 1.2, 0.05), min(max([*known, 2.0]) * 1.2, 20.0))
 
 
-def _name(law: "LawRatio") -> str:
+def _name(law: Any) -> str:
     return literal(f"{law.law} ({law.against})" if law.what == "film" else law.law)
