@@ -11,7 +11,8 @@ from hypothesis.extra import numpy as arrays
 from tests.support.record_samples import block, gear_pair_writer, geometry, mesh_cycle
 from tribodyn.errors import harmless
 from tribodyn.mesh.cycle import as_arrays, from_arrays
-from tribodyn.record.reader import harmless_data, open_record
+from tribodyn.record.opened import harmless_data
+from tribodyn.record.reader import open_record
 
 NUMBERS = st.floats(allow_nan=True, allow_infinity=True)
 SCALARS = st.one_of(

@@ -1,81 +1,30 @@
 """Reads a record: arrays by name, units, scenario, summary, mesh cycle and geometry."""
 
-import tomllib
 from collections.abc import Iterator
 from functools import cached_property
 from pathlib import Path
-from types import TracebackType
-from typing import Any, Self
+from typing import Any
 
 import h5py
 import numpy as np
 
-from tribodyn.errors import InputError, harmless
+from tribodyn.errors import InputError
 from tribodyn.record import schema, trust
 from tribodyn.record.layout import counted
-from tribodyn.record.soundness import UNREADABLE, blamed, check_sound, reason_of
+from tribodyn.record.opened import OpenRecord, attributes
 from tribodyn.record.sweep_schema import SWEEP
-from tribodyn.record.withheld import samples_withheld, withheld
+from tribodyn.record.withheld import withheld
 
 #: No axis reaches so far; differences and squares of what it holds are numbers.
 LARGEST = 1e100
 
 
-class Record:
-    """A record, open for reading; a context manager.
-
-    Samples that an unfinished run never wrote are left out everywhere.
-
-    Parameters
-    ----------
-    path : Path
-        An HDF5 file that tribodyn wrote.
-
-    Raises
-    ------
-    InputError
-        If the file is missing, damaged, not a record, or of a newer format.
-    """
-
-    def __init__(self, path: str | Path) -> None:
-        self.path = Path(path)
-        #: What a legend calls the record: its file's name, unless somebody who has several gives another.
-        self.label = harmless(self.path.stem.removesuffix(".partial"))
-        self._file: Any = open_file(self.path)  # h5py types no item of a file
-        try:
-            self._check()
-        except InputError:
-            self._file.close()
-            raise
-        except UNREADABLE as error:
-            self._file.close()
-            raise self._damaged(error) from error
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.close()
-        if found := blamed(self.path, error):
-            raise self._damaged(found) from found
-
-    def close(self) -> None:
-        """Let go of the file."""
-        self._file.close()
+class Record(OpenRecord):
+    """The record of a run; samples that an unfinished run never wrote are left out everywhere."""
 
     def __getitem__(self, name: str) -> np.ndarray:
         """Return one dataset in SI units, first axis time; `pair` and `dof` give the other axes' labels."""
-        dataset = self._dataset(name)
-        try:
-            values = dataset[: self.samples] if name in self._along else dataset[...]
-        except (OSError, RuntimeError) as error:
-            raise self._damaged(error) from error
-        return harmless_texts(values) if values.dtype.kind == "S" else samples_withheld(name, values)
-
-    def __contains__(self, name: object) -> bool:
-        return name in self._file and isinstance(self._file[name], h5py.Dataset)
+        return self._read(name, slice(self.samples) if name in self._along else ...)
 
     def __iter__(self) -> Iterator[str]:
         """Go through the names of the datasets over time, or over what takes its place."""
@@ -99,49 +48,10 @@ class Record:
         datasets = [name for name in names if self.axis in self.dims_of(name)[:1]]
         return self.axis, *(name for name in datasets if name != self.axis)
 
-    def dims_of(self, name: str) -> tuple[str, ...]:
-        """Names of a dataset's dimensions; none of a group, or of a number."""
-        if name not in self._known_dims:
-            self._known_dims[name] = dims_in(self._file, name, self._scales)
-        return self._known_dims[name]
-
-    @cached_property
-    def _known_dims(self) -> dict[str, tuple[str, ...]]:
-        """Dimensions by dataset: to read them takes longer than to read a short dataset."""
-        return {}
-
-    @cached_property
-    def _scales(self) -> dict[int, str]:
-        """Names of scales, see `dims_in`."""
-        return {}
-
-    def units(self, name: str) -> str:
-        """Return the SI unit of a dataset."""
-        return harmless(str(self._dataset(name).attrs["units"]))
-
-    def long_name(self, name: str) -> str:
-        """Return what a dataset means."""
-        return harmless(str(self._dataset(name).attrs["long_name"]))
-
-    @property
-    def status(self) -> str:
-        """`complete`, `partial` (being written, or its process was killed) or `failed`."""
-        return str(self.attrs["status"])
-
-    @property
-    def message(self) -> str:
-        """Why the record is not complete."""
-        return str(self.attrs["message"])
-
     @property
     def trust(self) -> str:
         """Whether the result lies within its model, see `record.trust`; "" where nothing was judged."""
         return trust.verdict(self.summary)
-
-    @cached_property
-    def attrs(self) -> dict[str, Any]:
-        """Attributes of the file's root."""
-        return attributes(self._file)
 
     @cached_property
     def kind(self) -> str:
@@ -163,14 +73,6 @@ class Record:
     def elements(self) -> tuple[int, ...]:
         """Numbers of the rolling elements, in the order of the element axis; none in a gear pair."""
         return self._numbers("element")
-
-    @cached_property
-    def scenario(self) -> dict[str, Any]:
-        """The resolved scenario; InputError where the file's text is no scenario."""
-        try:
-            return harmless_data(tomllib.loads(str(self.attrs["scenario"])))
-        except (KeyError, ValueError, RecursionError) as error:
-            raise self._damaged(error) from error
 
     @cached_property
     def summary(self) -> dict[str, Any]:
@@ -221,14 +123,6 @@ class Record:
         except (OSError, KeyError, RuntimeError) as error:
             raise self._damaged(error) from error
 
-    def _dataset(self, name: str) -> h5py.Dataset:
-        if name not in self:
-            raise InputError("dataset", name, "no such dataset", f"one of {', '.join(self)}")
-        try:
-            return self._file[name]
-        except (KeyError, RuntimeError) as error:
-            raise self._damaged(error) from error
-
     def _check(self) -> None:
         if self._file.attrs.get("format") != schema.FORMAT:
             raise InputError(
@@ -266,68 +160,7 @@ class Record:
             raise ValueError(f"{self.axis} is not a finite number throughout")
         _ = self.summary
 
-    def _damaged(self, error: Exception) -> InputError:
-        rule = f"the record is damaged: {reason_of(error)}"
-        return InputError("record", str(self.path), rule, "run the scenario again")
-
 
 def open_record(path: str | Path) -> Record:
     """Open a record for reading; see `Record`."""
     return Record(path)
-
-
-def open_file(path: Path) -> h5py.File:
-    """Open an HDF5 file for reading; InputError says what hinders it."""
-    if not path.is_file():
-        raise InputError("record", str(path), "no such file", "name the record of a run")
-    try:
-        check_sound(path)
-        return h5py.File(path, "r")
-    except PermissionError as error:
-        raise InputError("record", str(path), "may not be read", "change its permissions") from error
-    except OSError as error:
-        if h5py.is_hdf5(path):
-            raise InputError("record", str(path), f"damaged: {error}", "run the scenario again") from error
-        raise InputError("record", str(path), "not an HDF5 file", "name the record of a run") from error
-
-
-def dims_in(file: h5py.File, name: str, scales: dict[int, str]) -> tuple[str, ...]:
-    """Names of a dataset's dimensions; none of a group, or of a number.
-
-    `scales` remembers names by the scales' addresses in the file: HDF5 searches the file for each.
-    """
-    item = file[name]
-    if not isinstance(item, h5py.Dataset) or not item.shape:
-        return ()
-    if item.is_scale:
-        return (name,)
-    return tuple(_name_of(dim[0], scales) if len(dim) else "" for dim in item.dims)
-
-
-def _name_of(scale: h5py.Dataset, known: dict[int, str]) -> str:
-    address = h5py.h5o.get_info(scale.id).addr  # pyright: ignore[reportAttributeAccessIssue]
-    if address not in known:
-        known[address] = str(scale.name).rpartition("/")[2]
-    return known[address]
-
-
-def attributes(item: Any) -> dict[str, Any]:
-    """Attributes as Python and NumPy values; texts without what a terminal or a picture would obey."""
-    return {
-        harmless(name): harmless_data(value.item() if isinstance(value, np.generic) else value)
-        for name, value in item.attrs.items()
-    }
-
-
-def harmless_texts(values: np.ndarray) -> np.ndarray:
-    """Texts of a dataset, decoded."""
-    return np.vectorize(harmless, otypes=["U"])(np.char.decode(values, "utf-8", "replace"))
-
-
-def harmless_data(value: Any) -> Any:
-    """Nested data of a record with harmless texts."""
-    if isinstance(value, dict):
-        return {harmless(name): harmless_data(item) for name, item in value.items()}
-    if isinstance(value, list):
-        return [harmless_data(item) for item in value]
-    return harmless(value) if isinstance(value, str) else value

@@ -4,26 +4,17 @@ import tomllib
 from collections.abc import Iterator
 from functools import cached_property
 from pathlib import Path
-from types import TracebackType
-from typing import Any, NamedTuple, Self
+from typing import Any, NamedTuple
 
 import h5py
 import numpy as np
 
 from tribodyn.errors import InputError, harmless
 from tribodyn.record import schema
-from tribodyn.record.reader import (
-    Record,
-    attributes,
-    dims_in,
-    harmless_data,
-    harmless_texts,
-    open_file,
-    open_record,
-)
-from tribodyn.record.soundness import UNREADABLE, blamed, reason_of
+from tribodyn.record.opened import OpenRecord, attributes, harmless_data, open_file
+from tribodyn.record.reader import Record, open_record
 from tribodyn.record.sweep_schema import DONE, FAILED, SWEEP, WAITING
-from tribodyn.record.withheld import samples_withheld, warnings_in
+from tribodyn.record.withheld import warnings_in
 
 
 class Parameter(NamedTuple):
@@ -35,42 +26,17 @@ class Parameter(NamedTuple):
     values: np.ndarray
 
 
-class SweepRecord:
-    """The record of a sweep, open for reading; a context manager.
-
-    Cases that are not done hold NaN.
-
-    Parameters
-    ----------
-    path : Path
-
-    Raises
-    ------
-    InputError
-        If the file is missing, damaged, or not the record of a sweep.
-    """
+class SweepRecord(OpenRecord):
+    """The record of a sweep; cases that are not done hold NaN."""
 
     kind = SWEEP
-
-    def __init__(self, path: str | Path) -> None:
-        self.path = Path(path)
-        #: What a legend calls the record.
-        self.label = harmless(self.path.stem.removesuffix(".partial"))
-        self._file: Any = open_file(self.path)  # h5py types no item of a file
-        try:
-            if self._file.attrs.get("kind") != SWEEP:
-                raise InputError(
-                    "record", str(path), "not the record of a sweep", "name the record of a sweep"
-                )
-            self._check()
-        except UNREADABLE as error:
-            self.close()
-            raise self._damaged(error) from error
-        except InputError:
-            self.close()
-            raise
+    _made_by = "run the sweep again"
 
     def _check(self) -> None:
+        if self._file.attrs.get("kind") != SWEEP:
+            raise InputError(
+                "record", str(self.path), "not the record of a sweep", "name the record of a sweep"
+            )
         shape = tuple(self._file[name].shape[0] for name in self.dims)
         for name in (*self._of_cases, "status", "message"):
             dataset = self._file[name]
@@ -84,41 +50,13 @@ class SweepRecord:
         _ = self.message, self.parameters, self.directions, self.settings, self.scenario, self.summary
         _ = self.samples_per_cycle if "samples_per_cycle" in self.attrs else None
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.close()
-        if found := blamed(self.path, error):
-            raise self._damaged(found) from found
-
-    def close(self) -> None:
-        """Let go of the file."""
-        self._file.close()
-
     def __getitem__(self, name: str) -> np.ndarray:
         """Return one dataset in SI units: the cases' dimensions first, in the order of `dims`."""
-        if name not in self:
-            raise InputError("dataset", name, "no such dataset", f"one of {', '.join(self)}")
-        return self._read(name, ...)
+        return self._read(name)
 
     def case(self, name: str, place: tuple[int, ...]) -> np.ndarray:
         """Return a dataset of the case at one place, without reading the others."""
         return self._read(name, place)
-
-    def dims_of(self, name: str) -> tuple[str, ...]:
-        """Names of a dataset's dimensions."""
-        return dims_in(self._file, name, self._scales)
-
-    @cached_property
-    def _scales(self) -> dict[int, str]:
-        """Names of scales, see `dims_in`."""
-        return {}
-
-    def __contains__(self, name: object) -> bool:
-        return name in self._file and isinstance(self._file[name], h5py.Dataset)
 
     def __iter__(self) -> Iterator[str]:
         """Go through the names of the datasets over the cases."""
@@ -148,34 +86,11 @@ class SweepRecord:
         """Kind of the study that was swept."""
         return str(self.scenario.get("kind", ""))
 
-    def units(self, name: str) -> str:
-        """Return the SI unit of a dataset."""
-        return harmless(str(self._file[name].attrs["units"]))
-
-    def long_name(self, name: str) -> str:
-        """Return what a dataset means."""
-        return harmless(str(self._file[name].attrs["long_name"]))
-
     def meanings(self, name: str) -> dict[int, str]:
         """Words that the whole numbers of a dataset stand for."""
         attrs = self._file[name].attrs
         values, words = attrs["flag_values"], str(attrs["flag_meanings"]).split()
         return {int(value): word for value, word in zip(values, words, strict=True)}
-
-    @cached_property
-    def attrs(self) -> dict[str, Any]:
-        """Attributes of the file's root."""
-        return attributes(self._file)
-
-    @property
-    def status(self) -> str:
-        """`complete`, `partial` or `failed`."""
-        return str(self.attrs["status"])
-
-    @property
-    def message(self) -> str:
-        """Why the record is not complete, or how many cases failed."""
-        return str(self.attrs["message"])
 
     @cached_property
     def dims(self) -> tuple[str, ...]:
@@ -186,9 +101,7 @@ class SweepRecord:
     def parameters(self) -> tuple[Parameter, ...]:
         """The varied parameters, in the order of the dimensions."""
         return tuple(
-            Parameter(
-                name, harmless(str(self._file[name].attrs["key"])), self.units(name), self._read(name, ...)
-            )
+            Parameter(name, harmless(str(self._file[name].attrs["key"])), self.units(name), self._read(name))
             for name in self.dims
             if name != "direction"
         )
@@ -196,7 +109,7 @@ class SweepRecord:
     @cached_property
     def directions(self) -> tuple[str, ...]:
         """Senses in which the first parameter was followed; none where every case began by itself."""
-        return tuple(self._read("direction", ...)) if "direction" in self.dims else ()
+        return tuple(self._read("direction")) if "direction" in self.dims else ()
 
     @cached_property
     def samples_per_cycle(self) -> int:
@@ -207,11 +120,6 @@ class SweepRecord:
     def settings(self) -> dict[str, Any]:
         """How the cases were brought to their windows."""
         return harmless_data(tomllib.loads(str(self.attrs["sweep"])))
-
-    @cached_property
-    def scenario(self) -> dict[str, Any]:
-        """The resolved scenario of the first case."""
-        return harmless_data(tomllib.loads(str(self.attrs["scenario"])))
 
     @cached_property
     def summary(self) -> dict[str, Any]:
@@ -240,17 +148,6 @@ class SweepRecord:
             name: scale[index].item() for name, scale, index in zip(self.dims, scales, place, strict=False)
         }
 
-    def _read(self, name: str, part: Any) -> np.ndarray:
-        try:
-            values = np.asarray(self._file[name][part])
-        except (OSError, RuntimeError) as error:
-            raise self._damaged(error) from error
-        return harmless_texts(values) if values.dtype.kind == "S" else samples_withheld(name, values)
-
-    def _damaged(self, error: Exception) -> InputError:
-        rule = f"the record is damaged: {reason_of(error)}"
-        return InputError("record", str(self.path), rule, "run the sweep again")
-
 
 AnyRecord = Record | SweepRecord
 """A record of a run or of a sweep."""
@@ -265,6 +162,3 @@ def is_sweep(path: str | Path) -> bool:
 def open_any(path: str | Path) -> AnyRecord:
     """Open a record of a run or of a sweep."""
     return SweepRecord(path) if is_sweep(path) else open_record(path)
-
-
-__all__ = ["AnyRecord", "Parameter", "SweepRecord", "is_sweep", "open_any"]

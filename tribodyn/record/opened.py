@@ -1,0 +1,176 @@
+"""What a record of a run and one of a sweep have in common while they are open."""
+
+import tomllib
+from functools import cached_property
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
+
+import h5py
+import numpy as np
+
+from tribodyn.errors import InputError, harmless
+from tribodyn.record.soundness import UNREADABLE, blamed, check_sound, reason_of
+from tribodyn.record.withheld import samples_withheld
+
+
+class OpenRecord:
+    """A record, open for reading; a context manager.
+
+    Parameters
+    ----------
+    path : Path
+        An HDF5 file that tribodyn wrote.
+
+    Raises
+    ------
+    InputError
+        If the file is missing, damaged, not such a record, or of a newer format.
+    """
+
+    _made_by = "run the scenario again"
+
+    def __init__(self, path: str | Path) -> None:
+        self.path = Path(path)
+        #: What a legend calls the record: its file's name, unless somebody who has several gives another.
+        self.label = harmless(self.path.stem.removesuffix(".partial"))
+        #: Dimensions by dataset, and names of scales by address: HDF5 searches the file for each.
+        self._known_dims: dict[str, tuple[str, ...]] = {}
+        self._scales: dict[int, str] = {}
+        self._file: Any = open_file(self.path)  # h5py types no item of a file
+        try:
+            self._check()
+        except InputError:
+            self._file.close()
+            raise
+        except UNREADABLE as error:
+            self._file.close()
+            raise self._damaged(error) from error
+
+    def _check(self) -> None:
+        """Raise InputError or one of `UNREADABLE` where the file is not what it should be."""
+        raise NotImplementedError
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+        if found := blamed(self.path, error):
+            raise self._damaged(found) from found
+
+    def close(self) -> None:
+        """Close the file."""
+        self._file.close()
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._file and isinstance(self._file[name], h5py.Dataset)
+
+    def dims_of(self, name: str) -> tuple[str, ...]:
+        """Names of a dataset's dimensions; none of a group, or of a number."""
+        if name not in self._known_dims:
+            item = self._file[name]
+            dims: tuple[str, ...] = ()
+            if isinstance(item, h5py.Dataset) and item.shape:
+                axes = (self._name_of(dim[0]) if len(dim) else "" for dim in item.dims)
+                dims = (name,) if item.is_scale else tuple(axes)
+            self._known_dims[name] = dims
+        return self._known_dims[name]
+
+    def _name_of(self, scale: h5py.Dataset) -> str:
+        address = h5py.h5o.get_info(scale.id).addr  # pyright: ignore[reportAttributeAccessIssue]
+        if address not in self._scales:
+            self._scales[address] = str(scale.name).rpartition("/")[2]
+        return self._scales[address]
+
+    def units(self, name: str) -> str:
+        """Return the SI unit of a dataset."""
+        return harmless(str(self._dataset(name).attrs["units"]))
+
+    def long_name(self, name: str) -> str:
+        """Return what a dataset means."""
+        return harmless(str(self._dataset(name).attrs["long_name"]))
+
+    @cached_property
+    def attrs(self) -> dict[str, Any]:
+        """Attributes of the file's root."""
+        return attributes(self._file)
+
+    @property
+    def status(self) -> str:
+        """`complete`, `partial` (being written, or its process was killed) or `failed`."""
+        return str(self.attrs["status"])
+
+    @property
+    def message(self) -> str:
+        """Why the record is not complete; of a sweep also how many cases failed."""
+        return str(self.attrs["message"])
+
+    @cached_property
+    def scenario(self) -> dict[str, Any]:
+        """The resolved scenario, of a sweep that of its first case; InputError where it is none."""
+        try:
+            return harmless_data(tomllib.loads(str(self.attrs["scenario"])))
+        except (KeyError, ValueError, RecursionError) as error:
+            raise self._damaged(error) from error
+
+    def _dataset(self, name: str) -> h5py.Dataset:
+        if name not in self:
+            raise InputError("dataset", name, "no such dataset", f"one of {', '.join(self)}")  # pyright: ignore
+        try:
+            return self._file[name]
+        except (KeyError, RuntimeError) as error:
+            raise self._damaged(error) from error
+
+    def _read(self, name: str, part: Any = ...) -> np.ndarray:
+        """A part of a dataset, SI; efficiencies that cannot be are NaN."""
+        dataset = self._dataset(name)
+        try:
+            values = np.asarray(dataset[part])
+        except (OSError, RuntimeError) as error:
+            raise self._damaged(error) from error
+        return harmless_texts(values) if values.dtype.kind == "S" else samples_withheld(name, values)
+
+    def _damaged(self, error: Exception) -> InputError:
+        return InputError(
+            "record", str(self.path), f"the record is damaged: {reason_of(error)}", self._made_by
+        )
+
+
+def open_file(path: Path) -> h5py.File:
+    """Open an HDF5 file for reading; InputError says what hinders it."""
+    if not path.is_file():
+        raise InputError("record", str(path), "no such file", "name the record of a run")
+    try:
+        check_sound(path)
+        return h5py.File(path, "r")
+    except PermissionError as error:
+        raise InputError("record", str(path), "may not be read", "change its permissions") from error
+    except OSError as error:
+        if h5py.is_hdf5(path):
+            raise InputError("record", str(path), f"damaged: {error}", "run the scenario again") from error
+        raise InputError("record", str(path), "not an HDF5 file", "name the record of a run") from error
+
+
+def attributes(item: Any) -> dict[str, Any]:
+    """Attributes as Python and NumPy values; texts without what a terminal or a picture would obey."""
+    return {
+        harmless(name): harmless_data(value.item() if isinstance(value, np.generic) else value)
+        for name, value in item.attrs.items()
+    }
+
+
+def harmless_texts(values: np.ndarray) -> np.ndarray:
+    """Texts of a dataset, decoded."""
+    return np.vectorize(harmless, otypes=["U"])(np.char.decode(values, "utf-8", "replace"))
+
+
+def harmless_data(value: Any) -> Any:
+    """Nested data of a record with harmless texts."""
+    if isinstance(value, dict):
+        return {harmless(name): harmless_data(item) for name, item in value.items()}
+    if isinstance(value, list):
+        return [harmless_data(item) for item in value]
+    return harmless(value) if isinstance(value, str) else value
