@@ -39,11 +39,10 @@ def assess(
 ) -> None:
     """Assess a drive: loads, vibration, film, temperatures, losses, margins; one folder, one report."""
     from tribodyn.cli.outcome import SIMULATION_FAILED, complain
-    from tribodyn.cli.output import make_folder
     from tribodyn.cli.printing import print_json, quoted_path, write_json
     from tribodyn.cli.progress import progress_bar
     from tribodyn.cli.show import print_summary
-    from tribodyn.numerics.output_files import check_output
+    from tribodyn.numerics.output_files import check_output, make_folder
     from tribodyn.post.report import as_json
     from tribodyn.record.reader import open_record
     from tribodyn.studies.pages.page import write_report

@@ -8,8 +8,8 @@ import typer
 
 from tribodyn.cli import completion
 from tribodyn.cli.options import JsonOption, LargeOption, SetOption, overrides
-from tribodyn.cli.output import make_folder
 from tribodyn.cli.plot import Format
+from tribodyn.numerics.output_files import make_folder
 
 if TYPE_CHECKING:
     from tribodyn.studies.protocol.load import Loaded

@@ -16,18 +16,16 @@ _KEPT = ("title", "title_style", "title_justify", "box", "show_header", "pad_edg
 LONG_WORD = 30
 
 
-def fitted(table: "Table", console: "Console", width: int) -> Any:
-    """Lay out a table in so many characters: columns of words are narrowed, or rows become short lists.
+def fitted(part: Any, console: "Console", width: int) -> Any:
+    """Lay out a table in `width` characters: columns of words are narrowed, or rows become short lists.
 
-    Parameters
-    ----------
-    table : Table
-        Of texts.
-    console : Console
-        That measures it.
-    width : int
-        Characters of a line.
+    What is no table stays as it is.
     """
+    from rich.table import Table
+
+    if not isinstance(part, Table):
+        return part
+    table = part
     columns = [[_text(cell) for cell in (column.header, *column.cells)] for column in table.columns]
     natural = [max(len(line) for cell in column for line in cell.split("\n")) for column in columns]
     least = [max(_least(cell) for cell in column) for column in columns]
@@ -69,9 +67,10 @@ def _wrapped(cell: str, size: int) -> str:
     return "\n".join(textwrap.wrap(cell, size, subsequent_indent=indent + "  ", break_on_hyphens=False))
 
 
-def least_width(table: "Table") -> int:
-    """Characters of a line that a table needs without breaking a number, but for the frame."""
-    return sum(max(_least(_text(cell)) for cell in (one.header, *one.cells)) + 3 for one in table.columns)
+def least_width(part: Any) -> int:
+    """Characters of a line that a table needs to break no number, but for the frame; else 0."""
+    columns = getattr(part, "columns", ())
+    return sum(max(_least(_text(cell)) for cell in (column.header, *column.cells)) + 3 for column in columns)
 
 
 def _text(cell: Any) -> str:
@@ -97,11 +96,11 @@ def _as_lists(table: "Table", columns: list[list[str]]) -> Any:
         unit = "" if heads[-1] else row[-1]
         lines.append(Text(row[0] + (f" ({unit})" if unit else "")))
         indent = " " * (len(row[0]) - len(row[0].lstrip()) + 2)
-        said: list[str] = []
+        shown: list[str] = []
         for head, cell in list(zip(heads, row, strict=True))[1 : None if heads[-1] else -1]:
-            if cell and (head or not said):
-                said.append(f"{head}: {cell}" if head else cell)
+            if cell and (head or not shown):
+                shown.append(f"{head}: {cell}" if head else cell)
             elif cell:
-                said[-1] += f"  {cell}"
-        lines += [Text(indent + one) for one in said]
+                shown[-1] += f"  {cell}"
+        lines += [Text(indent + text) for text in shown]
     return Group(*lines)

@@ -7,7 +7,7 @@ import typer
 
 from tribodyn.cli import completion
 from tribodyn.cli.options import JsonOption, ReplaceOption, SetOption, overrides
-from tribodyn.cli.output import make_folder
+from tribodyn.numerics.output_files import make_folder
 
 if TYPE_CHECKING:
     from tribodyn.geometry.assembly import Assembly

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-from tribodyn.cli.output import make_folder
+from tribodyn.numerics.output_files import make_folder
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

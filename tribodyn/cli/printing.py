@@ -13,8 +13,6 @@ from typing import TYPE_CHECKING, Any
 from tribodyn.errors import harmless
 
 if TYPE_CHECKING:
-    from rich.console import Console
-
     from tribodyn.studies.protocol.study import TextTable
 
 WIDTH_OF_A_PIPE = 160
@@ -74,17 +72,19 @@ def print_rich(renderable: Any) -> None:
     """Write something that rich can draw to stdout; tables are fitted to the terminal."""
     from rich.console import Console, Group
 
+    from tribodyn.cli.fitting import fitted, least_width
+
     console = Console(markup=False, highlight=False)
     parts = renderable.renderables if isinstance(renderable, Group) else [renderable]
     if console.is_terminal:
         for part in parts:
-            console.print(_fitted(part, console, console.width))
+            console.print(fitted(part, console, console.width))
         return
-    width = max(WIDTH_OF_A_PIPE, *map(_least, parts))
+    width = max(WIDTH_OF_A_PIPE, *map(least_width, parts))
     console = Console(markup=False, highlight=False, width=width)
     with console.capture() as captured:
         for part in parts:
-            console.print(_fitted(part, console, width))
+            console.print(fitted(part, console, width))
     sys.stdout.writelines(line.rstrip() + "\n" for line in captured.get().splitlines())
 
 
@@ -97,22 +97,6 @@ def print_prose(text: str) -> None:
         print_rich(Text(text))
     else:
         sys.stdout.write(text + "\n")
-
-
-def _fitted(part: Any, console: "Console", width: int) -> Any:
-    from rich.table import Table
-
-    from tribodyn.cli.fitting import fitted
-
-    return fitted(part, console, width) if isinstance(part, Table) else part
-
-
-def _least(part: Any) -> int:
-    from rich.table import Table
-
-    from tribodyn.cli.fitting import least_width
-
-    return least_width(part) if isinstance(part, Table) else 0
 
 
 def command_name() -> str:

@@ -7,7 +7,7 @@ import typer
 
 from tribodyn.cli import completion
 from tribodyn.cli.options import JsonOption, ReplaceOption
-from tribodyn.cli.output import make_folder
+from tribodyn.numerics.output_files import make_folder
 
 EXAMPLES = (
     "\b\nExit status 4 if a value is outside its tolerance. Examples:\n"

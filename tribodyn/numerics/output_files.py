@@ -108,6 +108,14 @@ def unwritable(path: Path, error: OSError, kept: str = "") -> InputError | Outpu
     return InputError("output", str(path), f"cannot be written: {reason}", "choose another name or folder")
 
 
+def make_folder(folder: Path) -> None:
+    """Make a folder, and those above it, unless it is there; raises as `write_output`."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise unwritable(folder, error) from None
+
+
 def open_new(path: Path) -> BinaryIO:
     """Open a file that was not there; what a dead process left under that name goes, no link is followed."""
     with suppress(FileNotFoundError):

@@ -126,6 +126,25 @@ def open_existing(path: Path) -> BinaryIO:
     return os.fdopen(os.open(path, os.O_RDWR | CAREFUL), "r+b", buffering=0)
 
 
+def put(file: BinaryIO, offset: int, content: bytes) -> None:
+    """Write all of some bytes at a place of a file, which may take less at a time if it is unbuffered."""
+    file.seek(offset)
+    rest = memoryview(content)
+    while rest:
+        rest = rest[file.write(rest) :]
+
+
+def copy(source: BinaryIO, start: int, target: BinaryIO, offset: int, size: int) -> None:
+    """Copy bytes from one file's place to another's."""
+    source.seek(start)
+    while size:
+        piece = source.read(min(size, BLOCK))
+        if not piece:
+            raise OSError(f"{source.name} ends too early")
+        put(target, offset, piece)
+        offset, size = offset + len(piece), size - len(piece)
+
+
 def _fill(stream: BinaryIO, blank: Blank) -> None:
     stream.seek(blank.offset)
     repeated = blank.value * max(1, BLOCK // len(blank.value))

@@ -1,17 +1,18 @@
 """Lays out the HDF5 file of a record, complete but for its samples."""
 
 import importlib.metadata
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from datetime import datetime
 from functools import cache
-from typing import Any, NamedTuple
+from pathlib import Path
+from typing import Any, BinaryIO, NamedTuple
 
 import h5py
 import numpy as np
 
 from tribodyn import __version__
 from tribodyn.numerics.variable import Variable
-from tribodyn.record import schema
+from tribodyn.record import disk, schema
 from tribodyn.record.disk import LIBVER, Blank, Layered
 from tribodyn.record.schema import Layout
 from tribodyn.record.withheld import withheld
@@ -102,6 +103,26 @@ def create(head: Head, samples: int) -> LaidOut:
         variables = {**layout.along, **layout.others, "samples_written": schema.SAMPLES_WRITTEN}
         blanks = [blank_of(dataset, variables[name]) for name, dataset in datasets.items()]
     return LaidOut(content, blanks, places)
+
+
+def write_trimmed(
+    head: Head,
+    samples: int,
+    source: tuple[BinaryIO, Mapping[str, Place]],
+    scratch: Path,
+    change: Callable[[h5py.File], None],
+) -> None:
+    """Write a record anew with the first of its samples.
+
+    `source` is what was written and where its datasets lie; `change` concludes it.
+    """
+    trimmed = create(head, samples)
+    disk.amend(trimmed.content, change)
+    disk.write_new(scratch, trimmed.content, trimmed.blanks)
+    file, places = source
+    with disk.open_existing(scratch) as target:
+        for blank, (name, place) in zip(trimmed.blanks, trimmed.places.items(), strict=True):
+            disk.copy(file, places[name].offset, target, place.offset, blank.size)
 
 
 def write_summary(file: h5py.File, summary: Mapping[str, Any], prefix: str = "") -> None:

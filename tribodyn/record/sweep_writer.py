@@ -164,7 +164,8 @@ class SweepWriter:
                 raise ValueError(f"{name}: shape {values.shape}, not {(len(cases), *place.row)}")
             try:
                 for run in runs:
-                    self._put(place.offset + int(cases[run[0]]) * place.stride, values[run])
+                    offset = place.offset + int(cases[run[0]]) * place.stride
+                    disk.put(self._file, offset, values[run].tobytes())
             except OSError as error:
                 kept = f"the cases before: {self.partial}, with more room --resume goes on"
                 raise unwritable(self.path, error, kept) from error
@@ -199,12 +200,6 @@ class SweepWriter:
         except OSError as error:
             raise unwritable(target, error, f"all cases, without a summary: {self.partial}") from error
         return target
-
-    def _put(self, offset: int, array: np.ndarray) -> None:
-        self._file.seek(offset)
-        rest = memoryview(array.tobytes())
-        while rest:  # an unbuffered file may take less than it is given
-            rest = rest[self._file.write(rest) :]
 
 
 def _lay_out(head: SweepHead) -> layout.LaidOut:

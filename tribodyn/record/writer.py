@@ -25,7 +25,6 @@ from tribodyn.record import disk, trust
 from tribodyn.record import layout as file_layout
 from tribodyn.record.schema import COMPLETE, FAILED, FORMAT, STATUS_NOTES, Layout, partial_path
 from tribodyn.record.soundness import remember_own
-from tribodyn.record.trimmed import write_trimmed
 from tribodyn.record.withheld import samples_withheld
 from tribodyn.record.writing_lock import WritingLock, refuse_if_written, remove_orphans, scratch_path
 
@@ -289,7 +288,7 @@ class RecordWriter:
     def _write_trimmed(self, scratch: Path, change: Callable[[h5py.File], None]) -> None:
         """Write a copy with the samples written, and with what concludes it."""
         with self.partial.open("rb") as source:
-            write_trimmed(self._head, self.written, (source, self._place), scratch, change)
+            file_layout.write_trimmed(self._head, self.written, (source, self._place), scratch, change)
 
     def _so_far(self) -> str:
         return f"the first {self.written} of {self.samples} samples: {self.partial}"
@@ -297,15 +296,9 @@ class RecordWriter:
     def _put_all(self, pieces: list[tuple[int, np.ndarray]]) -> None:
         try:
             for offset, array in pieces:
-                self._put(offset, array)
+                disk.put(self._file, offset, array.tobytes())
         except OSError as error:
             raise unwritable(self.path, error, self._so_far()) from error
-
-    def _put(self, offset: int, array: np.ndarray) -> None:
-        self._file.seek(offset)
-        rest = memoryview(array.tobytes())
-        while rest:  # an unbuffered file may take less than it is given
-            rest = rest[self._file.write(rest) :]
 
     def _close(self) -> None:
         if not self._open:

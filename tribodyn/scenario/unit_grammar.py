@@ -1,6 +1,8 @@
-"""What may be written as a unit: names joined by * and /, small exponents, one pair of brackets.
+"""Units as they are written: the common ones, the form of the others, hints for what engineers write.
 
-Pint reads more than that, as Python's tokenizer does: `rad//s`, `rad/s!` and towers of powers among it.
+A unit is names joined by * and /, small exponents, one pair of brackets. Pint reads more than that, as
+Python's tokenizer does: `rad//s`, `rad/s!` and towers of powers among it. To import pint takes as long as all
+else that a run reads its scenario with, so the common units stand here.
 """
 
 import re
@@ -54,3 +56,91 @@ _AFTER = {
     "opening": ("operator", "operand", "power"),
     "closing": _ENDS,
 }
+
+
+#: As pint has them: kind of quantity -> unit, spelled as TOML has it -> factor to the kind's SI unit.
+COMMON_UNITS: dict[str, dict[str, float]] = {
+    "length": {"m": 1.0, "cm": 0.01, "mm": 0.001, "um": 1e-06, "µm": 1e-06, "nm": 1e-09},
+    "angular speed": {"rad/s": 1.0, "rpm": 0.10471975511965977},
+    "angle": {
+        "rad": 1.0,
+        "mrad": 0.001,
+        "deg": 0.017453292519943295,
+        "arcmin": 0.00029088820866572163,
+        "arcsec": 4.84813681109536e-06,
+    },
+    "frequency": {"Hz": 6.283185307179586, "kHz": 6283.185307179586, "rad/s": 1.0},
+    "time": {"s": 1.0, "ms": 0.001, "us": 1e-06},
+    "power": {"W": 1.0, "kW": 1000.0},
+    "torque": {"N*m": 1.0, "Nm": 1.0, "kN*m": 1000.0, "N*mm": 0.001},
+    "force": {"N": 1.0, "kN": 1000.0},
+    "volume": {"l": 0.001, "m**3": 1.0},
+    "volume flow": {"l/min": 0.001 / 60.0, "m**3/s": 1.0},
+    "thermal conductance": {"W/K": 1.0},
+    "mass": {"kg": 1.0, "g": 0.001},
+    "moment of inertia": {"kg*m**2": 1.0, "kg*m^2": 1.0},
+    "stiffness": {"N/m": 1.0, "N/mm": 1000.0, "N/um": 1000000.0},
+    "torsional stiffness": {"N*m/rad": 1.0, "Nm/rad": 1.0},
+    "torsional damping": {"N*m*s/rad": 1.0},
+    "pressure": {"Pa": 1.0, "kPa": 1000.0, "MPa": 1000000.0, "GPa": 1000000000.0, "N/mm**2": 1000000.0},
+    "density": {"kg/m**3": 1.0, "kg/m^3": 1.0, "g/cm**3": 999.9999999999999},
+    "thermal conductivity": {"W/(m*K)": 1.0},
+    "specific heat": {"J/(kg*K)": 1.0},
+    "kinematic viscosity": {"mm**2/s": 1e-06, "mm^2/s": 1e-06, "mm²/s": 1e-06, "cSt": 1e-06, "m**2/s": 1.0},
+    "dynamic viscosity": {"Pa*s": 1.0, "mPa*s": 0.001},
+    "pressure-viscosity coefficient": {"1/Pa": 1.0, "1/GPa": 1e-09, "1/MPa": 1e-06},
+    "temperature coefficient": {"1/K": 1.0},
+}
+
+_COMMA = re.compile(r"\s*(?P<before>[+-]?\d+),(?P<after>\d+)(?P<rest>[^,]*)", re.ASCII)
+_TURNS = re.compile(r"(1\s*/\s*min|min\s*(\^|\*\*)?\s*-\s*1|min⁻¹|/\s*min|[uU]/min)")
+#: Written without the sign of multiplication -> as it must be written.
+_JOINED = {
+    "Pas": "Pa*s",
+    "mPas": "mPa*s",
+    "kNm": "kN*m",
+    "Nmm": "N*mm",
+    "kgm2": "kg*m^2",
+    "kgm²": "kg*m^2",
+    "kgm^2": "kg*m^2",
+    "Nms/rad": "N*m*s/rad",
+    "kNm/rad": "kN*m/rad",
+}
+_KINEMATIC = re.compile(r"([cm]?m\s*(²|\^2|\*\*2|2)\s*/\s*s|c?St)")
+
+
+def decimal_comma(value: str) -> tuple[str, str] | None:
+    """Rule and remedy for a number with a comma in it; None where there is none."""
+    found = _COMMA.fullmatch(value)
+    if found is None:
+        return None
+    point = f"{found['before']}.{found['after']}{found['rest']}".strip()
+    if len(found["after"]) != 3:
+        return "a comma in a number", f'write a decimal point: "{point}"'
+    whole = f"{found['before']}{found['after']}{found['rest']}".strip()
+    return "a comma in a number", f'write "{point}" or "{whole}", whichever is meant'
+
+
+def spelling(number: str, unit: str, what: str) -> tuple[str, str] | None:
+    """Rule and remedy for a unit that is not spelled as here, or is of something close; None: no hint.
+
+    Parameters
+    ----------
+    number, unit : str
+        The parts of the quantity as they were given; no number for a unit alone.
+    what : str
+        Name of the kind of quantity that is due.
+    """
+    unit = unit.strip()
+
+    def written(right: str) -> str:
+        return f'write "{f"{number} {right}".strip()}"'
+
+    if what == "angular speed" and _TURNS.fullmatch(unit):
+        return f'"{unit}" leaves open whether turns or radians are meant', written("rpm")
+    if unit in _JOINED:
+        return f'"{unit}" needs a sign of multiplication', written(_JOINED[unit])
+    if what == "dynamic viscosity" and _KINEMATIC.fullmatch(unit):
+        example = '100 mm²/s at 850 kg/m³ are "85 mPa*s"'
+        return f'"{unit}" is a unit of kinematic viscosity', f"give it times the density: {example}"
+    return None

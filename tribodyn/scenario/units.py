@@ -1,6 +1,6 @@
 """Quantities with units: the border between TOML ("3 mm") and SI floats.
 
-A quantity in TOML is a string of a number and a unit. Pint reads what is not in `common_units`; what leaves
+A quantity in TOML is a string of a number and a unit. Pint reads what is not in `COMMON_UNITS`; what leaves
 this module is a float in the SI unit of its `Kind`. A bare number, a wrong dimension, NaN and infinity are
 refused with a sentence that says which unit is due.
 """
@@ -10,9 +10,7 @@ from functools import cache
 from math import isfinite, pi
 from typing import Any, NamedTuple
 
-from tribodyn.scenario.common_units import COMMON_UNITS
-from tribodyn.scenario.unit_grammar import LONGEST, RULE, is_unit
-from tribodyn.scenario.unit_hints import decimal_comma, spelling
+from tribodyn.scenario.unit_grammar import COMMON_UNITS, LONGEST, RULE, decimal_comma, is_unit, spelling
 
 
 class Kind(NamedTuple):

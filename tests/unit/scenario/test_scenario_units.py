@@ -3,7 +3,7 @@ import math
 import pytest
 
 from tribodyn.scenario import units
-from tribodyn.scenario.common_units import COMMON_UNITS
+from tribodyn.scenario.unit_grammar import COMMON_UNITS
 from tribodyn.scenario.units import NotAQuantity, factor_to_si, to_si
 
 GRAMMAR = "not a unit: names joined by * and /, with exponents from -9 to 9"
