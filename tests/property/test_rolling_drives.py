@@ -4,14 +4,15 @@ import numpy as np
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from tribodyn.studies.rolling.checks import check, element_radius_limits
 from tribodyn.studies.rolling.engagement import RollingFriction, element_angles, engage
 from tribodyn.studies.rolling.geometry import (
     RollingDrive,
     cam_outline,
+    check_drive,
     contact_points,
     crown_outline,
     element_centres,
+    element_radius_limits,
     normal_direction,
 )
 
@@ -41,7 +42,7 @@ def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 @settings(max_examples=50, deadline=None)
 @given(drives(), FRICTIONS, TURNS)
 def test_torques_balance_and_energy_is_kept(drive: RollingDrive, friction: RollingFriction, turn: np.ndarray):
-    check(drive)
+    check_drive(drive)
     run = engage(drive, element_angles(drive, turn), POWER, SPEED, friction)
     push = -run.normal_load[..., None] * normal_direction(drive, run.element_angle)
     on_cam, on_crown = contact_points(drive, run.element_angle)

@@ -1,8 +1,8 @@
 """What a run of a gear with rolling elements takes, before any work."""
 
 from tribodyn.studies.protocol.estimate import PROGRAM, Driver, Estimate, record_bytes
-from tribodyn.studies.rolling.case import RollingCase
 from tribodyn.studies.rolling.layout import LAYOUT
+from tribodyn.studies.rolling.scenario import RollingCase
 
 #: How often a cycle's samples are held; seconds of an element at a sample.
 HELD, A_SAMPLE = 3.0, 1e-6

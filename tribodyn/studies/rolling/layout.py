@@ -5,36 +5,30 @@ from tribodyn.record.schema import TIME, Layout
 
 ELEMENT = Variable(("element",), "1", "rolling element, in the order of their angles")
 
+_TIME, _EACH = ("time",), ("time", "element")
+
 #: What a run records over time.
 SAMPLES: dict[str, Variable] = {
-    "input_angle": Variable(("time",), "rad", "rotation of the shaft"),
+    "input_angle": Variable(_TIME, "rad", "rotation of the shaft"),
     "element_angle": Variable(
-        ("time", "element"),
+        _EACH,
         "rad",
         "angle of the element about the cage's centre from the pitch point; 0 in a depression of the cam, "
         "pi on a protrusion",
     ),
-    "cam_distance": Variable(
-        ("time", "element"), "m", "L_A, distance from pitch point to contact with the cam"
-    ),
-    "crown_distance": Variable(
-        ("time", "element"), "m", "L_B, distance from pitch point to contact with the crown"
-    ),
-    "normal_load": Variable(
-        ("time", "element"), "N", "normal load of the element, the same on cam and crown"
-    ),
+    "cam_distance": Variable(_EACH, "m", "L_A, distance from pitch point to contact with the cam"),
+    "crown_distance": Variable(_EACH, "m", "L_B, distance from pitch point to contact with the crown"),
+    "normal_load": Variable(_EACH, "N", "normal load of the element, the same on cam and crown"),
     "slip_speed": Variable(
-        ("time", "element"),
-        "m/s",
-        "slip of the element over the cam, positive counter-clockwise about the pitch point",
+        _EACH, "m/s", "slip of the element over the cam, positive counter-clockwise about the pitch point"
     ),
-    "spin_speed": Variable(("time", "element"), "rad/s", "rotation of the element in the cage"),
-    "power_cam": Variable(("time", "element"), "W", "power lost at the cam, to rolling and sliding"),
-    "power_crown": Variable(("time", "element"), "W", "power lost at the crown, to rolling"),
-    "power_in": Variable(("time",), "W", "power of the shaft"),
-    "power_out": Variable(("time",), "W", "power of the cam, which drives the load"),
-    "power_friction": Variable(("time",), "W", "power lost in all contacts"),
-    "efficiency": Variable(("time",), "1", "instantaneous efficiency; as_published: the product (23)"),
+    "spin_speed": Variable(_EACH, "rad/s", "rotation of the element in the cage"),
+    "power_cam": Variable(_EACH, "W", "power lost at the cam, to rolling and sliding"),
+    "power_crown": Variable(_EACH, "W", "power lost at the crown, to rolling"),
+    "power_in": Variable(_TIME, "W", "power of the shaft"),
+    "power_out": Variable(_TIME, "W", "power of the cam, which drives the load"),
+    "power_friction": Variable(_TIME, "W", "power lost in all contacts"),
+    "efficiency": Variable(_TIME, "1", "instantaneous efficiency; as_published: the product (23)"),
 }
 
 #: Curves and lengths of the geometry.

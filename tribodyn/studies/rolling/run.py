@@ -11,8 +11,6 @@ from tribodyn.errors import InputError
 from tribodyn.record.trust import Judge
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import Progress, RunResult
-from tribodyn.studies.rolling.case import RollingCase
-from tribodyn.studies.rolling.checks import check
 from tribodyn.studies.rolling.engagement import (
     Engagement,
     element_angles,
@@ -20,8 +18,9 @@ from tribodyn.studies.rolling.engagement import (
     pattern_period,
     published_angles,
 )
-from tribodyn.studies.rolling.geometry import Array, cam_outline, crown_outline
+from tribodyn.studies.rolling.geometry import Array, cam_outline, check_drive, crown_outline
 from tribodyn.studies.rolling.layout import LAYOUT
+from tribodyn.studies.rolling.scenario import RollingCase
 
 #: Share of the maximum load below which an element counts as unloaded.
 UNLOADED = 1e-9
@@ -35,7 +34,7 @@ def prepare(case: RollingCase) -> Engagement:
     InputError
         Where the gear cannot be made, or its friction would take all the power and lock it.
     """
-    check(case.drive)
+    check_drive(case.drive)
     cycle = _engage(case, _shaft_angles(case)[: case.samples_per_cycle])
     _refuse_locking(case, cycle)
     return cycle
@@ -60,9 +59,9 @@ def run(
     scales = {"element": np.arange(1, first.element_angle.shape[-1] + 1)}
     groups = {"geometry": geometry_arrays(case)}
     with writer(case, path, LAYOUT, len(angles), groups=groups, scales=scales, force=force) as record:
-        for start, part in _blocks(angles, case.samples_per_cycle):
-            state = _engage(case, part)
-            record.write(start, _datasets(case, part, state))
+        for start, part, state in _blocks(case, angles):
+            over_time = {"time": part / case.input_speed, "input_angle": part}
+            record.write(start, over_time | state._asdict() | {"power_friction": state.power_friction})
             statistics.add(state, whole=_whole(start + len(part), angles))
             if progress:
                 progress((start + len(part)) / len(angles))
@@ -74,8 +73,8 @@ def figures(case: RollingCase) -> dict[str, Any]:
     """Figures of a case without a record."""
     prepare(case)
     angles, statistics = _shaft_angles(case), RunStatistics()
-    for start, part in _blocks(angles, case.samples_per_cycle):
-        statistics.add(_engage(case, part), whole=_whole(start + len(part), angles))
+    for start, part, state in _blocks(case, angles):
+        statistics.add(state, whole=_whole(start + len(part), angles))
     return statistics.summary(case)
 
 
@@ -112,18 +111,11 @@ def _engage(case: RollingCase, angles: Array) -> Engagement:
     return engage(case.drive, elements, case.input_power, case.input_speed, case.friction, case.mode)
 
 
-def _blocks(angles: Array, length: int) -> Iterator[tuple[int, Array]]:
-    for start in range(0, len(angles), length):
-        yield start, angles[start : start + length]
-
-
-def _datasets(case: RollingCase, angles: Array, state: Engagement) -> dict[str, Array]:
-    return {
-        "time": angles / case.input_speed,
-        "input_angle": angles,
-        **state._asdict(),
-        "power_friction": state.power_friction,
-    }
+def _blocks(case: RollingCase, angles: Array) -> Iterator[tuple[int, Array, Engagement]]:
+    """Go through the cycles: number of the first sample, rotations of the shaft, state."""
+    for start in range(0, len(angles), case.samples_per_cycle):
+        part = angles[start : start + case.samples_per_cycle]
+        yield start, part, _engage(case, part)
 
 
 def _refuse_locking(case: RollingCase, cycle: Engagement) -> None:

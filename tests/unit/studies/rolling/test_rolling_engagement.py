@@ -5,7 +5,6 @@ import pytest
 from scipy.integrate import quad
 
 from tribodyn.errors import InputError
-from tribodyn.studies.rolling.checks import check, element_radius_limits
 from tribodyn.studies.rolling.engagement import (
     RollingFriction,
     element_angles,
@@ -16,7 +15,14 @@ from tribodyn.studies.rolling.engagement import (
     slip_speed,
     spin_speed,
 )
-from tribodyn.studies.rolling.geometry import RollingDrive, contact_points, element_centres, normal_direction
+from tribodyn.studies.rolling.geometry import (
+    RollingDrive,
+    check_drive,
+    contact_points,
+    element_centres,
+    element_radius_limits,
+    normal_direction,
+)
 
 DRIVE = RollingDrive(pitch_radius=0.020, elements=26, displacement=1.4, element_radius=0.002)
 ODD = RollingDrive(0.05, 11, 1.2, 0.0015)
@@ -174,7 +180,7 @@ def test_loads_follow_the_torque_alone():
 )
 def test_what_cannot_be_made_is_refused_with_a_remedy(change, key, rule, remedy):
     with pytest.raises(InputError) as caught:
-        check(DRIVE._replace(**change))
+        check_drive(DRIVE._replace(**change))
     assert caught.value.key == key
     assert rule in caught.value.rule
     assert remedy in caught.value.remedy
@@ -182,5 +188,5 @@ def test_what_cannot_be_made_is_refused_with_a_remedy(change, key, rule, remedy)
 
 def test_the_radius_that_a_remedy_gives_is_accepted():
     for drive in (DRIVE, ODD):
-        check(drive)
-        check(drive._replace(element_radius=0.999 * min(element_radius_limits(drive).values())))
+        check_drive(drive)
+        check_drive(drive._replace(element_radius=0.999 * min(element_radius_limits(drive).values())))
