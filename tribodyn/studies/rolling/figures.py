@@ -24,9 +24,11 @@ CURVES = (
     "Power lost by one element, at cam and crown",
     "The same, added up",
 )
+#: Their datasets, and the last angle of the loaded half.
+SHOWN, HALF = ("normal_load", "slip_speed", "power_cam", "power_crown"), np.pi * (1 + 1e-12)
 
 
-class Curve(NamedTuple):
+class ElementCurves(NamedTuple):
     """Quantities of elements in the order of an abscissa: element number, or angle φ in degrees."""
 
     x: np.ndarray
@@ -42,22 +44,14 @@ def moves(record: Record) -> bool:
     return record.samples > 1
 
 
-def by_number(record: Record) -> Curve:
+def by_number(record: Record) -> ElementCurves:
     """Take the elements in the loaded half at the start, by number; losses add up from the first."""
-    angle = record["element_angle"][0]
-    half = angle <= np.pi * (1 + 1e-12)
-    cam, crown = (record[name][0][half] for name in ("power_cam", "power_crown"))
-    return Curve(
-        np.array(record.elements)[half],
-        record["normal_load"][0][half],
-        record["slip_speed"][0][half],
-        cam,
-        crown,
-        np.cumsum(cam + crown),
-    )
+    half = record["element_angle"][0] <= HALF
+    load, slip, cam, crown = (record[name][0][half] for name in SHOWN)
+    return ElementCurves(np.array(record.elements)[half], load, slip, cam, crown, np.cumsum(cam + crown))
 
 
-def by_angle(record: Record) -> Curve:
+def by_angle(record: Record) -> ElementCurves:
     """Take what one element meets on its way through the loaded half, by angle; in a position, all elements.
 
     Losses are integrated over the angle and divided by the pitch of the elements, which adds up to the mean
@@ -67,57 +61,46 @@ def by_angle(record: Record) -> Curve:
     path = (slice(None), 0) if record.samples > 1 else (0, slice(None))
     angle = record["element_angle"][path]
     order = np.argsort(angle)
-    order = order[angle[order] <= np.pi * (1 + 1e-12)]
+    order = order[angle[order] <= HALF]
     phi = angle[order]
-    load, slip, cam, crown = (
-        record[name][path][order] for name in ("normal_load", "slip_speed", "power_cam", "power_crown")
-    )
+    load, slip, cam, crown = (record[name][path][order] for name in SHOWN)
     loss = cam + crown
     pieces = np.diff(phi) * (loss[1:] + loss[:-1]) / 2
     drive = record.scenario["drive"]
     cumulative = np.concatenate([[0.0], np.cumsum(pieces)]) * drive["elements"] / (2 * np.pi)
-    return Curve(np.degrees(phi), load, slip, cam, crown, cumulative)
+    return ElementCurves(np.degrees(phi), load, slip, cam, crown, cumulative)
 
 
-def _four_panels(records: Sequence[Record], curves: Callable[[Record], Curve]) -> Figure:
+def _four_panels(records: Sequence[Record], curves: Callable[[Record], ElementCurves]) -> Figure:
     drawn = new_figure(WIDTH, 2 * PANEL_HEIGHT + 0.4)
     panels = drawn.subplots(2, 2, sharex=True).ravel()
     for number, record in enumerate(records):
         draw_curve(panels, curves(record), PALETTE[number % len(PALETTE)], curves is by_number)
     for letter, axes, title in zip("abcd", panels, CURVES, strict=True):
         mark_panel(axes, letter, title)
-    _from_zero(panels)
-    _label_abscissa(panels[2:], curves is by_number)
+    _finish_axes(panels, panels[2:], curves is by_number)
     drawn.align_ylabels()
     _finish(drawn, records, [("cam", "-"), ("crown", "--")])
     return drawn
 
 
-def draw_curve(panels: Sequence[Axes], curve: Curve, color: str, marked: bool) -> None:
+def draw_curve(panels: Sequence[Axes], curve: ElementCurves, color: str, marked: bool) -> None:
     """Draw load, slip, losses and cumulative loss into four axes; points of single elements are `marked`."""
     marker = "o" if marked else ""
     style: dict[str, Any] = {"color": color, "marker": marker, "markersize": 3, "clip_on": not marked}
-    load, slip, losses, cumulative = panels
-    load.plot(curve.x, curve.load, **style)
-    load.set_ylabel("Normal load (N)")
-    slip.plot(curve.x, curve.slip * 1e3, **style)
-    slip.set_ylabel("Slip over the cam (mm/s)")
-    losses.plot(curve.x, curve.cam, **style)
-    losses.plot(curve.x, curve.crown, linestyle="--", **style)
-    losses.set_ylabel("Loss of an element (W)")
-    cumulative.plot(curve.x, curve.cumulative, **style)
-    cumulative.set_ylabel("Cumulative loss (W)")
+    values = curve.load, curve.slip * 1e3, curve.cam, curve.cumulative
+    labels = "Normal load (N)", "Slip over the cam (mm/s)", "Loss of an element (W)", "Cumulative loss (W)"
+    for axes, y, label in zip(panels, values, labels, strict=True):
+        axes.plot(curve.x, y, **style)
+        axes.set_ylabel(label)
+    panels[2].plot(curve.x, curve.crown, linestyle="--", **style)
 
 
-def _from_zero(panels: Sequence[Axes]) -> None:
-    """Start loads and losses at zero, when all curves are drawn: it would stop the axes from growing."""
+def _finish_axes(panels: Sequence[Axes], labelled: Sequence[Axes], by_element: bool) -> None:
+    """Start loads and losses at zero, which stops axes from growing, and label abscissas."""
     for axes in (panels[0], *panels[2:]):
         axes.set_ylim(bottom=0)
-
-
-def _label_abscissa(row: Sequence[Axes], by_element: bool) -> None:
-    """Label the horizontal axes, when all curves are drawn."""
-    for axes in row:
+    for axes in labelled:
         if by_element:
             axes.set_xlabel("Element, from the cam's depression")
             axes.xaxis.set_major_locator(MaxNLocator(integer=True))
@@ -193,18 +176,15 @@ def draw_loads(axes: Axes, x: np.ndarray, load: np.ndarray, color: str) -> None:
 
 def _draw_efficiency(panels: Sequence[Axes], records: Sequence[Record], view: View) -> tuple[str, str]:
     """Draw loss and efficiency at each moment; their titles."""
-    losses, shares = [], []
-    for number, record in enumerate(records):
-        part, x = _cycles(record, view)
-        color = PALETTE[number % len(PALETTE)]
-        losses.append(record["power_friction"][part])
-        shares.append(record["efficiency"][part] * 100)
-        panels[0].plot(x, losses[-1], color=color)
-        panels[1].plot(x, shares[-1], color=color)
-    panels[0].set_ylabel("Loss (W)")
-    panels[1].set_ylabel("Efficiency (%)")
-    scale(panels[0], losses)
-    scale(panels[1], shares)
+    shown = ("power_friction", 1.0, "Loss (W)"), ("efficiency", 100.0, "Efficiency (%)")
+    for axes, (name, factor, label) in zip(panels, shown, strict=True):
+        curves = []
+        for number, record in enumerate(records):
+            part, x = _cycles(record, view)
+            curves.append(record[name][part] * factor)
+            axes.plot(x, curves[-1], color=PALETTE[number % len(PALETTE)])
+        axes.set_ylabel(label)
+        scale(axes, curves)
     return "Power lost in all contacts", "Efficiency at each moment"
 
 
@@ -235,8 +215,7 @@ def _overview(records: Sequence[Record], view: View) -> Figure:
     panels = [rows[0, 1], rows[0, 2], rows[1, 0], rows[1, 1]]
     moving = record.samples > 1
     draw_curve(panels, by_angle(record), PALETTE[0], marked=not moving)
-    _from_zero(panels)
-    _label_abscissa(panels, by_element=False)
+    _finish_axes(panels, panels, by_element=False)
     panels[2].legend(["cam", "crown"])
     if moving:
         part, x = _cycles(record, view)
@@ -255,10 +234,8 @@ def _overview(records: Sequence[Record], view: View) -> Figure:
 
 def _title(record: Record) -> str:
     """Return what the record is about and in which mode it was made."""
-    title, mode = (
-        record_title(record),
-        literal(str(record.scenario.get("mode", "corrected")).replace("_", " ")),
-    )
+    title = record_title(record)
+    mode = literal(str(record.scenario.get("mode", "corrected")).replace("_", " "))
     return title if mode in title else f"{title} ({mode})"
 
 
@@ -292,7 +269,7 @@ def _of_a_motion(name: str, about: str, draw: Any) -> Drawing:
     def checked(records: Sequence[Record], view: View) -> Figure:
         for record in records:
             if not moves(record):
-                always_there = ", ".join(one for one in OF_A_POSITION if one != "overview")
+                always_there = ", ".join(other for other in OF_A_POSITION if other != "overview")
                 rule = f"{record.path} holds a single position"
                 raise InputError("plot", name, rule, f"draw {always_there}")
         return _over_time(records, view, draw)
