@@ -10,10 +10,11 @@ from hypothesis import strategies as st
 from tests.support.closures import LOCAL_LAWS, VECIANA, coulomb, under
 from tribodyn.geometry.families.involute import InvolutePath
 from tribodyn.studies.efficiency.loss_factor import exact, hoehn
-from tribodyn.studies.efficiency.torque_ratio import cycloid_contact, path_contact, torque_ratio
+from tribodyn.studies.efficiency.torque_ratio import path_contact, torque_ratio
 from tribodyn.tribology.friction.iso_14179_1 import iso_14179_1
 from tribodyn.tribology.friction.niemann import niemann
 from tribodyn.tribology.mesh_conditions import NominalConditions
+from tribodyn.validation.veciana_study import cycloid_contact
 
 teeth = st.integers(14, 60)
 ratios = st.floats(1.0, 5.0)

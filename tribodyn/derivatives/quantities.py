@@ -15,7 +15,8 @@ from tribodyn.geometry.families import family
 from tribodyn.geometry.limits.limits import LIMITS, distances
 from tribodyn.geometry.path import kinematics
 from tribodyn.mesh.cycle import MeshCycle
-from tribodyn.mesh.friction_loss import Engaged, contacts, engaged, friction_loss, mean_efficiency
+from tribodyn.mesh.equilibrium import Contacts, Equilibrium, contacts, elastic, equilibrium
+from tribodyn.mesh.power_flow import friction_loss, mean_efficiency
 from tribodyn.mesh.quasi_static import QuasiStatic, cycle_mean, quasi_static
 from tribodyn.mesh.tabulate import tabulate
 from tribodyn.numerics.elementary import absolute, cos, minimum, namespace
@@ -77,7 +78,7 @@ class Evaluation:
         return self._table(Assembly(gears.family._replace(corner=True), gears.drive))
 
     @cached_property
-    def rubbing(self) -> Engaged:
+    def rubbing(self) -> Equilibrium:
         """Loads and friction together."""
         return self._rubbing[0]
 
@@ -87,11 +88,11 @@ class Evaluation:
         return self._rubbing[1].under(self.rubbing.normal_load).surface
 
     @cached_property
-    def _rubbing(self) -> tuple[Engaged, Any]:
+    def _rubbing(self) -> tuple[Equilibrium, Contacts]:
         operating, cycle = self.case.operating, self.rubbing_cycle
         closure = untried_closure_of(self.case)
         seen = contacts(cycle, operating.gear_torque, operating.pinion_speed, closure, self.fixed.vanishing)
-        return engaged(cycle, operating.gear_torque, seen), seen
+        return equilibrium(seen, elastic(cycle, operating.gear_torque)), seen
 
     def _table(self, gears: Assembly) -> MeshCycle:
         return tabulate(gears, self.case.materials, self.case.mesh, self.fixed.pairs)
@@ -155,13 +156,14 @@ def _loss_factor(at: Evaluation) -> Any:
 
 
 def _efficiency(at: Evaluation) -> Any:
-    load, coefficient = at.rubbing
-    return mean_efficiency(at.rubbing_cycle, at.case.operating.gear_torque, coefficient, load)
+    torque, found = at.case.operating.gear_torque, at.rubbing
+    return mean_efficiency(at.rubbing_cycle, torque, found.friction_coefficient, found.normal_load)
 
 
 def _friction_power(at: Evaluation) -> Any:
-    load, coefficient = at.rubbing
-    return friction_loss(at.rubbing_cycle, load, coefficient) * absolute(at.case.operating.pinion_speed)
+    found = at.rubbing
+    loss = friction_loss(at.rubbing_cycle, found.normal_load, found.friction_coefficient)
+    return loss * absolute(at.case.operating.pinion_speed)
 
 
 def _largest(name: str, sign: float = 1.0) -> Callable[[Evaluation], Any]:

@@ -18,17 +18,25 @@ from tribodyn.compliance.energy import (
     neighbour_coupling,
     tooth_compliance,
 )
-from tribodyn.compliance.table import check_cover, interpolate
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.drive import SIDES, Drive
+from tribodyn.geometry.drive import SIDES
 from tribodyn.geometry.material import MaterialData
-from tribodyn.geometry.path import Path, kinematics
-from tribodyn.geometry.pitch_point import pitch_point
+from tribodyn.geometry.path import kinematics
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.data import MeshData
-from tribodyn.mesh.rules import check_backlash, check_bores, check_foundation
-from tribodyn.numerics.elementary import cos, namespace
+from tribodyn.mesh.table import (
+    Elasticity,
+    Slots,
+    back_entry,
+    check_backlash,
+    check_bores,
+    mesh_table,
+    slots,
+    unloaded_gap,
+)
+from tribodyn.numerics.curve import check_cover, interpolate
+from tribodyn.numerics.elementary import cos, is_jax, namespace
 from tribodyn.numerics.iteration import chebyshev_basis
 from tribodyn.numerics.shapes import Array, Float
 
@@ -72,59 +80,29 @@ def tabulate(
     InputError
         If a table does not cover the contact, an option lacks its numbers, or options contradict each other.
     """
-    drive, path, corner = assembly.drive, assembly.path, assembly.family.corner
-    _check_options(drive, mesh, back)
-    start, end = assembly.roll_limits
-    boundary, phase, in_contact, roll = _phases(assembly, pairs, mesh.points, back)
+    path, corner = assembly.path, assembly.family.corner
+    _check_options(assembly, mesh, back)
+    at = _slots(assembly, pairs, mesh.points, back)
     if corner:  # which side of the pitch point a node there is on must not depend on rounding
-        xp = namespace(roll)
-        roll = xp.where(xp.abs(roll) < _MINIMUM_SEGMENT, 0.0, roll)
-    curve = _RollCurve(start, end)
+        xp = namespace(at.roll)
+        at = at._replace(roll=xp.where(xp.abs(at.roll) < _MINIMUM_SEGMENT, 0.0, at.roll))
+    curve = _RollCurve(*assembly.roll_limits)
 
     r_nodes = path.signed_distance(curve.nodes())
-    r = curve.interpolate(r_nodes, roll)
+    r = curve.interpolate(r_nodes, at.roll)
     if corner:  # paths that may be steep at their ends: one of Newton's steps from the series
-        r = r - (path.rotation(r) - roll) * path.pinion_pitch_radius * cos(path.pressure_angle(r))
+        r = r - (path.rotation(r) - at.roll) * path.pinion_pitch_radius * cos(path.pressure_angle(r))
     motion = kinematics(path, r)
-    vanishing = pitch_point(path)
-    width = assembly.common_width
-    compliance, coupling = _compliance(assembly, materials, mesh, curve, r_nodes, roll, pairs)
-    gap = _transmission_error(mesh, phase, roll, curve)
-    side = np.ones(pairs)
-    if back:
-        side = np.concatenate([side, -side])
-        gap = namespace(gap).where(side > 0, gap, mesh.backlash * opening(path, motion.pressure_angle))
+    compliance, coupling = _compliance(assembly, materials, mesh, curve, r_nodes, at.roll, pairs)
+    gap = unloaded_gap(assembly, mesh, at, motion.pressure_angle)
     linear = mesh.compliance != "energy" or mesh.hertz == "linear"
-    return MeshCycle(
-        boundary=boundary,
-        in_contact=in_contact,
-        side=side,
-        phase=phase,
-        pressure_angle=motion.pressure_angle,
-        signed_distance=r,
-        equivalent_radius=1.0 / motion.relative_curvature,
-        pinion_speed=motion.pinion_speed,
-        gear_speed=motion.gear_speed,
-        compliance=compliance,
-        gap=gap,
-        coupling=coupling,
-        hertz_coefficient=0.0 if linear else hertz_coefficient(*materials, width),
-        pinion_pitch_radius=path.pinion_pitch_radius,
-        gear_pitch_radius=path.gear_pitch_radius,
-        pinion_teeth=drive.pinion.teeth,
-        face_width=width,
-        contact_ratio=assembly.contact_ratio,
-        pitch_point_phase=-start / assembly.pitch_angle,
-        roll_start=start,
-        roll_end=end,
-        pitch_point_length=vanishing.length,
-        pitch_point_rate=vanishing.speed_per_radius,
-    )
+    hertz = 0.0 if linear else hertz_coefficient(*materials, assembly.common_width)
+    return mesh_table(assembly, at, motion, Elasticity(compliance, coupling, gap, hertz))
 
 
-def _check_options(drive: Drive, mesh: MeshData, back: bool) -> None:
+def _check_options(assembly: Assembly, mesh: MeshData, back: bool) -> None:
     if mesh.compliance == "energy":
-        check_bores(drive)
+        check_bores(assembly.drive)
     if mesh.compliance == "constant" and mesh.stiffness is None:
         raise InputError(
             "mesh.stiffness", rule="is needed for compliance = 'constant'", remedy="give one pair's"
@@ -141,53 +119,19 @@ def _check_options(drive: Drive, mesh: MeshData, back: bool) -> None:
     check_backlash(mesh, back)
 
 
-def opening(path: Path, pressure_angle: Float[Array, "..."]) -> Float[Array, "..."]:
-    """Normal distance of back flanks over that at the pitch point.
+def _slots(assembly: Assembly, pairs: int, points: int, back: bool) -> Slots:
+    """Pairs on the path of contact.
 
-    Conjugate flanks all touch after the same rotation: the distance along a normal goes like cos α.
+    Where the path has a corner at the pitch point a segment also begins when a pair passes it, for no spline
+    may run across.
     """
-    return cos(pressure_angle) / cos(path.pressure_angle(0.0))
-
-
-def _phases(
-    assembly: Assembly, pairs: int, points: int, back: bool
-) -> tuple[
-    Float[Array, " boundary"],
-    Float[Array, "segment node"],
-    Float[Array, "segment pair"],
-    Float[Array, "segment node pair"],
-]:
-    """Boundaries (S + 1,), phases (S, N), contact (S, Q) and roll angles (S, N, Q) of all slots.
-
-    Positions count pitches since a pair's first contact. A back pair lives in the mirrored world, where the
-    phase runs backwards: the back flank of a pinion tooth crosses the pitch point half a pitch after its
-    front flank, so that its roll angle there is π/Z_p − φ. Where the path has a corner at the pitch point a
-    segment also begins when a pair passes it, for no spline may run across.
-    """
-    (start, end), ratio, pitch = assembly.roll_limits, assembly.contact_ratio, assembly.pitch_angle
-    xp = namespace(start, ratio)
-    leave = ratio - (pairs - 1)
-    ages = np.arange(pairs - 1.0, -1.0, -1.0)
-    enter = (0.5 - 2.0 * start / pitch) % 1.0
-    boundary = [0.0 * leave, leave, 1.0 + 0.0 * leave]
-    if back:
-        boundary += [enter, (enter - leave) % 1.0]
-    if assembly.family.corner:
-        passes = -start / pitch
-        boundary += [passes % 1.0] + ([(passes + 0.5) % 1.0] if back else [])
-    boundary = _apart(xp.sort(xp.stack(boundary)))
-    lower, upper = boundary[:-1, None], boundary[1:, None]
-    phase = lower + (upper - lower) * np.linspace(0.0, 1.0, points)
-    middle = (lower + upper) / 2
-    position, centre = phase[:, :, None] + ages, middle + ages
-    if back:
-        wrapped = xp.where(middle > enter, 1.0, 0.0)
-        mirrored = (enter - phase + wrapped)[:, :, None] + ages
-        position = xp.concatenate([position, mirrored], axis=-1)
-        centre = xp.concatenate([centre, enter - middle + wrapped + ages], axis=-1)
-    in_contact = xp.where(centre < ratio, 1.0, 0.0)
-    roll = start + pitch * position
-    return boundary, phase, in_contact, xp.clip(roll, start, end)
+    (start, end), pitch = assembly.roll_limits, assembly.pitch_angle
+    leave = assembly.contact_ratio - (pairs - 1)
+    marks = [leave, (-start / pitch) % 1.0] if assembly.family.corner else [leave]
+    mirrored = [(back_entry(start, pitch) - mark) % 1.0 for mark in (0.0, *marks)] if back else []
+    xp = namespace(start, leave)
+    boundary = _apart(xp.sort(xp.stack([0.0 * leave, 1.0 + 0.0 * leave, *marks, *mirrored])))
+    return slots(boundary, (start, end), pitch, pairs, points, back)
 
 
 def _apart(boundary: Float[Array, " boundary"]) -> Float[Array, " boundary"]:
@@ -253,7 +197,10 @@ def _compliance(
         tooth_compliance(t, m, width, r_nodes, mesh.foundation) for t, m in zip(teeth, materials, strict=True)
     ]
     for side, part in zip(SIDES, parts, strict=True):
-        check_foundation(side, part.foundation)
+        if not is_jax(part.foundation) and not np.all(part.foundation > 0):
+            what = f"the fitted polynomials give the {side}'s body no positive compliance"
+            rule = f"far outside their range, {what}"
+            raise InputError("mesh.foundation", '"sainsot-velex"', rule, 'use "ring"')
     pair = parts[0].total + parts[1].total
     if mesh.hertz == "linear":
         pair = pair + hertz_linear(*materials, width)
@@ -277,12 +224,12 @@ def _coupling(
 
     Front and back flanks never carry at the same time while there is backlash, so they are left uncoupled.
     """
-    slots = pinion_load.shape[-2]
+    count = pinion_load.shape[-2]
     zero = 0.0 * pinion_load[..., 0, 0]
-    entries = [[zero] * slots for _ in range(slots)]
+    entries = [[zero] * count for _ in range(count)]
     for pitches in range(1, pairs):
         matrices = [neighbour_coupling(t, m, pitches) for t, m in zip(teeth, materials, strict=True)]
-        for later in range(slots):
+        for later in range(count):
             earlier = later - pitches
             if earlier < 0 or earlier // pairs != later // pairs:
                 continue
@@ -295,20 +242,3 @@ def _coupling(
             entries[later][earlier] = entries[earlier][later] = entry
     xp = namespace(entries)
     return xp.stack([xp.stack(row, axis=-1) for row in entries], axis=-1)
-
-
-def _transmission_error(
-    mesh: MeshData,
-    phase: Float[Array, "segment node"],
-    roll: Float[Array, "segment node pair"],
-    curve: _RollCurve,
-) -> Float[Array, "segment node pair"]:
-    """Compute the transmission error (S, N, Q), m: harmonics of the mesh phase, table over roll angle."""
-    gap = 0.0 * roll
-    for order, amplitude, angle in mesh.error_harmonics:
-        gap = gap + (amplitude * cos(2.0 * np.pi * order * phase + angle))[..., None]
-    if mesh.error_table is not None:
-        at, error = mesh.error_table
-        check_cover(at, curve.start, curve.end, "mesh.transmission_error.table")
-        gap = gap + interpolate(at, error, namespace(roll).clip(roll, at[0], at[-1]))
-    return gap

@@ -9,6 +9,7 @@ mirrored world, modified as `flanks.modification.back_flanks` says and tabulated
 """
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -19,18 +20,22 @@ from tribodyn.compliance.sharing.load_sharing import flexibility, share_load
 from tribodyn.compliance.sharing.loaded_contact import reach
 from tribodyn.compliance.sharing.loaded_flanks import LoadedFlanks
 from tribodyn.compliance.sharing.loaded_rules import check_contact, check_resolved, check_torque
-from tribodyn.compliance.sharing.pair_flexibility import PairFlexibility
 from tribodyn.compliance.sharing.slices import face_positions
-from tribodyn.compliance.table import check_cover, interpolate
 from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.flanks.corner_contact import pair_geometry
-from tribodyn.geometry.flanks.modification import Modifications, back_flanks, uneven_teeth
+from tribodyn.geometry.flanks.corner_contact import PairGeometry, pair_geometry, part_of
+from tribodyn.geometry.flanks.modification import back_flanks, uneven_teeth
 from tribodyn.geometry.material import MaterialData
-from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.data import MeshData
-from tribodyn.mesh.rules import check_backlash, check_bores
-from tribodyn.mesh.tabulate import opening
+from tribodyn.mesh.table import (
+    Elasticity,
+    back_entry,
+    check_backlash,
+    check_bores,
+    mesh_table,
+    slots,
+    unloaded_gap,
+)
 from tribodyn.numerics.shapes import Array, Float
 
 # Share of a single pair's load below which the secant no longer follows the load: the contact's compliance
@@ -65,73 +70,40 @@ def tabulate_loaded(
     for broken in uneven_teeth(mesh.modifications):
         raise broken
     check_backlash(mesh, back)
-    flexible, modifications, *_ = flanks_of(assembly, materials, mesh)
-    behind = back_flanks(modifications, float(assembly.path.pressure_angle(0.0)))
-    flanks = (modifications, behind) if back else (modifications,)
-    for one in flanks:
-        check_contact(flexible, one, torque, mesh.slices)
+    front = flanks_of(assembly, materials, mesh)
+    behind = back_flanks(mesh.modifications, float(assembly.path.pressure_angle(0.0)))
+    sides = [front, front._replace(modifications=behind)] if back else [front]
+    for flanks in sides:
+        check_contact(flanks.flexible, flanks.modifications, torque, flanks.slices)
     # where the mesh vibrates by more than this reach, contact begins too late in the model
-    reaches = [reach(flexible, one, torque, mesh.slices, mesh.slice_coupling) for one in flanks]
+    reaches = [reach(*flanks[:2], torque, *flanks[2:]) for flanks in sides]
     limits = min(start for start, _ in reaches), max(end for _, end in reaches)
     pitch = assembly.pitch_angle
-    span = (limits[1] - limits[0]) / pitch
-    pairs = math.ceil(span)
-    marks = [0.0, span, *((roll - limits[0]) / pitch for roll in assembly.roll_limits)]
-    marks += [(roll - limits[0]) / pitch for one in flanks for roll in relief_rolls(assembly, one)]
-    if assembly.family.corner:
-        marks.append(-limits[0] / pitch)
-    boundary, phase, position = phases_of_pairs(
-        marks, pairs, mesh.points, back, enter=0.5 - 2.0 * limits[0] / pitch
-    )
-    middle = position[:, mesh.points // 2]
-    in_contact = np.where((middle > 0.0) & (middle < span), 1.0, 0.0)
-    roll = np.clip(limits[0] + pitch * position, *limits)
+    kinks = [0.0] if assembly.family.corner else []
+    kinks += [roll for flanks in sides for roll in relief_rolls(assembly, flanks.modifications)]
+    marks = [(roll - limits[0]) / pitch for roll in (*limits, *assembly.roll_limits, *kinks)]
+    pairs = math.ceil(marks[1])
+    enter = back_entry(limits[0], pitch) if back else None
+    at = slots(segments(marks, enter), limits, pitch, pairs, mesh.points, back)
 
-    slots = position.shape[-1]
-    geometry = pair_geometry(assembly, roll.reshape(-1, slots))
-    error = _transmission_error(mesh, phase, roll, assembly.roll_limits, begin=marks[2])
-    full = torque / pair_geometry(assembly, np.zeros(1)).motion.gear_normal_arm[0]
-    compliance, gap = np.zeros_like(geometry.gap), np.zeros_like(geometry.gap)
-    coupling = np.zeros((*gap.shape, slots))
-    uneven, peak = np.ones_like(gap), np.ones_like(gap)
-    side = np.where(np.arange(slots) < pairs, 1.0, -1.0)
-    behind_by = (mesh.backlash or 0.0) * opening(assembly.path, geometry.motion.pressure_angle)
-    apart = np.where(side > 0, error.reshape(-1, slots), behind_by)
-    for number, one in enumerate(flanks):
+    shape = at.roll.shape
+    roll = at.roll.reshape(-1, shape[-1])
+    geometry = pair_geometry(assembly, roll)
+    motion = geometry.motion._make(field.reshape(shape) for field in geometry.motion)
+    error = unloaded_gap(assembly, mesh, at, motion.pressure_angle, begin=marks[2]).reshape(roll.shape)
+    pressed = []
+    for number, flanks in enumerate(sides):
+        own = np.s_[:, number * pairs : (number + 1) * pairs]
+        pressed.append(_pressed(flanks, torque, part_of(geometry, own), roll[own], error[own]))
+    coupling = np.zeros((*shape, shape[-1]))
+    for number, part in enumerate(pressed):
         own = slice(number * pairs, (number + 1) * pairs)
-        at = roll[..., own].reshape(-1, pairs)
-        pressed = _pressed(flexible, mesh, one, torque, _MINIMUM_SHARE * full, at, apart[:, own])
-        compliance[:, own], gap[:, own] = pressed.compliance, pressed.gap
-        coupling[:, own, own] = pressed.coupling
-        uneven[:, own], peak[:, own] = pressed.line_load_friction, pressed.line_load_peak
-    motion, vanishing = geometry.motion, pitch_point(assembly.path)
-    return MeshCycle(
-        boundary=boundary,
-        in_contact=in_contact,
-        side=side,
-        phase=phase,
-        pressure_angle=motion.pressure_angle.reshape(roll.shape),
-        signed_distance=motion.signed_distance.reshape(roll.shape),
-        equivalent_radius=1.0 / motion.relative_curvature.reshape(roll.shape),
-        pinion_speed=motion.pinion_speed.reshape(roll.shape),
-        gear_speed=motion.gear_speed.reshape(roll.shape),
-        compliance=compliance.reshape(roll.shape),
-        gap=gap.reshape(roll.shape),
-        coupling=coupling.reshape(*roll.shape, slots),
-        hertz_coefficient=0.0,
-        pinion_pitch_radius=assembly.path.pinion_pitch_radius,
-        gear_pitch_radius=assembly.path.gear_pitch_radius,
-        pinion_teeth=assembly.drive.pinion.teeth,
-        face_width=flexible.width,
-        contact_ratio=assembly.contact_ratio,
-        pitch_point_phase=-limits[0] / pitch,
-        roll_start=limits[0],
-        roll_end=limits[1],
-        pitch_point_length=vanishing.length,
-        pitch_point_rate=vanishing.speed_per_radius,
-        line_load_friction=uneven.reshape(roll.shape),
-        line_load_peak=peak.reshape(roll.shape),
-    )
+        coupling[..., own, own] = part.coupling.reshape(*shape[:2], pairs, pairs)
+    fields = {
+        name: np.concatenate([getattr(part, name) for part in pressed], axis=1).reshape(shape)
+        for name in ("compliance", "gap", "line_load_friction", "line_load_peak")
+    }
+    return mesh_table(assembly, at, motion, Elasticity(coupling=coupling, **fields))
 
 
 def flanks_of(
@@ -145,66 +117,34 @@ def flanks_of(
     return LoadedFlanks(flexible, mesh.modifications, mesh.slices, mesh.slice_coupling)
 
 
+def segments(marks: Sequence[float], enter: float | None) -> Float[Array, " boundary"]:
+    """Phases (S + 1,) at which a pair passes one of the marks (pitches since entering): kinks of the table.
+
+    Those of back pairs too, which enter at the phase `enter`, where there are any.
+    """
+    phases = [mark % 1.0 for mark in marks]
+    if enter is not None:
+        phases += [(enter - mark) % 1.0 for mark in marks]
+    inner = np.array(sorted(phases))
+    inner = inner[(inner > 1e-9) & (inner < 1.0 - 1e-9)]
+    inner = inner[np.diff(inner, prepend=-1.0) > 1e-9]
+    return np.concatenate([[0.0], inner, [1.0]])
+
+
 def _pressed(
-    flexible: PairFlexibility,
-    mesh: MeshData,
-    modifications: Modifications,
+    flanks: LoadedFlanks,
     gear_torque: float,
-    minimum_load: float,
+    geometry: PairGeometry,
     roll: Float[Array, "position pair"],
     error: Float[Array, "position pair"],
 ) -> Condensed:
-    """Pairs (position, pair) of one side, its flanks so modified, at the operating torque."""
-    slices = mesh.slices
-    geometry = pair_geometry(flexible.assembly, roll)
-    face = face_positions(flexible.width, slices)
-    gap = error[..., None] + flank_gap(flexible.assembly, modifications, geometry, face)
-    shared = share_load(flexible, roll, gear_torque, 0.0, gap, slices, mesh.slice_coupling)
-    check_resolved(flexible.assembly, shared, modifications, gear_torque)
-    whole = geometry.gap[..., None] + gap
-    return condense(flexible, geometry, whole, shared, minimum_load, mesh.slice_coupling)
-
-
-def phases_of_pairs(
-    marks: list[float], pairs: int, points: int, back: bool, enter: float
-) -> tuple[Float[Array, " boundary"], Float[Array, "segment node"], Float[Array, "segment node pair"]]:
-    """Boundaries (S + 1,), phases (S, N) and positions (S, N, Q) of all slots, in pitches since entering.
-
-    A segment begins wherever a pair passes one of the marks (pitches since entering), for there the table has
-    a kink. Back pairs as in `tabulate`: they live in the mirrored world, and enter at the phase `enter`.
-    """
-    enter = enter % 1.0
-    phases = [mark % 1.0 for mark in marks] + ([(enter - mark) % 1.0 for mark in marks] if back else [])
-    inner = np.array(sorted(phases))
-    inner = inner[(inner > 1e-9) & (inner < 1.0 - 1e-9)]
-    inner = inner[np.concatenate([[True], np.diff(inner) > 1e-9])] if len(inner) else inner
-    boundary = np.concatenate([[0.0], inner, [1.0]])
-    lower, upper = boundary[:-1, None], boundary[1:, None]
-    phase = lower + (upper - lower) * np.linspace(0.0, 1.0, points)
-    ages = np.arange(pairs - 1.0, -1.0, -1.0)
-    position = phase[..., None] + ages
-    if back:
-        wrapped = np.where((lower + upper) / 2.0 > enter, 1.0, 0.0)
-        position = np.concatenate([position, (enter - phase + wrapped)[..., None] + ages], axis=-1)
-    return boundary, phase, position
-
-
-def _transmission_error(
-    mesh: MeshData,
-    phase: Float[Array, "segment node"],
-    roll: Float[Array, "segment node pair"],
-    limits: tuple[float, float],
-    begin: float,
-) -> Float[Array, "segment node pair"]:
-    """Errors of the flanks (S, N, Q), m; those given over roll angle stay at their ends beyond the path.
-
-    Harmonics are in step with the beginning of the path, at the phase `begin`, as they are in `tabulate`.
-    """
-    error = 0.0 * roll
-    for order, amplitude, angle in mesh.error_harmonics:
-        error = error + (amplitude * np.cos(2.0 * np.pi * order * (phase - begin) + angle))[..., None]
-    if mesh.error_table is not None:
-        at, values = mesh.error_table
-        check_cover(at, *limits, "mesh.transmission_error.table")
-        error = error + interpolate(at, values, np.clip(roll, max(at[0], limits[0]), min(at[-1], limits[1])))
-    return error
+    """Pairs (position, pair) of one side at the operating torque."""
+    flexible, modifications, slices, coupled = flanks
+    assembly = flexible.assembly
+    gap = error[..., None] + flank_gap(
+        assembly, modifications, geometry, face_positions(flexible.width, slices)
+    )
+    shared = share_load(flexible, roll, gear_torque, 0.0, gap, slices, coupled)
+    check_resolved(assembly, shared, modifications, gear_torque)
+    full = gear_torque / pair_geometry(assembly, np.zeros(1)).motion.gear_normal_arm[0]
+    return condense(flexible, geometry, geometry.gap[..., None] + gap, shared, _MINIMUM_SHARE * full, coupled)

@@ -10,11 +10,11 @@ import numpy as np
 from tribodyn.compliance.sharing.load_sharing import share_load
 from tribodyn.compliance.sharing.pair_flexibility import PairFlexibility
 from tribodyn.geometry.families.involute import FAMILY
-from tribodyn.studies.efficiency.load_contact import load_contact
 from tribodyn.studies.efficiency.loss_factor import tip_contact_ratios
-from tribodyn.studies.efficiency.shift import SCENARIOS, Scenario
 from tribodyn.validation.diez_ibarbia_study import (
     CONDITIONS,
+    SCENARIOS,
+    Scenario,
     at_load,
     drive,
     elastic,
@@ -24,6 +24,7 @@ from tribodyn.validation.diez_ibarbia_study import (
     mean_friction,
     peak,
 )
+from tribodyn.validation.load_contact import load_contact
 from tribodyn.validation.rows import Row, compare, published
 
 PAPER = "diez-ibarbia"

@@ -1,12 +1,12 @@
 """Numbers behind the figures of Diez-Ibarbia et al.: a shifted pair by equal loads and by load contact.
 
 Every pair of the study is the paper's 18/36 with a shift x1 = −x2 in one of three ways of choosing the tips
-(`efficiency.shift`), at one of five operating conditions, with Niemann's mean coefficient of friction.
+(`shifted`), at one of five operating conditions, with Niemann's mean coefficient of friction.
 """
 
 import math
 from functools import cache
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,18 +14,25 @@ from numpy.typing import NDArray
 from tribodyn.compliance.sharing.load_sharing import LEVEL, flexibility
 from tribodyn.compliance.sharing.pair_flexibility import PairFlexibility
 from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.drive import Drive
+from tribodyn.geometry.drive import Drive, tip_radius
 from tribodyn.geometry.families.involute import FAMILY
 from tribodyn.geometry.path import kinematics
-from tribodyn.studies.efficiency.load_contact import LoadContact, load_contact
+from tribodyn.numerics.elementary import cos, sin, sqrt
 from tribodyn.studies.efficiency.loss_factor import exact, hoehn, tip_contact_ratios
-from tribodyn.studies.efficiency.shift import Scenario, shifted
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.tribology.closure import nominal_conditions
 from tribodyn.tribology.friction.niemann import niemann
+from tribodyn.validation.load_contact import LoadContact, load_contact
 
 Array = NDArray[np.float64]
+
+Scenario = Literal["S1", "S2", "S3"]
+SCENARIOS: dict[Scenario, str] = {
+    "S1": "tip circles as without shift",
+    "S2": "contact ratio as without shift: the pinion's tip follows its shift, the gear's keeps the ratio",
+    "S3": "both tips follow the shift",
+}
 
 #: Operating conditions: power W, speed rpm.
 CONDITIONS = {
@@ -56,6 +63,33 @@ class Course(NamedTuple):
     share: Array
     sliding: Array
     loss: Array
+
+
+def shifted(drive: Drive, scenario: Scenario, shift: float) -> Drive:
+    """Shift the pinion of an involute pair without shift by x1 = `shift` and the gear by −x1.
+
+    Section 3 of the paper. S1 keeps the tip radii; S2 has R_1 = m (z1/2 + x1 + h_a*), ε2 = ε_α − ε1 and R_2
+    from ε2 (Diez-Ibarbia (16)-(19)); S3 has R_i = m (z_i/2 + x_i + h_a*).
+    """
+    pinion, gear = (
+        drive.pinion._replace(profile_shift=shift, tip_radius=None),
+        drive.gear._replace(profile_shift=-shift, tip_radius=None),
+    )
+    both = drive._replace(pinion=pinion, gear=gear)
+    if scenario == "S3":
+        return both
+    if scenario == "S1":
+        radii = tip_radius(drive, "pinion"), tip_radius(drive, "gear")
+        return both._replace(
+            pinion=pinion._replace(tip_radius=radii[0]), gear=gear._replace(tip_radius=radii[1])
+        )
+    kept = sum(tip_contact_ratios(FAMILY, drive)) - tip_contact_ratios(FAMILY, both)[0]
+    path = FAMILY.working_path(both)
+    angle = path.pressure_angle(0.0)
+    radius = path.gear_pitch_radius
+    base_pitch = 2.0 * math.pi * path.pinion_pitch_radius * cos(angle) / pinion.teeth
+    outer = sqrt((radius * sin(angle) + kept * base_pitch) ** 2 + (radius * cos(angle)) ** 2)
+    return both._replace(gear=gear._replace(tip_radius=outer))
 
 
 @cache

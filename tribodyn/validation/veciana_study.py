@@ -7,13 +7,8 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 
 from tribodyn.geometry.material import MaterialData
-from tribodyn.studies.efficiency.torque_ratio import (
-    TorqueRatio,
-    UnitContact,
-    cycloid_contact,
-    involute_contact,
-    torque_ratio,
-)
+from tribodyn.studies.efficiency.quadrature import Array
+from tribodyn.studies.efficiency.torque_ratio import TorqueRatio, UnitContact, rotations, torque_ratio
 from tribodyn.tribology.closure import closure, without_nominal_conditions
 from tribodyn.tribology.contact import Surfaces
 from tribodyn.tribology.film import film_law
@@ -165,3 +160,85 @@ def contact_height(pair: UnitContact) -> float:
     """
     radius = np.hypot(pair.pinion_normal_arm, pair.pinion_friction_arm)
     return float(radius[..., -1] - radius[..., 0])
+
+
+def involute_contact(
+    pinion_teeth: float,
+    pinion_radius: Any,
+    ratio: Any,
+    pressure_angle: float,
+    rotation: tuple[Array, Array] | None = None,
+) -> UnitContact:
+    """An involute pair: A = r_b, T = r sin α ± ψ r_b1 (Veciana (51), (52), (57)).
+
+    Parameters
+    ----------
+    pinion_teeth : z1
+    pinion_radius : working pitch radius, m
+    ratio : i = d_2/d_1
+    pressure_angle : working, rad
+    rotation : (ψ, weights), optional
+        Default: `rotations`.
+    """
+    psi, weight = rotation or rotations(pinion_teeth)
+    base = pinion_radius * math.cos(pressure_angle) + np.zeros_like(psi)
+    pinion = pinion_radius * math.sin(pressure_angle) + psi * base
+    gear = ratio * pinion_radius * math.sin(pressure_angle) - psi * base
+    return UnitContact(
+        rotation=psi,
+        weight=weight,
+        pinion_normal_arm=base,
+        gear_normal_arm=ratio * base,
+        pinion_friction_arm=pinion,
+        gear_friction_arm=gear,
+        curvature=1.0 / pinion + 1.0 / gear,
+        pinion_speed=pinion,
+        gear_speed=gear / ratio,
+    )
+
+
+def cycloid_contact(
+    pinion_teeth: float,
+    pinion_radius: float,
+    ratio: float,
+    approach_circle: Any,
+    recess_circle: Any,
+    rotation: tuple[Array, Array] | None = None,
+    exact_speeds: bool = False,
+) -> UnitContact:
+    """A cycloidal pair: a = |ψ|/(2c), A = r cos a, T = r sin a ± d_g sin a (Veciana (24)-(40), (A9)-(A13)).
+
+    Parameters
+    ----------
+    pinion_teeth, pinion_radius, ratio, rotation
+        As in `involute_contact`.
+    approach_circle, recess_circle : scalar or array (…)
+        c_h = d_g1/d_1 and c_e = d_g2/d_1 of the generating circles.
+    exact_speeds : bool
+        The rolling speeds contain the motion of the contact along the path, r κ. Veciana (43)-(50) leave it
+        out and take angular speed times lever arm; sliding is the same either way.
+    """
+    psi, weight = rotation or rotations(pinion_teeth)
+    circles = np.asarray(approach_circle, dtype=float), np.asarray(recess_circle, dtype=float)
+    share = np.where(psi < 0, circles[0][..., None], circles[1][..., None])
+    angle = np.abs(psi) / (2.0 * share)
+    generating = 2.0 * pinion_radius * share
+    distance = np.sign(psi) * generating * np.sin(angle)
+    pinion, gear = 2.0 * pinion_radius, 2.0 * pinion_radius * ratio
+    inner = np.where(psi < 0, pinion, gear)  # the flank inside its pitch circle: a hypocycloid
+    outer = np.where(psi < 0, gear, pinion)
+    radius = 2.0 * np.sin(angle) * (outer + generating) * (inner - generating) / (pinion + gear)
+    pinion_arm = pinion_radius * np.sin(angle) + distance
+    gear_arm = ratio * pinion_radius * np.sin(angle) - distance
+    along_path = np.abs(distance) / (2.0 * share) if exact_speeds else 0.0
+    return UnitContact(
+        rotation=psi,
+        weight=weight,
+        pinion_normal_arm=pinion_radius * np.cos(angle),
+        gear_normal_arm=ratio * pinion_radius * np.cos(angle),
+        pinion_friction_arm=pinion_arm,
+        gear_friction_arm=gear_arm,
+        curvature=1.0 / radius,
+        pinion_speed=pinion_arm + along_path,
+        gear_speed=gear_arm / ratio + along_path,
+    )

@@ -14,7 +14,7 @@ from tribodyn.geometry.path import kinematics
 from tribodyn.geometry.sheet.sheet import geometry_sheet
 from tribodyn.geometry.tooth.body import mass_and_inertia
 from tribodyn.mesh.data import MeshData
-from tribodyn.mesh.friction_loss import mean_efficiency
+from tribodyn.mesh.power_flow import mean_efficiency
 from tribodyn.mesh.quasi_static import cycle_integral, cycle_mean, quasi_static
 from tribodyn.mesh.tabulate import tabulate
 

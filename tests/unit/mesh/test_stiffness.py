@@ -8,7 +8,7 @@ import pytest
 
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
-from tribodyn.mesh.stiffness import single_pair, total_stiffness
+from tribodyn.mesh.quasi_static import single_pair, total_stiffness
 from tribodyn.mesh.tabulate import pair_slots, tabulate
 from tribodyn.studies.protocol.load import load_scenario
 

@@ -13,7 +13,6 @@ from scipy.optimize import brentq
 
 from tests.support.compile_fast import ONE_CALL
 from tribodyn.compliance.energy import hertz_linear, loaded_tooth, tooth_compliance
-from tribodyn.compliance.table import interpolate
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import SIDES, Drive, GearBody
@@ -22,9 +21,10 @@ from tribodyn.geometry.material import MaterialData
 from tribodyn.geometry.path import kinematics
 from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.data import MeshData
-from tribodyn.mesh.friction_loss import mean_efficiency
+from tribodyn.mesh.power_flow import mean_efficiency
 from tribodyn.mesh.quasi_static import cycle_mean, quasi_static
 from tribodyn.mesh.tabulate import pair_slots, tabulate
+from tribodyn.numerics.curve import interpolate
 
 jax.config.update("jax_enable_x64", True)
 STEEL = MaterialData("steel", 206e9, 0.3, 7850.0, 46.0, 470.0, 6e9)

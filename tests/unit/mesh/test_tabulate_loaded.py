@@ -14,6 +14,7 @@ from tribodyn.compliance.sharing.load_sharing import (
     flexibility,
     share_load,
 )
+from tribodyn.compliance.sharing.loaded_flanks import LoadedFlanks
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
@@ -28,7 +29,8 @@ from tribodyn.geometry.flanks.modification import (
 )
 from tribodyn.mesh import tabulate_loaded as module
 from tribodyn.mesh.quasi_static import quasi_static
-from tribodyn.mesh.tabulate_loaded import flanks_of, phases_of_pairs, tabulate_loaded
+from tribodyn.mesh.table import slots
+from tribodyn.mesh.tabulate_loaded import flanks_of, segments, tabulate_loaded
 from tribodyn.studies.protocol.load import load_scenario
 
 NAME = "involute-18-36-fem"
@@ -110,14 +112,15 @@ def test_back_flanks_stand_half_a_pitch_behind_their_front_flanks(start, span):
     """At every phase every tooth's back flank that is on the path, angles in pitches: ½ less its front's."""
     pairs = math.ceil(span)
     marks = [0.0, span, 0.11, -start]
-    boundary, phase, position = phases_of_pairs(marks, pairs, 5, True, enter=0.5 - 2.0 * start)
+    boundary = segments(marks, (0.5 - 2.0 * start) % 1.0)
+    at = slots(boundary, (start, start + span), 1.0, pairs, 5, True)
     assert np.all(np.diff(boundary) > 0.0)
     for segment in range(len(boundary) - 1):
         for node in (1, 2, 3):
-            front = start + phase[segment, node] + np.arange(-5, 6)
-            for rolls, slots in ((front, slice(0, pairs)), (0.5 - front, slice(pairs, None))):
+            front = start + at.phase[segment, node] + np.arange(-5, 6)
+            for rolls, own in ((front, slice(0, pairs)), (0.5 - front, slice(pairs, None))):
                 expected = rolls[(rolls > start) & (rolls < start + span)]
-                found = start + position[segment, node, slots]
+                found = at.roll[segment, node, own]
                 found = found[(found > start) & (found < start + span)]
                 np.testing.assert_allclose(np.sort(found), np.sort(expected), atol=1e-12)
 
@@ -212,9 +215,9 @@ def test_flanks_meet_over_corner_error_and_relief(monkeypatch):
     start, end = assembly.roll_limits
     roll = np.array([[start - 0.02, 0.5 * start], [0.3 * end, end + 0.01]])
     error = np.array([[1e-6, 2e-6], [3e-6, 5e-6]])
-    mesh = dataclasses.replace(case.mesh, slices=3)
-    module._pressed(cast(Any, flexible), mesh, Modifications(), 300.0, 1.0, roll, error)
-    corner = pair_geometry(assembly, roll).gap
+    geometry = pair_geometry(assembly, roll)
+    corner = geometry.gap
+    module._pressed(LoadedFlanks(cast(Any, flexible), Modifications(), 3), 300.0, geometry, roll, error)
     assert np.all((corner > 0.0) == [[True, False], [False, True]])
     np.testing.assert_allclose(seen["shared"], np.repeat(error[..., None], 3, axis=-1), rtol=1e-12)
     np.testing.assert_allclose(seen["whole"], seen["shared"] + corner[..., None], rtol=1e-12)

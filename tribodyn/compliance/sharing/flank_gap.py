@@ -10,7 +10,6 @@ linear relief of 20 µm over 2 mm, by 2 % over 4 mm (test_flank_gap).
 
 import numpy as np
 
-from tribodyn.compliance.table import check_cover, interpolate
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, Side, body_of, tip_radius
@@ -25,6 +24,7 @@ from tribodyn.geometry.flanks.modification import (
 )
 from tribodyn.geometry.path import PerContact
 from tribodyn.geometry.tooth.tooth import thickness_half_angle
+from tribodyn.numerics.curve import check_cover, interpolate
 from tribodyn.numerics.shapes import Array, Float, Int
 
 #: Maximum tip relief, as a share of the tip's thickness: both flanks together then leave half of it.

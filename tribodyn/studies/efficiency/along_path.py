@@ -11,21 +11,27 @@ import numpy as np
 
 from tribodyn.compliance.sharing.line_load import friction_ratio, peak_ratio
 from tribodyn.compliance.sharing.loaded_flanks import LoadedFlanks
-from tribodyn.errors import SimulationError
 from tribodyn.geometry.path import Path
 from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.mesh.equilibrium import Contacts, contacts, settled
 from tribodyn.mesh.power_flow import efficiency
 from tribodyn.mesh.quasi_static import quasi_static
 from tribodyn.studies.efficiency.places import Places, Sharing, places
 from tribodyn.studies.efficiency.quadrature import Array, piecewise
 from tribodyn.tribology.law import Closure
-from tribodyn.tribology.surface_state import ContactFriction, contact_friction, range_shares
+from tribodyn.tribology.surface_state import range_shares
 
 #: Nodes between two breaks of the integrand.
 POINTS = 20
-#: The loads follow friction through μ tan α only: each step shrinks the error tenfold.
-STEPS = 60
-TOLERANCE = 1e-12
+#: What an `Engagement` has of `SurfaceState`.
+_OF_SURFACE = (
+    "asperity_load_ratio",
+    "central_film_thickness",
+    "flash_temperature_rise",
+    "hertz_pressure",
+    "closure_in_range",
+    "friction_in_range",
+)
 
 
 class Engagement(NamedTuple):
@@ -94,94 +100,60 @@ class Duty(NamedTuple):
         return 1.0 if self.gear_torque > 0.0 else -1.0
 
 
+class _Loads(NamedTuple):
+    """Loads (K, 1, Q) of pairs, those at which friction acts, the highest along the face, and deflection."""
+
+    normal_load: Array
+    friction_load: Array
+    peak_load: Array
+    deflection: Array
+
+
 def engage(mesh: Places, duty: Duty) -> Engagement:
-    """Solve loads and friction together at every phase.
-
-    Raises
-    ------
-    SimulationError
-        If they find no common value: friction locks the mesh, or a law's coefficient grows without bound.
-    """
-    cycle, speed = mesh.cycle, duty.way * duty.pinion_speed
-    side = duty.way * np.sign(cycle.signed_distance[:, 0])
-    rolling = speed * cycle.pinion_speed[:, 0], speed * cycle.gear_speed[:, 0]
-    sliding = rolling[0] - rolling[1]
-    width = cycle.face_width
-
-    def contact_at(line_load: Array) -> ContactFriction:
-        return contact_friction(
-            duty.closure,
-            line_load,
-            mesh.radius,
-            *rolling,
-            cycle.pitch_point_length,
-            speed * cycle.pitch_point_rate,
-        )
-
-    mu, change = np.zeros_like(side), np.inf
-    for _ in range(STEPS):
-        load, deflection, uneven, peak = _loads(mesh, duty, side * mu)
-        contact = contact_at(load / width * uneven)
-        new_mu = contact.surface.friction_coefficient * mesh.carrying
-        if np.any(mesh.carrying * (mesh.normal_arm + side * new_mu * mesh.friction_arm) < 0.0):
-            worst = float(np.max(new_mu))
-            raise SimulationError(
-                f"friction locks the mesh: a coefficient of {worst:.3g} turns a load's arm over"
-            )
-        change, mu = float(np.max(np.abs(new_mu - mu))), new_mu
-        if change < TOLERANCE:
-            break
-    else:
-        raise SimulationError(f"load and friction coefficient do not settle: still moving by {change:.1e}")
-    if np.any(peak != uneven):
-        contact = contact_at(load / width * peak)
-    surface = contact.surface
+    """Solve loads and friction together at every phase; raises as `equilibrium.settled`."""
+    cycle = mesh.cycle
+    seen = contacts(cycle, duty.gear_torque, duty.pinion_speed, duty.closure)
+    found = settled(seen, lambda friction: _share(mesh, duty, seen, friction))
+    load, mu, shared = found.normal_load[:, 0], found.friction_coefficient[:, 0], found.shared
+    contact = seen.under(shared.peak_load)
     closure_shares, friction_shares = range_shares(contact.contact, duty.closure)
-    arms = mesh.normal_arm + side * mu * mesh.friction_arm
-    pinion_torque, gear_torque = duty.way * np.sum(load * arms, axis=-1)
+    torques = duty.way * np.sum(load * seen.arms(found.friction_coefficient)[:, :, 0], axis=-1)
     ratio = cycle.pinion_pitch_radius / cycle.gear_pitch_radius
+    sliding = (seen.pinion_speed - seen.gear_speed)[:, 0]
     return Engagement(
         normal_load=load,
         friction_coefficient=mu,
-        friction_force=side * mu * load,
-        entrainment=contact.entrainment,
+        friction_force=seen.side[:, 0] * mu * load,
+        entrainment=contact.entrainment[:, 0],
         sliding=sliding,
-        radius=contact.radius,
-        asperity_load_ratio=surface.asperity_load_ratio,
-        central_film_thickness=surface.central_film_thickness,
-        flash_temperature_rise=surface.flash_temperature_rise,
-        hertz_pressure=surface.hertz_pressure,
-        closure_in_range=surface.closure_in_range,
-        friction_in_range=surface.friction_in_range,
-        closure_shares=closure_shares,
-        friction_shares=friction_shares,
-        deflection=duty.way * deflection,
-        pinion_torque=pinion_torque,
-        gear_torque=gear_torque,
-        power_in=pinion_torque * duty.pinion_speed,
-        power_out=gear_torque * duty.pinion_speed * ratio,
+        radius=contact.radius[:, 0],
+        **{name: getattr(contact.surface, name)[:, 0] for name in _OF_SURFACE},
+        closure_shares=closure_shares[:, 0],
+        friction_shares=friction_shares[:, 0],
+        deflection=duty.way * shared.deflection[:, 0],
+        pinion_torque=torques[0],
+        gear_torque=torques[1],
+        power_in=torques[0] * duty.pinion_speed,
+        power_out=torques[1] * duty.pinion_speed * ratio,
         power_friction=np.sum(mu * load * np.abs(sliding), axis=-1),
     )
 
 
-def _loads(mesh: Places, duty: Duty, signed_friction: Array) -> tuple[Array, Array, Array, Array]:
-    """Loads (K, Q) that give the gear's torque with the friction of the last step, and deflection (K,) ≥ 0.
-
-    With the ratios (K, Q) of `sharing.line_load`: 1 for an even load along the face.
-    """
+def _share(mesh: Places, duty: Duty, seen: Contacts, friction: Array) -> _Loads:
+    """Loads that give the gear's torque; deflection ≥ 0, NaN where the sharing knows no elasticity."""
     torque = abs(duty.gear_torque)
     if mesh.flanks is not None:
-        friction = signed_friction * np.sign(mesh.cycle.signed_distance[:, 0])
-        shared = mesh.flanks.share(mesh.roll, torque, friction)
-        ratios = friction_ratio(shared.slice_load), peak_ratio(shared.slice_load)
-        return mesh.carrying * shared.normal_load, shared.deflection, *ratios
-    even = np.ones_like(mesh.roll)
+        coefficient = friction * np.sign(mesh.cycle.signed_distance)
+        shared = mesh.flanks.share(mesh.roll, torque, coefficient[:, 0])
+        load = (mesh.cycle.in_contact * shared.normal_load)[:, None]
+        ratios = friction_ratio(shared.slice_load)[:, None], peak_ratio(shared.slice_load)[:, None]
+        return _Loads(load, load * ratios[0], load * ratios[1], shared.deflection[:, None])
     if duty.sharing == "elastic":
-        state = quasi_static(mesh.cycle, torque, signed_friction[:, None])
-        return state.normal_load[:, 0], state.deflection[:, 0], even, even
-    arms = mesh.normal_arm[1] + signed_friction * mesh.friction_arm[1]
-    load = mesh.carrying * torque / np.sum(mesh.carrying * arms, axis=-1, keepdims=True)
-    return load, np.full(len(mesh.phase), np.nan), even, even
+        state = quasi_static(mesh.cycle, torque, friction)
+        return _Loads(state.normal_load, state.normal_load, state.normal_load, state.deflection)
+    arms = seen.normal_arm[1] + friction * seen.friction_arm[1]
+    load = seen.carrying * torque / np.sum(seen.carrying * arms, axis=-1, keepdims=True)
+    return _Loads(load, load, load, np.full(load.shape[:2], np.nan))
 
 
 class CycleEfficiency(NamedTuple):

@@ -15,7 +15,7 @@ from tribodyn.studies.efficiency.sampled import Samples
 def record_arrays(over: Samples, mesh: Places, state: Engagement, duty: Duty) -> dict[str, Any]:
     """Datasets at the samples; what a quasi-static state has not stays out."""
     cycle = mesh.cycle
-    touching = (mesh.carrying > 0) & (state.normal_load > 0)
+    touching = (cycle.in_contact > 0) & (state.normal_load > 0)
     angle = over.turned * cycle.pitch_angle
     ratio = cycle.pinion_pitch_radius / cycle.gear_pitch_radius
     zero = np.zeros_like(angle)

@@ -1,7 +1,7 @@
 """What `check` says of an efficiency study."""
 
 from tribodyn.mesh.by_compliance import compliance_remark
-from tribodyn.mesh.stiffness import single_pair
+from tribodyn.mesh.quasi_static import single_pair
 from tribodyn.studies.efficiency.case import EfficiencyCase
 from tribodyn.studies.efficiency.run import prepare
 from tribodyn.studies.gears.law_ranges import with_laws

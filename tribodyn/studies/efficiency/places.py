@@ -1,4 +1,4 @@
-"""The mesh at given phases: which pairs carry, their arms, radii and compliances."""
+"""The mesh at given phases: which pairs carry, their kinematics and compliances."""
 
 from typing import Any, Literal, NamedTuple
 
@@ -27,13 +27,8 @@ class Places(NamedTuple):
     phase : (K,)
         Mesh cycles.
     cycle : MeshCycle
-        A table of one node in each of K segments, driving flanks only; its kinematics are the path's own.
-    carrying : (K, Q)
-        1 for a pair that may carry load under the load sharing in use.
-    normal_arm, friction_arm : (2, K, Q)
-        Arms of normal load and friction about pinion and gear, m.
-    radius : (K, Q)
-        Equivalent radius, m.
+        A table of one node in each of K segments, driving flanks only; its kinematics are the path's own, and
+        in contact are the pairs that may carry load under the load sharing in use.
     roll : (K, Q)
         Pinion angles of the pairs from the pitch point, rad.
     flanks : LoadedFlanks or None
@@ -42,10 +37,6 @@ class Places(NamedTuple):
 
     phase: Array
     cycle: MeshCycle
-    carrying: Array
-    normal_arm: Array
-    friction_arm: Array
-    radius: Array
     roll: Array
     flanks: LoadedFlanks | None
 
@@ -110,28 +101,20 @@ def places(
         parts = [within[first : first + AT_A_TIME] for first in range(0, len(within), AT_A_TIME)]
         motion = kinematics(path, np.concatenate([path.signed_distance(part) for part in parts]))
     at = _Lookup(polynomials(cycle), cycle.boundary, segment, phase)
-    one = cycle._replace(
+    looked_up = cycle._replace(
         in_contact=inside,
         side=np.ones(pairs),
         phase=phase[:, None],
         pressure_angle=motion.pressure_angle[:, None],
         signed_distance=motion.signed_distance[:, None],
+        equivalent_radius=1.0 / motion.relative_curvature[:, None],
         pinion_speed=motion.pinion_speed[:, None],
         gear_speed=motion.gear_speed[:, None],
         compliance=at.channel("compliance")[:, None, :pairs],
         gap=at.channel("gap")[:, None, :pairs],
         coupling=at.coupling()[:, None, :pairs, :pairs],
     )
-    return Places(
-        phase,
-        one,
-        inside,
-        np.stack([motion.pinion_normal_arm, motion.gear_normal_arm]),
-        np.stack([motion.pinion_friction_arm, motion.gear_friction_arm]),
-        1.0 / motion.relative_curvature,
-        roll,
-        flanks if corners else None,
-    )
+    return Places(phase, looked_up, roll, flanks if corners else None)
 
 
 class _Lookup(NamedTuple):

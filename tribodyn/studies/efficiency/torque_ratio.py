@@ -10,18 +10,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.errors import SimulationError
 from tribodyn.geometry.path import Path, kinematics
 from tribodyn.geometry.pitch_point import pitch_point
+from tribodyn.mesh.equilibrium import Contacts, settled
 from tribodyn.studies.efficiency.quadrature import Array, from_pitch_point
 from tribodyn.tribology.law import Closure
-from tribodyn.tribology.surface_state import contact_friction
 
 #: Nodes on either side of the pitch point: the efficiency is then known to 1e-7 for every family and law.
 POINTS = 24
-#: The load follows the friction coefficient through μ tan α only: each step shrinks the error tenfold.
-STEPS = 60
-TOLERANCE = 1e-13
 
 
 class UnitContact(NamedTuple):
@@ -76,88 +72,6 @@ def rotations(pinion_teeth: float, points: int = POINTS) -> tuple[Array, Array]:
     return np.concatenate([-place[::-1], place]), np.concatenate([weight[::-1], weight]) / (2.0 * half)
 
 
-def involute_contact(
-    pinion_teeth: float,
-    pinion_radius: Any,
-    ratio: Any,
-    pressure_angle: float,
-    rotation: tuple[Array, Array] | None = None,
-) -> UnitContact:
-    """An involute pair: A = r_b, T = r sin α ± ψ r_b1 (Veciana (51), (52), (57)).
-
-    Parameters
-    ----------
-    pinion_teeth : z1
-    pinion_radius : working pitch radius, m
-    ratio : i = d_2/d_1
-    pressure_angle : working, rad
-    rotation : (ψ, weights), optional
-        Default: `rotations`.
-    """
-    psi, weight = rotation or rotations(pinion_teeth)
-    base = pinion_radius * math.cos(pressure_angle) + np.zeros_like(psi)
-    pinion = pinion_radius * math.sin(pressure_angle) + psi * base
-    gear = ratio * pinion_radius * math.sin(pressure_angle) - psi * base
-    return UnitContact(
-        rotation=psi,
-        weight=weight,
-        pinion_normal_arm=base,
-        gear_normal_arm=ratio * base,
-        pinion_friction_arm=pinion,
-        gear_friction_arm=gear,
-        curvature=1.0 / pinion + 1.0 / gear,
-        pinion_speed=pinion,
-        gear_speed=gear / ratio,
-    )
-
-
-def cycloid_contact(
-    pinion_teeth: float,
-    pinion_radius: float,
-    ratio: float,
-    approach_circle: Any,
-    recess_circle: Any,
-    rotation: tuple[Array, Array] | None = None,
-    exact_speeds: bool = False,
-) -> UnitContact:
-    """A cycloidal pair: a = |ψ|/(2c), A = r cos a, T = r sin a ± d_g sin a (Veciana (24)-(40), (A9)-(A13)).
-
-    Parameters
-    ----------
-    pinion_teeth, pinion_radius, ratio, rotation
-        As in `involute_contact`.
-    approach_circle, recess_circle : scalar or array (…)
-        c_h = d_g1/d_1 and c_e = d_g2/d_1 of the generating circles.
-    exact_speeds : bool
-        The rolling speeds contain the motion of the contact along the path, r κ. Veciana (43)-(50) leave it
-        out and take angular speed times lever arm; sliding is the same either way.
-    """
-    psi, weight = rotation or rotations(pinion_teeth)
-    circles = np.asarray(approach_circle, dtype=float), np.asarray(recess_circle, dtype=float)
-    share = np.where(psi < 0, circles[0][..., None], circles[1][..., None])
-    angle = np.abs(psi) / (2.0 * share)
-    generating = 2.0 * pinion_radius * share
-    distance = np.sign(psi) * generating * np.sin(angle)
-    pinion, gear = 2.0 * pinion_radius, 2.0 * pinion_radius * ratio
-    inner = np.where(psi < 0, pinion, gear)  # the flank inside its pitch circle: a hypocycloid
-    outer = np.where(psi < 0, gear, pinion)
-    radius = 2.0 * np.sin(angle) * (outer + generating) * (inner - generating) / (pinion + gear)
-    pinion_arm = pinion_radius * np.sin(angle) + distance
-    gear_arm = ratio * pinion_radius * np.sin(angle) - distance
-    along_path = np.abs(distance) / (2.0 * share) if exact_speeds else 0.0
-    return UnitContact(
-        rotation=psi,
-        weight=weight,
-        pinion_normal_arm=pinion_radius * np.cos(angle),
-        gear_normal_arm=ratio * pinion_radius * np.cos(angle),
-        pinion_friction_arm=pinion_arm,
-        gear_friction_arm=gear_arm,
-        curvature=1.0 / radius,
-        pinion_speed=pinion_arm + along_path,
-        gear_speed=gear_arm / ratio + along_path,
-    )
-
-
 def path_contact(
     path: Path,
     pinion_teeth: float,
@@ -170,8 +84,11 @@ def path_contact(
     Parameters
     ----------
     path : Path
-    pinion_teeth, rotation, exact_speeds
-        As in `cycloid_contact`.
+    pinion_teeth : z1
+    rotation : (ψ, weights), optional
+        Default: `rotations`.
+    exact_speeds : bool
+        The rolling speeds contain the motion of the contact along the path, r κ, which Veciana leave out.
     averaged : bool
         Average radius and entrainment over the contact's width where they vanish at the pitch point.
     """
@@ -217,34 +134,42 @@ def torque_ratio(
     Raises
     ------
     SimulationError
-        If load and friction find no common value: a law whose coefficient grows without bound.
+        As `equilibrium.settled`.
     """
-    pinion = pair.pinion_normal_arm, pair.pinion_friction_arm
-    gear = pair.gear_normal_arm, pair.gear_friction_arm
-    (arm, lever), (arm_out, lever_out) = (gear, pinion) if gear_drives else (pinion, gear)
+    normal_arm = np.stack([pair.pinion_normal_arm, pair.gear_normal_arm])
+    friction_arm = np.stack([pair.pinion_friction_arm, pair.gear_friction_arm])
+    driver, driven = (1, 0) if gear_drives else (0, 1)
     way = -1.0 if gear_drives else 1.0
-    side, speed = way * np.sign(pair.rotation), way * pinion_speed
-    mu, load, change = np.zeros_like(arm), input_torque / arm, np.inf
-    for _ in range(STEPS):
-        load = input_torque / (arm + side * mu * lever)
-        new_mu = contact_friction(
-            closure,
-            load / face_width,
-            1.0 / pair.curvature,
-            speed * pair.pinion_speed,
-            speed * pair.gear_speed,
-            pair.pitch_point_length,
-            speed * pair.pitch_point_rate,
-        ).surface.friction_coefficient
-        if any(np.any(one + side * new_mu * other <= 0.0) for one, other in (pinion, gear)):
-            worst = float(np.max(new_mu))
-            raise SimulationError(
-                f"friction locks the pair: a coefficient of {worst:.3g} turns the load's arm over"
-            )
-        change, mu = np.max(np.abs(new_mu - mu)), new_mu
-        if change < TOLERANCE:
-            break
-    else:
-        raise SimulationError(f"load and friction coefficient do not settle: still moving by {change:.1e}")
-    ratio = (arm_out + side * mu * lever_out) / (arm + side * mu * lever)
-    return TorqueRatio(np.sum(pair.weight * ratio * arm / arm_out, axis=-1), ratio, load, mu)
+    speed = way * pinion_speed
+    seen = Contacts(
+        closure,
+        face_width,
+        1.0 / pair.curvature,
+        speed * pair.pinion_speed,
+        speed * pair.gear_speed,
+        way * np.sign(pair.rotation),
+        (pair.pitch_point_length, speed * pair.pitch_point_rate),
+        1.0,
+        normal_arm,
+        friction_arm,
+    )
+
+    def share(friction: Array) -> _Load:
+        return _Load(input_torque / (normal_arm[driver] + friction * friction_arm[driver]))
+
+    found = settled(seen, share)
+    mu = found.friction_coefficient
+    arms = seen.arms(mu)
+    ratio = arms[driven] / arms[driver]
+    lossless = normal_arm[driver] / normal_arm[driven]
+    return TorqueRatio(np.sum(pair.weight * ratio * lossless, axis=-1), ratio, found.normal_load, mu)
+
+
+class _Load(NamedTuple):
+    """Of one pair, N: friction acts at the whole of it."""
+
+    normal_load: Array
+
+    @property
+    def friction_load(self) -> Array:
+        return self.normal_load

@@ -1,7 +1,7 @@
 """What `check` says of a study of the solved contact."""
 
 from tribodyn.mesh.by_compliance import compliance_remark
-from tribodyn.mesh.stiffness import single_pair
+from tribodyn.mesh.quasi_static import single_pair
 from tribodyn.studies.ehl.along_path import prepare
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.studies.gears.oil import with_oil

@@ -1,7 +1,7 @@
 """What `check` says of a gear pair."""
 
 from tribodyn.mesh.by_compliance import compliance_remark
-from tribodyn.mesh.stiffness import single_pair
+from tribodyn.mesh.quasi_static import single_pair
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.prepare import prepare
 from tribodyn.studies.gears.law_ranges import with_laws

@@ -23,7 +23,9 @@ from tribodyn.dynamics.parameters import (
 )
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.mesh.cycle import MeshCycle, Polynomials, polynomials
-from tribodyn.mesh.friction_loss import contacts, friction_loss, settled
+from tribodyn.mesh.equilibrium import contacts, elastic, settled
+from tribodyn.mesh.power_flow import friction_loss
+from tribodyn.numerics.curve import monotone_slopes
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gears.temperature import Thermal, thermal_state
 from tribodyn.tribology.closure import Closure, closure_of
@@ -166,9 +168,9 @@ def _quasi_static_loss(made: Tabulated) -> Callable[[Case], float]:
         if torque == 0.0:
             return 0.0
         cycle = made.split()
-        vanishing = float(cycle.pitch_point_length) > 0.0
-        loads = settled(cycle, torque, contacts(cycle, torque, speed, closure_of(case), vanishing))
-        return speed * float(friction_loss(cycle, *loads))
+        seen = contacts(cycle, torque, speed, closure_of(case))
+        found = settled(seen, elastic(cycle, torque))
+        return speed * float(friction_loss(cycle, found.normal_load, found.friction_coefficient))
 
     return lost
 
@@ -273,8 +275,6 @@ def _monotone_slopes(times: np.ndarray, values: np.ndarray) -> np.ndarray:
     """Slopes of the C1 curve through the points that never overshoots; flat at both ends."""
     if len(times) < 2:
         return np.zeros_like(times)
-    from scipy.interpolate import PchipInterpolator
-
-    slopes = PchipInterpolator(times, values)(times, 1)
+    slopes = monotone_slopes(times, values)
     slopes[[0, -1]] = 0.0  # the torque is constant outside the table
     return slopes

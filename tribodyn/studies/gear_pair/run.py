@@ -13,7 +13,7 @@ from tribodyn.errors import SimulationError
 from tribodyn.geometry.sheet.outlines import geometry_arrays
 from tribodyn.mesh.by_compliance import compliance_remark
 from tribodyn.mesh.cycle import as_arrays
-from tribodyn.mesh.stiffness import single_pair
+from tribodyn.mesh.quasi_static import single_pair
 from tribodyn.record.trust import Judge, judge_tribology
 from tribodyn.solve.choice import choose
 from tribodyn.solve.initial import initial_state

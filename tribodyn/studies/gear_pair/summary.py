@@ -20,7 +20,7 @@ from tribodyn.dynamics.parameters import (
 from tribodyn.dynamics.recorded import pair_numbers
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.power_flow import driving_gear, efficiency, power_put_in
-from tribodyn.mesh.stiffness import total_stiffness
+from tribodyn.mesh.quasi_static import total_stiffness
 from tribodyn.post.spectra import amplitude_spectrum
 from tribodyn.tribology.surface_state import fraction_in_range
 

@@ -11,10 +11,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from tribodyn.post.style import INK, PALETTE, QUIET, mark_panel, new_figure
-from tribodyn.studies.efficiency.shift import Scenario
 from tribodyn.validation.diez_ibarbia_study import (
     CONDITIONS,
     Course,
+    Scenario,
     at_load,
     course_at_load,
     course_by_equal_loads,

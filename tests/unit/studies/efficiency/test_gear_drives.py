@@ -10,9 +10,10 @@ from tribodyn.solve.initial import static_equilibrium
 from tribodyn.studies.efficiency.along_path import cycle_efficiency, engage
 from tribodyn.studies.efficiency.places import SHARINGS, places
 from tribodyn.studies.efficiency.run import efficiencies, figures, prepare
-from tribodyn.studies.efficiency.torque_ratio import involute_contact, torque_ratio
+from tribodyn.studies.efficiency.torque_ratio import torque_ratio
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
+from tribodyn.validation.veciana_study import involute_contact
 
 TEETH, RADIUS, RATIO, ANGLE = 27.0, 27e-3, 2.0, np.radians(20.0)
 DRIVES = ("efficiency-crc-23-47", "efficiency-cycloidal-23-47")

@@ -8,8 +8,7 @@ import pytest
 from tribodyn.geometry.drive import tip_radius
 from tribodyn.geometry.families.involute import FAMILY
 from tribodyn.studies.efficiency.loss_factor import exact, hoehn, tip_contact_ratios
-from tribodyn.studies.efficiency.shift import SCENARIOS, shifted
-from tribodyn.validation.diez_ibarbia_study import drive
+from tribodyn.validation.diez_ibarbia_study import SCENARIOS, drive, shifted
 
 
 @pytest.mark.parametrize("tips", [(0.8, 0.8), (0.5, 0.6), (1.0, 1.0), (0.55, 0.97), (1.0, 0.2)])

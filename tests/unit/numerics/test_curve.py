@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.interpolate import PchipInterpolator
 
-from tribodyn.compliance.table import check_cover, interpolate, monotone_slopes
 from tribodyn.errors import InputError
+from tribodyn.numerics.curve import check_cover, interpolate
 
 X = np.array([-0.3, -0.1, 0.05, 0.4, 0.45, 0.9, 1.0])
 CURVES = [
@@ -24,7 +24,6 @@ def test_curve_is_that_of_fritsch_and_butland(y, count):
     expected = PchipInterpolator(x, y)
     at = np.unique(np.concatenate([x, np.linspace(x[0], x[-1], 83)]))
     np.testing.assert_allclose(interpolate(x, y, at), expected(at), atol=1e-13)
-    np.testing.assert_allclose(monotone_slopes(x, y), expected(x, 1), atol=1e-12)
 
 
 def test_a_table_must_reach_both_ends_but_for_half_a_microradian():

@@ -1,0 +1,191 @@
+"""The quasi-static equilibrium with friction: loads that balance the torque with the friction they make."""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+
+from tribodyn.errors import SimulationError
+from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.mesh.quasi_static import quasi_static
+from tribodyn.numerics.elementary import cos, namespace, sin
+from tribodyn.numerics.iteration import iterate
+from tribodyn.numerics.shapes import Array, Float
+from tribodyn.tribology.law import Closure
+from tribodyn.tribology.surface_state import ContactFriction, contact_friction
+
+# Loads follow friction through μ tan α only: each step shrinks the error tenfold or more. Under JAX the steps
+# are so many, and so many of them are differentiated; plain numbers take steps until μ moves by less.
+_STEPS, _DIFFERENTIATED = 12, 6
+_MOST, _TOLERANCE = 60, 1e-12
+
+
+class Loads(Protocol):
+    """How a torque is shared, N."""
+
+    @property
+    def normal_load(self) -> Float[Array, "*pair"]:
+        """Loads of the pairs."""
+        ...
+
+    @property
+    def friction_load(self) -> Float[Array, "*pair"]:
+        """Loads at which friction acts as along the face."""
+        ...
+
+
+class Contacts(NamedTuple):
+    """Contacts of pairs of teeth and the laws in use on them; arrays of one shape (…).
+
+    Attributes
+    ----------
+    closure : Closure
+    face_width : float
+        m.
+    radius, pinion_speed, gear_speed : array
+        m, and rolling speeds in m/s.
+    side : array
+        Sign of the sliding.
+    vanishing : tuple
+        As `contact_friction` takes them.
+    carrying : array
+        1 where the pair may carry load, else 0.
+    normal_arm, friction_arm : (2, …)
+        Arms of normal load and friction about pinion and gear, m.
+    """
+
+    closure: Closure
+    face_width: Any
+    radius: Any
+    pinion_speed: Any
+    gear_speed: Any
+    side: Any
+    vanishing: tuple[Any, Any]
+    carrying: Any
+    normal_arm: Any
+    friction_arm: Any
+
+    def under(self, normal_load: Any) -> ContactFriction:
+        """What the laws give under these loads (N)."""
+        rolling = self.pinion_speed, self.gear_speed
+        line_load = normal_load / self.face_width
+        return contact_friction(self.closure, line_load, self.radius, *rolling, *self.vanishing)
+
+    def arms(self, friction_coefficient: Any) -> Any:
+        """Arms (2, …) of load and friction together, m; negative: friction locks the pair."""
+        return self.normal_arm + self.side * friction_coefficient * self.friction_arm
+
+
+class Equilibrium(NamedTuple):
+    """Loads as they are shared and friction coefficients of the pairs."""
+
+    shared: Any
+    friction_coefficient: Float[Array, "*pair"]
+
+    @property
+    def normal_load(self) -> Float[Array, "*pair"]:
+        """N."""
+        return self.shared.normal_load
+
+
+Share = Callable[[Float[Array, "*pair"]], Loads]
+
+
+def contacts(
+    cycle: MeshCycle, gear_torque: Any, pinion_speed: Any, closure: Closure, averaged: bool = True
+) -> Contacts:
+    """Contacts at the nodes of a table of driving flanks, (S, N, Q); may be traced.
+
+    Parameters
+    ----------
+    cycle : MeshCycle
+        A segment begins wherever a pair passes the pitch point, as for a family with a corner there.
+    gear_torque, pinion_speed : float
+        N m and rad/s; a negative torque where the gear drives, on back flanks that are like the driving ones.
+    closure : Closure
+    averaged : bool
+        Average radius and entrainment over the contact where they vanish at the pitch point.
+    """
+    xp = namespace(*cycle, gear_torque, pinion_speed, *closure.surfaces)
+    way = xp.sign(gear_torque)
+    r, angle = cycle.signed_distance, cycle.pressure_angle
+    speed, side = way * pinion_speed, way * xp.sign(r[:, r.shape[1] // 2, None])
+    return Contacts(
+        closure,
+        cycle.face_width,
+        # at the pitch point itself the laws are evaluated beside it: there the radius may be zero
+        xp.maximum(cycle.equivalent_radius, 1e-9),
+        speed * cycle.pinion_speed,
+        speed * cycle.gear_speed,
+        side,
+        (cycle.pitch_point_length, speed * cycle.pitch_point_rate) if averaged else (0.0, 0.0),
+        (cycle.in_contact * (cycle.side > 0))[:, None, :],
+        xp.stack([cycle.pinion_pitch_radius * cos(angle), cycle.gear_pitch_radius * cos(angle)]),
+        xp.stack([cycle.pinion_pitch_radius * sin(angle) + r, cycle.gear_pitch_radius * sin(angle) - r]),
+    )
+
+
+def elastic(cycle: MeshCycle, gear_torque: Any) -> Share:
+    """Sharing of the gear's torque by the compliances of the table."""
+    torque = namespace(gear_torque).abs(gear_torque)
+    return lambda friction: quasi_static(cycle, torque, friction)
+
+
+def equilibrium(seen: Contacts, share: Share) -> Equilibrium:
+    """Solve load sharing and friction together.
+
+    Parameters
+    ----------
+    seen : Contacts
+    share : callable
+        Friction force over normal load, with the sign of the sliding -> `Loads`, which may be traced.
+    """
+    return _solved(seen, share)[0]
+
+
+def settled(seen: Contacts, share: Share) -> Equilibrium:
+    """Return what `equilibrium` does of plain numbers.
+
+    Raises
+    ------
+    SimulationError
+        If friction locks the mesh, no load of a pair balances the torque, or a law's coefficient grows
+        without bound.
+    """
+    found, change = _solved(seen, share)
+    mu = found.friction_coefficient
+    finite = np.all(np.isfinite(found.normal_load)) and np.all(np.isfinite(mu))
+    if not finite or np.any(seen.carrying * seen.arms(mu) < 0.0):
+        slow = share(np.zeros_like(mu)).friction_load
+        worst = float(np.max(seen.under(slow).surface.friction_coefficient * (slow > 0.0)))
+        raise SimulationError(
+            f"friction locks the mesh in slow rotation, with coefficients up to {worst:.3g}: use another "
+            "friction law, or conditions nearer to those that it holds for"
+        )
+    if change >= _TOLERANCE:
+        raise SimulationError(f"load and friction coefficient do not settle: still moving by {change:.1e}")
+    return found
+
+
+def _solved(seen: Contacts, share: Share) -> tuple[Equilibrium, float]:
+    def step(state: tuple[Any, Any]) -> tuple[Any, Any]:
+        shared = share(seen.side * state[1])
+        load = shared.friction_load
+        return shared, seen.under(load).surface.friction_coefficient * seen.carrying + 0.0 * load
+
+    nothing = 0.0 * seen.radius * seen.pinion_speed
+    if namespace(*seen) is not np:
+        import jax
+
+        # of the shape it has after a step: half the program
+        shape, _ = jax.eval_shape(step, (None, nothing))
+        start = jax.tree.map(lambda leaf: namespace(nothing).zeros(leaf.shape, leaf.dtype), shape)
+        return Equilibrium(*iterate(step, (start, nothing), _STEPS, _DIFFERENTIATED)), 0.0
+    with np.errstate(all="ignore"):
+        state, change = step((None, nothing)), np.inf
+        for _ in range(_MOST):
+            before, state = state[1], step(state)
+            change = float(np.max(np.abs(state[1] - before)))
+            if not change >= _TOLERANCE:
+                break
+    return Equilibrium(*state), change

@@ -1,0 +1,149 @@
+"""What every compliance's tabulation shares: where the pairs stand, what is open between them, the table."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tribodyn.errors import InputError
+from tribodyn.geometry.assembly import Assembly
+from tribodyn.geometry.drive import SIDES, Drive, body_of
+from tribodyn.geometry.path import Kinematics
+from tribodyn.geometry.pitch_point import pitch_point
+from tribodyn.mesh.cycle import MeshCycle
+from tribodyn.mesh.data import MeshData
+from tribodyn.numerics.curve import check_cover, interpolate
+from tribodyn.numerics.elementary import cos, is_jax, namespace
+from tribodyn.numerics.shapes import Array, Float
+
+
+class Slots(NamedTuple):
+    """Where the pairs of the slots stand; as in `MeshCycle`, and `roll`: pinion angles (S, N, Q), rad."""
+
+    boundary: Float[Array, " boundary"]
+    phase: Float[Array, "segment node"]
+    in_contact: Float[Array, "segment pair"]
+    side: Float[Array, " pair"]
+    roll: Float[Array, "segment node pair"]
+    limits: tuple[Any, Any]
+
+
+class Elasticity(NamedTuple):
+    """What a compliance gives at the nodes, as in `MeshCycle`; gaps in the unloaded state included."""
+
+    compliance: Float[Array, "segment node pair"]
+    coupling: Float[Array, "segment node pair pair"]
+    gap: Float[Array, "segment node pair"]
+    hertz_coefficient: Any = 0.0
+    line_load_friction: Any = 1.0
+    line_load_peak: Any = 1.0
+
+
+def back_entry(start: Any, pitch: Any) -> Any:
+    """Phase at which a back pair enters, of pairs that enter at the pinion angle `start`."""
+    return (0.5 - 2.0 * start / pitch) % 1.0
+
+
+def slots(
+    boundary: Float[Array, " boundary"],
+    limits: tuple[Any, Any],
+    pitch: Any,
+    pairs: int,
+    points: int,
+    back: bool,
+) -> Slots:
+    """Pairs at the nodes of segments with these boundaries, in contact between the limits (rad).
+
+    A back pair lives in the mirrored world, where the phase runs backwards: the back flank of a pinion tooth
+    crosses the pitch point half a pitch after its front flank, so that its roll angle there is π/Z_p − φ.
+    """
+    start, end = limits
+    xp = namespace(boundary, start, end)
+    lower, upper = boundary[:-1, None], boundary[1:, None]
+    phase = lower + (upper - lower) * np.linspace(0.0, 1.0, points)
+    ages = np.arange(pairs - 1.0, -1.0, -1.0)
+    position = phase[..., None] + ages  # pitches since entering
+    if back:
+        enter = back_entry(start, pitch)
+        wrapped = xp.where((lower + upper) / 2 > enter, 1.0, 0.0)
+        position = xp.concatenate([position, (enter - phase + wrapped)[..., None] + ages], axis=-1)
+    centre = (position[:, 0] + position[:, -1]) / 2
+    in_contact = xp.where(centre < (end - start) / pitch, 1.0, 0.0)
+    side = np.where(np.arange(position.shape[-1]) < pairs, 1.0, -1.0)
+    return Slots(boundary, phase, in_contact, side, xp.clip(start + pitch * position, start, end), limits)
+
+
+def unloaded_gap(
+    assembly: Assembly,
+    mesh: MeshData,
+    slots: Slots,
+    pressure_angle: Float[Array, "segment node pair"],
+    begin: float = 0.0,
+) -> Float[Array, "segment node pair"]:
+    """Transmission error of the front pairs and backlash of the back pairs along the normal, m.
+
+    Harmonics are in step with the beginning of the path, at the phase `begin`; an error over roll angle stays
+    at its ends beyond the path. Conjugate back flanks all touch after the same rotation: their distance along
+    a normal goes like cos α.
+    """
+    roll, (start, end) = slots.roll, assembly.roll_limits
+    gap = 0.0 * roll
+    for order, amplitude, angle in mesh.error_harmonics:
+        gap = gap + (amplitude * cos(2.0 * np.pi * order * (slots.phase - begin) + angle))[..., None]
+    if mesh.error_table is not None:
+        at, error = mesh.error_table
+        check_cover(at, start, end, "mesh.transmission_error.table")
+        xp = namespace(roll, start, end)
+        gap = gap + interpolate(at, error, xp.clip(roll, xp.maximum(at[0], start), xp.minimum(at[-1], end)))
+    if np.all(slots.side > 0):
+        return gap
+    backlash = (mesh.backlash or 0.0) * cos(pressure_angle) / cos(assembly.path.pressure_angle(0.0))
+    return namespace(gap, backlash).where(slots.side > 0, gap, backlash)
+
+
+def mesh_table(assembly: Assembly, slots: Slots, motion: Kinematics, elastic: Elasticity) -> MeshCycle:
+    """Fill the mesh cycle from kinematics and elasticity at the nodes, (S, N, Q)."""
+    start, end = slots.limits
+    vanishing = pitch_point(assembly.path)
+    return MeshCycle(
+        boundary=slots.boundary,
+        in_contact=slots.in_contact,
+        side=slots.side,
+        phase=slots.phase,
+        pressure_angle=motion.pressure_angle,
+        signed_distance=motion.signed_distance,
+        equivalent_radius=1.0 / motion.relative_curvature,
+        pinion_speed=motion.pinion_speed,
+        gear_speed=motion.gear_speed,
+        pinion_pitch_radius=assembly.path.pinion_pitch_radius,
+        gear_pitch_radius=assembly.path.gear_pitch_radius,
+        pinion_teeth=assembly.drive.pinion.teeth,
+        face_width=assembly.common_width,
+        contact_ratio=assembly.contact_ratio,
+        pitch_point_phase=-start / assembly.pitch_angle,
+        roll_start=start,
+        roll_end=end,
+        pitch_point_length=vanishing.length,
+        pitch_point_rate=vanishing.speed_per_radius,
+        **elastic._asdict(),
+    )
+
+
+def check_bores(drive: Drive) -> None:
+    """Raise InputError for a solid body where its elasticity is needed; traced radii are not checked."""
+    for side in SIDES:
+        bore = body_of(drive, side).bore_radius
+        if not is_jax(bore) and bore <= 0:
+            raise InputError(
+                f"drive.{side}.bore_radius",
+                bore,
+                "the elastic body is held at its bore",
+                "give the radius at which the shaft holds it",
+            )
+
+
+def check_backlash(mesh: MeshData, back: bool) -> None:
+    """Raise InputError for back flanks at no distance."""
+    if back and mesh.backlash is None:
+        raise InputError(
+            "mesh.backlash", rule="is needed for the contact of back flanks", remedy="give a length"
+        )
