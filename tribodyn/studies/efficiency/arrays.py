@@ -1,15 +1,59 @@
-"""Datasets of a record of one mesh cycle in slow rotation."""
+"""Samples of one mesh cycle in slow rotation, from where a pair enters until the next one does; datasets."""
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from tribodyn.dynamics.recorded import SAMPLES
+from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.power_flow import efficiency
 from tribodyn.studies.efficiency.along_path import Duty, Engagement
 from tribodyn.studies.efficiency.places import Places
 from tribodyn.studies.efficiency.quadrature import Array
-from tribodyn.studies.efficiency.sampled import Samples
+
+#: By how much of a pitch the first and the last sample stand off the end of the path.
+_INSIDE = 1e-9
+
+
+class Samples(NamedTuple):
+    """Phases of the table in the order in which they are passed.
+
+    Attributes
+    ----------
+    turned : (K,)
+        Rotation since the first sample, in pitches.
+    phase : (K,)
+        Phase of the table at each sample. Where the gear drives it falls: contact begins where the table's
+        ends, in the mirrored world in which the back flanks are driving flanks.
+    later : (K,) bool
+        Where the table counts the pairs one slot later than the record.
+    way : float
+        +1, or −1 where the gear drives.
+    """
+
+    turned: Array
+    phase: Array
+    later: np.ndarray
+    way: float
+
+    def by_pair(self, values: Array) -> Array:
+        """Values (K, Q) of the table's slots, as those of the record's: the pair that entered last, last."""
+        if self.way > 0.0:
+            return values
+        return np.where(self.later[:, None], np.roll(values, -1, axis=1), values)[:, ::-1]
+
+
+def samples(cycle: MeshCycle, count: int, way: float) -> Samples:
+    """Return count + 1 samples over one mesh cycle of the driving flanks, or of the back flanks."""
+    turned = np.linspace(0.0, 1.0, count + 1)
+    if way > 0.0:
+        return Samples(turned, turned, np.zeros(count + 1, dtype=bool), way)
+    span = float((cycle.roll_end - cycle.roll_start) / cycle.pitch_angle)
+    # the pair in the first slot enters where the table lets it leave: just inside the path, and the next one
+    # is just outside when the cycle ends
+    falling = span - (cycle.front_pairs - 1.0) - turned - _INSIDE * (1.0 - 2.0 * turned)
+    later = falling < 0.0
+    return Samples(turned, np.where(later, falling + 1.0, falling), later, way)
 
 
 def record_arrays(over: Samples, mesh: Places, state: Engagement, duty: Duty) -> dict[str, Any]:
@@ -24,13 +68,12 @@ def record_arrays(over: Samples, mesh: Places, state: Engagement, duty: Duty) ->
         return np.where(touching, values, np.nan)
 
     gear_angle = ratio * angle - np.nan_to_num(state.deflection) / cycle.gear_pitch_radius
-    one = np.ones_like(angle)
     arrays = {
         "time": angle / duty.pinion_speed,
         "pinion_angle": angle,
         "displacement": np.stack([zero, zero, zero, zero, angle, gear_angle], axis=-1),
         "velocity": np.stack(
-            [zero, zero, zero, zero, one * duty.pinion_speed, one * duty.pinion_speed * ratio], -1
+            [zero, zero, zero, zero, zero + duty.pinion_speed, zero + duty.pinion_speed * ratio], -1
         ),
         "transmission_error": contacting(
             duty.way * state.deflection[:, None] * np.cos(cycle.pressure_angle[:, 0])
@@ -59,5 +102,5 @@ def record_arrays(over: Samples, mesh: Places, state: Engagement, duty: Duty) ->
         "power_parametric": zero,
         "efficiency": efficiency(state.power_in, state.power_out, state.power_friction),
     }
-    of_pairs = {name for name, one in SAMPLES.items() if one.dims == ("time", "pair")}
+    of_pairs = {name for name, sample in SAMPLES.items() if sample.dims == ("time", "pair")}
     return {name: over.by_pair(values) if name in of_pairs else values for name, values in arrays.items()}

@@ -24,11 +24,10 @@ from tribodyn.mesh.cycle import MeshCycle, as_arrays
 from tribodyn.mesh.power_flow import driving_gear, power_put_in
 from tribodyn.record.trust import Judge, heat_of, judge_tribology
 from tribodyn.studies.efficiency.along_path import CycleEfficiency, Duty, Engagement, cycle_efficiency, engage
-from tribodyn.studies.efficiency.arrays import record_arrays
+from tribodyn.studies.efficiency.arrays import Samples, record_arrays, samples
 from tribodyn.studies.efficiency.case import EfficiencyCase
 from tribodyn.studies.efficiency.loss_factor import exact, hoehn, tip_contact_ratios
 from tribodyn.studies.efficiency.places import SHARINGS, Places, Sharing, places
-from tribodyn.studies.efficiency.sampled import Samples, samples
 from tribodyn.studies.efficiency.torque_ratio import path_contact, torque_ratio
 from tribodyn.studies.gears.oil import oil_data
 from tribodyn.studies.gears.shared import LAYOUT

@@ -9,11 +9,11 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 from tests.support.closures import of_case
-from tribodyn.studies.efficiency.arrays import record_arrays
+from tribodyn.mesh.equilibrium import contacts
+from tribodyn.studies.efficiency.arrays import record_arrays, samples
 from tribodyn.studies.efficiency.loss_factor import exact, tip_contact_ratios
 from tribodyn.studies.efficiency.places import places
 from tribodyn.studies.efficiency.run import Prepared, _at_jumps, _figures, _sampled, efficiencies, prepare
-from tribodyn.studies.efficiency.sampled import samples
 from tribodyn.studies.protocol.load import load_scenario
 
 NAME = "efficiency-involute-18-36"
@@ -54,6 +54,7 @@ def test_the_mesh_at_a_phase_is_that_of_two_involutes(study: Prepared):
     cycle, path = study.cycle, study.path
     phase = np.array([0.0, 0.013, 0.21, 0.37, 0.52, 0.68, 0.83, 0.997])
     mesh = places(cycle, path, phase)
+    seen = contacts(mesh.cycle, 410.0, 100.0, study.duty.closure)
     angle = float(path.pressure_angle(0.0))
     radii = float(path.pinion_pitch_radius), float(path.gear_pitch_radius)
     base = [radius * math.cos(angle) for radius in radii]
@@ -63,7 +64,7 @@ def test_the_mesh_at_a_phase_is_that_of_two_involutes(study: Prepared):
         for q in range(2):
             roll = float(cycle.roll_start) + pitch * (at + 1 - q)
             inside = cycle.roll_start <= roll < cycle.roll_end
-            assert mesh.carrying[k, q] == float(inside) == mesh.cycle.in_contact[k, q]
+            assert mesh.cycle.in_contact[k, q] == float(inside)
             assert mesh.roll[k, q] == pytest.approx(roll, abs=1e-14)
             for name, found in (("compliance", mesh.cycle.compliance), ("gap", mesh.cycle.gap)):
                 spline = CubicSpline(cycle.phase[segment], getattr(cycle, name)[segment, :, q])
@@ -76,14 +77,14 @@ def test_the_mesh_at_a_phase_is_that_of_two_involutes(study: Prepared):
             curved = radii[0] * math.sin(angle) + distance, radii[1] * math.sin(angle) - distance
             assert mesh.cycle.signed_distance[k, 0, q] == pytest.approx(distance, rel=1e-9)
             assert mesh.cycle.pressure_angle[k, 0, q] == pytest.approx(angle, rel=1e-12)
-            np.testing.assert_allclose(mesh.normal_arm[:, k, q], base, rtol=1e-12)
-            np.testing.assert_allclose(mesh.friction_arm[:, k, q], curved, rtol=1e-9)
-            assert mesh.radius[k, q] == pytest.approx(curved[0] * curved[1] / sum(curved), rel=1e-9)
+            np.testing.assert_allclose(seen.normal_arm[:, k, 0, q], base, rtol=1e-12)
+            np.testing.assert_allclose(seen.friction_arm[:, k, 0, q], curved, rtol=1e-9)
+            assert seen.radius[k, 0, q] == pytest.approx(curved[0] * curved[1] / sum(curved), rel=1e-9)
             assert mesh.cycle.pinion_speed[k, 0, q] == pytest.approx(curved[0], rel=1e-9)
             assert mesh.cycle.gear_speed[k, 0, q] == pytest.approx(curved[1] * radii[0] / radii[1], rel=1e-9)
     alone = places(cycle, path, np.linspace(0.0, 0.999, 38), "single-pair")
-    np.testing.assert_array_equal(alone.carrying.sum(axis=1), 1.0)
-    assert np.max(np.abs(alone.roll[alone.carrying > 0.0])) <= pitch / 2.0 + 1e-12
+    np.testing.assert_array_equal(alone.cycle.in_contact.sum(axis=1), 1.0)
+    assert np.max(np.abs(alone.roll[alone.cycle.in_contact > 0.0])) <= pitch / 2.0 + 1e-12
     np.testing.assert_array_equal(mesh.cycle.side, [1.0, 1.0])
 
 
@@ -133,7 +134,7 @@ def test_datasets_of_a_mesh_cycle_in_plain_loops(study: Prepared):
             load = float(state.normal_load[k, own])
             assert found["normal_load"][k, slot] == load
             assert found["friction_force"][k, slot] == state.friction_force[k, own]
-            touches = load > 0.0 and mesh.carrying[k, own] > 0.0
+            touches = load > 0.0 and mesh.cycle.in_contact[k, own] > 0.0
             stiffness = 1.0 / float(mesh.cycle.compliance[k, 0, own]) if touches else 0.0
             assert found["mesh_stiffness"][k, slot] == pytest.approx(stiffness, rel=1e-14)
             expected = {name: getattr(state, name)[k, own] for name in OF_STATE} | {
