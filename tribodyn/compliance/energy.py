@@ -55,10 +55,8 @@ class ToothCompliance(NamedTuple):
 
     Parameters
     ----------
-    bending, shear, axial : array
-        Strain energy of the beam, m/N.
-    foundation : array
-        Body under the tooth, alone on it, m/N.
+    bending, shear, axial : strain energy of the beam, m/N
+    foundation : body under the tooth, alone on it, m/N
     root_load : array, (..., 3)
         Load on the root circle per unit normal load, (N, T, M/root radius) in the sense of `foundation`, up
         to a common sign, with the body turned over so that the loaded flank lies counter-clockwise.
@@ -83,10 +81,8 @@ def section_integrals(
 
     Parameters
     ----------
-    x, y : array, (25,)
-        Position along the tooth's axis and half thickness at the piece's Chebyshev points, m.
-    origin : float
-        Where s = x − origin is counted from.
+    x, y : (25,), position along the tooth's axis and half thickness at the piece's Chebyshev points, m
+    origin : where s = x − origin is counted from
 
     Returns
     -------
@@ -110,14 +106,10 @@ def beam_compliance(
 
     Parameters
     ----------
-    integrals : array, (..., 4)
-        See `section_integrals`, from the root to the contact.
-    lever : array
-        u, m, from the same origin as s.
-    load_angle : array
-        α_1 between load and the perpendicular of the axis, rad.
-    poisson_ratio : float
-        ν.
+    integrals : (..., 4), see `section_integrals`, from the root to the contact
+    lever : u, m, from the same origin as s
+    load_angle : α_1 between load and the perpendicular of the axis, rad
+    poisson_ratio : ν
     """
     across, along = cos(load_angle) ** 2, sin(load_angle) ** 2
     area = integrals[..., 3]
@@ -130,14 +122,11 @@ class LoadedTooth(NamedTuple):
 
     Parameters
     ----------
-    tooth : Tooth
-        As its rack cuts it.
-    path : Path
-        Working path, seen from the body.
+    tooth : as its rack cuts it
+    path : working path, seen from the body
     pitch_half_angle, root_half_angle : float
         Half thickness angle on the working pitch circle and on the root circle, rad.
-    body : GearBody
-        Bore and face width.
+    body : bore and face width
     side : {"pinion", "gear"}
         Which of the two.
     """
@@ -174,14 +163,10 @@ def tooth_compliance(
 
     Parameters
     ----------
-    loaded : LoadedTooth
-        The tooth of the pinion or the gear.
-    material : MaterialData
-        Its E (Pa) and ν.
-    width : float
-        Width over which the teeth touch, m.
-    r : array
-        Signed distance of the contact from the pitch point, m.
+    loaded : the tooth of the pinion or the gear
+    material : its E (Pa) and ν
+    width : width over which the teeth touch, m
+    r : signed distance of the contact from the pitch point, m
     body : {"sainsot-velex", "ring"}
         What the compliance of the body comes from.
     """

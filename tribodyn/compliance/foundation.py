@@ -47,10 +47,8 @@ def sainsot_velex(
 
     Parameters
     ----------
-    radius_ratio : array
-        h = root radius/bore radius.
-    root_half_angle : array
-        θ, half the angle that the tooth's root takes up on the root circle, rad.
+    radius_ratio : h = root radius/bore radius
+    root_half_angle : θ, half the angle that the tooth's root takes up on the root circle, rad
 
     Returns
     -------
@@ -94,14 +92,10 @@ def foundation_compliance(
 
     Parameters
     ----------
-    load_angle : array
-        Angle between the force and the perpendicular of the tooth's axis, rad.
-    lever : array
-        u, distance along the tooth's axis from the root circle to the line of the force, m.
-    root_radius, bore_radius, root_half_angle : array
-        The ring, m, and half the angle of the tooth's root, rad.
-    youngs_modulus, width : array
-        Pa, m.
+    load_angle : angle between the force and the perpendicular of the tooth's axis, rad
+    lever : u, distance along the tooth's axis from the root circle to the line of the force, m
+    root_radius, bore_radius, root_half_angle : the ring, m, and half the angle of the tooth's root, rad
+    youngs_modulus, width : Pa, m
 
     Returns
     -------
@@ -130,12 +124,9 @@ def ring_foundation(
 
     Parameters
     ----------
-    root_load : array, (..., 3)
-        (N, T, M/root radius) per unit normal load.
-    root_radius, bore_radius, root_half_angle : array
-        The ring, m, and half the angle of the tooth's root, rad.
-    youngs_modulus, poisson_ratio, width : array
-        Pa, ν, m.
+    root_load : (..., 3), (N, T, M/root radius) per unit normal load
+    root_radius, bore_radius, root_half_angle : the ring, m, and half the angle of the tooth's root, rad
+    youngs_modulus, poisson_ratio, width : Pa, ν, m
     """
     ring = ring_compliance(0.0, root_half_angle, root_radius / bore_radius, poisson_ratio, SELF_HARMONICS)
     shape = namespace(root_load, ring).einsum("...i,ij,...j->...", root_load, ring, root_load)
@@ -159,8 +150,7 @@ def ring_compliance(
 
     Parameters
     ----------
-    angle : array, shape ()
-        Angle of the loaded tooth, counter-clockwise from the one whose displacement is wanted, rad.
+    angle : (), angle of the loaded tooth, counter-clockwise from the one whose displacement is wanted, rad
     root_half_angle, radius_ratio, poisson_ratio : array, shape ()
         Half the angle of a tooth's root, rad; root radius/bore radius; Poisson's ratio.
 

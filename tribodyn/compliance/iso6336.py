@@ -37,20 +37,13 @@ class ReferencePair(NamedTuple):
 
     Parameters
     ----------
-    teeth, profile_shift, dedendum : (float, float)
-        Numbers of teeth; shifts and dedenda of the rack, in (normal) modules.
-    pressure_angle : float
-        Of the rack, in the normal section, rad.
-    contact_ratio : float
-        ε_α, transverse.
-    line_load : float
-        F_t K_A/b on the reference circle, N/m.
-    youngs_modulus : (float, float)
-        Pa.
-    helix_angle : float
-        β at the reference circle, rad.
-    blank : float
-        C_R, see `blank_factor`; 1 for solid discs.
+    teeth, profile_shift, dedendum : numbers of teeth; shifts and dedenda of the rack, in (normal) modules
+    pressure_angle : of the rack, in the normal section, rad
+    contact_ratio : ε_α, transverse
+    line_load : F_t K_A/b on the reference circle, N/m
+    youngs_modulus : Pa
+    helix_angle : β at the reference circle, rad
+    blank : C_R, see `blank_factor`; 1 for solid discs
     """
 
     teeth: tuple[float, float]
@@ -69,14 +62,10 @@ class ReferenceStiffness(NamedTuple):
 
     Attributes
     ----------
-    theoretical : float
-        c'_th, maximum stiffness of a single pair of steel, from theory.
-    correction, blank, rack, material, load : float
-        C_M, C_R, C_B, E/E_St, and the reduction at low loads.
-    single_pair : float
-        c' = c'_th cos β times the factors.
-    mesh, mesh_face : float
-        c_γα, mean over the mesh cycle, and c_γβ for the face load factor.
+    theoretical : c'_th, maximum stiffness of a single pair of steel, from theory
+    correction, blank, rack, material, load : C_M, C_R, C_B, E/E_St, and the reduction at low loads
+    single_pair : c' = c'_th cos β times the factors
+    mesh, mesh_face : c_γα, mean over the mesh cycle, and c_γβ for the face load factor
     """
 
     theoretical: float
@@ -102,8 +91,7 @@ def theoretical_stiffness(
 
     Parameters
     ----------
-    teeth, profile_shift : (float, float)
-        z and x of the gear with fewer teeth and of its mate.
+    teeth, profile_shift : z and x of the gear with fewer teeth and of its mate
     pressure_angle, helix_angle : float
         α_n and β, rad: of helical gears the virtual numbers of teeth z/(cos² β_b cos β) count.
 
@@ -133,10 +121,8 @@ def rack_factor(dedendum: tuple[float, float], pressure_angle: float) -> float:
 
     Parameters
     ----------
-    dedendum : (float, float)
-        h_fP/m_n of both racks.
-    pressure_angle : float
-        α_n, rad.
+    dedendum : h_fP/m_n of both racks
+    pressure_angle : α_n, rad
 
     References
     ----------
@@ -153,10 +139,8 @@ def blank_factor(web: float, rim: float) -> float:
 
     Parameters
     ----------
-    web : float
-        b_s/b, thickness of the web over the face width; counts as 0.2 … 1.2.
-    rim : float
-        s_R/m_n, thickness of the rim under the teeth in modules; counts as at least 1.
+    web : b_s/b, thickness of the web over the face width; counts as 0.2 … 1.2
+    rim : s_R/m_n, thickness of the rim under the teeth in modules; counts as at least 1
 
     References
     ----------

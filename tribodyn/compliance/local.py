@@ -33,12 +33,9 @@ def hertz_half_width(
 
     Parameters
     ----------
-    line_load : array
-        q, N/m.
-    curvature : array
-        Relative curvature κ, 1/m.
-    first, second : Elastic
-        Materials of both bodies.
+    line_load : q, N/m
+    curvature : relative curvature κ, 1/m
+    first, second : materials of both bodies
     """
     softness = sum((1.0 - m.poisson_ratio**2) / m.youngs_modulus for m in (first, second))
     return np.sqrt(4.0 / np.pi * softness * line_load / curvature)
@@ -54,14 +51,10 @@ def weber_banaschek(
 
     Parameters
     ----------
-    line_load : array
-        q ≥ 0, N/m.
-    half_width : array
-        L of the contact, m; 0 only where q is.
-    depth : float
-        h, m.
-    material : Elastic
-        Of this body.
+    line_load : q ≥ 0, N/m
+    half_width : L of the contact, m; 0 only where q is
+    depth : h, m
+    material : of this body
     """
     nu = material.poisson_ratio
     t = depth / np.maximum(half_width, 1e-12 * depth)
@@ -94,9 +87,7 @@ def freed_of_depth(inside: Float[Array, " 2 *load"], poisson_ratio: float) -> Fl
 
     Parameters
     ----------
-    inside : (2, …)
-        Displacements at depths h and 2h per unit line load, for unit Young's modulus.
-    poisson_ratio : float
-        ν.
+    inside : (2, …), displacements at depths h and 2h per unit line load, for unit Young's modulus
+    poisson_ratio : ν
     """
     return 2.0 * inside[0] - inside[1] - 2.0 * (1.0 - poisson_ratio**2) / np.pi * np.log(2.0)

@@ -14,25 +14,18 @@ class GearBody(NamedTuple):
 
     Parameters
     ----------
-    teeth : float
-        Number of teeth.
-    profile_shift : float
-        Shift of the rack away from the axis, in modules (involute only).
-    addendum, dedendum : float
-        Tooth height above and below the shifted reference line, in modules.
-    fillet_radius : float
-        Radius of the rack's rounded tip, in modules.
-    face_width : float
-        Width of the teeth along the axis, m.
-    bore_radius : float
-        Radius of the bore, m; 0 for a solid body.
+    teeth : number of teeth
+    profile_shift : shift of the rack away from the axis, in modules (involute only)
+    addendum, dedendum : tooth height above and below the shifted reference line, in modules
+    fillet_radius : radius of the rack's rounded tip, in modules
+    face_width : width of the teeth along the axis, m
+    bore_radius : radius of the bore, m; 0 for a solid body
     tip_radius : float, optional
         Radius of the tip circle, m, where it is not r + (addendum + profile shift) × module.
     thickness_allowance : float
         Deviation of the normal tooth thickness on the reference circle from that of teeth which mesh without
         backlash, m; negative for thinner teeth (A_sn of ISO 21771).
-    tip_break : float
-        Height below the tip circle at which the rounding of the tip leaves the flank, m.
+    tip_break : height below the tip circle at which the rounding of the tip leaves the flank, m
     """
 
     teeth: Number
@@ -52,14 +45,10 @@ class Drive(NamedTuple):
 
     Parameters
     ----------
-    module : float
-        Reference pitch diameter over number of teeth, m.
-    pressure_angle : float
-        rad; of the rack for the involute, at the pitch point for every other family.
-    pinion, gear : GearBody
-        The driver and the driven gear.
-    shape : tuple
-        What else the family's path needs: a NamedTuple of numbers and arrays that the family defines.
+    module : reference pitch diameter over number of teeth, m
+    pressure_angle : rad; of the rack for the involute, at the pitch point for every other family
+    pinion, gear : the driver and the driven gear
+    shape : what else the family's path needs: a NamedTuple of numbers and arrays that the family defines
     centre_distance : float, optional
         Between the axes, m, where it is not that of the mesh without backlash (involute only).
     """

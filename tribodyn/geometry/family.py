@@ -13,30 +13,21 @@ class Family(NamedTuple):
 
     Parameters
     ----------
-    name : str
-        Name of the family, as a drive file gives it.
-    working_path : callable
-        drive -> the path of contact of the pair.
+    name : name of the family, as a drive file gives it
+    working_path : drive -> the path of contact of the pair
     generating_path : callable
         (drive, side) -> (path, shift): the path of contact of that body with its rack, seen from the
         body (the body is the path's pinion and rolls on the circle of `path.pinion_pitch_radius`), and the
         distance x m (m) by which the rack is shifted away from the axis.
-    shiftable : bool
-        Whether a gear of this family can be profile-shifted.
-    check : callable
-        drive -> None; raises InputError for numbers that this family in particular cannot use.
+    shiftable : whether a gear of this family can be profile-shifted
+    check : drive -> None; raises InputError for numbers that this family in particular cannot use
     shape : callable, optional
         Makes a drive's `shape` from the values of `parameters`, by name: a NamedTuple of numbers or arrays.
-    parameters : tuple of Parameter
-        What `shape` holds: the keys of the drive's table ``[shape]``.
-    pressure_angle : bool
-        Whether a drive gives its pressure angle; where not, it is 0 at the pitch point.
-    corner : bool
-        Whether α(r) has a corner at the pitch point; the mesh cycle then begins a segment there.
-    involute : bool
-        Whether flanks are involutes, for which the formulas of ISO 6336 and of loss factors hold.
-    about : str
-        What it is, in a line.
+    parameters : what `shape` holds: the keys of the drive's table ``[shape]``
+    pressure_angle : whether a drive gives its pressure angle; where not, it is 0 at the pitch point
+    corner : whether α(r) has a corner at the pitch point; the mesh cycle then begins a segment there
+    involute : whether flanks are involutes, for which the formulas of ISO 6336 and of loss factors hold
+    about : what it is, in a line
     """
 
     name: str

@@ -32,8 +32,7 @@ class PitchPoint(NamedTuple):
 
     Parameters
     ----------
-    length : float
-        M, m: the equivalent radius averaged over a contact at P is √(M a).
+    length : M, m: the equivalent radius averaged over a contact at P is √(M a)
     speed_per_radius : float
         Entrainment (m per rad of the pinion) over equivalent radius (m), the mean of both sides of P, 1/rad.
     """

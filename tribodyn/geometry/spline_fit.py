@@ -27,8 +27,7 @@ def fit_spline(assembly: Assembly, values: int) -> Assembly:
     assembly : Assembly
         Of plain numbers and any family. A pair at a centre distance of its own becomes one of the module
         2 r_w/z; the thickness of its teeth, and so its backlash, stays.
-    values : int
-        Number of angles, at least `spline.FEWEST`.
+    values : number of angles, at least `spline.FEWEST`
 
     Returns
     -------

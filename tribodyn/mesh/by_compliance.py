@@ -29,16 +29,11 @@ def mesh_cycle_of(
 
     Parameters
     ----------
-    assembly : Assembly
-        Checked (`limits.checks`).
-    materials : (MaterialData, MaterialData)
-        Of pinion and gear.
-    mesh : MeshData
-        What the compliance is, errors, backlash.
-    gear_torque : float
-        T_g, N m; matters where `mesh.at_load` only.
-    back : bool
-        Whether back flanks can touch.
+    assembly : checked (`limits.checks`)
+    materials : of pinion and gear
+    mesh : what the compliance is, errors, backlash
+    gear_torque : T_g, N m; matters where `mesh.at_load` only
+    back : whether back flanks can touch
 
     Raises
     ------

@@ -26,19 +26,14 @@ class MeshCycle(NamedTuple):
 
     Attributes
     ----------
-    boundary : (S + 1,)
-        Phases at which the set of contacting pairs changes, from 0 to 1.
-    in_contact : (S, Q)
-        1 where the slot's pair is inside the theoretical path of contact, else 0.
+    boundary : (S + 1,), phases at which the set of contacting pairs changes, from 0 to 1
+    in_contact : (S, Q), 1 where the slot's pair is inside the theoretical path of contact, else 0
     side : (Q,)
         +1 for the driving (front) flanks, −1 for the back flanks, which live in the world mirrored about
         the line of centres.
-    phase : (S, N)
-        Phase of the nodes, mesh cycles.
-    pressure_angle : (S, N, Q)
-        Angle α of the common normal against the pitch tangent, rad.
-    signed_distance : (S, N, Q)
-        r, from the pitch point to the contact, negative in approach, m.
+    phase : (S, N), phase of the nodes, mesh cycles
+    pressure_angle : (S, N, Q), angle α of the common normal against the pitch tangent, rad
+    signed_distance : (S, N, Q), r, from the pitch point to the contact, negative in approach, m
     equivalent_radius : (S, N, Q)
         ρ, one over the sum of both flanks' curvatures, m; 0 at the pitch point of a path whose pressure
         angle is zero there.
@@ -58,14 +53,10 @@ class MeshCycle(NamedTuple):
         friction acts as it does on the uneven face, and the maximum, K_Hβ (`sharing.line_load`).
     hertz_coefficient : float
         A of the load-dependent Hertz deflection A F^0.9, m/N^0.9; 0 where the Hertz contact is linear.
-    pinion_pitch_radius, gear_pitch_radius : float
-        Working pitch radii, m.
-    pinion_teeth : float
-        Number of teeth of the pinion.
-    face_width : float
-        Common face width, m.
-    contact_ratio : float
-        Theoretical transverse contact ratio: the path of contact over the pitch.
+    pinion_pitch_radius, gear_pitch_radius : working pitch radii, m
+    pinion_teeth : number of teeth of the pinion
+    face_width : common face width, m
+    contact_ratio : theoretical transverse contact ratio: the path of contact over the pitch
     pitch_point_phase : float
         Phase at which the newest pair passes the pitch point (may exceed 1: then it is no longer newest).
     roll_start, roll_end : float

@@ -20,33 +20,23 @@ class MeshData:
         Contact part of the energy method's compliance.
     foundation : {"sainsot-velex", "ring"}
         Compliance of a gear body under its own tooth, with ``compliance = "energy"``.
-    foundation_coupling : bool
-        Whether two pairs on one body share its foundation.
-    stiffness : float or None
-        Single-pair stiffness, N/m, with ``compliance = "constant"``.
+    foundation_coupling : whether two pairs on one body share its foundation
+    stiffness : single-pair stiffness, N/m, with ``compliance = "constant"``
     table : Table or None
         Single-pair stiffness over the pinion's roll angle from the pitch point (rad, N/m), with
         ``compliance = "table"``.
-    damping_ratio : float
-        ζ of the mesh.
+    damping_ratio : ζ of the mesh
     formulation : {"classical", "energy-consistent"}
         Whether the torque −∂V/∂φ of the varying stiffness acts on the bodies.
-    contact_width : float
-        Width in deflection over which contact sets in smoothly, m.
-    backlash : float or None
-        Normal backlash at the pitch point, m; None: back flanks never touch.
-    points : int
-        Nodes of the table per segment of the mesh cycle.
+    contact_width : width in deflection over which contact sets in smoothly, m
+    backlash : normal backlash at the pitch point, m; None: back flanks never touch
+    points : nodes of the table per segment of the mesh cycle
     error_harmonics : tuple of (int, float, float)
         (order of the mesh frequency, amplitude m, phase rad) of cosines in the static transmission error.
-    error_table : Table or None
-        Static transmission error of a pair over roll angle (rad, m).
-    modifications : Modifications
-        What is missing on the flanks, and misalignment; with ``compliance = "fem"``.
-    slices : int
-        Slices along the face, with ``compliance = "fem"``.
-    slice_coupling : bool
-        Whether slices of one tooth hold each other.
+    error_table : static transmission error of a pair over roll angle (rad, m)
+    modifications : what is missing on the flanks, and misalignment; with ``compliance = "fem"``
+    slices : slices along the face, with ``compliance = "fem"``
+    slice_coupling : whether slices of one tooth hold each other
     """
 
     compliance: Literal["energy", "fem", "constant", "table"]

@@ -39,19 +39,12 @@ class Contacts(NamedTuple):
 
     Attributes
     ----------
-    closure : Closure
-    face_width : float
-        m.
-    radius, pinion_speed, gear_speed : array
-        m, and rolling speeds in m/s.
-    side : array
-        Sign of the sliding.
-    vanishing : tuple
-        As `contact_friction` takes them.
-    carrying : array
-        1 where the pair may carry load, else 0.
-    normal_arm, friction_arm : (2, …)
-        Arms of normal load and friction about pinion and gear, m.
+    face_width : m
+    radius, pinion_speed, gear_speed : m, and rolling speeds in m/s
+    side : sign of the sliding
+    vanishing : as `contact_friction` takes them
+    carrying : 1 where the pair may carry load, else 0
+    normal_arm, friction_arm : (2, …), arms of normal load and friction about pinion and gear, m
     """
 
     closure: Closure
@@ -98,13 +91,10 @@ def contacts(
 
     Parameters
     ----------
-    cycle : MeshCycle
-        A segment begins wherever a pair passes the pitch point, as for a family with a corner there.
+    cycle : A segment begins wherever a pair passes the pitch point, as for a family with a corner there
     gear_torque, pinion_speed : float
         N m and rad/s; a negative torque where the gear drives, on back flanks that are like the driving ones.
-    closure : Closure
-    averaged : bool
-        Average radius and entrainment over the contact where they vanish at the pitch point.
+    averaged : average radius and entrainment over the contact where they vanish at the pitch point
     """
     xp = namespace(*cycle, gear_torque, pinion_speed, *closure.surfaces)
     way = xp.sign(gear_torque)
@@ -136,9 +126,7 @@ def equilibrium(seen: Contacts, share: Share) -> Equilibrium:
 
     Parameters
     ----------
-    seen : Contacts
-    share : callable
-        Friction force over normal load, with the sign of the sliding -> `Loads`, which may be traced.
+    share : friction force over normal load, with the sign of the sliding -> `Loads`, which may be traced
     """
     return _solved(seen, share)[0]
 

@@ -35,8 +35,7 @@ def efficiency(pinion: Any, gear: Any, loss: Any) -> Any:
     ----------
     pinion, gear
         As for `power_put_in`.
-    loss : float or array
-        Power or work lost to tooth friction.
+    loss : power or work lost to tooth friction
     """
     xp = namespace(pinion, gear, loss)
     through = pinion * gear > 0.0
@@ -63,10 +62,8 @@ def friction_loss(
 
     Parameters
     ----------
-    cycle : MeshCycle
-        The table; its `side` must not be traced.
-    normal_load : array, (S, N, Q)
-        Load of each pair at the nodes, N; smooth in every segment.
+    cycle : the table; its `side` must not be traced
+    normal_load : (S, N, Q), load of each pair at the nodes, N; smooth in every segment
     friction_coefficient : array, () or (S, N, Q)
         μ ≥ 0.
     """
@@ -88,10 +85,8 @@ def mean_efficiency(
 
     Parameters
     ----------
-    cycle : MeshCycle
-        The table; may be traced, but for `side`.
-    gear_torque : float
-        N m, ≠ 0; negative where the gear drives, on back flanks that are like the driving ones.
+    cycle : the table; may be traced, but for `side`
+    gear_torque : N m, ≠ 0; negative where the gear drives, on back flanks that are like the driving ones
     friction_coefficient : array, () or (S, N, Q)
         μ ≥ 0.
     normal_load : array, (S, N, Q), optional

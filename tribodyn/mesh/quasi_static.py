@@ -21,8 +21,7 @@ class QuasiStatic(NamedTuple):
     ----------
     normal_load : array, (S, N, Q)
         Load of each pair along its normal, N; 0 where it is not in contact or a gap keeps it from touching.
-    deflection : array, (S, N)
-        r_p θ_p − r_g θ_g, by which the pinion is ahead of the gear on the pitch circles, m.
+    deflection : (S, N), r_p θ_p − r_g θ_g, by which the pinion is ahead of the gear on the pitch circles, m
     mesh_stiffness : array, (S, N)
         Force on the pitch circles over the part of the deflection that the load makes, N/m: along the pitch
         tangent, all pairs together, secant where the Hertz contact is load-dependent.
@@ -49,10 +48,8 @@ def quasi_static(
 
     Parameters
     ----------
-    cycle : MeshCycle
-        The table; may be traced.
-    gear_torque : float
-        N m, > 0.
+    cycle : the table; may be traced
+    gear_torque : N m, > 0
     friction : array, (S, N, Q), optional
         Friction force over normal load, with the sign of the sliding: negative in approach.
     """
@@ -100,8 +97,7 @@ def cycle_integral(
 
     Parameters
     ----------
-    cycle : MeshCycle
-        For boundaries.
+    cycle : for boundaries
     values : array, (S, N) or (S, N, Q)
         At the nodes.
     upto : array, broadcasts with (S, Q)
@@ -142,10 +138,8 @@ class SinglePair(NamedTuple):
 
     Attributes
     ----------
-    normal_load : float
-        Load along the normal, N.
-    stiffness : float
-        dF/dδ along the normal, N/m; with a load-dependent Hertz contact the tangent at the load.
+    normal_load : load along the normal, N
+    stiffness : dF/dδ along the normal, N/m; with a load-dependent Hertz contact the tangent at the load
     """
 
     normal_load: float

@@ -64,16 +64,11 @@ def tabulate(
 
     Parameters
     ----------
-    assembly : Assembly
-        The gear pair; every number of the drive may be traced.
-    materials : (MaterialData, MaterialData)
-        Of pinion and gear.
-    mesh : MeshData
-        Source of the compliance, transmission error, backlash and number of nodes.
-    pairs : int
-        Front slots, `pair_slots(assembly)`.
-    back : bool
-        Whether to add as many slots for the back flanks, `mesh.backlash` away.
+    assembly : the gear pair; every number of the drive may be traced
+    materials : of pinion and gear
+    mesh : source of the compliance, transmission error, backlash and number of nodes
+    pairs : front slots, `pair_slots(assembly)`
+    back : whether to add as many slots for the back flanks, `mesh.backlash` away
 
     Raises
     ------

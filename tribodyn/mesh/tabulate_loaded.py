@@ -56,8 +56,7 @@ def tabulate_loaded(
     ----------
     assembly, materials, mesh, back
         As in `tabulate.tabulate`, of plain numbers.
-    gear_torque : float
-        T_g ≠ 0 at whose magnitude the compliances are taken, N m.
+    gear_torque : T_g ≠ 0 at whose magnitude the compliances are taken, N m
 
     Raises
     ------

@@ -51,12 +51,9 @@ def validate(
 
     Parameters
     ----------
-    paper : str
-        One of `PAPERS`.
-    progress : callable, optional
-        Called with the share done, 0 … 1.
-    folder : path, optional
-        Where to keep the records of the runs; a temporary folder if not given.
+    paper : one of `PAPERS`
+    progress : optional; called with the share done, 0 … 1
+    folder : optional; where to keep the records of the runs; a temporary folder if not given
 
     Returns
     -------
@@ -113,16 +110,11 @@ def draw(
 
     Parameters
     ----------
-    paper : str
-        One of `FIGURES`.
-    plots : Path
-        Folder of the pictures, which is there: ``diez-ibarbia-figure-06.png``.
-    records : Path
-        Folder in which `validate` left the paper's records.
-    progress : callable, optional
-        Called with the share done, 0 … 1.
-    force : bool
-        Replace also pictures that are not ours.
+    paper : one of `FIGURES`
+    plots : folder of the pictures, which is there: ``diez-ibarbia-figure-06.png``
+    records : folder in which `validate` left the paper's records
+    progress : optional; called with the share done, 0 … 1
+    force : replace also pictures that are not ours
 
     Raises
     ------

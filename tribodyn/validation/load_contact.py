@@ -30,14 +30,10 @@ class LoadContact(NamedTuple):
 
     Attributes
     ----------
-    efficiency : float
-        As `mesh.power_flow` defines it.
-    contact_ratio : float
-        Effective contact ratio: pinion angle over which a pair carries load, over the pitch.
-    roll, normal_load : (position, pair)
-        Pinion angle of each pair from the pitch point, rad, and its load, N.
-    loss : (position, pair)
-        Friction work per pinion angle, N m/rad.
+    efficiency : as `mesh.power_flow` defines it
+    contact_ratio : effective contact ratio: pinion angle over which a pair carries load, over the pitch
+    roll, normal_load : (position, pair), pinion angle of each pair from the pitch point, rad, and its load, N
+    loss : (position, pair), friction work per pinion angle, N m/rad
     """
 
     efficiency: float
@@ -60,14 +56,10 @@ def load_contact(
 
     Parameters
     ----------
-    flexible : PairFlexibility
-        `load_sharing.flexibility` of the drive.
-    gear_torque : float
-        T_g, N m, constant; < 0 where the gear drives, on back flanks.
-    friction_coefficient : float
-        μ, the same for all pairs.
-    positions : int
-        Equal steps over one pitch.
+    flexible : `load_sharing.flexibility` of the drive
+    gear_torque : T_g, N m, constant; < 0 where the gear drives, on back flanks
+    friction_coefficient : μ, the same for all pairs
+    positions : equal steps over one pitch
     modifications, slices, coupled
         As for `loaded_contact.roll_through`, without pitch errors.
 

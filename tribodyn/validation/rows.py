@@ -42,31 +42,24 @@ class Row(NamedTuple):
 
     Attributes
     ----------
-    id, quantity, unit : str
     published, computed : float, bool, None, or list of float
         Lists where a row of a table is compared column by column.
     difference : float, list of float or None
         Computed less published: relative to the published value where the tolerance is.
     tolerance : float, list of float or None
-    tolerance_kind : str
     verdict : {"pass", "fail", "direction", "reported"}
         "direction": only the direction is compared, and it is the published one; "reported": the published
         value is not reproducible, or a claim does not hold in our physics.
-    note : str
     compared : {"number", "claim", "direction", "implementation"}
         What the row compares; "implementation": the paper has a figure only, and the value of another
         implementation of its equations takes the number's place.
     part : str
         What of the value matters, where that is not the whole: the "loss" of an efficiency, the "rise" of a
         ratio above 1.
-    part_difference : float or None
-        Computed less published, of this part.
-    tolerance_share : float or None
-        The tolerance as a share of the value or of its part; the largest of several columns.
-    tolerance_reason : str
-        Why this share is larger than `WIDE`.
-    otherwise : Otherwise or None
-        The same row under another choice.
+    part_difference : computed less published, of this part
+    tolerance_share : the tolerance as a share of the value or of its part; the largest of several columns
+    tolerance_reason : why this share is larger than `WIDE`
+    otherwise : the same row under another choice
     """
 
     id: str
@@ -178,9 +171,7 @@ def compare(
         As of `published`.
     computed : float, bool, list of float or None
         None: cannot be computed yet, and stays "reported".
-    note : str
-    otherwise : (str, value), optional
-        Another choice and what is computed under it.
+    otherwise : optional; another choice and what is computed under it
     """
     compared = _compared(row)
     if compared == "implementation":

@@ -21,10 +21,8 @@ class Table:
     Attributes
     ----------
     involute : (drive,)
-    cycloid : (drive, circle)
-        At `SMALL`, `CHOSEN` and `LARGE` circles.
-    crossover : float
-        Of the first drive.
+    cycloid : (drive, circle), at `SMALL`, `CHOSEN` and `LARGE` circles
+    crossover : of the first drive
     """
 
     def __init__(self, law: Law) -> None:

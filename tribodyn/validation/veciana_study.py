@@ -76,7 +76,6 @@ class Study(NamedTuple):
     ----------
     ratio : i
     module : m
-    law : Law
     """
 
     ratio: float
@@ -177,8 +176,7 @@ def involute_contact(
     pinion_radius : working pitch radius, m
     ratio : i = d_2/d_1
     pressure_angle : working, rad
-    rotation : (ψ, weights), optional
-        Default: `rotations`.
+    rotation : (ψ, weights), default: `rotations`
     """
     psi, weight = rotation or rotations(pinion_teeth)
     base = pinion_radius * math.cos(pressure_angle) + np.zeros_like(psi)

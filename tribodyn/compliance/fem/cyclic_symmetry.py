@@ -26,10 +26,8 @@ class HalfSector(NamedTuple):
 
     Attributes
     ----------
-    teeth : int
-        Z, number of sectors.
-    nodes : int
-        Number of all nodes.
+    teeth : Z, number of sectors
+    nodes : number of all nodes
     held : nodes that do not move
     axis : nodes on the axis of symmetry
     edge : nodes on the edge that are not held
@@ -103,13 +101,10 @@ def reduced_ring(
 
     Parameters
     ----------
-    half : HalfSector
     stiffness : sparse (dof, dof)
         Of the half sector; 2 or 3 components of the displacement follow each other at a node: u, v[, w].
-    loads : (dof, load)
-        On the half y > 0 of sector 0.
-    readers : (reader, dof)
-        Rows that take the half's displacements to what is read.
+    loads : (dof, load), on the half y > 0 of sector 0
+    readers : (reader, dof), rows that take the half's displacements to what is read
     mirrored : (reader,)
         Whether the reader looks at the mirror image of the half: reads, at y < 0, what its row says of the
         reflected displacement.
@@ -162,8 +157,7 @@ def ring_response(
 
     Parameters
     ----------
-    sectors : (sector,)
-        Pitches from the loaded sector, counted in the sense from x to y.
+    sectors : (sector,), pitches from the loaded sector, counted in the sense from x to y
     """
     ring = reduced_ring(half, stiffness, loads, readers, mirrored)
     seen = np.zeros((len(sectors), len(readers), loads.shape[1]))

@@ -42,8 +42,7 @@ class Openings(NamedTuple):
     place : (2, J), m
     constant, linear : sparse (dof, J)
         F = constant + k linear; u, v, w of a node of the section's basis follow each other.
-    stiffness : (J, J)
-        D.
+    stiffness : (J, J), D
     """
 
     place: Float[Array, "2 opening"]
@@ -75,10 +74,8 @@ def parity_weights(solved: Float[Array, " wave"], width: float) -> Float[Array, 
 
     Parameters
     ----------
-    solved : (K,)
-        Wave numbers of `lead_harmonics.wave_numbers`, rad/m.
-    width : float
-        b, m.
+    solved : (K,), wave numbers of `lead_harmonics.wave_numbers`, rad/m
+    width : b, m
     """
     step, largest = np.pi / width, solved[-1]
     number = np.arange(int(_TAIL * largest / step) + 3)

@@ -33,12 +33,10 @@ class Face(NamedTuple):
 
     Attributes
     ----------
-    openings : Openings
-        Of the half y > 0.
+    openings : of the half y > 0
     upper, lower : (J, O)
         Openings of both halves in terms of those that are free; the lower half's are mirror images.
-    ahead : (J, O)
-        Part of `lower` on the edge, to be taken times the conjugate phase.
+    ahead : (J, O), part of `lower` on the edge, to be taken times the conjugate phase
     """
 
     openings: Openings
@@ -79,12 +77,9 @@ def free_ends(
     ----------
     tooth, teeth, bore_radius, poisson_ratio, depth
         As for `fem.gear_compliance`.
-    level : int
-        That of the root's points at which the stress is wanted; the elements are those of `LEVEL`.
-    wave_number : (K,)
-        Of `lead_harmonics.wave_numbers` up to `LARGEST_AT_ENDS`/module, rad/m.
-    width : float
-        b, m.
+    level : that of the root's points at which the stress is wanted; the elements are those of `LEVEL`
+    wave_number : (K,), of `lead_harmonics.wave_numbers` up to `LARGEST_AT_ENDS`/module, rad/m
+    width : b, m
     """
     model = gear_model(tooth, teeth, bore_radius, depth, LEVEL)
     face = face_of(model, openings(model.basis, poisson_ratio))

@@ -25,19 +25,14 @@ def gear_compliance(
 
     Parameters
     ----------
-    tooth : Tooth
-        As cut.
-    teeth : int
-        Number of teeth.
-    bore_radius : float
-        Where the body is held, m.
-    poisson_ratio : float
-        ν < 0.5.
+    tooth : as cut
+    teeth : number of teeth
+    bore_radius : where the body is held, m
+    poisson_ratio : ν < 0.5
     depth : float
         Depth below the flank at which the loaded tooth's displacement is read, m, as it is at twice that; a
         cell or more, so that the mesh resolves it.
-    level : int
-        Multiplies the number of cells in both directions.
+    level : multiplies the number of cells in both directions
 
     Raises
     ------
@@ -69,8 +64,7 @@ def lead_harmonics(
     ----------
     tooth, teeth, bore_radius, poisson_ratio, depth, level
         As for `gear_compliance`.
-    wave_number : (K,)
-        k ≥ 0, rad/m.
+    wave_number : (K,), k ≥ 0, rad/m
     """
     check_level(level, COMPONENTS)
     model = gear_model(tooth, teeth, bore_radius, depth, level)

@@ -18,11 +18,9 @@ class LeadHarmonics(NamedTuple):
 
     Attributes
     ----------
-    wave_number : (K,)
-        k, rad/m, increasing from 0.
+    wave_number : (K,), k, rad/m, increasing from 0
     inside : (K, 2, M)
-    between : (K, 2 NEIGHBOURS + 1, M, M)
-        As in `GearCompliance`, per unit line load.
+    between : (K, 2 NEIGHBOURS + 1, M, M), as in `GearCompliance`, per unit line load
     root_position : (2, P)
         x and y in the tooth's frame, m, of the points on the loaded flank's side, y > 0, from the middle of
         the gap to the flank; those of the other side are their mirror images.
@@ -48,16 +46,11 @@ class FreeEnds(NamedTuple):
 
     Attributes
     ----------
-    wave_number : (K,)
-        k, rad/m.
-    radius : (M,)
-        As in `GearCompliance`; fewer.
-    own : (2, K', K, M)
-        Of a loaded position's surface, m.
-    between : (2, K', K, 2 NEIGHBOURS + 1, M, M)
-        As in `GearCompliance`, m.
-    root_stress : (2, K', K, 2 NEIGHBOURS + 1, 2, P, M)
-        As in `LeadHarmonics`.
+    wave_number : (K,), k, rad/m
+    radius : (M,), as in `GearCompliance`; fewer
+    own : (2, K', K, M), of a loaded position's surface, m
+    between : (2, K', K, 2 NEIGHBOURS + 1, M, M), as in `GearCompliance`, m
+    root_stress : (2, K', K, 2 NEIGHBOURS + 1, 2, P, M), as in `LeadHarmonics`
     """
 
     wave_number: Float[Array, " wave"]
@@ -74,20 +67,16 @@ class GearCompliance(NamedTuple):
 
     Attributes
     ----------
-    radius : (M,)
-        Distance of the positions from the axis, m, increasing.
+    radius : (M,), distance of the positions from the axis, m, increasing
     inside : (2, M)
         Displacement, along the load, of the points at the depth and at twice the depth below a loaded
         position.
     between : (2 NEIGHBOURS + 1, M, M)
         Displacement at position i of the flank k − NEIGHBOURS pitches towards +y of the tooth's frame, the
         side of the loaded flank, per load at position j; infinite in truth for the tooth itself where i = j.
-    depth : float
-        Depth below the surface to which `inside` refers, m.
-    lead : LeadHarmonics or None
-        Loads that vary along the teeth, and root stress, where they were requested.
-    ends : FreeEnds or None
-        With `lead`: that the end faces are free; without it they are planes of symmetry.
+    depth : depth below the surface to which `inside` refers, m
+    lead : loads that vary along the teeth, and root stress, where they were requested
+    ends : with `lead`: that the end faces are free; without it they are planes of symmetry
     """
 
     radius: Float[Array, " radius"]

@@ -25,20 +25,14 @@ class GearModel(NamedTuple):
 
     Attributes
     ----------
-    basis : Basis
-        Of one component of the displacement.
-    half : HalfSector
-    position : (2, M)
-        Vertices of the loaded flank, m.
-    loads : (2 N, M)
-        Unit normal load on each of them; u and v of a node follow each other.
+    basis : of one component of the displacement
+    position : (2, M), vertices of the loaded flank, m
+    loads : (2 N, M), unit normal load on each of them; u and v of a node follow each other
     inner : (2 M, 2 N)
         Rows that read the displacement along the load at the depth, then at twice the depth, below each.
-    beyond : (2 M,)
-        Whether these points lie on the other half, y < 0; their rows then read the mirror image.
+    beyond : (2 M,), whether these points lie on the other half, y < 0; their rows then read the mirror image
     root_position : (2, 2 R + 1)
-    root : (2 R + 1,)
-        Nodes along the root and where they are, in the order of `SectorMesh.root`.
+    root : (2 R + 1,), nodes along the root and where they are, in the order of `SectorMesh.root`
     """
 
     basis: Basis

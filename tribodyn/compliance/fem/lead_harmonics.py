@@ -44,10 +44,8 @@ class LeadCompliance(NamedTuple):
     own : (N, M)
         Displacement along the load per line load, freed of the depth: to be added to Weber-Banaschek's
         deflection from the surface to `GearCompliance.depth`.
-    between : (N, 2 NEIGHBOURS + 1, M, M)
-        As in `GearCompliance`.
-    root_stress : (N, 2 NEIGHBOURS + 1, 2, P, M)
-        As in `LeadHarmonics`, 1/m.
+    between : (N, 2 NEIGHBOURS + 1, M, M), as in `GearCompliance`
+    root_stress : (N, 2 NEIGHBOURS + 1, 2, P, M), as in `LeadHarmonics`, 1/m
     """
 
     radius: Float[Array, " radius"]
@@ -70,12 +68,10 @@ def at_wave_numbers(
 
     Parameters
     ----------
-    gear : GearCompliance
-        Solved with its `lead`.
+    gear : solved with its `lead`
     wave_number : (N,)
         k ≥ 0, rad/m. Beyond the largest that was solved, `own` follows the half-space and the others are 0.
-    poisson_ratio : float
-        ν that the gear was solved with.
+    poisson_ratio : ν that the gear was solved with
     """
     lead = gear.lead
     if lead is None:

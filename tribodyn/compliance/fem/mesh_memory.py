@@ -24,8 +24,7 @@ def memory_needed(level: int, components: int) -> float:
 
     Parameters
     ----------
-    level : int
-        Refinement of the mesh.
+    level : refinement of the mesh
     components : int
         Of the displacement: 2 in plane strain, 3 for loads that vary along the teeth, with root stress, and
         for free end faces after them.

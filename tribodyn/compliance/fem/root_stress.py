@@ -29,16 +29,11 @@ def stress_rows(
 
     Parameters
     ----------
-    place : (2, 2 R + 1)
-        Corner and middle nodes of R quadratic edges that follow each other, m.
-    nodes : (2 R + 1,)
-        Their numbers; u, v and w of a node follow each other in the degrees of freedom.
-    size : int
-        Number of degrees of freedom.
-    poisson_ratio : float
-        ν.
-    k : float
-        Wave number, rad/m.
+    place : (2, 2 R + 1), corner and middle nodes of R quadratic edges that follow each other, m
+    nodes : (2 R + 1,), their numbers; u, v and w of a node follow each other in the degrees of freedom
+    size : number of degrees of freedom
+    poisson_ratio : ν
+    k : wave number, rad/m
     """
     shape = np.stack([_GAUSS * (_GAUSS - 1) / 2, 1 - _GAUSS**2, _GAUSS * (_GAUSS + 1) / 2])
     slope = np.stack([_GAUSS - 0.5, -2 * _GAUSS, _GAUSS + 0.5])

@@ -32,15 +32,12 @@ class Pressed(NamedTuple):
 
     Attributes
     ----------
-    load : (position, place)
-        N, ≥ 0.
-    deflection : (position,)
-        ξ, m.
+    load : (position, place), N, ≥ 0
+    deflection : (position,), ξ, m
     overlap : (position, place)
         ξ a − g less what the other places' loads deflect, m: what a place's own load takes up where it is
         positive; the distance still open where negative.
-    stiffness : (position,)
-        dT/dξ, N m/m: of the places that touch, the local deflection's tangent included.
+    stiffness : (position,), dT/dξ, N m/m: of the places that touch, the local deflection's tangent included
     """
 
     load: Float[Array, "position place"]
@@ -88,18 +85,12 @@ def press(
 
     Parameters
     ----------
-    matrix : (position, place, place)
-        Λ, m/N.
-    local : callable
-        Of positions (indices) and loads of all their places, N: own deflection u, m, and its slope, m/N.
-    arm : array
-        a: what ξ makes along the normal, 1.
-    lever : array
-        l, m.
-    gap : array
-        g, m, of either sign.
-    torque : (position,)
-        T > 0, N m.
+    matrix : (position, place, place), Λ, m/N
+    local : of positions (indices) and loads of all their places, N: own deflection u, m, and its slope, m/N
+    arm : a: what ξ makes along the normal, 1
+    lever : l, m
+    gap : g, m, of either sign
+    torque : (position,), T > 0, N m
 
     Raises
     ------

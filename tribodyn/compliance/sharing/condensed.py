@@ -53,18 +53,13 @@ def condense(
 
     Parameters
     ----------
-    flexible : PairFlexibility
-    geometry : PairGeometry
-        Of the pairs (position, pair).
-    gap : (position, pair, slice)
-        All of it, m.
-    shared : SharedLoad
-        The state.
+    geometry : of the pairs (position, pair)
+    gap : (position, pair, slice), all of it, m
+    shared : the state
     minimum_load : float
         Load, N, with which a pair is linearised that carries less or nothing: pressed alone, as the others'
         loads leave its flank.
-    coupled : bool
-        Whether slices hold each other.
+    coupled : whether slices hold each other
     """
     parts = [
         _condensed(

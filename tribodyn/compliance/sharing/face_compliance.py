@@ -17,11 +17,8 @@ def slice_compliance(
 
     Parameters
     ----------
-    flexible : PairFlexibility
-    geometry : PairGeometry
-        Of the pairs (position, pair), one pitch apart, the one that entered first in front.
-    slices : int
-        One is plane strain.
+    geometry : of the pairs (position, pair), one pitch apart, the one that entered first in front
+    slices : one is plane strain
     coupled : bool
         Whether slices hold each other through the teeth and bodies, and the end faces are free; else each
         slice is in plane strain by itself.

@@ -29,12 +29,9 @@ def root_stress(
 
     Parameters
     ----------
-    flexible : PairFlexibility
-        Solved with `lead`.
-    geometry : PairGeometry
-        Of the pairs (position, pair), one pitch apart, the one that entered first in front.
-    line_load : (position, pair, slice)
-        N/m.
+    flexible : solved with `lead`
+    geometry : of the pairs (position, pair), one pitch apart, the one that entered first in front
+    line_load : (position, pair, slice), N/m
     coupled : bool
         Whether a slice's load strains the others' roots too; else each slice is in plane strain by itself.
 

@@ -43,12 +43,8 @@ def flank_gap(
 
     Parameters
     ----------
-    assembly : Assembly
-    modifications : Modifications
-    geometry : PairGeometry
-        Of the pairs, any shape.
-    face_position : (slice,)
-        Places along the axis from the middle of the faces, which stand symmetrically, m.
+    geometry : of the pairs, any shape
+    face_position : (slice,), places along the axis from the middle of the faces, which stand symmetrically, m
     """
     profile = profile_gap(assembly, modifications, geometry)
     along = misalignment_gap(assembly, modifications.misalignment, geometry, face_position)
@@ -112,7 +108,6 @@ def pitch_gap(modifications: Modifications, tooth: Int[Array, "*pair"]) -> Float
 
     Parameters
     ----------
-    modifications : Modifications
     tooth : array of int
         Number n of each pair, increasing in the order in which they enter; taken modulo the number of errors.
     """

@@ -45,15 +45,13 @@ class SharedLoad(NamedTuple):
     Attributes
     ----------
     slice_load : N, ≥ 0
-    deflection : (position,)
-        ξ = r_p θ_p − r_g θ_g, m.
+    deflection : (position,), ξ = r_p θ_p − r_g θ_g, m
     overlap : m
         ξ cos α − g less what the other slices' loads deflect: what a slice's own load takes up where it is
         positive; the distance still open where negative.
     contact_deflection : m
         u_1 + u_2.
-    stiffness : (position,)
-        dT_g/dξ of what touches, N m/m.
+    stiffness : (position,), dT_g/dξ of what touches, N m/m
     """
 
     slice_load: Float[Array, "position pair slice"]
@@ -79,16 +77,11 @@ def flexibility(
 
     Parameters
     ----------
-    assembly : Assembly
-        The drive put together; checked (`limits.checks`), bores > 0.
-    materials : (Elastic, Elastic)
-        Of pinion and gear.
-    depth : float
-        Of the local region, modules.
-    level : int
-        Refinement of the mesh.
-    lead : bool
-        Also for loads that vary along the teeth, with free end faces, and with root stress.
+    assembly : the drive put together; checked (`limits.checks`), bores > 0
+    materials : of pinion and gear
+    depth : of the local region, modules
+    level : refinement of the mesh
+    lead : also for loads that vary along the teeth, with free end faces, and with root stress
     """
     drive = assembly.drive
     width = float(assembly.common_width)
@@ -114,10 +107,7 @@ def contact_deflection(
 
     Parameters
     ----------
-    flexible : PairFlexibility
-    curvature : array
-        Relative curvature of the flanks, 1/m; broadcasts with the loads.
-    line_load : array
+    curvature : relative curvature of the flanks, 1/m; broadcasts with the loads
     """
     half = half_width(flexible, curvature, line_load)
     total, slope = np.zeros_like(half), np.zeros_like(half)
@@ -153,20 +143,16 @@ def share_load(
 
     Parameters
     ----------
-    flexible : PairFlexibility
     roll : (position, pair)
         Pinion angles of the pairs from the pitch point, rad, one pitch apart, the pair that entered first
         in front; enough of them on either side of the path for all that the load can make touch.
-    gear_torque : float
-        T_g > 0, N m.
+    gear_torque : T_g > 0, N m
     friction_coefficient : float or (position, pair)
         μ of the pairs; < 0 where the gear drives, for the flanks then slide the other way.
     gap : float, (position, pair) or (position, pair, slice)
         What is missing between the flanks beside the corners' gap, m: errors and modifications.
-    slices : int
-        Equal slices of the face.
-    coupled : bool
-        Whether slices hold each other through the teeth and bodies.
+    slices : equal slices of the face
+    coupled : whether slices hold each other through the teeth and bodies
 
     Raises
     ------

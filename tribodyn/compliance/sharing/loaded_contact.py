@@ -31,31 +31,21 @@ class LoadedContact(NamedTuple):
 
     Attributes
     ----------
-    phase : (T,)
-        Mesh cycles since a pair passed the beginning of its path of contact.
-    roll : (T, P)
-        Pinion angle of each pair from the pitch point, rad.
-    slice_position : (S,)
-        Middle of each slice from the middle of the face, m.
-    deflection : (T,)
-        ξ = r_p θ_p − r_g θ_g, m: the loaded static transmission error, on the pitch circles.
-    unloaded : (T,)
-        The same without load: the kinematic error, m; the load's deflection is the difference.
-    normal_load : (T, P)
-        N.
-    line_load : (T, P, S)
-        N/m.
-    pressure, half_width : (T, P, S)
-        Maximum Hertz pressure, Pa, and half width, m, of each slice's line load.
+    phase : (T,), mesh cycles since a pair passed the beginning of its path of contact
+    roll : (T, P), pinion angle of each pair from the pitch point, rad
+    slice_position : (S,), middle of each slice from the middle of the face, m
+    deflection : (T,), ξ = r_p θ_p − r_g θ_g, m: the loaded static transmission error, on the pitch circles
+    unloaded : (T,), the same without load: the kinematic error, m; the load's deflection is the difference
+    normal_load : (T, P), N
+    line_load : (T, P, S), N/m
+    pressure, half_width : (T, P, S), maximum Hertz pressure, Pa, and half width, m, of each slice's line load
     root_tension, root_compression : (2, T, P, S)
         Maximum stress along the root of each pair's tooth of pinion and gear, tension positive and
         compression negative, Pa (`face_root_stress`).
     face_load_factor : (T, P)
         K_Hβ, maximum over mean line load along the face (ISO 6336-1); NaN where a pair carries nothing.
-    mesh_stiffness : (T,)
-        dF/dξ of the force on the pitch circles, N/m: of what touches, tangent.
-    contact_ratio : float
-        Mean number of pairs that carry load.
+    mesh_stiffness : (T,), dF/dξ of the force on the pitch circles, N/m: of what touches, tangent
+    contact_ratio : mean number of pairs that carry load
     """
 
     phase: Float[Array, " position"]
@@ -94,22 +84,14 @@ def roll_through(
 
     Parameters
     ----------
-    flexible : PairFlexibility
-        `load_sharing.flexibility` of the drive, with `lead`.
-    modifications : Modifications
-        Of flanks and axes.
-    gear_torque : float
-        T_g > 0, N m, constant.
-    positions : int
-        Equal steps of a mesh cycle.
-    cycles : int
-        Mesh cycles: more than one where pitch errors make teeth differ.
-    friction_coefficient : float
-        μ, the same for all.
-    slices : int
-        Equal slices of the face.
-    coupled : bool
-        Whether slices hold each other through the teeth and bodies.
+    flexible : `load_sharing.flexibility` of the drive, with `lead`
+    modifications : of flanks and axes
+    gear_torque : T_g > 0, N m, constant
+    positions : equal steps of a mesh cycle
+    cycles : mesh cycles: more than one where pitch errors make teeth differ
+    friction_coefficient : μ, the same for all
+    slices : equal slices of the face
+    coupled : whether slices hold each other through the teeth and bodies
 
     Raises
     ------

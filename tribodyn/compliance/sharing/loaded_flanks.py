@@ -16,14 +16,10 @@ class LoadedFlanks(NamedTuple):
 
     Attributes
     ----------
-    flexible : PairFlexibility
-        With `lead` where slices hold each other.
-    modifications : Modifications
-        Without pitch errors: all teeth are alike.
-    slices : int
-        Equal slices of the face.
-    coupled : bool
-        Whether slices hold each other through the teeth and bodies.
+    flexible : with `lead` where slices hold each other
+    modifications : without pitch errors: all teeth are alike
+    slices : equal slices of the face
+    coupled : whether slices hold each other through the teeth and bodies
     """
 
     flexible: PairFlexibility

@@ -12,10 +12,8 @@ class PairFlexibility(NamedTuple):
 
     Attributes
     ----------
-    assembly : Assembly
     materials : (Elastic, Elastic)
-    width : float
-        Common face width, m.
+    width : common face width, m
     gears : (GearCompliance, GearCompliance)
     """
 

@@ -31,12 +31,9 @@ class ArcPath(NamedTuple):
 
     Parameters
     ----------
-    pinion_pitch_radius, gear_pitch_radius : float
-        Pitch radii, m.
-    angle : float
-        Pressure angle α_P at the pitch point, rad.
-    approach_diameter, recess_diameter : float
-        D of either arc, m; negative where α falls away from P.
+    pinion_pitch_radius, gear_pitch_radius : pitch radii, m
+    angle : pressure angle α_P at the pitch point, rad
+    approach_diameter, recess_diameter : D of either arc, m; negative where α falls away from P
     """
 
     pinion_pitch_radius: Any

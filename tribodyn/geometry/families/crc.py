@@ -52,12 +52,10 @@ class CRCPath(NamedTuple):
 
     Parameters
     ----------
-    pinion_pitch_radius, gear_pitch_radius : float
-        Pitch radii, m.
+    pinion_pitch_radius, gear_pitch_radius : pitch radii, m
     lower, upper : float
         Signed distances (m) between which the path is solved: as far as rack and mate reach, and a margin.
-    coefficients : array
-        Chebyshev coefficients of sin α over lower … upper, (DEGREE + 1,).
+    coefficients : Chebyshev coefficients of sin α over lower … upper, (DEGREE + 1,)
     """
 
     pinion_pitch_radius: Any

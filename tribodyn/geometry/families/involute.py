@@ -19,10 +19,8 @@ class InvolutePath(NamedTuple):
 
     Parameters
     ----------
-    pinion_pitch_radius, gear_pitch_radius : float
-        Working pitch radii, m.
-    angle : float
-        Working pressure angle, rad.
+    pinion_pitch_radius, gear_pitch_radius : working pitch radii, m
+    angle : working pressure angle, rad
     """
 
     pinion_pitch_radius: Any

@@ -22,10 +22,8 @@ class ParabolaPath(NamedTuple):
 
     Parameters
     ----------
-    pinion_pitch_radius, gear_pitch_radius : float
-        Pitch radii, m.
-    approach_parameter, recess_parameter : float
-        p2 and p1: semi-latus rectum of either parabola, m.
+    pinion_pitch_radius, gear_pitch_radius : pitch radii, m
+    approach_parameter, recess_parameter : p2 and p1: semi-latus rectum of either parabola, m
     """
 
     pinion_pitch_radius: Any

@@ -33,14 +33,10 @@ class PointsPath(NamedTuple):
 
     Parameters
     ----------
-    pinion_pitch_radius, gear_pitch_radius : float
-        Pitch radii, m.
-    knots, angles : array, (n,)
-        Signed distances (m), ascending, 0 among them, and pressure angles (rad) there.
-    left_slopes, right_slopes : array, (n − 1,)
-        dα/dr at either end of each interval, rad/m.
-    rotations : array, (n,)
-        Pinion angle φ at the knots, rad.
+    pinion_pitch_radius, gear_pitch_radius : pitch radii, m
+    knots, angles : (n,), signed distances (m), ascending, 0 among them, and pressure angles (rad) there
+    left_slopes, right_slopes : (n − 1,), dα/dr at either end of each interval, rad/m
+    rotations : (n,), pinion angle φ at the knots, rad
     """
 
     pinion_pitch_radius: Any

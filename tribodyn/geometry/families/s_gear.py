@@ -34,12 +34,9 @@ class PowerRackPath(NamedTuple):
 
     Parameters
     ----------
-    pinion_pitch_radius, gear_pitch_radius : float
-        Pitch radii, m.
-    module : float
-        Unit of the rack's height, m.
-    form, exponent : float
-        a_P and n.
+    pinion_pitch_radius, gear_pitch_radius : pitch radii, m
+    module : unit of the rack's height, m
+    form, exponent : a_P and n
     """
 
     pinion_pitch_radius: Any

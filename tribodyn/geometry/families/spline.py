@@ -32,15 +32,12 @@ class Shape(NamedTuple):
 
     Parameters
     ----------
-    angles : array, (n,)
-        Pressure angles at the knots, rad, from the approach's end to the recess's.
-    knots : array, (n,), optional
-        Signed distances of the knots, m, ascending, 0 among them; plain numbers.
+    angles : (n,), pressure angles at the knots, rad, from the approach's end to the recess's
+    knots : (n,), optional; signed distances of the knots, m, ascending, 0 among them; plain numbers
     path_length : float, optional
         In place of knots: the n knots divide half this length evenly on either side of P, n // 2 intervals
         in approach and (n − 1) // 2 in recess, m.
-    corner : float
-        By how much the corner at P raises α from P to half the path length on either side, rad.
+    corner : by how much the corner at P raises α from P to half the path length on either side, rad
     """
 
     angles: Any

@@ -34,19 +34,12 @@ class Deviations(NamedTuple):
 
     Attributes
     ----------
-    pitch : (teeth,)
-        Index deviations of the flanks, m, positive where material is missing.
-    single_pitch : float
-        Pitch deviation between the two teeth of it that are in mesh first, m.
-    slope : float
-        Material missing at the tip more than at the root, m.
-    form : float
-        Peak to valley of the form deviation, m.
-    waves : int
-    phase : float
-        Of the form deviation over the path of contact.
-    helix : float
-        Material missing at the end of the face more than at its start, m.
+    pitch : (teeth,), index deviations of the flanks, m, positive where material is missing
+    single_pitch : pitch deviation between the two teeth of it that are in mesh first, m
+    slope : material missing at the tip more than at the root, m
+    form : peak to valley of the form deviation, m
+    phase : of the form deviation over the path of contact
+    helix : material missing at the end of the face more than at its start, m
     """
 
     pitch: Float[Array, " tooth"]
@@ -85,8 +78,6 @@ def profile_curve(assembly: Assembly, pinion: Deviations, gear: Deviations, base
 
     Parameters
     ----------
-    assembly : Assembly
-    pinion, gear : Deviations
     base_pitch : bool
         Whether the pitch deviations of a pair of teeth count as a deviation of base pitch, which opens or
         closes the flanks evenly along the path: so that one mesh cycle can stand for all teeth.
@@ -112,11 +103,7 @@ def deviating(
 
     Parameters
     ----------
-    modifications : Modifications
-    assembly : Assembly
-    pinion, gear : Deviations
-    every_tooth : bool
-        Whether teeth differ by their pitch deviations; otherwise these count as in `profile_curve`.
+    every_tooth : whether teeth differ by their pitch deviations; otherwise these count as in `profile_curve`
     """
     curve = profile_curve(assembly, pinion, gear, base_pitch=not every_tooth)
     widths = float(assembly.drive.pinion.face_width), float(assembly.drive.gear.face_width)

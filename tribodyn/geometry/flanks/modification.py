@@ -23,12 +23,10 @@ class Relief(NamedTuple):
 
     Parameters
     ----------
-    amount : float
-        Material missing at the end of the active profile, m along the normal.
+    amount : material missing at the end of the active profile, m along the normal
     length : float
         How far it reaches from that end, m along the line of action (|Δr|, the roll length of an involute).
-    exponent : float
-        1: linear, 2: parabolic.
+    exponent : 1: linear, 2: parabolic
     """
 
     amount: float = 0.0
@@ -41,12 +39,9 @@ class LeadRelief(NamedTuple):
 
     Parameters
     ----------
-    start, end : float
-        Material missing at both ends of the face, m along the normal.
-    unmodified : float
-        Length of the straight part, m.
-    crowning : float
-        Material missing at both ends of a parabola over the whole face, m; adds to the relief.
+    start, end : material missing at both ends of the face, m along the normal
+    unmodified : length of the straight part, m
+    crowning : material missing at both ends of a parabola over the whole face, m; adds to the relief
     """
 
     start: float = 0.0
@@ -60,8 +55,6 @@ class FlankModification(NamedTuple):
 
     Parameters
     ----------
-    tip, root : Relief
-    lead : LeadRelief
     profile_error : Table or None
         Material missing along the normal over the pinion's roll angle from the pitch point (rad, m).
     pitch_error : tuple of float
@@ -89,10 +82,8 @@ class Misalignment(NamedTuple):
 
     Parameters
     ----------
-    in_plane : float
-        Within the plane of action: the gap grows by this times z.
-    out_of_plane : float
-        Perpendicular to it; of second order only, for an involute.
+    in_plane : within the plane of action: the gap grows by this times z
+    out_of_plane : perpendicular to it; of second order only, for an involute
     """
 
     in_plane: float = 0.0
@@ -117,7 +108,6 @@ def back_flanks(modifications: Modifications, pressure_angle: float) -> Modifica
 
     Parameters
     ----------
-    modifications : Modifications
     pressure_angle : float
         α_w at the pitch point, rad. Inclined axes open the driving and the back flanks alike, skew axes open
         the ones and close the others, so that `Misalignment` changes by the angle 2 α_w between the planes
@@ -156,12 +146,8 @@ def broken_flank_rules(
 
     Parameters
     ----------
-    side : str
-        "pinion" or "gear".
-    flank : FlankModification
-    teeth : int
-    face_width : float
-        m.
+    side : "pinion" or "gear"
+    face_width : m
     """
     key = f"drive.{side}.modification."
     for name, relief in (("tip_relief", flank.tip), ("root_relief", flank.root)):

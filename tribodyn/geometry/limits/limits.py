@@ -49,8 +49,7 @@ def distances(assembly: Assembly) -> dict[str, Any]:
 
     Parameters
     ----------
-    assembly : Assembly
-        Of any numbers, traced or plain; they need not pass the checks, and nothing is raised.
+    assembly : of any numbers, traced or plain; they need not pass the checks, and nothing is raised
 
     Returns
     -------

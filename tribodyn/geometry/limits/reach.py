@@ -32,14 +32,10 @@ def require_reach(drive: Drive, path: Path, lower: float, upper: float, advice: 
 
     Parameters
     ----------
-    drive : Drive
-        Plain numbers.
-    path : Path
-        Working path.
-    lower, upper : float
-        Signed distances from and to which the path is known, m; lower < 0 < upper.
-    advice : callable
-        What to change for either half.
+    drive : plain numbers
+    path : working path
+    lower, upper : signed distances from and to which the path is known, m; lower < 0 < upper
+    advice : what to change for either half
     """
     active = {}
     for side in SIDES:

@@ -26,12 +26,10 @@ def geometry_sheet(
 
     Parameters
     ----------
-    assembly : Assembly
-        Of plain numbers.
+    assembly : of plain numbers
     masses : sequence of (mass kg, inertia kg m²), optional
         Of pinion and gear, where they are to stand in the sheet.
-    gauges : (Gauge, Gauge)
-        What the tooth thickness of pinion and gear is measured with.
+    gauges : what the tooth thickness of pinion and gear is measured with
 
     Returns
     -------

@@ -101,8 +101,7 @@ def body_masses(
 
     Parameters
     ----------
-    assembly : Assembly
-        Of plain numbers.
+    assembly : of plain numbers
     given : sequence of (mass, inertia)
         None where it is to be computed.
     densities : sequence of float

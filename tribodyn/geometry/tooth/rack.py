@@ -25,12 +25,9 @@ class RackOutline(NamedTuple):
 
     Parameters
     ----------
-    x, y : array
-        Points (m) from x = −pitch/2 to pitch/2, symmetric about the tooth's axis x = 0.
-    pitch : float
-        Distance between neighbouring teeth, m.
-    tip_height, root_height : float
-        y of the tool's tip and root, m.
+    x, y : points (m) from x = −pitch/2 to pitch/2, symmetric about the tooth's axis x = 0
+    pitch : distance between neighbouring teeth, m
+    tip_height, root_height : y of the tool's tip and root, m
     """
 
     x: Float[Array, " point"]

@@ -9,12 +9,9 @@ class RackProfile(NamedTuple):
 
     Parameters
     ----------
-    pressure_angle : float
-        rad.
-    addendum, dedendum : float
-        h_aP and h_fP, modules.
-    fillet_radius : float
-        ρ_fP of the root, which is the tip of the cutter, modules.
+    pressure_angle : rad
+    addendum, dedendum : h_aP and h_fP, modules
+    fillet_radius : ρ_fP of the root, which is the tip of the cutter, modules
     """
 
     pressure_angle: float

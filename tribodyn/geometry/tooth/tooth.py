@@ -37,10 +37,8 @@ class Tooth(NamedTuple):
 
     Parameters
     ----------
-    path : Path
-        Generating path of contact, seen from the body.
-    half_angle : float
-        Half thickness angle of the tooth on the generating pitch circle, rad.
+    path : generating path of contact, seen from the body
+    half_angle : half thickness angle of the tooth on the generating pitch circle, rad
     form_distance, tip_distance : float
         Signed distances r (m) on the generating path where the flank begins (at the fillet) and ends.
     form_angle : float
@@ -48,10 +46,8 @@ class Tooth(NamedTuple):
     overrun : float
         −u_p where the rack's flank ends, m per rad: positive if it reaches beyond the point of zero velocity,
         by this distance for the involute, and undercuts the tooth.
-    corner_x, corner_y : float
-        Centre of the rack's rounded tip in the rack's frame at φ = 0, m.
-    corner_radius : float
-        Radius of the rack's rounded tip, m.
+    corner_x, corner_y : centre of the rack's rounded tip in the rack's frame at φ = 0, m
+    corner_radius : radius of the rack's rounded tip, m
     corner_limit : float
         Symmetry axis of the rack's tooth, m: with corner_x beyond it the two rounded corners would overlap.
     root_radius, form_radius, tip_radius : float
@@ -80,12 +76,9 @@ class ToothOutline(NamedTuple):
     ----------
     fillet_x, fillet_y, flank_x, flank_y : array
         Points (m) in the tooth's frame; the fillet's last point is the flank's first.
-    root_radius, form_radius, tip_radius : float
-        Radii of the root circle, of the junction and of the tip circle, m.
-    root_half_angle : float
-        Angle between the tooth's axis and the point where the fillet meets the root circle, rad.
-    tip_half_thickness : float
-        Half thickness at the tip circle, m; negative where the tooth would be pointed.
+    root_radius, form_radius, tip_radius : radii of the root circle, of the junction and of the tip circle, m
+    root_half_angle : angle between the tooth's axis and the point where the fillet meets the root circle, rad
+    tip_half_thickness : half thickness at the tip circle, m; negative where the tooth would be pointed
     """
 
     fillet_x: Float[Array, " fillet"]
@@ -104,8 +97,7 @@ class ToothContact(NamedTuple):
 
     Parameters
     ----------
-    x, y : array
-        Contact point in the tooth's frame, m.
+    x, y : contact point in the tooth's frame, m
     load_angle : array
         Angle α_1 (rad) from the perpendicular of the tooth's axis to the normal load F: F cos α_1 bends the
         tooth towards its axis, F sin α_1 presses it along the axis into the body.
@@ -276,13 +268,11 @@ def contact_in_tooth_frame(body_path: Path, pitch_half_angle: Any, r: PerContact
 
     Parameters
     ----------
-    body_path : Path
-        Working path seen from the body: `path.seen_from(family.working_path(drive), side)`.
+    body_path : working path seen from the body: `path.seen_from(family.working_path(drive), side)`
     pitch_half_angle : float
         Half thickness angle on the working pitch circle, rad:
         `thickness_half_angle(tooth, body_path.pinion_pitch_radius)`.
-    r : array
-        Signed distance in the body's own view, m: r of the drive for the pinion, −r for the gear.
+    r : signed distance in the body's own view, m: r of the drive for the pinion, −r for the gear
     """
     pitch_radius = body_path.pinion_pitch_radius
     x, y = position(body_path, r)

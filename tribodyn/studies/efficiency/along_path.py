@@ -46,12 +46,9 @@ class Engagement(NamedTuple):
     asperity_load_ratio, central_film_thickness, flash_temperature_rise, hertz_pressure, closure_in_range,
     friction_in_range
         As in `SurfaceState`, where the line load along the face is highest.
-    closure_shares, friction_shares : (K, Q, limits)
-        See `surface_state.range_shares`.
-    deflection : (K,)
-        r_p θ_p − r_g θ_g, m; NaN where the load sharing knows no elasticity.
-    pinion_torque, gear_torque : (K,)
-        N m; on the gear against its motion, on the pinion with it.
+    closure_shares, friction_shares : (K, Q, limits), see `surface_state.range_shares`
+    deflection : (K,), r_p θ_p − r_g θ_g, m; NaN where the load sharing knows no elasticity
+    pinion_torque, gear_torque : (K,), N m; on the gear against its motion, on the pinion with it
     power_in, power_out, power_friction : (K,)
         From the pinion, to the gear, and lost, W; the first two < 0 where the gear drives.
     """
@@ -85,7 +82,6 @@ class Duty(NamedTuple):
     ----------
     gear_torque : N m, ≠ 0, constant; against the gear's motion, < 0 where the gear drives
     pinion_speed : rad/s
-    closure : Closure
     sharing : one of `places.SHARINGS`
     """
 
@@ -187,15 +183,10 @@ def cycle_efficiency(
 
     Parameters
     ----------
-    cycle : MeshCycle
-        Of concrete numbers.
-    path : Path
-        The working path that the table was made from.
-    duty : Duty
-    points : int
-        Nodes between two breaks.
-    flanks : LoadedFlanks, optional
-        As in `places`.
+    cycle : of concrete numbers
+    path : the working path that the table was made from
+    points : nodes between two breaks
+    flanks : optional; as in `places`
     """
     pitch = cycle.pitch_point_phase - np.arange(cycle.front_pairs - 1.0, -1.0, -1.0)
     breaks = np.unique(np.concatenate([cycle.boundary, (cycle.pitch_point_phase + np.array([0.5])) % 1.0]))

@@ -20,15 +20,13 @@ class Samples(NamedTuple):
 
     Attributes
     ----------
-    turned : (K,)
-        Rotation since the first sample, in pitches.
+    turned : (K,), rotation since the first sample, in pitches
     phase : (K,)
         Phase of the table at each sample. Where the gear drives it falls: contact begins where the table's
         ends, in the mirrored world in which the back flanks are driving flanks.
     later : (K,) bool
         Where the table counts the pairs one slot later than the record.
-    way : float
-        +1, or −1 where the gear drives.
+    way : +1, or −1 where the gear drives
     """
 
     turned: Array

@@ -26,14 +26,11 @@ class EfficiencyCase(CaseHead):
     title, name, kind, toml, sha256, family, drive, materials, roughness, mean_roughness
     lubricant, friction, film
         As in `tribodyn.studies.gear_pair.case.Case`; `kind` is "efficiency".
-    operating : OperatingData
-        Pinion speed and gear torque, both constant.
-    mesh : MeshData
-        Compliance by the energy method or, "fem", the load contact model, for the elastic load sharing.
+    operating : pinion speed and gear torque, both constant
+    mesh : compliance by the energy method or, "fem", the load contact model, for the elastic load sharing
     load_sharing : {"elastic", "uniform", "single-pair"}
         That of the samples recorded; the summary has all three.
-    samples_per_cycle : int
-        Samples over the one mesh cycle recorded.
+    samples_per_cycle : samples over the one mesh cycle recorded
     spectrum : tuple of (float, EfficiencyCase)
         Share of time and case of every duty of a load spectrum; empty: there is none.
     """

@@ -24,15 +24,12 @@ class Places(NamedTuple):
 
     Attributes
     ----------
-    phase : (K,)
-        Mesh cycles.
+    phase : (K,), mesh cycles
     cycle : MeshCycle
         A table of one node in each of K segments, driving flanks only; its kinematics are the path's own, and
         in contact are the pairs that may carry load under the load sharing in use.
-    roll : (K, Q)
-        Pinion angles of the pairs from the pitch point, rad.
-    flanks : LoadedFlanks or None
-        By what the pairs share the load; None: by the table's compliances, or not elastically.
+    roll : (K, Q), pinion angles of the pairs from the pitch point, rad
+    flanks : by what the pairs share the load; None: by the table's compliances, or not elastically
     """
 
     phase: Array
@@ -56,12 +53,9 @@ def places(
 
     Parameters
     ----------
-    cycle : MeshCycle
-        Of concrete numbers.
-    path : Path
-        The working path that the table was made from.
-    phase : (K,)
-        Mesh cycles.
+    cycle : of concrete numbers
+    path : the working path that the table was made from
+    phase : (K,), mesh cycles
     sharing : one of `SHARINGS`
     flanks : LoadedFlanks, optional
         The load contact model that the table was made from (`tabulate_loaded`). Pairs that share elastically

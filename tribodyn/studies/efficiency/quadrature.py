@@ -30,12 +30,9 @@ def piecewise(breaks: Array, pitch_points: Array, points: int) -> tuple[Array, A
 
     Parameters
     ----------
-    breaks : (n,)
-        Increasing; where the integrand may jump, both ends included.
-    pitch_points : (m,)
-        Those inside are breaks as well; a piece between two of them is split in its middle.
-    points : int
-        Nodes per piece.
+    breaks : (n,), increasing; where the integrand may jump, both ends included
+    pitch_points : (m,), those inside are breaks as well; a piece between two of them is split in its middle
+    points : nodes per piece
     """
     start, end = breaks[0], breaks[-1]
     pitch = pitch_points[(pitch_points >= start) & (pitch_points <= end)]

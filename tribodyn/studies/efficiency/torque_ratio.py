@@ -83,14 +83,11 @@ def path_contact(
 
     Parameters
     ----------
-    path : Path
     pinion_teeth : z1
-    rotation : (ψ, weights), optional
-        Default: `rotations`.
+    rotation : (ψ, weights), default: `rotations`
     exact_speeds : bool
         The rolling speeds contain the motion of the contact along the path, r κ, which Veciana leave out.
-    averaged : bool
-        Average radius and entrainment over the contact's width where they vanish at the pitch point.
+    averaged : average radius and entrainment over the contact's width where they vanish at the pitch point
     """
     psi, weight = rotation or rotations(pinion_teeth)
     motion = kinematics(path, path.signed_distance(psi))
@@ -125,11 +122,7 @@ def torque_ratio(
 
     Parameters
     ----------
-    pair : UnitContact
-    input_torque, pinion_speed, face_width : float
-        Γ_1 (of the gear, where that drives: Γ_2) N m, ω_1 rad/s, b m.
-    closure : Closure
-    gear_drives : bool
+    input_torque, pinion_speed, face_width : Γ_1 (of the gear, where that drives: Γ_2) N m, ω_1 rad/s, b m
 
     Raises
     ------
