@@ -70,15 +70,11 @@ class Contacts(NamedTuple):
 
 
 class Equilibrium(NamedTuple):
-    """Loads as they are shared and friction coefficients of the pairs."""
+    """Loads (N) and friction coefficients of the pairs; of plain numbers also all that the sharing gave."""
 
-    shared: Any
+    normal_load: Float[Array, "*pair"]
     friction_coefficient: Float[Array, "*pair"]
-
-    @property
-    def normal_load(self) -> Float[Array, "*pair"]:
-        """N."""
-        return self.shared.normal_load
+    shared: Any = None
 
 
 Share = Callable[[Float[Array, "*pair"]], Loads]
@@ -163,12 +159,13 @@ def _solved(seen: Contacts, share: Share) -> tuple[Equilibrium, float]:
 
     nothing = 0.0 * seen.radius * seen.pinion_speed
     if namespace(*seen) is not np:
-        import jax
 
-        # of the shape it has after a step: half the program
-        shape, _ = jax.eval_shape(step, (None, nothing))
-        start = jax.tree.map(lambda leaf: namespace(nothing).zeros(leaf.shape, leaf.dtype), shape)
-        return Equilibrium(*iterate(step, (start, nothing), _STEPS, _DIFFERENTIATED)), 0.0
+        def loads(state: tuple[Any, Any]) -> tuple[Any, Any]:
+            shared, mu = step(state)
+            return shared.normal_load, mu
+
+        load, mu = iterate(loads, (nothing, nothing), _STEPS, _DIFFERENTIATED)
+        return Equilibrium(load, mu), 0.0
     with np.errstate(all="ignore"):
         state, change = step((None, nothing)), np.inf
         for _ in range(_MOST):
@@ -176,4 +173,5 @@ def _solved(seen: Contacts, share: Share) -> tuple[Equilibrium, float]:
             change = float(np.max(np.abs(state[1] - before)))
             if not change >= _TOLERANCE:
                 break
-    return Equilibrium(*state), change
+    shared, mu = state
+    return Equilibrium(shared.normal_load, mu, shared), change
