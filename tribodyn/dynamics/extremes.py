@@ -26,7 +26,7 @@ from tribodyn.dynamics.parameters import SLIDING_DYNAMIC, STATES, XI
 from tribodyn.numerics.elementary import absolute, law, maximum, minimum, skippable, where
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.tribology.contact import local_contact
-from tribodyn.tribology.law import FARTHEST, MOST_SLIDING, ActiveFilm, ActiveFriction, Worse
+from tribodyn.tribology.law import ActiveFilm, ActiveFriction
 from tribodyn.tribology.surface_state import film_and_temperature
 
 #: Measures of the whole mesh: the rotational transmission error, up and down; and from here for the driving
@@ -44,15 +44,16 @@ EXTREMES = OF_MESH + OF_PAIR
 #: A measure that nothing has.
 LOWEST = -1e300
 #: Rows of measures in a search: at the start, in the middle and at the end of a step, at another place in it;
-#: the rate of change over the step before, per mesh cycle; the extreme of each so far; of pairs what they
-#: were when their laws were last evaluated, and how far from extreme.
-START, MIDDLE, END, TRIAL, RATE, EXTREME, SEEN, ROOM = range(8)
+#: the rate of change over the step before, per mesh cycle; the extreme of each so far; and of the
+#: pairs' laws what they were when last evaluated, and how fast they had changed before that.
+START, MIDDLE, END, TRIAL, RATE, EXTREME, SEEN, PACE = range(8)
 ROWS = 8
-#: In the row `SEEN` of a pair: one over line load, curvature, entrainment and sliding.
-SEEN_LOAD, SEEN_CURVATURE, SEEN_ENTRAINMENT, SEEN_SLIDING = range(OF_PAIR)
-#: In the row `ROOM` of a pair: shares by which its film may have thinned and its temperature risen since, and
-#: those by which they are extreme.
-THINNER, WARMER, THICK, COOL = range(OF_PAIR)
+#: In the row `SEEN`: steps since all pairs were evaluated; of each pair the phase of its last evaluation and
+#: the phase up to which it is far from extreme, and then its film and temperature as they were.
+COUNT, AT, UNTIL = 0, LOAD, PRESSURE
+#: Laws are evaluated at every step where a pair, at so many times the rate of change between its last
+#: evaluations, might become extreme in the next one, and elsewhere at every so many steps.
+CAUTION, EVERY = 3.0, 4.0
 
 
 class Extremes(NamedTuple):
@@ -180,87 +181,68 @@ def measure_surfaces(i, contact, model, measures):
 
 
 @law
-def see_surfaces(phase, segment, model, work, measures):
-    """Keep what slots were when their laws were evaluated; `measures` has the rows of a search."""
-    cell, u, _ = locate(phase, segment, model.table)
+def begin_surfaces(phase, segment, model, measures):
+    """Begin the row `SEEN` of a search at the start of a segment, where all pairs are evaluated."""
     for i in range(model.table.side.shape[0]):
         if out_of_reach(segment, i, model):
             continue
-        contact = highest_loaded(i, segment, cell, u, model, work)
-        _see(contact.line_load < 0.0, i, contact, START, measures)
+        first = OF_MESH + OF_PAIR * i
+        measures[SEEN, first + AT] = phase
+        measures[SEEN, first + UNTIL] = phase
+        for j in range(FILM, OF_PAIR):
+            measures[SEEN, first + j] = measures[START, first + j]
+            measures[PACE, first + j] = 0.0 * phase
 
 
 @law
-def _see(far, i, contact, row, measures):
-    """Keep what slot i is where a row of measures is, except where it is far."""
-    first = OF_MESH + OF_PAIR * i
-    _keep(far, 1.0 / contact.line_load, SEEN, first + SEEN_LOAD, measures)
-    _keep(far, 1.0 / contact.curvature, SEEN, first + SEEN_CURVATURE, measures)
-    _keep(far, 1.0 / contact.entrainment, SEEN, first + SEEN_ENTRAINMENT, measures)
-    _keep(far, 1.0 / maximum(absolute(contact.sliding), 1e-300), SEEN, first + SEEN_SLIDING, measures)
-    for before, room, j in ((THINNER, THICK, first + FILM), (WARMER, COOL, first + TEMPERATURE)):
-        value = measures[row, j]
-        _keep(far, 0.0, ROOM, first + before, measures)
-        short = (measures[EXTREME, j] - value) / maximum(absolute(value), 1e-300)
-        _keep(far, short, ROOM, first + room, measures)
+def _see(far, first, phase, measures):
+    """Keep what a pair is at the end of a step and how long it stays far from extreme, except where far."""
+    per_phase = 1.0 / (phase - measures[SEEN, first + AT])
+    wait = 1.0 + 0.0 * phase
+    for j in range(FILM, OF_PAIR):
+        value = measures[END, first + j]
+        pace = absolute(value - measures[SEEN, first + j]) * per_phase
+        fastest = CAUTION * maximum(pace, measures[PACE, first + j])
+        short = maximum(measures[EXTREME, first + j] - value, 0.0)
+        wait = where(fastest > 0.0, minimum(wait, short / where(fastest > 0.0, fastest, 1.0)), wait)
+        measures[SEEN, first + j] = where(far, measures[SEEN, first + j], value)
+        measures[PACE, first + j] = where(far, measures[PACE, first + j], pace)
+    measures[SEEN, first + UNTIL] = where(far, measures[SEEN, first + UNTIL], phase + wait)
+    measures[SEEN, first + AT] = where(far, measures[SEEN, first + AT], phase)
 
 
 @law
-def _keep(far, value, row, j, measures):
-    """Replace what a row holds, except where a contact is far."""
-    measures[row, j] = where(far, measures[row, j], value)
+def measure_end(idle, phase, step, segment, y, model, work, measures):
+    """Fill the row `END` of a search; by laws only where a pair may be near an extreme, or its turn has come.
 
-
-@law
-def measure_end(idle, phase, segment, y, model, work, measures):
-    """Fill the row `END` of a search; by laws only where they may be near an extreme.
-
-    They are far from it where no change of load, curvature and speeds since they were last evaluated, and
-    another one as large as the step's, takes them there by the laws' steepness. Then they are `LOWEST`.
+    Where they are left out they are `LOWEST`.
 
     Parameters
     ----------
     idle : bool
         Of no interest.
-    phase, segment, y, model, work
+    phase, step : float
+        The end of a step, and its length.
+    segment, y, model, work
         As in `measure`.
     measures : mapping
         The rows of a search.
     """
     measure_loads(segment, y, model, work, measures[END])
+    count = measures[SEEN, COUNT] + 1.0
+    due = count >= EVERY
+    measures[SEEN, COUNT] = where(due, 0.0, count)
     cell, u, _ = locate(phase, segment, model.table)
-    film, friction = model.options.film, model.options.friction
     for i in range(model.table.side.shape[0]):
         if out_of_reach(segment, i, model):
             continue
         contact = highest_loaded(i, segment, cell, u, model, work)
         first = OF_MESH + OF_PAIR * i
         measures[END, first + PRESSURE] = contact.line_load * contact.curvature
-        worse = _worse(first, contact, measures[SEEN])
-        thinner = film.steepness(worse, contact, model.surfaces, model.film)
-        warmer = friction.steepness(worse, contact, model.surfaces, model.friction)
-        room = measures[ROOM]
-        film_far = thinner + maximum(thinner - room[first + THINNER], 0.0) <= room[first + THICK]
-        heat_far = warmer + maximum(warmer - room[first + WARMER], 0.0) <= room[first + COOL]
-        holds = worse.line_load + worse.curvature + worse.entrainment <= FARTHEST
-        holds = holds & (absolute(contact.sliding) <= MOST_SLIDING * contact.entrainment)
-        far = idle | (holds & film_far & heat_far)
-        _keep(idle, thinner, ROOM, first + THINNER, measures)
-        _keep(idle, warmer, ROOM, first + WARMER, measures)
+        far = idle | ((count < EVERY) & (phase + step <= measures[SEEN, first + UNTIL]))
         _measure_unless(far, i, contact, model, measures[END])
         if not skippable(far):
-            _see(far, i, contact, END, measures)
-
-
-@law
-def _worse(first, contact, seen):
-    """How much worse a contact is than when its laws were evaluated; `Worse`."""
-    return Worse(
-        maximum(contact.line_load * seen[first + SEEN_LOAD] - 1.0, 0.0),
-        absolute(contact.curvature * seen[first + SEEN_CURVATURE] - 1.0),
-        absolute(contact.entrainment * seen[first + SEEN_ENTRAINMENT] - 1.0),
-        maximum(absolute(contact.sliding) * seen[first + SEEN_SLIDING] - 1.0, 0.0),
-    )
+            _see(far, first, phase, measures)
 
 
 @law

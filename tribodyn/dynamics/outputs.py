@@ -31,7 +31,7 @@ from tribodyn.dynamics.recorded import UNRECORDED
 from tribodyn.mesh.power_flow import efficiency
 from tribodyn.numerics.shapes import Array, Float, Int
 from tribodyn.tribology.contact import LocalContact
-from tribodyn.tribology.surface_state import range_shares, surface_state
+from tribodyn.tribology.surface_state import limits_last, surface_and_limits
 
 
 def segment_of(phase: Float[Array, "*sample"], boundary: Float[Array, " boundary"]) -> Int[Array, "*sample"]:
@@ -44,6 +44,7 @@ def outputs(
     states: Float[Array, "sample state"],
     model: Model,
     segment: Int[Array, " sample"] | None = None,
+    shares: bool = False,
 ) -> dict[str, np.ndarray]:
     """All datasets of a record at the given samples.
 
@@ -56,14 +57,15 @@ def outputs(
         With NumPy arrays.
     segment : (n,) int, optional
         Segment of each sample: on a boundary it says on which side. By default the one that begins there.
+    shares : bool
+        Whether those of `UNRECORDED` are among them, (n, pairs, limits).
 
     Returns
     -------
     dict
         Name -> array (n,), (n, pairs) or (n, dof) in SI, as `record.schema` lists them. Quantities of a
         pair that carries no load are NaN where they mean nothing then (film, pressure, …) and 0 where the
-        loss of contact itself is the answer (loads, stiffness). Those of `UNRECORDED`, (n, pairs, limits),
-        are for the summary alone.
+        loss of contact itself is the answer (loads, stiffness).
     """
     table, mechanics = model.table, model.mechanics
     whole = np.floor(cycles + 1e-12)
@@ -104,8 +106,7 @@ def outputs(
 
     with np.errstate(over="ignore", under="ignore"):
         contacts = _contacts(phase, segment, model, work, count)
-        surface = surface_state(contacts, model.closure)
-        shares = range_shares(contacts, model.closure)
+        surface, limits = surface_and_limits(contacts, model.closure)
     # by the sliding that friction is given, against which it acts at every moment: with the nominal one
     # power_friction, the work on the vibrating bodies, is another
     sliding_loss = np.sum(per_pair(contact.FRICTION_FORCE) * contacts.sliding, axis=1)
@@ -146,7 +147,9 @@ def outputs(
         "work_parametric": y[WORK_PARAMETRIC],
         "efficiency": efficiency(power_in, power_out, sliding_loss),
     }
-    return result | dict(zip(UNRECORDED, shares, strict=True))
+    if shares:
+        result |= {name: limits_last(law) for name, law in zip(UNRECORDED, limits, strict=True)}
+    return result
 
 
 def outputs_with_extremes(
@@ -154,10 +157,11 @@ def outputs_with_extremes(
     states: Float[Array, "sample state"],
     extremes: Extremes | None,
     model: Model,
+    shares: bool = False,
 ) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray], np.ndarray]:
     """`outputs` at samples and where a motion is extreme, and the mesh cycles (n,) of the latter."""
     if extremes is None:
-        return outputs(cycles, states, model), {}, np.empty(0)
+        return outputs(cycles, states, model, shares=shares), {}, np.empty(0)
     there = extremes.measure > LOWEST
     phase = np.maximum(cycles - np.floor(cycles + 1e-12), 0.0)
     segment = segment_of(phase, np.asarray(model.table.boundary))
@@ -166,6 +170,7 @@ def outputs_with_extremes(
         np.concatenate([states, extremes.state[there]]),
         model,
         np.concatenate([segment, extremes.segment[there].astype(int)]),
+        shares,
     )
     count = len(cycles)
     sampled, extreme = (

@@ -77,9 +77,10 @@ class Judge:
             if values.size == 0:
                 continue
             if values.ndim and not between_samples:
-                broken = rule.outside(values).reshape(len(values), -1).any(axis=1)
+                broken = rule.outside(values)
+                outside = int(np.sum(broken.reshape(len(values), -1).any(axis=1))) if broken.any() else 0
                 self._samples[name] = self._samples.get(name, 0) + len(values)
-                self._outside[name] = self._outside.get(name, 0) + int(np.sum(broken))
+                self._outside[name] = self._outside.get(name, 0) + outside
             beyond = np.where(np.isnan(values), -np.inf, rule.beyond(values))
             at = np.unravel_index(int(np.argmax(beyond)), values.shape)
             value, known = float(values[at]), self._worst.get(name)

@@ -5,7 +5,6 @@ run on floats, on arrays, under JAX and in the native kernels, which are compile
 may call other functions only if they are marked in the same way.
 """
 
-import math
 from collections import namedtuple
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -44,33 +43,11 @@ class LawInput(NamedTuple):
     duty: Callable[[], DutyRange] = without_duty
 
 
-class Worse(NamedTuple):
-    """Shares by which a contact is worse than it was before, each ≥ 0.
-
-    Attributes
-    ----------
-    line_load, sliding : by which it is more; 0 where it is less
-    curvature, entrainment : by which it is more or less
-    """
-
-    line_load: Any
-    curvature: Any
-    entrainment: Any
-    sliding: Any
-
-
-#: Shares of load, curvature and entrainment together up to which a law says how steep it is.
-FARTHEST = 0.5
-#: Sliding over entrainment speed up to which it does.
-MOST_SLIDING = 1.5
-
-
 class FilmFunctions(NamedTuple):
     """What kernels and models hold of a film law; see `FilmLaw`."""
 
     film: Callable[..., Any]
     in_range: Callable[..., Any]
-    steepness: Callable[..., Any]
 
 
 class FrictionFunctions(NamedTuple):
@@ -79,7 +56,6 @@ class FrictionFunctions(NamedTuple):
     coefficient: Callable[..., Any]
     flash_temperature: Callable[..., Any]
     in_range: Callable[..., Any]
-    steepness: Callable[..., Any]
 
 
 class ActiveFilm(NamedTuple):
@@ -134,25 +110,6 @@ def heat_of_friction(contact, film, surfaces, parameters, coefficient):
     return flash_temperature_rise(heat_flux, half_width, contact.pinion_speed, contact.gear_speed, surfaces)
 
 
-@law
-def steepness_not_stated(worse, contact, surfaces, parameters):
-    """Infinite: the law does not say how steep it is."""
-    return math.inf + 0.0 * worse.line_load
-
-
-@law
-def steepness_of_heat(worse, contact, surfaces, parameters):
-    """Share by which the flash temperature rises at most that a constant coefficient makes."""
-    others = 1.1 * worse.line_load + 0.3 * worse.curvature + 1.2 * worse.entrainment
-    return compounded(others, 1.4 * worse.sliding)
-
-
-@law
-def compounded(share, other):
-    """Share by which a quantity rises that rises by two."""
-    return share + other + share * other
-
-
 @cache
 def _values_type(names: tuple[str, ...]) -> Any:
     """Type of the parameters of a law that has no other than its own keys; one type for equal names."""
@@ -190,13 +147,6 @@ class _Law:
         for; of a law that is tabulated before a run.
     range : str
         The range of validity of the law's authors in words, with its source; "" where none is stated.
-    steepness : callable
-        (worse: Worse, contact: LocalContact, surfaces: Surfaces, parameters) -> share of what it was by which
-        the film at most has thinned, or the flash temperature has risen, in a contact that has got so much
-        worse, and is now this one; infinite where it does not say. It need hold only where load, curvature
-        and entrainment together are worse by at most `FARTHEST`, and sliding is at most `MOST_SLIDING` of the
-        entrainment. A search for extremes leaves a law out where it so knows it far from them. Default: not
-        stated, and evaluated at every step.
     """
 
     name: str
@@ -208,7 +158,6 @@ class _Law:
     range: str = ""
     limits: tuple[str, ...] = ()
     table_error: Callable[[Any], float] | None = None
-    steepness: Callable[..., Any] = steepness_not_stated
     judged: JudgedRange | None = None
 
     @property
@@ -293,7 +242,7 @@ class FilmLaw(_Law):
     @property
     def functions(self) -> FilmFunctions:
         """The functions that kernels and models hold."""
-        return FilmFunctions(self.function, self.in_range, self.steepness)
+        return FilmFunctions(self.function, self.in_range)
 
     @property
     def table(self) -> str:
@@ -324,7 +273,7 @@ class FrictionLaw(_Law):
     @property
     def functions(self) -> FrictionFunctions:
         """The functions that kernels and models hold."""
-        return FrictionFunctions(self.function, self.flash_temperature, self.in_range, self.steepness)
+        return FrictionFunctions(self.function, self.flash_temperature, self.in_range)
 
     @property
     def table(self) -> str:

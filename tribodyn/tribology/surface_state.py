@@ -1,6 +1,7 @@
 """All that is known of a contact under the laws in use: what is recorded of it."""
 
 from collections.abc import Sequence
+from functools import reduce
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,7 +20,6 @@ from tribodyn.tribology.law import (
     Closure,
     FilmFunctions,
     film_range_not_stated,
-    steepness_not_stated,
 )
 
 
@@ -57,8 +57,7 @@ def _film_and_heat(contact, surfaces, film, friction):
     """Evaluate the laws in use once: the film law's results, friction coefficient, flash temperature rise."""
     evaluated = film.functions.film(contact, surfaces, film.parameters)
     # so that no friction law evaluates the film again
-    functions = FilmFunctions(film_given, film_range_not_stated, steepness_not_stated)
-    known = ActiveFilm(functions, evaluated)
+    known = ActiveFilm(FilmFunctions(film_given, film_range_not_stated), evaluated)
     coefficient = friction.functions.coefficient(contact, known, surfaces, friction.parameters)
     temperature = friction.functions.flash_temperature(
         contact, known, surfaces, friction.parameters, coefficient
@@ -83,19 +82,27 @@ def film_and_temperature(contact, surfaces, film, friction):
 
 def surface_state(contact: LocalContact, closure: Closure) -> SurfaceState:
     """Evaluate the laws in use; arrays broadcast."""
+    return surface_and_limits(contact, closure)[0]
+
+
+def surface_and_limits(contact: LocalContact, closure: Closure) -> tuple[SurfaceState, tuple[Any, Any]]:
+    """`surface_state`, and what film and friction law say of their limits, one array per limit."""
     surfaces, film, friction = closure
     evaluated, known, coefficient, temperature = _film_and_heat(contact, surfaces, film, friction)
     log_smooth, rough, share = evaluated
     zero = 0.0 * log_smooth
-    return SurfaceState(
+    of_film = film.functions.in_range(contact, surfaces, film.parameters)
+    of_friction = friction.functions.in_range(contact, known, surfaces, friction.parameters)
+    state = SurfaceState(
         zero + coefficient,
         zero + share,
         exp(log_smooth) * rough,
         zero + temperature,
         zero + _pressure(contact, surfaces),
-        _inside(film.functions.in_range(contact, surfaces, film.parameters)),
-        _inside(friction.functions.in_range(contact, known, surfaces, friction.parameters)),
+        _inside(of_film),
+        _inside(of_friction),
     )
+    return state, (of_film, of_friction)
 
 
 class ContactFriction(NamedTuple):
@@ -146,25 +153,26 @@ def contact_friction(
 
 def range_shares(contact: LocalContact, closure: Closure) -> tuple[np.ndarray, np.ndarray]:
     """Shares allowed by each limit of film and friction law, (…, limits); below 1 outside, NaN: unstated."""
-    surfaces, film, friction = closure
-    return (
-        _stacked(film.functions.in_range(contact, surfaces, film.parameters)),
-        _stacked(friction.functions.in_range(contact, film, surfaces, friction.parameters)),
-    )
+    of_film, of_friction = surface_and_limits(contact, closure)[1]
+    return limits_last(of_film), limits_last(of_friction)
 
 
-def _stacked(shares: Any) -> Any:
+def _several(shares: Any) -> Any:
+    return shares if isinstance(shares, (tuple, list)) else (shares,)
+
+
+def limits_last(shares: Any) -> Any:
     """What a law says of its range as an array, its limits last."""
-    several = shares if isinstance(shares, (tuple, list)) else (shares,)
+    several = _several(shares)
     xp = namespace(several)
     return xp.stack(xp.broadcast_arrays(*several), axis=-1)
 
 
 def _inside(shares: Any) -> Any:
     """1.0 where every share is at least 1, 0.0 elsewhere, NaN where none is stated."""
-    least = _stacked(shares)
-    xp = namespace(least)
-    least = xp.min(least, axis=-1)
+    several = _several(shares)
+    xp = namespace(several)
+    least = reduce(xp.minimum, several)
     return xp.where(xp.isnan(least), np.nan, least >= 1.0)
 
 

@@ -1,11 +1,9 @@
 import numpy as np
 import pytest
 
-from tests.support.closures import LIU_NI, VECIANA, under
 from tests.support.states import random_place, random_state
 from tribodyn.dynamics.contact_forces import (
     GEAR_SPEED,
-    NORMAL_LOAD,
     PEAK,
     PINION_SPEED,
     RADIUS,
@@ -16,6 +14,7 @@ from tribodyn.dynamics.contact_forces import (
 from tribodyn.dynamics.equations import locate
 from tribodyn.dynamics.extremes import (
     BACK,
+    COUNT,
     DRIVING,
     END,
     ERROR_DOWN,
@@ -33,16 +32,12 @@ from tribodyn.dynamics.extremes import (
     OF_PAIR,
     PRESSURE,
     RATE,
-    ROOM,
     ROWS,
     SEEN,
-    SEEN_LOAD,
-    SEEN_SLIDING,
     START,
     TEMPERATURE,
-    THICK,
-    THINNER,
     alike,
+    begin_surfaces,
     extreme_of,
     highest_loaded,
     measure,
@@ -50,7 +45,6 @@ from tribodyn.dynamics.extremes import (
     measure_inside,
     measures_of,
     no_extremes,
-    see_surfaces,
     take_in,
     vertex,
 )
@@ -59,11 +53,6 @@ from tribodyn.dynamics.parameters import STATES, XI
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.march.extreme_search import UNKNOWN, begin_rates, promising, rate_of
 from tribodyn.solve.right_hand_side import work_array
-from tribodyn.tribology.contact import local_contact
-from tribodyn.tribology.film import FILM_LAWS, film_law
-from tribodyn.tribology.friction import FRICTION_LAWS
-from tribodyn.tribology.law import FARTHEST, MOST_SLIDING, Worse, steepness_not_stated
-from tribodyn.tribology.surface_state import film_and_temperature
 
 OVERRIDES = [
     {},
@@ -155,90 +144,6 @@ def test_no_vertex_where_the_parabola_is_not_highest_inside(values):
     assert vertex(*values) == (0.0, values[0])
 
 
-def test_surfaces_that_are_left_out_are_not_extreme(prepared, rng):
-    """From random states to others near by, with extremes that both have not reached, or only just."""
-    model = prepared("crc-23-47").model
-    pairs = model.table.side.shape[0]
-    surfaces = [OF_MESH + OF_PAIR * i + j for i in range(pairs) for j in (FILM, TEMPERATURE)]
-    left_out = 0
-    for above in np.geomspace(1e-3, 1.0, 40):
-        measures, work, full = np.full((ROWS, measures_of(pairs)), LOWEST), work_array(model), {}
-        y, (phase, segment) = random_state(rng), random_place(rng, model.table.boundary)
-        contact_forces(segment, *locate(phase, segment, model.table), y, model, work)
-        measure(phase, segment, y, model, work, measures[START])
-        measures[EXTREME] = measures[START] + above * np.abs(measures[START])
-        see_surfaces(phase, segment, model, work, measures)
-        near = y * (1.0 + rng.uniform(-0.1, 0.1))
-        contact_forces(segment, *locate(phase, segment, model.table), near, model, work)
-        measure_end(False, phase, segment, near, model, work, measures)
-        measure(phase, segment, near, model, work, full)
-        for j in set(surfaces) & full.keys():
-            known = measures[END, j] > LOWEST
-            left_out += not known
-            assert full[j] == measures[END, j] if known else full[j] <= measures[EXTREME, j]
-    assert left_out > 20
-
-
-STATED = [
-    *((film, "coulomb") for film in FILM_LAWS if film_law(film).steepness is not steepness_not_stated),
-    *(("masjedi-khonsari", friction) for friction in FRICTION_LAWS if friction.startswith("masjedi")),
-    ("masjedi-khonsari", "xu"),
-    ("masjedi-khonsari", "benedict-kelley"),
-]
-
-
-@pytest.mark.parametrize(("film", "friction"), STATED)
-@pytest.mark.parametrize("given", [LIU_NI, VECIANA], ids=["liu-ni", "veciana"])
-def test_no_law_is_steeper_than_it_says(film, friction, given, rng):
-    """From contacts of gears to others that are worse in some respects and better in others."""
-    count = 4000
-    values: dict[str, float] = {"coefficient": 0.05} if friction == "coulomb" else {}
-    laws = under(friction, given, film, **values)
-
-    def contact_of(load, curvature, entrainment, sliding):
-        speeds = entrainment + 0.5 * sliding, entrainment - 0.5 * sliding
-        return local_contact(load, curvature, entrainment, sliding, *speeds)
-
-    low, high = np.log([1e3, 10.0, 0.05, 1e-6]), np.log([2e6, 400.0, 20.0, MOST_SLIDING])
-    load, curvature, entrainment, ratio = np.exp(rng.uniform(low, high, (count, 4)).T)
-    sliding = ratio * entrainment
-    # shares by which load, curvature and entrainment are worse; sliding by any
-    worse = rng.dirichlet(np.full(3, 0.5), count).T * rng.uniform(0.0, FARTHEST, count)
-    faster = np.exp(rng.uniform(0.0, np.log(MOST_SLIDING / ratio))) - 1.0
-    up_or_down = rng.choice([-1.0, 1.0], (3, count))
-    up_or_down[0] = 1.0
-    factors = np.append(1.0 + up_or_down * worse, [1.0 + faster], axis=0)
-    better = np.exp(-rng.exponential(0.5, (4, count)))
-    is_better = rng.random((4, count)) < 0.3
-    is_better[1:3] = False  # more or less curvature or entrainment: either is worse
-    factors = np.where(is_better, better, factors)
-    worse, faster = np.where(is_better[:3], 0.0, worse), np.where(is_better[3], 0.0, faster)
-    after = np.array([load, curvature, entrainment, sliding]) * factors
-    holds = after[3] <= MOST_SLIDING * after[2]
-    assert np.mean(holds) > 0.5
-    contact_before, contact = contact_of(load, curvature, entrainment, sliding), contact_of(*after)
-    thickness, temperature = film_and_temperature(contact_before, *laws)
-    thin, warm = film_and_temperature(contact, *laws)
-    no = np.zeros(count)
-    for before, now, of in ((-thickness, -thin, laws.film), (temperature, warm, laws.friction)):
-        steepness, unchanged = of.functions.steepness, Worse(no, no, no, no)
-        most = steepness(Worse(*worse, faster), contact, laws.surfaces, of.parameters)
-        stated = steepness(unchanged, contact_before, laws.surfaces, of.parameters) < np.inf
-        known = holds & stated & np.isfinite(most)
-        change = ((now - before)[known]) / np.abs(before[known])
-        assert np.all(change <= most[known] + 1e-9)
-        assert np.max(change) > 0.1
-        assert np.mean(known) > 0.1
-
-
-def test_a_law_that_says_no_steepness_is_evaluated_at_every_step(prepared):
-    model, measures, work, y, place = loaded_search(prepared)
-    friction = model.options.friction._replace(steepness=steepness_not_stated)
-    model = model._replace(options=model.options._replace(friction=friction))
-    measure_end(False, *place, y, model, work, measures)
-    assert np.all(measures[END] == measures[START])
-
-
 def test_a_step_is_looked_into_where_a_parabola_passes_the_extreme(rng):
     looked = 0
     for top, height, bend, short in rng.uniform([-2.0, -3.0, 0.1, 0.0], [3.0, 3.0, 9.0, 0.2], (500, 4)):
@@ -260,8 +165,8 @@ def loaded_search(prepared, **overrides):
     y, place = static_equilibrium(model), (0.3 * float(model.table.boundary[1]), 0)
     contact_forces(place[1], *locate(*place, model.table), y, model, work)
     measure(*place, y, model, work, measures[START])
-    measures[EXTREME] = 1e100
-    see_surfaces(*place, model, work, measures)
+    measures[EXTREME], measures[SEEN, COUNT] = 1e100, 0.0
+    begin_surfaces(*place, model, measures)
     return model, measures, work, y, place
 
 
@@ -270,78 +175,38 @@ def of_both(measures, row, column):
     return measures[row, OF_MESH:].reshape(2, OF_PAIR)[:, column]
 
 
-def test_a_contact_is_worse_by_load_curvature_entrainment_and_sliding(prepared):
-    """By what has changed for the worse, over what it was; the better counts nothing."""
-    model, measures, work, y, place = loaded_search(prepared)
-
-    def steepness(worse, contact, surfaces, parameters):
-        return np.array([3.0, 0.5, 0.7, 0.1]) @ worse
-
-    film = model.options.film._replace(steepness=steepness)
-    model = model._replace(options=model.options._replace(film=film))
-    carrying = np.flatnonzero(work[NORMAL_LOAD] > 0.0)
-    before = measures.copy()
-    for factors, thinner in (
-        ([1.1, 1.0, 1.0, 1.0], 0.3),
-        ([1.0, 1.05, 1.0, 1.0], 0.025),
-        ([1.0, 0.95, 1.0, 1.0], 0.025),
-        ([1.0, 1.0, 0.8, 1.0], 0.14),
-        ([1.0, 1.0, 1.2, 1.0], 0.14),
-        ([1.0, 1.0, 1.0, 4.0], 0.3),
-        ([1.1, 1.1, 1.1, 1.1], 0.43),
-        ([0.5, 1.0, 1.0, 0.5], 0.0),
-        ([1.6, 1.0, 1.0, 1.0], None),
-        ([1.0, 1.6, 1.0, 1.0], None),
-        ([1.0, 1.0, 0.4, 1.0], None),
-        ([1.2, 1.2, 0.8, 1.0], None),
-    ):
-        measures[:] = before
-        measures[SEEN, OF_MESH:] *= np.tile(factors, 2)
-        measure_end(False, *place, y, model, work, measures)
-        left_out = measures[END, OF_MESH + FILM] == LOWEST
-        assert left_out == (thinner is not None), factors
-        if left_out:
-            assert of_both(measures, ROOM, THINNER)[carrying] == pytest.approx(thinner, abs=1e-12)
+def evaluated(model, measures, work, y, place, steps, step=1e-3):
+    """Which of so many steps evaluate the laws of both pairs, as columns; nothing moves."""
+    phase, segment = place
+    found = []
+    for _ in range(steps):
+        phase += step
+        measure_end(False, phase, step, segment, y, model, work, measures)
+        found.append(of_both(measures, END, FILM) > LOWEST)
+    return np.array(found)
 
 
-def test_a_contact_that_slides_far_is_evaluated(prepared):
-    """There no law is bound by its steepness."""
-    model, measures, work, y, place = loaded_search(prepared)
-    for most, left_out in ((0.999, True), (1.001, False)):
-        speed = work[PINION_SPEED] + work[GEAR_SPEED]
-        work[SLIDING] = work[RELATIVE_VELOCITY] = most * MOST_SLIDING * 0.5 * np.abs(speed)
-        measures[SEEN, OF_MESH + SEEN_SLIDING :: OF_PAIR] = 1e-3
-        measure_end(False, *place, y, model, work, measures)
-        assert (measures[END, OF_MESH + FILM] == LOWEST) == left_out
-
-
-def test_another_change_as_large_as_the_last_is_allowed_for(prepared):
-    model, measures, work, y, place = loaded_search(prepared)
-    seen, room = of_both(measures, SEEN, SEEN_LOAD), of_both(measures, ROOM, THICK)
-    seen *= 1.2
-    no = np.zeros(3)
-    change = model.options.film.steepness(Worse(0.2, *no), None, model.surfaces, model.film)
-    room[:] = 1.5 * change
-    before = measures.copy()
-    for thinner, left_out in ((change, True), (0.6 * change, True), (0.4 * change, False), (0.0, False)):
-        measures[:] = before
-        of_both(measures, ROOM, THINNER)[:] = thinner
-        measure_end(False, *place, y, model, work, measures)
-        assert (measures[END, OF_MESH + FILM] == LOWEST) == left_out
-    assert of_both(measures, ROOM, THINNER)[0] == 0.0  # it has been evaluated
-    assert 1.2 * seen[0] == pytest.approx(before[SEEN, OF_MESH + SEEN_LOAD])
+def test_far_from_extremes_laws_are_evaluated_at_every_fourth_step(prepared):
+    search = loaded_search(prepared)
+    assert np.flatnonzero(evaluated(*search, 13)[:, 0]).tolist() == [0, 3, 7, 11]
 
 
 @pytest.mark.parametrize("near", [0, 1])
-def test_each_pair_is_measured_where_its_own_surfaces_are_near(near, prepared):
+def test_a_pair_is_evaluated_where_its_own_surfaces_may_become_extreme(near, prepared):
+    """At three times the faster of the last two rates, before the end of the next step."""
     model, measures, work, y, place = loaded_search(prepared)
-    surfaces = [[OF_MESH + OF_PAIR * i + j for j in (FILM, TEMPERATURE)] for i in range(2)]
-    measures[EXTREME, surfaces[near]] = measures[START, surfaces[near]]
-    see_surfaces(*place, model, work, measures)
-    of_both(measures, SEEN, SEEN_LOAD)[:] *= 1.01
-    measure_end(False, *place, y, model, work, measures)
-    assert np.all(measures[END, surfaces[near]] == measures[START, surfaces[near]])
-    assert np.all(measures[END, surfaces[1 - near]] == LOWEST)
+    step, values = 1e-3, measures[START].copy()
+    for short, steps in ((7.0, [0, 2, 3]), (4.0, [0, 1, 2, 3])):
+        begin_surfaces(*place, model, measures)
+        measures[SEEN, COUNT] = 0.0
+        measures[EXTREME] = 1e100
+        column = OF_MESH + OF_PAIR * near + TEMPERATURE
+        rate = 0.01 * abs(values[column]) / step
+        measures[EXTREME, column] = values[column] + short * rate * step
+        measures[SEEN, column] = values[column] - rate * step
+        found = evaluated(model, measures, work, y, place, 4, step)
+        assert np.flatnonzero(found[:, near]).tolist() == steps
+        assert np.flatnonzero(found[:, 1 - near]).tolist() == [0, 3]
 
 
 def test_inside_a_step_surfaces_are_measured_where_both_ends_are(prepared):

@@ -10,9 +10,8 @@ from scipy.optimize import brentq
 from tests.support.closures import LIU_NI, POINT, known, under
 from tests.support.line_contacts import by_moes
 from tribodyn.tribology.ehl.steady import solve_steady
-from tribodyn.tribology.film import FILM_LAWS, dowson_higginson, masjedi_khonsari, moes
+from tribodyn.tribology.film import FILM_LAWS, dowson_higginson, masjedi_khonsari
 from tribodyn.tribology.film.moes import log_of_sum, log_survey
-from tribodyn.tribology.law import Worse
 
 SURFACES = LIU_NI.surfaces
 
@@ -70,28 +69,6 @@ def test_moes_in_plain_powers(load, material):
     assert found == pytest.approx((thin**s + thick**s) ** (1 / s), rel=1e-12)
     assert log_of_sum(1.3, -0.4) == pytest.approx(math.log(math.exp(1.3) + math.exp(-0.4)), rel=1e-14)
     assert log_of_sum(-900.0, 900.0) == 900.0
-
-
-@pytest.mark.parametrize(
-    ("law", "powers"),
-    [
-        # W^−0.13, curvature^(0.7 − 0.13 − 1), U^0.7
-        (dowson_higginson.LAW, (0.13, 0.43, 0.7)),
-        # W^−(0.135 + 0.229) with the rough part alone, curvature^(0.705 − 0.135 − 1), U^0.705
-        (masjedi_khonsari.LAW, (0.364, 0.43, 0.705)),
-        # a rigid isoviscous contact: u/(w/ρ)
-        (moes.LAW, (1.0, 1.0, 1.0)),
-    ],
-    ids=["dowson-higginson", "masjedi-khonsari", "moes"],
-)
-def test_steepness_of_films(law, powers):
-    """Each share is worth at least its power of the film, and hardly more; together they add up."""
-    none, shares, bounds = Worse(0.0, 0.0, 0.0, 0.0), (0.2, 0.07, 0.11), []
-    for name, share, power in zip(("line_load", "curvature", "entrainment"), shares, powers, strict=True):
-        bounds.append(law.steepness(none._replace(**{name: share}), None, None, None))
-        assert power * share <= bounds[-1] <= 1.2 * power * share
-    assert law.steepness(Worse(*shares, 0.9), None, None, None) == pytest.approx(sum(bounds))
-    assert law.steepness(none, None, None, None) == 0.0
 
 
 def rigid_cylinder():

@@ -5,16 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from tests.support.closures import LIU_NI, POINT, VECIANA, known, under
-from tribodyn.tribology.contact import local_contact
+from tests.support.closures import POINT, VECIANA, known, under
 from tribodyn.tribology.friction.benedict_kelley import benedict_kelley
-from tribodyn.tribology.friction.benedict_kelley import steepness as benedict_steepness
 from tribodyn.tribology.friction.iso_14179_1 import iso_14179_1
-from tribodyn.tribology.friction.masjedi_khonsari import steepness as mixed_steepness
 from tribodyn.tribology.friction.niemann import niemann
-from tribodyn.tribology.friction.xu import steepness as xu_steepness
 from tribodyn.tribology.friction.xu import xu
-from tribodyn.tribology.law import Worse
 from tribodyn.tribology.mesh_conditions import NominalConditions
 
 #: Coefficients of friction (EHL, mixed EHL) over the slide-to-roll ratio: a separate prototype of the two
@@ -150,39 +145,6 @@ def test_nothing_overflows_at_the_ends(law):
                     values = known(laws, load, curvature, speed, speed, speed, speed)
                     assert np.all(np.isfinite(values))
                     assert values[0] >= 0
-
-
-@pytest.mark.parametrize("given", [VECIANA, LIU_NI], ids=["veciana", "liu-ni"])
-def test_where_the_laws_say_how_steep_they_are(given):
-    """Xu where |SR| p_H is at most 0.7 GPa; Benedict & Kelley where their logarithm is that of 40 at least.
-
-    There each share is worth its power of the flash temperature at least, and less than twice as much.
-    """
-    worse = Worse(0.1, 0.05, 0.08, 0.3)
-    w, curvature, u = 3e5, 140.0, 3.7
-    pressure = math.sqrt(w * given.surfaces.effective_modulus * curvature / (2 * math.pi))
-    none = Worse(0.0, 0.0, 0.0, 0.0)
-    for factor, stated in ((0.98, True), (1.02, False)):
-        v = factor * 0.7e9 / pressure * u
-        contact = local_contact(w, curvature, u, -v, u - v / 2, u + v / 2)
-        assert math.isfinite(xu_steepness(worse, contact, given.surfaces, None)) == stated
-    slid = 0.3 * u
-    most = 29.7 * w / (1e3 * given.surfaces.inlet_viscosity * slid * 4 * u * u) / 40
-    for factor, stated in ((0.98, False), (1.02, True)):
-        contact = local_contact(w * factor / most, curvature, u, slid, 1.0, 1.0)
-        assert math.isfinite(benedict_steepness(worse, contact, given.surfaces, None)) == stated
-        held = local_contact(0.02 * w * factor / most * 0.5, curvature, u, 0.0, 1.0, 1.0)
-        # in pure rolling a hundredth of the sum of the speeds slides
-        least = 29.7 * held.line_load / (1e3 * given.surfaces.inlet_viscosity * 0.02 * u * 4 * u * u)
-        known = math.isfinite(benedict_steepness(worse, held, given.surfaces, None))
-        assert known == (least >= 40)
-    calm = local_contact(1e5, curvature, 0.3, 0.01, 0.3, 0.3)
-    for steepness in (xu_steepness, benedict_steepness, mixed_steepness):
-        assert steepness(none, calm, given.surfaces, None) == 0.0
-        assert 0.3 < steepness(none._replace(sliding=0.3), calm, given.surfaces, None) < 1.2
-        for name in ("line_load", "entrainment"):
-            assert 0.1 < steepness(none._replace(**{name: 0.1}), calm, given.surfaces, None) < 0.6
-        assert 0.0 < steepness(none._replace(curvature=0.1), calm, given.surfaces, None) < 0.15
 
 
 def test_xu_on_flanks_as_rough_as_no_gear():

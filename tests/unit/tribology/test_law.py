@@ -1,4 +1,4 @@
-"""What laws have in common: heat of friction by hand, shares that compound, the range in words."""
+"""What laws have in common: heat of friction by hand, the range in words."""
 
 import math
 
@@ -9,15 +9,7 @@ from tribodyn.errors import InputError
 from tribodyn.numerics.parameter import Parameter
 from tribodyn.tribology.contact import local_contact
 from tribodyn.tribology.judged_range import JudgedRange
-from tribodyn.tribology.law import (
-    FilmLaw,
-    FrictionLaw,
-    Worse,
-    compounded,
-    heat_of_friction,
-    steepness_not_stated,
-    steepness_of_heat,
-)
+from tribodyn.tribology.law import FilmLaw, FrictionLaw, heat_of_friction
 from tribodyn.tribology.surface_state import film_and_temperature, fraction_in_range, surface_state
 
 SURFACES = LIU_NI.surfaces._replace(gear_conductivity=37.0, gear_heat_capacity=2.9e6)
@@ -49,14 +41,6 @@ def test_film_and_temperature_are_those_of_the_whole_state():
         state = surface_state(contact, laws)
         found = film_and_temperature(contact, *laws)
         assert found == pytest.approx((state.central_film_thickness, state.flash_temperature_rise))
-
-
-def test_shares_compound_as_factors_do():
-    assert 1 + compounded(0.3, 0.7) == pytest.approx(1.3 * 1.7)
-    worse = Worse(0.2, 0.1, 0.05, 0.5)
-    others = 1.1 * 0.2 + 0.3 * 0.1 + 1.2 * 0.05
-    assert 1 + steepness_of_heat(worse, None, None, None) == pytest.approx((1 + others) * (1 + 1.4 * 0.5))
-    assert steepness_not_stated(worse, None, None, None) == math.inf
 
 
 @pytest.mark.parametrize("kind", [FilmLaw, FrictionLaw])

@@ -19,7 +19,6 @@ from tribodyn.tribology.friction import none as frictionless
 from tribodyn.tribology.friction.iso_14179_1 import LAW as ISO
 from tribodyn.tribology.friction.niemann import LAW as NIEMANN
 from tribodyn.tribology.friction.schlenk import LAW as SCHLENK
-from tribodyn.tribology.law import Worse
 from tribodyn.tribology.mesh_conditions import NominalConditions
 from tribodyn.tribology.surface_state import range_shares, surface_state
 
@@ -160,7 +159,6 @@ def test_limits_of_a_table_are_its_ends():
 
 
 def test_laws_without_a_range_say_nothing():
-    """And no heat: without friction no share of anything makes the flash temperature rise."""
     laws = under("coulomb", coefficient=0.07)
     for sliding in (-0.3, 0.0, 0.1):
         seen = local_contact(3e5, 77.0, 0.6, sliding, 0.65, 0.55)
@@ -169,7 +167,6 @@ def test_laws_without_a_range_say_nothing():
     assert coulomb.LAW.stated == ""
     shares = range_shares(local_contact(3e5, 77.0, 0.6, 0.1, 0.65, 0.55), laws)[1]
     assert np.all(np.isnan(shares))
-    assert frictionless.steepness(Worse(0.3, 0.2, 0.1, 0.5), None, None, None) == 0.0
 
 
 def test_ratios_to_the_solved_contact_are_those_of_the_page():

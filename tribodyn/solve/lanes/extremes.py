@@ -14,11 +14,11 @@ from tribodyn.dynamics.extremes import (
     START,
     TRIAL,
     alike,
+    begin_surfaces,
     extreme_of,
     measure,
     measure_end,
     measure_inside,
-    see_surfaces,
     vertex,
 )
 from tribodyn.dynamics.parameters import STATES
@@ -54,7 +54,7 @@ def open_lanes(start, segment, lanes, model, block, march):
     cell, u, cells_per_radian = locate(start, segment, model.table)
     normal_contacts(segment, cell, u, cells_per_radian, y, model, work)
     measure(start, segment, y, model, work, measures[START])
-    see_surfaces(start, segment, model, work, measures)
+    begin_surfaces(start, segment, model, measures)
     keep_lanes(lanes, START, start, segment, y, block, march)
 
 
@@ -83,7 +83,7 @@ def search_lanes(lanes, phase, step, reached, segment, model, block, march):
     """Seek extremes over the steps just accepted in some lanes."""
     measures = rows_of(block.measures)
     new, work = rows_of(block.new), rows_of(block.work)
-    measure_end(~lanes, reached, segment, new, model, work, measures)
+    measure_end(~lanes, reached, step, segment, new, model, work, measures)
     better, inside = step < 0.0, step < 0.0
     for i in range(block.measures.shape[1]):
         start, end, extreme = measures[START, i], measures[END, i], measures[EXTREME, i]

@@ -24,12 +24,12 @@ from tribodyn.dynamics.extremes import (
     TRIAL,
     Extremes,
     alike,
+    begin_surfaces,
     extreme_of,
     measure,
     measure_end,
     measure_inside,
     measures_of,
-    see_surfaces,
     vertex,
 )
 from tribodyn.dynamics.parameters import STATES
@@ -158,7 +158,7 @@ def open_segment(place, y, model, work, search):
     begin_rates(search.measures, search.extreme, search.measures.shape[1])
     contacts_at(place.phase, place.segment, y, model, work)
     measure(place.phase, place.segment, y, model, work, search.measures[START])
-    see_surfaces(place.phase, place.segment, model, work, search.measures)
+    begin_surfaces(place.phase, place.segment, model, search.measures)
     keep(START, place.cycle + place.phase, place.segment, y, search)
 
 
@@ -167,7 +167,7 @@ def search_step(method, place, step, y, model, work, buffer, search):
     """Seek extremes over an accepted step from the state `y`, which ends at `place.end`."""
     measures = search.measures
     method.contacts(place.end, place.segment, model, work, buffer)
-    measure_end(False, place.end, place.segment, buffer[0], model, work, measures)
+    measure_end(False, place.end, step, place.segment, buffer[0], model, work, measures)
     better, inside = False, False
     for i in range(measures.shape[1]):
         start, end, extreme = measures[START, i], measures[END, i], measures[EXTREME, i]

@@ -109,7 +109,9 @@ def _run(case: Case, path: Path, force: bool, progress: Progress | None) -> RunR
             if isinstance(part, Stop):
                 stop = part
             elif len(part.cycles):
-                block, extreme, at = outputs_with_extremes(part.cycles, part.states, part.extremes, model)
+                block, extreme, at = outputs_with_extremes(
+                    part.cycles, part.states, part.extremes, model, shares=statistics.averages(part.cycles)
+                )
                 recorded = {name: values for name, values in block.items() if name not in UNRECORDED}
                 record.write(statistics.written, recorded)
                 statistics.add(part, block, extreme, at)
@@ -192,15 +194,19 @@ class RunStatistics:
         if not self.ends:
             self.ends.append((part.states[0], block["stored_energy"][0]))
         self.ends[1:] = [(part.states[-1], block["stored_energy"][-1])]
-        last = part.cycles >= self.start - 1e-9
-        if last.any():
+        last = slice(int(np.searchsorted(part.cycles, self.start - 1e-9)), None)
+        if len(part.cycles[last]):
             self.in_window.add(part.cycles[last], {name: values[last] for name, values in block.items()})
             self.in_window.add(at, extreme)
-        averaged = last & (part.cycles < self.stop - 1e-9)  # the last sample is a cycle after the first
-        if averaged.any():
+        if self.averages(part.cycles):
+            averaged = slice(last.start, int(np.searchsorted(part.cycles, self.stop - 1e-9)))
             if not self.blocks:
                 self.window_start = part.states[averaged][0]
             self.blocks.append({name: values[averaged] for name, values in block.items()})
+
+    def averages(self, cycles: np.ndarray) -> bool:
+        """Whether means are of some of these samples; the last of a run is a cycle after the first."""
+        return bool(np.any((cycles >= self.start - 1e-9) & (cycles < self.stop - 1e-9)))
 
     def figures(self, complete: bool) -> dict[str, Any]:
         """Extremes of the last cycles, of an incomplete run of all; residual of the energy balance."""

@@ -64,12 +64,6 @@ def dowson_higginson(contact, surfaces, parameters):
 
 
 @law
-def steepness(worse, contact, surfaces, parameters):
-    """See `FilmLaw`: the film goes as W^−0.13, U^0.7 and curvature^−0.43."""
-    return 0.15 * worse.line_load + 0.45 * worse.curvature + 0.8 * worse.entrainment
-
-
-@law
 def in_ranges(contact, surfaces, parameters):
     """Shares allowed by `FITTED_RANGE`, then by `JUDGED_RANGE`, in the order of the law's limits."""
     modulus = surfaces.effective_modulus
@@ -97,5 +91,4 @@ LAW = FilmLaw(
         *("M ≥ 2", "L ≥ 2", "M ≤ 500", "L ≤ 15", "p_H ≤ 1.4 GPa", "η0 u² ≤ 1 W/m"),
     ),
     judged=JudgedRange((0.75, 1.25), (1.03, 1.09, 1.22), 6),
-    steepness=steepness,
 )

@@ -109,12 +109,6 @@ def rough_film(contact, surfaces, parameters):
 
 
 @law
-def steepness(worse, contact, surfaces, parameters):
-    """See `FilmLaw`: with its rough part the film goes at most as W^−0.364, U^0.705 and curvature^−0.43."""
-    return 0.4 * worse.line_load + 0.45 * worse.curvature + 0.8 * worse.entrainment
-
-
-@law
 def in_fitted_range(contact, surfaces, parameters):
     """Shares of the dimensionless groups allowed by `FITTED_RANGE`, in the order of `LIMITS`."""
     modulus = surfaces.effective_modulus
@@ -179,7 +173,6 @@ LAW = FilmLaw(
     range=RANGE,
     limits=(*LIMITS, *JUDGED_LIMITS),
     judged=JUDGED,
-    steepness=steepness,
 )
 AS_PRINTED = FilmLaw(
     "masjedi-khonsari-as-printed",
@@ -190,5 +183,4 @@ AS_PRINTED = FilmLaw(
     range=RANGE,
     limits=(*LIMITS, *JUDGED_LIMITS),
     judged=JUDGED,
-    steepness=steepness,
 )

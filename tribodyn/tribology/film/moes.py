@@ -70,12 +70,6 @@ def moes(contact, surfaces, parameters):
 
 
 @law
-def steepness(worse, contact, surfaces, parameters):
-    """See `FilmLaw`: that of a rigid isoviscous contact, the steepest."""
-    return worse.line_load + worse.curvature + worse.entrainment
-
-
-@law
 def in_judged_range(contact, surfaces, parameters):
     """Shares of M, L, pressure and heat allowed by `JUDGED_RANGE`, in the order of the law's limits."""
     load, material = moes_numbers(contact, surfaces)
@@ -93,5 +87,4 @@ LAW = FilmLaw(
     in_range=in_judged_range,
     limits=("M ≥ 2", "L ≥ 1", "M ≤ 1000", "L ≤ 15", "p_H ≤ 0.75 GPa", "η0 u² ≤ 1 W/m"),
     judged=JudgedRange((0.75, 1.25), (1.11, 1.17, 1.23), 6),
-    steepness=steepness,
 )

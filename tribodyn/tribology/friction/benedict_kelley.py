@@ -1,11 +1,9 @@
 """Friction coefficient of gear teeth by Benedict & Kelley's disc tests."""
 
-import math
-
-from tribodyn.numerics.elementary import absolute, exp, law, log, maximum, where
+from tribodyn.numerics.elementary import absolute, exp, law, log, maximum
 from tribodyn.tribology.friction.none import NoParameters
 from tribodyn.tribology.judged_range import JudgedRange
-from tribodyn.tribology.law import FrictionLaw, LawInput, compounded
+from tribodyn.tribology.law import FrictionLaw, LawInput
 
 LN10 = 2.302585092994046
 
@@ -61,16 +59,6 @@ def benedict_kelley_at(contact, film, surfaces, parameters):
 
 
 @law
-def steepness(worse, contact, surfaces, parameters):
-    """See `FrictionLaw`; where the logarithm is that of at least 40, as it changes by any share near zero."""
-    sum_speed = 2.0 * contact.entrainment
-    slid = maximum(absolute(contact.sliding), MINIMUM_SLIDING * sum_speed)
-    least = 40.0 * 1e3 * surfaces.inlet_viscosity * slid * sum_speed * sum_speed
-    others = 1.6 * worse.line_load + 0.35 * worse.curvature + 2.6 * worse.entrainment
-    return where(29.7 * contact.line_load >= least, compounded(others, 1.4 * worse.sliding), math.inf)
-
-
-@law
 def not_held(contact, film, surfaces, parameters):
     """Shares by which the law is clear of its poles and of zero, where it is held."""
     sum_speed = 2.0 * contact.entrainment
@@ -90,7 +78,6 @@ LAW = FrictionLaw(
     benedict_kelley_at,
     _none,
     in_range=not_held,
-    steepness=steepness,
     range="where it is not held: sliding ≥ 1 % of the rolling speed, Ra ≤ 0.75 µm, coefficient above zero",
     limits=(
         "sliding ≥ 1 % of the rolling speed",

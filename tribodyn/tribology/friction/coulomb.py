@@ -4,7 +4,7 @@ from typing import Any, NamedTuple
 
 from tribodyn.numerics.elementary import as_float, law
 from tribodyn.numerics.parameter import Parameter
-from tribodyn.tribology.law import FrictionLaw, LawInput, steepness_of_heat
+from tribodyn.tribology.law import FrictionLaw, LawInput
 
 
 class Constant(NamedTuple):
@@ -44,5 +44,4 @@ LAW = FrictionLaw(
     keys=(
         Parameter("coefficient", "number", "friction coefficient μ", allowed="not negative", example="0.05"),
     ),
-    steepness=steepness_of_heat,
 )

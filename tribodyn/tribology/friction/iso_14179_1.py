@@ -3,7 +3,7 @@
 from tribodyn.numerics.elementary import as_float, exp, log, minimum
 from tribodyn.tribology.friction.coulomb import Constant, constant, range_of_constant
 from tribodyn.tribology.judged_range import JudgedRange
-from tribodyn.tribology.law import FrictionLaw, LawInput, steepness_of_heat
+from tribodyn.tribology.law import FrictionLaw, LawInput
 from tribodyn.tribology.mesh_conditions import NominalConditions
 
 #: Pitch line speed (m/s) and load intensity (Pa) for which the standard gives the formula.
@@ -45,5 +45,4 @@ LAW = FrictionLaw(
     range="2 < V ≤ 25 m/s, 1.4 < K ≤ 14 N/mm² (the standard)",
     limits=("2 m/s ≤ V ≤ 25 m/s and 1.4 N/mm² ≤ K ≤ 14 N/mm²",),
     judged=JudgedRange((0.5, 2.0), (0.276, 0.79, 3.35)),
-    steepness=steepness_of_heat,
 )

@@ -11,7 +11,7 @@ from tribodyn.numerics.elementary import absolute, exp, expm1, law, log, maximum
 from tribodyn.tribology.contact import flash_temperature_rise, hertz_half_width, moes_numbers
 from tribodyn.tribology.film.masjedi_khonsari import LIMITS, RANGE, in_fitted_range
 from tribodyn.tribology.judged_range import JudgedRange
-from tribodyn.tribology.law import FrictionLaw, LawInput, compounded, film_at
+from tribodyn.tribology.law import FrictionLaw, LawInput, film_at
 
 #: Where friction is within a factor of 2 of the solved contact: Moes' L, and the stress η |v_s|/h_c of a
 #: Newtonian film by the law over Λ_lim p. Below that the solved film shears more easily than the law's.
@@ -131,13 +131,6 @@ def heat_of_mixed_friction(contact, film, surfaces, parameters, coefficient):
 
 
 @law
-def steepness(worse, contact, surfaces, parameters):
-    """See `FrictionLaw`; with the asperity load ratios of Masjedi & Khonsari's film, or none."""
-    others = 1.2 * worse.line_load + 1.2 * worse.curvature + 2.3 * worse.entrainment
-    return compounded(others, 1.4 * worse.sliding)
-
-
-@law
 def saturated(x):
     """1 − exp(−x) for x ≥ 0. From 38 on it is 1 to the last bit, and what x is need not be waited for."""
     if skippable(x >= 38.0):
@@ -230,7 +223,6 @@ def _law(
         judged=JudgedRange((0.5, 2.0), ratio, len(judged)),
         flash_temperature=heat_of_mixed_friction,
         film=film,
-        steepness=steepness,
     )
 
 

@@ -3,7 +3,7 @@
 from tribodyn.numerics.elementary import as_float, exp, log
 from tribodyn.tribology.friction.coulomb import Constant, constant, range_of_constant
 from tribodyn.tribology.judged_range import JudgedRange
-from tribodyn.tribology.law import FrictionLaw, LawInput, steepness_of_heat
+from tribodyn.tribology.law import FrictionLaw, LawInput
 from tribodyn.tribology.mesh_conditions import NominalConditions
 
 #: Pitch line speed up to which the FZG tests behind the formula went, m/s.
@@ -43,5 +43,4 @@ LAW = FrictionLaw(
     range="pitch line speed up to about 50 m/s (FZG tests of case-hardened gears)",
     limits=("pitch line speed ≤ 50 m/s",),
     judged=JudgedRange((0.5, 2.0), (0.46, 2.01, 5.62)),
-    steepness=steepness_of_heat,
 )

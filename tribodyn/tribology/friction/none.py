@@ -17,9 +17,9 @@ def no_friction(contact, film, surfaces, parameters):
 
 
 @law
-def steepness(worse, contact, surfaces, parameters):
-    """Zero: there is no heat."""
-    return 0.0 * worse.line_load
+def no_heat(contact, film, surfaces, parameters, coefficient):
+    """Flash temperature rise zero."""
+    return 0.0 * contact.sliding
 
 
 def _none(given: LawInput) -> Any:
@@ -31,5 +31,5 @@ LAW = FrictionLaw(
     "frictionless flanks; the film is still reported",
     no_friction,
     _none,
-    steepness=steepness,
+    flash_temperature=no_heat,
 )

@@ -4,7 +4,7 @@ from tribodyn.numerics.elementary import as_float
 from tribodyn.tribology.friction.coulomb import Constant, constant, range_of_constant
 from tribodyn.tribology.friction.niemann import MAXIMUM_SPEED, mean_of_fzg_tests
 from tribodyn.tribology.judged_range import JudgedRange
-from tribodyn.tribology.law import FrictionLaw, LawInput, steepness_of_heat
+from tribodyn.tribology.law import FrictionLaw, LawInput
 from tribodyn.tribology.mesh_conditions import NominalConditions
 
 
@@ -31,5 +31,4 @@ LAW = FrictionLaw(
     range="pitch line speed up to about 50 m/s (FZG tests of case-hardened gears)",
     limits=("pitch line speed ≤ 50 m/s",),
     judged=JudgedRange((0.5, 2.0), (0.575, 1.69, 4.57)),
-    steepness=steepness_of_heat,
 )

@@ -1,12 +1,10 @@
 """Friction coefficient by Xu's regression over thermal elastohydrodynamic solutions."""
 
-import math
-
-from tribodyn.numerics.elementary import absolute, exp, law, log, maximum, minimum, where
+from tribodyn.numerics.elementary import absolute, exp, law, log, maximum, minimum
 from tribodyn.tribology.contact import hertz_pressure
 from tribodyn.tribology.friction.none import NoParameters
 from tribodyn.tribology.judged_range import JudgedRange
-from tribodyn.tribology.law import FrictionLaw, LawInput, compounded
+from tribodyn.tribology.law import FrictionLaw, LawInput
 
 LN10 = 2.302585092994046
 
@@ -17,8 +15,6 @@ FITTED_RANGE = {"pressure": (0.5e9, 2.5e9), "slide_to_roll": (0.0, 1.0), "roughn
 _P_LOW, _P_HIGH = FITTED_RANGE["pressure"]
 _SR_HIGH = FITTED_RANGE["slide_to_roll"][1]
 _S_HIGH = FITTED_RANGE["roughness"][1]
-#: Up to which the law is known not to be steep: (slide-to-roll ratio times Hertz pressure)² times 2 π, Pa².
-_MOST_PRESSED = 2.0 * math.pi * 0.7e9**2
 
 
 @law
@@ -75,20 +71,6 @@ def xu_at(contact, film, surfaces, parameters):
 
 
 @law
-def steepness(worse, contact, surfaces, parameters):
-    """See `FrictionLaw`; where |SR| p_H ≤ 0.7 GPa, as beyond it friction may fall with sliding and load.
-
-    For viscosities of 1 mPa·s to 1 Pa·s.
-    """
-    others = 1.8 * worse.line_load + 1.3 * worse.curvature + 5.0 * worse.entrainment
-    faster = worse.sliding * (2.3 + 3.0 * worse.sliding)
-    pressed = contact.line_load * contact.curvature * surfaces.effective_modulus
-    slid = contact.sliding * contact.sliding * pressed
-    limit = _MOST_PRESSED * contact.entrainment * contact.entrainment
-    return where(slid <= limit, compounded(others, faster), math.inf)
-
-
-@law
 def in_fitted_range(contact, film, surfaces, parameters):
     """Shares of pressure, slide-to-roll ratio and roughness allowed by `FITTED_RANGE`."""
     pressure = hertz_pressure(contact.line_load, contact.curvature, surfaces.effective_modulus)
@@ -109,7 +91,6 @@ LAW = FrictionLaw(
     in_range=in_fitted_range,
     range="Hertz pressure 0.5 … 2.5 GPa, slide-to-roll ratio ≤ 1, roughness ≤ 1 µm "
     "(from memory of the dissertation)",
-    steepness=steepness,
     limits=("p_H ≥ 0.5 GPa", "p_H ≤ 2.5 GPa", "slide-to-roll ratio ≤ 1", "roughness ≤ 1 µm"),
     judged=JudgedRange((0.5, 2.0), (0.656, 1.94, 14.3)),
 )
