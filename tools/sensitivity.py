@@ -167,7 +167,7 @@ def figures(folder: Path, settings: dict[str, dict[str, Any]]) -> list[float]:
             summary = record.summary
             friction[name] = [summary["friction_force_mean"][record.pairs.index(pair)] for pair in (1, 0)]
             efficiency[name], ratio[name] = summary["efficiency"], summary["contact_ratio"]
-            error[name] = summary["transmission_error_rotational_mean"]
+            error[name] = summary["transmission_error_mean"]
     loss = (1 - efficiency[INVOLUTE]) / (1 - efficiency[CRC])
     return [
         ratio[CRC],

@@ -15,7 +15,13 @@ ALWAYS = (
     *("work_in", "work_out", "work_friction", "work_damping", "work_parametric"),
 )
 #: Numbers wherever a pair carries, and not elsewhere (the first four: on the whole path of contact).
-ON_PATH = ("transmission_error", "pressure_angle", "equivalent_radius", "entrainment_speed", "sliding_speed")
+ON_PATH = (
+    "transmission_error_normal",
+    "pressure_angle",
+    "equivalent_radius",
+    "entrainment_speed",
+    "sliding_speed",
+)
 LOADED = (
     *("friction_coefficient", "asperity_load_ratio", "central_film_thickness", "film_parameter"),
     *("hertz_pressure", "flash_temperature_rise"),
@@ -136,7 +142,7 @@ def _means(record: Record, data: dict[str, np.ndarray]) -> Iterator[str]:
         if not np.isclose(summary[key], value, rtol=1e-6, atol=1e-9 * put_in):
             yield f"summary {key} = {summary[key]:.9g}, the record's works give {value:.9g}"
     error = data["transmission_error_rotational"][window.start : -1]
-    spread = summary["transmission_error_rotational_peak_to_peak"]
+    spread = summary["transmission_error_peak_to_peak"]
     if not spread >= np.ptp(error) * (1 - 1e-9):
         yield f"summary peak to peak {spread:.9g}, the samples' {np.ptp(error):.9g}"
     touching = np.any(data["normal_load"][window.start : -1] > 0, axis=1)

@@ -191,6 +191,7 @@ _RUBBING = ("mesh", "operating", "friction")
 ALSO = {
     "mesh_stiffness_mean": "mean_stiffness",
     "mesh_stiffness_peak_to_peak": "stiffness_swing",
+    "loaded_transmission_error_peak_to_peak": "transmission_error_swing",
     "transmission_error_rotational_peak_to_peak": "transmission_error_swing",
     "power_friction_mean": "friction_power",
     "efficiency_elastic": "efficiency",

@@ -115,7 +115,7 @@ def outputs(
         # of the whole face; the others of the surface are where the line load is highest
         "friction_coefficient": contacting(per_pair(contact.FRICTION_COEFFICIENT)),
         # geometry exists on the whole path of contact, loaded or not
-        "transmission_error": contacting(per_pair(contact.TRANSMISSION_ERROR), inside),
+        "transmission_error_normal": contacting(per_pair(contact.TRANSMISSION_ERROR), inside),
         "pressure_angle": contacting(np.arctan2(per_pair(contact.SIN), per_pair(contact.COS)), inside),
         "time": time,
         "pinion_angle": pinion_angle,

@@ -28,10 +28,10 @@ SAMPLES: dict[str, Variable] = {
     "velocity": Variable(
         ("time", "dof"), "m/s or rad/s", "generalised velocities, in the order of the coordinates"
     ),
-    "transmission_error": Variable(
+    "transmission_error_normal": Variable(
         ("time", "pair"),
         "m",
-        "dynamic transmission error along the pair's normal; NaN where the pair is out of contact",
+        "deflection along the pair's normal, gap not subtracted; NaN where the pair is out of contact",
     ),
     "transmission_error_rotational": Variable(
         ("time",), "m", "rotational dynamic transmission error r_p theta_p - r_g theta_g"

@@ -96,7 +96,7 @@ def gradient(
         "friction_power", "normal_load_max", "hertz_pressure_max", "film_min", "film_parameter_min",
         "flash_temperature_max"; or a distance of `constraints`. All are quasi-static, of elastic load
         sharing.
-        "mesh_stiffness_mean", "mesh_stiffness_peak_to_peak", "transmission_error_rotational_peak_to_peak" and
+        "mesh_stiffness_mean", "mesh_stiffness_peak_to_peak", "loaded_transmission_error_peak_to_peak" and
         "power_friction_mean" of a summary are understood too.
     wrt : str or sequence of str
         Dotted keys of real numbers: geometry (``"drive.module"``, ``"drive.pinion.addendum"``,

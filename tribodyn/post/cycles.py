@@ -98,7 +98,7 @@ def pair_curve(
         Phase or time.
     """
     numbers = record.pairs
-    values = np.where(np.isnan(record["transmission_error"]), np.nan, values)[window.part]
+    values = np.where(np.isnan(record["transmission_error_normal"]), np.nan, values)[window.part]
     column = values[:, numbers.index(pair)]
     older = values[:, numbers.index(pair - 1)] if pair - 1 in numbers and pair <= 1 else None
     pieces_x, pieces_y = [], []

@@ -77,7 +77,7 @@ MOTION = (
         "transmission_error_normal_mean",
         "Deflection along the normal, mean",
         "µm",
-        definition="Mean of the newest pair's deflection along its normal, its gap subtracted.",
+        definition="Mean of the newest pair's deflection along its normal, its gap not subtracted.",
     ),
     Quantity(
         "transmission_error_normal_peak_to_peak",

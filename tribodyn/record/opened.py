@@ -10,6 +10,7 @@ import h5py
 import numpy as np
 
 from tribodyn.errors import InputError, harmless
+from tribodyn.quantities import renamed
 from tribodyn.record.soundness import UNREADABLE, blamed, check_sound, reason_of
 from tribodyn.record.withheld import samples_withheld
 
@@ -66,12 +67,13 @@ class OpenRecord:
         self._file.close()
 
     def __contains__(self, name: object) -> bool:
-        return name in self._file and isinstance(self._file[name], h5py.Dataset)
+        stored = renamed.stored(name, self._file)
+        return stored in self._file and isinstance(self._file[stored], h5py.Dataset)
 
     def dims_of(self, name: str) -> tuple[str, ...]:
         """Names of a dataset's dimensions; none of a group, or of a number."""
         if name not in self._known_dims:
-            item = self._file[name]
+            item = self._file[renamed.stored(name, self._file)]
             dims: tuple[str, ...] = ()
             if isinstance(item, h5py.Dataset) and item.shape:
                 axes = (self._name_of(dim[0]) if len(dim) else "" for dim in item.dims)
@@ -120,7 +122,7 @@ class OpenRecord:
         if name not in self:
             raise InputError("dataset", name, "no such dataset", f"one of {', '.join(self)}")  # pyright: ignore
         try:
-            return self._file[name]
+            return self._file[renamed.stored(name, self._file)]
         except (KeyError, RuntimeError) as error:
             raise self._damaged(error) from error
 

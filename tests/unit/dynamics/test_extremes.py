@@ -79,7 +79,7 @@ def test_measures_are_what_is_recorded(overrides, prepared, rng):
         for side, mine in slots.items():
             np.testing.assert_allclose(found[side + FORCE], np.sum(along[mine]), rtol=1e-12)
             if mine.size:
-                newest = recorded["transmission_error"][mine[-1]]
+                newest = recorded["transmission_error_normal"][mine[-1]]
                 both = [found[side + NEWEST_UP], -found[side + NEWEST_DOWN]]
                 np.testing.assert_allclose(both, newest, rtol=1e-12)
         for pair in np.flatnonzero(recorded["normal_load"] > 0.0):

@@ -74,7 +74,7 @@ def test_every_sample_is_what_its_name_says(prepared, rng, overrides):
             load = float(work[contact.NORMAL_LOAD, i]) if inside else 0.0
             touching = load > 0.0
             assert found["normal_load"][k, i] == pytest.approx(load, rel=1e-9, abs=1e-9)
-            assert np.isfinite(found["transmission_error"][k, i]) == inside
+            assert np.isfinite(found["transmission_error_normal"][k, i]) == inside
             assert np.isfinite(found["central_film_thickness"][k, i]) == touching
             assert (found["mesh_stiffness"][k, i] > 0.0) == touching
             if inside:
@@ -95,7 +95,7 @@ def test_the_smallest_load_is_a_contact(prepared):
     states = np.zeros((2, random_state(np.random.default_rng(1)).size))
     states[:, XI] = 1e-9, -1e-9
     found = outputs(np.full(2, 0.6), states, case.model)
-    inside = np.isfinite(found["transmission_error"][0])
+    inside = np.isfinite(found["transmission_error_normal"][0])
     assert np.all((found["normal_load"][0, inside] > 0.0) & (found["normal_load"][0, inside] < 1.0))
     assert np.all(np.isfinite(found["central_film_thickness"][0, inside]))
     assert np.all(found["mesh_stiffness"][0, inside] > 0.0)

@@ -20,7 +20,7 @@ from tribodyn.post.style import INK, PALETTE, PANEL_HEIGHT, QUIET, WIDTH, mark_p
 from tribodyn.record.reader import Record
 
 TRANSMISSION_ERROR = Quantity(
-    "transmission_error", 1e6, "Transmission error along each pair's normal", "$δ$", "µm"
+    "transmission_error_normal", 1e6, "Deflection along each pair's normal", "$δ$", "µm"
 )
 NORMAL_LOAD = Quantity("normal_load", 1.0, "Normal load of each pair", "$F_n$", "N", from_zero=True)
 FRICTION_FORCE = Quantity(

@@ -155,7 +155,7 @@ def _asked(case: AssessmentCase) -> str:
 
 def _tiles(summary: Mapping[str, Any]) -> str:
     own, margins = summary["simulated"], summary["margins"]["simulated"]
-    lost = summary.get("contact_loss_from")
+    lost = summary.get("contact_loss_speed_from")
     spread = [f"{100.0 * summary[f'efficiency_{end}']:.2f}" for end in ("lowest", "highest")]
     highest = f"{summary['dynamic_factor_max']:.2f} at {summary['dynamic_factor_max_speed'] * _RPM:.0f} rpm"
     root = max(summary[f"{side}_root_tension_max"] for side in ("pinion", "gear"))

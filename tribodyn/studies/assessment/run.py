@@ -1,6 +1,6 @@
 """From a case of an assessment to its record: the other studies' parts, then the standards beside them."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter
@@ -13,6 +13,7 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.families import family
 from tribodyn.geometry.sheet.outlines import geometry_arrays
 from tribodyn.numerics.scatter import SPREAD, scatter
+from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.record.trust import EXTRAPOLATED, INSIDE, OUTSIDE, REASONS, TRUST
 from tribodyn.standards.contact_path import POINTS
 from tribodyn.studies.assessment import parts
@@ -23,9 +24,11 @@ from tribodyn.studies.assessment.local import Local, local_of
 from tribodyn.studies.assessment.said import assumed, extrapolated
 from tribodyn.studies.assessment.simulated import simulated_part
 from tribodyn.studies.assessment.standard import iso_part, standard_of, strength_of
-from tribodyn.studies.assessment.units import units_of
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import Progress, RunResult
+
+#: What is no number, or has the unit of what is compared; what ends the name of a scatter.
+WITHOUT_UNIT, SPREAD_OF = ("limits", "samples"), "_spread"
 
 
 def prepare(case: AssessmentCase) -> Assembly:
@@ -124,6 +127,23 @@ def assessed(
     }
     summary = {name: value for name, value in summary.items() if value not in ({}, [])}
     return local, summary | {"units": units_of(summary)}
+
+
+def units_of(summary: Mapping[str, Any]) -> dict[str, str]:
+    """SI unit of every number of a summary by its name, for programs that read them.
+
+    A value by points, a scatter and a table of values have the unit of the name that they stand under.
+    """
+    found: dict[str, str] = {}
+    for name, value in summary.items():
+        quantity = QUANTITIES.get(name.removesuffix(SPREAD_OF))
+        if name in WITHOUT_UNIT:
+            continue
+        if quantity is None and isinstance(value, Mapping):
+            found |= units_of(value) if not {"worst", "median"} & set(value) else {name: "1"}
+        elif not isinstance(value, str | bool):
+            found[name] = quantity.si if quantity else "1"
+    return dict(sorted(found.items()))
 
 
 def _scatter(values: np.ndarray) -> dict[str, float]:

@@ -73,7 +73,7 @@ def record_arrays(over: Samples, mesh: Places, state: Engagement, duty: Duty) ->
         "velocity": np.stack(
             [zero, zero, zero, zero, zero + duty.pinion_speed, zero + duty.pinion_speed * ratio], -1
         ),
-        "transmission_error": contacting(
+        "transmission_error_normal": contacting(
             duty.way * state.deflection[:, None] * np.cos(cycle.pressure_angle[:, 0])
         ),
         "transmission_error_rotational": state.deflection,

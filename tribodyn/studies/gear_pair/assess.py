@@ -65,8 +65,8 @@ def answer(asked: Asked, done: Mapping[str, Done]) -> Answer:
         }
     if np.any(lost):
         figures |= {
-            "contact_loss_from": float(speeds[lost][0]),
-            "contact_loss_to": float(speeds[lost][-1]),
+            "contact_loss_speed_from": float(speeds[lost][0]),
+            "contact_loss_speed_to": float(speeds[lost][-1]),
             "contact_loss_fraction_max": float(np.nanmax(rows["contact_loss_fraction"])),
         }
     rpm = 30.0 / math.pi

@@ -85,12 +85,13 @@ class RunningExtremes:
         for name, (recorded, sign) in RECORDED.items():
             self._add(name, sign, block[recorded], cycles, block["time"])
         for name, sign in (("max", 1), ("min", -1)):
-            self._add(f"transmission_error_rotational_{name}", sign, error, cycles, block["time"])
+            self._add(f"transmission_error_{name}", sign, error, cycles, block["time"])
         for side, slots in self._slots.items():
             if slots.size:
-                flanks, newest = WORKING[side], block["transmission_error"][:, slots[-1]]
+                flanks, newest = WORKING[side], block["transmission_error_normal"][:, slots[-1]]
                 for name, sign in (("max", 1), ("min", -1)):
-                    self._add(f"{flanks}transmission_error_{name}", sign, newest, cycles, block["time"])
+                    found = f"{flanks}transmission_error_normal_{name}"
+                    self._add(found, sign, newest, cycles, block["time"])
                 self._add(f"{flanks}mesh_force_max", 1, mesh_force(block, slots), cycles, block["time"])
 
     def _add(self, name: str, sign: int, values: np.ndarray, cycles: np.ndarray, time: np.ndarray) -> None:
@@ -225,17 +226,18 @@ def steady_figures(
     # a load that is reversed on the mean has driving flanks to work on where there is no backlash
     sign = -1.0 if force < 0.0 and np.any(cycle.side < 0) else 1.0
     # the last slot of either side holds a pair that is on the path of contact all the time
-    newest = window["transmission_error"][:, np.flatnonzero(cycle.side * sign > 0)[-1]]
+    newest = window["transmission_error_normal"][:, np.flatnonzero(cycle.side * sign > 0)[-1]]
     flanks = WORKING[sign]
     keep = orders <= 20.0 + 1e-9
     return {
         "averaging_cycles": len(error) // samples,
         "mesh_frequency": frequency,
-        "transmission_error_mean": float(np.nanmean(newest)),
-        "transmission_error_peak_to_peak": extremes.spread(f"{flanks}transmission_error"),
-        "transmission_error_rotational_mean": float(np.mean(error)),
+        "transmission_error_mean": float(np.mean(error)),
+        "transmission_error_rms": float(np.std(error)),
+        "transmission_error_peak_to_peak": extremes.spread("transmission_error"),
         "transmission_error_harmonics": spectrum.harmonics(HARMONICS),
-        "transmission_error_rotational_peak_to_peak": extremes.spread("transmission_error_rotational"),
+        "transmission_error_normal_mean": float(np.nanmean(newest)),
+        "transmission_error_normal_peak_to_peak": extremes.spread(f"{flanks}transmission_error_normal"),
         "dynamic_factor": extremes.by_name[f"{flanks}mesh_force_max"].value / abs(force)
         if force != 0.0
         else float("nan"),

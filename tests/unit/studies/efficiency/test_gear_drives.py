@@ -116,7 +116,7 @@ def test_the_record_begins_where_a_pair_enters(tmp_path):
         assert load[-1, older] == 0.0
         assert np.all(record["power_in"] < 0.0)
         assert np.all(record["transmission_error_rotational"] < 0.0)
-        assert np.nanmin(record["transmission_error"]) > 0.0
+        assert np.nanmin(record["transmission_error_normal"]) > 0.0
         efficiency = record["efficiency"]
         np.testing.assert_allclose(efficiency, record["power_in"] / record["power_out"], rtol=1e-10)
 

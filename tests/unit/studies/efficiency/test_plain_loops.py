@@ -143,7 +143,9 @@ def test_datasets_of_a_mesh_cycle_in_plain_loops(study: Prepared):
                 "entrainment_speed": state.entrainment[k, own],
                 "sliding_speed": state.sliding[k, own],
                 "pressure_angle": float(study.path.pressure_angle(0.0)),
-                "transmission_error": way * state.deflection[k] * math.cos(study.path.pressure_angle(0.0)),
+                "transmission_error_normal": way
+                * state.deflection[k]
+                * math.cos(study.path.pressure_angle(0.0)),
             }
             for name, value in expected.items():
                 wanted = float(value) if touches else math.nan

@@ -60,7 +60,7 @@ def window(way: int, torque: float) -> tuple[dict[str, np.ndarray], np.ndarray]:
     work[WORK_IN] = gear + work[WORK_FRICTION]
     return {
         "transmission_error_rotational": 1e-5 + 4e-6 * np.cos(6.0 * np.pi * phase),
-        "transmission_error": error,
+        "transmission_error_normal": error,
         "normal_load": load,
         "pressure_angle": angle,
         "mesh_stiffness": np.where(load > 0.0, 3e8 + 1e8 * np.cos(2.0 * np.pi * phase)[:, None], 0.0),
@@ -89,9 +89,9 @@ def test_figures_of_a_known_window(way):
     assert found["averaging_cycles"] == CYCLES
     assert found["mesh_frequency"] == pytest.approx(MEAN_SPEED / PITCH, rel=1e-12)
     assert found["dynamic_factor"] == pytest.approx(1.25, rel=1e-12)
-    assert found["transmission_error_mean"] == pytest.approx(2.1e-5, rel=1e-12)
-    assert found["transmission_error_peak_to_peak"] == pytest.approx(6e-6, rel=1e-9)
-    assert found["transmission_error_rotational_mean"] == pytest.approx(1e-5, rel=1e-12)
+    assert found["transmission_error_normal_mean"] == pytest.approx(2.1e-5, rel=1e-12)
+    assert found["transmission_error_normal_peak_to_peak"] == pytest.approx(6e-6, rel=1e-9)
+    assert found["transmission_error_mean"] == pytest.approx(1e-5, rel=1e-12)
     # by loss: (0.1 · 0.3 · 2 + 0.04 · 0.7 · 1)/(0.3 · 2 + 0.7 · 1)
     assert found["friction_coefficient_mean"] == pytest.approx(0.088 / 1.3, rel=1e-12)
     static = torque / RADIUS / np.cos(0.4)
@@ -135,7 +135,7 @@ def test_time_without_contact_and_without_load():
 
 def test_extremes_of_blocks_are_those_of_the_whole(rng):
     values = {name: rng.normal(size=(30, 4)) for name, _ in RECORDED.values()}
-    values |= {name: rng.normal(size=(30, 4)) for name in ("transmission_error", "pressure_angle")}
+    values |= {name: rng.normal(size=(30, 4)) for name in ("transmission_error_normal", "pressure_angle")}
     values |= {name: rng.normal(size=30) for name in ("transmission_error_rotational", "time")}
     values["film_parameter"][:10] = np.nan
     extremes = RunningExtremes(CYCLE)
@@ -150,8 +150,10 @@ def test_extremes_of_blocks_are_those_of_the_whole(rng):
     where = extremes.by_name["normal_load_max"]
     row, slot = np.argwhere(values["normal_load"] == where.value)[0]
     assert (where.mesh_cycle, where.time, where.pair) == (cycles[row], values["time"][row], slot)
-    assert extremes.spread("transmission_error_rotational") == np.ptp(values["transmission_error_rotational"])
-    assert extremes.spread("back_transmission_error") == np.ptp(values["transmission_error"][:, 3])
+    assert extremes.spread("transmission_error") == np.ptp(values["transmission_error_rotational"])
+    assert extremes.spread("back_transmission_error_normal") == np.ptp(
+        values["transmission_error_normal"][:, 3]
+    )
 
 
 def test_a_minimum_has_its_place_on_the_path_of_contact():

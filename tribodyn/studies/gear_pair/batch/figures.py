@@ -36,17 +36,11 @@ def window_figures(
     extremes = RunningExtremes(prepared.cycle)
     extremes.add(cycles, block)
     extremes.add(at, extreme)
-    error = window.states[:, XI]
     speed = prepared.case.operating.pinion_speed
     work = window.end - window.start
     inside = {name: values[:count] for name, values in block.items()}
     figures = steady_figures(inside, work, prepared.cycle, samples, speed, extremes)
-    # a run's summary means the newest pair's; over a sweep only the error of the whole mesh is continuous
-    figures |= extremes.values() | {
-        "transmission_error_rms": float(np.std(error)),
-        "transmission_error_peak_to_peak": figures["transmission_error_rotational_peak_to_peak"],
-        "transmission_error_mean": float(np.mean(error)),
-    }
+    figures |= extremes.values()
     figures |= thermal_figures(prepared.thermal, figures["power_in_mean"], figures["efficiency"])
     judge = Judge()
     judge_block(judge, cycles, block, prepared)
