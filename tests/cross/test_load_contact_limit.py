@@ -7,8 +7,7 @@ import pytest
 
 from tests.support.closures import known
 from tribodyn.compliance.sharing.flank_gap import flank_gap
-from tribodyn.compliance.sharing.load_sharing import flexibility, share_load
-from tribodyn.compliance.sharing.loaded_flanks import LoadedFlanks
+from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility, share_load
 from tribodyn.compliance.sharing.slices import face_positions
 from tribodyn.dynamics.outputs import outputs, segment_of
 from tribodyn.geometry.assembly import assemble

@@ -9,9 +9,17 @@ import numpy as np
 
 from tribodyn.geometry.drive import SIDES, Drive, Side, tip_circle_radius, tip_radius
 from tribodyn.geometry.family import Family
-from tribodyn.geometry.path import Path, contact_limits, contact_ratio, kinematics, radius, seen_from
+from tribodyn.geometry.path import (
+    Path,
+    contact_limits,
+    contact_ratio,
+    distance_at_radius,
+    kinematics,
+    radius,
+    seen_from,
+)
 from tribodyn.geometry.tooth.tooth import Tooth, cut_tooth, fillet_point, thickness_half_angle
-from tribodyn.numerics.elementary import as_float, namespace
+from tribodyn.numerics.elementary import as_float, cos, namespace, sqrt
 
 _SAMPLES = 400
 
@@ -159,3 +167,37 @@ def tip_corner_gap(assembly: Assembly, side: Side) -> Any:
 def _polar(x: Any, y: Any) -> tuple[Any, Any]:
     xp = namespace(x, y)
     return xp.hypot(x, y), xp.arctan2(y, x)
+
+
+def circumferential_backlash(assembly: Assembly) -> Any:
+    """Arc j_wt of the working pitch circle by which a gear can turn, m: pitch less both tooth thicknesses."""
+    radius = assembly.path.pinion_pitch_radius
+    pitch = 2 * np.pi * radius / assembly.drive.pinion.teeth
+    thicknesses = 0.0
+    for side in SIDES:
+        radius = assembly.path_of(side).pinion_pitch_radius
+        thicknesses = thicknesses + 2 * radius * thickness_half_angle(assembly.tooth(side), radius)
+    return pitch - thicknesses
+
+
+def normal_backlash(assembly: Assembly) -> Any:
+    """Distance j_bn between the back flanks along their normal at the pitch point, m; negative: overlap."""
+    return circumferential_backlash(assembly) * cos(assembly.path.pressure_angle(0.0))
+
+
+def flank_angle_at_tip(family: Family, drive: Drive, side: Side) -> Any:
+    """Sine and cosine of the angle between the flank at the tip circle and the radius there.
+
+    The flank's normal passes the axis at the arm r_p cos α: the cosine is this arm over the tip's radius.
+    """
+    path, _ = family.generating_path(drive, side)
+    outer = tip_circle_radius(drive, side)
+    arm = path.pinion_pitch_radius * cos(path.pressure_angle(distance_at_radius(path, outer)))
+    cosine = arm / outer
+    return sqrt(1.0 - cosine**2), cosine
+
+
+def tip_break(family: Family, drive: Drive, side: Side, rounding: float) -> Any:
+    """Height below the tip circle, m, at which a rounding of radius ρ ends on the flank: ρ (1 − sin α_a)."""
+    sine, _ = flank_angle_at_tip(family, drive, side)
+    return rounding * (1.0 - sine)

@@ -15,7 +15,7 @@ from tribodyn.mesh.tabulate import pair_slots, tabulate
 REPORTED_DEVIATION = 0.1
 
 if TYPE_CHECKING:
-    from tribodyn.compliance.sharing.loaded_flanks import LoadedFlanks
+    from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
 
 
 def mesh_cycle_of(

@@ -15,6 +15,7 @@ import numpy as np
 
 from tribodyn.numerics.elementary import namespace
 from tribodyn.numerics.shapes import Array, Float
+from tribodyn.numerics.variable import Variable
 
 
 class MeshCycle(NamedTuple):
@@ -24,47 +25,19 @@ class MeshCycle(NamedTuple):
     entered last in the last of them ("pair 1" of two, as Liu & Ni number them); slots of back flanks, if
     any, follow. Where a slot is out of contact its values are finite but mean nothing.
 
-    Attributes
-    ----------
-    boundary : (S + 1,), phases at which the set of contacting pairs changes, from 0 to 1
-    in_contact : (S, Q), 1 where the slot's pair is inside the theoretical path of contact, else 0
-    side : (Q,)
-        +1 for the driving (front) flanks, −1 for the back flanks, which live in the world mirrored about
-        the line of centres.
-    phase : (S, N), phase of the nodes, mesh cycles
-    pressure_angle : (S, N, Q), angle α of the common normal against the pitch tangent, rad
-    signed_distance : (S, N, Q), r, from the pitch point to the contact, negative in approach, m
-    equivalent_radius : (S, N, Q)
-        ρ, one over the sum of both flanks' curvatures, m; 0 at the pitch point of a path whose pressure
-        angle is zero there.
-    pinion_speed, gear_speed : (S, N, Q)
-        Speed of the contact point along the pinion's and the gear's flank, m/s per rad/s of the pinion.
-    compliance : (S, N, Q)
-        Deflection of one pair along the normal per normal load, both teeth, bodies and, where it is
-        linear, the Hertz contact; m/N.
-    gap : (S, N, Q)
-        Static transmission error along the normal, positive where material is missing; for back flanks
-        the backlash along it; m.
-    coupling : (S, N, Q, Q)
-        Deflection of the pair in one slot per load on the pair in another, through the common gear
-        bodies; zero diagonal, symmetric; m/N.
-    line_load_friction, line_load_peak : (S, N, Q)
-        Line loads over their mean along the whole face, at the load of the table, ≥ 1: the one at which
-        friction acts as it does on the uneven face, and the maximum, K_Hβ (`sharing.line_load`).
-    hertz_coefficient : float
-        A of the load-dependent Hertz deflection A F^0.9, m/N^0.9; 0 where the Hertz contact is linear.
-    pinion_pitch_radius, gear_pitch_radius : working pitch radii, m
-    pinion_teeth : number of teeth of the pinion
-    face_width : common face width, m
-    contact_ratio : theoretical transverse contact ratio: the path of contact over the pitch
-    pitch_point_phase : float
-        Phase at which the newest pair passes the pitch point (may exceed 1: then it is no longer newest).
-    roll_start, roll_end : float
-        Pinion angle from the pitch point at which a pair enters and leaves the table, rad: the ends of the
-        path of contact, or further out where corners can touch.
-    pitch_point_length, pitch_point_rate : float
-        M (m) and entrainment over equivalent radius (1/rad) where both vanish at the pitch point, see
-        `geometry.pitch_point`; 0 for a path on which they do not.
+    `MESH_CYCLE` says what each field is. In the table boundaries are (S + 1,), `in_contact` (S, Q), `side`
+    (Q,), `phase` (S, N), `coupling` (S, N, Q, Q) and the other arrays (S, N, Q). Beside that:
+
+    - `equivalent_radius` is 0 at the pitch point of a path whose pressure angle is zero there;
+    - `compliance` is of both teeth, bodies and, where it is linear, the Hertz contact; `hertz_coefficient` is
+      A of the load-dependent Hertz deflection A F^0.9, 0 where the Hertz contact is linear;
+    - `gap` is positive where material is missing;
+    - `coupling` is through the common gear bodies; zero diagonal, symmetric;
+    - `line_load_friction` and `line_load_peak` are those at the load of the table, ≥ 1 (`sharing.slices`);
+    - back flanks live in the world mirrored about the line of centres;
+    - `pitch_point_phase` may exceed 1: the pair that passes the pitch point is then no longer the newest;
+    - `pitch_point_length` and `pitch_point_rate` are those of `geometry.pitch_point`, 0 for a regular path;
+    - `roll_start` and `roll_end` are the ends of the path of contact, or further out where corners can touch.
     """
 
     boundary: Any
@@ -108,6 +81,65 @@ class MeshCycle(NamedTuple):
         """Pinion rotation in one mesh cycle, rad (Liu & Ni (1) times the speed)."""
         return 2 * np.pi / self.pinion_teeth
 
+
+#: Fields of a `MeshCycle` as a record has them: dimensions, unit, meaning; (phase,) is (S, N) in the table.
+MESH_CYCLE: dict[str, Variable] = {
+    "boundary": Variable(
+        ("boundary",), "1", "phases, in mesh cycles, at which the set of contacting pairs changes"
+    ),
+    "phase": Variable(
+        ("phase",),
+        "1",
+        "phase of the mesh in mesh cycles; boundaries of segments stand twice, before and after",
+    ),
+    "side": Variable(("pair",), "1", "+1 driving flanks, -1 back flanks"),
+    "in_contact": Variable(
+        ("phase", "pair"),
+        "1",
+        "1 where the pair is on the theoretical path of contact; elsewhere its values mean nothing",
+    ),
+    "pressure_angle": Variable(("phase", "pair"), "rad", "angle of the common normal to the pitch tangent"),
+    "signed_distance": Variable(
+        ("phase", "pair"), "m", "distance from pitch point to contact, negative in approach"
+    ),
+    "equivalent_radius": Variable(
+        ("phase", "pair"), "m", "one over the sum of the flanks' curvatures, at the very point of contact"
+    ),
+    "pinion_speed": Variable(
+        ("phase", "pair"), "m/rad", "speed of the contact along the pinion's flank per pinion speed"
+    ),
+    "gear_speed": Variable(
+        ("phase", "pair"), "m/rad", "speed of the contact along the gear's flank per pinion speed"
+    ),
+    "compliance": Variable(
+        ("phase", "pair"), "m/N", "deflection of one pair along its normal per normal load"
+    ),
+    "gap": Variable(
+        ("phase", "pair"), "m", "static transmission error; for back flanks the backlash along the normal"
+    ),
+    "line_load_friction": Variable(
+        ("phase", "pair"), "1", "line load at which friction acts as on the uneven face, over the mean"
+    ),
+    "line_load_peak": Variable(
+        ("phase", "pair"), "1", "maximum line load along the face over the mean, K_Hbeta"
+    ),
+    "coupling": Variable(
+        ("phase", "pair", "other_pair"),
+        "m/N",
+        "deflection of a pair per load on the other pair, through the gear bodies",
+    ),
+    "hertz_coefficient": Variable((), "m/N^0.9", "hertz coefficient"),
+    "pinion_pitch_radius": Variable((), "m", "pinion pitch radius"),
+    "gear_pitch_radius": Variable((), "m", "gear pitch radius"),
+    "pinion_teeth": Variable((), "1", "pinion teeth"),
+    "face_width": Variable((), "m", "face width"),
+    "contact_ratio": Variable((), "1", "contact ratio"),
+    "pitch_point_phase": Variable((), "1", "pitch point phase"),
+    "roll_start": Variable((), "rad", "roll start"),
+    "roll_end": Variable((), "rad", "roll end"),
+    "pitch_point_length": Variable((), "m", "pitch point length"),
+    "pitch_point_rate": Variable((), "1/rad", "pitch point rate"),
+}
 
 #: Channels of `Polynomials.channel`, in order; cosine and sine of the pressure angle.
 CHANNELS = (

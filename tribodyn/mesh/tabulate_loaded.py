@@ -16,9 +16,8 @@ import numpy as np
 from tribodyn.compliance.fem.gear_compliance import without_neighbours
 from tribodyn.compliance.sharing.condensed import Condensed, condense
 from tribodyn.compliance.sharing.flank_gap import flank_gap, relief_rolls
-from tribodyn.compliance.sharing.load_sharing import flexibility, share_load
+from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, flexibility, share_load
 from tribodyn.compliance.sharing.loaded_contact import reach
-from tribodyn.compliance.sharing.loaded_flanks import LoadedFlanks
 from tribodyn.compliance.sharing.loaded_rules import check_contact, check_resolved, check_torque
 from tribodyn.compliance.sharing.slices import face_positions
 from tribodyn.geometry.assembly import Assembly

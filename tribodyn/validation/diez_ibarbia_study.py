@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tribodyn.compliance.sharing.load_sharing import LEVEL, flexibility
-from tribodyn.compliance.sharing.pair_flexibility import PairFlexibility
+from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.drive import Drive, tip_radius
 from tribodyn.geometry.families.involute import FAMILY

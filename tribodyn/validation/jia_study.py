@@ -12,7 +12,7 @@ import numpy as np
 
 from tribodyn.compliance.sharing.load_sharing import flexibility
 from tribodyn.compliance.sharing.loaded_contact import LoadedContact, roll_through
-from tribodyn.compliance.sharing.pair_flexibility import PairFlexibility
+from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family
 from tribodyn.geometry.flanks.modification import FlankModification, LeadRelief, Misalignment, Modifications

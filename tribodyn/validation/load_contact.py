@@ -12,8 +12,7 @@ from tribodyn.compliance.sharing.flank_gap import flank_gap
 from tribodyn.compliance.sharing.load_sharing import effective_contact_ratio, extended_rolls, share_load
 from tribodyn.compliance.sharing.loaded_contact import reach
 from tribodyn.compliance.sharing.loaded_rules import check_contact
-from tribodyn.compliance.sharing.pair_flexibility import PairFlexibility
-from tribodyn.compliance.sharing.slices import face_positions
+from tribodyn.compliance.sharing.slices import PairFlexibility, face_positions
 from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.geometry.flanks.modification import UNMODIFIED, Modifications, back_flanks, uneven_teeth
 from tribodyn.mesh.power_flow import efficiency

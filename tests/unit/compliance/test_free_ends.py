@@ -8,8 +8,14 @@ from scipy.sparse.linalg import splu
 from scipy.spatial import KDTree
 
 from tests.support.twelve_teeth import BODY, TOOTH, few_cells
-from tribodyn.compliance.fem.end_faces import openings, parity_weights
-from tribodyn.compliance.fem.free_ends import at_phase, face_of, free_ends, harmonic_of
+from tribodyn.compliance.fem.free_ends import (
+    at_phase,
+    face_of,
+    free_ends,
+    harmonic_of,
+    openings,
+    parity_weights,
+)
 from tribodyn.compliance.fem.gear_compliance import without_neighbours
 from tribodyn.compliance.fem.gear_model import gear_model
 from tribodyn.compliance.fem.ring_mesh import sector_mesh

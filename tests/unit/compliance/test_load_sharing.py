@@ -17,7 +17,7 @@ from tribodyn.compliance.sharing.load_sharing import (
     in_batches,
     share_load,
 )
-from tribodyn.compliance.sharing.pair_flexibility import PairFlexibility
+from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import cycloidal
 from tribodyn.geometry.families.involute import FAMILY

@@ -8,10 +8,9 @@ from pathlib import Path
 import pytest
 
 from tests.support.twelve_teeth import TOOTH
-from tribodyn.compliance.fem import mesh_memory
+from tribodyn.compliance.fem import gear as mesh_memory
 from tribodyn.compliance.fem.cyclic_symmetry import half_sector
-from tribodyn.compliance.fem.gear import gear_compliance, lead_harmonics
-from tribodyn.compliance.fem.mesh_memory import check_level, memory_needed
+from tribodyn.compliance.fem.gear import check_level, gear_compliance, lead_harmonics, memory_needed
 from tribodyn.compliance.fem.ring_mesh import half_sector_cells, half_sector_mesh
 from tribodyn.errors import InputError
 

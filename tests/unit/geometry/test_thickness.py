@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 
 from tests.support.sample_drives import SHIFTED, STANDARD
-from tribodyn.geometry.assembly import assemble
-from tribodyn.geometry.drive import body_of
+from tribodyn.geometry.assembly import assemble, tip_break
+from tribodyn.geometry.drive import PROFILES, body_of
 from tribodyn.geometry.families import involute
-from tribodyn.geometry.flanks.tip_rounding import tip_break
-from tribodyn.geometry.sheet.measures import Gauge, thickness_lines
-from tribodyn.geometry.sheet.thickness import (
+from tribodyn.geometry.sheet.measures import (
+    Gauge,
     Involute,
     allowance_of_pins,
     allowance_of_span,
@@ -19,9 +18,9 @@ from tribodyn.geometry.sheet.thickness import (
     pin_contact_diameter,
     span,
     span_contact_diameter,
+    thickness_lines,
     usual_span_teeth,
 )
-from tribodyn.geometry.tooth.rack_profile import PROFILES
 from tribodyn.geometry.tooth.tooth import flank_point
 
 ALLOWANCE = -90e-6

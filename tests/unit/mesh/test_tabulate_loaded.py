@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from tribodyn.compliance.sharing.load_sharing import (
+    LoadedFlanks,
     effective_contact_ratio,
     extended_rolls,
     flexibility,
     share_load,
 )
-from tribodyn.compliance.sharing.loaded_flanks import LoadedFlanks
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import assemble
 from tribodyn.geometry.families import family

@@ -15,9 +15,8 @@ from typing import NamedTuple
 import numpy as np
 
 from tribodyn.compliance.sharing.face_compliance import slice_compliance
-from tribodyn.compliance.sharing.line_load import friction_ratio, peak_ratio
 from tribodyn.compliance.sharing.load_sharing import SharedLoad, contact_deflection, in_batches, press_pairs
-from tribodyn.compliance.sharing.pair_flexibility import PairFlexibility
+from tribodyn.compliance.sharing.slices import PairFlexibility, friction_ratio, peak_ratio
 from tribodyn.geometry.flanks.corner_contact import PairGeometry, part_of
 from tribodyn.numerics.shapes import Array, Float
 
@@ -31,7 +30,7 @@ _MINIMUM_SLICE = 1e-3
 class Condensed(NamedTuple):
     """Compliance and gap (position, pair), coupling (position, pair, pair; zero diagonal), m/N and m.
 
-    The ratios of `line_load` (position, pair) are those of the loads at which the pairs are linearised.
+    The ratios of the line load (position, pair) are those of the loads at which the pairs are linearised.
     """
 
     compliance: Float[Array, "position pair"]

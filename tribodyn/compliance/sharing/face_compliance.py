@@ -4,8 +4,7 @@ import numpy as np
 
 from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, FreeEnds, at_radii
 from tribodyn.compliance.fem.lead_harmonics import spline_weights
-from tribodyn.compliance.sharing.pair_flexibility import PairFlexibility
-from tribodyn.compliance.sharing.slices import by_slices, face_positions, pair_harmonics
+from tribodyn.compliance.sharing.slices import PairFlexibility, by_slices, face_positions, pair_harmonics
 from tribodyn.geometry.flanks.corner_contact import PairGeometry
 from tribodyn.numerics.shapes import Array, Float
 

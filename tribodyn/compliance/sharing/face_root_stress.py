@@ -7,8 +7,7 @@ import numpy as np
 from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, FreeEnds, at_radii
 from tribodyn.compliance.fem.lead_harmonics import at_wave_numbers
 from tribodyn.compliance.sharing.face_compliance import end_modes
-from tribodyn.compliance.sharing.pair_flexibility import PairFlexibility
-from tribodyn.compliance.sharing.slices import modes, wave_numbers
+from tribodyn.compliance.sharing.slices import PairFlexibility, modes, wave_numbers
 from tribodyn.geometry.flanks.corner_contact import PairGeometry
 from tribodyn.numerics.shapes import Array, Float
 

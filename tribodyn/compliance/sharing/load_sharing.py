@@ -20,10 +20,12 @@ from tribodyn.compliance.fem.cache import cached_gear_compliance
 from tribodyn.compliance.local import Elastic, hertz_half_width, weber_banaschek, weber_banaschek_slope
 from tribodyn.compliance.sharing.active_set import press
 from tribodyn.compliance.sharing.face_compliance import slice_compliance
-from tribodyn.compliance.sharing.pair_flexibility import PairFlexibility
+from tribodyn.compliance.sharing.flank_gap import flank_gap
+from tribodyn.compliance.sharing.slices import PairFlexibility, face_positions
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.geometry.flanks.corner_contact import pair_geometry, part_of
+from tribodyn.geometry.flanks.modification import UNMODIFIED, Modifications
 from tribodyn.geometry.pitch_point import pitch_point
 from tribodyn.numerics.blas_threads import one_blas_thread
 from tribodyn.numerics.shapes import Array, Float, Int
@@ -249,3 +251,33 @@ def effective_contact_ratio(roll: Float[Array, "position pair"], shared: SharedL
         share = overlap[here] / (overlap[here] - overlap[there])
         ends.append(angle[here] + share * (angle[there] - angle[here]))
     return float((ends[1] - ends[0]) / pitch)
+
+
+class LoadedFlanks(NamedTuple):
+    """What the load contact model needs to know except position, load and friction.
+
+    Attributes
+    ----------
+    flexible : with `lead` where slices hold each other
+    modifications : without pitch errors: all teeth are alike
+    slices : equal slices of the face
+    coupled : whether slices hold each other through the teeth and bodies
+    """
+
+    flexible: PairFlexibility
+    modifications: Modifications = UNMODIFIED
+    slices: int = 1
+    coupled: bool = True
+
+    def share(
+        self,
+        roll: Float[Array, "position pair"],
+        gear_torque: float,
+        friction_coefficient: Float[Array, "position pair"] | float = 0.0,
+    ) -> SharedLoad:
+        """Share the gear's torque among pairs at the roll angles (position, pair), see `share_load`."""
+        flexible = self.flexible
+        geometry = pair_geometry(flexible.assembly, roll)
+        face = face_positions(flexible.width, self.slices)
+        gap = flank_gap(flexible.assembly, self.modifications, geometry, face)
+        return share_load(flexible, roll, gear_torque, friction_coefficient, gap, self.slices, self.coupled)

@@ -13,8 +13,7 @@ from tribodyn.compliance.sharing.face_root_stress import root_stress
 from tribodyn.compliance.sharing.flank_gap import flank_gap, pitch_gap
 from tribodyn.compliance.sharing.load_sharing import SharedLoad, half_width, share_load
 from tribodyn.compliance.sharing.loaded_rules import check_contact, check_resolved
-from tribodyn.compliance.sharing.pair_flexibility import PairFlexibility
-from tribodyn.compliance.sharing.slices import face_positions
+from tribodyn.compliance.sharing.slices import PairFlexibility, face_positions
 from tribodyn.geometry.flanks.corner_contact import PairGeometry, pair_geometry, roll_at_gap
 from tribodyn.geometry.flanks.modification import Modifications
 from tribodyn.numerics.blas_threads import one_blas_thread

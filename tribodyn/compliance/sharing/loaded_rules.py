@@ -4,7 +4,7 @@ import numpy as np
 
 from tribodyn.compliance.sharing.flank_gap import check_modifications, maximum_along_lead
 from tribodyn.compliance.sharing.load_sharing import SharedLoad, half_width
-from tribodyn.compliance.sharing.pair_flexibility import PairFlexibility
+from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.flanks.corner_contact import pair_geometry

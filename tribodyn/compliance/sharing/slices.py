@@ -18,15 +18,33 @@ surface is each slice's own (`local`), with its line load; λ holds what a load 
 makes less than that, down to wavelengths of the contact's width.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 from scipy.interpolate import CubicSpline, RectBivariateSpline
 
 from tribodyn.compliance.fem.gear_compliance import NEIGHBOURS, GearCompliance
 from tribodyn.compliance.fem.lead_harmonics import at_wave_numbers
-from tribodyn.compliance.local import freed_of_depth
-from tribodyn.compliance.sharing.pair_flexibility import PairFlexibility
+from tribodyn.compliance.local import Elastic, freed_of_depth
+from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.flanks.corner_contact import PairGeometry
 from tribodyn.numerics.shapes import Array, Float
+
+
+class PairFlexibility(NamedTuple):
+    """Elasticity of both gears of a drive; see `load_sharing.flexibility`.
+
+    Attributes
+    ----------
+    materials : (Elastic, Elastic)
+    width : common face width, m
+    gears : (GearCompliance, GearCompliance)
+    """
+
+    assembly: Assembly
+    materials: tuple[Elastic, Elastic]
+    width: float
+    gears: tuple[GearCompliance, GearCompliance]
 
 
 def face_positions(width: float, slices: int) -> Float[Array, " slice"]:
@@ -102,3 +120,32 @@ def _responses(
         response = at_wave_numbers(gear, wave_number, poisson_ratio)
         return response.own, response.between
     return freed_of_depth(gear.inside, poisson_ratio)[None], gear.between[None]
+
+
+def friction_ratio(slice_load: Float[Array, "*pair slice"]) -> Float[Array, "*pair"]:
+    """W/q̄ of loads (…, slice) ≥ 0, N, of equal slices; at least 1, and 1 where nothing is loaded.
+
+    Friction on the slices of a face is ∫ μ(q) q dz. A coefficient that goes like q^m takes the same at an
+    even line load W with (W/q̄)^m = ⟨s^(1+m)⟩, s = q/q̄ and ⟨⟩ the mean over the whole face. Laws of
+    lubricated flanks have a small m, |m| < 0.3, and as m goes to zero this becomes
+
+        W/q̄ = exp ⟨s ln s⟩,
+
+    whatever the law: the load-weighted geometric mean of the line load. The next term of ln W is
+    ½ m (⟨s ln² s⟩ − ⟨s ln s⟩²), 5 % of W for a triangle and m = 0.3, 1.5 % of the friction.
+    """
+    share = _share(slice_load)
+    return np.exp(np.mean(share * np.log(np.where(share > 0.0, share, 1.0)), axis=-1))
+
+
+def peak_ratio(slice_load: Float[Array, "*pair slice"]) -> Float[Array, "*pair"]:
+    """K_Hβ (ISO 6336-1) of loads (…, slice) ≥ 0, N, of equal slices; 1 where nothing is loaded.
+
+    There the film is thinnest, pressure and flash temperature are highest.
+    """
+    return np.max(_share(slice_load), axis=-1)
+
+
+def _share(slice_load: Float[Array, "*pair slice"]) -> Float[Array, "*pair slice"]:
+    mean = np.mean(slice_load, axis=-1, keepdims=True)
+    return np.where(mean > 0.0, slice_load / np.where(mean > 0.0, mean, 1.0), 1.0)

@@ -9,16 +9,16 @@ import numpy as np
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import (
     Assembly,
+    flank_angle_at_tip,
     lowest_contact_radius,
     lowest_contact_speed,
     mate_of,
+    normal_backlash,
     tip_clearance,
     tip_corner_gap,
 )
-from tribodyn.geometry.backlash import normal_backlash
 from tribodyn.geometry.drive import SIDES, Drive, GearBody, Side, body_of, tip_circle_radius
 from tribodyn.geometry.family import Family
-from tribodyn.geometry.flanks.tip_rounding import flank_angle_at_tip
 from tribodyn.geometry.tooth.tooth import Tooth, flank_point, thickness_half_angle
 
 _MAXIMUM_PRESSURE_ANGLE = math.radians(45)

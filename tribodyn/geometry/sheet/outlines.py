@@ -8,6 +8,34 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import SIDES, body_of, tip_radius
 from tribodyn.geometry.path import position
 from tribodyn.geometry.tooth.body import gear_polygon
+from tribodyn.numerics.variable import Variable
+
+#: Curves and radii.
+GEOMETRY: dict[str, Variable] = {
+    "pinion_outline": Variable(
+        ("pinion_point", "axis"),
+        "m",
+        "outline of the pinion about its axis, turned as when a pair touches at the pitch point",
+    ),
+    "gear_outline": Variable(
+        ("gear_point", "axis"),
+        "m",
+        "outline of the gear about its axis, turned as when a pair touches at the pitch point",
+    ),
+    "path_of_contact": Variable(
+        ("path_point", "axis"), "m", "path of contact, origin at the pitch point, x along the pitch tangent"
+    ),
+    **{
+        f"{side}_{circle}_radius": Variable((), "m", f"radius of the {side}'s {what}")
+        for side in ("pinion", "gear")
+        for circle, what in (
+            ("tip", "tip circle"),
+            ("root", "root circle"),
+            ("pitch", "pitch circle"),
+            ("bore", "bore"),
+        )
+    },
+}
 
 
 def geometry_arrays(assembly: Assembly) -> dict[str, Any]:

@@ -6,8 +6,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from tribodyn.geometry.assembly import Assembly
-from tribodyn.geometry.backlash import normal_backlash
+from tribodyn.geometry.assembly import Assembly, normal_backlash
 from tribodyn.geometry.drive import SIDES, Drive, body_of
 from tribodyn.geometry.flanks.modification import Modifications, vary_along_lead
 from tribodyn.geometry.material import BodyMass, MaterialData
@@ -88,8 +87,8 @@ def teeth_of(drive: model_files.DriveTable) -> dict[str, Any]:
 
 def drive_of(drive: model_files.DriveTable) -> Drive:
     """Return the geometry of a drive file."""
+    from tribodyn.geometry.assembly import tip_break
     from tribodyn.geometry.families import family
-    from tribodyn.geometry.flanks.tip_rounding import tip_break
 
     teeth = family(drive.family)
     sharp = Drive(

@@ -5,8 +5,8 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from tribodyn.dynamics.rolling_bearing import BearingType
+from tribodyn.geometry.drive import PROFILES
 from tribodyn.geometry.families import FAMILIES
-from tribodyn.geometry.tooth.rack_profile import PROFILES
 from tribodyn.scenario import units
 from tribodyn.scenario.printed import Printed, PrintedQuantity
 from tribodyn.scenario.quantity import (

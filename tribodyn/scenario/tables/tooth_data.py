@@ -4,11 +4,16 @@ import math
 from collections.abc import Iterator
 
 from tribodyn.errors import InputError, unknown_name
-from tribodyn.geometry.drive import GearBody
+from tribodyn.geometry.drive import PROFILES, GearBody
 from tribodyn.geometry.families import FAMILIES
-from tribodyn.geometry.sheet.measures import Gauge
-from tribodyn.geometry.sheet.thickness import Involute, allowance_of_pins, allowance_of_span, over_pins, span
-from tribodyn.geometry.tooth.rack_profile import PROFILES
+from tribodyn.geometry.sheet.measures import (
+    Gauge,
+    Involute,
+    allowance_of_pins,
+    allowance_of_span,
+    over_pins,
+    span,
+)
 from tribodyn.scenario.tables.model_files import DriveTable, Gear
 
 #: Heights and rounding where neither the gear nor a rack says them.

@@ -1,6 +1,6 @@
 """Datasets of an assessment: along the path of contact of one pair."""
 
-from tribodyn.geometry.sheet.recorded import GEOMETRY
+from tribodyn.geometry.sheet.outlines import GEOMETRY
 from tribodyn.numerics.variable import Variable
 from tribodyn.record.schema import Layout
 

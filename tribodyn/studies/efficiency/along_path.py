@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.compliance.sharing.line_load import friction_ratio, peak_ratio
-from tribodyn.compliance.sharing.loaded_flanks import LoadedFlanks
+from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
+from tribodyn.compliance.sharing.slices import friction_ratio, peak_ratio
 from tribodyn.geometry.path import Path
 from tribodyn.mesh.cycle import MeshCycle
 from tribodyn.mesh.equilibrium import Contacts, contacts, settled

@@ -4,7 +4,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from tribodyn.compliance.sharing.loaded_flanks import LoadedFlanks
+from tribodyn.compliance.sharing.load_sharing import LoadedFlanks
 from tribodyn.errors import InputError
 from tribodyn.geometry.flanks.corner_contact import pair_geometry
 from tribodyn.geometry.path import Kinematics, Path, kinematics

@@ -9,8 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.compliance.sharing.load_sharing import effective_contact_ratio
-from tribodyn.compliance.sharing.loaded_flanks import LoadedFlanks
+from tribodyn.compliance.sharing.load_sharing import LoadedFlanks, effective_contact_ratio
 from tribodyn.dynamics.recorded import scales_of
 from tribodyn.errors import InputError
 from tribodyn.geometry.assembly import Assembly

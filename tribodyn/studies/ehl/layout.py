@@ -1,6 +1,6 @@
 """Datasets of a study of the solved contact: over the way of a pair, and over each contact."""
 
-from tribodyn.mesh.recorded import MESH_CYCLE
+from tribodyn.mesh.cycle import MESH_CYCLE
 from tribodyn.numerics.variable import Variable
 from tribodyn.record.schema import Layout
 

@@ -6,8 +6,8 @@ from typing import Any
 from tribodyn.dynamics.recorded import DOF_SCALE, PAIR, SAMPLES
 from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.material import MaterialData
-from tribodyn.geometry.sheet.recorded import GEOMETRY
-from tribodyn.mesh.recorded import MESH_CYCLE
+from tribodyn.geometry.sheet.outlines import GEOMETRY
+from tribodyn.mesh.cycle import MESH_CYCLE
 from tribodyn.record.schema import TIME, Layout
 from tribodyn.studies.protocol.study import Checked, TextTable
 

@@ -1,7 +1,7 @@
 """Datasets of a load contact study: over phase of the mesh, pairs of teeth and slices of the face."""
 
-from tribodyn.geometry.sheet.recorded import GEOMETRY
-from tribodyn.mesh.recorded import MESH_CYCLE
+from tribodyn.geometry.sheet.outlines import GEOMETRY
+from tribodyn.mesh.cycle import MESH_CYCLE
 from tribodyn.numerics.variable import Variable
 from tribodyn.record.schema import Layout
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from tribodyn.compliance.sharing.load_sharing import flexibility, share_load
 from tribodyn.compliance.sharing.loaded_contact import LoadedContact, loaded_error, roll_through
-from tribodyn.compliance.sharing.pair_flexibility import PairFlexibility
+from tribodyn.compliance.sharing.slices import PairFlexibility
 from tribodyn.errors import SimulationError
 from tribodyn.geometry.drive import Drive
 from tribodyn.geometry.families import family
