@@ -20,7 +20,7 @@ PAGE, MARK = Path(__file__).parents[1] / "docs" / "command-line.md", "verbs"
 
 def page() -> str:
     """The help of every verb below a heading, in the order in which the program lists them."""
-    verbs = get_command(app).commands  # type: ignore[attr-defined]
+    verbs = get_command(app).list_commands(None)  # type: ignore[attr-defined]
     return "\n\n".join(f"## {verb}\n\n```text\n{_help(verb)}\n```" for verb in verbs)
 
 

@@ -60,7 +60,7 @@ class InputErrors(InputError):
 
     def moved(self, place: Callable[[str], str]) -> "InputErrors":
         """See `InputError.moved`."""
-        return InputErrors([one.moved(place) for one in self.errors])
+        return InputErrors([error.moved(place) for error in self.errors])
 
     def __str__(self) -> str:
         return "\n".join(map(str, self.errors))

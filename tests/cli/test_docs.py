@@ -95,7 +95,7 @@ def test_commands_run(page: Path, folder: Path):
             continue
         for words in commands(block):
             if words[0] in ("validate", "sweep", "assess"):
-                command = get_command(app).commands[words[0]]  # type: ignore[attr-defined]
+                command = get_command(app).get_command(None, words[0])  # type: ignore[attr-defined]
                 command.make_context(words[0], words[1:])
                 continue
             if words[0] == "run":

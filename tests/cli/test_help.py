@@ -63,7 +63,7 @@ def test_every_verb_shows_an_example_that_parses(verb: str):
     command = get_command(app)
     for example in examples:
         words = shlex.split(example.partition(" > ")[0])[1:]
-        command.commands[verb].make_context(verb, words)  # type: ignore[attr-defined]
+        command.get_command(None, verb).make_context(verb, words)  # type: ignore[attr-defined]
 
 
 def test_no_verb_is_help_and_an_unknown_one_is_refused():

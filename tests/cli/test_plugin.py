@@ -293,7 +293,7 @@ def test_modules_that_cannot_be_imported_are_a_line_each_where_they_would_be_lis
 
 
 IMPOSTORS = {
-    "a string": ("LAW = 'a law'", "offers a str, where a FrictionLaw is due"),
+    "a string": ("LAW = 'a law'", "offers a str, expected a FrictionLaw"),
     "another name": ("from tribodyn.tribology.friction.none import LAW", 'it calls itself "none"'),
 }
 

@@ -39,7 +39,7 @@ class Drawer:
     def pictures(self) -> list[Path] | None:
         """Return the pictures as soon as they are drawn; None where the process gives no answer."""
         with suppress(OSError, ValueError):
-            return [Path(one) for one in json.loads(child.answer(self._process, LONGEST_DRAWING))]
+            return [Path(file) for file in json.loads(child.answer(self._process, LONGEST_DRAWING))]
         return None
 
     def close(self) -> None:

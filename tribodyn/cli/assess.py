@@ -73,11 +73,11 @@ def assess(
     typer.echo(f"record   {quoted_path(result.path)}")
     typer.echo(f"data     {quoted_path(folder / DATA)}")
     typer.echo(f"report   {quoted_path(page)}")
-    missed = [name for name, one in data.get("limits", {}).items() if not one["kept"]]
+    missed = [name for name, limit in data.get("limits", {}).items() if not limit["kept"]]
     if missed:
         typer.echo(f"limits exceeded: {', '.join(missed)}")
     limits = data.get("limits", {}).items()
-    if within := [name for name, one in limits if one["kept"] and not one.get("kept_p95", True)]:
+    if within := [name for name, limit in limits if limit["kept"] and not limit.get("kept_p95", True)]:
         typer.echo(f"limits exceeded within the scatter of the deviations: {', '.join(within)}")
 
 
@@ -88,7 +88,7 @@ def _require(study: "Study") -> None:
 
     if study.verb == "assess":
         return
-    kinds = [name for name, one in STUDIES.items() if one.verb == "assess"]
+    kinds = [name for name, other in STUDIES.items() if other.verb == "assess"]
     rule = "is run, not assessed"
     remedy = f"tribodyn {study.verb} it, or begin with: tribodyn init NAME --kind {kinds[0]}"
     raise InputError("kind", f'"{study.kind}"', rule, remedy)

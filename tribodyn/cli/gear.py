@@ -63,8 +63,8 @@ def gear(
         written.append(file)
     with loaded.origins.naming():
         assembly = check(family(loaded.family), loaded.drive)
-    given = [(one.mass, one.inertia) for one in loaded.masses]
-    masses = body_masses(assembly, given, [one.density for one in loaded.materials])
+    given = [(body.mass, body.inertia) for body in loaded.masses]
+    masses = body_masses(assembly, given, [material.density for material in loaded.materials])
     sheet = geometry_sheet(assembly, masses, loaded.gauges) | loaded.rounded
     for side, lines in zip(("pinion", "gear"), loaded.tolerances, strict=True):
         sheet[side] |= lines

@@ -48,7 +48,7 @@ def list(
     if record is not None:
         listed = {_plots_only(what).value: _plots_of(record)}
     else:
-        listed = {one.value: _about(one) for one in ([what] if what else What)}
+        listed = {sort.value: _about(sort) for sort in ([what] if what else What)}
     if json:
         print_json(listed)
         return
@@ -121,11 +121,11 @@ def _plots_of(path: Path) -> dict[str, str]:
 
     with open_any(path) as opened:
         known = drawable_of_sweep([opened]) if isinstance(opened, SweepRecord) else drawable([opened])
-        return {name: one.about for name, one in known.items()}
+        return {name: thing.about for name, thing in known.items()}
 
 
 def _described(registry: Any) -> dict[str, str]:
-    return {name: one.about for name, one in registry.items()}
+    return {name: thing.about for name, thing in registry.items()}
 
 
 def _drawn(of_kinds: dict[str, Any]) -> dict[str, str]:

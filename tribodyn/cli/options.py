@@ -26,7 +26,7 @@ SetOption = Annotated[
 
 LargeOption = Annotated[
     bool,
-    typer.Option("--allow-large", help="Also what takes very much memory, disk or time."),
+    typer.Option("--allow-large", help="Allow runs above the resource limits."),
 ]
 
 ForceOption = Annotated[

@@ -124,12 +124,14 @@ def _place(record: "SweepRecord", at: Sequence[str]) -> dict[str, float | str]:
     from tribodyn.errors import InputError
     from tribodyn.scenario.units import ANGULAR_SPEED, Kind, NotAQuantity, to_si
 
-    units = {one.name: one.units for one in record.parameters if one.values.dtype.kind in "fi"}
+    units = {axis.name: axis.units for axis in record.parameters if axis.values.dtype.kind in "fi"}
     place: dict[str, float | str] = {}
-    for one in at:
-        name, equals, text = (part.strip() for part in one.partition("="))
+    for option in at:
+        name, equals, text = (part.strip() for part in option.partition("="))
         if not equals:
-            raise InputError("--at", f'"{one}"', "not NAME=VALUE", "write it like --at pinion_speed=3000rpm")
+            raise InputError(
+                "--at", f'"{option}"', "not NAME=VALUE", "write it like --at pinion_speed=3000rpm"
+            )
         if name not in units:
             place[name] = text
             continue
@@ -138,7 +140,7 @@ def _place(record: "SweepRecord", at: Sequence[str]) -> dict[str, float | str]:
             kind = ANGULAR_SPEED if unit == ANGULAR_SPEED.si else Kind(name, unit, f"1 {unit}")
             place[name] = float(text) if unit == "1" else to_si(text, kind)
         except NotAQuantity as error:
-            raise InputError("--at", f'"{one}"', error.rule, error.remedy) from None
+            raise InputError("--at", f'"{option}"', error.rule, error.remedy) from None
         except ValueError:
-            raise InputError("--at", f'"{one}"', "not a number", f"write it like {name}=1.5") from None
+            raise InputError("--at", f'"{option}"', "not a number", f"write it like {name}=1.5") from None
     return place

@@ -34,7 +34,7 @@ def write_json(path: Path, data: dict[str, Any], force: bool) -> None:
 
 
 def _escaped(text: str) -> str:
-    return "".join(one if one.isprintable() or one == "\n" else f"\\u{ord(one):04x}" for one in text)
+    return "".join(char if char.isprintable() or char == "\n" else f"\\u{ord(char):04x}" for char in text)
 
 
 def plain(data: Any) -> Any:
@@ -120,7 +120,9 @@ def quoted_path(path: Any) -> str:
     text = str(path)
     if harmless(text) == text:
         return shlex.quote(text)
-    escaped = "".join(one if harmless(one) == one else _bytes_of(one) for one in text.replace("\\", r"\\"))
+    escaped = "".join(
+        char if harmless(char) == char else _bytes_of(char) for char in text.replace("\\", r"\\")
+    )
     return "$'" + escaped.replace("'", r"\'") + "'"
 
 

@@ -21,7 +21,7 @@ def of_run(record: Record) -> "Dataset":
     for name in {dim for variable in variables.values() for dim in variable[0]}:
         if name in record:
             coordinates[name] = _variable(record, name, (name,))
-    data = {name: one for name, one in variables.items() if name not in coordinates}
+    data = {name: variable for name, variable in variables.items() if name not in coordinates}
     return Dataset(data, coordinates, _named(record))
 
 
@@ -32,11 +32,12 @@ def of_sweep(record: SweepRecord) -> "Dataset":
     names = (*record, *(name for name in ("status", "message") if name not in set(record)))
     variables = {name: _variable(record, name, record.dims_of(name)) for name in names}
     coordinates: dict[str, Any] = {
-        one.name: (one.name, one.values, {"units": one.units, "key": one.key}) for one in record.parameters
+        parameter.name: (parameter.name, parameter.values, {"units": parameter.units, "key": parameter.key})
+        for parameter in record.parameters
     }
     if record.directions:
         coordinates["direction"] = ("direction", np.array(record.directions))
-    data = {name: one for name, one in variables.items() if name not in coordinates}
+    data = {name: variable for name, variable in variables.items() if name not in coordinates}
     return Dataset(data, coordinates, _named(record))
 
 

@@ -65,8 +65,8 @@ class GearPair:
     @cached_property
     def sheet(self) -> dict[str, Any]:
         """The geometry sheet: name to (value, unit), of pinion and gear in dictionaries of their own."""
-        given = [(one.mass, one.inertia) for one in self._model.masses]
-        masses = body_masses(self._assembly, given, [one.density for one in self._model.materials])
+        given = [(body.mass, body.inertia) for body in self._model.masses]
+        masses = body_masses(self._assembly, given, [material.density for material in self._model.materials])
         sheet = geometry_sheet(self._assembly, masses, self._model.gauges) | self._model.rounded
         for side, lines in zip(("pinion", "gear"), self._model.tolerances, strict=True):
             sheet[side] |= lines

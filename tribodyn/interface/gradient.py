@@ -162,7 +162,7 @@ def differentiable(
         As `gradient`, but not for gears that cannot be made.
     """
     case = scenario(source, overrides)
-    of, wrt = ([one] if isinstance(one, str) else list(one) for one in (of, wrt))
+    of, wrt = ([names] if isinstance(names, str) else list(names) for names in (of, wrt))
     return Differentiable(case, study_of({"kind": case.kind}).table(), of, wrt)
 
 

@@ -238,7 +238,7 @@ def records_of(runs: "list[Run]") -> Iterator[list[Record]]:
     from contextlib import ExitStack
 
     with ExitStack() as stack:
-        yield [stack.enter_context(open_record(one.path)) for one in runs]
+        yield [stack.enter_context(open_record(run.path)) for run in runs]
 
 
 @in_python()
@@ -268,7 +268,7 @@ def run(
     progress : callable, optional
         Called with the share done, 0 … 1.
     allow_large : bool
-        Run what takes more memory, disk or time than is done unasked, too.
+        Allow runs above the resource limits (memory, disk, time).
 
     Returns
     -------
@@ -316,4 +316,8 @@ def open_run(path: Path, folder: str | None = None) -> Run:
 def run_class(kind: str) -> type[Run]:
     """The class of the runs of a kind of study."""
     own = STUDIES[kind].run_properties() if kind in STUDIES else None
-    return Run if own is None else type(own.__name__, (own, Run), {"__doc__": own.__doc__})
+    return (
+        Run
+        if own is None
+        else type(own.__name__, (own, Run), {"__doc__": own.__doc__, "__module__": own.__module__})
+    )

@@ -59,7 +59,7 @@ def _case(source: Source, changes: dict[str, Any]) -> Any:
     elif isinstance(source, Mapping):
         written = in_toml(source)
     else:
-        rule = f"a name, a path, a mapping or a case is due, not a {type(source).__name__}"
+        rule = f"expected a name, a path, a mapping or a case, got {type(source).__name__}"
         raise InputError("scenario", None, rule, 'give the name of a scenario: "crc-23-47"')
     return loaded_from(resolve_table(written, _FILE, changes, table_of), _FILE).case
 
@@ -84,5 +84,5 @@ def with_unit(magnitude: Any, unit: str) -> Any:
     if unit in ("", "dimensionless"):
         return np.asarray(magnitude).tolist()
     if np.ndim(magnitude):
-        return [f"{float(one)!r} {unit}" for one in np.ravel(magnitude)]
+        return [f"{float(number)!r} {unit}" for number in np.ravel(magnitude)]
     return f"{float(magnitude)!r} {unit}"

@@ -37,12 +37,12 @@ def block(*parts: str) -> str:
 
 def heading(title: str, *remarks: str) -> str:
     """Write a title, and what is to be said of it."""
-    return f"<p><b>{escape(title)}</b>{''.join(f'<br>{escape(one)}' for one in remarks if one)}</p>"
+    return f"<p><b>{escape(title)}</b>{''.join(f'<br>{escape(remark)}' for remark in remarks if remark)}</p>"
 
 
 def listed(title: str, sentences: Sequence[str]) -> str:
     """Write sentences below a title; nothing, where there are none."""
-    items = "".join(f"<li>{escape(one)}</li>" for one in sentences)
+    items = "".join(f"<li>{escape(sentence)}</li>" for sentence in sentences)
     return f"<h3>{escape(title)}</h3><ul>{items}</ul>" if items else ""
 
 
@@ -53,10 +53,10 @@ def tables(some: Iterable[TextTable]) -> str:
         return "<tr>" + "".join(f"<{tag}>{escape(cell)}</{tag}>" for cell in cells) + "</tr>"
 
     written = (
-        f"<div><h4>{escape(one.title)}</h4><table>{row(one.columns, 'th')}"
-        + "".join(row(cells, "td") for cells in one.rows)
+        f"<div><h4>{escape(table.title)}</h4><table>{row(table.columns, 'th')}"
+        + "".join(row(cells, "td") for cells in table.rows)
         + "</table></div>"
-        for one in some
+        for table in some
     )
     return f'<div class="tables">{"".join(written)}</div>'
 
@@ -66,7 +66,7 @@ def picture_of_run(record: Record, study: Study) -> str:
     from tribodyn.post.page.series import in_engineers_units, series_of
     from tribodyn.post.style import literal
 
-    series = {one.name: one for one in series_of(record)}
+    series = {found.name: found for found in series_of(record)}
     names = [name for name in study.panels() if name in series] or list(series)
     if not names or not record.samples:
         return ""
@@ -92,7 +92,7 @@ def picture_of_sweep(data: "xarray.Dataset", study: Study) -> str:
     """Draw the first figure of a sweep over its first key; nothing, where there are no numbers to draw."""
     from tribodyn.post.style import literal
 
-    quantity = next((one for one in study.sweep_table() if one.name in data), None)
+    quantity = next((swept for swept in study.sweep_table() if swept.name in data), None)
     if quantity is None:
         return ""
     values = quantity.in_unit(data[quantity.name])
@@ -104,9 +104,9 @@ def picture_of_sweep(data: "xarray.Dataset", study: Study) -> str:
         stacked = values.stack(others=others) if others else values.expand_dims("others", 1)
         places = np.linspace(0, stacked.sizes["others"] - 1, min(stacked.sizes["others"], CURVES)).astype(int)
         for place in places:
-            one = stacked.isel(others=place)
-            label = ", ".join(f"{name} {_short(one[name].item())}" for name in others)
-            axes.plot(data[first], one, marker=".", label=literal(label))
+            curve = stacked.isel(others=place)
+            label = ", ".join(f"{name} {_short(curve[name].item())}" for name in others)
+            axes.plot(data[first], curve, marker=".", label=literal(label))
         axes.set_title(literal(quantity.titled), loc="left")
         unit = data[first].attrs.get("units", "1")
         name = str(first).replace("_", " ")

@@ -148,7 +148,7 @@ def sweep(
     progress : callable, optional
         Called with the share done, 0 … 1.
     allow_large : bool
-        Evaluate what takes more memory, disk or time than is done unasked, too.
+        Allow grids above the resource limits.
 
     Returns
     -------
@@ -222,6 +222,6 @@ def _values(key: str, values: Values) -> str:
         return values
     texts = in_toml(values)
     if not isinstance(texts, list) or not texts:
-        rule = "a list, an array or a text of values is due"
+        rule = "expected a list, an array or a text of values"
         raise InputError(key, repr(values), rule, 'such as "1000:6000:100rpm" or ["1000 rpm", "2000 rpm"]')
-    return ",".join(one if isinstance(one, str) else repr(one) for one in texts)
+    return ",".join(value if isinstance(value, str) else repr(value) for value in texts)

@@ -163,14 +163,14 @@ def arrays_kept_or_made(
     def read(content: bytes) -> Mapping[str, "np.ndarray"]:
         place = content.index(b"\n") + 1
         found = {}
-        for one, shape in json.loads(content[:place]).items():
-            found[one] = np.frombuffer(content, "<f8", math.prod(shape), place).reshape(shape).copy()
-            place += found[one].nbytes
+        for name, shape in json.loads(content[:place]).items():
+            found[name] = np.frombuffer(content, "<f8", math.prod(shape), place).reshape(shape).copy()
+            place += found[name].nbytes
         return found
 
     def made() -> tuple[Mapping[str, "np.ndarray"], bytes]:
-        arrays = {one: np.asarray(value, dtype="<f8") for one, value in make().items()}
-        head = json.dumps({one: value.shape for one, value in arrays.items()})
+        arrays = {name: np.asarray(value, dtype="<f8") for name, value in make().items()}
+        head = json.dumps({name: value.shape for name, value in arrays.items()})
         return arrays, b"".join([head.encode(), b"\n", *(value.tobytes() for value in arrays.values())])
 
     return kept_or_made(folder, name, read, made)

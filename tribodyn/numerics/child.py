@@ -275,7 +275,7 @@ def installed_program(names: Sequence[str]) -> str | None:
 
     path = os.pathsep.join(part for part in os.get_exec_path() if os.path.isabs(part))
     found = (shutil.which(name, path=path) for name in names)
-    return next((one for one in found if one and os.path.isabs(one)), None)
+    return next((path for path in found if path and os.path.isabs(path)), None)
 
 
 def run_program(command: Sequence[str], limit: float) -> "subprocess.CompletedProcess[str]":
@@ -299,7 +299,7 @@ def run_program(command: Sequence[str], limit: float) -> "subprocess.CompletedPr
     if not said:
         raise OSError(f"{command[0]} could not be run")
     status, *printed = pickle.loads(said)
-    return subprocess.CompletedProcess(command, status, *(one.decode(errors="replace") for one in printed))
+    return subprocess.CompletedProcess(command, status, *(text.decode(errors="replace") for text in printed))
 
 
 def _supervise(*command: str) -> None:

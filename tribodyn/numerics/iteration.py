@@ -86,11 +86,11 @@ def newton(step: Callable[..., Any], start: Any, count: int, *parameters: Any) -
     return step(root, *parameters)
 
 
-def _equal(one: Any, other: Any) -> bool:
+def _equal(state: Any, other: Any) -> bool:
     """Whether two states of arrays are equal, bit for bit; NaN never is."""
-    if isinstance(one, tuple):
-        return all(map(_equal, one, other))
-    return bool(np.all(one == other)) and np.shape(one) == np.shape(other)
+    if isinstance(state, tuple):
+        return all(map(_equal, state, other))
+    return bool(np.all(state == other)) and np.shape(state) == np.shape(other)
 
 
 def chebyshev_basis(x: Float[Array, "*point"], degree: int) -> Float[Array, "*point degree"]:

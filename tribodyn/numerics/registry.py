@@ -120,7 +120,7 @@ class Registry(Generic[T]):
         except Exception as error:
             raise cannot_be_loaded(self.key, name, package_of(first), error) from error
         if not isinstance(thing, self._of):
-            rule = f"{package_of(first)} offers a {type(thing).__name__}, where a {self._of.__name__} is due"
+            rule = f"{package_of(first)} offers a {type(thing).__name__}, expected a {self._of.__name__}"
             raise InputError(self.key, quoted(name), rule, f"mend or uninstall {package_of(first)}")
         own = getattr(thing, "name", None) or getattr(thing, "kind", None)
         if own != name:

@@ -148,7 +148,7 @@ def _imports(name: str, file: Path) -> tuple[str, ...]:
             dots = len(base) - len(base.lstrip("."))
             above = package.split(".")[: len(package.split(".")) - dots + 1]
             base = ".".join([*above, *filter(None, [base.lstrip(".")])])
-        imported += [base, *(f"{base}.{one}" for one in _NAME.findall(names))]
+        imported += [base, *(f"{base}.{part}" for part in _NAME.findall(names))]
     for match in _IMPORT.finditer(text):
-        imported += [one.split()[0] for one in match[1].split(",") if one.split()]
-    return tuple(dict.fromkeys(part for one in imported for part in _with_packages(one)))
+        imported += [listed.split()[0] for listed in match[1].split(",") if listed.split()]
+    return tuple(dict.fromkeys(part for found in imported for part in _with_packages(found)))

@@ -121,8 +121,8 @@ class Record(OpenRecord):
             group = self._file[name]
             own = self._attributes[name].items()
             numbers = {key: value for key, value in own if not key.endswith("_units")}
-            data = {key: one for key, one in group.items() if one.attrs["long_name"] != counted(key)}
-            return {**{key: one[...] for key, one in data.items()}, **numbers}
+            data = {key: item for key, item in group.items() if item.attrs["long_name"] != counted(key)}
+            return {**{key: item[...] for key, item in data.items()}, **numbers}
         except (OSError, KeyError, RuntimeError) as error:
             raise self._damaged(error) from error
 

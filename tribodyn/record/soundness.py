@@ -28,7 +28,7 @@ UNREADABLE = (
     OverflowError,
 )
 #: What else it makes those raise who evaluate what it holds: numbers for texts, tables without their keys.
-_MISREAD = (*(one for one in UNREADABLE if one is not OSError), ArithmeticError, AssertionError)
+_MISREAD = (*(error for error in UNREADABLE if error is not OSError), ArithmeticError, AssertionError)
 #: Maximum number of items in a group or attributes of an item, and of items in all; depth of groups, axes of
 #: a dataset, and bytes of an attribute. A record of a search has a dataset per free key, others a hundred.
 MAXIMUM_MEMBERS, MAXIMUM_ITEMS, MAXIMUM_DEPTH, MAXIMUM_AXES, MAXIMUM_ATTRIBUTE = 1000, 2000, 4, 8, 2**26

@@ -130,7 +130,7 @@ class SweepRecord(OpenRecord):
         """Count cases by what became of them."""
         status = self["status"]
         states = {"done": DONE, "failed": FAILED, "waiting": WAITING}
-        return {"cases": status.size, **{name: int(np.sum(status == one)) for name, one in states.items()}}
+        return {"cases": status.size, **{name: int(np.sum(status == code)) for name, code in states.items()}}
 
     def failures(self) -> list[tuple[dict[str, Any], str]]:
         """Give parameters and reason of every case that failed."""
@@ -143,7 +143,7 @@ class SweepRecord(OpenRecord):
 
     def at(self, place: tuple[int, ...]) -> dict[str, Any]:
         """Return the parameters, and the direction, of the case at a place."""
-        scales = [*(one.values for one in self.parameters), np.array(self.directions)]
+        scales = [*(parameter.values for parameter in self.parameters), np.array(self.directions)]
         return {
             name: scale[index].item() for name, scale, index in zip(self.dims, scales, place, strict=False)
         }

@@ -76,12 +76,12 @@ class SweepHead(NamedTuple):
     @property
     def dims(self) -> tuple[str, ...]:
         """Dimensions of the cases."""
-        return (*(one.name for one in self.parameters), *(("direction",) if self.directions else ()))
+        return (*(axis.name for axis in self.parameters), *(("direction",) if self.directions else ()))
 
     @property
     def shape(self) -> tuple[int, ...]:
         """Their lengths."""
-        sizes = [len(one.values) for one in self.parameters]
+        sizes = [len(parameter.values) for parameter in self.parameters]
         return (*sizes, len(self.directions)) if self.directions else tuple(sizes)
 
 
@@ -231,10 +231,10 @@ def _lay_out(head: SweepHead) -> layout.LaidOut:
 def _write_scales(file: h5py.File, head: SweepHead) -> dict[str, h5py.Dataset]:
     """Write the scales of all dimensions."""
     scales = {}
-    for one in head.parameters:
-        variable = Variable((one.name,), one.units or "1", f"varied parameter {one.key}")
-        scales[one.name] = _write_scale(file, one.name, variable, one.values)
-        scales[one.name].attrs["key"] = one.key
+    for parameter in head.parameters:
+        variable = Variable((parameter.name,), parameter.units or "1", f"varied parameter {parameter.key}")
+        scales[parameter.name] = _write_scale(file, parameter.name, variable, parameter.values)
+        scales[parameter.name].attrs["key"] = parameter.key
     if head.directions:
         scales["direction"] = _write_scale(file, "direction", sweep_schema.DIRECTION, head.directions)
     for name, (variable, values) in head.layout.scales.items():

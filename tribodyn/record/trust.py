@@ -110,8 +110,8 @@ class Judge:
         if not found:
             return {TRUST: INSIDE}
         reasons = {
-            name: {key: part for key, part in one._asdict().items() if key != "places"} | one.places
-            for name, one in found.items()
+            name: {key: part for key, part in excess._asdict().items() if key != "places"} | excess.places
+            for name, excess in found.items()
         }
         return {TRUST: EXTRAPOLATED if all(RULES[name].extrapolates for name in found) else OUTSIDE} | {
             REASONS: reasons

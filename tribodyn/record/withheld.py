@@ -94,7 +94,7 @@ def warnings(summary: Mapping[str, Any]) -> list[str]:
 
 def remarks(summary: Mapping[str, Any]) -> list[str]:
     """The same for one of many cases: without values, so that equal ones can be counted."""
-    return [one for one in (trust.brief(summary), *_said(summary)) if one]
+    return [remark for remark in (trust.brief(summary), *_said(summary)) if remark]
 
 
 def _said(summary: Mapping[str, Any]) -> list[str]:

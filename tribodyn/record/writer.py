@@ -58,11 +58,11 @@ def refuse_existing(path: Path, force: bool) -> None:
     With `force` only what tribodyn wrote is replaced.
     """
     if force:
-        for one in (path, partial_path(path)):
-            if os.path.lexists(one) and not _is_ours(one):
+        for file in (path, partial_path(path)):
+            if os.path.lexists(file) and not _is_ours(file):
                 raise InputError(
                     "output",
-                    str(one),
+                    str(file),
                     "is not a record of tribodyn, or damaged: --force does not replace it",
                     "remove it, or choose another name",
                 )

@@ -69,10 +69,10 @@ def _depth(data: Any) -> int:
     depth, level = 0, [data]
     _check_keys(level)
     while level := [
-        one
+        item
         for some in level
-        for one in (some.values() if isinstance(some, dict) else some)
-        if isinstance(one, (dict, list))
+        for item in (some.values() if isinstance(some, dict) else some)
+        if isinstance(item, (dict, list))
     ]:
         depth += 1
         _check_keys(level)
@@ -80,7 +80,7 @@ def _depth(data: Any) -> int:
 
 
 def _check_keys(some: list[Any]) -> None:
-    most = max(len(one) if isinstance(one, dict) else 0 for one in some)
+    most = max(len(item) if isinstance(item, dict) else 0 for item in some)
     if most > MOST_KEYS:
         raise TooMuch(f"a table of {most} keys, at most {MOST_KEYS} are read")
 

@@ -37,7 +37,7 @@ class Origins:
     def locate(self, error: InputError) -> InputError:
         """Return the error with its file, if it had none."""
         if isinstance(error, InputErrors):
-            return InputErrors([self.locate(one) for one in error.errors])
+            return InputErrors([self.locate(mistake) for mistake in error.errors])
         if error.file:
             return error
         key = tuple(int(part) if part.isdecimal() else part for part in error.key.split("."))
@@ -57,18 +57,18 @@ class Origins:
 
 def explain(error: ValidationError, model: type[BaseModel]) -> list[InputError]:
     """Return what pydantic found as our errors, in the order of the file."""
-    return [_explain_one(dict(one), model) for one in error.errors(include_url=False)]
+    return [_explain_one(dict(found), model) for found in error.errors(include_url=False)]
 
 
-def _explain_one(one: dict[str, Any], model: type[BaseModel]) -> InputError:
+def _explain_one(found: dict[str, Any], model: type[BaseModel]) -> InputError:
     # pydantic names the branch of a union that it took; ours stand in parentheses
-    key: Key = tuple(part for part in one["loc"] if not str(part).startswith("("))
+    key: Key = tuple(part for part in found["loc"] if not str(part).startswith("("))
     dotted = printable(".".join(map(str, key)))
-    context = one.get("ctx", {})
-    given = quoted(one["input"])
-    match one["type"]:
+    context = found.get("ctx", {})
+    given = quoted(found["input"])
+    match found["type"]:
         case "rule":
-            absent = one["input"] is None
+            absent = found["input"] is None
             return InputError(dotted, None if absent else given, context["rule"], context["remedy"])
         case "missing":
             return InputError(dotted, None, "missing", _how_to_write(model, key))
@@ -76,12 +76,12 @@ def _explain_one(one: dict[str, Any], model: type[BaseModel]) -> InputError:
             return InputError(dotted, given, "unknown key", _near_key(model, key))
         case "literal_error":
             expected = context["expected"].replace("'", '"')
-            near = near_name(str(one["input"]), expected.replace('"', "").replace(" or ", ", ").split(", "))
+            near = near_name(str(found["input"]), expected.replace('"', "").replace(" or ", ", ").split(", "))
             mean = f'did you mean "{near}"? ' if near else ""
             return InputError(dotted, given, "not one of the choices", f"{mean}write {expected}")
         case "finite_number":
             return InputError(dotted, given, "not a finite number", "write a plain number, such as 1.0")
-    rule, remedy = _PLAIN.get(one["type"], (one["msg"].lower(), ""))
+    rule, remedy = _PLAIN.get(found["type"], (found["msg"].lower(), ""))
     return InputError(dotted, given, rule.format(**context), remedy.format(**context))
 
 

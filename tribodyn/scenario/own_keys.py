@@ -37,14 +37,14 @@ def own_values(owner: Owner, given: Mapping[str, Any]) -> dict[str, Any]:
     """Return the values of the keys that are given, in SI units; raises the first of `own_key_errors`."""
     for error in own_key_errors(owner, given):
         raise error
-    known = {one.name: one for one in owner.parameters}
+    known = {parameter.name: parameter for parameter in owner.parameters}
     return {name: value_in_si(known[name], value) for name, value in given.items()}
 
 
 def own_key_errors(owner: Owner, given: Mapping[str, Any]) -> list[InputError]:
     """Return what is wrong with the keys: unknown, missing, of a wrong unit or sign."""
     errors = []
-    known = {one.name: one for one in owner.parameters}
+    known = {parameter.name: parameter for parameter in owner.parameters}
     for name, value in given.items():
         if name not in known:
             key = f"{owner.table}.{name}"
@@ -97,8 +97,8 @@ def value_in_si(parameter: Parameter, value: Any, key: str = "") -> Any:
     if parameter.listed:
         if not isinstance(value, (list, tuple)) or not value:
             raise InputError(key, quoted(value), "not a list", f"write {example_of(parameter)}")
-        one = _of_list(parameter)
-        return np.array([value_in_si(one, item, f"{key}.{place}") for place, item in enumerate(value)])
+        single = _of_list(parameter)
+        return np.array([value_in_si(single, item, f"{key}.{place}") for place, item in enumerate(value)])
     if parameter.kind == "number":
         return _number(parameter, value, key)
     try:

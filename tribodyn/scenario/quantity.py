@@ -245,10 +245,10 @@ def references(table: type[BaseModel]) -> Mapping[tuple[str, ...], Reference]:
     found: dict[tuple[str, ...], Reference] = {}
     for name, field in table.model_fields.items():
         marks = list(parts_of(field))
-        found.update(((name,), one) for one in marks if isinstance(one, Reference))
-        inner = next((one for one in marks if isinstance(one, type) and issubclass(one, BaseModel)), None)
+        found.update(((name,), mark) for mark in marks if isinstance(mark, Reference))
+        inner = next((mark for mark in marks if isinstance(mark, type) and issubclass(mark, BaseModel)), None)
         if inner is not None:
-            found |= {(name, *key): one for key, one in references(inner).items()}
+            found |= {(name, *key): mark for key, mark in references(inner).items()}
     return found
 
 

@@ -101,8 +101,8 @@ class _References(NamedTuple):
         for drive in {("drive",), *named}:  # a drive file read alone has its own table there
             name = _at(self.data, (*drive, "family"))
             if isinstance(name, str) and name in FAMILIES:
-                paths = [one.name for one in FAMILIES[name].parameters if one.kind == "path"]
-                found |= {(*drive, "shape", one): csv_file("x", "y") for one in paths}
+                paths = [own.name for own in FAMILIES[name].parameters if own.kind == "path"]
+                found |= {(*drive, "shape", path): csv_file("x", "y") for path in paths}
         return found
 
 

@@ -118,7 +118,7 @@ def _axis(option: str, table: type[BaseModel]) -> Axis:
     if len(set(values)) < len(values):
         raise _refusal(option, "a value comes twice", "list every value once")
     marks = _marks(table, key)
-    weighed = next((one for one in marks if isinstance(one, Weighed)), None)
+    weighed = next((mark for mark in marks if isinstance(mark, Weighed)), None)
     return Axis(key, key.rpartition(".")[2], written, values, units, is_drawn(table, key), weighed)
 
 
@@ -210,7 +210,7 @@ def base_units(value: Any) -> tuple[float, str] | None:
 
 def is_drawn(table: type[BaseModel], key: str) -> bool:
     """Whether the field at a key is marked as numbering samples."""
-    return any(isinstance(one, Draws) for one in _marks(table, key))
+    return any(isinstance(mark, Draws) for mark in _marks(table, key))
 
 
 def _marks(table: type[BaseModel], key: str) -> list[Any]:
@@ -229,7 +229,7 @@ def is_whole(table: type[BaseModel], key: str) -> bool:
         field = getattr(place, "model_fields", {}).get(part)
         if field is None:
             return False
-        tables = (one for one in parts_of(field) if isinstance(one, type) and issubclass(one, BaseModel))
+        tables = (mark for mark in parts_of(field) if isinstance(mark, type) and issubclass(mark, BaseModel))
         place = next(tables, None)
     return field is not None and int in set(parts_of(field))
 
@@ -244,9 +244,9 @@ def kind_at(table: type[BaseModel], key: str) -> Any:
         if part not in fields:
             return None
         parts = list(parts_of(fields[part]))
-        references = [one for one in parts if isinstance(one, Reference)]
-        kinds = [one.kind for one in parts if isinstance(one, Quantity)]
-        tables = [one for one in parts if isinstance(one, type) and issubclass(one, BaseModel)]
+        references = [mark for mark in parts if isinstance(mark, Reference)]
+        kinds = [mark.kind for mark in parts if isinstance(mark, Quantity)]
+        tables = [mark for mark in parts if isinstance(mark, type) and issubclass(mark, BaseModel)]
         last = part == key.rpartition(".")[2]
         place = next(iter(references if last and references else kinds or tables), None)
     return place

@@ -59,7 +59,7 @@ def run(
     directions : senses in which to follow the first parameter; none: every case begins by itself
     unstable : continue branches beyond the ends of their stable parts
     force, resume : replace a record, or go on with what an unfinished sweep left
-    allow_large : evaluate what takes more than is done unasked, too (`sweep.size`)
+    allow_large : allow grids above the limits (`sweep.size`)
 
     Raises
     ------

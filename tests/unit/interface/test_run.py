@@ -113,8 +113,8 @@ def test_a_sweep_is_a_dataset_over_its_grid(tmp_path: Path):
     ("vary", "said"),
     [
         ({}, "nothing is varied"),
-        ({"damping": 0.1}, "a list, an array or a text of values is due"),
-        ({"damping": []}, "a list, an array or a text of values is due"),
+        ({"damping": 0.1}, "expected a list, an array or a text of values"),
+        ({"damping": []}, "expected a list, an array or a text of values"),
         ({"dampign": [0.1]}, "damping"),
     ],
 )

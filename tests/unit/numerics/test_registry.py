@@ -54,7 +54,7 @@ def test_a_shipped_name_cannot_be_taken(registry):
             "the package bad that offers it cannot be loaded: ModuleNotFoundError: No module named 'absent'",
         ),
         ("twice", "offered more than once, by one-package and other-package"),
-        ("half", "careless offers a Fraction, where a Thing is due"),
+        ("half", "careless offers a Fraction, expected a Thing"),
         ("misnamed", 'careless offers it by this name, but it calls itself "other"'),
         ("soundd", 'did you mean "sound"'),
         (f"{FROM_PYTHON}sound", "handed over from Python"),

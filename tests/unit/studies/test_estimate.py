@@ -154,7 +154,7 @@ def test_every_kind_refuses_what_is_too_large_before_any_work(kind: str, tmp_pat
             started = process_time()
             with pytest.raises(InputError) as error:
                 work()
-            assert "more than is done unasked" in error.value.rule
+            assert "above the limits" in error.value.rule
             assert process_time() - started < 2.0
     assert not list(tmp_path.glob("*.h5"))
     assert set(LARGE) == set(STUDIES)

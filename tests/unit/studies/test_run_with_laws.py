@@ -187,7 +187,7 @@ def test_a_case_without_laws_refuses_one(scenario, table, tmp_path):
 
 @pytest.mark.parametrize("given", [constant, "coulomb", FilmLaw("film", "", thin), SimpleNamespace(name="x")])
 def test_what_is_no_law_is_refused(given, case, tmp_path):
-    with pytest.raises(InputError, match=r"a FrictionLaw is due here.*tribodyn\.FrictionLaw"):
+    with pytest.raises(InputError, match=r"expected a FrictionLaw.*tribodyn\.FrictionLaw"):
         run(case, tmp_path / "no.h5", friction=given)
 
 

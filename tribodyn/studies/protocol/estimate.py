@@ -127,7 +127,7 @@ def refuse_large(estimate: Estimate, allow_large: bool) -> None:
     raise InputError(
         worst.key,
         None if worst.remedy else f"{worst.value:.10g}",
-        f"takes about {described(estimate)}, more than is done unasked: {allowed}",
+        f"takes about {described(estimate)}, above the limits: {allowed}",
         f"{worst.remedy or f'reduce it ({worst.usual:g} is usual)'}, or add --allow-large",
     )
 

@@ -49,7 +49,7 @@ def run(
     progress : callable, optional
         Called with the share done, 0 … 1.
     allow_large : bool
-        Run what takes more memory, disk or time than is done unasked, too (`protocol.estimate.LIMITS`).
+        Allow runs above `protocol.estimate.LIMITS`.
     resume : bool
         Go on from what an unfinished run left, where the study can.
     client : distributed.Client, optional
@@ -91,7 +91,7 @@ def with_law(case: CaseHead, table: str, law: FilmLaw | FrictionLaw) -> CaseHead
     """
     due = FilmLaw if table == "film" else FrictionLaw
     if not isinstance(law, due):
-        rule = f"a {due.__name__} is due here, not a {type(law).__name__}"
+        rule = f"expected a {due.__name__}, got {type(law).__name__}"
         raise InputError(table, quoted(getattr(law, "name", law)), rule, f"make one: tribodyn.{due.__name__}")
     old: Any = getattr(case, table, None)
     if not isinstance(old, FilmData | FrictionData):

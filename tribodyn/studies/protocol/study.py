@@ -160,7 +160,7 @@ class Study:
         Raises
         ------
         InputError
-            Where it cannot be run, or takes more than is done unasked and that is not allowed.
+            Where it cannot be run, or takes more than the limits and that is not allowed.
         """
         estimate = self.estimate(case)
         refuse_large(estimate, allow_large)
