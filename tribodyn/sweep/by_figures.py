@@ -5,12 +5,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.errors import InputError, SimulationError
+from tribodyn.errors import InputError
 from tribodyn.record.sweep_schema import DONE, FAILED, SweepLayout
 from tribodyn.record.trust import TRUST, number
 from tribodyn.record.withheld import remarked, remarks, warned
 from tribodyn.studies.gears.rounded import remarks_in_brief
 from tribodyn.studies.protocol.estimate import Estimate, variable_bytes
+from tribodyn.studies.protocol.evaluated import alone
 from tribodyn.studies.protocol.study import Study
 from tribodyn.studies.sweeping.batch import Chunk
 
@@ -80,13 +81,9 @@ class ByFigures:
         layout = self.layout(settings)
         rows = layout.empty_rows(len(chunk.cases))
         for i, case in enumerate(chunk.cases):
-            try:
-                if isinstance(case, str):
-                    raise SimulationError(case)
-                figures = self.study.figures(case)
-            except (InputError, SimulationError) as error:
-                rows["message"][i] = error.reason if isinstance(error, SimulationError) else str(error)
-                rows["status"][i] = FAILED
+            figures = alone(self.study, case)
+            if isinstance(figures, str):
+                rows["message"][i], rows["status"][i] = figures, FAILED
                 continue
             for name in layout.figures:
                 if figures.get(name) is not None:

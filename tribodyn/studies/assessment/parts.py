@@ -25,15 +25,14 @@ from tribodyn.numerics.sources import computing_digest
 from tribodyn.numerics.work import announce
 from tribodyn.record.reader import open_record
 from tribodyn.record.schema import COMPLETE
-from tribodyn.record.sweep_schema import DONE
 from tribodyn.scenario.resolve import resolve_table
 from tribodyn.studies import STUDIES
 from tribodyn.studies.assessment.case import AssessmentCase
 from tribodyn.studies.gears.by_standard import base_pitch_deviation
+from tribodyn.studies.protocol.evaluated import evaluated
 from tribodyn.studies.protocol.load import loaded_from, table_of
 from tribodyn.studies.protocol.part import Answer, Asked, Done, Role, Task
 from tribodyn.studies.protocol.study import Progress, Study
-from tribodyn.studies.sweeping.batch import Chunk
 
 
 class Part(NamedTuple):
@@ -278,26 +277,13 @@ def _varied(study: Study, task: Task, folder: Path) -> Done:
 
 def _figures(study: Study, cases: list[Any]) -> tuple[dict[str, list[float]], list[str]]:
     """Figures over the cases, NaN where one fails, and why those failed."""
-    names, failures = list(study.swept()), []
-    batch = study.batch()
-    rows: dict[str, list[float]] = {name: [float("nan")] * len(cases) for name in names}
-    if batch is not None:
-        settings = batch.settings([cases[0], cases[-1]], None, "native")
-        block = batch.evaluate(Chunk(np.arange(len(cases)), tuple(cases)), settings, None)
-        for i in range(len(cases)):
-            if block["status"][i] != DONE:
-                failures.append(str(block["message"][i]))
-                continue
-            for name in names:
-                rows[name][i] = float(block[name][i])
-        return rows, failures
-    for i, case in enumerate(cases):
-        try:
-            figures = study.figures(case)
-        except (InputError, SimulationError) as error:
-            failures.append(str(error))
+    rows = {name: [float("nan")] * len(cases) for name in study.swept()}
+    failures = []
+    for i, found in enumerate(evaluated(study, cases)):
+        if isinstance(found, str):
+            failures.append(found)
             continue
-        for name in names:
-            if figures.get(name) is not None:
-                rows[name][i] = float(figures[name])
+        for name, row in rows.items():
+            if found.get(name) is not None:
+                row[i] = float(found[name])
     return rows, failures

@@ -1,7 +1,9 @@
 """Quantities of a study by name, and of its cases without a record: for sweeps, searches and Python."""
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from tribodyn.errors import InputError, SimulationError
 from tribodyn.geometry.assembly import assemble
@@ -9,7 +11,11 @@ from tribodyn.geometry.families import family
 from tribodyn.geometry.limits.limits import LIMITS, plain_distances
 from tribodyn.quantities.catalogue import QUANTITIES
 from tribodyn.quantities.quantity import Quantity
+from tribodyn.record.sweep_schema import DONE
 from tribodyn.studies.protocol.study import Study
+
+if TYPE_CHECKING:
+    from tribodyn.studies.sweeping.batch import Batch
 
 CONTACT_RATIO = "contact_ratio"
 
@@ -49,24 +55,40 @@ def evaluated(study: Study, cases: Sequence[Any], workers: int | None = None) ->
         Threads of a study that evaluates cases together; default: one per core.
     """
     batch = study.batch()
-    if batch:
-        from tribodyn.studies.sweeping.batch import batched
-
-        found = batched(batch, cases, study.swept(), workers)
-    else:
-        found = [_figures(study, case) for case in cases]
+    found = _together(study, batch, cases, workers) if batch else [alone(study, case) for case in cases]
     if not study.has_gears:
         return found
     return [
-        one if isinstance(one, str) else _of_teeth(case) | one for case, one in zip(cases, found, strict=True)
+        known if isinstance(known, str) else _of_teeth(case) | known
+        for case, known in zip(cases, found, strict=True)
     ]
 
 
-def _figures(study: Study, case: Any) -> dict[str, Any] | str:
+def alone(study: Study, case: Any) -> dict[str, Any] | str:
+    """Quantities of one case of a study without a `batch`; a text instead where it fails: why."""
     try:
         return case if isinstance(case, str) else study.figures(case)
-    except (InputError, SimulationError) as error:
+    except InputError as error:
         return str(error)
+    except SimulationError as error:
+        return error.reason
+
+
+def _together(
+    study: Study, batch: "Batch", cases: Sequence[Any], workers: int | None
+) -> list[dict[str, Any] | str]:
+    from tribodyn.studies.sweeping.batch import Chunk
+
+    made = [case for case in cases if not isinstance(case, str)]
+    if not made:
+        return list(cases)
+    rows = batch.evaluate(
+        Chunk(np.arange(len(cases)), tuple(cases)), batch.settings(made, None, "native"), workers
+    )
+    return [
+        {name: float(rows[name][i]) for name in study.swept()} if status == DONE else str(rows["message"][i])
+        for i, status in enumerate(rows["status"])
+    ]
 
 
 def _of_teeth(case: Any) -> dict[str, float]:

@@ -1,11 +1,11 @@
 """How many cases of a study are evaluated together, for sweeps."""
 
-from collections.abc import Collection, Hashable, Sequence
+from collections.abc import Hashable, Sequence
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from tribodyn.record.sweep_schema import DONE, SweepLayout
+from tribodyn.record.sweep_schema import SweepLayout
 from tribodyn.studies.protocol.estimate import Estimate
 
 
@@ -111,27 +111,3 @@ class Batch(Protocol):
     def evaluate(self, chunk: Chunk, settings: Any, workers: int | None) -> dict[str, np.ndarray]:
         """Evaluate; rows (n, …) of every variable of the layout."""
         ...
-
-
-def batched(
-    batch: Batch, cases: Sequence[Any], names: Collection[str], workers: int | None = None
-) -> list[dict[str, Any] | str]:
-    """Figures of cases that are evaluated together; a text instead where one fails: why.
-
-    Parameters
-    ----------
-    cases : a text where the case could not even be made
-    names : of the figures
-    workers : threads; default: one per core
-    """
-    made = [case for case in cases if not isinstance(case, str)]
-    if not made:
-        return list(cases)
-    settings = batch.settings(made, None, "native")
-    rows = batch.evaluate(Chunk(np.arange(len(cases)), tuple(cases)), settings, workers)
-    return [
-        {name: float(rows[name][i]) for name in names}
-        if rows["status"][i] == DONE
-        else str(rows["message"][i])
-        for i in range(len(cases))
-    ]
