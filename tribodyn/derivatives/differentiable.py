@@ -106,7 +106,7 @@ class Differentiable:
     def _run(self, how: str, values: Any, *more: Any) -> Any:
         import jax
 
-        from tribodyn.solve.jax.integrator import use_compilation_cache
+        from tribodyn.numerics.xla_cache import use_compilation_cache
 
         use_compilation_cache()
         meshes = any("mesh" in one.needs for one in self._quantities)

@@ -15,9 +15,8 @@ from tribodyn.dynamics.parameters import STATES, Model
 from tribodyn.kernels.native.internals import report_missing
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.numerics.work import usable_cores
-from tribodyn.solve.batch_result import Ensemble, nothing_yet, put
 from tribodyn.solve.choice import choose
-from tribodyn.solve.integrator import MAX_STEPS, March, Status
+from tribodyn.solve.integrator import MAX_STEPS, Ensemble, March, Status, nothing_yet, put
 from tribodyn.solve.methods import AUTO, EXPLICIT, Runs, runs
 from tribodyn.solve.tolerances import tolerances_from
 from tribodyn.solve.transient import cycles_at_once, make_integrator

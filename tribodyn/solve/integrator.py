@@ -1,10 +1,14 @@
-"""What every integrator takes and returns, and how it ended."""
+"""What every integrator takes and returns, of one case or of a batch, and how it ended."""
 
 from enum import IntEnum
+from itertools import pairwise
 from typing import NamedTuple, Protocol
 
-from tribodyn.dynamics.extremes import Extremes
-from tribodyn.numerics.shapes import Array, Float
+import numpy as np
+
+from tribodyn.dynamics.extremes import Extremes, no_extremes, put_extremes
+from tribodyn.dynamics.parameters import STATES
+from tribodyn.numerics.shapes import Array, Float, Int
 
 
 class Status(IntEnum):
@@ -97,3 +101,53 @@ class Integrator(Protocol):
     def integrate(self, state: Float[Array, " state"], first_cycle: int, cycles: int) -> IntegratedCycles:
         """Integrate `cycles` cycles; `state` stands before the engagement that opens the first."""
         ...
+
+
+class Ensemble(NamedTuple):
+    """Results of C cases.
+
+    Attributes
+    ----------
+    state : at the end, before the next engagement; of a failed case the last one that was accepted
+    samples : states over the last `window` cycles at phases k/samples; NaN from where a case failed
+    status : an `integrator.Status`
+    reached : mesh cycles done by this call
+    steps, evaluations : accepted steps, and evaluations of the right-hand side
+    extremes : of the motion over the window; of no cases where they were not sought
+    """
+
+    state: Float[Array, "case state"]
+    samples: Float[Array, "case sample state"]
+    status: Int[Array, " case"]
+    reached: Float[Array, " case"]
+    steps: Int[Array, " case"]
+    evaluations: Int[Array, " case"]
+    extremes: Extremes
+
+
+def put(result: Ensemble, places: Int[Array, " some"], part: Ensemble) -> None:
+    """Put the results of some cases into those of all."""
+    for all_of_it, some in zip(result[:-1], part[:-1], strict=True):
+        all_of_it[places] = some
+    if len(part.extremes.measure):
+        put_extremes(result.extremes, places, part.extremes)
+
+
+def nothing_yet(states: Float[Array, "case state"], kept: int, extremes: bool = False) -> Ensemble:
+    """Results before anything is integrated, with room for `kept` samples per case, and maybe extremes."""
+    count = len(states)
+    return Ensemble(
+        states.copy(),
+        np.full((count, kept, STATES), np.nan),
+        np.zeros(count, dtype=int),
+        np.zeros(count),
+        np.zeros(count, dtype=int),
+        np.zeros(count, dtype=int),
+        no_extremes(count if extremes else 0),
+    )
+
+
+def sample_phases(boundary: Float[Array, " boundary"], samples: int) -> list[Float[Array, " sample"]]:
+    """Phases k/samples of one mesh cycle by segment, to which its start belongs and its end does not."""
+    phases = np.arange(samples) / max(samples, 1)
+    return [phases[(phases >= start) & (phases < end)] for start, end in pairwise(boundary)]

@@ -10,10 +10,9 @@ from tribodyn.dynamics.parameters import DISPLACEMENTS, SLIP, STATES, Model
 from tribodyn.kernels.native import packed
 from tribodyn.numerics.shapes import Array, Float
 from tribodyn.solve.engagement import engage
-from tribodyn.solve.integrator import IntegratedCycles, Status
+from tribodyn.solve.integrator import IntegratedCycles, Status, sample_phases
 from tribodyn.solve.march.step_control import STANDSTILL, unbounded
 from tribodyn.solve.right_hand_side import rhs, work_array
-from tribodyn.solve.sampling import sample_phases
 from tribodyn.solve.tolerances import Tolerances
 
 #: Smallest relative tolerance that SciPy's solvers take without a word.

@@ -16,8 +16,8 @@ import numpy as np
 
 from tribodyn.dynamics.parameters import Model, Options
 from tribodyn.numerics.shapes import Array, Float, Int
-from tribodyn.solve.batch_result import Ensemble, nothing_yet
-from tribodyn.solve.integrator import March, Status
+from tribodyn.numerics.xla_cache import use_compilation_cache
+from tribodyn.solve.integrator import Ensemble, March, Status, nothing_yet
 from tribodyn.solve.jax.integrator import (
     Carried,
     SegmentControl,
@@ -26,11 +26,9 @@ from tribodyn.solve.jax.integrator import (
     over_cycle,
     padded_phases,
     steps_end_on,
-    use_compilation_cache,
 )
-from tribodyn.solve.jax.method import DiffraxMethod
 from tribodyn.solve.lanes.packing import by_shape
-from tribodyn.solve.methods import method_file
+from tribodyn.solve.methods import DiffraxMethod, method_file
 from tribodyn.solve.tolerances import tolerances_of_many
 
 #: Cases that are integrated side by side: a batch is done in parts of exactly so many, the last one filled up
@@ -43,7 +41,7 @@ def width_here() -> int:
     return WIDTH_ON_CPU if jax.default_backend() == "cpu" else WIDTH
 
 
-class Part(NamedTuple):
+class BatchPart(NamedTuple):
     """Cases that are integrated side by side, by their places in the batch.
 
     Attributes
@@ -73,17 +71,17 @@ def through_jax(
 
     Notes
     -----
-    Compiled once for a method, a width, a shape of models (`lane_packing.ModelShape`), tables shared or
-    not, and every `diffrax_integrator.ROOM` samples per cycle; for no number, and not for fewer cases.
+    Compiled once for a method, a width, a shape of models (`lanes.packing.ModelShape`), tables shared or
+    not, and every `jax.integrator.ROOM` samples per cycle; for no number, and not for fewer cases.
     """
     use_compilation_cache()
     result = nothing_yet(states, march.window * march.samples, march.extremes)
     parts = _parts(models, method_file(method).METHOD, width_here())
     threads = workers if jax.default_backend() == "cpu" else 1
     cancelled = threading.Event()
-    ticks: list[Part] = []
+    ticks: list[BatchPart] = []
 
-    def one(part: Part) -> None:
+    def one(part: BatchPart) -> None:
         for _ in _cycles(part, models, march, result):
             ticks.append(part)
             if progress:
@@ -101,17 +99,19 @@ def through_jax(
     return result
 
 
-def _parts(models: Sequence[Model], method: DiffraxMethod, width: int) -> list[Part]:
+def _parts(models: Sequence[Model], method: DiffraxMethod, width: int) -> list[BatchPart]:
     """Parts of cases of one shape, those of low speed, which take the most steps, side by side."""
     parts = []
     for group in by_shape(models):
         one_table = all(models[case].table is models[group[0]].table for case in group)
         order = np.array(sorted(group, key=lambda case: float(models[case].mechanics.nominal_speed)))
-        parts += [Part(method, width, one_table, order[i : i + width]) for i in range(0, len(order), width)]
+        parts += [
+            BatchPart(method, width, one_table, order[i : i + width]) for i in range(0, len(order), width)
+        ]
     return parts
 
 
-def _cycles(part: Part, models: Sequence[Model], march: March, result: Ensemble):
+def _cycles(part: BatchPart, models: Sequence[Model], march: March, result: Ensemble):
     """Integrate a part, mesh cycle by mesh cycle, and put what comes into `result`."""
     places = part.places
     rows = np.pad(places, (0, part.width - len(places)), mode="edge")
@@ -167,7 +167,7 @@ def _cycles(part: Part, models: Sequence[Model], march: March, result: Ensemble)
 
 
 def _compiled(
-    part: Part,
+    part: BatchPart,
     options: Options,
     numbers: Any,
     carried: Carried,
@@ -203,7 +203,7 @@ def over_one_cycle(
     started: Any,
     control: SegmentControl,
 ) -> tuple[Carried, SegmentResult]:
-    """`diffrax_integrator.over_cycle` mapped over the cases: a leading axis on all but cycle and started."""
+    """`jax.integrator.over_cycle` mapped over the cases: a leading axis on all but cycle and started."""
 
     def one(numbers: Any, carried: Carried, control: SegmentControl) -> tuple[Carried, SegmentResult]:
         return over_cycle(method, options, numbers, carried, cycle, started, control)

@@ -7,7 +7,7 @@ that no number of the scenario is compiled in. Steps end where friction reverses
 
 import os
 from collections.abc import Sequence
-from functools import lru_cache, partial
+from functools import partial
 from typing import Any, NamedTuple
 
 # the error branch of equinox cannot be cached between processes; NaNs are checked for below instead
@@ -20,17 +20,15 @@ import numpy as np
 
 from tribodyn.dynamics.equations import derivatives
 from tribodyn.dynamics.parameters import DRIVE_SPEED, SLIDING_DYNAMIC, SLIP, STATES, XI_RATE, Model, Options
-from tribodyn.numerics.cache import trusted_folder
 from tribodyn.numerics.shapes import Array, Float, Int
+from tribodyn.numerics.xla_cache import use_compilation_cache
 from tribodyn.solve.engagement import engaged
-from tribodyn.solve.integrator import IntegratedCycles, Status
-from tribodyn.solve.jax.limited_steps import GROWN, LimitedSteps
-from tribodyn.solve.jax.method import DiffraxMethod
-from tribodyn.solve.jax.turning_steps import TurningSteps
+from tribodyn.solve.integrator import IntegratedCycles, Status, sample_phases
+from tribodyn.solve.jax.controllers import GROWN, LimitedSteps, TurningSteps
 from tribodyn.solve.march.reversal import SHARES, filled_up, stops_of_many
 from tribodyn.solve.march.step_control import FIRST_STEP, MINIMUM_STEP, RELATIVE
 from tribodyn.solve.march.turning import resolves_turns
-from tribodyn.solve.sampling import sample_phases
+from tribodyn.solve.methods import DiffraxMethod
 from tribodyn.solve.tolerances import Tolerances
 
 jax.config.update("jax_enable_x64", True)
@@ -39,16 +37,6 @@ jax.config.update("jax_enable_x64", True)
 NEVER = np.nan
 #: Samples that the compiled code has room for in a segment, or a multiple.
 ROOM = 256
-
-
-@lru_cache(maxsize=1)
-def use_compilation_cache() -> None:
-    """Keep XLA's compiled code between processes, beside the native kernel's."""
-    folder = trusted_folder("xla")
-    if folder is None:
-        return
-    jax.config.update("jax_compilation_cache_dir", str(folder))
-    jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.2)
 
 
 def right_hand_side(phase: Any, y: Any, args: Any) -> Any:

@@ -17,8 +17,7 @@ from tribodyn.kernels.lanes.vectors import WIDTH, count
 from tribodyn.kernels.native.parts import part
 from tribodyn.numerics.elementary import where
 from tribodyn.numerics.shapes import Array, Float, Int
-from tribodyn.solve.batch_result import Ensemble
-from tribodyn.solve.integrator import Status
+from tribodyn.solve.integrator import Ensemble, Status
 from tribodyn.solve.lanes.packing import Packed
 from tribodyn.solve.march.dormand_prince import STAGES
 from tribodyn.solve.march.step_control import FIRST_STEP, MINIMUM_ERROR

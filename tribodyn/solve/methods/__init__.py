@@ -3,6 +3,7 @@
 A file is imported when its method is used: those of JAX and SciPy take long to import.
 """
 
+from collections.abc import Callable
 from enum import StrEnum
 from importlib import import_module
 from typing import Any, NamedTuple
@@ -23,6 +24,22 @@ class Entry(NamedTuple):
 
     about: str
     runs: Runs
+
+
+class DiffraxMethod(NamedTuple):
+    """The `METHOD` of a file that diffrax runs.
+
+    Attributes
+    ----------
+    solver : () -> diffrax's solver
+    stages : evaluations of the right-hand side in a step, without those of an implicit method's iteration
+    proportional, integral : gains of the step-size controller
+    """
+
+    solver: Callable[[], Any]
+    stages: int
+    proportional: float
+    integral: float
 
 
 METHODS = {

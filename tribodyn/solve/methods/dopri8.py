@@ -2,6 +2,6 @@
 
 import diffrax
 
-from tribodyn.solve.jax.method import DiffraxMethod
+from tribodyn.solve.methods import DiffraxMethod
 
 METHOD = DiffraxMethod(diffrax.Dopri8, stages=13, proportional=0.2, integral=0.4)

@@ -2,6 +2,6 @@
 
 import diffrax
 
-from tribodyn.solve.jax.method import DiffraxMethod
+from tribodyn.solve.methods import DiffraxMethod
 
 METHOD = DiffraxMethod(diffrax.Kvaerno5, stages=7, proportional=0.0, integral=1.0)

@@ -1,10 +1,10 @@
-"""Results of a part of the cases go to their places."""
+"""What integrators return: results of parts of a batch, and samples by the segments that they fall into."""
 
 import numpy as np
 
 from tribodyn.dynamics.extremes import no_extremes
 from tribodyn.dynamics.parameters import STATES
-from tribodyn.solve.batch_result import nothing_yet, put
+from tribodyn.solve.integrator import nothing_yet, put, sample_phases
 
 
 def test_every_field_of_a_part_is_put_in_its_place(rng):
@@ -30,3 +30,11 @@ def test_extremes_of_a_part_are_put_in_their_places(rng):
     for all_of_it, some, before in zip(whole.extremes, part.extremes, empty, strict=True):
         np.testing.assert_array_equal(all_of_it[[2, 0]], some)
         np.testing.assert_array_equal(all_of_it[[1, 3]], before[[1, 3]])
+
+
+def test_a_segment_has_its_start_and_not_its_end():
+    found = sample_phases(np.array([0.0, 0.25, 0.6, 1.0]), 8)
+    np.testing.assert_array_equal(np.concatenate(found), np.arange(8) / 8)
+    assert [len(one) for one in found] == [2, 3, 3]
+    assert found[1][0] == 0.25
+    assert [len(one) for one in sample_phases(np.array([0.0, 1.0]), 0)] == [0]
