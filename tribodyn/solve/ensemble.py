@@ -92,13 +92,13 @@ def march(
     return result
 
 
-def seek_again(models: Sequence[Model], result: Ensemble, march_: March, workers: int) -> None:
+def seek_again(models: Sequence[Model], result: Ensemble, plan: March, workers: int) -> None:
     """Seek extremes by marching every mesh cycle of the window again, natively, from its own start.
 
     For methods whose steps are not ours. As each cycle starts where theirs did, no difference adds up.
     """
-    for cycle in range(march_.window):
-        starts = result.samples[:, cycle * march_.samples]
+    for cycle in range(plan.window):
+        starts = result.samples[:, cycle * plan.samples]
         there = np.flatnonzero(np.all(np.isfinite(starts), axis=1))
         again = march(
             [models[case] for case in there.tolist()],
@@ -106,9 +106,9 @@ def seek_again(models: Sequence[Model], result: Ensemble, march_: March, workers
             cycles=1,
             window=1,
             samples=0,
-            rtol=march_.rtol,
-            max_steps=march_.max_steps,
-            first_cycle=march_.first_cycle + march_.cycles - march_.window + cycle,
+            rtol=plan.rtol,
+            max_steps=plan.max_steps,
+            first_cycle=plan.first_cycle + plan.cycles - plan.window + cycle,
             extremes=True,
             workers=workers,
         )
@@ -128,9 +128,9 @@ def in_lanes(
     from tribodyn.solve.lanes.batch import batches, run_threads
 
     result = nothing_yet(states, march.window * march.samples, march.extremes)
-    batches_ = batches(models, states, march)
-    run_threads(batches_, march, workers, progress)
-    for batch in batches_:
+    queued = batches(models, states, march)
+    run_threads(queued, march, workers, progress)
+    for batch in queued:
         put(result, batch.places, batch.queue.results())
     return result
 

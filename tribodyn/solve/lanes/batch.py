@@ -6,11 +6,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.dynamics.extremes import no_extremes
-from tribodyn.dynamics.parameters import STATES, Model
+from tribodyn.dynamics.parameters import Model
 from tribodyn.kernels.lanes.vectors import WIDTH
 from tribodyn.numerics.shapes import Array, Float, Int
-from tribodyn.solve.integrator import March
+from tribodyn.solve.integrator import March, nothing_yet
 from tribodyn.solve.lanes.march import march_lanes
 from tribodyn.solve.lanes.packing import Packed, by_shape, lane_model, pack
 from tribodyn.solve.lanes.queue import Queue, empty_lanes
@@ -21,7 +20,7 @@ from tribodyn.solve.tolerances import tolerances_of_many
 INTERVAL = 0.1
 
 
-class Batch(NamedTuple):
+class LaneBatch(NamedTuple):
     """Cases whose models have one shape, in the order of the queue, and their places in the ensemble."""
 
     places: Int[Array, " case"]
@@ -29,7 +28,7 @@ class Batch(NamedTuple):
     queue: Queue
 
 
-def batches(models: Sequence[Model], states: Float[Array, "case state"], march: March) -> list[Batch]:
+def batches(models: Sequence[Model], states: Float[Array, "case state"], march: March) -> list[LaneBatch]:
     """One batch per shape of models, the cases of low speed first, which take the most steps.
 
     Lanes side by side then cost about the same.
@@ -39,37 +38,20 @@ def batches(models: Sequence[Model], states: Float[Array, "case state"], march: 
 
 def _batch(
     models: Sequence[Model], states: Float[Array, "case state"], march: March, places: Int[Array, " case"]
-) -> Batch:
+) -> LaneBatch:
     speeds = [float(models[case].mechanics.nominal_speed) for case in places]
     places = places[np.argsort(speeds, kind="stable")]
     mine = [models[case] for case in places]
     packed = pack(mine)
-    count = len(places)
-    extremes = no_extremes(count if march.extremes else 0)
-    queue = Queue(
-        numbers=packed.numbers,
-        addresses=packed.addresses,
-        atol=tolerances_of_many(mine, states[places], march.rtol),
-        stops=stops_of_many(mine),
-        state=states[places],
-        samples=np.full((count, march.window * march.samples, STATES), np.nan),
-        status=np.zeros(count, dtype=np.int64),
-        reached=np.zeros(count),
-        steps=np.zeros(count, dtype=np.int64),
-        evaluations=np.zeros(count, dtype=np.int64),
-        measure=extremes.measure,
-        at=extremes.cycles,
-        segment=extremes.segment,
-        extreme_state=extremes.state,
-        taken=np.zeros(1, dtype=np.int64),
-        done=np.zeros(1, dtype=np.int64),
-        stop=np.zeros(1, dtype=np.int64),
-    )
-    return Batch(places, packed, queue)
+    result = nothing_yet(states[places], march.window * march.samples, march.extremes)
+    counters = (np.zeros(1, dtype=np.int64) for _ in range(3))
+    atol, stops = tolerances_of_many(mine, states[places], march.rtol), stops_of_many(mine)
+    queue = Queue(packed.numbers, packed.addresses, atol, stops, *result[:-1], *result.extremes, *counters)
+    return LaneBatch(places, packed, queue)
 
 
 def run_threads(
-    batches: list[Batch], march: March, workers: int, progress: Callable[[float], None] | None
+    batches: list[LaneBatch], march: March, workers: int, progress: Callable[[float], None] | None
 ) -> None:
     """Work through the queues; returns when all cases are done, or raises what interrupts it."""
     whole = sum(len(batch.places) for batch in batches) * march.cycles
@@ -92,6 +74,6 @@ def run_threads(
             pool.shutdown(cancel_futures=True)
 
 
-def _work(batch: Batch, march: March) -> None:
+def _work(batch: LaneBatch, march: March) -> None:
     model, numbers, addresses = lane_model(batch.packed)
     march_lanes(model, empty_lanes(batch.packed, numbers, addresses), batch.queue, march)

@@ -2,6 +2,7 @@
 
 Whatever differs by lane stands in rows of `WIDTH` floats, flags and counters too: the compiler reads a row as
 one vector, and compares and selects without conversion. Counters stay far below 2^53, where floats are exact.
+The rows are in three groups: step control, counters, flags.
 """
 
 from typing import NamedTuple
@@ -22,32 +23,26 @@ from tribodyn.solve.lanes.packing import Packed
 from tribodyn.solve.march.dormand_prince import STAGES
 from tribodyn.solve.march.step_control import FIRST_STEP, MINIMUM_ERROR
 
-#: Rows of the step control: phase (mesh cycles, 0 … 1); end of the segment, a lane runs while its phase is
-#: below; next stop, see `reversal`; the step, and what it was before it was cut to end there; the last error.
-PHASE, END, LIMIT, STEP, UNCUT_STEP, LAST_ERROR = range(6)
-#: Rows of counters: cycles done by the lane's case; steps accepted, and those before this mesh cycle;
-#: evaluations; number of the next stop in its segment.
-CYCLE, STEPS, STEPS_BEFORE, EVALUATIONS, STOP = range(6, 11)
-#: Rows of the case and its samples: number of the case, −1 for none; number of the next sample in the cycle
-#: and its phase, above 1 if none is left.
-CASE, SAMPLE, DUE = range(11, 14)
-#: Row of a counter: how often the step was tried again because friction turned too far.
-TRIES = 17
-#: Rows of flags, 0 or 1: no engagement opens the first cycle; the step was cut; the lane is selected (where
-#: it fails, with its status).
-FRESH, CUT, SELECTED = range(14, 17)
+#: Step control: phase (mesh cycles, 0 … 1); end of the segment, a lane runs while its phase is below; next
+#: stop, see `reversal`; the step, and what it was before it was cut to end there; the last error; phase of
+#: the next sample, above 1 if none is left.
+PHASE, END, LIMIT, STEP, UNCUT_STEP, LAST_ERROR, DUE = range(7)
+#: Counters: number of the case, −1 for none; cycles that it has done; steps accepted, and those before this
+#: mesh cycle; evaluations; numbers of the next stop in the segment and of the next sample in the cycle; how
+#: often the step was tried again because friction turned too far.
+CASE, CYCLE, STEPS, STEPS_BEFORE, EVALUATIONS, STOP, SAMPLE, TRIES = range(7, 15)
+#: Flags, 0 or 1: no engagement opens the first cycle; the step was cut; the lane is selected (where it fails,
+#: with its status).
+FRESH, CUT, SELECTED = range(15, 18)
 ROWS = 18
 #: A phase that never comes.
 NEVER = 2.0
 
 
 class LaneBlock(NamedTuple):
-    """Scratch of the lanes that one thread works with.
+    """Scratch of the lanes that one thread works with; from `measures` on as in `extreme_search.Search`.
 
-    Attributes
-    ----------
-    numbers, addresses : of the lanes' models, see `lane_packing`
-    measures, extreme, cycles, segments, states : as in `extreme_search.Search`, each (…, WIDTH)
+    `numbers` and `addresses` are those of the lanes' models, see `packing`.
     """
 
     numbers: Float[Array, "number lane"]
@@ -71,10 +66,10 @@ class Queue(NamedTuple):
 
     Attributes
     ----------
-    numbers, addresses : the models, see `lane_packing`
+    numbers, addresses : the models, see `packing`
     stops : phases that steps end on, see `reversal.stops`
-    steps, evaluations : results; `state` holds the start before
-    measure, at, segment : results: the `Extremes`, where they are sought
+    state … evaluations : results, as in `Ensemble`; `state` holds the start before
+    measure … extreme_state : results, as in `Extremes`, where they are sought
     taken, done, stop : cases begun; mesh cycles done; not 0 to stop all threads
     """
 
@@ -99,9 +94,8 @@ class Queue(NamedTuple):
     def results(self) -> Ensemble:
         """Results of the cases, in the order of the queue."""
         extremes = Extremes(self.measure, self.at, self.segment, self.extreme_state)
-        return Ensemble(
-            self.state, self.samples, self.status, self.reached, self.steps, self.evaluations, extremes
-        )
+        first = self._fields.index("state")
+        return Ensemble(*self[first : first + len(Ensemble._fields) - 1], extremes)
 
 
 def empty_lanes(
@@ -109,27 +103,18 @@ def empty_lanes(
 ) -> LaneBlock:
     """Lanes without cases."""
     pairs = packed.shape.pairs
-    block = LaneBlock(
-        numbers,
-        addresses,
-        *(
-            np.zeros((*shape, WIDTH))
-            for shape in (
-                (ROWS,),
-                (STATES,),
-                (STATES,),
-                (STATES,),
-                (STATES,),
-                (STAGES, STATES),
-                (QUANTITIES + pairs, pairs),
-                (ROWS_OF_MEASURES, measures_of(pairs)),
-                (EXTREMES,),
-                (EXTREMES,),
-                (EXTREMES,),
-                (EXTREMES, STATES),
-            )
-        ),
+    of_states = [(STATES,)] * 4
+    of_extremes = [(EXTREMES,)] * 3
+    shapes = (
+        (ROWS,),
+        *of_states,
+        (STAGES, STATES),
+        (QUANTITIES + pairs, pairs),
+        (ROWS_OF_MEASURES, measures_of(pairs)),
+        *of_extremes,
+        (EXTREMES, STATES),
     )
+    block = LaneBlock(numbers, addresses, *(np.zeros((*shape, WIDTH)) for shape in shapes))
     block.rows[CASE] = -1.0
     return block
 
