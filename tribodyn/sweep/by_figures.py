@@ -16,7 +16,7 @@ from tribodyn.studies.protocol.study import Study
 from tribodyn.studies.sweeping.batch import Chunk
 
 
-class Settings(NamedTuple):
+class NoSettings(NamedTuple):
     """Nothing can be chosen."""
 
 
@@ -37,33 +37,29 @@ class ByFigures:
             )
         self.study = study
 
-    def settings(self, cases: Sequence[Any], transient: int | None, engine: str) -> Settings:
+    def settings(self, cases: Sequence[Any], transient: int | None, engine: str) -> NoSettings:
         """Nothing to choose; marching and JAX belong to motions."""
         if transient is not None:
             rule = f"{self.study.about}: its cases have no mesh cycles to march"
             raise InputError("--transient", transient, rule, "omit it")
         if engine == "jax":
             raise InputError("--engine", "jax", f"{self.study.about}: JAX integrates motions only", "omit it")
-        return Settings()
+        return NoSettings()
 
-    def followed(self, settings: Settings) -> Settings:
+    def following(self, settings: NoSettings, unstable: bool) -> NoSettings:
         """The same: such cases do not go on from each other."""
         return settings
 
-    def with_unstable(self, settings: Settings) -> Settings:
-        """There are none: such cases do not go on from each other."""
-        rule = f"{self.study.about}: its cases do not go on from each other"
-        raise InputError("--unstable", None, rule, "omit it")
-
-    def layout(self, settings: Settings) -> SweepLayout:
+    def layout(self, settings: NoSettings) -> SweepLayout:
         """The quantities that the study names."""
-        return SweepLayout({name: one.variable() for name, one in self.study.swept().items()})
+        swept = self.study.swept()
+        return SweepLayout({name: quantity.variable() for name, quantity in swept.items()})
 
-    def size_of_chunk(self, settings: Settings, total: int, width: int) -> int:
+    def size_of_chunk(self, settings: NoSettings, total: int, width: int) -> int:
         """One: each is recorded as soon as it is done."""
         return 1
 
-    def estimate(self, case: Any, settings: Settings, total: int, width: int) -> Estimate:
+    def estimate(self, case: Any, settings: NoSettings, total: int, width: int) -> Estimate:
         """What the study says of a run; the record holds its figures."""
         row = variable_bytes(self.layout(settings).variables.values(), {})
         return self.study.estimate(case)._replace(record=row)
@@ -72,11 +68,11 @@ class ByFigures:
         """Nothing is known to be shared."""
         return None
 
-    def check(self, case: Any, settings: Settings) -> None:
+    def check(self, case: Any, settings: NoSettings) -> None:
         """Check a case as `tribodyn check` does."""
         self.study.check(case)
 
-    def evaluate(self, chunk: Chunk, settings: Settings, workers: int | None) -> dict[str, np.ndarray]:
+    def evaluate(self, chunk: Chunk, settings: NoSettings, workers: int | None) -> dict[str, np.ndarray]:
         """Work out the figures of every case."""
         layout = self.layout(settings)
         rows = layout.empty_rows(len(chunk.cases))
@@ -88,8 +84,7 @@ class ByFigures:
             for name in layout.figures:
                 if figures.get(name) is not None:
                     rows[name][i] = figures[name]
-            said = [*remarks(figures), *remarks_in_brief(case.toml)]
-            rows["message"][i] = remarked(*map(warned, said))
+            rows["message"][i] = remarked(*map(warned, [*remarks(figures), *remarks_in_brief(case.toml)]))
             rows[TRUST][i] = number(figures)
             rows["status"][i] = DONE
         return rows

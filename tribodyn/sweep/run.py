@@ -66,18 +66,9 @@ def run(
     InputError
         Before anything is computed.
     """
-    if unstable:
-        _can_be_continued(grid, directions)
-    if directions and not grid.batch.states:
-        rule = f"{grid.study.about}: its cases do not go on from each other"
-        raise InputError("--direction", None, rule, "omit it")
-    if directions and not grid.axes[0].numeric:
-        axis = grid.axes[0].key
-        raise InputError("--direction", axis, "has no order to go up or down", "vary a number first")
-    if directions:
-        settings = grid.batch.followed(settings)
-    if unstable:
-        settings = grid.batch.with_unstable(settings)
+    if directions or unstable:
+        _can_be_followed(grid, directions, unstable)
+        settings = grid.batch.following(settings, unstable)
     refuse_large(estimate_of(grid, settings, len(directions), engine.width), allow_large)
     head = _head(grid, settings, directions)
     if not resume:
@@ -115,17 +106,21 @@ def run(
     return SweepResult(path, status, record.status.size, failed, summary)
 
 
-def _can_be_continued(grid: Grid, directions: Sequence[str]) -> None:
-    """Raise InputError where no branch is followed, or steps in between are too expensive."""
+def _can_be_followed(grid: Grid, directions: Sequence[str], unstable: bool) -> None:
+    """Raise InputError where cases have no order or no motion to go on from, or steps are too expensive."""
+    axis = grid.axes[0]
+    option = "--unstable" if unstable else "--direction"
     if not grid.batch.states:
         rule = f"{grid.study.about}: its cases do not go on from each other"
-        raise InputError("--unstable", None, rule, "omit it")
+        raise InputError(option, None, rule, "omit it")
     if not directions:
         rule = "continues the branches that --direction follows"
-        raise InputError("--unstable", None, rule, "add --direction: up, down or both")
-    if grid.changes_what_is_shared(0):
-        rule = f"each value of {grid.axes[0].key} needs a table of the mesh of its own"
-        raise InputError("--unstable", None, rule, "vary another key first, or omit it")
+        raise InputError(option, None, rule, "add --direction: up, down or both")
+    if not axis.numeric:
+        raise InputError("--direction", axis.key, "has no order to go up or down", "vary a number first")
+    if unstable and grid.changes_what_is_shared(0):
+        rule = f"each value of {axis.key} needs a table of the mesh of its own"
+        raise InputError(option, None, rule, "vary another key first, or omit it")
 
 
 def _head(grid: Grid, settings: Any, directions: Sequence[str]) -> SweepHead:
@@ -134,7 +129,7 @@ def _head(grid: Grid, settings: Any, directions: Sequence[str]) -> SweepHead:
         "vary": {axis.key: list(axis.written) for axis in grid.axes},
         "weights": {axis.name: _weights(grid, axis) for axis in grid.axes if axis.weighed},
         "drawn": [axis.name for axis in grid.axes if axis.drawn],
-        "directions": [one for one in DIRECTIONS if one in directions],
+        "directions": [direction for direction in DIRECTIONS if direction in directions],
         **settings._asdict(),
     }
     return SweepHead(
@@ -157,12 +152,11 @@ def _weights(grid: Grid, axis: Axis) -> list[float]:
 
 def _sound_somewhere(grid: Grid, settings: Any) -> None:
     """A mistake that all cases share is reported at once: a case at each end of the grid is checked."""
-    refused = None
-    for place in ((0,) * len(grid.shape), tuple(size - 1 for size in grid.shape)):
+    refusals = []
+    for case in grid.ends():
         try:
-            grid.batch.check(grid.case(place), settings)
+            grid.batch.check(case, settings)
             return
         except InputError as error:
-            refused = refused or error
-    if refused:
-        raise refused
+            refusals.append(error)
+    raise refusals[0]

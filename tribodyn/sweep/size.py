@@ -29,13 +29,13 @@ def estimate_of(grid: Grid, settings: Any, directions: int, width: int = 1) -> E
     cases = float(np.prod(grid.shape, dtype=float)) * max(1, directions)
     together = int(min(cases, 10.0**9))
     ends = [grid.batch.estimate(case, settings, together, width) for case in grid.ends()]
-    seconds, shared = max(one.seconds for one in ends), max(one.shared for one in ends)
+    seconds, shared = max(end.seconds for end in ends), max(end.shared for end in ends)
     every = Driver(VARY, cases, USUAL_CASES, f"choose larger steps than for {cases:.4g} cases")
     return Estimate(
-        max(one.memory for one in ends) + A_CASE * cases,
-        of_a_run.HEAD + cases * max(one.record for one in ends),
+        max(end.memory for end in ends) + A_CASE * cases,
+        of_a_run.HEAD + cases * max(end.record for end in ends),
         cases * seconds,
-        (every, *chain.from_iterable(one.drivers for one in ends)),
+        (every, *chain.from_iterable(end.drivers for end in ends)),
         _tables(grid) * shared if shared else 0.0,
     )
 

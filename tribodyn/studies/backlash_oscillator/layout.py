@@ -2,8 +2,7 @@
 
 from tribodyn.numerics.variable import Variable, flag
 from tribodyn.record.schema import Layout
-from tribodyn.studies.backlash_oscillator import unstable
-from tribodyn.studies.sweeping import ends
+from tribodyn.studies.sweeping import branches
 
 _POINT = ("frequency", "direction")
 _MULTIPLIER = ("frequency", "direction", "multiplier")
@@ -13,6 +12,9 @@ FREQUENCY = Variable(
 )
 DIRECTION = Variable(("direction",), "1", "sense in which the frequency was followed")
 MULTIPLIER = Variable(("multiplier",), "1", "number of the Floquet multiplier, largest modulus first")
+UNSTABLE_MOTION = Variable(
+    ("unstable",), "1", "number of the unstable motion, those of a branch in its order"
+)
 
 SAMPLES: dict[str, Variable] = {
     "rms_displacement": Variable(
@@ -51,25 +53,48 @@ SAMPLES: dict[str, Variable] = {
 
 _END = ("end",)
 ENDS: dict[str, Variable] = {
-    "end_kind": ends.kind_variable(_END, "how the branch ends that is left there"),
+    "end_kind": branches.kind_variable("how the branch ends that is left there"),
     "end_frequency": Variable(_END, "1", "frequency at which a branch ends"),
     "end_within": Variable(_END, "1", "distance between the frequencies that locate the end"),
     "end_direction": flag(_END, "sense in which the frequency was followed: 0 up, 1 down", "up down", 0),
-    "end_period": Variable(_END, "1", "periods of the excitation in one of the motion that ends", "<i4", 0),
-    "end_multiplier_modulus": Variable(
-        _END, "1", "maximum modulus of the multipliers at the last place found on the branch"
+    **branches.COMMON,
+}
+
+_MOTION = ("unstable",)
+UNSTABLE: dict[str, Variable] = {
+    "unstable_end": Variable(_MOTION, "1", "number of the end beyond which the branch goes on", "<i4", 0),
+    "unstable_frequency": Variable(_MOTION, "1", "frequency of the excitation of an unstable motion"),
+    "unstable_period": Variable(_MOTION, "1", "periods of the excitation in one of the motion", "<i4", 0),
+    "unstable_rms_displacement": Variable(
+        _MOTION, "1", "root mean square of its displacement about the mean, in half backlashes"
     ),
-    "end_multiplier_angle": Variable(_END, "rad", "angle of that multiplier"),
+    "unstable_peak_to_peak_displacement": Variable(
+        _MOTION, "1", "peak to peak of its displacement, in half backlashes"
+    ),
+    "unstable_contact_loss_fraction": Variable(_MOTION, "1", "share of the time without contact"),
+    "unstable_multiplier_modulus": Variable(
+        _MOTION, "1", "maximum modulus of its Floquet multipliers, above 1"
+    ),
+    "unstable_multiplier_angle": Variable(_MOTION, "rad", "angle of that multiplier"),
+    "unstable_residual": Variable(_MOTION, "1", "change of displacement and velocity over one period"),
+    "unstable_section_displacement": Variable(
+        _MOTION, "1", "its displacement at the maximum excitation, in half backlashes"
+    ),
+    "unstable_section_velocity": Variable(_MOTION, "1", "velocity there"),
+    "end_unstable_finish": branches.kind_variable(
+        "how the branch beyond stops being unstable; none: it leaves the range, or is lost"
+    ),
+    "end_unstable_finish_frequency": Variable(_END, "1", "frequency at which it stops being unstable"),
 }
 
 LAYOUT = Layout(
     FREQUENCY,
     SAMPLES,
-    {"direction": DIRECTION, "multiplier": MULTIPLIER, "end": ends.END},
+    {"direction": DIRECTION, "multiplier": MULTIPLIER, "end": branches.END},
     ENDS,
     groups={"mesh_cycle": {}, "geometry": {}},
 )
 #: Of a case that asks for unstable motions.
 LAYOUT_WITH_UNSTABLE = LAYOUT._replace(
-    scales={**LAYOUT.scales, "unstable": unstable.SCALE}, others={**ENDS, **unstable.VARIABLES}
+    scales={**LAYOUT.scales, "unstable": UNSTABLE_MOTION}, others={**ENDS, **UNSTABLE}
 )

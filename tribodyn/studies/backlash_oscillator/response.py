@@ -2,26 +2,26 @@
 
 from collections.abc import Callable, Sequence
 from enum import IntEnum
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.solve.branch.continuation import Arrival, Leg, follow
+from tribodyn.solve.branch.continuation import Leg, follow
 from tribodyn.solve.branch.family import BranchEnd
-from tribodyn.solve.branch.unstable import unstable_branches
+from tribodyn.solve.branch.unstable import UnstableBranch, unstable_branches
 from tribodyn.solve.orbit import motions as orbit
 from tribodyn.solve.orbit.motions import Orbit
 from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.motion import (
     BACK,
     FREE,
+    FREQUENCY,
     INTEGRAL,
     MAXIMUM,
     MINIMUM,
     SQUARE,
     OscillatorMap,
 )
-from tribodyn.studies.backlash_oscillator.unstable import Beyond, measured
 
 UP, DOWN = 0, 1
 #: Periods over which a motion that is not periodic is measured.
@@ -49,6 +49,20 @@ WITHOUT_PERIOD = {
 }
 
 
+class MeasuredBranch(NamedTuple):
+    """A branch beyond the end of its stable part.
+
+    Attributes
+    ----------
+    end : place of that end in `Response.ends`
+    measures : of its motions, as `measured` gives them
+    """
+
+    end: int
+    branch: UnstableBranch
+    measures: dict[str, np.ndarray]
+
+
 class Response(NamedTuple):
     """Motion at every frequency, reached by going up (column 0) and down (column 1).
 
@@ -56,16 +70,15 @@ class Response(NamedTuple):
     ----------
     frequency : (F,), Ω
     rms : (F, 2), root mean square of x about its mean, over one period of the motion; over `WINDOW` periods
-        of the excitation where it is not periodic. NaN where it failed.
-    peak_to_peak, mean : (F, 2)
+        of the excitation where it is not periodic. NaN where it failed
     free, back : (F, 2), shares of the time without contact, and in contact on the back side
     period : (F, 2), of the motion in periods of the excitation; 0 where it is not periodic
     kind : (F, 2), of `MotionKind`; STABLE: periodic
     residual : (F, 2), change of the state over a period of the motion
     multiplier : (F, 2, 2) complex, Floquet multipliers over a period of the motion; NaN where it has none
     displacement, velocity : (F, 2), state where cos Ωτ = 1, at the start of the motion
-    messages : remarks on single points
-    ends : where branches were left, in the order in which they were met
+    messages : frequency, direction and text of remarks on single points
+    ends : direction and where branches were left, in the order in which they were met
     beyond : unstable motions beyond these, where the case asks for them
     """
 
@@ -83,7 +96,7 @@ class Response(NamedTuple):
     velocity: np.ndarray
     messages: list[tuple[float, int, str]]
     ends: list[tuple[int, BranchEnd]]
-    beyond: list[Beyond]
+    beyond: list[MeasuredBranch]
 
 
 def frequency_response(
@@ -96,23 +109,10 @@ def frequency_response(
     """
     frequency = np.array(case.frequencies)
     count = len(frequency)
-    one = np.full((count, 2), np.nan)
-    response = Response(
-        frequency,
-        *(one.copy() for _ in range(5)),
-        period=np.zeros((count, 2), dtype=int),
-        kind=np.full((count, 2), FAILED),
-        residual=one.copy(),
-        multiplier=np.full((count, 2, 2), np.nan, dtype=complex),
-        displacement=one.copy(),
-        velocity=one.copy(),
-        messages=[],
-        ends=[],
-        beyond=[],
-    )
+    response = _empty_response(frequency)
     rest = np.array([at_rest(case.mean_force), 0.0])
     family = _Oscillators(case)
-    reach = float(frequency[-1])
+    span = float(frequency[0]), float(frequency[-1])
     at: list[tuple[float, np.ndarray, int] | None] = [None, None]
     for step in range(count):
         places = [step, count - 1 - step]
@@ -120,20 +120,31 @@ def frequency_response(
         for direction, place in enumerate(places):
             target = float(frequency[place])
             start, state, period = at[direction] or (target, rest, 0)
-            legs.append(Leg(direction, start, target, state, period, reach=reach))
+            legs.append(Leg(direction, start, target, state, period, reach=span[1]))
         arrivals = follow(family, legs, max_periods=case.max_periods)
         oscillator = oscillator_at(case, frequency[places])
         for direction, arrival in enumerate(arrivals):
             found = arrival.orbit
             _put(response, places[direction], direction, found, oscillator)
-            if case.unstable:
-                _go_on(response, family, direction, arrival)
+            branches = unstable_branches(family, direction, arrival.seeds, span) if case.unstable else []
+            for end, branch in enumerate(branches, len(response.ends)):
+                if branch is not None:
+                    response.beyond.append(measured_branch(case, end, branch))
             response.ends.extend((direction, end) for end in arrival.ends)
             failed = found.kind == orbit.FAILED
             at[direction] = None if failed else (legs[direction].target, arrival.next_state, found.period)
         if progress:
             progress((step + 1) / count)
     return response
+
+
+def _empty_response(frequency: np.ndarray) -> Response:
+    shape = len(frequency), 2
+    names = ("rms", "peak_to_peak", "mean", "free", "back", "residual", "displacement", "velocity")
+    columns: dict[str, Any] = {name: np.full(shape, np.nan) for name in names}
+    columns |= {"period": np.zeros(shape, dtype=int), "kind": np.full(shape, FAILED)}
+    columns["multiplier"] = np.full((*shape, 2), np.nan, dtype=complex)
+    return Response(frequency=frequency, messages=[], ends=[], beyond=[], **columns)
 
 
 class _Oscillators:
@@ -157,13 +168,26 @@ def at_rest(mean_force: float) -> float:
     return float(mean_force + np.sign(mean_force))
 
 
-def _go_on(response: Response, family: _Oscillators, direction: int, arrival: Arrival) -> None:
-    """Continue the branches beyond the ends of a leg."""
-    span = float(response.frequency[0]), float(response.frequency[-1])
-    for place, branch in enumerate(unstable_branches(family, direction, arrival.seeds, span)):
-        if branch is not None:
-            oscillator = oscillator_at(family.case, branch.values)
-            response.beyond.append(measured(len(response.ends) + place, branch, oscillator))
+def measured(
+    oscillator: OscillatorMap, states: np.ndarray, cases: np.ndarray, periods: int
+) -> dict[str, np.ndarray]:
+    """Figures of motions over some periods, by their names in `Response`."""
+    figures = oscillator.figures(states, cases, periods)
+    duration = periods * 2.0 * np.pi / oscillator.parameters[cases, FREQUENCY]
+    mean = figures[:, INTEGRAL] / duration
+    return {
+        "mean": mean,
+        "rms": np.sqrt(np.maximum(figures[:, SQUARE] / duration - mean * mean, 0.0)),
+        "peak_to_peak": figures[:, MAXIMUM] - figures[:, MINIMUM],
+        "free": figures[:, FREE] / duration,
+        "back": figures[:, BACK] / duration,
+    }
+
+
+def measured_branch(case: BacklashOscillatorCase, end: int, branch: UnstableBranch) -> MeasuredBranch:
+    """A branch with the figures of its motions; `end` is the place of the end before it."""
+    oscillator, cases = oscillator_at(case, branch.values), np.arange(len(branch.values))
+    return MeasuredBranch(end, branch, measured(oscillator, branch.states, cases, branch.period))
 
 
 def _put(response: Response, place: int, direction: int, found: Orbit, oscillator: OscillatorMap) -> None:
@@ -173,17 +197,11 @@ def _put(response: Response, place: int, direction: int, found: Orbit, oscillato
         response.messages.append((float(response.frequency[place]), direction, found.message))
     if found.kind == orbit.FAILED:
         return
-    state, periods = found.state, found.period or WINDOW
-    one = np.array([direction])
-    figures = oscillator.figures(state[None], one, periods)[0]
-    duration = periods * 2.0 * np.pi / response.frequency[place]
-    mean = figures[INTEGRAL] / duration
-    response.mean[at] = mean
-    response.rms[at] = np.sqrt(max(figures[SQUARE] / duration - mean * mean, 0.0))
-    response.peak_to_peak[at] = figures[MAXIMUM] - figures[MINIMUM]
-    response.free[at], response.back[at] = figures[FREE] / duration, figures[BACK] / duration
+    measures = measured(oscillator, found.state[None], np.array([direction]), found.period or WINDOW)
+    for name, values in measures.items():
+        getattr(response, name)[at] = values[0]
     response.kind[at] = WITHOUT_PERIOD.get(found.kind, STABLE)
     response.period[at] = found.period
     response.residual[at] = found.residual
     response.multiplier[at] = found.multipliers
-    response.displacement[at], response.velocity[at] = state
+    response.displacement[at], response.velocity[at] = found.state

@@ -17,12 +17,13 @@ from tribodyn.studies.backlash_oscillator.response import (
     QUASI_PERIODIC,
     STABLE,
     UP,
+    MeasuredBranch,
     Response,
     frequency_response,
 )
-from tribodyn.studies.backlash_oscillator.unstable import described, finish_row, rows_of
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import Progress, RunResult
+from tribodyn.studies.sweeping.branches import branch_values, end_values
 
 #: Relative difference of the RMS above which the ways up and down count as different branches: hundreds of
 #: times what the residuals leave.
@@ -49,7 +50,7 @@ def run(
     scales = {"direction": np.array(["up", "down"]), "multiplier": np.array([1, 2])}
     if response.ends:
         scales["end"] = np.arange(1, len(response.ends) + 1)
-    unstable_rows = [row for one in response.beyond for row in rows_of(one)]
+    unstable_rows = [row for beyond in response.beyond for row in rows_of(beyond)]
     if unstable_rows:
         scales["unstable"] = np.arange(1, len(unstable_rows) + 1)
     layout = LAYOUT_WITH_UNSTABLE if case.unstable else LAYOUT
@@ -57,8 +58,8 @@ def run(
         record.write(0, record_arrays(response))
         for row, (direction, end) in enumerate(response.ends):
             record.put(row, end_row(direction, end))
-        for one in response.beyond:
-            record.put(one.end, finish_row(one))
+        for beyond in response.beyond:
+            record.put(beyond.end, finish_row(beyond))
         for row, values in enumerate(unstable_rows):
             record.put(row, values)
         if np.all(response.kind == FAILED):
@@ -98,15 +99,43 @@ def record_arrays(response: Response) -> dict[str, Any]:
 
 def end_row(direction: int, end: BranchEnd) -> dict[str, Any]:
     """What the record holds of the end of a branch."""
-    return {
-        "end_kind": 1 + KINDS.index(end.kind),
-        "end_frequency": end.value,
-        "end_within": end.within,
-        "end_direction": direction,
-        "end_period": end.period,
-        "end_multiplier_modulus": abs(end.multiplier),
-        "end_multiplier_angle": np.angle(end.multiplier),
+    return end_values(end, "end_frequency") | {"end_direction": direction}
+
+
+def rows_of(beyond: MeasuredBranch) -> list[dict[str, Any]]:
+    """Rows of the record, one for every motion of a branch."""
+    branch, measures = beyond.branch, beyond.measures
+    count = len(branch.values)
+    columns = branch_values(branch) | {
+        "unstable_end": np.full(count, beyond.end + 1),
+        "unstable_frequency": branch.values,
+        "unstable_period": np.full(count, branch.period),
+        "unstable_rms_displacement": measures["rms"],
+        "unstable_peak_to_peak_displacement": measures["peak_to_peak"],
+        "unstable_contact_loss_fraction": measures["free"],
+        "unstable_section_displacement": branch.states[:, 0],
+        "unstable_section_velocity": branch.states[:, 1],
     }
+    return [{name: values[i] for name, values in columns.items()} for i in range(count)]
+
+
+def finish_row(beyond: MeasuredBranch) -> dict[str, Any]:
+    """What the row of the end holds of the branch beyond it."""
+    finish = beyond.branch.finish
+    if finish is None:
+        return {}
+    kind = 1 + KINDS.index(finish.kind)
+    return {"end_unstable_finish": kind, "end_unstable_finish_frequency": finish.value}
+
+
+def described(beyond: MeasuredBranch) -> str:
+    """A branch in words, for the summary."""
+    branch, finish = beyond.branch, beyond.branch.finish
+    goes = "no end in the range" if finish is None else f"{finish.kind} at {finish.value:.6g}"
+    return (
+        f"period {branch.period} between {np.min(branch.values):.6g} and {np.max(branch.values):.6g}, "
+        f"multiplier at most {np.max(np.abs(branch.multipliers)):.4g}: {goes}"
+    )
 
 
 def response_figures(response: Response) -> dict[str, Any]:
@@ -126,28 +155,21 @@ def response_figures(response: Response) -> dict[str, Any]:
         summary |= {"rms_max": float(rms[place]), "rms_max_frequency": float(frequency[place[0]])}
         summary["contact_loss_fraction_max"] = _maximum(response.free)
         summary["back_contact_fraction_max"] = _maximum(response.back)
-    losing = np.flatnonzero(np.any(np.nan_to_num(response.free) > 0.0, axis=1))
-    if losing.size:
-        summary |= {
-            "contact_loss_from": float(frequency[losing[0]]),
-            "contact_loss_to": float(frequency[losing[-1]]),
-        }
-    bistable = np.flatnonzero(branches_apart(response))
-    if bistable.size:
-        summary |= {
-            "bistable_from": float(frequency[bistable[0]]),
-            "bistable_to": float(frequency[bistable[-1]]),
-        }
+    losing = np.any(np.nan_to_num(response.free) > 0.0, axis=1)
+    for name, there in (("contact_loss", losing), ("bistable", branches_apart(response))):
+        if np.any(there):
+            places = frequency[there]
+            summary |= {f"{name}_from": float(places[0]), f"{name}_to": float(places[-1])}
     for number, (direction, end) in enumerate(response.ends, 1):
         way = "up" if direction == UP else "down"
         summary[f"end_{number}"] = f"{end.kind} of period {end.period} at {end.value:.6g}, {way}"
-    for one in response.beyond:
-        summary[f"unstable_{one.end + 1}"] = described(one)
-    said = response.messages
-    for number, (at, direction, text) in enumerate(said[:REMARKS]):
+    for beyond in response.beyond:
+        summary[f"unstable_{beyond.end + 1}"] = described(beyond)
+    messages = response.messages
+    for number, (at, direction, text) in enumerate(messages[:REMARKS]):
         summary[f"remark_{number + 1}"] = f"frequency {at:g}, {'up' if direction == UP else 'down'}: {text}"
-    if len(said) > REMARKS:
-        summary["remarks_more"] = len(said) - REMARKS
+    if len(messages) > REMARKS:
+        summary["remarks_more"] = len(messages) - REMARKS
     return summary
 
 

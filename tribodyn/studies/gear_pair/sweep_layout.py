@@ -10,7 +10,7 @@ from tribodyn.record.sweep_schema import OF_EVERY_SWEEP, WORD, SweepLayout
 from tribodyn.solve.orbit.motions import MAX_PERIOD
 from tribodyn.studies.gears.reported import TEMPERATURE_SWEPT
 from tribodyn.studies.protocol.estimate import variable_bytes
-from tribodyn.studies.sweeping import ends, unstable
+from tribodyn.studies.sweeping import branches
 
 #: `stable`, where the linearised motion was not looked at.
 UNKNOWN = -1
@@ -78,11 +78,11 @@ CASES: dict[str, Variable] = {
     ),
 }
 
-#: What it records of the unstable motions beyond the ends of branches, see `sweeping.unstable`.
+#: What it records of the unstable motions beyond the ends of branches, see `sweeping.branches`.
 UNSTABLE: dict[str, Variable] = {
-    **unstable.VARIABLES,
+    **branches.UNSTABLE_VARIABLES,
     **{
-        unstable.PREFIX + name: CASES[name]._replace(
+        branches.PREFIX + name: CASES[name]._replace(
             dims=("end", "motion"), long_name=f"{CASES[name].long_name}, of an unstable motion"
         )
         for name in UNSTABLE_QUANTITIES
@@ -114,8 +114,8 @@ def row_bytes(settings: Any) -> float:
         "cycle": settings.points,
         "mode": settings.modes,
         "state_variable": len(STATE_NAMES),
-        "end": ends.ENDS,
-        "motion": unstable.MOTIONS,
+        "end": branches.ENDS,
+        "motion": branches.MOTIONS,
         "return": MAX_PERIOD,
     }
     return variable_bytes({**_variables(settings), **OF_EVERY_SWEEP}.values(), sizes)
@@ -123,7 +123,11 @@ def row_bytes(settings: Any) -> float:
 
 def _variables(settings: Any) -> dict[str, Variable]:
     """What is recorded of every case."""
-    return CASES | (ends.VARIABLES if settings.followed else {}) | (UNSTABLE if settings.unstable else {})
+    return (
+        CASES
+        | (branches.END_VARIABLES if settings.followed else {})
+        | (UNSTABLE if settings.unstable else {})
+    )
 
 
 def layout_of(settings: Any) -> SweepLayout:
@@ -136,8 +140,8 @@ def layout_of(settings: Any) -> SweepLayout:
         "state_variable": (STATE_VARIABLE, STATE_NAMES),
     }
     if settings.followed:
-        scales["end"] = ends.END, np.arange(1, ends.ENDS + 1)
+        scales["end"] = branches.END, np.arange(1, branches.ENDS + 1)
     if settings.unstable:
-        scales["motion"] = unstable.MOTION, np.arange(1, unstable.MOTIONS + 1)
+        scales["motion"] = branches.MOTION, np.arange(1, branches.MOTIONS + 1)
         scales["return"] = RETURN, np.arange(1, MAX_PERIOD + 1)
     return SweepLayout(_variables(settings), scales, {"samples_per_cycle": settings.samples})

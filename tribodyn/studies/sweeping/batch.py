@@ -74,17 +74,13 @@ class Batch(Protocol):
         """
         ...
 
-    def followed(self, settings: Any) -> Any:
-        """The settings of a sweep whose cases go on from each other."""
-        ...
-
-    def with_unstable(self, settings: Any) -> Any:
-        """The settings of such a sweep that continues branches beyond their ends, unstable, too.
+    def following(self, settings: Any, unstable: bool) -> Any:
+        """The settings of a sweep whose cases go on from each other, and maybe continue branches unstably.
 
         Raises
         ------
         InputError
-            Where there are none to continue.
+            Where there are no such branches.
         """
         ...
 

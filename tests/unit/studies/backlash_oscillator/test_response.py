@@ -23,10 +23,17 @@ from tribodyn.studies.backlash_oscillator.response import (
     _put,
     at_rest,
     frequency_response,
-    oscillator_at,
+    measured_branch,
 )
-from tribodyn.studies.backlash_oscillator.run import branches_apart, end_row, record_arrays, response_figures
-from tribodyn.studies.backlash_oscillator.unstable import described, finish_row, measured, rows_of
+from tribodyn.studies.backlash_oscillator.run import (
+    branches_apart,
+    described,
+    end_row,
+    finish_row,
+    record_arrays,
+    response_figures,
+    rows_of,
+)
 
 
 def case(frequencies, force=0.4, error=0.02, **more):
@@ -56,9 +63,9 @@ def test_while_contact_lasts_the_response_is_the_linear_oscillators(sign):
             assert found.kind[at] == STABLE
             assert found.period[at] == 1
             assert found.mean[at] == pytest.approx(1.4 * sign, rel=1e-7)
-            assert found.rms[at] == pytest.approx(abs(shape) / np.sqrt(2.0), rel=1e-5)
-            assert found.peak_to_peak[at] == pytest.approx(2.0 * abs(shape), rel=1e-5)
-            assert found.free[at] == 0.0
+            assert found.measures["rms"][at] == pytest.approx(abs(shape) / np.sqrt(2.0), rel=1e-5)
+            assert found.measures["peak_to_peak"][at] == pytest.approx(2.0 * abs(shape), rel=1e-5)
+            assert found.measures["free"][at] == 0.0
             assert found.back[at] == pytest.approx(1.0 if sign < 0 else 0.0, abs=1e-12)
             assert found.displacement[at] == pytest.approx(1.4 * sign + shape.real, rel=1e-6)
             assert found.velocity[at] == pytest.approx(-frequency * shape.imag, rel=1e-4)
@@ -184,10 +191,10 @@ def test_figures_of_unstable_motions():
         for state, largest in zip(states, multipliers, strict=True)
     ]
     branch = UnstableBranch(2, frequencies, orbits, finish)
-    found = measured(3, branch, oscillator_at(case((0.6, 1.3)), frequencies))
-    np.testing.assert_allclose(found.rms, np.abs(shapes) / np.sqrt(2.0), rtol=1e-7)
-    np.testing.assert_allclose(found.peak_to_peak, 2.0 * np.abs(shapes), rtol=1e-7)
-    np.testing.assert_array_equal(found.free, 0.0)
+    found = measured_branch(case((0.6, 1.3)), 3, branch)
+    np.testing.assert_allclose(found.measures["rms"], np.abs(shapes) / np.sqrt(2.0), rtol=1e-7)
+    np.testing.assert_allclose(found.measures["peak_to_peak"], 2.0 * np.abs(shapes), rtol=1e-7)
+    np.testing.assert_array_equal(found.measures["free"], 0.0)
     first, last = rows_of(found)
     assert (first["unstable_end"], first["unstable_frequency"], first["unstable_period"]) == (4, 0.6, 2)
     assert last["unstable_multiplier_modulus"] == pytest.approx(1.5)

@@ -50,17 +50,12 @@ class GearPairs:
         points = max(window, min(TRANSIENT_POINTS, transient // 2))
         return SweepSettings(False, transient, window, points, samples, modes, method)
 
-    def followed(self, settings: SweepSettings) -> SweepSettings:
-        """Steady motions are followed to the ends of their branches."""
-        return settings._replace(followed=settings.steady)
-
-    def with_unstable(self, settings: SweepSettings) -> SweepSettings:
-        """Branches of steady motions only are continued."""
-        if not settings.steady:
-            raise InputError(
-                "--unstable", None, "continues steady motions, which --transient has none of", "omit one"
-            )
-        return settings._replace(unstable=True)
+    def following(self, settings: SweepSettings, unstable: bool) -> SweepSettings:
+        """Steady motions are followed to the ends of their branches, and only these go on beyond them."""
+        if unstable and not settings.steady:
+            rule = "continues steady motions, which --transient has none of"
+            raise InputError("--unstable", None, rule, "omit one")
+        return settings._replace(followed=settings.steady, unstable=unstable)
 
     def layout(self, settings: SweepSettings) -> SweepLayout:
         """Figures, the window of the transmission error, Poincaré section, modes, and the state."""

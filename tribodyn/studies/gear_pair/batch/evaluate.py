@@ -30,8 +30,7 @@ from tribodyn.studies.gear_pair.summary import warning_of
 from tribodyn.studies.gear_pair.sweep_layout import layout_of
 from tribodyn.studies.gears.rounded import remarks_in_brief
 from tribodyn.studies.sweeping.batch import Chunk, Way
-from tribodyn.studies.sweeping.ends import fill_ends
-from tribodyn.studies.sweeping.unstable import MOTIONS
+from tribodyn.studies.sweeping.branches import MOTIONS, fill_ends
 
 #: Tables kept in a process; a table is about 100 kB.
 TABLES_KEPT = 32

@@ -15,7 +15,7 @@ from tribodyn.studies.gear_pair.prepare import Prepared
 from tribodyn.studies.gear_pair.summary import RunningExtremes, steady_figures
 from tribodyn.studies.gear_pair.sweep_layout import SWEPT, UNSTABLE_QUANTITIES
 from tribodyn.studies.gears.temperature import thermal_figures
-from tribodyn.studies.sweeping.unstable import PREFIX, fill_branch
+from tribodyn.studies.sweeping.branches import PREFIX, fill_branch
 
 if TYPE_CHECKING:
     from tribodyn.solve.branch.gear_pairs import ContinuedBranch
