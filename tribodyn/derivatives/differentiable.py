@@ -16,7 +16,13 @@ import tomli_w
 from pydantic import BaseModel
 
 from tribodyn.derivatives.numbers import Number, numbers_of
-from tribodyn.derivatives.quantities import ALSO, QUANTITIES, Evaluation, Fixed, Quantity, quantity_of
+from tribodyn.derivatives.quantities import (
+    ALSO,
+    QUANTITIES,
+    Fixed,
+    PairEvaluation,
+    quantity_of,
+)
 from tribodyn.errors import InputError, near_name, quoted
 from tribodyn.geometry.limits.limits import beyond
 from tribodyn.mesh.tabulate import pair_slots
@@ -61,10 +67,10 @@ class Differentiable:
         self._quantities = [quantity_of(case, name) for name in of]
         self._numbers = numbers_of(case, schema)
         check_keys(self.wrt, self._numbers)
-        self.units = tuple(one.unit for one in self._quantities)
+        self.units = tuple(quantity.unit for quantity in self._quantities)
         self.key_units = tuple(self._numbers[key].unit for key in self.wrt)
         self.at = np.array([float(self._numbers[key].value) for key in self.wrt])
-        self._all = np.array([float(one.value) for one in self._numbers.values()])
+        self._all = np.array([float(number.value) for number in self._numbers.values()])
         places = {key: place for place, key in enumerate(self._numbers)}
         self._places = np.array([places[key] for key in self.wrt])
 
@@ -109,7 +115,7 @@ class Differentiable:
         from tribodyn.numerics.xla_cache import use_compilation_cache
 
         use_compilation_cache()
-        meshes = any("mesh" in one.needs for one in self._quantities)
+        meshes = any("mesh" in quantity.needs for quantity in self._quantities)
         fixed = fixed_of(_put(self._case, self._numbers, values)) if meshes else Fixed(0, False)
         program = _program(self._structure, self._names, fixed)
         with jax.enable_x64(True):
@@ -122,26 +128,21 @@ class Differentiable:
     def _finite(self, found: Any) -> Any:
         """Distances that do not exist are a whole module, or one, beyond the limit, and of no slope."""
         values, slopes = found if isinstance(found, tuple) else (found, None)
-        for place, one in enumerate(self._quantities):
-            if one.limit and not np.isfinite(values[place]):
-                values[place] = beyond(one.unit, self._case.drive)
-            if one.limit and slopes is not None:
+        for place, quantity in enumerate(self._quantities):
+            if quantity.limit and not np.isfinite(values[place]):
+                values[place] = beyond(quantity.unit, self._case.drive)
+            if quantity.limit and slopes is not None:
                 slopes[place] = np.where(np.isfinite(slopes[place]), slopes[place], 0.0)
         return values, slopes
 
 
 def fixed_of(case: Any) -> Fixed:
     """What the programs of a case's mesh depend on beside its numbers."""
-    gears = Evaluation(case, Fixed(0, False)).gears
+    gears = PairEvaluation(case, Fixed(0, False)).gears
     with np.errstate(all="ignore"):
         ratio = float(gears.contact_ratio)
         pairs = pair_slots(gears) if np.isfinite(ratio) and ratio > 0.0 else 1
         return Fixed(pairs, bool(float(gears.path.pressure_angle(0.0)) < 1e-9))
-
-
-def value_of(case: Any, quantity: Quantity, fixed: Fixed) -> float:
-    """A figure of a case of plain numbers, without a compiled program."""
-    return float(quantity.function(Evaluation(case, fixed)))
 
 
 def check_keys(keys: Sequence[str], numbers: Mapping[str, Number]) -> None:
@@ -206,7 +207,7 @@ def _program(structure: _Structure, of: tuple[str, ...], fixed: Fixed) -> _Progr
     import jax.numpy as jnp
 
     def figures(values: Any) -> Any:
-        at = Evaluation(_put(structure.case, structure.numbers, list(values)), fixed)
+        at = PairEvaluation(_put(structure.case, structure.numbers, list(values)), fixed)
         return jnp.stack([QUANTITIES[name].function(at) for name in of])
 
     def forwards(values: Any, directions: Any) -> Any:
@@ -220,6 +221,5 @@ def _program(structure: _Structure, of: tuple[str, ...], fixed: Fixed) -> _Progr
         found, slopes = jax.value_and_grad(lambda x: figures(x)[0])(values)
         return found[None], slopes
 
-    return _Program(
-        *(jax.jit(one, compiler_options=_HARDLY_OPTIMISED) for one in (figures, forwards, backwards))
-    )
+    functions = (figures, forwards, backwards)
+    return _Program(*(jax.jit(function, compiler_options=_HARDLY_OPTIMISED) for function in functions))

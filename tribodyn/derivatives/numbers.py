@@ -1,14 +1,14 @@
 """The numbers of a case by which its figures can be differentiated: their keys, units, and places."""
 
 import tomllib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 from pydantic import BaseModel
 
-from tribodyn.geometry.drive import SIDES, Side, body_of
+from tribodyn.geometry.drive import SIDES, body_of
 from tribodyn.geometry.families import family
 from tribodyn.numerics.elementary import namespace
 from tribodyn.numerics.parameter import Parameter
@@ -17,7 +17,7 @@ from tribodyn.scenario.units import Kind
 from tribodyn.scenario.vary import kind_at
 from tribodyn.tribology.closure import laws_of
 from tribodyn.tribology.lubricant import lubricant_at, lubricant_from
-from tribodyn.tribology.oil import UNITS, OilSheet
+from tribodyn.tribology.oil import UNITS
 
 _OF_BODY = ("profile_shift", "addendum", "dedendum", "fillet_radius", "face_width", "bore_radius")
 _OF_MATERIAL = (
@@ -47,165 +47,129 @@ class Number(NamedTuple):
 
 def numbers_of(case: Any, schema: type[BaseModel]) -> dict[str, Number]:
     """Numbers of a case with gears by their dotted keys, as overrides have them; `schema` of its scenario."""
-    table = tomllib.loads(case.toml)
-
-    def numbers() -> Iterator[tuple[str, Number]]:
-        yield from _of_drive(case)
-        yield from _of_materials(case, table)
-        if hasattr(case, "roughness"):
-            yield from _of_roughness(case, table)
-        for name in ("lubricant", "operating", "film", "friction"):
-            if hasattr(case, name):
-                yield from _LISTED[name](case)
-
     found = {}
-    for key, number in numbers():
+    for key, number in _numbers(case, tomllib.loads(case.toml)["drive"]):
         kind = kind_at(schema, key)
         unit = number.unit or (kind.si if isinstance(kind, Kind) else "1")
         found[key] = number._replace(unit=unit.replace("**", "").replace("*", " "))
     return found
 
 
+def _numbers(case: Any, drive: dict[str, Any]) -> Iterator[tuple[str, Number]]:
+    """Numbers by their keys, their unit "" where the schema has it; `drive` is that table of the scenario."""
+    yield from _of_drive(case)
+    yield from _of_materials(case, drive)
+    if hasattr(case, "roughness"):
+        yield from _of_roughness(case, drive)
+    if hasattr(case, "lubricant"):
+        yield from _of_lubricant(case)
+    if hasattr(case, "operating"):
+        for name in ("pinion_speed", "gear_torque"):
+            yield f"operating.{name}", Number(getattr(case.operating, name), "", _on("operating", name))
+    if hasattr(case, "film") and hasattr(case, "friction"):
+        film, friction = laws_of(case)
+        # of a film law that no table names, nothing stands in the scenario
+        yield from _of_law(case, "film", film.keys if case.film.law is not None else ())
+        yield from _of_law(case, "friction", friction.keys)
+
+
+def _on(*path: str | int) -> Callable[[Any, Any], Any]:
+    """Puts a value at the end of a path of fields, keys and places."""
+    return lambda whole, value: _put(whole, path, value)
+
+
+def _put(whole: Any, path: tuple[str | int, ...], value: Any) -> Any:
+    first, rest = path[0], path[1:]
+    if isinstance(first, int):
+        if rest:
+            return tuple(_put(item, rest, value) if i == first else item for i, item in enumerate(whole))
+        return namespace(whole, value).where(np.arange(len(whole)) == first, value, whole)
+    if isinstance(whole, dict):
+        return {**whole, first: value}
+    changed = {first: _put(getattr(whole, first), rest, value) if rest else value}
+    return whole._replace(**changed) if hasattr(whole, "_replace") else replace(whole, **changed)
+
+
 def _of_drive(case: Any) -> Iterator[tuple[str, Number]]:
     drive, teeth = case.drive, family(case.family)
-
-    def on_drive(name: str) -> Callable[[Any, Any], Any]:
-        return lambda case, value: replace(case, drive=case.drive._replace(**{name: value}))
-
-    def on_body(side: Side, name: str) -> Callable[[Any, Any], Any]:
-        def put(case: Any, value: Any) -> Any:
-            body = body_of(case.drive, side)._replace(**{name: value})
-            return replace(case, drive=case.drive._replace(**{side: body}))
-
-        return put
-
-    def on_shape(name: str) -> Callable[[Any, Any], Any]:
-        def put(case: Any, value: Any) -> Any:
-            shape = case.drive.shape._replace(**{name: value})
-            return replace(case, drive=case.drive._replace(shape=shape))
-
-        return put
-
-    yield "drive.module", Number(drive.module, "", on_drive("module"))
-    if teeth.pressure_angle:
-        yield "drive.pressure_angle", Number(drive.pressure_angle, "", on_drive("pressure_angle"))
-    if drive.centre_distance is not None:
-        yield "drive.centre_distance", Number(drive.centre_distance, "", on_drive("centre_distance"))
-    for one in teeth.parameters:
-        value = getattr(drive.shape, one.name, None)
-        if one.kind == "path" or one.fixed or value is None:
+    there = {"pressure_angle": teeth.pressure_angle, "centre_distance": drive.centre_distance is not None}
+    for name in ("module", *(name for name in there if there[name])):
+        yield f"drive.{name}", Number(getattr(drive, name), "", _on("drive", name))
+    for parameter in teeth.parameters:
+        name, unit = parameter.name, si_unit(parameter)
+        value = getattr(drive.shape, name, None)
+        if parameter.kind == "path" or parameter.fixed or value is None:
             continue
-        if one.listed:
+        if parameter.listed:
             for place, item in enumerate(value):
-                put = _on_entry(one.name, place)
-                yield f"drive.shape.{one.name}.{place}", Number(item, si_unit(one), put)
+                put = _on("drive", "shape", name, place)
+                yield f"drive.shape.{name}.{place}", Number(item, unit, put)
         else:
-            yield f"drive.shape.{one.name}", Number(value, si_unit(one), on_shape(one.name))
+            yield f"drive.shape.{name}", Number(value, unit, _on("drive", "shape", name))
     for side in SIDES:
         body = body_of(drive, side)
         names = [name for name in _OF_BODY if name != "profile_shift" or teeth.shiftable]
         if body.tip_radius is not None:  # takes the place of the addendum
             names = ["tip_radius" if name == "addendum" else name for name in names]
         for name in names:
-            yield f"drive.{side}.{name}", Number(getattr(body, name), "", on_body(side, name))
+            yield f"drive.{side}.{name}", Number(getattr(body, name), "", _on("drive", side, name))
 
 
-def _on_entry(name: str, place: int) -> Callable[[Any, Any], Any]:
-    def put(case: Any, value: Any) -> Any:
-        values = getattr(case.drive.shape, name)
-        xp = namespace(values, value)
-        changed = xp.where(np.arange(len(values)) == place, value, values)
-        return replace(case, drive=case.drive._replace(shape=case.drive.shape._replace(**{name: changed})))
+def _of_materials(case: Any, drive: dict[str, Any]) -> Iterator[tuple[str, Number]]:
+    own = [place for place, side in enumerate(SIDES) if drive[side].get("material")]
+    groups = {f"drive.{SIDES[place]}.material": [place] for place in own}
+    groups["drive.material"] = [place for place in range(len(SIDES)) if place not in own]
 
-    return put
+    def on_all(places: list[int], name: str) -> Callable[[Any, Any], Any]:
+        def put(case: Any, value: Any) -> Any:
+            for place in places:
+                case = _put(case, ("materials", place, name), value)
+            return case
 
+        return put
 
-def _of_materials(case: Any, table: dict[str, Any]) -> Iterator[tuple[str, Number]]:
-    own = {side: bool(table["drive"][side].get("material")) for side in SIDES}
-    groups: list[tuple[str, tuple[Side, ...]]] = []
-    for side in SIDES:
-        if own[side]:
-            groups.append((f"drive.{side}.material", (side,)))
-    shared: tuple[Side, ...] = tuple(side for side in SIDES if not own[side])
-    if shared:
-        groups.append(("drive.material", shared))
-    for key, sides in groups:
-        for name in _OF_MATERIAL:
-            places = tuple(SIDES.index(side) for side in sides)
-            value = getattr(case.materials[places[0]], name)
-            yield f"{key}.{name}", Number(value, "", _on_materials(places, name))
+    for key, places in groups.items():
+        for name in _OF_MATERIAL if places else ():
+            yield f"{key}.{name}", Number(getattr(case.materials[places[0]], name), "", on_all(places, name))
 
 
-def _on_materials(places: tuple[int, ...], name: str) -> Callable[[Any, Any], Any]:
-    def put(case: Any, value: Any) -> Any:
-        changed = tuple(
-            replace(one, **{name: value}) if place in places else one
-            for place, one in enumerate(case.materials)
-        )
-        return replace(case, materials=changed)
-
-    return put
-
-
-def _of_roughness(case: Any, table: dict[str, Any]) -> Iterator[tuple[str, Number]]:
-    drive = table["drive"]
-    if drive.get("roughness") is None:
-        yield from _of_mean_roughness(case, drive)
+def _of_roughness(case: Any, drive: dict[str, Any]) -> Iterator[tuple[str, Number]]:
+    """Composite roughness and mean Ra, the one that is given or both; none where each gear has its own Ra."""
+    given = [name for name in ("roughness", "mean_roughness") if drive.get(name) is not None]
+    if len(given) == 2:
+        for name in given:
+            yield f"drive.{name}", Number(getattr(case, name), "", _on(name))
         return
-    given = drive.get("mean_roughness") is not None
-    share = case.mean_roughness / case.roughness
-
-    def put(case: Any, value: Any) -> Any:
-        mean = case.mean_roughness if given else share * value
-        return replace(case, roughness=value, mean_roughness=mean)
-
-    yield "drive.roughness", Number(case.roughness, "", put)
-    if given:
-        on_mean = _on("mean_roughness")
-        yield "drive.mean_roughness", Number(case.mean_roughness, "", on_mean)
-
-
-def _of_mean_roughness(case: Any, drive: dict[str, Any]) -> Iterator[tuple[str, Number]]:
-    """Ra of both flanks where the composite roughness follows from it; none where each gear has its own."""
-    if any(drive[side].get("mean_roughness") is not None for side in SIDES):
+    name, other = ("roughness", "mean_roughness") if "roughness" in given else ("mean_roughness", "roughness")
+    if name == "mean_roughness" and any(drive[side].get(name) is not None for side in SIDES):
         return
-    share = case.roughness / case.mean_roughness
+    share = getattr(case, other) / getattr(case, name)
 
     def put(case: Any, value: Any) -> Any:
-        return replace(case, mean_roughness=value, roughness=share * value)
+        return replace(case, **{name: value, other: share * value})
 
-    yield "drive.mean_roughness", Number(case.mean_roughness, "", put)
-
-
-def _on(name: str, within: str = "") -> Callable[[Any, Any], Any]:
-    def put(case: Any, value: Any) -> Any:
-        if not within:
-            return replace(case, **{name: value})
-        return replace(case, **{within: replace(getattr(case, within), **{name: value})})
-
-    return put
+    yield f"drive.{name}", Number(getattr(case, name), "", put)
 
 
 def _of_lubricant(case: Any) -> Iterator[tuple[str, Number]]:
     sheet = case.lubricant.sheet
     if sheet is None:
         for name in UNITS:
-            yield f"lubricant.{name}", Number(getattr(case.lubricant, name), "", _on(name, "lubricant"))
+            yield f"lubricant.{name}", Number(getattr(case.lubricant, name), "", _on("lubricant", name))
         return
 
-    def on_sheet(change: Callable[[OilSheet, Any], OilSheet]) -> Callable[[Any, Any], Any]:
+    def on_sheet(*path: str) -> Callable[[Any, Any], Any]:
         def put(case: Any, value: Any) -> Any:
             oil = case.lubricant
-            return replace(case, lubricant=lubricant_from(change(oil.sheet, value), oil.temperature, oil.fzg))
+            sheet = _put(oil.sheet, path, value)
+            return replace(case, lubricant=lubricant_from(sheet, oil.temperature, oil.fzg))
 
         return put
 
     for name in ("viscosity_40", "viscosity_100", "density_15"):
-        put = on_sheet(lambda sheet, value, name=name: replace(sheet, **{name: value}))
-        yield f"lubricant.{name}", Number(getattr(sheet, name), "", put)
+        yield f"lubricant.{name}", Number(getattr(sheet, name), "", on_sheet(name))
     for name, value in sheet.given.items():
-        put = on_sheet(lambda sheet, value, name=name: replace(sheet, given={**sheet.given, name: value}))
-        yield f"lubricant.{name}", Number(value, "", put)
+        yield f"lubricant.{name}", Number(value, "", on_sheet("given", name))
 
     def put_temperature(case: Any, value: Any) -> Any:
         return replace(case, lubricant=lubricant_at(case.lubricant, value))
@@ -213,37 +177,10 @@ def _of_lubricant(case: Any) -> Iterator[tuple[str, Number]]:
     yield "operating.oil_temperature", Number(case.lubricant.temperature, "", put_temperature)
 
 
-def _of_operating(case: Any) -> Iterator[tuple[str, Number]]:
-    for name in ("pinion_speed", "gear_torque"):
-        yield f"operating.{name}", Number(getattr(case.operating, name), "", _on(name, "operating"))
-
-
-def _of_law(table: str) -> Callable[[Any], Iterator[tuple[str, Number]]]:
-    def numbers(case: Any) -> Iterator[tuple[str, Number]]:
-        film, friction = laws_of(case)
-        keys: tuple[Parameter, ...] = (film if table == "film" else friction).keys
-        given = getattr(case, table).values
-        # of a film law that no table names, nothing stands in the scenario
-        named = table == "friction" or case.film.law is not None
-        for one in keys if named else ():
-            value = given.get(one.name, one.default)
-            if one.kind != "path" and value is not None:
-                yield f"{table}.{one.name}", Number(value, si_unit(one), _on_law(table, one.name))
-
-    return numbers
-
-
-def _on_law(table: str, name: str) -> Callable[[Any, Any], Any]:
-    def put(case: Any, value: Any) -> Any:
-        data = getattr(case, table)
-        return replace(case, **{table: replace(data, values={**data.values, name: value})})
-
-    return put
-
-
-_LISTED: dict[str, Callable[[Any], Iterator[tuple[str, Number]]]] = {
-    "lubricant": _of_lubricant,
-    "operating": _of_operating,
-    "film": _of_law("film"),
-    "friction": _of_law("friction"),
-}
+def _of_law(case: Any, table: str, keys: Iterable[Parameter]) -> Iterator[tuple[str, Number]]:
+    given = getattr(case, table).values
+    for parameter in keys:
+        name = parameter.name
+        value = given.get(name, parameter.default)
+        if parameter.kind != "path" and value is not None:
+            yield f"{table}.{name}", Number(value, si_unit(parameter), _on(table, "values", name))

@@ -38,7 +38,7 @@ class Fixed(NamedTuple):
     vanishing: bool
 
 
-class Evaluation:
+class PairEvaluation:
     """A case on the way to its figures; each step is made once, when a figure needs it.
 
     Parameters
@@ -98,7 +98,7 @@ class Evaluation:
         return tabulate(gears, self.case.materials, self.case.mesh, self.fixed.pairs)
 
 
-class Quantity(NamedTuple):
+class Differentiated(NamedTuple):
     """A figure.
 
     Parameters
@@ -113,21 +113,21 @@ class Quantity(NamedTuple):
 
     about: str
     unit: str
-    function: Callable[[Evaluation], Any]
+    function: Callable[[PairEvaluation], Any]
     needs: tuple[str, ...] = ()
     at_pitch_point: bool = False
     limit: bool = False
 
 
-def _centre_distance(at: Evaluation) -> Any:
+def _centre_distance(at: PairEvaluation) -> Any:
     return at.gears.path.pinion_pitch_radius + at.gears.path.gear_pitch_radius
 
 
-def _equivalent_radius(at: Evaluation) -> Any:
+def _equivalent_radius(at: PairEvaluation) -> Any:
     return 1.0 / kinematics(at.gears.path, 0.0).relative_curvature
 
 
-def _hertz_pressure(at: Evaluation) -> Any:
+def _hertz_pressure(at: PairEvaluation) -> Any:
     path, case = at.gears.path, at.case
     load = absolute(case.operating.gear_torque) / path.gear_pitch_radius / cos(path.pressure_angle(0.0))
     width = minimum(case.drive.pinion.face_width, case.drive.gear.face_width)
@@ -135,7 +135,7 @@ def _hertz_pressure(at: Evaluation) -> Any:
     return hertz_pressure(load / width, curvature, surfaces_of(case).effective_modulus)
 
 
-def _mean_stiffness(at: Evaluation) -> Any:
+def _mean_stiffness(at: PairEvaluation) -> Any:
     return cycle_mean(at.cycle, at.state.mesh_stiffness)
 
 
@@ -149,27 +149,27 @@ def _maximum(values: Any) -> Any:
     return flat[namespace(flat).argmax(flat)]
 
 
-def _loss_factor(at: Evaluation) -> Any:
+def _loss_factor(at: PairEvaluation) -> Any:
     cycle = at.cycle
     torque = absolute(at.case.operating.gear_torque) * cycle.pinion_pitch_radius / cycle.gear_pitch_radius
     return friction_loss(cycle, at.state.normal_load, 1.0) / torque
 
 
-def _efficiency(at: Evaluation) -> Any:
+def _efficiency(at: PairEvaluation) -> Any:
     torque, found = at.case.operating.gear_torque, at.rubbing
     return mean_efficiency(at.rubbing_cycle, torque, found.friction_coefficient, found.normal_load)
 
 
-def _friction_power(at: Evaluation) -> Any:
+def _friction_power(at: PairEvaluation) -> Any:
     found = at.rubbing
     loss = friction_loss(at.rubbing_cycle, found.normal_load, found.friction_coefficient)
     return loss * absolute(at.case.operating.pinion_speed)
 
 
-def _largest(name: str, sign: float = 1.0) -> Callable[[Evaluation], Any]:
+def _largest(name: str, sign: float = 1.0) -> Callable[[PairEvaluation], Any]:
     """Maximum, or for sign −1 minimum, of a part of the surface state over the loaded contacts."""
 
-    def function(at: Evaluation) -> Any:
+    def function(at: PairEvaluation) -> Any:
         load = at.rubbing.normal_load
         xp = namespace(load)
         return sign * _maximum(xp.where(load > 0, sign * getattr(at.surface, name), -1e300))
@@ -177,11 +177,11 @@ def _largest(name: str, sign: float = 1.0) -> Callable[[Evaluation], Any]:
     return function
 
 
-def _film_parameter_min(at: Evaluation) -> Any:
+def _film_parameter_min(at: PairEvaluation) -> Any:
     return _largest("central_film_thickness", -1.0)(at) / at.case.roughness
 
 
-def _limit(name: str) -> Callable[[Evaluation], Any]:
+def _limit(name: str) -> Callable[[PairEvaluation], Any]:
     return lambda at: at.limits[name]
 
 
@@ -196,54 +196,56 @@ ALSO = {
     "power_friction_mean": "friction_power",
     "efficiency_elastic": "efficiency",
 }
-QUANTITIES: dict[str, Quantity] = {
-    "contact_ratio": Quantity("transverse contact ratio", "1", lambda at: at.gears.contact_ratio),
-    "centre_distance": Quantity("working centre distance", "m", _centre_distance),
-    "pressure_angle": Quantity(
+QUANTITIES: dict[str, Differentiated] = {
+    "contact_ratio": Differentiated("transverse contact ratio", "1", lambda at: at.gears.contact_ratio),
+    "centre_distance": Differentiated("working centre distance", "m", _centre_distance),
+    "pressure_angle": Differentiated(
         "working pressure angle at the pitch point", "rad", lambda at: at.gears.path.pressure_angle(0.0)
     ),
-    "equivalent_radius": Quantity(
+    "equivalent_radius": Differentiated(
         "equivalent radius of curvature at the pitch point", "m", _equivalent_radius, at_pitch_point=True
     ),
-    "hertz_pressure": Quantity(
+    "hertz_pressure": Differentiated(
         "maximum Hertz pressure of one pair at the pitch point",
         "Pa",
         _hertz_pressure,
         ("operating",),
         at_pitch_point=True,
     ),
-    "mean_stiffness": Quantity("mesh stiffness, mean over a mesh cycle", "N/m", _mean_stiffness, _LOADED),
-    "stiffness_swing": Quantity(
+    "mean_stiffness": Differentiated(
+        "mesh stiffness, mean over a mesh cycle", "N/m", _mean_stiffness, _LOADED
+    ),
+    "stiffness_swing": Differentiated(
         "mesh stiffness, peak to peak", "N/m", lambda at: _swing(at.state.mesh_stiffness), _LOADED
     ),
-    "transmission_error_swing": Quantity(
+    "transmission_error_swing": Differentiated(
         "quasi-static transmission error r_p θ_p − r_g θ_g, peak to peak",
         "m",
         lambda at: _swing(at.state.deflection),
         _LOADED,
     ),
-    "loss_factor": Quantity(
+    "loss_factor": Differentiated(
         "loss factor H_v: loss over power, per friction coefficient", "1", _loss_factor, _LOADED
     ),
-    "efficiency": Quantity("quasi-static efficiency, elastic load sharing", "1", _efficiency, _RUBBING),
-    "friction_power": Quantity("quasi-static friction loss", "W", _friction_power, _RUBBING),
-    "normal_load_max": Quantity(
+    "efficiency": Differentiated("quasi-static efficiency, elastic load sharing", "1", _efficiency, _RUBBING),
+    "friction_power": Differentiated("quasi-static friction loss", "W", _friction_power, _RUBBING),
+    "normal_load_max": Differentiated(
         "maximum normal load of a pair", "N", lambda at: _maximum(at.rubbing.normal_load), _RUBBING
     ),
-    "hertz_pressure_max": Quantity(
+    "hertz_pressure_max": Differentiated(
         "maximum Hertz pressure over a mesh cycle", "Pa", _largest("hertz_pressure"), _RUBBING
     ),
-    "film_min": Quantity(
+    "film_min": Differentiated(
         "minimum film thickness over a mesh cycle", "m", _largest("central_film_thickness", -1.0), _RUBBING
     ),
-    "film_parameter_min": Quantity("minimum film parameter λ", "1", _film_parameter_min, _RUBBING),
-    "flash_temperature_max": Quantity(
+    "film_parameter_min": Differentiated("minimum film parameter λ", "1", _film_parameter_min, _RUBBING),
+    "flash_temperature_max": Differentiated(
         "maximum flash temperature rise", "K", _largest("flash_temperature_rise"), _RUBBING
     ),
-} | {name: Quantity(one.about, one.unit, _limit(name), limit=True) for name, one in LIMITS.items()}
+} | {name: Differentiated(one.about, one.unit, _limit(name), limit=True) for name, one in LIMITS.items()}
 
 
-def quantity_of(case: Any, name: str) -> Quantity:
+def quantity_of(case: Any, name: str) -> Differentiated:
     """The figure of that name; raises InputError where there is none, or the case lacks what it depends on.
 
     Whether the gears can be made is not looked at.

@@ -174,8 +174,4 @@ def _check(case: Any, of: str) -> None:
         rule = f"{of} has no meaning: curvature is infinite at the pitch point of this family"
         raise InputError("drive.family", quoted(case.family), rule, "differentiate another figure")
     if "friction" in quantity.needs:
-        if (temperature := getattr(case, "temperature", None)) is not None:
-            rule = f"{of} is differentiated at a temperature that does not move"
-            remedy = 'overrides={"temperature.model": "oil"}, and operating.oil_temperature that of the teeth'
-            raise InputError("temperature.model", quoted(temperature.model), rule, remedy)
         closure_of(case)  # raises where the laws do not fit

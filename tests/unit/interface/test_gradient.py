@@ -8,8 +8,8 @@ import pytest
 
 import tribodyn as td
 from tribodyn.derivatives import numbers
-from tribodyn.derivatives.differentiable import FORWARDS, fixed_of, value_of
-from tribodyn.derivatives.quantities import QUANTITIES, Evaluation, quantity_of
+from tribodyn.derivatives.differentiable import FORWARDS, fixed_of
+from tribodyn.derivatives.quantities import QUANTITIES, PairEvaluation, quantity_of
 from tribodyn.errors import InputError
 from tribodyn.geometry.limits.limits import LIMITS
 from tribodyn.studies import study_of
@@ -26,6 +26,10 @@ FAMILIES = {
     "spline-23-47": "drive.shape.angles.2",
 }
 INVOLUTE = "efficiency-involute-18-36"
+
+
+def value_of(case, quantity, fixed):
+    return float(quantity.function(PairEvaluation(case, fixed)))
 
 
 def numbers_of(case):
@@ -107,7 +111,7 @@ def test_losses_can_be_traced(name):
         changed = case
         for number, value in zip(known.values(), values, strict=True):
             changed = number.put(changed, value)
-        return quantity.function(Evaluation(changed, fixed))
+        return quantity.function(PairEvaluation(changed, fixed))
 
     with jax.enable_x64(True):
         found = jax.eval_shape(traced, [float(number.value) for number in known.values()])
