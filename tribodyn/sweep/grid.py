@@ -103,15 +103,11 @@ class Grid:
     def _as_varied(self, error: InputError) -> InputError:
         """Name `--vary` as the origin of what an axis put into the scenario."""
         if isinstance(error, InputErrors):
-            return InputErrors([self._as_varied(one) for one in error.errors])
+            return InputErrors([self._as_varied(each) for each in error.errors])
         varied = any(error.key == axis.key for axis in self.axes)
         if error.file not in ("", OVERRIDES) or not varied:
             return error
         return InputError(error.key, error.value, error.rule, error.remedy, VARY)
-
-    def table(self, place: Sequence[int]) -> dict[str, float | str]:
-        """Return the parameters at a place of the grid, by name of the axis."""
-        return {axis.name: axis.values[index] for axis, index in zip(self.axes, place, strict=True)}
 
     def ends(self) -> list[Any]:
         """Cases at the first and the last values of all axes."""

@@ -63,9 +63,9 @@ def test_while_contact_lasts_the_response_is_the_linear_oscillators(sign):
             assert found.kind[at] == STABLE
             assert found.period[at] == 1
             assert found.mean[at] == pytest.approx(1.4 * sign, rel=1e-7)
-            assert found.measures["rms"][at] == pytest.approx(abs(shape) / np.sqrt(2.0), rel=1e-5)
-            assert found.measures["peak_to_peak"][at] == pytest.approx(2.0 * abs(shape), rel=1e-5)
-            assert found.measures["free"][at] == 0.0
+            assert found.rms[at] == pytest.approx(abs(shape) / np.sqrt(2.0), rel=1e-5)
+            assert found.peak_to_peak[at] == pytest.approx(2.0 * abs(shape), rel=1e-5)
+            assert found.free[at] == 0.0
             assert found.back[at] == pytest.approx(1.0 if sign < 0 else 0.0, abs=1e-12)
             assert found.displacement[at] == pytest.approx(1.4 * sign + shape.real, rel=1e-6)
             assert found.velocity[at] == pytest.approx(-frequency * shape.imag, rel=1e-4)
