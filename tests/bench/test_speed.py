@@ -20,7 +20,7 @@ from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.orbit.gear_map import GearMap, moving_states
 from tribodyn.solve.orbit.period_map import by_differences
 from tribodyn.solve.orbit.periodic import steady_states
-from tribodyn.solve.tolerances import Tolerances, absolute_tolerances, tolerances_from
+from tribodyn.solve.tolerances import StepTolerances, absolute_tolerances, tolerances_from
 from tribodyn.solve.transient import make_integrator
 
 pytestmark = pytest.mark.bench
@@ -34,17 +34,17 @@ NATIVE_RTOL = 1e-5
 def case(prepared):
     model = prepared("crc-23-47-300").model
     state = static_equilibrium(model)
-    return model, state, Tolerances(RTOL, absolute_tolerances(model, RTOL, state[XI]), 10**6)
+    return model, state, StepTolerances(RTOL, absolute_tolerances(model, RTOL, state[XI]), 10**6)
 
 
 def native(model, state, tolerances, cycles):
     """With tolerances for the peers; ours are `NATIVE_RTOL`."""
-    ours = Tolerances(NATIVE_RTOL, tolerances.atol * (NATIVE_RTOL / RTOL), tolerances.max_steps)
+    ours = StepTolerances(NATIVE_RTOL, tolerances.atol * (NATIVE_RTOL / RTOL), tolerances.max_steps)
     return make_integrator("dopri5", model, SAMPLES, ours).integrate(state, 0, cycles).samples
 
 
 def exactly(model, state, tolerances, cycles):
-    tight = Tolerances(1e-11, tolerances.atol * 1e-5, tolerances.max_steps)
+    tight = StepTolerances(1e-11, tolerances.atol * 1e-5, tolerances.max_steps)
     return make_integrator("dopri5", model, SAMPLES, tight).integrate(state, 0, cycles).samples
 
 

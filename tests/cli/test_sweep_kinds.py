@@ -16,7 +16,7 @@ from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE, FAILED
 from tribodyn.studies import STUDIES
 from tribodyn.studies.protocol.run import run as run_case
-from tribodyn.sweep.engines import Local
+from tribodyn.sweep.engines import LocalEngine
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.run import run, settings_of
 
@@ -154,14 +154,14 @@ def test_what_belongs_to_motions_is_refused(kind: str, words: tuple[str, str], s
 
 
 def test_a_stopped_sweep_goes_on_to_the_same_record(tmp_path: Path):
-    class Stops(Local):
+    class Stops(LocalEngine):
         def __call__(self, kind, chunks, settings):
             yield next(iter(super().__call__(kind, chunks, settings)))
             raise KeyboardInterrupt
 
     kind = "irefc"
     grid = grid_of(kind, tmp_path)
-    whole = run(grid, settings_of(grid), Local(), tmp_path / "whole.h5")
+    whole = run(grid, settings_of(grid), LocalEngine(), tmp_path / "whole.h5")
     with pytest.raises(KeyboardInterrupt):
         run(grid, settings_of(grid), Stops(), tmp_path / "stopped.h5")
     with SweepRecord(tmp_path / "stopped.partial.h5") as left:

@@ -19,7 +19,7 @@ from tribodyn.solve.integrator import Status
 from tribodyn.solve.jax import ensemble as jax_ensemble
 from tribodyn.studies.gear_pair import batch
 from tribodyn.studies.gear_pair.sweep_layout import SWEPT
-from tribodyn.sweep.engines import Local
+from tribodyn.sweep.engines import LocalEngine
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.run import run, settings_of
 
@@ -175,7 +175,7 @@ def test_a_stopped_sweep_goes_on_and_compiles_nothing_again(tmp_path: Path, comp
     words = ("--vary", "operating.pinion_speed=250:400/11rad/s", "--transient", "4")
     whole = swept("jax", tmp_path / "whole.h5", *words)
 
-    class Stops(Local):
+    class Stops(LocalEngine):
         def __call__(self, kind, chunks, settings):
             yield next(iter(super().__call__(kind, chunks, settings)))
             raise KeyboardInterrupt

@@ -18,7 +18,7 @@ from tribodyn.errors import InputError
 from tribodyn.solve.engagement import engage_next
 from tribodyn.solve.integrator import Status
 from tribodyn.solve.orbit.periodic import WANDERING, steady_states
-from tribodyn.solve.tolerances import Tolerances, absolute_tolerances
+from tribodyn.solve.tolerances import StepTolerances, absolute_tolerances
 from tribodyn.solve.transient import make_integrator
 
 #: A lightly damped mesh in its parametric resonance, where the load of 100 N m is lost for part of the cycle.
@@ -65,7 +65,7 @@ def scaled(model, difference):
 
 def by_another_solver(model, state, cycles):
     """State after some cycles by SciPy's DOP853, engaged into the next."""
-    tolerances = Tolerances(1e-10, absolute_tolerances(model, 1e-10, abs(state[XI])), 10**6)
+    tolerances = StepTolerances(1e-10, absolute_tolerances(model, 1e-10, abs(state[XI])), 10**6)
     part = make_integrator("dop853", model, 8, tolerances).integrate(state, 0, cycles)
     assert part.status == Status.DONE
     end = part.state.copy()

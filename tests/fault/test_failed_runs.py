@@ -9,7 +9,7 @@ from tribodyn.errors import SimulationError
 from tribodyn.record.reader import open_record
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.integrator import Status
-from tribodyn.solve.tolerances import Tolerances, absolute_tolerances
+from tribodyn.solve.tolerances import StepTolerances, absolute_tolerances
 from tribodyn.solve.transient import make_integrator
 from tribodyn.studies.gear_pair import run as simulate
 from tribodyn.studies.protocol.load import load_scenario
@@ -90,7 +90,7 @@ def test_a_solution_that_stops_being_finite_is_told(prepared):
     model = prepared("crc-23-47").model
     state = static_equilibrium(model)
     broken = model._replace(mechanics=model.mechanics._replace(mesh_damping=float("nan")))
-    tolerances = Tolerances(1e-6, absolute_tolerances(model, 1e-6, 3e-5), 100000)
+    tolerances = StepTolerances(1e-6, absolute_tolerances(model, 1e-6, 3e-5), 100000)
     for method in ("dopri5", "rodas4", "radau"):
         part = make_integrator(method, broken, 50, tolerances).integrate(state, 0, 2)
         assert part.status == Status.NOT_FINITE

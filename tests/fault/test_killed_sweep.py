@@ -17,7 +17,7 @@ from tribodyn.cli.app import app
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.record.sweep_schema import DONE, WAITING
 from tribodyn.studies.gear_pair import batch
-from tribodyn.sweep.engines import Dask, Local
+from tribodyn.sweep.engines import DaskEngine, LocalEngine
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.run import run, settings_of
 
@@ -102,7 +102,7 @@ def test_a_cluster_that_loses_a_worker_gives_the_same_record(tmp_path: Path, mon
     monkeypatch.setattr(batch, "MOST_IN_CHUNK", 1)
     grid = Grid("crc-23-47", ["operating.pinion_speed=100:400/12 rad/s"], {"output.samples_per_cycle": 40})
     settings = settings_of(grid, 8)
-    here = run(grid, settings, Local(), tmp_path / "here.h5")
+    here = run(grid, settings, LocalEngine(), tmp_path / "here.h5")
     address = tmp_path / "scheduler.json"
     scheduler = _start("dask_scheduler", address, "--port", "0")
     workers = [_start("dask_worker", address, "--no-nanny", "--nthreads", "1") for _ in range(2)]
@@ -116,7 +116,7 @@ def test_a_cluster_that_loses_a_worker_gives_the_same_record(tmp_path: Path, mon
                 if so_far == total // 2:
                     workers[0].kill()
 
-            there = run(grid, settings, Dask(client), tmp_path / "there.h5", follow=follow)
+            there = run(grid, settings, DaskEngine(client), tmp_path / "there.h5", follow=follow)
         assert done == list(range(1, 13))  # every case arrives once
         assert workers[0].wait() == -signal.SIGKILL
     finally:

@@ -8,7 +8,7 @@ from typer.testing import CliRunner
 
 from tribodyn.cli.app import app
 from tribodyn.record.sweep_reader import SweepRecord
-from tribodyn.sweep.engines import Local
+from tribodyn.sweep.engines import LocalEngine
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.run import run, settings_of
 from tribodyn.sweep.size import estimate_of
@@ -44,7 +44,7 @@ def test_the_record_of_a_sweep_is_what_was_said(
     settings = settings_of(grid, transient=8)
     said = estimate_of(grid, settings, 0)
     monkeypatch.setattr(import_module("tribodyn.sweep.size"), "MOST_CASES", 2)
-    result = run(grid, settings, Local(), tmp_path / "s.h5", allow_large=True)
+    result = run(grid, settings, LocalEngine(), tmp_path / "s.h5", allow_large=True)
     with SweepRecord(result.path) as record:
         assert record.summary["cases"] == 3
     assert 0.5 < result.path.stat().st_size / said.record < 2.0

@@ -8,7 +8,7 @@ import pytest
 from tests.support.killed_sweeps import MOVING_ERROR, differences
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.studies.gear_pair import batch
-from tribodyn.sweep.engines import Dask, Engine, Local
+from tribodyn.sweep.engines import DaskEngine, Engine, LocalEngine
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.run import run, settings_of
 
@@ -49,7 +49,7 @@ def alone(tmp_path_factory: pytest.TempPathFactory):
 
     def record(way: str) -> Path:
         if way not in made:
-            made[way] = sweep(way, folder / f"{way}.h5", Local(1))
+            made[way] = sweep(way, folder / f"{way}.h5", LocalEngine(1))
         return made[way]
 
     return record
@@ -61,7 +61,7 @@ def test_interruptions_change_no_bit(way: str, alone, tmp_path: Path, monkeypatc
         monkeypatch.setattr(batch, "MOST_IN_CHUNK", chunk)
         resume = (tmp_path / "s.partial.h5").exists()
         try:
-            sweep(way, tmp_path / "s.h5", Local(workers), resume=resume, stop=stop)
+            sweep(way, tmp_path / "s.h5", LocalEngine(workers), resume=resume, stop=stop)
         except Stopped:
             assert stop
     assert differences(tmp_path / "s.h5", alone(way)) == []
@@ -69,7 +69,7 @@ def test_interruptions_change_no_bit(way: str, alone, tmp_path: Path, monkeypatc
 
 @pytest.mark.parametrize("way", ["steady", "transient"])
 def test_order_and_part_of_the_range_change_no_bit(way: str, alone, tmp_path: Path):
-    part = sweep(way, tmp_path / "part.h5", Local(2), (492, 480))
+    part = sweep(way, tmp_path / "part.h5", LocalEngine(2), (492, 480))
     with SweepRecord(part) as some, SweepRecord(alone(way)) as every:
         rows = [SPEEDS.index(492), SPEEDS.index(480)]
         for name in (
@@ -88,5 +88,5 @@ def test_dask_changes_no_bit(alone, tmp_path: Path, monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(batch, "MOST_IN_CHUNK", 2)
     one = {"n_workers": 1, "threads_per_worker": 1, "processes": False, "dashboard_address": None}
     with distributed.LocalCluster(**one) as cluster, distributed.Client(cluster) as client:
-        sweep("steady", tmp_path / "s.h5", Dask(client))
+        sweep("steady", tmp_path / "s.h5", DaskEngine(client))
     assert differences(tmp_path / "s.h5", alone("steady")) == []

@@ -14,7 +14,7 @@ from tribodyn.studies.backlash_oscillator.case import BacklashOscillatorCase
 from tribodyn.studies.backlash_oscillator.response import FAILED, frequency_response
 from tribodyn.studies.gear_pair.prepare import prepare, tables
 from tribodyn.studies.protocol.load import load_scenario
-from tribodyn.sweep.engines import Local
+from tribodyn.sweep.engines import LocalEngine
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.run import run, settings_of
 
@@ -94,7 +94,7 @@ def test_a_gear_pair(number: int, tmp_path: Path):
     # about the resonance of the mesh, where motions jump, or twice its frequency, where periods double
     first = float(np.round(rng.uniform(380.0, 480.0) * (1 + rng.integers(2))))
     grid = Grid(name, [f"operating.pinion_speed={first}:{1.12 * first}/9rad/s"], overrides)
-    result = run(grid, settings_of(grid), Local(2), tmp_path / "sweep.h5", directions=DIRECTIONS)
+    result = run(grid, settings_of(grid), LocalEngine(2), tmp_path / "sweep.h5", directions=DIRECTIONS)
     speeds = list(grid.axes[0].values)
     mesh = tables(load_scenario(name, {**overrides, "operating.pinion_speed": f"{first} rad/s"}))
 

@@ -18,7 +18,7 @@ from tribodyn.dynamics.parameters import STATES, XI, Model
 from tribodyn.kernels.native import packed
 from tribodyn.solve.integrator import Status
 from tribodyn.solve.right_hand_side import rhs, work_array
-from tribodyn.solve.tolerances import Tolerances, absolute_tolerances
+from tribodyn.solve.tolerances import StepTolerances, absolute_tolerances
 from tribodyn.solve.transient import make_integrator
 
 Array = Any
@@ -32,9 +32,9 @@ class Problem(NamedTuple):
     cycles: int
     samples: int
 
-    def tolerances(self, rtol: float) -> Tolerances:
-        """Tolerances scaled to the case, the same for every program."""
-        return Tolerances(rtol, absolute_tolerances(self.model, rtol, float(self.state[XI])), 10**6)
+    def tolerances(self, rtol: float) -> StepTolerances:
+        """StepTolerances scaled to the case, the same for every program."""
+        return StepTolerances(rtol, absolute_tolerances(self.model, rtol, float(self.state[XI])), 10**6)
 
     def segments(self) -> list[tuple[int, float, float, Array]]:
         """Segments of one mesh cycle: number, both ends and the phases to sample."""

@@ -17,12 +17,12 @@ from tribodyn.dynamics.parameters import XI, Model
 from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.solve.initial import static_equilibrium
 from tribodyn.solve.orbit.gear_map import GearMap, moving_states
-from tribodyn.solve.tolerances import Tolerances, absolute_tolerances
+from tribodyn.solve.tolerances import StepTolerances, absolute_tolerances
 from tribodyn.solve.transient import make_integrator
 from tribodyn.studies.gear_pair.batch import MOST_CYCLES
 from tribodyn.studies.gear_pair.batch.evaluate import tabulated
 from tribodyn.studies.gear_pair.prepare import prepare
-from tribodyn.sweep.engines import Local
+from tribodyn.sweep.engines import LocalEngine
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.run import run, settings_of
 
@@ -34,7 +34,7 @@ COUNT, EVERY = 256, 16
 DAMPING = (0.05, 0.01)
 #: Maximum scaled change over a period: what `steady_states` asks for.
 TOLERANCE = 1e-7
-#: Tolerances of LSODA, the loosest first.
+#: StepTolerances of LSODA, the loosest first.
 LSODA_RTOL = (1e-6, 3e-7, 1e-7, 3e-8)
 #: Mesh cycles that LSODA really marches at one speed; what is beyond is taken in proportion.
 MOST_MARCHED = 200
@@ -94,7 +94,7 @@ def sweep(speeds: Grid, workers: int | None = None) -> Ours:
     """What `tribodyn sweep --steady` does, file included."""
     with TemporaryDirectory() as folder:
         begun = process_time()
-        result = run(speeds, settings_of(speeds), Local(workers), Path(folder) / "steady.h5")
+        result = run(speeds, settings_of(speeds), LocalEngine(workers), Path(folder) / "steady.h5")
         seconds = process_time() - begun
         with SweepRecord(result.path) as record:
             names, counts = np.unique(record["solution"], return_counts=True)
@@ -123,7 +123,7 @@ def lsoda(speeds: Grid, numbers: list[int], ours: Ours, target: float) -> Theirs
         """Transmission error over each last cycle, and processor seconds."""
         windows, seconds = [], []
         for model, start, cycles in zip(models, starts, map(int, marched), strict=True):
-            tolerances = Tolerances(rtol, absolute_tolerances(model, rtol, float(start[XI])), 10**6)
+            tolerances = StepTolerances(rtol, absolute_tolerances(model, rtol, float(start[XI])), 10**6)
             integrator = make_integrator(method, model, samples, tolerances)
             begun = process_time()
             part = integrator.integrate(start, 0, cycles)

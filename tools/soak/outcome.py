@@ -34,7 +34,7 @@ from tribodyn.record.sweep_reader import SweepRecord
 from tribodyn.studies.pages.pictures import summary_table, sweep_table
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.studies.protocol.run import run
-from tribodyn.sweep.engines import Local
+from tribodyn.sweep.engines import LocalEngine
 from tribodyn.sweep.grid import Grid
 from tribodyn.sweep.run import run as run_sweep
 from tribodyn.sweep.run import settings_of
@@ -173,7 +173,7 @@ def _swept(made: SoakCase, path: Path, target: Path) -> tuple[str, str, list[str
     settings = settings_of(grid, transient)
     if not transient:  # undamped bearings never settle
         settings = settings._replace(cycles=MOST_CYCLES)
-    result = run_sweep(grid, settings, Local(1), target, directions=directions, force=True)
+    result = run_sweep(grid, settings, LocalEngine(1), target, directions=directions, force=True)
     with SweepRecord(result.path) as record:
         faults = list(sweep_faults(record)) + _printed(sweep_table(record))
         reasons = sorted({why for _, why in record.failures()})

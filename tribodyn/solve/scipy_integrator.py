@@ -13,7 +13,7 @@ from tribodyn.solve.engagement import engage
 from tribodyn.solve.integrator import IntegratedCycles, Status, sample_phases
 from tribodyn.solve.march.step_control import STANDSTILL, unbounded
 from tribodyn.solve.right_hand_side import rhs, work_array
-from tribodyn.solve.tolerances import Tolerances
+from tribodyn.solve.tolerances import StepTolerances
 
 #: Smallest relative tolerance that SciPy's solvers take without a word.
 SMALLEST_RTOL = 3e-14
@@ -50,7 +50,7 @@ class ScipyIntegrator:
     samples : samples per mesh cycle
     """
 
-    def __init__(self, method: Any, model: Model, samples: int, tolerances: Tolerances):
+    def __init__(self, method: Any, model: Model, samples: int, tolerances: StepTolerances):
         self.method = method.METHOD
         self.model = model
         self.boundary = np.asarray(model.table.boundary)

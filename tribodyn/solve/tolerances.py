@@ -34,7 +34,7 @@ MINIMUM_DEFLECTION = 1e-9
 SHARE_OF_WORKS = 1.0 / 30.0
 
 
-class Tolerances(NamedTuple):
+class StepTolerances(NamedTuple):
     """Relative tolerance, absolute ones for every state, and the steps that a mesh cycle may take."""
 
     rtol: float
@@ -146,9 +146,11 @@ def energy_scale(model: Model, loaded: float, scales: TableScales) -> float:
     return max(_transmitted(model, loaded, scales.stiffness), moved, scales.stiffness * width**2)
 
 
-def tolerances_from(model: Model, state: Float[Array, " state"], rtol: float, max_steps: int) -> Tolerances:
-    """Tolerances scaled by the deflection that the mesh has in `state` or would have under the load."""
-    return Tolerances(rtol, tolerances_of_many([model], state[None], rtol)[0], max_steps)
+def tolerances_from(
+    model: Model, state: Float[Array, " state"], rtol: float, max_steps: int
+) -> StepTolerances:
+    """StepTolerances scaled by the deflection that the mesh has in `state` or would have under the load."""
+    return StepTolerances(rtol, tolerances_of_many([model], state[None], rtol)[0], max_steps)
 
 
 def tolerances_of_many(

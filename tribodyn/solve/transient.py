@@ -12,7 +12,7 @@ from tribodyn.solve.engagement import engage_next
 from tribodyn.solve.integrator import REASONS, Integrator, Status
 from tribodyn.solve.march.marched_again import MarchedAgain
 from tribodyn.solve.methods import Runs, integrator_class, method_file, runs
-from tribodyn.solve.tolerances import Tolerances, tolerances_from
+from tribodyn.solve.tolerances import StepTolerances, tolerances_from
 
 #: Mesh cycles between two writes of a native run, at most.
 MAXIMUM_CYCLES = 50
@@ -62,7 +62,7 @@ class Stop(NamedTuple):
 
 
 def make_integrator(
-    method: str, model: Model, samples: int, tolerances: Tolerances, extremes: bool = False
+    method: str, model: Model, samples: int, tolerances: StepTolerances, extremes: bool = False
 ) -> Integrator:
     """Return the integrator that a method's name stands for; `extremes` says whether they are sought."""
     made = integrator_class(method)(method_file(method), model, samples, tolerances)

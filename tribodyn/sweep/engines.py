@@ -33,7 +33,7 @@ class Engine(Protocol):
         ...
 
 
-class Local:
+class LocalEngine:
     """One chunk after the other in this process, its cases over all cores.
 
     Parameters
@@ -52,7 +52,7 @@ class Local:
             yield chunk, evaluate(kind, chunk, settings, self.workers)
 
 
-class Dask:
+class DaskEngine:
     """Chunks over the workers of a Dask scheduler; one whose worker dies is done again by another.
 
     Parameters
@@ -115,7 +115,7 @@ def engine_of(name: str, workers: int | None, scheduler: str | None) -> Iterator
     if name != DASK:
         if scheduler is not None:
             raise InputError("--scheduler", scheduler, "belongs to --engine dask", "add --engine dask")
-        yield Local(workers, _jax_width() if name == JAX else 1)
+        yield LocalEngine(workers, _jax_width() if name == JAX else 1)
         return
     with client_of(workers, scheduler) as client:
-        yield Dask(client)
+        yield DaskEngine(client)

@@ -7,7 +7,7 @@ import numpy as np
 
 from tribodyn.errors import InputError
 from tribodyn.record.sweep_schema import DONE
-from tribodyn.studies.sweeping.batch import Chunk, Way
+from tribodyn.studies.sweeping.batch import Chunk, NeighbourWay
 from tribodyn.sweep.grid import Grid
 
 #: Gives what was recorded of cases: (numbers) -> statuses (n,), states (n, …), periods of the motion (n,).
@@ -63,13 +63,17 @@ def chained_steps(
             behind[lane] = places[lane], int(period[lane])
 
 
-def _way(grid: Grid, behind: tuple[tuple[int, ...], int] | None, place: tuple[int, ...]) -> Way | None:
+def _way(
+    grid: Grid, behind: tuple[tuple[int, ...], int] | None, place: tuple[int, ...]
+) -> NeighbourWay | None:
     """The way along the first parameter from the last place that was done."""
     if behind is None:
         return None
     last, period = behind
     values = [float(value) for value in grid.axes[0].values]
-    return Way(grid.case(last), values[last[0]], values[place[0]], period, (min(values), max(values)))
+    return NeighbourWay(
+        grid.case(last), values[last[0]], values[place[0]], period, (min(values), max(values))
+    )
 
 
 def case_or_reason(grid: Grid, number: int) -> Any:

@@ -18,7 +18,7 @@ import numpy as np
 
 from tribodyn.numerics.shapes import Array, Complex, Float
 from tribodyn.solve.branch.family import CORNER, FOLD, NEAR_ZERO, BranchEnd, Seed, SystemFamily, kind_of_end
-from tribodyn.solve.branch.requests import Continue, Correct, FollowArc, Relax, Request, Result, fulfil
+from tribodyn.solve.branch.requests import Continue, Correct, FollowArc, Relax, Request, RequestResult, fulfil
 from tribodyn.solve.orbit.motions import FAILED, Orbit
 
 #: Steps of the parameter, over its magnitude (`Leg.size`): the first of a leg, the largest, that where two
@@ -85,7 +85,7 @@ class Arrival(NamedTuple):
     seeds: tuple[Seed, ...] = ()
 
 
-_Requests = Generator[Request, Result, Arrival]
+_Requests = Generator[Request, RequestResult, Arrival]
 
 
 def follow(
@@ -179,7 +179,7 @@ def between(start: float, target: float) -> list[float]:
     return sorted(values, reverse=bool(target < start))
 
 
-def _along(here: _Motion, leg: Leg) -> Generator[Request, Result, "_Motion | _Exit"]:
+def _along(here: _Motion, leg: Leg) -> Generator[Request, RequestResult, "_Motion | _Exit"]:
     """Follow a branch to the target, or to its end."""
     target, finest = leg.target, leg.finest
     way = float(np.sign(target - here.value))
@@ -234,7 +234,7 @@ def _follow_arc(here: _Motion, leg: Leg) -> FollowArc:
     return FollowArc(here.value, here.state, here.period, way, leg.size(here.value))
 
 
-def _gone_on(here: _Motion, leg: Leg) -> Generator[Request, Result, _Motion | None]:
+def _gone_on(here: _Motion, leg: Leg) -> Generator[Request, RequestResult, _Motion | None]:
     """A place behind one behind which nothing was found; None where the branch ends."""
     if leg.finest:
         return None
@@ -245,7 +245,7 @@ def _gone_on(here: _Motion, leg: Leg) -> Generator[Request, Result, _Motion | No
     return _Motion.of(turn.value, orbit) if orbit.period == here.period else None
 
 
-def _exit(here: _Motion, beyond: _Motion | None, leg: Leg) -> Generator[Request, Result, _Exit]:
+def _exit(here: _Motion, beyond: _Motion | None, leg: Leg) -> Generator[Request, RequestResult, _Exit]:
     """The end behind the last place of a branch, and what was found beyond it."""
     way = float(np.sign(leg.target - here.value))
     last = here.orbit

@@ -54,7 +54,7 @@ class FollowArc(NamedTuple):
 Request = Correct | Relax | Continue | FollowArc
 
 
-class Result(NamedTuple):
+class RequestResult(NamedTuple):
     """What was found, and the sizes (N,) by which its states are measured; `FollowArc` gives a turn only."""
 
     orbit: Orbit
@@ -68,9 +68,9 @@ def fulfil(
     requests: Mapping[int, Request],
     tolerance: float,
     max_periods: int,
-) -> dict[int, Result]:
+) -> dict[int, RequestResult]:
     """Fulfil requests by number, each on its line, those of a sort and a period side by side."""
-    results: dict[int, Result] = {}
+    results: dict[int, RequestResult] = {}
     alike: dict[tuple[type, int], list[int]] = {}
     for number, request in requests.items():
         if isinstance(request, FollowArc):
@@ -96,12 +96,12 @@ def fulfil(
             orbits = _corrected(period_map, states, periods, tolerance)
         else:
             orbits = _marched(period_map, states, periods)
-        results |= dict(zip(there, map(Result, orbits, period_map.scale), strict=True))
+        results |= dict(zip(there, map(RequestResult, orbits, period_map.scale), strict=True))
     return results
 
 
-def _refused(request: Request, why: str) -> Result:
-    return Result(failed_orbit(request.state, 0, why), np.ones_like(request.state))
+def _refused(request: Request, why: str) -> RequestResult:
+    return RequestResult(failed_orbit(request.state, 0, why), np.ones_like(request.state))
 
 
 def _corrected(

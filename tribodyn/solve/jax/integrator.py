@@ -29,7 +29,7 @@ from tribodyn.solve.march.reversal import SHARES, filled_up, stops_of_many
 from tribodyn.solve.march.step_control import FIRST_STEP, MINIMUM_STEP, RELATIVE
 from tribodyn.solve.march.turning import resolves_turns
 from tribodyn.solve.methods import DiffraxMethod
-from tribodyn.solve.tolerances import Tolerances
+from tribodyn.solve.tolerances import StepTolerances
 
 jax.config.update("jax_enable_x64", True)
 
@@ -223,7 +223,7 @@ class DiffraxIntegrator:
     samples : samples per mesh cycle
     """
 
-    def __init__(self, method: Any, model: Model, samples: int, tolerances: Tolerances):
+    def __init__(self, method: Any, model: Model, samples: int, tolerances: StepTolerances):
         use_compilation_cache()
         self.method: DiffraxMethod = method.METHOD
         self.options: Options = model.options

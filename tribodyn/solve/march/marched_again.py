@@ -7,7 +7,7 @@ from tribodyn.solve.choice import choose
 from tribodyn.solve.integrator import IntegratedCycles, Integrator
 from tribodyn.solve.march.native_integrator import NativeIntegrator
 from tribodyn.solve.methods import AUTO, method_file
-from tribodyn.solve.tolerances import Tolerances
+from tribodyn.solve.tolerances import StepTolerances
 
 
 class MarchedAgain:
@@ -21,10 +21,10 @@ class MarchedAgain:
     model : Model
     samples : int
         Samples per mesh cycle, at least 1.
-    tolerances : Tolerances
+    tolerances : StepTolerances
     """
 
-    def __init__(self, integrator: Integrator, model: Model, samples: int, tolerances: Tolerances):
+    def __init__(self, integrator: Integrator, model: Model, samples: int, tolerances: StepTolerances):
         self.started = self.extremes = False
         self._integrator = integrator
         self._model, self._samples, self._tolerances = model, samples, tolerances

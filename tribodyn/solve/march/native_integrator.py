@@ -13,7 +13,7 @@ from tribodyn.solve.march.marching import Control
 from tribodyn.solve.march.reversal import stops
 from tribodyn.solve.march.step_control import FIRST_STEP
 from tribodyn.solve.right_hand_side import work_array
-from tribodyn.solve.tolerances import Tolerances
+from tribodyn.solve.tolerances import StepTolerances
 
 
 class NativeIntegrator:
@@ -26,10 +26,10 @@ class NativeIntegrator:
     model : Model
     samples : int
         Samples per mesh cycle.
-    tolerances : Tolerances
+    tolerances : StepTolerances
     """
 
-    def __init__(self, method: Any, model: Model, samples: int, tolerances: Tolerances):
+    def __init__(self, method: Any, model: Model, samples: int, tolerances: StepTolerances):
         self._integrate = method.integrate
         self._buffer = method.buffer()
         self._work = work_array(model)

@@ -80,7 +80,7 @@ def find(
                 continue
             orbits.append(replace(closed_orbit(period_map, shot, case, 1, 0, tolerance), method=method))
         return orbits
-    search = Search(period_map, states, tolerance, max_periods, method)
+    search = OrbitSearch(period_map, states, tolerance, max_periods, method)
     while search.pending.size:
         search.advance()
         if progress:
@@ -154,7 +154,7 @@ class Progress:
         return f"marched {self.marched[case]} periods without repeating, smallest change {smallest:.1e}"
 
 
-class Search:
+class OrbitSearch:
     """The search of `find` by marching and shooting; `orbits` fills up as it goes on."""
 
     def __init__(self, period_map: PeriodMap, states, tolerance: float, max_periods: int, method: Method):

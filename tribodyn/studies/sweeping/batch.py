@@ -9,7 +9,7 @@ from tribodyn.record.sweep_schema import SweepLayout
 from tribodyn.studies.protocol.estimate import Estimate
 
 
-class Way(NamedTuple):
+class NeighbourWay(NamedTuple):
     """The way to a case along the first varied parameter, from the neighbour whose motion it goes on from.
 
     Attributes
@@ -45,7 +45,7 @@ class Chunk(NamedTuple):
     numbers: np.ndarray
     cases: tuple[Any, ...]
     states: np.ndarray | None = None
-    ways: tuple[Way | None, ...] | None = None
+    ways: tuple[NeighbourWay | None, ...] | None = None
 
 
 class Batch(Protocol):

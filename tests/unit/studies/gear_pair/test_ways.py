@@ -4,7 +4,7 @@ import pytest
 
 from tribodyn.studies.gear_pair.batch.evaluate import tabulated
 from tribodyn.studies.gear_pair.batch.steady import prepared_between
-from tribodyn.studies.sweeping.batch import Way
+from tribodyn.studies.sweeping.batch import NeighbourWay
 
 
 @pytest.mark.parametrize("speed", [400.0, 500.0, 650.0])
@@ -13,7 +13,7 @@ def test_a_place_on_the_way_has_its_own_speed(speed, prepared):
     at_start, at_target = (
         prepared("crc-23-47", **{"operating.pinion_speed": f"{v} rad/s"}) for v in (400, 600)
     )
-    way = Way(at_start.case, 400.0, 600.0, 1, (100.0, 700.0))
+    way = NeighbourWay(at_start.case, 400.0, 600.0, 1, (100.0, 700.0))
     prepared_at = prepared_between([at_target], [way], tabulated)
     assert prepared_at(0, 600.0) is at_target
     found = prepared_at(0, speed)

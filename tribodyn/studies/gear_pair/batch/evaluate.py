@@ -29,7 +29,7 @@ from tribodyn.studies.gear_pair.settled import MOST, at_own_temperature
 from tribodyn.studies.gear_pair.summary import warning_of
 from tribodyn.studies.gear_pair.sweep_layout import layout_of
 from tribodyn.studies.gears.rounded import remarks_in_brief
-from tribodyn.studies.sweeping.batch import Chunk, Way
+from tribodyn.studies.sweeping.batch import Chunk, NeighbourWay
 from tribodyn.studies.sweeping.branches import MOTIONS, fill_ends
 
 #: Tables kept in a process; a table is about 100 kB.
@@ -140,7 +140,7 @@ def _alike(cases: dict[int, Case]) -> list[list[int]]:
 
 def _solve(
     cases: list[tuple[Prepared, np.ndarray]],
-    ways: Sequence[Way | None],
+    ways: Sequence[NeighbourWay | None],
     prepared_at: PreparedAt,
     settings: SweepSettings,
     workers: int | None,

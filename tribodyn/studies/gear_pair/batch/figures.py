@@ -10,7 +10,7 @@ from tribodyn.dynamics.parameters import XI
 from tribodyn.record.trust import Judge, judge_tribology
 from tribodyn.solve.engagement import engage_next
 from tribodyn.studies.gear_pair.assumptions import judge_block
-from tribodyn.studies.gear_pair.batch.marched import Window
+from tribodyn.studies.gear_pair.batch.marched import CaseWindow
 from tribodyn.studies.gear_pair.prepare import Prepared
 from tribodyn.studies.gear_pair.summary import RunningExtremes, steady_figures
 from tribodyn.studies.gear_pair.sweep_layout import SWEPT, UNSTABLE_QUANTITIES
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def window_figures(
-    prepared: Prepared, window: Window, samples: int
+    prepared: Prepared, window: CaseWindow, samples: int
 ) -> tuple[dict[str, float], dict[str, Any]]:
     """Return the figures of `sweep_layout.SWEPT` over a window, SI units, and what is said of their trust.
 
@@ -69,7 +69,7 @@ def fill_unstable(
         for motion, (value, steady) in enumerate(zip(branch.values.tolist(), steadies, strict=True)):
             if not len(steady.samples):  # it cannot be integrated over its period once more
                 continue
-            window = Window(0, steady.samples, steady.state, steady.end, steady.extremes)
+            window = CaseWindow(0, steady.samples, steady.state, steady.end, steady.extremes)
             figures, _ = window_figures(prepared_at(value), window, samples)
             for name in UNSTABLE_QUANTITIES:
                 rows[PREFIX + name][i, end, motion] = figures[name]

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from tribodyn.solve.branch.gear_pairs import ContinuedBranch
 
 
-class Window(NamedTuple):
+class CaseWindow(NamedTuple):
     """A case's way through its window.
 
     Attributes
@@ -51,7 +51,7 @@ class Outcome(NamedTuple):
     continued : those branches beyond their ends
     """
 
-    window: Window | None
+    window: CaseWindow | None
     state: np.ndarray
     section: np.ndarray
     solution: str
@@ -125,6 +125,6 @@ def marched(
         state = ran.state[row].copy()
         engage_next(state, model)
         extremes = extremes_of(ran.extremes, row)
-        kept = Window(before, ran.samples[row], led.state[i], ran.state[row], extremes)
+        kept = CaseWindow(before, ran.samples[row], led.state[i], ran.state[row], extremes)
         outcomes.append(Outcome(kept, without_audit(state), section[-points:], "transient", int(reached)))
     return outcomes

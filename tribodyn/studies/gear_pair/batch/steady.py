@@ -11,11 +11,11 @@ from tribodyn.solve.branch.continuation import Leg
 from tribodyn.solve.branch.gear_pairs import LegResult, ModelAt, UnstableRange, followed_states
 from tribodyn.solve.orbit.motions import FAILED
 from tribodyn.solve.orbit.periodic import WANDERING, SteadyMotion, refuse_time_dependent, steady_states
-from tribodyn.studies.gear_pair.batch.marched import Outcome, Window, failed, marched, without_audit
+from tribodyn.studies.gear_pair.batch.marched import CaseWindow, Outcome, failed, marched, without_audit
 from tribodyn.studies.gear_pair.case import Case
 from tribodyn.studies.gear_pair.prepare import Prepared, Tabulated, prepare, table_key
 from tribodyn.studies.gear_pair.sweep_layout import UNKNOWN
-from tribodyn.studies.sweeping.batch import Way
+from tribodyn.studies.sweeping.batch import NeighbourWay
 from tribodyn.studies.sweeping.between import NothingBetween, case_between
 
 #: Cases without period that are marched at a time, for the room that they take.
@@ -27,7 +27,7 @@ PreparedAt = Callable[[int, float], Prepared]
 """Gives the prepared case on a line at a value of the parameter; raises InputError where there is none."""
 
 
-def legs_of(cases: Sequence[tuple[Prepared, np.ndarray]], ways: Sequence[Way | None]) -> list[Leg]:
+def legs_of(cases: Sequence[tuple[Prepared, np.ndarray]], ways: Sequence[NeighbourWay | None]) -> list[Leg]:
     """The leg to each case, with the state that it begins from."""
     legs = []
     for line, ((prepared, state), way) in enumerate(zip(cases, ways, strict=True)):
@@ -39,7 +39,7 @@ def legs_of(cases: Sequence[tuple[Prepared, np.ndarray]], ways: Sequence[Way | N
     return legs
 
 
-def _finest(way: Way, case: Case) -> float:
+def _finest(way: NeighbourWay, case: Case) -> float:
     """Minimum step on a way, as `Leg.finest`."""
     try:
         case_between(way.neighbour, case, 0.5)
@@ -50,7 +50,7 @@ def _finest(way: Way, case: Case) -> float:
 
 
 def prepared_between(
-    cases: Sequence[Prepared], ways: Sequence[Way | None], tabulated: Callable[[Case], Tabulated]
+    cases: Sequence[Prepared], ways: Sequence[NeighbourWay | None], tabulated: Callable[[Case], Tabulated]
 ) -> PreparedAt:
     """Gives the prepared case at a place on the way to a case, or beyond it."""
 
@@ -133,7 +133,7 @@ def steady(
 
 
 def _periodic(motion: SteadyMotion, samples: int) -> Outcome:
-    window = Window(0, motion.samples, motion.state, motion.end, motion.extremes)
+    window = CaseWindow(0, motion.samples, motion.state, motion.end, motion.extremes)
     section = motion.samples[::samples]
     outcome = Outcome(window, without_audit(motion.state), section, motion.kind, motion.period)
     return _described(outcome, motion)._replace(period=motion.period)
