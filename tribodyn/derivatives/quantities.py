@@ -242,7 +242,9 @@ QUANTITIES: dict[str, Differentiated] = {
     "flash_temperature_max": Differentiated(
         "maximum flash temperature rise", "K", _largest("flash_temperature_rise"), _RUBBING
     ),
-} | {name: Differentiated(one.about, one.unit, _limit(name), limit=True) for name, one in LIMITS.items()}
+} | {
+    name: Differentiated(limit.about, limit.unit, _limit(name), limit=True) for name, limit in LIMITS.items()
+}
 
 
 def quantity_of(case: Any, name: str) -> Differentiated:

@@ -148,7 +148,7 @@ def one_by_one(
     cancelled = threading.Event()
     opening = march.cycles - march.window
 
-    def one(case: int) -> None:
+    def integrate(case: int) -> None:
         model = models[case]
         chosen = choose(method, model, states[case]).method
         tolerances = tolerances_from(model, states[case], march.rtol, march.max_steps)
@@ -178,7 +178,7 @@ def one_by_one(
 
     with ThreadPoolExecutor(workers) as pool:
         try:
-            jobs = [pool.submit(one, case) for case in range(len(models))]
+            jobs = [pool.submit(integrate, case) for case in range(len(models))]
             for done, job in enumerate(as_completed(jobs), 1):
                 job.result()
                 if progress:

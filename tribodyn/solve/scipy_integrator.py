@@ -95,7 +95,7 @@ class _Walk:
         self.samples: list[Float[Array, "sample state"]] = []
         self.steps = self.steps_before = self.evaluations = 0
         self._place, self._rates = np.empty(STATES), np.empty(STATES)
-        self._arguments = [packed(one) for one in (self._place, integrator.model, self.work, self._rates)]
+        self._arguments = [*map(packed, (self._place, integrator.model, self.work, self._rates))]
 
     def over(self, cycle: float, segment: int, start: float, end: float) -> None:
         """Integrate over a segment; raises `_Ended` where that cannot be done."""

@@ -1,4 +1,4 @@
-"""What a sweep takes, said before it begins."""
+"""What a sweep takes, estimated before it begins."""
 
 from itertools import chain
 from typing import Any

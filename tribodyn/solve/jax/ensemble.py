@@ -81,7 +81,7 @@ def through_jax(
     cancelled = threading.Event()
     ticks: list[BatchPart] = []
 
-    def one(part: BatchPart) -> None:
+    def integrate(part: BatchPart) -> None:
         for _ in _cycles(part, models, march, result):
             ticks.append(part)
             if progress:
@@ -91,7 +91,7 @@ def through_jax(
 
     with ThreadPoolExecutor(threads) as pool:
         try:
-            for job in as_completed([pool.submit(one, part) for part in parts]):
+            for job in as_completed([pool.submit(integrate, part) for part in parts]):
                 job.result()
         finally:
             cancelled.set()
@@ -205,10 +205,12 @@ def over_one_cycle(
 ) -> tuple[Carried, SegmentResult]:
     """`jax.integrator.over_cycle` mapped over the cases: a leading axis on all but cycle and started."""
 
-    def one(numbers: Any, carried: Carried, control: SegmentControl) -> tuple[Carried, SegmentResult]:
+    def over_case(numbers: Any, carried: Carried, control: SegmentControl) -> tuple[Carried, SegmentResult]:
         return over_cycle(method, options, numbers, carried, cycle, started, control)
 
-    return jax.vmap(one, in_axes=((None if one_table else 0, 0, 0, 0, 0), 0, 0))(numbers, carried, control)
+    return jax.vmap(over_case, in_axes=((None if one_table else 0, 0, 0, 0, 0), 0, 0))(
+        numbers, carried, control
+    )
 
 
 def stacked(trees: list[Any]) -> Any:

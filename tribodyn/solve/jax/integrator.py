@@ -127,7 +127,7 @@ def over_cycle(
     if options.drive != DRIVE_SPEED:
         stall = diffrax.Event(lambda t, y, args, **kwargs: mechanics.nominal_speed + y[SLIP] <= 0.0)
 
-    def one(carried: Carried, segment: Any) -> tuple[Carried, SegmentResult]:
+    def over_segment(carried: Carried, segment: Any) -> tuple[Carried, SegmentResult]:
         dead = carried.status != Status.DONE
         start, end = table.boundary[segment], table.boundary[segment + 1]
         y = jnp.stack(engaged(segment, (segment > 0) | started, carried.y, model))
@@ -177,7 +177,9 @@ def over_cycle(
         cost = jnp.where(dead, 0, solution.stats["num_steps"] * method.stages)
         return went_on, SegmentResult(states[:-1], status, jnp.where(dead, 0, taken), cost)
 
-    return jax.lax.scan(one, carried._replace(steps=jnp.zeros_like(carried.steps)), jnp.arange(segments))
+    return jax.lax.scan(
+        over_segment, carried._replace(steps=jnp.zeros_like(carried.steps)), jnp.arange(segments)
+    )
 
 
 over_one_cycle = jax.jit(over_cycle, static_argnames=("method", "options"))

@@ -66,10 +66,10 @@ def shape_of(model: Model, known: dict[int, tuple[Any, ...]] | None = None) -> M
     for name in RECORDS:
         record = getattr(model, name)
         if id(record) not in known:
-            tables = [getattr(record, one) for one in SHARED] if name == "table" else []
+            tables = [getattr(record, table) for table in SHARED] if name == "table" else []
             known[id(record)] = (
                 tuple(getattr(value, "shape", ()) for value in record),
-                b"".join(np.asarray(one, dtype=float).tobytes() for one in tables),
+                b"".join(np.asarray(table, dtype=float).tobytes() for table in tables),
             )
         own_shapes, own_contacts = known[id(record)]
         shapes.append(own_shapes)

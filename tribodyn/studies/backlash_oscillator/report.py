@@ -41,15 +41,15 @@ SWEPT = quantities(
 def sentences(record: Record) -> list[str]:
     """Say how well periodic motions close, and which points are none."""
     summary = record.summary
-    said = []
+    lines = []
     if summary.get("residual_max") is not None:
-        said.append(f"Periodic motions close within {summary['residual_max']:.1e} of half a backlash.")
+        lines.append(f"Periodic motions close within {summary['residual_max']:.1e} of half a backlash.")
     numbers = sorted(int(name[4:]) for name in summary if name.startswith("end_"))
     for number in numbers:
-        said.append(f"A branch ends: {summary[f'end_{number}']}.")
+        lines.append(f"A branch ends: {summary[f'end_{number}']}.")
         if f"unstable_{number}" in summary:
-            said.append(f"Beyond it is unstable: {summary[f'unstable_{number}']}.")
-    said += [f"At {summary[name]}." for name in sorted(summary) if name.startswith("remark_")]
+            lines.append(f"Beyond it is unstable: {summary[f'unstable_{number}']}.")
+    lines += [f"At {summary[name]}." for name in sorted(summary) if name.startswith("remark_")]
     if "remarks_more" in summary:
-        said.append(f"And {summary['remarks_more']} more points that are not periodic or failed.")
-    return said
+        lines.append(f"And {summary['remarks_more']} more points that are not periodic or failed.")
+    return lines

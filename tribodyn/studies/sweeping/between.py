@@ -32,13 +32,13 @@ def case_between(first: Any, last: Any, share: float) -> Any:
 def _between(first: Any, last: Any, share: float) -> Any:
     if dataclasses.is_dataclass(first) and type(first) is type(last):
         changed = {
-            one.name: _between(getattr(first, one.name), getattr(last, one.name), share)
-            for one in dataclasses.fields(first)
-            if one.init and one.name not in _TEXTS
+            field.name: _between(getattr(first, field.name), getattr(last, field.name), share)
+            for field in dataclasses.fields(first)
+            if field.init and field.name not in _TEXTS
         }
         return dataclasses.replace(first, **changed)  # pyright: ignore[reportArgumentType]
     if isinstance(first, tuple) and isinstance(last, tuple) and len(first) == len(last):
-        parts = [_between(one, other, share) for one, other in zip(first, last, strict=True)]
+        parts = [_between(*ends, share) for ends in zip(first, last, strict=True)]
         return type(first)(*parts) if hasattr(first, "_fields") else tuple(parts)
     if isinstance(first, np.ndarray) and isinstance(last, np.ndarray):
         if first.shape != last.shape:

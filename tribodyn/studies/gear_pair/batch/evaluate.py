@@ -6,7 +6,7 @@ the same numbers in both. Nothing of a case depends on the others that it is eva
 
 import threading
 from collections import OrderedDict
-from collections.abc import Hashable, Sequence
+from collections.abc import Callable, Hashable, Sequence
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -155,7 +155,7 @@ def _solve(
         "method": settings.method or solver.method,
         "workers": workers,
     }
-    models, states = [one.model for one, _ in cases], np.array([state for _, state in cases])
+    models, states = [prepared.model for prepared, _ in cases], np.array([state for _, state in cases])
     if settings.steady:
         if settings.followed:
             common["legs"] = legs_of(cases, ways)
@@ -177,13 +177,13 @@ def _fill(
     if outcome.window is None:
         rows["status"][i] = FAILED
         return
-    figures, judged = window_figures(prepared, outcome.window, settings.samples)
+    figures, trust = window_figures(prepared, outcome.window, settings.samples)
     for name, value in figures.items():
         rows[name][i] = value
     warning = warning_of(figures["friction_work_on_vibration"], prepared.case.friction.sliding)
-    said = [*remarks(judged | {"warning": warning}), *remarks_in_brief(prepared.case.toml)]
-    rows["message"][i] = remarked(rows["message"][i], *map(warned, said))
-    rows[TRUST][i] = number(judged)
+    texts = [*remarks(trust | {"warning": warning}), *remarks_in_brief(prepared.case.toml)]
+    rows["message"][i] = remarked(rows["message"][i], *map(warned, texts))
+    rows[TRUST][i] = number(trust)
     error = outcome.window.states[:, XI]
     room = settings.window * settings.samples
     whole = room if outcome.period == 0 else room // error.size * error.size
@@ -198,21 +198,7 @@ def _fill(
 
 def tabulated(case: Case) -> Tabulated:
     """The case's table, made once for all cases that share it; raises as `prepare` does."""
-    key = table_key(case)
-    with _lock:
-        if key in _tables:
-            _tables.move_to_end(key)
-            return _tables[key]
-    made = tables(case)
-    with _lock:
-        _tables[key] = made
-        while len(_tables) > TABLES_KEPT:
-            _tables.popitem(last=False)
-    return made
-
-
-_lock = threading.Lock()
-_tables: OrderedDict[Hashable, Tabulated] = OrderedDict()
+    return _made_once(_tables, table_key(case), lambda: tables(case))
 
 
 def _start(prepared: Prepared, settings: SweepSettings) -> np.ndarray:
@@ -221,22 +207,31 @@ def _start(prepared: Prepared, settings: SweepSettings) -> np.ndarray:
     The latter is taken at `CREEP`, where it is the same at all speeds, and is therefore found once. At the
     case's own speed damping of a moving error of transmission would make it another one.
     """
-    if not settings.steady or prepared.case.solver.initial != "static":
-        return initial_state(prepared.model, prepared.case.solver.initial)
-    model = prepared.model
+    model, initial = prepared.model, prepared.case.solver.initial
+    if not settings.steady or initial != "static":
+        return initial_state(model, initial)
     creeping = model.mechanics._replace(nominal_speed=CREEP)
+    # whose table is kept with the result, so that no other takes its place
     key = (id(model.table), model.options, *(np.asarray(value).tobytes() for value in creeping))
+    still = frictionless(model._replace(mechanics=creeping))
+    return _made_once(_equilibria, key, lambda: (model.table, static_equilibrium(still)))[1].copy()
+
+
+def _made_once(kept: OrderedDict[Hashable, Any], key: Hashable, make: Callable[[], Any]) -> Any:
     with _lock:
-        kept = _equilibria.get(key)
-    if kept is None or kept[0] is not model.table:
-        kept = model.table, static_equilibrium(frictionless(model._replace(mechanics=creeping)))
-        with _lock:
-            _equilibria[key] = kept
-            while len(_equilibria) > TABLES_KEPT:
-                _equilibria.popitem(last=False)
-    return kept[1].copy()
+        if key in kept:
+            kept.move_to_end(key)
+            return kept[key]
+    made = make()
+    with _lock:
+        kept[key] = made
+        while len(kept) > TABLES_KEPT:
+            kept.popitem(last=False)
+    return made
 
 
+_lock = threading.Lock()
+_tables: OrderedDict[Hashable, Tabulated] = OrderedDict()
 _equilibria: OrderedDict[Hashable, tuple[Any, np.ndarray]] = OrderedDict()
 
 

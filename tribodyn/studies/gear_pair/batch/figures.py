@@ -47,7 +47,7 @@ def window_figures(
     judge_block(judge, at, extreme, prepared, between_samples=True)
     judge.take({"efficiency": figures["efficiency"]})
     judge_tribology(judge, figures)
-    values = ((one.name, figures.get(one.name)) for one in SWEPT)
+    values = ((quantity.name, figures.get(quantity.name)) for quantity in SWEPT)
     return {name: float("nan") if value is None else value for name, value in values}, judge.figures()
 
 
