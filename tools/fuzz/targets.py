@@ -23,7 +23,7 @@ from tribodyn.studies import STUDIES
 from tribodyn.studies.pages.pictures import summary_table, sweep_table
 from tribodyn.studies.protocol.load import load_scenario
 from tribodyn.sweep.grid import Grid
-from tribodyn.tribology.ehl.table.table import Table
+from tribodyn.tribology.ehl.table.table import ContactTable
 
 TAKEN, REFUSED = "taken", "refused"
 #: Characters that a message has at most: whoever reads it sees what is wrong, and not a file.
@@ -142,7 +142,7 @@ _ARRAYS: dict[str, Callable[[], dict[str, Any]]] = {
     "gear": lambda: {
         name: np.arange(12.0) for name in GearCompliance._fields if name not in ("lead", "ends")
     },
-    "table": lambda: {name: np.arange(float(n)) for n, name in enumerate(Table._fields)},
+    "table": lambda: {name: np.arange(float(n)) for n, name in enumerate(ContactTable._fields)},
 }
 
 

@@ -10,9 +10,8 @@ from tribodyn.interface.words import in_python
 from tribodyn.tribology.ehl.asperities import Roughness
 from tribodyn.tribology.ehl.fluid.coupled import solve_coupled
 from tribodyn.tribology.ehl.fluid.fluid import Fluid, roelands_index
-from tribodyn.tribology.ehl.fluid.heat import Thermal
+from tribodyn.tribology.ehl.fluid.heat import HeatProperties
 from tribodyn.tribology.ehl.fluid.rheology import Rheology
-from tribodyn.tribology.ehl.fluid.traction import rolling_traction
 from tribodyn.tribology.ehl.grid import STEP
 from tribodyn.tribology.ehl.problem import LineContact, check
 from tribodyn.tribology.ehl.steady import Solution
@@ -225,7 +224,7 @@ def line_contact(
     )
     thermal = None
     if temperature_viscosity is not None:
-        thermal = Thermal(
+        thermal = HeatProperties(
             temperature_viscosity,
             oil_conductivity,
             oil_heat_capacity,
@@ -247,7 +246,7 @@ def line_contact(
         minimum_film_thickness=solution.minimum_film_thickness,
         asperity_load_ratio=solution.asperity_load_ratio,
         friction_coefficient=solved.friction / line_load,
-        rolling_coefficient=rolling_traction(solution).shear / line_load,
+        rolling_coefficient=solution.rolling_drag / line_load,
         hertz_pressure=problem.hertz_pressure,
         half_width=problem.half_width,
         moes_load=problem.moes_load,

@@ -13,7 +13,7 @@ CLASSES = (1, 11)
 TEETH, MODULE, DIAMETER, WIDTH = (5, 1000), (0.5e-3, 70e-3), (5e-3, 15.0), (4e-3, 1.2)
 
 
-class Tolerances(NamedTuple):
+class FlankTolerances(NamedTuple):
     """Tolerances of one gear, m.
 
     Attributes
@@ -37,7 +37,7 @@ class Tolerances(NamedTuple):
     runout: float
 
 
-def flank_tolerances(grade: float, module: float, diameter: float, face_width: float) -> Tolerances:
+def flank_tolerances(grade: float, module: float, diameter: float, face_width: float) -> FlankTolerances:
     """Tolerances of a gear of a tolerance class, from m_n, d and b (m).
 
     f_pT = 0.001 d + 0.4 m_n + 5, F_pT = 0.002 d + 0.55 √d + 0.7 m_n + 12, f_HαT = 0.4 m_n + 0.001 d + 4,
@@ -50,7 +50,7 @@ def flank_tolerances(grade: float, module: float, diameter: float, face_width: f
     profile_form, profile_slope = step * (0.55 * m + 5.0), step * (0.4 * m + 0.001 * d + 4.0)
     helix_form = step * (0.07 * math.sqrt(d) + 0.45 * math.sqrt(b) + 4.0)
     helix_slope = step * (0.05 * math.sqrt(d) + 0.35 * math.sqrt(b) + 4.0)
-    return Tolerances(
+    return FlankTolerances(
         single_pitch=step * (0.001 * d + 0.4 * m + 5.0),
         total_pitch=total_pitch,
         profile_form=profile_form,

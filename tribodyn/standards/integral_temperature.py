@@ -32,7 +32,7 @@ class IntegralTemperature(NamedTuple):
     integral: float
 
 
-class Mesh(NamedTuple):
+class ScuffingMesh(NamedTuple):
     """What the integral temperature depends on besides the path.
 
     Parameters
@@ -112,7 +112,7 @@ def thermal_flash_factor(reduced_modulus: float, thermal_contact: float) -> floa
     return 1e3 * (1e-6 * reduced_modulus) ** 0.25 / (thermal_contact / math.sqrt(1e3))
 
 
-def integral_temperature(path: ContactPath, mesh: Mesh) -> IntegralTemperature:
+def integral_temperature(path: ContactPath, mesh: ScuffingMesh) -> IntegralTemperature:
     """Integral temperature of a driving pinion and its gear: (1) to (31).
 
     θ_int = θ_M + 1.5 θ_flaint, θ_M = θ_oil + 0.7 X_S θ_flaint, θ_flaint = θ_flaE X_ε; θ_flaE of the pinion's
@@ -134,7 +134,7 @@ def integral_temperature(path: ContactPath, mesh: Mesh) -> IntegralTemperature:
         roughness_factor(mesh.roughness, pitch_radius),
         mesh.lubricant,
     )
-    tip = [1e3 * float(one) for one in curvature_radii(path, path.length)]
+    tip = [1e3 * float(radius) for radius in curvature_radii(path, path.length)]
     geometry = 0.51 * math.sqrt(ratio + 1.0) * (math.sqrt(tip[0]) - math.sqrt(abs(tip[1]) / ratio))
     geometry /= (tip[0] * abs(tip[1])) ** 0.25
     angles = pressure_angle_factor(working, mesh.pressure_angle, mesh.helix_angle)

@@ -198,8 +198,8 @@ def _moved(
 ) -> tuple[float, float]:
     """Return the temperatures a step further, within the bounds."""
 
-    def one(old: float, by: float) -> float:
+    def further(old: float, by: float) -> float:
         step = min(max(pace.weight * by, -pace.reach), pace.reach)
         return min(max(old + step, bounds[0]), bounds[1])
 
-    return one(here[0], change[0]), one(here[1], change[1])
+    return further(here[0], change[0]), further(here[1], change[1])

@@ -30,7 +30,7 @@ _LOADS, _SPEEDS = (0.25, 1.5), (0.8, 1.2)
 _LEAST_SHARE, LEAST_SLIDING = 0.1, 0.02
 
 
-class Duty(Protocol):
+class NominalDuty(Protocol):
     """Nominal speed of the pinion (rad/s) and constant torque on the gear (N m)."""
 
     @property
@@ -55,7 +55,7 @@ class Lubricated(Protocol):
     @property
     def lubricant(self) -> LubricantData: ...  # noqa: D102
     @property
-    def operating(self) -> Duty: ...  # noqa: D102
+    def operating(self) -> NominalDuty: ...  # noqa: D102
     @property
     def film(self) -> FilmData: ...  # noqa: D102
     @property

@@ -74,7 +74,7 @@ class LubricantData:
 
 def lubricant_from(sheet: OilSheet, temperature: Any, fzg: FzgStages = FzgStages()) -> LubricantData:
     """Return the numbers of an oil at a temperature (K), from its data sheet."""
-    numbers = {name: one.value for name, one in sheet.values(temperature).items()}
+    numbers = {name: number.value for name, number in sheet.values(temperature).items()}
     return LubricantData(**numbers, temperature=temperature, sheet=sheet, fzg=fzg)
 
 
@@ -103,11 +103,11 @@ def oil_values(lubricant: LubricantData) -> dict[str, OilValue]:
     typical = by_type(lubricant.type) if lubricant.type is not None else {}
     found = {}
     for name, unit in UNITS.items():
-        value, one = getattr(lubricant, name), typical.get(name)
+        value, usual = getattr(lubricant, name), typical.get(name)
         if lubricant.given is None or name in lubricant.given:
             found[name] = OilValue(value, unit, GIVEN)
-        elif one is not None:
-            found[name] = OilValue(value, unit, one.source, one.real_spread)
+        elif usual is not None:
+            found[name] = OilValue(value, unit, usual.source, usual.real_spread)
         else:
             found[name] = OilValue(value, unit, DEFAULTS[name])
     return found

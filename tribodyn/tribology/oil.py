@@ -71,8 +71,8 @@ ESTER = (6.605e-9, 0.1360)
 
 def pressure_viscosity_38(kind: OilType, viscosity: Any) -> Any:
     """Pressure-viscosity coefficient at 38 °C, 1/Pa, from the viscosity η there, Pa·s; not of an ester."""
-    one = PRESSURE_VISCOSITY[kind]
-    return one.factor * exp(one.exponent * log(viscosity))
+    line = PRESSURE_VISCOSITY[kind]
+    return line.factor * exp(line.exponent * log(viscosity))
 
 
 def pressure_viscosity_at(pressure_viscosity: Any, temperature: Any) -> Any:
@@ -238,6 +238,6 @@ class OilSheet:
         )
         slope = temperature_viscosity_at(self.viscosity_40, self.viscosity_100, self.density_15, temperature)
         put("temperature_viscosity", slope, f"slope of {at_hand}")
-        for name, one in by_type(self.type).items():
-            put(name, one.value, one.source, one.real_spread)
+        for name, usual in by_type(self.type).items():
+            put(name, usual.value, usual.source, usual.real_spread)
         return found

@@ -199,8 +199,8 @@ def exceeded(shares: np.ndarray, limits: Sequence[str]) -> dict[str, dict[str, A
             least = float(np.min(column[outside]))
             factor = {"factor": 1.0 / least} if least > 0.0 else {}
             found.append({"limit": limit, "share": float(np.mean(outside)), **factor})
-    found.sort(key=lambda one: -one.get("factor", np.inf))
-    return {str(number): one for number, one in enumerate(found, start=1)}
+    found.sort(key=lambda limit: -limit.get("factor", np.inf))
+    return {str(number): value for number, value in enumerate(found, start=1)}
 
 
 def fraction_in_range(in_range: Any) -> float | None:

@@ -9,7 +9,7 @@ from tribodyn.standards import contact_path as paths
 from tribodyn.standards import flash_temperature as flash
 from tribodyn.standards import fzg
 from tribodyn.standards import integral_temperature as integral
-from tribodyn.standards.integral_temperature import Mesh
+from tribodyn.standards.integral_temperature import ScuffingMesh
 from tribodyn.standards.micropitting import Oil
 
 STEEL = 2.0 / (2.0 * (1.0 - 0.09) / 206e9)
@@ -86,7 +86,7 @@ def test_permissible_film_is_that_of_the_annex():
 def test_shares_of_bulk_and_flash_in_the_integral_temperature():
     path = fzg.test_path()
     torque = fzg.scuffing_torque(12)
-    mesh = Mesh(torque / 36e-3 / 20e-3, 8.3, 0.02, 363.15, 0.5e-6, STEEL, CONTACT, math.radians(20.0))
+    mesh = ScuffingMesh(torque / 36e-3 / 20e-3, 8.3, 0.02, 363.15, 0.5e-6, STEEL, CONTACT, math.radians(20.0))
     found = integral.integral_temperature(path, mesh)
     assert found.integral == pytest.approx(found.bulk + 1.5 * found.flash_rise)
     assert found.bulk - 363.15 == pytest.approx(0.7 * found.flash_rise)

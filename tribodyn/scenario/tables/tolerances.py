@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 from tribodyn.errors import InputError
 from tribodyn.scenario.tables.model_files import DriveTable, Gear
-from tribodyn.standards.flank_tolerances import Tolerances, flank_tolerances, outside, rounded
+from tribodyn.standards.flank_tolerances import FlankTolerances, flank_tolerances, outside, rounded
 
 #: Lines of the gear sheet.
 _LINES = {
@@ -21,7 +21,7 @@ _LINES = {
 }
 
 
-def tolerances_of(drive: DriveTable) -> tuple[Tolerances | None, Tolerances | None]:
+def tolerances_of(drive: DriveTable) -> tuple[FlankTolerances | None, FlankTolerances | None]:
     """Return the tolerances of pinion and gear; None where no quality is given."""
     return _tolerances(drive, drive.pinion), _tolerances(drive, drive.gear)
 
@@ -63,7 +63,7 @@ def grade_of(drive: DriveTable, gear: Gear) -> int | None:
     return drive.quality if gear.quality is None else gear.quality
 
 
-def _tolerances(drive: DriveTable, gear: Gear) -> Tolerances | None:
+def _tolerances(drive: DriveTable, gear: Gear) -> FlankTolerances | None:
     grade = grade_of(drive, gear)
     if grade is None:
         return None

@@ -146,7 +146,7 @@ def standard_of(case: AssessmentCase, assembly: Assembly, face: float) -> Standa
     bulk, contact = _flash(case, path, duty, flanks, oil)
     integral = integral_temperature.integral_temperature(
         path,
-        integral_temperature.Mesh(
+        integral_temperature.ScuffingMesh(
             load * transverse,
             case.pinion_speed * float(reference_radius(drive, "pinion")),
             float(oil.viscosity(case.oil_temperature)),

@@ -66,7 +66,7 @@ class Constraint(NamedTuple):
     limit: float | str
 
 
-class Duty(NamedTuple):
+class WeightedDuty(NamedTuple):
     """One of the duties that the figures are means over."""
 
     weight: float
@@ -100,7 +100,7 @@ class Robust(NamedTuple):
     seed: int = 0
 
 
-class Search(NamedTuple):
+class SearchOptions(NamedTuple):
     """How to search: the method, the maximum number of evaluations, local searches, points of a front."""
 
     method: str = "auto"
@@ -132,11 +132,11 @@ class DesignCase(CaseHead):
     free: tuple[Free, ...]
     objectives: tuple[Objective, ...]
     constraints: tuple[Constraint, ...]
-    duties: tuple[Duty, ...]
+    duties: tuple[WeightedDuty, ...]
     over_duties: str
     tolerances: tuple[Tolerance, ...]
     robust: Robust
-    search: Search
+    search: SearchOptions
     confirm: Mapping[str, Any]
     sensitivities: bool
 

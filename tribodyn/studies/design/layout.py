@@ -9,7 +9,7 @@ from tribodyn.numerics.variable import Variable, flag
 from tribodyn.record.reader import Record
 from tribodyn.record.schema import Layout
 from tribodyn.studies import study_of
-from tribodyn.studies.design.candidates.archive import Evaluation, Unfinished
+from tribodyn.studies.design.candidates.archive import Candidate, Unfinished
 from tribodyn.studies.design.candidates.candidates import Overrides, samples_of, shapes_gears, value_at
 from tribodyn.studies.design.candidates.pool import Figures
 from tribodyn.studies.design.candidates.sources import units_by_figure
@@ -125,7 +125,7 @@ def scales_of(case: DesignCase, names: Sequence[str]) -> dict[str, np.ndarray]:
     return scales | ({"constraint": np.arange(len(case.constraints))} if case.constraints else {})
 
 
-def rows_of(case: DesignCase, names: Sequence[str], some: Sequence[Evaluation], start: int) -> dict[str, Any]:
+def rows_of(case: DesignCase, names: Sequence[str], some: Sequence[Candidate], start: int) -> dict[str, Any]:
     """Rows of the record for evaluations, the first of which has the number `start`."""
     numbers = np.array([candidate.numbers for candidate in some], dtype=float)
     numbers = numbers.reshape(len(some), len(case.free))

@@ -10,7 +10,7 @@ import tomli_w
 
 from tribodyn.errors import printable
 from tribodyn.numerics.output_files import MARKS, check_output, write_output
-from tribodyn.studies.design.candidates.archive import Archive, Evaluation
+from tribodyn.studies.design.candidates.archive import Archive, Candidate
 from tribodyn.studies.design.candidates.evaluation import loaded_source
 from tribodyn.studies.design.candidates.sources import standing
 from tribodyn.studies.design.case import DesignCase
@@ -121,7 +121,7 @@ def _plain(value: Any) -> bool:
     return isinstance(value, (int, float, str))
 
 
-def chosen_best(case: DesignCase, archive: Archive) -> Evaluation | None:
+def chosen_best(case: DesignCase, archive: Archive) -> Candidate | None:
     """The best candidate; of a front the one that is nearest to the best of both objectives."""
     if len(case.objectives) == 1:
         return archive.best()
@@ -131,7 +131,7 @@ def chosen_best(case: DesignCase, archive: Archive) -> Evaluation | None:
     columns = list(zip(*(point.score.objectives for point in points), strict=True))
     lows, spans = [min(column) for column in columns], [max(column) - min(column) for column in columns]
 
-    def distance(candidate: Evaluation) -> float:
+    def distance(candidate: Candidate) -> float:
         parts = zip(candidate.score.objectives, lows, spans, strict=True)
         return sum(((value - low) / (span or 1.0)) ** 2 for value, low, span in parts)
 

@@ -21,10 +21,10 @@ from tribodyn.studies.design.case import (
     DRAWN,
     START,
     Constraint,
-    Duty,
     Free,
     Objective,
     Tolerance,
+    WeightedDuty,
     apart,
     flat,
     naming_key,
@@ -42,7 +42,7 @@ class Parts(NamedTuple):
     free: tuple[Free, ...]
     objectives: tuple[Objective, ...]
     constraints: tuple[Constraint, ...]
-    duties: tuple[Duty, ...]
+    duties: tuple[WeightedDuty, ...]
     tolerances: tuple[Tolerance, ...]
     errors: tuple[InputError, ...]
 
@@ -89,7 +89,7 @@ def parts_of_design(table: Any, sources: Sources) -> Parts:
         tuple(key._replace(name=name) for key, name in zip(free, key_names, strict=True)),
         objectives[0] if objectives else (),
         tuple(constraints),
-        tuple(duties) or (Duty(1.0, {}, ""),),
+        tuple(duties) or (WeightedDuty(1.0, {}, ""),),
         tuple(tol._replace(name=name) for tol, name in zip(tolerances, names, strict=True)),
         tuple(errors),
     )
@@ -284,14 +284,14 @@ def _contradictions(constraints: Sequence[Constraint]) -> list[InputError]:
     return errors
 
 
-def _duty(number: int, table: Any, free: Sequence[Free], sources: Sources) -> Duty:
+def _duty(number: int, table: Any, free: Sequence[Free], sources: Sources) -> WeightedDuty:
     keys = flat(table.set)
     for key in keys:
         _require(f"design.duty.{number}.set", (key,), (keys[key],), sources)
         if any(key in other.keys for other in free):
             raise InputError(f"design.duty.{number}.set", quoted(key), "is free too", "choose one of them")
     name = ", ".join(f"{key.rpartition('.')[2]} {value}" for key, value in keys.items())
-    return Duty(table.weight, keys, name)
+    return WeightedDuty(table.weight, keys, name)
 
 
 def _tolerance(place: str, table: Any, sources: Sources) -> Tolerance:

@@ -17,7 +17,7 @@ from tribodyn.record.schema import partial_path, require_same_code
 from tribodyn.record.writer import RecordWriter, check_target
 from tribodyn.studies.design.candidates.archive import (
     Archive,
-    Evaluation,
+    Candidate,
     Levels,
     Moved,
     SpentError,
@@ -83,7 +83,7 @@ def run(
         def started(factor: int, of: Figures) -> None:
             record.put(FACTORS.index(factor), {START_FIGURES: figure_rows(names, of)})
 
-        def keep(candidate: Evaluation) -> None:
+        def keep(candidate: Candidate) -> None:
             record.write(record.written, rows_of(case, names, [candidate], record.written))
             if progress:
                 progress(min(1.0, record.written / case.search.evaluations))
@@ -157,7 +157,7 @@ def _search(case: DesignCase, archive: Archive, name: str) -> None:
         METHODS[name](archive, start)
 
 
-def _resolved(case: DesignCase, searched: Archive, end: Converged, best: Evaluation) -> dict[str, Any]:
+def _resolved(case: DesignCase, searched: Archive, end: Converged, best: Candidate) -> dict[str, Any]:
     """On which resolution the figures stand, and what the best is on the one that was searched on."""
     if end.stands is None:
         return {}
@@ -204,7 +204,7 @@ def _about(
     case: DesignCase,
     archive: Archive,
     pool: Evaluators,
-    best: Evaluation,
+    best: Candidate,
     moved: Moved,
     record: RecordWriter,
 ) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from tribodyn.scenario.quantity import Count, Positive, Switch, Table, Text, sce
 from tribodyn.scenario.tables.drive_data import with_axes_held
 from tribodyn.studies import DEFAULT, STUDIES, study_of
 from tribodyn.studies.design.candidates.sources import BASE, NAME, sources_of
-from tribodyn.studies.design.case import DesignCase, Robust, Search, flat
+from tribodyn.studies.design.case import DesignCase, Robust, SearchOptions, flat
 from tribodyn.studies.design.parts import parts_of_design
 
 KIND = "design"
@@ -203,7 +203,7 @@ def case_of(scenario: Scenario, toml: str, sha256: str) -> DesignCase:
         over_duties=table.over_duties,
         tolerances=parts.tolerances,
         robust=Robust(**table.robust.model_dump()),
-        search=Search(
+        search=SearchOptions(
             table.method, table.evaluations, table.starts, table.seed, table.points, table.accuracy
         ),
         confirm=flat(table.confirm),

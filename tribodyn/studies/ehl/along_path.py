@@ -44,7 +44,7 @@ class Prepared(NamedTuple):
     assembly: Assembly
 
 
-class Way(NamedTuple):
+class PairWay(NamedTuple):
     """The pair at its positions: arrays (K,), SI; the rolling speeds are those of both flanks.
 
     `table` holds roll angles and line loads between which the loads are linear.
@@ -73,7 +73,7 @@ def prepare(case: EhlCase) -> Prepared:
     return Prepared(case, cycle, assembly)
 
 
-def way(study: Prepared) -> Way:
+def way(study: Prepared) -> PairWay:
     """Return the pair at positions evenly spaced in roll angle, in the middle of equal parts of its contact.
 
     Loads are given ones, or follow from the compliances of the pairs, the torque and the friction of the
@@ -90,7 +90,7 @@ def way(study: Prepared) -> Way:
     return _way(study, study.case.positions, (free.roll[known], friction[known]))
 
 
-def _way(study: Prepared, positions: int, friction: tuple[Array, Array] | None) -> Way:
+def _way(study: Prepared, positions: int, friction: tuple[Array, Array] | None) -> PairWay:
     """As `way`, with friction coefficients at roll angles, or without friction."""
     case, cycle = study.case, study.cycle
     start, end = float(cycle.roll_start), float(cycle.roll_end)
@@ -108,7 +108,7 @@ def _way(study: Prepared, positions: int, friction: tuple[Array, Array] | None) 
     if case.transient:
         nodes, loads = _spread(nodes, loads, jump_width(study, float(np.max(loads)), radius, speeds))
     line_load = np.interp(roll, nodes, loads)
-    return Way(roll, line_load * float(cycle.face_width), line_load, radius, speeds, (nodes, loads))
+    return PairWay(roll, line_load * float(cycle.face_width), line_load, radius, speeds, (nodes, loads))
 
 
 def jump_width(study: Prepared, line_load: float, radius: Array, speeds: tuple[Array, Array]) -> float:
@@ -132,7 +132,7 @@ def _spread(nodes: Array, loads: Array, width: float) -> tuple[Array, Array]:
     return fine, np.convolve(padded, kernel, mode="valid")
 
 
-def friction_along(study: Prepared, over: Way) -> Array:
+def friction_along(study: Prepared, over: PairWay) -> Array:
     """Friction coefficient of the solved contact, of the sign of the sliding; NaN where there is none."""
     seen, contact = seen_by(study, over, None, "none"), contact_for(study.case)
     found = np.full(len(over.roll), np.nan)
@@ -152,7 +152,7 @@ def given_of(case: EhlCase) -> LawInput:
     return LawInput(surfaces_of(case), case.lubricant, case.materials, none, none)
 
 
-def seen_by(study: Prepared, over: Way, film: str | None, friction: str) -> ContactFriction:
+def seen_by(study: Prepared, over: PairWay, film: str | None, friction: str) -> ContactFriction:
     """What a film law (None: that which goes with the friction law) and a friction law make of the way."""
     case = replace(study.case, film=FilmData(film), friction=FrictionData(friction))
     cycle, speed = study.cycle, study.case.operating.pinion_speed
@@ -166,7 +166,7 @@ def seen_by(study: Prepared, over: Way, film: str | None, friction: str) -> Cont
     )
 
 
-def by_laws(study: Prepared, over: Way) -> dict[str, dict[str, Array]]:
+def by_laws(study: Prepared, over: PairWay) -> dict[str, dict[str, Array]]:
     """Film by every film law and friction by every friction law that needs no values of its own.
 
     The solved law is left out: it is tabulated from the contacts that are solved here.
@@ -186,7 +186,7 @@ def by_laws(study: Prepared, over: Way) -> dict[str, dict[str, Array]]:
     return {"film": films, "friction": frictions}
 
 
-def meant_by(study: Prepared, over: Way, law: str) -> str:
+def meant_by(study: Prepared, over: PairWay, law: str) -> str:
     """Which dataset of the solved contact a film law stands for.
 
     Its central or its minimum film; and that between smooth surfaces, where the law knows no roughness.
@@ -201,7 +201,7 @@ def meant_by(study: Prepared, over: Way, law: str) -> str:
 
 def solved_at(
     contact: Contact,
-    over: Way,
+    over: PairWay,
     seen: ContactFriction,
     at: Any,
     step: float,
@@ -254,6 +254,6 @@ def contact_for(case: EhlCase) -> Contact:
     return contact_of(given_of(case))
 
 
-def loaded(over: Way) -> Array:
+def loaded(over: PairWay) -> Array:
     """Where the pair carries load."""
     return over.normal_load > _UNLOADED * np.max(over.normal_load)

@@ -9,8 +9,8 @@ import numpy as np
 from tribodyn.mesh.cycle import as_arrays
 from tribodyn.record.trust import Judge, heat_of, judge_tribology
 from tribodyn.studies.ehl.along_path import (
+    PairWay,
     Prepared,
-    Way,
     by_laws,
     contact_for,
     loaded,
@@ -79,7 +79,7 @@ def figures(case: EhlCase) -> dict[str, Any]:
     return _figures(study, over, solve(study, over, lambda _share: None), by_laws(study, over))
 
 
-def solve(study: Prepared, over: Way, progress: Progress) -> dict[str, Array]:
+def solve(study: Prepared, over: PairWay, progress: Progress) -> dict[str, Array]:
     """Datasets of all positions; NaN where the pair carries nothing or the contact was not solved."""
     case = study.case
     seen = seen_by(study, over, None, "none")
@@ -134,7 +134,7 @@ def solve(study: Prepared, over: Way, progress: Progress) -> dict[str, Array]:
     return arrays
 
 
-def _traction(study: Prepared, over: Way) -> list[float]:
+def _traction(study: Prepared, over: PairWay) -> list[float]:
     """Friction coefficient over slide-to-roll ratio, where the load is highest; NaN: not solved."""
     seen, contact = seen_by(study, over, None, "none"), contact_for(study.case)
     at = int(np.argmax(over.line_load))
@@ -146,7 +146,7 @@ def _traction(study: Prepared, over: Way) -> list[float]:
 
 
 def _figures(
-    study: Prepared, over: Way, arrays: dict[str, Array], laws: dict[str, dict[str, Array]]
+    study: Prepared, over: PairWay, arrays: dict[str, Array], laws: dict[str, dict[str, Array]]
 ) -> dict[str, Any]:
     solved = np.isfinite(arrays["central_film_thickness"])
     if not np.any(solved):

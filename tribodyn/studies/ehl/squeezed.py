@@ -13,15 +13,15 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from tribodyn.errors import InputError, SimulationError
-from tribodyn.studies.ehl.along_path import Way, pressure_and_film
+from tribodyn.studies.ehl.along_path import PairWay, pressure_and_film
 from tribodyn.studies.ehl.case import EhlCase
 from tribodyn.studies.ehl.layout import PLACES
 from tribodyn.studies.protocol.study import Progress
 from tribodyn.tribology.ehl.fluid.coupled import CoupledSolution, friction_of
 from tribodyn.tribology.ehl.fluid.shear import LAYERS
-from tribodyn.tribology.ehl.grid import Grid
+from tribodyn.tribology.ehl.grid import FilmGrid
 from tribodyn.tribology.ehl.problem import LineContact
-from tribodyn.tribology.ehl.reynolds import Closure, State, film
+from tribodyn.tribology.ehl.reynolds import FilmState, FlowCorrection, film
 from tribodyn.tribology.ehl.rough import RoughReduced, with_films
 from tribodyn.tribology.ehl.steady import Solution, grid_of, reduced_problem, solve_steady
 from tribodyn.tribology.ehl.table.table import Contact
@@ -43,10 +43,10 @@ class SteadyContact(NamedTuple):
     """
 
     problem: LineContact
-    state: State
+    state: FilmState
     node: Array
     whole: Array
-    closure: Closure
+    closure: FlowCorrection
     rise: Array
 
 
@@ -57,7 +57,7 @@ class Stretch(NamedTuple):
     steady: Sequence[SteadyContact]
     closures: Array
     rises: Array
-    grid: Grid
+    grid: FilmGrid
     loads: tuple[Array, Array]
 
 
@@ -70,7 +70,7 @@ def kept(found: CoupledSolution) -> SteadyContact:
 
 
 def squeezed(
-    over: Way, case: EhlCase, contact: Contact, steady: Sequence[SteadyContact | None], progress: Progress
+    over: PairWay, case: EhlCase, contact: Contact, steady: Sequence[SteadyContact | None], progress: Progress
 ) -> dict[str, Array]:
     """Datasets of the way with squeeze, NaN where it was not solved, and `restarts` within the way.
 
@@ -98,7 +98,7 @@ def _runs(good: Sequence[bool]) -> list[tuple[int, int]]:
     return [(int(a), int(b) - 1) for a, b in pairs if b - a > 1]
 
 
-def _stretch(steady: Sequence[SteadyContact], over: Way, at: Array, case: EhlCase) -> Stretch:
+def _stretch(steady: Sequence[SteadyContact], over: PairWay, at: Array, case: EhlCase) -> Stretch:
     """One grid for all positions, with shear and heat of the steady contacts on its nodes."""
     problems = [position.problem for position in steady]
     grid = grid_of(problems[0], case.step, *problems[1:])
@@ -152,7 +152,7 @@ def _begun(stretch: Stretch, at: int) -> Solution:
     state = contact.state._replace(pressure=seen(contact.whole))
     if isinstance(reduced, RoughReduced):
         state = with_films(state, reduced, grid)._replace(pressure=seen(contact.state.pressure))
-    closure = Closure(*stretch.closures[at])
+    closure = FlowCorrection(*stretch.closures[at])
     start = Solution(contact.problem, reduced, grid, state, film(state, reduced, grid), closure, 0, math.nan)
     return solve_steady(contact.problem, start)
 
@@ -194,7 +194,7 @@ class _Instants:
             entrainment_speed=entrainment,
             sliding_speed=sliding,
         )
-        return Instant(problem, Closure(*closure))
+        return Instant(problem, FlowCorrection(*closure))
 
 
 def _put(arrays: dict[str, Array], at: int, solution: Solution, contact: Contact, rise: Array) -> None:

@@ -9,7 +9,7 @@ from tribodyn.geometry.assembly import Assembly
 from tribodyn.geometry.drive import reference_radius
 from tribodyn.geometry.material import MaterialData
 from tribodyn.standards.dynamic_factor import DynamicFactor, DynamicMesh, dynamic_factor, reduced_mass
-from tribodyn.standards.flank_tolerances import Tolerances
+from tribodyn.standards.flank_tolerances import FlankTolerances
 
 
 class Quality(NamedTuple):
@@ -47,7 +47,9 @@ class Rated(NamedTuple):
     base_pitch_deviation: float
 
 
-def quality_of(grades: Sequence[float | None], tolerances: Sequence[Tolerances | None]) -> Quality | None:
+def quality_of(
+    grades: Sequence[float | None], tolerances: Sequence[FlankTolerances | None]
+) -> Quality | None:
     """Return the quality of both gears; None where one has none."""
     known = [one for one in tolerances if one is not None]
     if len(known) < len(tolerances):

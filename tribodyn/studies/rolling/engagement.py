@@ -45,7 +45,7 @@ class RollingFriction(NamedTuple):
     sliding_coefficient: float
 
 
-class Engagement(NamedTuple):
+class ElementStates(NamedTuple):
     """Every element at every instant; arrays (time, element), or (time,) where said.
 
     Attributes
@@ -141,7 +141,7 @@ def engage(
     input_speed: float,
     friction: RollingFriction,
     mode: Mode = "corrected",
-) -> Engagement:
+) -> ElementStates:
     """Resolve loads, speeds and losses.
 
     Parameters
@@ -160,7 +160,7 @@ def engage(
     power_out = input_speed / drive.ratio * cam_torque(drive, angle, load) - lost.sum(axis=-1)
     by_energy = power_out / power_in
     distance = pitch_point_distance(drive, angle)
-    return Engagement(
+    return ElementStates(
         element_angle=angle,
         cam_distance=distance - drive.element_radius,
         crown_distance=distance + drive.element_radius,

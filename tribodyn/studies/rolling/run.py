@@ -12,7 +12,7 @@ from tribodyn.record.trust import Judge
 from tribodyn.studies.protocol.recording import target, writer
 from tribodyn.studies.protocol.study import Progress, RunResult
 from tribodyn.studies.rolling.engagement import (
-    Engagement,
+    ElementStates,
     element_angles,
     engage,
     pattern_period,
@@ -26,7 +26,7 @@ from tribodyn.studies.rolling.scenario import RollingCase
 UNLOADED = 1e-9
 
 
-def prepare(case: RollingCase) -> Engagement:
+def prepare(case: RollingCase) -> ElementStates:
     """Check the gear and resolve one cycle: an element takes its neighbour's place.
 
     Raises
@@ -54,7 +54,7 @@ def run(
     path = target(case, output, force)
     first = prepare(case)
     angles = _shaft_angles(case)
-    statistics = RunStatistics()
+    statistics = RevolutionStatistics()
     begun = perf_counter()
     scales = {"element": np.arange(1, first.element_angle.shape[-1] + 1)}
     groups = {"geometry": geometry_arrays(case)}
@@ -72,7 +72,7 @@ def run(
 def figures(case: RollingCase) -> dict[str, Any]:
     """Figures of a case without a record."""
     prepare(case)
-    angles, statistics = _shaft_angles(case), RunStatistics()
+    angles, statistics = _shaft_angles(case), RevolutionStatistics()
     for start, part, state in _blocks(case, angles):
         statistics.add(state, whole=_whole(start + len(part), angles))
     return statistics.summary(case)
@@ -105,20 +105,20 @@ def _shaft_angles(case: RollingCase) -> Array:
     return np.linspace(0.0, 2.0 * np.pi, case.samples_per_cycle * (case.drive.elements + 1) + 1)
 
 
-def _engage(case: RollingCase, angles: Array) -> Engagement:
+def _engage(case: RollingCase, angles: Array) -> ElementStates:
     published = case.mode == "as_published"
     elements = published_angles(case.drive) if published else element_angles(case.drive, angles)
     return engage(case.drive, elements, case.input_power, case.input_speed, case.friction, case.mode)
 
 
-def _blocks(case: RollingCase, angles: Array) -> Iterator[tuple[int, Array, Engagement]]:
+def _blocks(case: RollingCase, angles: Array) -> Iterator[tuple[int, Array, ElementStates]]:
     """Go through the cycles: number of the first sample, rotations of the shaft, state."""
     for start in range(0, len(angles), case.samples_per_cycle):
         part = angles[start : start + case.samples_per_cycle]
         yield start, part, _engage(case, part)
 
 
-def _refuse_locking(case: RollingCase, cycle: Engagement) -> None:
+def _refuse_locking(case: RollingCase, cycle: ElementStates) -> None:
     worst = int(np.argmin(cycle.power_out))
     if cycle.power_out[worst] > 0.0:
         return
@@ -140,7 +140,7 @@ def _refuse_locking(case: RollingCase, cycle: Engagement) -> None:
     )
 
 
-class RunStatistics:
+class RevolutionStatistics:
     """Gathers what the summary reports, block by block."""
 
     def __init__(self) -> None:
@@ -151,7 +151,7 @@ class RunStatistics:
         self.power_out: list[Array] = []
         self.efficiency: list[Array] = []
 
-    def add(self, state: Engagement, whole: bool) -> None:
+    def add(self, state: ElementStates, whole: bool) -> None:
         """Take in a block; without its last sample where that is the first one again."""
         part = slice(None) if whole else slice(None, -1)
         over_time = {

@@ -15,7 +15,7 @@ STEP = 0.1
 FLOODED = 60.0
 
 
-class Grid(NamedTuple):
+class FilmGrid(NamedTuple):
     """Nodes and what depends on them alone; faces are those between the nodes of the film.
 
     Attributes
@@ -76,7 +76,7 @@ def _spaced(fine: Array, number: Callable[[Array], Array]) -> Array:
     return np.interp(np.linspace(known[0], known[-1], int(np.ceil(known[-1] - known[0])) + 1), known, fine)
 
 
-def made(node: Array) -> Grid:
+def made(node: Array) -> FilmGrid:
     """Return the grid of these nodes."""
     step = np.diff(node)
     weight = 0.5 * (np.concatenate([step, [0.0]]) + np.concatenate([[0.0], step]))
@@ -85,7 +85,7 @@ def made(node: Array) -> Grid:
     upwind, filled = _upwind(node[: end + 1]), deformation[: end + 1]
     face = upwind[1][:, None] * filled[:-1] + upwind[2][:, None] * filled[1:]
     face[1:] += upwind[0][1:, None] * filled[:-2]
-    return Grid(node, end, step, weight, upwind, deformation, face)
+    return FilmGrid(node, end, step, weight, upwind, deformation, face)
 
 
 def _upwind(node: Array) -> Array:
@@ -100,7 +100,7 @@ def _upwind(node: Array) -> Array:
     return weights
 
 
-def at_faces(grid: Grid, value: Array) -> Array:
+def at_faces(grid: FilmGrid, value: Array) -> Array:
     """Values at the faces from those at the nodes."""
     face = grid.upwind[1] * value[:-1] + grid.upwind[2] * value[1:]
     face[1:] += grid.upwind[0][1:] * value[:-2]

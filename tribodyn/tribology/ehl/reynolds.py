@@ -12,13 +12,13 @@ with it, so that D never changes and the equations stay smooth. Behind it the fi
 the share Q/(ρ0 H) of the gap: mass is conserved there as well.
 """
 
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from tribodyn.tribology.ehl.elasticity import HERTZ_LOAD
 from tribodyn.tribology.ehl.fluid.fluid import Fluid, log_viscosity, relative_density
-from tribodyn.tribology.ehl.grid import Grid, at_faces
+from tribodyn.tribology.ehl.grid import FilmGrid, at_faces
 from tribodyn.tribology.ehl.squeeze import Squeeze, behind, cells, mesh_speed, stored
 
 Array = Any
@@ -27,7 +27,7 @@ Array = Any
 KEPT_PRESSURE, KEPT_FLOW, LONGEST_WAY = 0.2, 0.3, 0.3
 
 
-class Reduced(NamedTuple):
+class SmoothReduced(NamedTuple):
     """A contact in Hertz's units.
 
     Attributes
@@ -43,7 +43,7 @@ class Reduced(NamedTuple):
     compliance: float = 1.0
 
 
-class State(NamedTuple):
+class FilmState(NamedTuple):
     """Unknowns: pressures at the nodes (zero at both ends), rigid film H_0, flow Q, end of the film X_e.
 
     Between rough surfaces the pressures are the fluid's, and the films H at the nodes are unknowns too.
@@ -56,7 +56,7 @@ class State(NamedTuple):
     film: Array = None
 
 
-class Closure(NamedTuple):
+class FlowCorrection(NamedTuple):
     """What shear and heat make of the flow, at the nodes.
 
     Attributes
@@ -71,21 +71,14 @@ class Closure(NamedTuple):
     drift: Array
 
 
-def newtonian(grid: Grid) -> Closure:
+def newtonian(grid: FilmGrid) -> FlowCorrection:
     """Return the closure of a Newtonian isothermal fluid."""
     zero = np.zeros(len(grid.node))
-    return Closure(zero, zero + 1.0, zero)
+    return FlowCorrection(zero, zero + 1.0, zero)
 
 
-class Elastic(Protocol):
-    """What says how stiff the surfaces are."""
-
-    @property
-    def compliance(self) -> float: ...  # noqa: D102
-
-
-def film(state: State, reduced: Elastic, grid: Grid) -> Array:
-    """Film H at the nodes."""
+def film(state: FilmState, reduced: Any, grid: FilmGrid) -> Array:
+    """Film H at the nodes of a smooth or a rough contact."""
     place = state.end + grid.node
     bent = grid.deformation[:, 1:-1] @ state.pressure[1:-1]
     return state.rigid_film + 0.5 * place * place + reduced.compliance * bent
@@ -112,7 +105,11 @@ def mean_fluidity(exponent: Array) -> tuple[Array, Array, Array]:
 
 
 def residual(
-    state: State, reduced: Reduced, grid: Grid, closure: Closure, squeeze: Squeeze | None = None
+    state: FilmState,
+    reduced: SmoothReduced,
+    grid: FilmGrid,
+    closure: FlowCorrection,
+    squeeze: Squeeze | None = None,
 ) -> tuple[Array, Array]:
     """Residuals of all equations, and their Jacobian: faces, load, end; by pressures within, H_0, Q, X_e.
 
@@ -168,7 +165,13 @@ def residual(
 
 
 def _store(
-    values: Array, matrix: Array, thick: Array, state: State, reduced: Reduced, grid: Grid, squeeze: Squeeze
+    values: Array,
+    matrix: Array,
+    thick: Array,
+    state: FilmState,
+    reduced: SmoothReduced,
+    grid: FilmGrid,
+    squeeze: Squeeze,
 ) -> None:
     """Add what the film stores, and its derivatives, to residuals and Jacobian."""
     size = len(grid.step)
@@ -189,12 +192,12 @@ def least_pressure(pressure: Array, suction: float) -> Array:
     return KEPT_PRESSURE * np.maximum(pressure, 0.0) - suction
 
 
-def moved(state: State, change: Array, suction: float = 0.0) -> State:
+def moved(state: FilmState, change: Array, suction: float = 0.0) -> FilmState:
     """Take a step of Newton's method, held where it would leave the meaning of an unknown."""
     pressure = state.pressure.copy()
     pressure[1:-1] = np.maximum(pressure[1:-1] + change[:-3], least_pressure(pressure[1:-1], suction))
-    rigid_film, flow, end = (float(one) for one in change[-3:])
-    return State(
+    rigid_film, flow, end = map(float, change[-3:])
+    return FilmState(
         pressure,
         state.rigid_film + rigid_film,
         max(state.flow + flow, KEPT_FLOW * state.flow),

@@ -16,12 +16,13 @@ import numpy as np
 from tribodyn.tribology.ehl.asperities import Roughness, asperity_pressure, mean_gap, pressure_flow_factor
 from tribodyn.tribology.ehl.elasticity import HERTZ_LOAD
 from tribodyn.tribology.ehl.fluid.fluid import Fluid, log_viscosity, relative_density
-from tribodyn.tribology.ehl.grid import Grid, at_faces
+from tribodyn.tribology.ehl.grid import FilmGrid, at_faces
 from tribodyn.tribology.ehl.reynolds import (
     KEPT_FLOW,
     LONGEST_WAY,
-    Closure,
-    State,
+    FilmState,
+    FlowCorrection,
+    SmoothReduced,
     least_pressure,
     mean_fluidity,
 )
@@ -42,6 +43,9 @@ class RoughReduced(NamedTuple):
     compliance: float = 1.0
 
 
+Reduced = SmoothReduced | RoughReduced
+
+
 def asperities(thick: Array, reduced: RoughReduced) -> tuple[Array, Array]:
     """P_a at films H, and its derivative."""
     unit, scale = reduced.film_unit, reduced.hertz_pressure
@@ -56,7 +60,11 @@ def gap(thick: Array, reduced: RoughReduced) -> tuple[Array, Array]:
 
 
 def rough_residual(
-    state: State, reduced: RoughReduced, grid: Grid, closure: Closure, squeeze: Squeeze | None = None
+    state: FilmState,
+    reduced: RoughReduced,
+    grid: FilmGrid,
+    closure: FlowCorrection,
+    squeeze: Squeeze | None = None,
 ) -> tuple[Array, Array]:
     """Residuals and Jacobian: faces, films, load, end; by pressures within the film, films, H_0, Q, X_e."""
     last, nodes, thick = grid.end, len(grid.node), state.film
@@ -123,8 +131,8 @@ def rough_residual(
 
 
 def rough_moved(
-    state: State, change: Array, grid: Grid, reduced: RoughReduced, suction: float = 0.0
-) -> State:
+    state: FilmState, change: Array, grid: FilmGrid, reduced: RoughReduced, suction: float = 0.0
+) -> FilmState:
     """Take a step of Newton's method, held where films would change by more than roughness and own size."""
     inner = grid.end - 1
     most = 2.0 * reduced.roughness.height / reduced.film_unit + 0.5 * np.abs(state.film)
@@ -134,8 +142,8 @@ def rough_moved(
     within = slice(1, grid.end)
     least = least_pressure(pressure[within], suction)
     pressure[within] = np.maximum(pressure[within] + part * change[:inner], least)
-    rigid_film, flow, end = (part * float(one) for one in change[-3:])
-    return State(
+    rigid_film, flow, end = (part * float(step) for step in change[-3:])
+    return FilmState(
         pressure,
         state.rigid_film + rigid_film,
         max(state.flow + flow, KEPT_FLOW * state.flow),
@@ -144,7 +152,7 @@ def rough_moved(
     )
 
 
-def with_films(state: State, reduced: RoughReduced, grid: Grid) -> State:
+def with_films(state: FilmState, reduced: RoughReduced, grid: FilmGrid) -> FilmState:
     """Return a state of smooth surfaces with its films, and no pressure behind the film."""
     pressure = state.pressure.copy()
     pressure[grid.end :] = 0.0

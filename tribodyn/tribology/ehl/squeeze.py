@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tribodyn.tribology.ehl.grid import Grid
+from tribodyn.tribology.ehl.grid import FilmGrid
 
 Array = Any
 
@@ -34,7 +34,7 @@ class Squeeze(NamedTuple):
     place: Array
 
 
-class Held(NamedTuple):
+class Snapshot(NamedTuple):
     """What nodes and faces were at an instant: s, m² (∫ ρ/ρ0 h dx about the nodes up to the end), m."""
 
     time: float
@@ -42,20 +42,22 @@ class Held(NamedTuple):
     place: Array
 
 
-def cells(grid: Grid) -> Array:
+def cells(grid: FilmGrid) -> Array:
     """Lengths about the nodes up to the end of the film, from face to face."""
     length = grid.weight[: grid.end + 1].copy()
     length[-1] = 0.5 * grid.step[grid.end - 1]
     return length
 
 
-def faces(grid: Grid) -> Array:
+def faces(grid: FilmGrid) -> Array:
     """Places ξ of the faces of the film and, last, of its end, relative to the end."""
     node = grid.node[: grid.end + 1]
     return np.append(0.5 * (node[1:] + node[:-1]), 0.0)
 
 
-def squeeze_of(time: float, before: list[Held], half_width: float, speed: float, film_unit: float) -> Squeeze:
+def squeeze_of(
+    time: float, before: list[Snapshot], half_width: float, speed: float, film_unit: float
+) -> Squeeze:
     """Return the difference formula at a time, s, from the last one or two instants, the latest last.
 
     Backward differences of second order over unequal steps; of first order (Euler) from one instant.
@@ -75,12 +77,12 @@ def squeeze_of(time: float, before: list[Held], half_width: float, speed: float,
     return Squeeze(own * half_width / way, mass / (way * film_unit), place / way)
 
 
-def mesh_speed(squeeze: Squeeze, end: float, grid: Grid) -> Array:
+def mesh_speed(squeeze: Squeeze, end: float, grid: FilmGrid) -> Array:
     """Speed of the faces and, last, of the end, over u."""
     return squeeze.rate * (end + faces(grid)) - squeeze.place
 
 
-def stored(squeeze: Squeeze, grid: Grid, mass: Array) -> Array:
+def stored(squeeze: Squeeze, grid: FilmGrid, mass: Array) -> Array:
     """Rate at which mass is stored between each face and the end, over u ρ0 b²/R; `mass` is ρ H at nodes."""
     return behind(squeeze.rate * cells(grid) * mass - squeeze.mass)
 

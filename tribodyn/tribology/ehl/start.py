@@ -7,9 +7,9 @@ import numpy as np
 
 from tribodyn.tribology.ehl.elasticity import HERTZ_LOAD, hertz_gap
 from tribodyn.tribology.ehl.fluid.fluid import Fluid, log_viscosity
-from tribodyn.tribology.ehl.grid import Grid
-from tribodyn.tribology.ehl.reynolds import Reduced, State, film
-from tribodyn.tribology.ehl.rough import RoughReduced
+from tribodyn.tribology.ehl.grid import FilmGrid
+from tribodyn.tribology.ehl.reynolds import FilmState, film
+from tribodyn.tribology.ehl.rough import Reduced
 from tribodyn.tribology.film.moes import log_survey
 
 Array = Any
@@ -26,14 +26,14 @@ def survey_film(load: float, material: float) -> float:
     return math.exp(log_survey(math.log(load), math.log(max(material, 1e-9)))) * math.pi / (8.0 * load)
 
 
-def first_state(reduced: Reduced | RoughReduced, grid: Grid, central: float) -> State:
+def first_state(reduced: Reduced, grid: FilmGrid, central: float) -> FilmState:
     """Return pressures, films and end of the film near the solution, for a central film from the survey."""
     if central < THIN:
         return _elastic(reduced, grid, central)
     return _rigid(reduced, grid, central)
 
 
-def _elastic(reduced: Reduced | RoughReduced, grid: Grid, central: float) -> State:
+def _elastic(reduced: Reduced, grid: FilmGrid, central: float) -> FilmState:
     width = (1.06 * central) ** (2.0 / 3.0)
     end = 1.0 + 0.5 * width
     place = end + grid.node
@@ -44,7 +44,7 @@ def _elastic(reduced: Reduced | RoughReduced, grid: Grid, central: float) -> Sta
     return _loaded(reduced, grid, pressure, end, central, central)
 
 
-def _rigid(reduced: Reduced | RoughReduced, grid: Grid, central: float) -> State:
+def _rigid(reduced: Reduced, grid: FilmGrid, central: float) -> FilmState:
     least = central / MARTIN_CENTRAL
     end = MARTIN_END * math.sqrt(2.0 * least)
     place = end + grid.node
@@ -52,9 +52,7 @@ def _rigid(reduced: Reduced | RoughReduced, grid: Grid, central: float) -> State
     return _loaded(reduced, grid, pressure, end, central, least)
 
 
-def _drawn_in(
-    reduced: Reduced | RoughReduced, grid: Grid, central: float, thick: Array, most: float
-) -> Array:
+def _drawn_in(reduced: Reduced, grid: FilmGrid, central: float, thick: Array, most: float) -> Array:
     """Pressures of an incompressible fluid drawn into a given gap, up to a share of the reduced pressure."""
     thick = np.maximum(thick, 0.1 * central)
     rise = reduced.speed * (thick - central) / thick**3
@@ -72,10 +70,15 @@ def _reduced_pressure(scale: float, fluid: Fluid) -> tuple[Array, Array]:
 
 
 def _loaded(
-    reduced: Reduced | RoughReduced, grid: Grid, pressure: Array, end: float, flow: float, middle: float
-) -> State:
+    reduced: Reduced,
+    grid: FilmGrid,
+    pressure: Array,
+    end: float,
+    flow: float,
+    middle: float,
+) -> FilmState:
     """Give pressures the contact's load, and the rigid film that leaves `middle` at X = 0."""
     pressure[0] = pressure[-1] = 0.0
     pressure = pressure * (HERTZ_LOAD / (grid.weight @ pressure))
-    thick = film(State(pressure, 0.0, flow, end), reduced, grid)
-    return State(pressure, middle - float(np.interp(0.0, end + grid.node, thick)), flow, end)
+    thick = film(FilmState(pressure, 0.0, flow, end), reduced, grid)
+    return FilmState(pressure, middle - float(np.interp(0.0, end + grid.node, thick)), flow, end)

@@ -8,10 +8,19 @@ import numpy as np
 from tribodyn.errors import SimulationError
 from tribodyn.numerics.blas_threads import one_blas_thread
 from tribodyn.tribology.ehl.elasticity import HERTZ_LOAD
-from tribodyn.tribology.ehl.grid import STEP, Grid, film_width, made, placed
+from tribodyn.tribology.ehl.grid import STEP, FilmGrid, film_width, made, placed
 from tribodyn.tribology.ehl.problem import LineContact, check
-from tribodyn.tribology.ehl.reynolds import Closure, Reduced, State, film, moved, newtonian, residual
+from tribodyn.tribology.ehl.reynolds import (
+    FilmState,
+    FlowCorrection,
+    SmoothReduced,
+    film,
+    moved,
+    newtonian,
+    residual,
+)
 from tribodyn.tribology.ehl.rough import (
+    Reduced,
     RoughReduced,
     asperities,
     gap,
@@ -48,11 +57,11 @@ class Solution(NamedTuple):
     """
 
     problem: LineContact
-    reduced: Reduced | RoughReduced
-    grid: Grid
-    state: State
+    reduced: Reduced
+    grid: FilmGrid
+    state: FilmState
     film: Array
-    closure: Closure
+    closure: FlowCorrection
     steps: int
     imbalance: float
 
@@ -88,11 +97,8 @@ class Solution(NamedTuple):
     @property
     def asperity_load_ratio(self) -> float:
         """Share of the load that the asperities carry."""
-        return (
-            float(self.grid.weight @ self.asperity_pressure)
-            / self.problem.line_load
-            * self.problem.half_width
-        )
+        carried = float(self.grid.weight @ self.asperity_pressure)
+        return carried / self.problem.line_load * self.problem.half_width
 
     @property
     def film_thickness(self) -> Array:
@@ -114,12 +120,21 @@ class Solution(NamedTuple):
         """Flow per width over u ρ0: film where the pressure is highest, times relative density there, m."""
         return self.state.flow * self.problem.film_unit
 
+    @property
+    def rolling_drag(self) -> float:
+        """Drag of the pressure flow on each surface, ½ ∫ h dp/dx dx, N/m (Biboulet & Houpert 2010).
 
-def reduced_problem(problem: LineContact) -> Reduced | RoughReduced:
+        With τ = τ_m + (z − h/2) dp/dx in the film, ∫ τ_m dx holds back the faster surface, this one both.
+        """
+        pressure, thick = self.fluid_pressure, self.mean_gap
+        return 0.25 * float(np.sum((thick[1:] + thick[:-1]) * np.diff(pressure)))
+
+
+def reduced_problem(problem: LineContact) -> Reduced:
     """Return the contact in Hertz's units."""
     numbers = problem.speed_number, problem.hertz_pressure, problem.fluid
     if problem.roughness is None:
-        return Reduced(*numbers)
+        return SmoothReduced(*numbers)
     return RoughReduced(*numbers, problem.roughness, problem.effective_modulus, problem.film_unit)
 
 
@@ -129,13 +144,13 @@ def expected_film(problem: LineContact) -> float:
     return survey_film(problem.moes_load, problem.moes_material) + height / problem.film_unit
 
 
-def grid_of(problem: LineContact, step: float = STEP, *others: LineContact) -> Grid:
+def grid_of(problem: LineContact, step: float = STEP, *others: LineContact) -> FilmGrid:
     """Return the grid that suits the films expected of contacts; behind it as far as asperities may touch."""
     problems = (problem, *others)
-    films = [expected_film(one) for one in problems]
+    films = [expected_film(each) for each in problems]
     beyond = 0.0
     if problem.roughness is not None:
-        unit = min(one.film_unit for one in problems)
+        unit = min(each.film_unit for each in problems)
         beyond = 1.5 + 2.0 * film_width(4.0 * problem.roughness.height / unit)
     return made(placed(min(films), step, beyond, max(films)))
 
@@ -144,8 +159,8 @@ def solve_steady(
     problem: LineContact,
     start: Solution | None = None,
     step: float = STEP,
-    closure: Closure | None = None,
-    grid: Grid | None = None,
+    closure: FlowCorrection | None = None,
+    grid: FilmGrid | None = None,
 ) -> Solution:
     """Solve a steady contact.
 
@@ -198,18 +213,19 @@ def solve_steady(
 
 @one_blas_thread()
 def converged(
-    state: State,
-    reduced: Reduced | RoughReduced,
-    grid: Grid,
-    closure: Closure,
+    state: FilmState,
+    reduced: Reduced,
+    grid: FilmGrid,
+    closure: FlowCorrection,
     squeeze: Squeeze | None = None,
     most_steps: int = MOST_STEPS,
-) -> tuple[State, int, float]:
+) -> tuple[FilmState, int, float]:
     """Take steps of Newton's method; returns the state, the number of steps, the imbalance (NaN: failed)."""
+    equations: Any = rough_residual if isinstance(reduced, RoughReduced) else residual
     imbalance = math.inf
     for number in range(most_steps + 1):
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            values, matrix = _residual(state, reduced, grid, closure, squeeze)
+            values, matrix = equations(state, reduced, grid, closure, squeeze)
             imbalance = _imbalance(values, state, grid, squeeze)
         if imbalance <= TOLERANCE or not math.isfinite(imbalance) or number == most_steps:
             return state, number, imbalance
@@ -217,13 +233,17 @@ def converged(
             change = np.linalg.solve(matrix, -values)
         except np.linalg.LinAlgError:
             return state, number, math.nan
-        state = _moved(state, change, grid, reduced, 0.0 if squeeze is None else SUCTION)
+        suction = 0.0 if squeeze is None else SUCTION
+        if isinstance(reduced, RoughReduced):
+            state = rough_moved(state, change, grid, reduced, suction)
+        else:
+            state = moved(state, change, suction)
     return state, most_steps, imbalance
 
 
 def _roughened(
-    problem: LineContact, first: State, reduced: RoughReduced, grid: Grid, closure: Closure
-) -> tuple[State, int, float]:
+    problem: LineContact, first: FilmState, reduced: RoughReduced, grid: FilmGrid, closure: FlowCorrection
+) -> tuple[FilmState, int, float]:
     """Raise the density of the asperities, or else their height, by factors that Newton's method takes."""
     whole, total = reduced.roughness, 0
     film = survey_film(problem.moes_load, problem.moes_material)
@@ -248,8 +268,8 @@ def _roughened(
 
 
 def _continued(
-    state: State, reduced: Reduced | RoughReduced, grid: Grid, closure: Closure
-) -> tuple[State, int, float]:
+    state: FilmState, reduced: Reduced, grid: FilmGrid, closure: FlowCorrection
+) -> tuple[FilmState, int, float]:
     """Raise the pressure-viscosity coefficient from a part of it, in steps that Newton's method takes."""
     whole = reduced.fluid.pressure_viscosity
     done, way, total, imbalance = 0.0, 0.5, 0, math.nan
@@ -265,25 +285,7 @@ def _continued(
     return state, total, imbalance if done >= 1.0 else math.nan
 
 
-def _residual(
-    state: State,
-    reduced: Reduced | RoughReduced,
-    grid: Grid,
-    closure: Closure,
-    squeeze: Squeeze | None,
-) -> tuple[Array, Array]:
-    if isinstance(reduced, RoughReduced):
-        return rough_residual(state, reduced, grid, closure, squeeze)
-    return residual(state, reduced, grid, closure, squeeze)
-
-
-def _moved(state: State, change: Array, grid: Grid, reduced: Reduced | RoughReduced, suction: float) -> State:
-    if isinstance(reduced, RoughReduced):
-        return rough_moved(state, change, grid, reduced, suction)
-    return moved(state, change, suction)
-
-
-def _imbalance(values: Array, state: State, grid: Grid, squeeze: Squeeze | None) -> float:
+def _imbalance(values: Array, state: FilmState, grid: FilmGrid, squeeze: Squeeze | None) -> float:
     flow = np.full(len(values) - 2, state.flow)
     if squeeze is not None:
         # far out what is stored is a small difference of large masses

@@ -15,8 +15,8 @@ import numpy as np
 from tribodyn.errors import SimulationError
 from tribodyn.tribology.ehl.fluid.fluid import relative_density
 from tribodyn.tribology.ehl.problem import LineContact, check
-from tribodyn.tribology.ehl.reynolds import Closure, State, film
-from tribodyn.tribology.ehl.squeeze import Held, cells, faces, squeeze_of
+from tribodyn.tribology.ehl.reynolds import FilmState, FlowCorrection, film
+from tribodyn.tribology.ehl.squeeze import Snapshot, cells, faces, squeeze_of
 from tribodyn.tribology.ehl.steady import TOLERANCE, Solution, converged, reduced_problem
 
 Array = Any
@@ -31,7 +31,7 @@ class Instant(NamedTuple):
     """A contact at an instant, and what shear and heat make of its flow (None: as at the start)."""
 
     problem: LineContact
-    closure: Closure | None = None
+    closure: FlowCorrection | None = None
 
 
 def march(
@@ -53,7 +53,7 @@ def march(
     SimulationError
         If an instant could not be solved with the shortest step.
     """
-    known, before = [start], [_held(start, float(times[0]))]
+    known, before = [start], [_snapshot(start, float(times[0]))]
     for goal in times[1:]:
         whole = shorter = float(goal) - before[-1].time
         while (left := float(goal) - before[-1].time) > 1e-9 * whole:
@@ -69,12 +69,12 @@ def march(
                     raise _stopped(instant_at(before[-1].time + step).problem, before[-1].time)
                 continue
             known = [known[-1], found]
-            before = [before[-1], _held(found, before[-1].time + step)]
+            before = [before[-1], _snapshot(found, before[-1].time + step)]
         yield known[-1]
 
 
 def _stepped(
-    instant_at: Callable[[float], Instant], time: float, before: list[Held], known: list[Solution]
+    instant_at: Callable[[float], Instant], time: float, before: list[Snapshot], known: list[Solution]
 ) -> Solution | None:
     """Return the solution at a time; None: Newton's method did not converge."""
     problem, closure = instant_at(time)
@@ -93,7 +93,7 @@ def _stepped(
     return Solution(problem, reduced, grid, state, films, closure, steps, imbalance)
 
 
-def _same_film(last: Solution, problem: LineContact) -> State:
+def _same_film(last: Solution, problem: LineContact) -> FilmState:
     """Pressures of the last instant over Hertz's, and its film in the units of this one."""
     state = last.state
     ratio = last.problem.film_unit / problem.film_unit
@@ -102,14 +102,14 @@ def _same_film(last: Solution, problem: LineContact) -> State:
     return state._replace(rigid_film=state.rigid_film + shift, flow=ratio * state.flow, film=films)
 
 
-def _gone_on(earlier: Solution, last: Solution, ratio: float) -> State:
+def _gone_on(earlier: Solution, last: Solution, ratio: float) -> FilmState:
     """State to which the last two lead in a straight line, in Hertz's units; `ratio` of the steps in time."""
     old, new = earlier.state, last.state
 
     def on(name: str) -> Any:
         return getattr(new, name) + ratio * (getattr(new, name) - getattr(old, name))
 
-    return State(
+    return FilmState(
         np.maximum(on("pressure"), 0.5 * new.pressure),
         on("rigid_film"),
         max(on("flow"), 0.5 * new.flow),
@@ -118,13 +118,13 @@ def _gone_on(earlier: Solution, last: Solution, ratio: float) -> State:
     )
 
 
-def _held(solution: Solution, time: float) -> Held:
+def _snapshot(solution: Solution, time: float) -> Snapshot:
     """Masses and places of a solution."""
     problem, grid = solution.problem, solution.grid
     upto = slice(0, grid.end + 1)
     density = relative_density(solution.fluid_pressure[upto], problem.fluid)[0]
     mass = density * solution.mean_gap[upto] * cells(grid) * problem.half_width
-    return Held(time, mass, (solution.state.end + faces(grid)) * problem.half_width)
+    return Snapshot(time, mass, (solution.state.end + faces(grid)) * problem.half_width)
 
 
 def _stopped(problem: LineContact, time: float) -> SimulationError:

@@ -7,7 +7,7 @@ from tribodyn.tribology.contact import hertz_half_width
 from tribodyn.tribology.ehl.table.lookup import (
     LIMITS,
     RANGE,
-    held,
+    clipped,
     in_table,
     mixed_friction,
     most_of_film,
@@ -20,11 +20,11 @@ from tribodyn.tribology.law import FrictionLaw, LawInput
 def solved_friction(contact, film, surfaces, parameters):
     """Friction coefficient of film and asperities together."""
     box = parameters
-    x = held(log(contact.line_load), box.line_load, box.line_load_half)
-    y = held(log(contact.entrainment), box.entrainment, box.entrainment_half)
-    z = held(log(contact.curvature), box.curvature, box.curvature_half)
+    x = clipped(log(contact.line_load), box.line_load, box.line_load_half)
+    y = clipped(log(contact.entrainment), box.entrainment, box.entrainment_half)
+    z = clipped(log(contact.curvature), box.curvature, box.curvature_half)
     ratio = maximum(absolute(contact.sliding) / contact.entrainment, 1e-9)
-    s = held(log(ratio), box.slide_to_roll, box.slide_to_roll_half)
+    s = clipped(log(ratio), box.slide_to_roll, box.slide_to_roll_half)
     share = maximum(minimum(polynomial(box.share, x, y, z, s), 1.0), 0.0)
     half_width = hertz_half_width(contact.line_load, contact.curvature, surfaces.effective_modulus)
     most = most_of_film(contact.line_load, half_width, box.limit, box.floor)

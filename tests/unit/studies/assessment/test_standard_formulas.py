@@ -223,7 +223,7 @@ def test_integral_temperature_is_of_drawing_and_data_sheet(harder: Standard):
     """What ISO/TR 13989-2 asks for, in SI; the line load is that of the reference circle."""
     factor = APPLICATION * harder.dynamic.factor * harder.transverse * FACE
     radius = MODULE * TEETH[0] / 2.0 * 1e-3
-    mesh = integral_temperature.Mesh(
+    mesh = integral_temperature.ScuffingMesh(
         line_load=factor * TORQUE / radius / (WIDTH * 1e-3),
         pitch_speed=SPEED * radius,
         viscosity=viscosity(OIL),

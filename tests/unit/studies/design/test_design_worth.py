@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from scipy.special import ndtr
 
-from tribodyn.studies.design.candidates.archive import Evaluation
+from tribodyn.studies.design.candidates.archive import Candidate
 from tribodyn.studies.design.candidates.candidates import samples_of
 from tribodyn.studies.design.candidates.scoring import Score, Scoring
-from tribodyn.studies.design.case import Constraint, DesignCase, Duty, Objective, Robust, Tolerance
+from tribodyn.studies.design.case import Constraint, DesignCase, Objective, Robust, Tolerance, WeightedDuty
 from tribodyn.studies.design.methods.front import front
 from tribodyn.studies.design.short_form import loaded_search
 
@@ -60,7 +60,7 @@ def rows_of(values: np.ndarray) -> list[dict[str, float]]:
 def test_objectives_and_margins_in_plain_loops(over: str, over_duties: str):
     """Three duties of unequal weight, four samples, three figures; larger is worse for positive weights."""
     share = 0.7
-    duties = tuple(Duty(weight, {}, "") for weight in WEIGHTS)
+    duties = tuple(WeightedDuty(weight, {}, "") for weight in WEIGHTS)
     objectives = (Objective("both", (("a", 0.7), ("b", -1.3))), Objective("-c", (("c", -2.0),)))
     constraints = (
         Constraint("a <= 3.1", "a", 1.0, 3.1),
@@ -120,7 +120,7 @@ def test_objectives_and_margins_in_plain_loops(over: str, over_duties: str):
     )
 
 
-def evaluations(count: int, feasible: bool = False) -> list[Evaluation]:
+def evaluations(count: int, feasible: bool = False) -> list[Candidate]:
     """Made up: coarse numbers, so that some are equal."""
     rng = np.random.default_rng(5)
     found = []
@@ -129,7 +129,7 @@ def evaluations(count: int, feasible: bool = False) -> list[Evaluation]:
         objectives = first, 14.0 - first + float(rng.integers(0, 4))
         margin = 1.0 if feasible or rng.uniform() > 0.3 else -0.5
         score = Score(objectives, (margin,), objectives[:1], {})
-        found.append(Evaluation({"n": number}, (float(number),), [], score))
+        found.append(Candidate({"n": number}, (float(number),), [], score))
     return found
 
 

@@ -6,15 +6,14 @@ import pytest
 from tests.support.line_contacts import REFERENCES
 from tribodyn.errors import InputError
 from tribodyn.tribology.ehl.asperities import Roughness
-from tribodyn.tribology.ehl.fluid.coupled import friction_of, solve_coupled
+from tribodyn.tribology.ehl.fluid.coupled import friction_of, shear_force, solve_coupled
 from tribodyn.tribology.ehl.fluid.fluid import log_viscosity
-from tribodyn.tribology.ehl.fluid.heat import Thermal
+from tribodyn.tribology.ehl.fluid.heat import HeatProperties
 from tribodyn.tribology.ehl.fluid.rheology import Rheology
-from tribodyn.tribology.ehl.fluid.traction import shear_force
 from tribodyn.tribology.ehl.steady import solve_steady
 
 PROBLEM = REFERENCES[1][0]
-OIL = Thermal(0.035)
+OIL = HeatProperties(0.035)
 
 
 def newtonian(solution):
@@ -140,7 +139,7 @@ def test_without_sliding_asperities_do_not_rub():
 def test_what_has_no_meaning_is_refused_before_anything_is_solved():
     for rheology, thermal, key in (
         (Rheology("plastic"), None, "rheology"),
-        (Rheology("eyring"), Thermal(0.03, conductivity=-1.0), "oil_conductivity"),
+        (Rheology("eyring"), HeatProperties(0.03, conductivity=-1.0), "oil_conductivity"),
     ):
         with pytest.raises(InputError) as caught:
             solve_coupled(PROBLEM, rheology, thermal)
@@ -151,13 +150,13 @@ def test_heat_lowers_friction_and_film():
     cold, warm = slid(0.5), slid(0.5, thermal=OIL)
     assert warm.friction < 0.95 * cold.friction
     assert warm.solution.central_film_thickness < cold.solution.central_film_thickness
-    same = slid(0.5, thermal=Thermal(0.0))
+    same = slid(0.5, thermal=HeatProperties(0.0))
     assert same.friction == pytest.approx(cold.friction, rel=1e-6)
 
 
 def test_surfaces_exchanged():
     """The faster surface above or below: friction turns its sign, temperatures change places."""
-    unlike = Thermal(0.035, solid_conductivity=(46.0, 20.0), solid_heat_capacity=(3.6e6, 2e6))
+    unlike = HeatProperties(0.035, solid_conductivity=(46.0, 20.0), solid_heat_capacity=(3.6e6, 2e6))
     swapped = unlike._replace(solid_conductivity=(20.0, 46.0), solid_heat_capacity=(2e6, 3.6e6))
     one, other = slid(0.4, thermal=unlike), slid(-0.4, thermal=swapped)
     assert one.friction > 0.0

@@ -10,7 +10,7 @@ from scipy.integrate import quad
 from scipy.optimize import brentq as scipy_brentq
 from scipy.special import k0
 
-from tribodyn.tribology.ehl.fluid.heat import Thermal, heated, surfaces_under
+from tribodyn.tribology.ehl.fluid.heat import HeatProperties, heated, surfaces_under
 from tribodyn.tribology.ehl.fluid.rheology import Rheology
 from tribodyn.tribology.ehl.fluid.shear import LAYERS, sheared
 
@@ -127,7 +127,7 @@ def test_the_temperatures_balance_every_cell_and_both_surfaces(rng):
     """Convection, conduction and shear of each layer's cell; Jaeger's integral for each surface."""
     count = 7
     place = np.sort(rng.uniform(-1e-4, 1e-4, count))
-    thermal = Thermal(0.03, 0.14, 1.7e6, (40.0, 55.0), (3.6e6, 3.1e6))
+    thermal = HeatProperties(0.03, 0.14, 1.7e6, (40.0, 55.0), (3.6e6, 3.1e6))
     film = rng.uniform(1.5e-7, 3e-7, count)
     share = rng.uniform(0.5, 1.5, (count, LAYERS))
     flow = 3e-7 * share / share.sum(axis=1, keepdims=True)

@@ -11,7 +11,7 @@ from scipy.special import k0
 
 from tribodyn.errors import InputError
 from tribodyn.tribology.ehl.fluid.heat import (
-    Thermal,
+    HeatProperties,
     _conductances,
     _coupling,
     check,
@@ -57,7 +57,7 @@ def uniform_film(solid, flux=1e8, speed=1e-9, carried=0.0):
     film = np.full(61, 2e-7)
     made = np.full((61, LAYERS), flux / LAYERS)
     flow = np.full((61, LAYERS), carried / LAYERS)
-    surfaces = surfaces_under(place, (speed, speed), Thermal(0.0, solid_conductivity=(solid, solid)))
+    surfaces = surfaces_under(place, (speed, speed), HeatProperties(0.0, solid_conductivity=(solid, solid)))
     zero = np.zeros((61, LAYERS))
     return heated(surfaces, film, flow, made, zero, zero)
 
@@ -91,7 +91,7 @@ def test_surfaces_under_their_flux():
 def test_fluxes_across_a_film_that_does_not_flow(rng):
     """A chain of resistances: half a layer at both walls; each layer loses what it makes less when warm."""
     film, loss = np.array([2e-7, 5e-7]), rng.uniform(0.0, 2e5, (2, LAYERS))
-    thermal = Thermal(0.03, conductivity=0.17)
+    thermal = HeatProperties(0.03, conductivity=0.17)
     own_1, between, own_2 = _conductances(film, loss, thermal)
     for i in range(2):
         layer = 0.17 * LAYERS / film[i]
@@ -131,7 +131,7 @@ def test_coupling_is_that_of_surfaces_with_a_film_at_rest(rng):
 
 def test_unless_told_otherwise_steel_in_mineral_oil():
     """46 W/(m K) and 3.6 MJ/(m³ K) of bearing steel; 0.14 W/(m K) and 1.7 MJ/(m³ K) of mineral oil."""
-    assert Thermal(0.03) == (0.03, 0.14, 1.7e6, (46.0, 46.0), (3.6e6, 3.6e6))
+    assert HeatProperties(0.03) == (0.03, 0.14, 1.7e6, (46.0, 46.0), (3.6e6, 3.6e6))
 
 
 def test_a_surface_at_rest_is_warmed_as_by_a_source_that_creeps():
@@ -152,10 +152,10 @@ def test_a_surface_at_rest_is_warmed_as_by_a_source_that_creeps():
 @pytest.mark.parametrize(
     ("thermal", "key"),
     [
-        (Thermal(-0.1), "temperature_viscosity"),
-        (Thermal(0.03, conductivity=0.0), "oil_conductivity"),
-        (Thermal(0.03, solid_conductivity=(46.0,)), "solid_conductivity"),
-        (Thermal(0.03, solid_heat_capacity=(1e6, math.nan)), "solid_heat_capacity"),
+        (HeatProperties(-0.1), "temperature_viscosity"),
+        (HeatProperties(0.03, conductivity=0.0), "oil_conductivity"),
+        (HeatProperties(0.03, solid_conductivity=(46.0,)), "solid_conductivity"),
+        (HeatProperties(0.03, solid_heat_capacity=(1e6, math.nan)), "solid_heat_capacity"),
     ],
 )
 def test_bad_values(thermal, key):

@@ -45,7 +45,7 @@ def mean_inverse(low, high):
 def random_case(rng, nodes, film):
     """A grid, a closure and a squeeze term."""
     grid, faces = made(nodes), film - 1
-    closure = reynolds.Closure(
+    closure = reynolds.FlowCorrection(
         *(rng.uniform(*one, len(nodes)) for one in ((-0.5, 0.0), (0.5, 1.0), (-0.1, 0.1)))
     )
     squeeze = Squeeze(0.7, rng.uniform(0.5, 1.0, film), rng.uniform(-1.0, 1.0, faces + 1))
@@ -96,12 +96,12 @@ def assert_derivative(values, matrix, unknowns, step=1e-6):
 def test_smooth_surfaces(rng, squeezed, compliance):
     grid, closure, squeeze, pressure = random_case(rng, NODES, len(NODES))
     squeeze = squeeze if squeezed else None
-    reduced = reynolds.Reduced(0.3, SCALE, FLUID, compliance)
+    reduced = reynolds.SmoothReduced(0.3, SCALE, FLUID, compliance)
     last = len(NODES) - 1
     unknowns = np.concatenate([pressure[1:-1], [0.4, 0.9, 0.2]])
 
     def state(values):
-        return reynolds.State(np.concatenate([[0.0], values[:-3], [0.0]]), *values[-3:])
+        return reynolds.FilmState(np.concatenate([[0.0], values[:-3], [0.0]]), *values[-3:])
 
     values, matrix = reynolds.residual(state(unknowns), reduced, grid, closure, squeeze)
     rigid, flow, end = unknowns[-3:]
@@ -132,7 +132,7 @@ def test_rough_surfaces(rng, squeezed):
     def state(values):
         whole = np.zeros(count)
         whole[1:last] = values[: last - 1]
-        return reynolds.State(whole, *values[-3:], values[last - 1 : -3])
+        return reynolds.FilmState(whole, *values[-3:], values[last - 1 : -3])
 
     values, matrix = rough.rough_residual(state(unknowns), reduced, grid, closure, squeeze)
     rigid, flow, end = unknowns[-3:]
@@ -151,7 +151,7 @@ def test_rough_surfaces(rng, squeezed):
         squeeze,
         end,
         pressure[: last + 1],
-        reynolds.Closure(*(one[: last + 1] for one in closure)),
+        reynolds.FlowCorrection(*(one[: last + 1] for one in closure)),
         0.3,
         lambda h: 1 - 0.9 * math.exp(-0.56 * h * unit / sigma),
     )
@@ -186,7 +186,7 @@ def test_rough_steps_are_held_where_films_would_jump(rng):
     reduced = rough.RoughReduced(0.3, SCALE, FLUID, surfaces, 2.2e11, 5e-7)
     pressure = np.where(np.arange(count) < grid.end, rng.uniform(0.5, 1.0, count), 0.0)
     pressure[0] = 0.0
-    state = reynolds.State(pressure, 0.4, 0.9, 0.2, rng.uniform(0.5, 1.4, count))
+    state = reynolds.FilmState(pressure, 0.4, 0.9, 0.2, rng.uniform(0.5, 1.4, count))
     inner = grid.end - 1
     change = np.concatenate([rng.uniform(-0.1, 0.1, inner + count), [0.03, -0.02, 0.05]])
     small = rough.rough_moved(state, change, grid, reduced)
@@ -214,7 +214,7 @@ def test_films_of_a_smooth_state(rng):
     """H_0 + x²/2 + D P at all nodes; behind the end of the film no pressure stays."""
     nodes = np.concatenate([NODES, BEYOND])
     grid = made(nodes)
-    state = reynolds.State(rng.uniform(0.3, 1.0, len(nodes)), 0.4, 0.9, 0.2)
+    state = reynolds.FilmState(rng.uniform(0.3, 1.0, len(nodes)), 0.4, 0.9, 0.2)
     for compliance in (1.0, 0.6):
         reduced = rough.RoughReduced(0.3, SCALE, FLUID, Roughness(3e-7), 2.2e11, 5e-7, compliance)
         found = rough.with_films(state, reduced, grid)
@@ -243,7 +243,7 @@ def test_deformation_is_that_of_a_half_space(rng):
 
 def test_steps_are_held_where_unknowns_lose_their_meaning():
     pressure = np.array([0.0, 1.0, 2.0, 0.0])
-    state = reynolds.State(pressure, 0.5, 1.0, 0.1)
+    state = reynolds.FilmState(pressure, 0.5, 1.0, 0.1)
     small = reynolds.moved(state, np.array([0.1, -0.2, 0.3, -0.4, 0.05]))
     np.testing.assert_allclose(small.pressure, [0.0, 1.1, 1.8, 0.0])
     assert (small.rigid_film, small.flow, small.end) == pytest.approx((0.8, 0.6, 0.15))

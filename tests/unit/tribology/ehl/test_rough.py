@@ -11,10 +11,10 @@ from tribodyn.errors import InputError
 from tribodyn.tribology.ehl.asperities import Roughness, asperity_pressure, mean_gap, pressure_flow_factor
 from tribodyn.tribology.ehl.fluid.coupled import solve_coupled
 from tribodyn.tribology.ehl.fluid.fluid import Fluid
-from tribodyn.tribology.ehl.fluid.heat import Thermal
+from tribodyn.tribology.ehl.fluid.heat import HeatProperties
 from tribodyn.tribology.ehl.fluid.rheology import Rheology
 from tribodyn.tribology.ehl.problem import LineContact
-from tribodyn.tribology.ehl.reynolds import State, newtonian
+from tribodyn.tribology.ehl.reynolds import FilmState, newtonian
 from tribodyn.tribology.ehl.rough import rough_residual
 from tribodyn.tribology.ehl.steady import reduced_problem, solve_steady
 
@@ -152,7 +152,7 @@ def test_rougher_surfaces_rub_more():
 
 
 def test_heat_of_rubbing_is_balanced():
-    found = solve_coupled(rough(0.4e-6, 0.3, 0.1), Rheology("eyring"), Thermal(0.035))
+    found = solve_coupled(rough(0.4e-6, 0.3, 0.1), Rheology("eyring"), HeatProperties(0.035))
     heat = found.heat
     assert heat is not None
     assert heat.into_1 + heat.into_2 + heat.carried == pytest.approx(heat.made, rel=1e-6)
@@ -176,7 +176,7 @@ def test_jacobian_is_the_derivative():
             film[column - inner] += by
         else:
             rest[column - inner - nodes] += by
-        return rough_residual(State(pressure, *rest, film), reduced, grid, newtonian(grid))[0]
+        return rough_residual(FilmState(pressure, *rest, film), reduced, grid, newtonian(grid))[0]
 
     columns = [0, 5, inner // 2, inner - 1, inner, inner + nodes // 2, inner + grid.end]
     for column in [*columns, inner + nodes - 1, inner + nodes, inner + nodes + 1, inner + nodes + 2]:

@@ -19,7 +19,7 @@ from tribodyn.tribology.ehl.problem import LineContact
 from tribodyn.tribology.ehl.table import points
 from tribodyn.tribology.ehl.table import table as tables
 from tribodyn.tribology.ehl.table.lookup import TERMS, mixed_friction, polynomial
-from tribodyn.tribology.ehl.table.lookup import held as held_at
+from tribodyn.tribology.ehl.table.lookup import clipped as held_at
 from tribodyn.tribology.film import film_law
 from tribodyn.tribology.film.solved import solved_film
 from tribodyn.tribology.friction import friction_law
@@ -226,10 +226,10 @@ def test_a_fit_gives_back_what_it_was_made_of(rng):
         (1e7, 0.7, 90.0, 1.4),
         (2e4, 0.01, 200.0, 1e-3),
     ):
-        held = [
+        clipped = [
             np.clip(one, *ends) for one, ends in zip((load, speed, curvature, ratio), DUTY[:4], strict=True)
         ]
-        wanted = [one[0] for one in film_and_friction(contact, np.log([held]))]
+        wanted = [one[0] for one in film_and_friction(contact, np.log([clipped]))]
         for sign in (1.0, -1.0):
             v = sign * ratio * speed
             seen = local_contact(load, curvature, speed, v, speed + v / 2, speed - v / 2)
@@ -237,7 +237,7 @@ def test_a_fit_gives_back_what_it_was_made_of(rng):
             assert log_film == pytest.approx(wanted[0], abs=3e-3)
             assert rough == 1.0
             assert carried == pytest.approx(wanted[1], abs=3e-3)
-            if (load, curvature) == (held[0], held[2]):
+            if (load, curvature) == (clipped[0], clipped[2]):
                 mu = laws[1](seen, None, LIU_NI.surfaces, exact)
                 assert mu == pytest.approx(wanted[2], rel=3e-3)
     compared = (np.arange(400) % 6 == 5) & along
@@ -288,15 +288,15 @@ def test_coefficients_are_the_weighted_least_squares(rng):
 def test_asperities_carry_neither_less_than_nothing_nor_more_than_all():
     numbers = (0.0, 1.0) * 4
     zero = np.zeros(len(TERMS))
-    for share, held in ((-0.4, 0.0), (0.3, 0.3), (1.7, 1.0)):
+    for share, clipped in ((-0.4, 0.0), (0.3, 0.3), (1.7, 1.0)):
         one = zero + share * (np.arange(len(TERMS)) == TERMS.index((0, 0, 0, 0)))
-        table = tables.Table._make([*numbers, zero, zero, one, 0.05, 2e6, 0.11, 0.0, 0.0, 0.0])
+        table = tables.ContactTable._make([*numbers, zero, zero, one, 0.05, 2e6, 0.11, 0.0, 0.0, 0.0])
         seen = local_contact(3e5, 110.0, 0.15, 0.06, 0.18, 0.12)
-        assert solved_film(seen, LIU_NI.surfaces, table)[2] == held
+        assert solved_film(seen, LIU_NI.surfaces, table)[2] == clipped
         mu = solved_friction(seen, None, LIU_NI.surfaces, table)
         width = math.sqrt(8 * 3e5 / (math.pi * LIU_NI.surfaces.effective_modulus * 110.0))
         most = 1.15 * 0.05 + 3 * 2e6 * width / 3e5
-        assert mu == pytest.approx((1 - held) * 0.5 * most + 0.11 * held)
+        assert mu == pytest.approx((1 - clipped) * 0.5 * most + 0.11 * clipped)
     # where the film is saturated or slides hardly nothing overflows
     assert mixed_friction(900.0, 0.2, 0.05, 0.1) == pytest.approx(0.8 * 0.05 + 0.02)
     assert mixed_friction(-900.0, 0.2, 0.05, 0.1) == pytest.approx(0.02)

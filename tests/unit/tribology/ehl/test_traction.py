@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from tribodyn.tribology.ehl.fluid.coupled import shear_force
 from tribodyn.tribology.ehl.fluid.rheology import Rheology
-from tribodyn.tribology.ehl.fluid.traction import rolling_traction, shear_force
 
 PLACE = np.array([-2e-4, -1.3e-4, -0.9e-4, 0.0, 0.2e-4, 1.1e-4])
 
@@ -48,17 +48,3 @@ def test_the_law_of_shear_is_applied_between_nodes(law):
 
 def test_without_sliding_there_is_no_force():
     assert force(np.zeros(6), np.zeros(6), "eyring") == 0.0
-
-
-def test_rolling_traction_of_given_films():
-    """F_t = ½ ∫ h dp/dx dx and F_n = ∫ p x/R dx of p and h linear between nodes."""
-    p, h = np.array([0.0, 3e7, 8e7, 9e7, 5e7, 0.0]), np.array([9.0, 5.0, 4.0, 3.0, 2.5, 4.0]) * 1e-7
-    solution: Any = SimpleNamespace(
-        fluid_pressure=p, mean_gap=h, place=PLACE, problem=SimpleNamespace(radius=0.013)
-    )
-    found = rolling_traction(solution)
-    slopes = np.diff(p) / np.diff(PLACE)
-    parts = [quad(np.interp, a, b, args=(PLACE, h))[0] for a, b in pairwise(PLACE)]
-    along = 0.5 * slopes @ parts
-    assert found.shear == pytest.approx(along)
-    assert found.pressure == pytest.approx(np.trapezoid(p * PLACE, PLACE) / 0.013)

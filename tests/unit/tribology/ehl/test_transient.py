@@ -14,7 +14,7 @@ from tribodyn.tribology.ehl.asperities import Roughness
 from tribodyn.tribology.ehl.fluid.fluid import log_viscosity, relative_density
 from tribodyn.tribology.ehl.reynolds import newtonian, residual
 from tribodyn.tribology.ehl.rough import rough_residual
-from tribodyn.tribology.ehl.squeeze import Held, Squeeze
+from tribodyn.tribology.ehl.squeeze import Snapshot, Squeeze
 from tribodyn.tribology.ehl.steady import grid_of, solve_steady
 from tribodyn.tribology.ehl.transient import Instant, march
 
@@ -128,7 +128,7 @@ class Instants:
     def __init__(self, monkeypatch, longest):
         self.tried, self.longest = [], longest
         monkeypatch.setattr(transient, "_stepped", self.stepped)
-        monkeypatch.setattr(transient, "_held", lambda solution, time: Held(time, None, None))
+        monkeypatch.setattr(transient, "_snapshot", lambda solution, time: Snapshot(time, None, None))
 
     def stepped(self, instant_at, time, before, known):
         assert len(before) == len(known) <= 2

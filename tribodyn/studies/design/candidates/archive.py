@@ -22,7 +22,7 @@ Moved = Mapping[tuple[int, str], float]
 """First objective with a key or a tolerance moved, by its number and the name of the dataset."""
 
 
-class Evaluation(NamedTuple):
+class Candidate(NamedTuple):
     """A candidate and its score.
 
     Attributes
@@ -40,7 +40,7 @@ class Evaluation(NamedTuple):
     factor: int = 1
 
 
-Keep = Callable[[Evaluation], None]
+Keep = Callable[[Candidate], None]
 """Called with every evaluation as soon as it is there, in their order."""
 
 
@@ -90,11 +90,11 @@ class Archive:
         self.factor = factor
         self.more = resolutions(case, factor) if factor > 1 else {}
         self.scoring = Scoring(case, start)
-        self.evaluations: list[Evaluation] = []
+        self.evaluations: list[Candidate] = []
         self._pool = pool
         self._keep = keep
         self._submitted: dict[str, Future[Any]] = {}
-        self._done: dict[str, Evaluation] = {}
+        self._done: dict[str, Candidate] = {}
         self._lock = threading.Lock()
         self._own = threading.local()
         self._closed = False
@@ -102,7 +102,7 @@ class Archive:
         self._recorded = {identity(values): self._evaluation(values, found) for values, found in known}
 
     @property
-    def recorded(self) -> list[Evaluation]:
+    def recorded(self) -> list[Candidate]:
         """Candidates that were evaluated before, in their order."""
         return list(self._recorded.values())
 
@@ -173,13 +173,13 @@ class Archive:
         with self._lock:
             self._closed = True
 
-    def best(self, objective: int = 0) -> Evaluation | None:
+    def best(self, objective: int = 0) -> Candidate | None:
         """The feasible candidate with the least objective; None where there is none."""
         feasible = [candidate for candidate in self.evaluations if candidate.score.feasible]
         key = lambda candidate: (candidate.score.objectives[objective], candidate.numbers)  # noqa: E731
         return min(feasible, key=key, default=None)
 
-    def nearest(self) -> Evaluation | None:
+    def nearest(self) -> Candidate | None:
         """The candidate that misses the constraints by least, of those that have figures."""
         some = [candidate for candidate in self.evaluations if not candidate.score.message]
         return min(some, key=lambda candidate: candidate.score.violation, default=None)
@@ -214,10 +214,10 @@ class Archive:
             if not self._closed and name not in self._recorded:
                 self._keep(candidate)
 
-    def _evaluation(self, values: Overrides, found: Figures) -> Evaluation:
+    def _evaluation(self, values: Overrides, found: Figures) -> Candidate:
         numbers = tuple(number_of(free, values[free.keys[0]]) for free in self.case.free)
         score = self.scoring.score(found, self.shape_of(values))
-        return Evaluation(values, numbers, found, score, self.factor)
+        return Candidate(values, numbers, found, score, self.factor)
 
 
 class Levels:

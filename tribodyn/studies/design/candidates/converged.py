@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tribodyn.studies.design.candidates.archive import Archive, Evaluation, Levels, SpentError, resolutions
+from tribodyn.studies.design.candidates.archive import Archive, Candidate, Levels, SpentError, resolutions
 from tribodyn.studies.design.candidates.candidates import share_of
 from tribodyn.studies.design.case import DesignCase
 from tribodyn.studies.design.layout import FACTORS
@@ -107,7 +107,7 @@ def _of_front(case: DesignCase, at: At) -> tuple[int, bool]:
     return FACTORS[-1], False
 
 
-def _near(coarse: Archive, fine: Archive, members: list[Evaluation]) -> list[Evaluation]:
+def _near(coarse: Archive, fine: Archive, members: list[Candidate]) -> list[Candidate]:
     """Feasible candidates that members of a front are better than by less than a finer resolution changes.
 
     The nearest of them, at most as many as there are members, or `KEPT`.
@@ -127,11 +127,11 @@ def _near(coarse: Archive, fine: Archive, members: list[Evaluation]) -> list[Eva
     return nearest[: max(KEPT, len(members))]
 
 
-def _shares(case: DesignCase, candidate: Evaluation) -> np.ndarray:
+def _shares(case: DesignCase, candidate: Candidate) -> np.ndarray:
     return np.array([share_of(free, candidate.values[free.keys[0]]) for free in case.free])
 
 
-def _best_of(archive: Archive, count: int) -> list[Evaluation]:
+def _best_of(archive: Archive, count: int) -> list[Candidate]:
     """The best feasible candidates, the nearest to holding where none is."""
     some = [candidate for candidate in archive.evaluations if candidate.score.feasible]
     some.sort(key=lambda candidate: (candidate.score.objectives[0], candidate.numbers))
@@ -139,7 +139,7 @@ def _best_of(archive: Archive, count: int) -> list[Evaluation]:
     return some[:count] or ([nearest] if nearest else [])
 
 
-def _asked(archive: Archive, some: list[Evaluation], case: DesignCase) -> list[Evaluation]:
+def _asked(archive: Archive, some: list[Candidate], case: DesignCase) -> list[Candidate]:
     """Evaluate candidates on another resolution; gives them back."""
     with suppress(SpentError):
         archive.score_all([_shares(case, candidate) for candidate in some])
@@ -174,7 +174,7 @@ def _search_about(archive: Archive, near: bool = False) -> None:
         )
 
 
-def _stands(candidate: Evaluation, levels: list[Archive], case: DesignCase) -> bool:
+def _stands(candidate: Candidate, levels: list[Archive], case: DesignCase) -> bool:
     """Whether a candidate's figures change little from level to level; its constraints hold on the last."""
     try:
         several = [level.score(_shares(case, candidate)) for level in levels]

@@ -5,18 +5,18 @@ from typing import Any
 
 import numpy as np
 
-from tribodyn.studies.design.candidates.archive import Archive, Evaluation
+from tribodyn.studies.design.candidates.archive import Archive, Candidate
 from tribodyn.studies.design.candidates.candidates import share_of
 from tribodyn.studies.design.methods.local import ended_when_spent, first_look, in_turn, minimise
 from tribodyn.studies.design.methods.population import PER_KEY
 from tribodyn.studies.design.methods.views import Scalar
 
 
-def front(evaluations: list[Evaluation]) -> list[Evaluation]:
+def front(evaluations: list[Candidate]) -> list[Candidate]:
     """The feasible candidates that no other is better than in both objectives, by the first objective."""
     some = [candidate for candidate in evaluations if candidate.score.feasible]
     some.sort(key=lambda candidate: (candidate.score.objectives, candidate.numbers))
-    found: list[Evaluation] = []
+    found: list[Candidate] = []
     for candidate in some:
         if not found or candidate.score.objectives[1] < found[-1].score.objectives[1]:
             found.append(candidate)

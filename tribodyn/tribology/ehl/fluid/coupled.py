@@ -10,14 +10,12 @@ from tribodyn.numerics.blas_threads import one_blas_thread
 from tribodyn.tribology.ehl.fluid import heat as heat_of
 from tribodyn.tribology.ehl.fluid import rheology as rheology_of
 from tribodyn.tribology.ehl.fluid.fluid import hot_log_viscosity, log_viscosity, relative_density
-from tribodyn.tribology.ehl.fluid.heat import Heat, Surfaces, Thermal, heated, surfaces_under
-from tribodyn.tribology.ehl.fluid.rheology import Rheology
+from tribodyn.tribology.ehl.fluid.heat import FilmHeat, HeatProperties, WarmedSurfaces, heated, surfaces_under
+from tribodyn.tribology.ehl.fluid.rheology import Rheology, stress_scale, thinned
 from tribodyn.tribology.ehl.fluid.shear import LAYERS, Shear, sheared
-from tribodyn.tribology.ehl.fluid.traction import shear_force
 from tribodyn.tribology.ehl.grid import STEP
-from tribodyn.tribology.ehl.mixing import Mixing
 from tribodyn.tribology.ehl.problem import LineContact
-from tribodyn.tribology.ehl.reynolds import Closure
+from tribodyn.tribology.ehl.reynolds import FlowCorrection
 from tribodyn.tribology.ehl.steady import Solution, solve_steady
 
 Array = Any
@@ -29,6 +27,10 @@ MOST_ROUNDS = 100
 _KELVIN = 0.03
 #: Smallest share of a change of the closure that a round takes.
 _LEAST_SHARE = 0.05
+#: Steps remembered by the mixing; singular values below this share of the largest are omitted.
+MEMORY, _RANK = 5, 1e-8
+#: Parts of a step between nodes in the integral of the shear stress.
+_PARTS = 8
 
 
 class CoupledSolution(NamedTuple):
@@ -44,7 +46,7 @@ class CoupledSolution(NamedTuple):
 
     solution: Solution
     shear: Shear
-    heat: Heat | None
+    heat: FilmHeat | None
     friction: float
     rounds: int
 
@@ -56,12 +58,36 @@ class CoupledSolution(NamedTuple):
         return np.mean(self.heat.layers, axis=1)
 
 
+class Mixing:
+    """Next argument of x = g(x) from those tried (Anderson 1965; Walker & Ni 2011)."""
+
+    def __init__(self) -> None:
+        self._tried: list[Array] = []
+        self._change: list[Array] = []
+
+    def next(self, tried: Array, found: Array) -> Array:
+        """Return the argument to try after x = `tried` gave g(x) = `found`."""
+        self._tried = [*self._tried[-MEMORY:], tried]
+        self._change = [*self._change[-MEMORY:], found - tried]
+        if len(self._tried) == 1:
+            return found
+        steps: Array = np.diff(np.array(self._tried), axis=0)
+        changes: Array = np.diff(np.array(self._change), axis=0)
+        weight = np.linalg.lstsq(changes.T, self._change[-1], rcond=_RANK)[0]
+        return found - weight @ (steps + changes)
+
+    def shorter(self, share: float) -> Array:
+        """Return a shorter way from the last argument to what it gave, and forget what was before."""
+        self._tried, self._change = self._tried[-1:], self._change[-1:]
+        return self._tried[0] + share * self._change[0]
+
+
 @one_blas_thread()
 @np.errstate(over="ignore", divide="ignore", invalid="ignore")
 def solve_coupled(
     problem: LineContact,
     rheology: Rheology,
-    thermal: Thermal | None = None,
+    thermal: HeatProperties | None = None,
     start: Solution | None = None,
     step: float = STEP,
 ) -> CoupledSolution:
@@ -83,7 +109,7 @@ def solve_coupled(
     )
     mixing, share, last = Mixing(), 1.0, (math.inf,) * 3
     closure, rise = solution.closure, np.zeros((len(solution.place), LAYERS))
-    heat: Heat | None = None
+    heat: FilmHeat | None = None
     for rounds in range(1, MOST_ROUNDS + 1):
         shear, heat, found = _closed(solution, rheology, surfaces, heat, rise)
         warmed = heat.layers if heat is not None else rise
@@ -128,17 +154,17 @@ def _by_asperities(solution: Solution) -> float:
     return math.copysign(_rubbing(problem) * load, problem.sliding_speed) if problem.sliding_speed else 0.0
 
 
-def _packed(closure: Closure, rise: Array) -> Array:
+def _packed(closure: FlowCorrection, rise: Array) -> Array:
     """Closure and temperatures of the layers as one vector, of like sizes."""
     return np.concatenate([np.array(closure).ravel(), _KELVIN * rise.ravel()])
 
 
-def _unpacked(vector: Array) -> tuple[Closure, Array]:
+def _unpacked(vector: Array) -> tuple[FlowCorrection, Array]:
     closure, rise = np.split(vector, [len(vector) * 3 // (3 + LAYERS)])
-    return Closure(*closure.reshape(3, -1)), rise.reshape(-1, LAYERS) / _KELVIN
+    return FlowCorrection(*closure.reshape(3, -1)), rise.reshape(-1, LAYERS) / _KELVIN
 
 
-def friction_of(solution: Solution, rheology: Rheology, thermal: Thermal | None, rise: Array) -> float:
+def friction_of(solution: Solution, rheology: Rheology, thermal: HeatProperties | None, rise: Array) -> float:
     """Friction ∫ τ_m + f_c p_a dx, N/m, under temperatures of the layers, K above the inlet's (x, layer)."""
     coefficient = thermal.temperature_viscosity if thermal is not None else 0.0
     shear, _ = _sheared(solution, rheology, coefficient, rise)
@@ -151,6 +177,20 @@ def _friction(solution: Solution, shear: Shear, rheology: Rheology) -> float:
     within = solution.fluid_pressure[film], solution.place[film]
     part = shear._replace(newtonian=shear.newtonian[film])
     return shear_force(part, *within, rheology) + _by_asperities(solution)
+
+
+def shear_force(shear: Shear, pressure: Array, place: Array, rheology: Rheology) -> float:
+    """∫ τ_m dx over the nodes at places, N/m.
+
+    Between two nodes the viscosity changes by powers of ten, and the stress bends where it comes near to what
+    the oil bears: there ln η γ' and the pressure are taken as linear, and the law of shear does the rest.
+    """
+    at = np.linspace(0.0, len(place) - 1.0, _PARTS * (len(place) - 1) + 1)
+    node = np.arange(len(place))
+    equal = np.exp(np.interp(at, node, np.log(np.maximum(np.abs(shear.newtonian), 1e-300))))
+    stress = thinned(equal, stress_scale(np.interp(at, node, pressure), rheology), rheology)
+    sign = np.sign(np.interp(at, node, np.sign(shear.newtonian)))
+    return float(np.trapezoid(sign * stress, np.interp(at, node, place)))
 
 
 def _sheared(solution: Solution, rheology: Rheology, coefficient: float, rise: Array) -> tuple[Shear, Array]:
@@ -167,8 +207,12 @@ def _sheared(solution: Solution, rheology: Rheology, coefficient: float, rise: A
 
 
 def _closed(
-    solution: Solution, rheology: Rheology, surfaces: Surfaces | None, heat: Heat | None, rise: Array
-) -> tuple[Shear, Heat | None, Closure]:
+    solution: Solution,
+    rheology: Rheology,
+    surfaces: WarmedSurfaces | None,
+    heat: FilmHeat | None,
+    rise: Array,
+) -> tuple[Shear, FilmHeat | None, FlowCorrection]:
     """Shear and heat under given pressures, films and temperatures of the layers."""
     problem, fluid = solution.problem, solution.problem.fluid
     pressure, film = solution.fluid_pressure, solution.mean_gap
@@ -183,4 +227,4 @@ def _closed(
         heat = heated(surfaces, film, flow, shear.heat + rubbed[:, None], feedback, rise, heat)
     cold = log_viscosity(pressure, fluid)[0]
     effective = -np.log(shear.fluidity * fluid.viscosity)
-    return shear, heat, Closure(effective - shear.response * cold, shear.response, shear.drift)
+    return shear, heat, FlowCorrection(effective - shear.response * cold, shear.response, shear.drift)

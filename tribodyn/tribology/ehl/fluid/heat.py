@@ -33,7 +33,7 @@ _SLOWEST = 1.0
 _SURFACE_STEPS = 40
 
 
-class Thermal(NamedTuple):
+class HeatProperties(NamedTuple):
     """What conducts and stores heat.
 
     Attributes
@@ -51,7 +51,7 @@ class Thermal(NamedTuple):
     solid_heat_capacity: tuple[float, float] = (3.6e6, 3.6e6)
 
 
-class Heat(NamedTuple):
+class FilmHeat(NamedTuple):
     """Temperatures above the inlet's, K, and where the heat goes, W/m.
 
     Attributes
@@ -72,7 +72,7 @@ class Heat(NamedTuple):
     carried: float
 
 
-def check(thermal: Thermal) -> None:
+def check(thermal: HeatProperties) -> None:
     """Raise InputError at the first value that is no number, or not positive."""
     not_negative("temperature_viscosity", thermal.temperature_viscosity, "1/K")
     for name in ("conductivity", "heat_capacity"):
@@ -81,8 +81,8 @@ def check(thermal: Thermal) -> None:
         value = getattr(thermal, name)
         if not isinstance(value, tuple) or len(value) != 2:
             raise InputError(name, value, "must be two numbers", "give those of surface 1 and surface 2")
-        for one in value:
-            positive(name, one)
+        for number in value:
+            positive(name, number)
 
 
 def moving_source(place: Array, edge: Array, speed: float, conductivity: float, capacity: float) -> Array:
@@ -99,7 +99,7 @@ def moving_source(place: Array, edge: Array, speed: float, conductivity: float, 
     return (whole[:, :-1] - whole[:, 1:]) / (math.pi * conductivity * abs(rate)) * math.copysign(1.0, rate)
 
 
-class Surfaces(NamedTuple):
+class WarmedSurfaces(NamedTuple):
     """Both surfaces under the nodes of a film.
 
     Attributes
@@ -108,30 +108,30 @@ class Surfaces(NamedTuple):
     response : temperatures of surfaces 1 and 2 by the fluxes into their cells, K m²/W, each (x, x)
     """
 
-    thermal: Thermal
+    thermal: HeatProperties
     width: Array
     response: tuple[Array, Array]
 
 
-def surfaces_under(place: Array, speeds: tuple[float, float], thermal: Thermal) -> Surfaces:
+def surfaces_under(place: Array, speeds: tuple[float, float], thermal: HeatProperties) -> WarmedSurfaces:
     """Return how both surfaces warm, at u_1 and u_2, under the nodes at `place` (m)."""
     edge = np.concatenate([place[:1], 0.5 * (place[1:] + place[:-1]), place[-1:]])
-    one, two = (
+    first, second = (
         moving_source(place, edge, speed, k, c)
         for speed, k, c in zip(speeds, thermal.solid_conductivity, thermal.solid_heat_capacity, strict=True)
     )
-    return Surfaces(thermal, np.diff(edge), (one, two))
+    return WarmedSurfaces(thermal, np.diff(edge), (first, second))
 
 
 def heated(
-    surfaces: Surfaces,
+    surfaces: WarmedSurfaces,
     film: Array,
     flow: Array,
     made: Array,
     feedback: Array,
     known: Array,
-    guess: Heat | None = None,
-) -> Heat:
+    guess: FilmHeat | None = None,
+) -> FilmHeat:
     """Solve for the temperatures; SI.
 
     Parameters
@@ -172,13 +172,13 @@ def heated(
         rtol=1e-10,
         restart=_SURFACE_STEPS,
         maxiter=2,
-        M=_operator(size, lambda one: lu_solve(inverse, one, check_finite=False)),
+        M=_operator(size, lambda right: lu_solve(inverse, right, check_finite=False)),
     )
     layers, *flux = answered(surface, source)
     if failed or not np.all(np.isfinite(layers)):
         raise SimulationError("the temperatures of the line contact did not converge")
     left, right = np.minimum(flow[0], 0.0) @ layers[0], np.maximum(flow[-1], 0.0) @ layers[-1]
-    return Heat(
+    return FilmHeat(
         layers,
         surface[:count],
         surface[count:],
@@ -194,7 +194,7 @@ def _operator(size: tuple[int, int], product: Callable[[Array], Array]) -> Any:
     return made(size, product, dtype=float)
 
 
-def _conductances(film: Array, feedback: Array, thermal: Thermal) -> tuple[Array, Array, Array]:
+def _conductances(film: Array, feedback: Array, thermal: HeatProperties) -> tuple[Array, Array, Array]:
     """Flux into surface 1 as it cools or surface 2 warms, and into surface 2 as it cools; W/(m² K).
 
     Of conduction across the film with the heat that a warmer film does not make, without flow along x.
@@ -230,7 +230,7 @@ def _through(flow: Array) -> Array:
 
 
 def _layers_system(
-    film: Array, width: Array, taken: Array, through: Array, thermal: Thermal
+    film: Array, width: Array, taken: Array, through: Array, thermal: HeatProperties
 ) -> tuple[Array, Array]:
     """Matrix of the layers' temperatures in LAPACK's band form, and conductance to the walls, W/(m² K)."""
     capacity = thermal.heat_capacity

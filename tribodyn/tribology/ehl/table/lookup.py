@@ -25,7 +25,7 @@ LIMITS = (
 
 
 @law
-def held(value, middle, half):
+def clipped(value, middle, half):
     """Variable −1 … 1 of a logarithm, held at the ends of its range."""
     return maximum(minimum((value - middle) / half, 1.0), -1.0)
 

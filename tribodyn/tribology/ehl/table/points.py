@@ -14,7 +14,7 @@ from tribodyn.numerics.work import steps, usable_cores
 from tribodyn.tribology.ehl.asperities import Roughness
 from tribodyn.tribology.ehl.fluid.coupled import solve_coupled
 from tribodyn.tribology.ehl.fluid.fluid import Fluid
-from tribodyn.tribology.ehl.fluid.heat import Thermal
+from tribodyn.tribology.ehl.fluid.heat import HeatProperties
 from tribodyn.tribology.ehl.fluid.rheology import Rheology
 from tribodyn.tribology.ehl.problem import LineContact
 from tribodyn.tribology.mesh_conditions import DutyRange
@@ -42,7 +42,7 @@ class Contact(NamedTuple):
     effective_modulus: float
     roughness: Roughness
     rheology: Rheology
-    thermal: Thermal
+    thermal: HeatProperties
 
 
 def spread(duty: DutyRange, count: int) -> tuple[Array, Array]:
@@ -75,7 +75,7 @@ def spread(duty: DutyRange, count: int) -> tuple[Array, Array]:
     step = np.diff(path, axis=0) / np.maximum(width[1:], 1e-6)
     way = np.concatenate([[0.0], np.cumsum(np.sqrt(np.sum(step * step, axis=1)))])
     place = ended[:, 1] * way[-1]
-    on_path = np.stack([np.interp(place, way, one) for one in path.T], axis=1)
+    on_path = np.stack([np.interp(place, way, values) for values in path.T], axis=1)
     slowest, fastest = ends[1] - np.array([path[:, 0].min(), path[:, 0].max()])
     beside = (2.0 * points[:, 4:] - 1.0) * _BESIDE
     on_path += np.column_stack([slowest + (fastest - slowest) * ended[:, 2], beside])
@@ -85,7 +85,7 @@ def spread(duty: DutyRange, count: int) -> tuple[Array, Array]:
 
 def solve_one(contact: Contact, duty: Array) -> Array:
     """Ln of film, ln of friction coefficient, and the asperities' share at a duty; NaN: none found."""
-    line_load, entrainment, curvature, ratio = (math.exp(one) for one in duty)
+    line_load, entrainment, curvature, ratio = map(math.exp, duty)
     problem = LineContact(
         line_load,
         1.0 / curvature,

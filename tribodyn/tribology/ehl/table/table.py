@@ -19,7 +19,7 @@ from tribodyn.numerics.sources import digest_of
 from tribodyn.tribology.contact import hertz_half_width
 from tribodyn.tribology.ehl.asperities import Roughness
 from tribodyn.tribology.ehl.fluid.fluid import Fluid
-from tribodyn.tribology.ehl.fluid.heat import Thermal
+from tribodyn.tribology.ehl.fluid.heat import HeatProperties
 from tribodyn.tribology.ehl.fluid.rheology import Rheology
 from tribodyn.tribology.ehl.table.lookup import TERMS, mixed_friction, most_of_film
 from tribodyn.tribology.ehl.table.points import Contact, solve_all, spread
@@ -37,7 +37,7 @@ FIRST, MORE, MOST, COMPARED = 240, 120, 600, 6
 _STIFFNESS = 3e-5
 
 
-class Table(NamedTuple):
+class ContactTable(NamedTuple):
     """Polynomials of ln h_c (m), friction and asperity share over four variables, flat as lanes read it.
 
     `film` is the mean gap on the line of centres, which between rough surfaces is never zero; `friction` the
@@ -65,7 +65,7 @@ class Table(NamedTuple):
     solved: float
 
 
-def table_over(contact: Contact, duty: DutyRange) -> Table:
+def table_over(contact: Contact, duty: DutyRange) -> ContactTable:
     """Return the table, from this process, from the cache, or made.
 
     Raises
@@ -77,15 +77,15 @@ def table_over(contact: Contact, duty: DutyRange) -> Table:
 
 
 @lru_cache(maxsize=16)
-def _table(contact: Contact, duty: DutyRange) -> Table:
+def _table(contact: Contact, duty: DutyRange) -> ContactTable:
     digest = hashlib.sha256(digest_of(__name__) + repr((contact, duty)).encode()).hexdigest()
     made = lambda: _made(contact, duty)._asdict()  # noqa: E731
     found = arrays_kept_or_made("ehl", digest, made)
-    values: dict[str, Any] = {name: one if one.ndim else float(one) for name, one in found.items()}
-    return Table(**values)
+    values: dict[str, Any] = {name: value if value.ndim else float(value) for name, value in found.items()}
+    return ContactTable(**values)
 
 
-def _made(contact: Contact, duty: DutyRange) -> Table:
+def _made(contact: Contact, duty: DutyRange) -> ContactTable:
     ends = np.log(np.array(duty[:4]))
     middle, half = ends.mean(axis=1), np.maximum(0.5 * np.diff(ends, axis=1)[:, 0], 1e-6)
     duties, along = spread(duty, MOST)
@@ -100,7 +100,9 @@ def _made(contact: Contact, duty: DutyRange) -> Table:
     return found
 
 
-def _fitted(contact: Contact, box: tuple[Array, Array], duties: Array, values: Array, along: Array) -> Table:
+def _fitted(
+    contact: Contact, box: tuple[Array, Array], duties: Array, values: Array, along: Array
+) -> ContactTable:
     good = np.all(np.isfinite(values), axis=1)
     number = np.arange(len(duties))
     # the comparison goes on with those that are compared already as contacts are added
@@ -123,17 +125,17 @@ def _fitted(contact: Contact, box: tuple[Array, Array], duties: Array, values: A
     weight = np.clip(sheared * np.exp(-friction) * (1.0 - part), 0.02, 1.0)
     place = (duties - box[0]) / box[1]
     powers = np.array([np.prod(place ** np.array(term), axis=1) for term in TERMS]).T
-    one = np.ones_like(film)
+    same = np.ones_like(film)
     coefficients = [
         _solved(powers[used], known[used], counts[used])
-        for known, counts in ((film, one), (saturation, weight), (share, one))
+        for known, counts in ((film, same), (saturation, weight), (share, same))
     ]
     by_film, by_saturation, by_share = (powers @ known for known in coefficients)
     mixed = mixed_friction(by_saturation, np.clip(by_share, 0.0, 1.0), most, rubbing)
     deviations = np.abs(np.expm1(by_film - film)), np.abs(mixed * np.exp(-friction) - 1.0)
-    errors = (float(np.quantile(one[compared], 0.95)) for one in deviations)
-    numbers = [float(one) for pair in zip(*box, strict=True) for one in pair]
-    return Table._make(
+    errors = (float(np.quantile(deviation[compared], 0.95)) for deviation in deviations)
+    numbers = [float(number) for pair in zip(*box, strict=True) for number in pair]
+    return ContactTable._make(
         [*numbers, *coefficients, limit, floor, rubbing, *errors, float(np.count_nonzero(good))]
     )
 
@@ -173,7 +175,7 @@ def contact_of(given: LawInput) -> Contact:
         *(surfaces.pinion_conductivity, surfaces.gear_conductivity),
         *(surfaces.pinion_heat_capacity, surfaces.gear_heat_capacity),
     ]
-    if any(is_jax(one) for one in numbers):
+    if any(is_jax(number) for number in numbers):
         raise InputError(
             "film.law",
             '"solved"',
@@ -181,17 +183,17 @@ def contact_of(given: LawInput) -> Contact:
             "use a law of formulas, or differences",
         )
     eta, alpha, index, modulus, height, rubbing, limit, hot, k_1, k_2, c_1, c_2 = (
-        float(one) for one in numbers
+        float(number) for number in numbers
     )
     return Contact(
         Fluid(eta, alpha, min(index, 1.0)),
         modulus,
         Roughness(max(height, 1e-9), friction=rubbing),
         Rheology("limiting", limiting_coefficient=limit),
-        Thermal(hot, solid_conductivity=(k_1, k_2), solid_heat_capacity=(c_1, c_2)),
+        HeatProperties(hot, solid_conductivity=(k_1, k_2), solid_heat_capacity=(c_1, c_2)),
     )
 
 
-def table_of(given: LawInput) -> Table:
+def table_of(given: LawInput) -> ContactTable:
     """Return the table of a case; raises as `contact_of`, `table_over` and the case's duty."""
     return table_over(contact_of(given), given.duty())
